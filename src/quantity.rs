@@ -261,6 +261,9 @@ where
 
     #[inline]
     fn raw(physical: f64, divisor: f64) -> Result<B::Native, OutOfRange> {
+        if divisor == 0.0 {
+            return Err(OutOfRange);
+        }
         nearest(physical * (DEN as f64 * divisor) / NUM as f64)
     }
 }
@@ -284,6 +287,9 @@ where
 
     #[inline]
     fn raw(physical: f64, exponent: f64) -> Result<B::Native, OutOfRange> {
+        if !exponent.is_finite() {
+            return Err(OutOfRange);
+        }
         let mantissa = match exponent < 0.0 {
             true => physical * power(BASE, -exponent),
             false => physical / power(BASE, exponent),
@@ -343,6 +349,16 @@ mod tests {
         assert_eq!((Gain::raw(5.0, 3.0), Gain::raw(5.0, -1.0)), (Ok(20_480), Err(OutOfRange)));
         assert_eq!((Gain::physical(32_768, -2.0), Gain::raw(0.25, -2.0)), (0.25, Ok(32_768)));
         assert_eq!(Exponential::<i16>::raw(0.005, -3.0), Ok(5));
+    }
+
+    #[test]
+    fn no_number_is_sent_where_the_other_value_means_nothing() {
+        assert_eq!(PerItem::<i32, 1, 100>::raw(3.0, 0.0), Err(OutOfRange));
+        assert_eq!(PerItem::<i32, 1, 100>::raw(3.0, f64::NAN), Err(OutOfRange));
+        assert_eq!(Fraction::<i32, 15>::raw(3.0, 0.0), Err(OutOfRange));
+        for exponent in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+            assert_eq!(Exponential::<i32>::raw(5.0, exponent), Err(OutOfRange));
+        }
     }
 
     #[test]

@@ -231,6 +231,21 @@ fn replies() {
 }
 
 #[test]
+fn the_rest_of_a_reply_that_was_cut_off_isnt_the_next_one() {
+    const LINES: Delimited = Delimited::new(None, b'\r');
+    let mut reply = [0; 4];
+    let mut line: SerialLine<_, _, 64> = SerialLine::new(Line::replying(*b"ABCDEFGH\rOK\r1\r"), LINES);
+    let too_long = Err(Error::Client(SerialError::Frame(FrameError::TooLong)));
+    assert_eq!(line.exchange(b"?", &mut reply), too_long);
+    assert_eq!((line.exchange(b"?", &mut reply), &reply[..2]), (Ok(2), &b"OK"[..]));
+    assert_eq!(line.exchange(b"?", &mut reply), Ok(1));
+    assert!(format!("{:?}", SerialLine::<_, _, 8>::new((), LINES)).starts_with("SerialLine { stream: (), framing: "));
+    let mut line: SerialLine<_, _, 64> = SerialLine::new(AsyncLine(Line::replying(*b"ABCDEFGH\rOK\r")), LINES);
+    assert!(now(AsyncExchange::exchange(&mut line, b"?", &mut reply)).is_err());
+    assert_eq!(now(AsyncExchange::exchange(&mut line, b"?", &mut reply)), Ok(2));
+}
+
+#[test]
 fn nothing_behind_the_reply_is_taken() {
     let replies = [framed(&[1]), framed(&[2, 0x03])].concat();
     let mut line: SerialLine<_, _, 64> = SerialLine::new(Line::replying(replies), FRAMING);

@@ -158,7 +158,9 @@ impl<'m> Sdo<'m> {
                 // Where no length was sent, there are as many bytes as asked for.
                 Sought::Found((size.unwrap_or(data.len().min(buffer.len())), taken))
             }
-            other => Sought::of(other),
+            // The next part of a value that nobody waits for any more.
+            Answer::UploadSegment { .. } => Sought::Other,
+            other => Sought::of(other, object),
         });
         let (size, mut have) = begun.await?;
         if size > buffer.len() {
@@ -172,7 +174,7 @@ impl<'m> Sdo<'m> {
                 Answer::UploadSegment { toggle: of, last, data } if of == toggle => {
                     Sought::Found((last, fill(buffer, have, data)))
                 }
-                other => Sought::of(other),
+                other => Sought::of(other, object),
             });
             let (last, more) = segment.await?;
             have += more;
@@ -190,7 +192,8 @@ impl<'m> Sdo<'m> {
         let first = data.get(..sent).filter(|_| request.command() == Command::Normal).unwrap_or(&[]);
         let begun = self.mailbox.exchange(&request, first, |answer| match answer {
             Answer::Download { object: of } if of == object => Sought::Found(()),
-            other => Sought::of(other),
+            Answer::DownloadSegment { .. } => Sought::Other,
+            other => Sought::of(other, object),
         });
         begun.await?;
         let mut toggle = false;
@@ -199,7 +202,7 @@ impl<'m> Sdo<'m> {
             let part = rest.get(..length).unwrap_or(rest);
             let segment = self.mailbox.exchange(&request, part, |answer| match answer {
                 Answer::DownloadSegment { toggle: of } if of == toggle => Sought::Found(()),
-                other => Sought::of(other),
+                other => Sought::of(other, object),
             });
             segment.await?;
             sent += length;

@@ -26,6 +26,11 @@
 //!
 //! Contexts that don't block have no time limit of their own: `tokio::time::timeout` gives a call one.
 //!
+//! Modbus on a serial line doesn't say which request an answer is to. After a call that was given up, by a time limit or by dropping
+//! it, the answer may come when the next request waits for its own: a write notices, because its answer repeats it, but a read takes
+//! the value of another register of the same length. Make a new context after that; one of TCP numbers its requests, and fails
+//! until its answers are in step again.
+//!
 //! A [`ModbusClient`] of a context of [`sync`] is a [`Client`] and a [`RegisterClient`]; one of a context of [`tcp`] or
 //! [`rtu`] is an [`AsyncClient`] and an [`AsyncRegisterClient`].
 //!
@@ -66,7 +71,7 @@ use crate::register::{Register, RegisterTable};
 
 mod request;
 
-use request::{Answer, Writes};
+use request::{Answer, Echo, Writes};
 
 /// A device behind a context of `tokio-modbus`.
 #[derive(Debug)]
@@ -128,6 +133,13 @@ pub enum ModbusError {
         /// How many one request may be about.
         max: u16,
     },
+    /// The table doesn't reach so far, or the value has no register at all. Nothing was sent.
+    NoSuchAddress {
+        /// Where the value begins.
+        address: u16,
+        /// How many registers, or bits, it has.
+        count: u16,
+    },
     /// The transport failed, or the answer is none to the request.
     Bus(tokio_modbus::Error),
 }
@@ -148,6 +160,9 @@ impl fmt::Display for ModbusError {
             }
             Self::TooLong { count, max } => {
                 write!(f, "the value has {count} registers or bits, and a request may be about {max} at most")
+            }
+            Self::NoSuchAddress { address, count } => {
+                write!(f, "no table has {count} registers or bits from address {address} on")
             }
             Self::Bus(error) => error.fmt(f),
         }
@@ -195,7 +210,8 @@ impl<T: sync::Client> Client for ModbusClient<T> {
             None => None,
         };
         for request in writes.requests(held, data)? {
-            request::written(self.context.call(request))?;
+            let echo = Echo::of(&request);
+            echo.check(self.context.call(request))?;
         }
         Ok(())
     }
@@ -225,7 +241,8 @@ impl AsyncClient for ModbusClient<Context> {
             None => None,
         };
         for request in writes.requests(held, data)? {
-            request::written(self.context.call(request).await)?;
+            let echo = Echo::of(&request);
+            echo.check(self.context.call(request).await)?;
         }
         Ok(())
     }

@@ -45,16 +45,35 @@ pub use embedded_io_async;
 ///
 /// Noise in front of a reply is passed over. A reply that is lost ends the exchange with an error, unless another frame
 /// begins within it: that is the reply then. Whether a reply belongs to its request, only the protocol can tell.
-#[derive(Clone, Debug)]
-pub struct SerialLine<S, F, const N: usize> {
+pub struct SerialLine<S, F: Framing, const N: usize> {
     stream: S,
     framing: F,
+    /// What has seen the begin of a reply that was lost, and not its end.
+    within: Option<F::Decoder>,
+}
+
+impl<S: Clone, F: Framing + Clone, const N: usize> Clone for SerialLine<S, F, N>
+where
+    F::Decoder: Clone,
+{
+    fn clone(&self) -> Self {
+        Self { stream: self.stream.clone(), framing: self.framing.clone(), within: self.within.clone() }
+    }
+}
+
+impl<S: fmt::Debug, F: Framing + fmt::Debug, const N: usize> fmt::Debug for SerialLine<S, F, N> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("SerialLine")
+            .field("stream", &self.stream)
+            .field("framing", &self.framing)
+            .finish_non_exhaustive()
+    }
 }
 
 impl<S, F: Framing, const N: usize> SerialLine<S, F, N> {
     /// The device at the other end of `stream`.
     pub const fn new(stream: S, framing: F) -> Self {
-        Self { stream, framing }
+        Self { stream, framing, within: None }
     }
 
     /// The stream: to throw away what came late, for example.
@@ -65,6 +84,23 @@ impl<S, F: Framing, const N: usize> SerialLine<S, F, N> {
     /// Gives the stream back.
     pub fn into_stream(self) -> S {
         self.stream
+    }
+
+    /// What takes the next bytes. The rest of a reply that was cut off is none.
+    fn decoder(&mut self) -> F::Decoder {
+        self.within.take().unwrap_or_else(|| self.framing.decoder())
+    }
+
+    /// The end of an exchange. Where a reply was given up before its end, the rest of it is still to come.
+    fn ended<T, E>(
+        &mut self,
+        decoder: F::Decoder,
+        end: Result<T, Error<SerialError<E>>>,
+    ) -> Result<T, Error<SerialError<E>>> {
+        if let Err(Error::Client(SerialError::Frame(FrameError::TooLong | FrameError::Escape))) = end {
+            self.within = Some(decoder);
+        }
+        end
     }
 
     /// Takes a byte of the reply.
@@ -136,12 +172,14 @@ where
         let length = self.framing.encode(request, &mut frame)?;
         self.stream.write_all(frame.get(..length).unwrap_or_default()).map_err(failed)?;
         self.stream.flush().map_err(failed)?;
-        let mut decoder = self.framing.decoder();
+        let mut decoder = self.decoder();
         loop {
             let mut byte = [0];
             let count = self.stream.read(&mut byte).map_err(failed)?;
-            if let Some(length) = self.take(&mut decoder, one(byte, count)?, reply)? {
-                return Ok(length);
+            match self.take(&mut decoder, one(byte, count)?, reply) {
+                Ok(None) => {}
+                Ok(Some(length)) => return Ok(length),
+                Err(error) => return self.ended(decoder, Err(error)),
             }
         }
     }
@@ -159,12 +197,14 @@ where
         let length = self.framing.encode(request, &mut frame)?;
         self.stream.write_all(frame.get(..length).unwrap_or_default()).await.map_err(failed)?;
         self.stream.flush().await.map_err(failed)?;
-        let mut decoder = self.framing.decoder();
+        let mut decoder = self.decoder();
         loop {
             let mut byte = [0];
             let count = self.stream.read(&mut byte).await.map_err(failed)?;
-            if let Some(length) = self.take(&mut decoder, one(byte, count)?, reply)? {
-                return Ok(length);
+            match self.take(&mut decoder, one(byte, count)?, reply) {
+                Ok(None) => {}
+                Ok(Some(length)) => return Ok(length),
+                Err(error) => return self.ended(decoder, Err(error)),
             }
         }
     }

@@ -60,7 +60,7 @@ pub enum AssignmentError {
         /// Greatest length in bytes.
         max: usize,
     },
-    /// There are more PDOs than the assignment has room for.
+    /// There are more PDOs than the assignment has room for, or the device for those of one sync manager, which are 255.
     TooMany,
     /// The mapping of the PDO can't be changed.
     Fixed(u16),
@@ -161,6 +161,9 @@ impl<const N: usize> Assignment<N> {
             }
         }
         let sync_manager = self.device.sync_manager_of(pdo).ok_or(AssignmentError::NoSyncManager(index))?;
+        if self.pdos().filter(|other| other.sync_manager == sync_manager).count() >= usize::from(u8::MAX) {
+            return Err(AssignmentError::TooMany);
+        }
         let placed = Placed { pdo, sync_manager, bit: self.bits(sync_manager), bits: pdo.bits, mapping: pdo.mapping };
         *self.placed.get_mut(self.len).ok_or(AssignmentError::TooMany)? = Some(placed);
         self.len += 1;

@@ -48,6 +48,14 @@ pub enum PlanError {
     },
     /// A slot has fewer modules than it has to have; this is the first one that may be added.
     Empty(u16),
+    /// A list of the device has no room for so many: PDOs of a sync manager (0x1C10 and the following), modules (0xF030), or parts
+    /// of the gap in front of a group of modules.
+    TooMany {
+        /// Index of the list.
+        index: u16,
+        /// How many there are.
+        count: usize,
+    },
     /// The data of a sync manager are longer than it can be.
     TooLong {
         /// Number of the sync manager.
@@ -67,6 +75,7 @@ impl fmt::Display for PlanError {
             PlanError::Taken(slot) => write!(f, "there is a module in slot {slot}"),
             PlanError::DoesNotFit { slot, ident } => write!(f, "module {ident:#010X} doesn't fit into slot {slot}"),
             PlanError::Empty(slot) => write!(f, "slot {slot} has to have a module"),
+            PlanError::TooMany { index, count } => write!(f, "{index:#06X} has no room for {count} entries"),
             PlanError::TooLong { sync_manager, bytes, max } => {
                 write!(f, "the data of sync manager {sync_manager} have {bytes} bytes, and at most {max} fit")
             }
@@ -184,8 +193,9 @@ impl<const N: usize> SlotPlan<N> {
             if bytes > max {
                 return Err(PlanError::TooLong { sync_manager: own.number, bytes, max });
             }
+            room_for(own.assignment(), self.places(own.number).filter(|place| place.index != 0).count())?;
         }
-        Ok(())
+        room_for(MODULE_IDENTS, self.plugged().last().map_or(0, |(_, slot)| usize::from(slot) + 1))
     }
 
     /// What the index of an object of the module in a slot grows by there; `index` is the one that the description has.
@@ -351,6 +361,7 @@ impl<const N: usize> SlotPlan<N> {
     }
 
     fn idents(&self) -> impl Iterator<Item = SdoWrite> + '_ {
+        // `check` refuses more.
         let last = self.plugged().last().map_or(0, |(_, slot)| slot + 1).min(u16::from(u8::MAX)) as u8;
         let ident = |slot: u16| self.module(slot).map_or(0, |module| module.ident);
         let entries = (0..last).map(move |slot| SdoWrite::new_u32(MODULE_IDENTS, slot + 1, ident(u16::from(slot))));
@@ -382,13 +393,30 @@ impl Place {
             Content::Pdo(pdo, growth) => pdo.is_writable().then_some((pdo, growth)),
             Content::Gap => None,
         };
-        let gap = (self.content == Content::Gap && index != 0).then(|| MappedEntry::new(0, 0, bits));
+        let gap = (self.content == Content::Gap && index != 0).then_some(bits);
         let own = own.into_iter().flat_map(move |(pdo, growth)| mapping_writes(index, pdo.mapping, growth));
-        let gap = gap.into_iter().flat_map(move |entry| {
-            [SdoWrite::new_u8(index, 0, 0), SdoWrite::new_u32(index, 1, entry.word()), SdoWrite::new_u8(index, 0, 1)]
-        });
+        let gap = gap.into_iter().flat_map(move |bits| gap_writes(index, bits));
         own.chain(gap)
     }
+}
+
+/// The mapping of a gap: an entry has 255 bits at most.
+fn gap_writes(index: u16, bits: u32) -> impl Iterator<Item = SdoWrite> {
+    const MOST: u32 = u8::MAX as u32;
+    let count = bits.div_ceil(MOST).min(MOST);
+    let entry = move |at: u32| {
+        SdoWrite::new_u32(index, at as u8 + 1, MappedEntry::new(0, 0, (bits - at * MOST).min(MOST)).word())
+    };
+    let count_of = move |count: u32| core::iter::once(SdoWrite::new_u8(index, 0, count as u8));
+    count_of(0).chain((0..count).map(entry)).chain(count_of(count))
+}
+
+/// Whether the sub-indices of a list are enough.
+fn room_for(index: u16, count: usize) -> Result<(), PlanError> {
+    if count > usize::from(u8::MAX) {
+        return Err(PlanError::TooMany { index, count });
+    }
+    Ok(())
 }
 
 #[cfg(test)]
@@ -426,6 +454,21 @@ mod tests {
         assert_eq!(offsets, [0x30, 0x30, 0x800, 0x830, 0]);
         assert_eq!((plan.index_offset(2, 0x6000), plan.index_offset(8, 0x6000)), (None, None));
         assert_eq!(plan.check(), Ok(()));
+    }
+
+    #[test]
+    fn lists_of_the_device_have_room_for_255() {
+        for (bits, entries) in [(4, 1), (255, 1), (256, 2), (508, 2), (700, 3)] {
+            let writes: Vec<_> =
+                gap_writes(0x1A80, bits).map(|write| (write.object().sub_index, write.data().to_vec())).collect();
+            assert_eq!((writes[0].clone(), writes.len()), ((0, std::vec![0]), entries + 2));
+            assert_eq!(writes.last(), Some(&(0, std::vec![entries as u8])));
+            let mapped = writes[1..=entries].iter().map(|(_, word)| u32::from(word[0])).sum::<u32>();
+            assert_eq!(mapped, bits);
+        }
+        assert_eq!(room_for(0xF030, 255), Ok(()));
+        let many = room_for(0xF030, 256).unwrap_err();
+        assert_eq!(std::format!("{many}"), "0xF030 has no room for 256 entries");
     }
 
     #[test]

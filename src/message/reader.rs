@@ -17,7 +17,8 @@ pub(super) fn significance(order: &[u8], length: usize, at: usize) -> usize {
     let big_endian = length.saturating_sub(1).saturating_sub(at);
     let Some(missing) = order.len().checked_sub(length) else { return big_endian };
     let mut own = order.iter().map(|&position| usize::from(position)).filter(|position| *position >= missing);
-    own.nth(at).map_or(big_endian, |position| order.len() - 1 - position)
+    let own = own.nth(at).and_then(|position| order.len().checked_sub(1 + position));
+    own.unwrap_or(big_endian)
 }
 
 impl<'r> Reader<'r> {
@@ -152,6 +153,8 @@ mod tests {
         assert_eq!(of(&[3, 2, 1, 0], 2)[..2], [0, 1]);
         assert_eq!(of(&[], 4), [3, 2, 1, 0]);
         assert_eq!(of(&[1, 0], 4), [3, 2, 1, 0]);
+        // No order at all.
+        assert_eq!(of(&[5, 9], 2)[..2], [1, 0]);
     }
 
     #[test]

@@ -83,12 +83,25 @@ const fn touched(shift: u32, width: u32) -> usize {
     }
 }
 
+/// How many bits of a field are in a ninth byte, which is only touched if it doesn't begin with one.
+const fn in_ninth(shift: u32, width: u32) -> Option<u32> {
+    if shift < 8 && width <= 64 && shift + width > 64 {
+        Some(8 - shift)
+    } else {
+        None
+    }
+}
+
 /// The number of `width` bits, 1 to 64, in the bytes from `at` on, with `shift` bits below it.
 #[must_use]
 #[inline]
 pub const fn number(data: &[u8], at: usize, shift: u32, width: u32) -> u64 {
-    let end = at.saturating_add(touched(shift, width));
     let (mut word, mut next) = (0, at);
+    if let Some(low) = in_ninth(shift, width) {
+        let high = number(data, at, 0, width - low);
+        return high << low | number(data, at.saturating_add(8), shift, low);
+    }
+    let end = at.saturating_add(touched(shift, width));
     while next < end {
         word = word << 8 | if next < data.len() { data[next] as u64 } else { 0 };
         next += 1;
@@ -124,6 +137,14 @@ bits! {
 /// Puts the low `width` bits of `value` into the bytes from `at` on, and leaves the `shift` bits below as they are.
 #[inline]
 pub fn put_number(data: &mut [u8], at: usize, shift: u32, width: u32, value: u64) {
+    if let Some(low) = in_ninth(shift, width) {
+        let last = at.saturating_add(8);
+        if last < data.len() {
+            put_number(data, at, 0, width - low, value >> low);
+            put_number(data, last, shift, low, value);
+        }
+        return;
+    }
     let field = mask(width).wrapping_shl(shift);
     let value = value.wrapping_shl(shift) & field;
     let last = touched(shift, width).saturating_sub(1);
@@ -206,6 +227,34 @@ mod tests {
         assert_eq!(number(&data, 0, 2, 3), 0b001);
         put_number(&mut data, 0, 4, 3, 0xFF);
         assert_eq!(data, [0b1111_0101, 0x7F]);
+    }
+
+    /// The number of these bits, bit by bit.
+    fn slowly(data: &[u8], at: usize, shift: u32, width: u32) -> u64 {
+        let last = at + ((shift + width).div_ceil(8) as usize) - 1;
+        (0..width).fold(0, |number, bit| {
+            let place = shift + bit;
+            let byte = data[last - (place / 8) as usize];
+            number | u64::from(byte >> (place % 8) & 1) << bit
+        })
+    }
+
+    #[test]
+    fn fields_of_every_width_at_every_bit() {
+        let data: [u8; 12] = core::array::from_fn(|at| (at as u8).wrapping_mul(73) ^ 0xA5);
+        for (shift, width) in (0..8).flat_map(|shift| (1..=64).map(move |width| (shift, width))) {
+            let own = number(&data, 1, shift, width);
+            assert_eq!(own, slowly(&data, 1, shift, width), "{shift} {width}");
+            let mut written = data;
+            put_number(&mut written, 1, shift, width, !own);
+            assert_eq!(number(&written, 1, shift, width), !own & mask(width), "{shift} {width}");
+            put_number(&mut written, 1, shift, width, own);
+            assert_eq!(written, data, "no other bit changes: {shift} {width}");
+            let short = &mut written[..((shift + width).div_ceil(8)) as usize];
+            let before = short.to_vec();
+            put_number(short, 1, shift, width, !own);
+            assert_eq!(short, before, "a field that isn't all there is left alone: {shift} {width}");
+        }
     }
 
     #[test]

@@ -136,12 +136,12 @@ pub struct IoSpan {
 
 impl IoSpan {
     pub(super) fn of(self, frame: &[u8]) -> Result<&[u8], LengthError> {
-        let error = LengthError::new(self.offset + self.length, frame.len());
+        let error = LengthError::new(self.offset.saturating_add(self.length), frame.len());
         frame.get(self.offset..).and_then(|rest| rest.get(..self.length)).ok_or(error)
     }
 
     pub(super) fn of_mut(self, frame: &mut [u8]) -> Result<&mut [u8], LengthError> {
-        let error = LengthError::new(self.offset + self.length, frame.len());
+        let error = LengthError::new(self.offset.saturating_add(self.length), frame.len());
         frame.get_mut(self.offset..).and_then(|rest| rest.get_mut(..self.length)).ok_or(error)
     }
 }

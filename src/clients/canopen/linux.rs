@@ -43,7 +43,7 @@ impl CanPort for CanSocket {
             let left = end.map_or(patience, |end| end.saturating_duration_since(Instant::now()));
             match self.read_frame_timeout(left) {
                 Ok(frame) => {
-                    if let Some(own) = CanFrame::from_frame(&frame).filter(|own| wanted(own)) {
+                    if let Some(own) = from_socket(&frame).filter(|own| wanted(own)) {
                         return Ok(Some(own));
                     }
                     waiting -= usize::from(left.is_zero());
@@ -65,6 +65,32 @@ pub(super) fn is_full(error: &io::Error) -> bool {
     error.raw_os_error() == Some(libc::ENOBUFS)
 }
 
+/// A frame of the bus; what the interface reports of itself looks like one, with the kind of the error for an identifier.
+pub(super) fn from_socket(frame: &socketcan::CanFrame) -> Option<CanFrame> {
+    match frame {
+        socketcan::CanFrame::Data(_) => CanFrame::from_frame(frame),
+        socketcan::CanFrame::Remote(_) | socketcan::CanFrame::Error(_) => None,
+    }
+}
+
 fn is_late(error: &io::Error) -> bool {
     matches!(error.kind(), io::ErrorKind::WouldBlock | io::ErrorKind::TimedOut)
+}
+
+#[cfg(test)]
+mod tests {
+    use socketcan::{CanErrorFrame, CanFrame as SocketFrame, EmbeddedFrame, StandardId};
+
+    use super::*;
+
+    #[test]
+    fn errors_of_the_interface_are_no_frames() {
+        let id = StandardId::new(0x088).expect("an identifier");
+        let data = SocketFrame::new(id, &[1, 2]).expect("a frame");
+        assert_eq!(from_socket(&data), CanFrame::new(0x088, &[1, 2]));
+        let error = CanErrorFrame::new_error(0x088, &[0; 8]).expect("an error");
+        assert_eq!(from_socket(&SocketFrame::Error(error)), None);
+        let remote = SocketFrame::new_remote(id, 2).expect("a request");
+        assert_eq!(from_socket(&remote), None);
+    }
 }

@@ -8,7 +8,7 @@ use socketcan::CanFrame as SocketFrame;
 use tokio::time::{sleep, timeout, Instant};
 
 use super::frame::CanFrame;
-use super::linux::{is_full, PAUSE};
+use super::linux::{from_socket, is_full, PAUSE};
 use super::port::{AsyncCanPort, BACKLOG};
 
 impl AsyncCanPort for CanSocket {
@@ -41,7 +41,7 @@ impl AsyncCanPort for CanSocket {
             let left = end.map_or(patience, |end| end.saturating_duration_since(Instant::now()));
             match timeout(left, self.read_frame()).await {
                 Ok(frame) => {
-                    if let Some(own) = CanFrame::from_frame(&frame?).filter(|own| wanted(own)) {
+                    if let Some(own) = from_socket(&frame?).filter(|own| wanted(own)) {
                         return Ok(Some(own));
                     }
                     waiting -= usize::from(left.is_zero());

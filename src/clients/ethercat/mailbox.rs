@@ -6,6 +6,7 @@ use ethercrab::error::{Error as BusError, MailboxError};
 use ethercrab::{Command, EtherCrabWireWrite, MainDevice, RegisterAddress};
 
 use super::protocol::{Answer, Request, SMALLEST};
+use crate::bus::Object;
 use crate::emergency::Emergency;
 use crate::error::Error;
 
@@ -49,11 +50,16 @@ pub(super) enum Sought<T> {
 }
 
 impl<T> Sought<T> {
-    /// A message that isn't the awaited answer.
-    pub(super) fn of(answer: Answer<'_>) -> Self {
+    /// A message that isn't the awaited answer about `object`. One about another object answers a transfer that was given up.
+    pub(super) fn of(answer: Answer<'_>, object: Object) -> Self {
         match answer {
-            Answer::Abort(code) => Sought::Failed(Error::Abort(code)),
             Answer::Foreign | Answer::Emergency(_) => Sought::Other,
+            Answer::Upload { object: of, .. } | Answer::Download { object: of } | Answer::Abort { object: of, .. }
+                if of != object =>
+            {
+                Sought::Other
+            }
+            Answer::Abort { code, .. } => Sought::Failed(Error::Abort(code)),
             _ => Sought::Failed(Error::UnexpectedReply),
         }
     }
@@ -174,5 +180,30 @@ impl EtherCrabWireWrite for Message<'_> {
 
     fn packed_len(&self) -> usize {
         self.length
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::abort::AbortCode;
+
+    #[test]
+    fn answers_about_another_object_are_those_of_a_transfer_that_was_given_up() {
+        let (own, other) = (Object::new(0x6040, 0), Object::new(0x6041, 0));
+        let code = AbortCode::NO_OBJECT;
+        for late in [
+            Answer::Upload { object: other, size: None, data: &[1, 2] },
+            Answer::Download { object: other },
+            Answer::Abort { object: other, code },
+            Answer::Foreign,
+        ] {
+            assert!(matches!(Sought::<()>::of(late, own), Sought::Other), "{late:?}");
+        }
+        let refused = Sought::<()>::of(Answer::Abort { object: own, code }, own);
+        assert!(matches!(refused, Sought::Failed(Error::Abort(AbortCode::NO_OBJECT))));
+        for wrong in [Answer::Download { object: own }, Answer::UploadSegment { toggle: true, last: true, data: &[] }] {
+            assert!(matches!(Sought::<()>::of(wrong, own), Sought::Failed(Error::UnexpectedReply)), "{wrong:?}");
+        }
     }
 }

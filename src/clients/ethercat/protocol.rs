@@ -116,7 +116,7 @@ pub(super) enum Answer<'d> {
     /// The next part of a value was taken.
     DownloadSegment { toggle: bool },
     /// The device refused.
-    Abort(AbortCode),
+    Abort { object: Object, code: AbortCode },
     /// The device reports an error of its own accord.
     Emergency(Emergency),
     /// A message of another protocol or service.
@@ -167,8 +167,8 @@ fn response(sdo: &[u8]) -> Option<Answer<'_>> {
         2 => uploaded(command, behind),
         3 => Some(Answer::Download { object: address(behind)?.0 }),
         4 => {
-            let code = address(behind)?.1.first_chunk()?;
-            Some(Answer::Abort(AbortCode(u32::from_le_bytes(*code))))
+            let (object, behind) = address(behind)?;
+            Some(Answer::Abort { object, code: AbortCode(u32::from_le_bytes(*behind.first_chunk()?)) })
         }
         _ => None,
     }

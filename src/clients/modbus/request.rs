@@ -6,7 +6,7 @@ use std::vec::Vec;
 use tokio_modbus::{Request, Response};
 
 use super::{ModbusError, Reply};
-use crate::error::Error;
+use crate::error::{Error, OutOfRange};
 use crate::modbus::Limits;
 use crate::register::{Register, RegisterTable};
 
@@ -21,6 +21,10 @@ struct Pieces {
 impl Pieces {
     fn new(register: Register, max: u16, split: bool) -> Result<Self, ModbusError> {
         let count = register.count;
+        let end = u32::from(register.address) + u32::from(register.addresses());
+        if count == 0 || end > 0x1_0000 {
+            return Err(ModbusError::NoSuchAddress { address: register.address, count });
+        }
         // An address is never taken apart.
         let size = if count > max { max - max % register.step() } else { max };
         if count > max && !(split && size > 0) {
@@ -166,6 +170,9 @@ impl Writes {
         data: &[u8],
     ) -> Result<Vec<Request<'static>>, Error<ModbusError>> {
         let register = self.pieces.register;
+        if !register.takes(data) {
+            return Err(Error::OutOfRange(OutOfRange));
+        }
         if register.table == RegisterTable::Coil {
             return Ok(self.coils(data));
         }
@@ -206,14 +213,29 @@ impl Writes {
     }
 }
 
-/// Whether the answer to a write says that it was done.
-pub(super) fn written(reply: Reply) -> Result<(), Error<ModbusError>> {
-    match response(reply)? {
-        Response::WriteSingleRegister(..)
-        | Response::WriteMultipleRegisters(..)
-        | Response::MaskWriteRegister(..)
-        | Response::WriteSingleCoil(..)
-        | Response::WriteMultipleCoils(..) => Ok(()),
-        _ => Err(Error::UnexpectedReply),
+/// What the answer to a write repeats of it.
+pub(super) struct Echo(Option<Response>);
+
+impl Echo {
+    pub(super) fn of(request: &Request<'_>) -> Self {
+        Self(Some(match request {
+            Request::WriteSingleRegister(address, word) => Response::WriteSingleRegister(*address, *word),
+            Request::WriteMultipleRegisters(address, words) => {
+                Response::WriteMultipleRegisters(*address, words.len() as u16)
+            }
+            Request::MaskWriteRegister(address, kept, bits) => Response::MaskWriteRegister(*address, *kept, *bits),
+            Request::WriteSingleCoil(address, bit) => Response::WriteSingleCoil(*address, *bit),
+            Request::WriteMultipleCoils(address, bits) => Response::WriteMultipleCoils(*address, bits.len() as u16),
+            _ => return Self(None),
+        }))
+    }
+
+    /// Whether the answer says that the write was done. One of an earlier write, which comes late, says so of another.
+    pub(super) fn check(self, reply: Reply) -> Result<(), Error<ModbusError>> {
+        if self.0 == Some(response(reply)?) {
+            Ok(())
+        } else {
+            Err(Error::UnexpectedReply)
+        }
     }
 }

@@ -24,6 +24,61 @@ const VALVE: Here<bool, Rw> = Here::register(Register::new(RegisterTable::Coil, 
 const LEVEL: Here<u16, Ro> = Here::register(Register::new(RegisterTable::Input, 4, 1), "Level", Flags::NONE);
 const MISSING: Here<u16, Rw> = Here::register(Register::holding(999), "Missing", Flags::NONE);
 
+/// A device whose answers come one request late, and the first of them when the time is up.
+#[derive(Debug, Default)]
+struct Late {
+    device: Device,
+    late: Option<Reply>,
+}
+
+impl SlaveContext for Late {
+    fn set_slave(&mut self, _: Slave) {}
+}
+
+impl sync::Client for Late {
+    fn call(&mut self, request: Request<'_>) -> Reply {
+        let reply = self.device.answer(request);
+        let silent = || Err(tokio_modbus::Error::Transport(io::ErrorKind::TimedOut.into()));
+        self.late.replace(reply).unwrap_or_else(silent)
+    }
+}
+
+#[test]
+fn a_late_answer_to_a_write_is_none_to_another() {
+    const OTHER: Here<i16, Rw> = Here::register(Register::holding(14), "Other", Flags::NONE);
+    let mut device = ModbusClient::new(Late::default());
+    assert!(matches!(TORQUE.at(&mut device).write(5), Err(Error::Timeout)));
+    assert!(matches!(OTHER.at(&mut device).write(5), Err(Error::UnexpectedReply)));
+    assert!(matches!(SPEED.at(&mut device).write(5), Err(Error::UnexpectedReply)));
+    assert!(matches!(VALVE.at(&mut device).write(true), Err(Error::UnexpectedReply)));
+}
+
+#[test]
+fn what_no_table_has_isnt_asked_for() {
+    const LAST: Here<u32, Rw> = Here::register(Register::high_first(0xFFFF, 2), "Last", Flags::NONE);
+    const NONE: Here<bool, Rw> = Here::register(Register::new(RegisterTable::Coil, 5, 0), "None", Flags::NONE);
+    let mut device = limited(TableLimits { max_read: 1, max_write: 1, split: true, ..TableLimits::HOLDING });
+    let refused =
+        [LAST.at(&mut device).write(1), LAST.at(&mut device).read().map(|_| ()), NONE.at(&mut device).write(true)];
+    for refused in refused {
+        assert!(matches!(refused, Err(Error::Client(ModbusError::NoSuchAddress { .. }))), "{refused:?}");
+    }
+    assert_eq!(device.context().functions, []);
+}
+
+#[test]
+fn what_bits_dont_hold_isnt_written() {
+    const NIBBLE: Here<u8, Rw> = Here::register(Register::holding(13).part(4, 4), "Nibble", Flags::NONE);
+    const BYTE: Here<u8, Rw> = Here::register(Register::new(RegisterTable::Coil, 3, 1), "Byte", Flags::NONE);
+    let mut device = ModbusClient::new(Device::default());
+    for refused in [NIBBLE.at(&mut device).write(0x1F), BYTE.at(&mut device).write(2)] {
+        assert!(matches!(refused, Err(Error::OutOfRange(_))), "{refused:?}");
+    }
+    NIBBLE.at(&mut device).write(0x0F).unwrap();
+    BYTE.at(&mut device).write(1).unwrap();
+    assert_eq!((device.context().holding[&13], device.context().coils[&3]), (0xF0, true));
+}
+
 /// A device that answers at once, and keeps the functions that it was asked for.
 #[derive(Debug, Default)]
 struct Device {

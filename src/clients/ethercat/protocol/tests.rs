@@ -84,7 +84,7 @@ fn acknowledgements() {
     assert_eq!(Answer::parse(&bytes), Answer::DownloadSegment { toggle: true });
     for service in [2, 3] {
         let bytes = message(3, service, &[0x80, 0x7A, 0x60, 2, 0x11, 0, 0x09, 0x06]);
-        assert_eq!(Answer::parse(&bytes), Answer::Abort(AbortCode::NO_SUB_INDEX));
+        assert_eq!(Answer::parse(&bytes), Answer::Abort { object: TARGET, code: AbortCode::NO_SUB_INDEX });
     }
 }
 
