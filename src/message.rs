@@ -143,6 +143,8 @@ impl<'r> Reply<'r> for &'r [u8] {
 pub trait Request<'r>: Message + Sized {
     /// The number of the device that is meant, and the request; `None` where the data are another one. A protocol without
     /// numbers of devices has 0.
+    ///
+    /// Values are taken as they come: limits are checked only where a request is written.
     fn parse(from: &mut Reader<'r>) -> Option<(u32, Self)>;
 }
 
