@@ -176,7 +176,6 @@ impl Builder {
 
     fn compile_to(&self, input: impl AsRef<Path>, name: Option<&str>) -> Result<(), BuildError> {
         let input = input.as_ref();
-        self.tell_cargo(format_args!("cargo::rerun-if-changed={}", input.display()));
         let stem = input.file_stem().map_or_else(|| "device".into(), |stem| stem.to_string_lossy());
         let name = name.map_or_else(|| format!("{stem}.rs"), str::to_owned);
         let text = self.generate(input)?;
@@ -195,6 +194,7 @@ impl Builder {
     /// When the input can't be read or has errors, or a level names no code.
     pub fn generate(&self, input: impl AsRef<Path>) -> Result<String, BuildError> {
         let input = input.as_ref();
+        self.tell_cargo(format_args!("cargo::rerun-if-changed={}", input.display()));
         let options = self.options()?;
         let source = Source::read(input).map_err(|error| BuildError::Read { path: input.into(), error })?;
         let compilation = compile::check(source, &options);

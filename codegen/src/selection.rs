@@ -3,6 +3,7 @@
 //! A file of a vendor may describe hundreds of devices. What isn't selected is read, so that it is checked to be well
 //! formed, and then left alone: it costs nothing in the output.
 
+use std::collections::HashMap;
 use std::fmt;
 use std::str::FromStr;
 
@@ -155,6 +156,21 @@ pub(crate) fn glob(pattern: &str, text: &str) -> bool {
     true
 }
 
+/// Of several revisions of a product, the greatest: of those with a product code, or of a name where there is none.
+fn keep_latest(catalog: &Catalog, found: &mut Vec<usize>) {
+    let product = |at: usize| {
+        let device = &catalog.devices[at];
+        let name = if device.identity.product_code.is_some() { "" } else { device.name.as_str() };
+        (device.identity.product_code, name)
+    };
+    let mut latest: HashMap<_, Option<u32>> = HashMap::new();
+    for &at in &*found {
+        let own = latest.entry(product(at)).or_default();
+        *own = (*own).max(catalog.devices[at].identity.revision_number);
+    }
+    found.retain(|&at| latest.get(&product(at)) == Some(&catalog.devices[at].identity.revision_number));
+}
+
 impl Selection {
     /// Takes out of `catalog` the devices that aren't wanted, and out of the devices the modules.
     pub(crate) fn devices_and_modules(&self, catalog: &mut Catalog, diagnostics: &mut Diagnostics) {
@@ -185,8 +201,7 @@ impl Selection {
             let mut found: Vec<usize> = Vec::new();
             found.extend((0..wanted.len()).filter(|&at| filter.matches(&catalog.devices[at])));
             if filter.revision == Some(Revision::Latest) {
-                let latest = found.iter().filter_map(|&at| catalog.devices[at].identity.revision_number).max();
-                found.retain(|&at| catalog.devices[at].identity.revision_number == latest);
+                keep_latest(catalog, &mut found);
             }
             if found.is_empty() {
                 let names = catalog.devices.iter().flat_map(device_names);
@@ -297,6 +312,7 @@ mod tests {
         assert_eq!(selected(&["in-4"]), (vec![0x101, 0x103, 0x102], 0));
         assert_eq!(selected(&["0x10@2"]), (vec![0x102], 0));
         assert_eq!(selected(&["16@latest"]), (vec![0x103], 0));
+        assert_eq!(selected(&["*@latest"]), (vec![0x103, 0x201], 0), "the latest of each product");
         assert_eq!(selected(&["*out*", "IN-4@latest"]), (vec![0x103, 0x201], 0));
         assert_eq!(selected(&["eight outputs"]), (vec![0x201], 0));
         assert_eq!(selected(&["OUT-9", "OUT-8@7", "OUT-8"]), (vec![0x201], 2));

@@ -32,6 +32,33 @@ fn output_is_named_after_the_input_and_written_once() {
     assert!(folder.join("other.rs").is_file());
 }
 
+/// What a build script that calls `generate` alone tells Cargo. Its output is that of a process, which is this program once more.
+#[test]
+fn cargo_watches_the_input_and_what_it_was_compiled_with() {
+    const INPUT: &str = "LEXIBUS_TEST_INPUT";
+    if let Some(input) = std::env::var_os(INPUT) {
+        let input = PathBuf::from(input);
+        Builder::new().overlay(input.with_extension("toml")).generate(&input).expect("bindings");
+        return;
+    }
+    let input = folder("watched").join("valve.eds");
+    std::fs::write(&input, EDS).expect("the input");
+    let overlay =
+        "lexibus = 1\n[overlay]\nwhy = \"the manual\"\n[[chapters]]\n[chapters.objects]\n0x2000 = { unit = \"%\" }\n";
+    std::fs::write(input.with_extension("toml"), overlay).expect("the overlay");
+    let mut program = std::process::Command::new(std::env::current_exe().expect("this program"));
+    program
+        .args(["--exact", "cargo_watches_the_input_and_what_it_was_compiled_with", "--nocapture"])
+        .env(INPUT, &input);
+    let output = program.output().expect("it runs");
+    let text = String::from_utf8_lossy(&output.stdout).into_owned();
+    assert!(output.status.success(), "{text}");
+    for file in [input.clone(), input.with_extension("toml")] {
+        let line = format!("cargo::rerun-if-changed={}\n", file.display());
+        assert_eq!(text.matches(&line).count(), 1, "{text}");
+    }
+}
+
 #[test]
 fn errors_are_for_people() {
     let folder = folder("errors");

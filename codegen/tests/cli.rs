@@ -555,6 +555,10 @@ fn pages_of_markdown() {
         std::fs::read_to_string(out.join("README.md")).expect("a file"),
         "# A project\n\nPages are made by `lexibus docs`.\n"
     );
+    let latin = b"# Gr\xFC\xDFe\n";
+    std::fs::write(out.join("README.md"), latin).expect("a file");
+    assert_eq!(code(&call(&[])), 1);
+    assert_eq!(std::fs::read(out.join("README.md")).expect("a file"), latin, "whatever its encoding");
 }
 
 #[test]

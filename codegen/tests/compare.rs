@@ -50,6 +50,54 @@ fn nothing_changed() {
 }
 
 #[test]
+fn what_changes_the_rust_of_a_value() {
+    let one = |old: &str, new: &str| changes(&[(old, new)]).join("\n");
+    assert_eq!(
+        one(
+            "bits = { 0 = \"ready\", 3 = \"fault\" }",
+            "bits = { 0 = { name = \"ready\", inverted = true }, 3 = \"fault\" }"
+        ),
+        "breaking: holding 00003 flags, bit 0: meaning a flag, now a flag that is set by 0"
+    );
+    assert_eq!(
+        one("scale = 0.1, unit", "scale = 0.1, na = { 0x7FFF = \"open\" }, unit"),
+        "breaking: holding 00004 gain: no number, 32767"
+    );
+    // A bus that is gone, and the second name of a register.
+    let object = |buses: &str| TABLE.replace("buses = [\"modbus\", \"serial\"]", buses);
+    let both = "buses = [\"canopen\", \"modbus\", \"serial\"]";
+    let on_both = object(both).replace("modbus = { table", "canopen = { index = 0x2000, sub = 0 }\nmodbus = { table");
+    let only =
+        on_both.replace("modbus = { table = \"holding\" }\n", "").replace(both, "buses = [\"canopen\", \"serial\"]");
+    let told = compare(&read("old.toml", &on_both), &read("new.toml", &only));
+    let speed = told.iter().map(Change::to_string).find(|line| line.contains("speed: buses"));
+    assert_eq!(speed.as_deref(), Some("breaking: 0x2001:00 speed: buses CANopen, Modbus, now CANopen"));
+    let twice = TABLE
+        .replace("level =", "percent = { reg = 5, type = \"u16\", access = \"ro\", same_as = \"level\" }\nlevel =");
+    let told = compare(
+        &read("old.toml", &twice),
+        &read("new.toml", &twice.replace("same_as = \"level\"", "same_as = \"level\", unit = \"%\"")),
+    );
+    let lines: Vec<String> = told.iter().map(Change::to_string).collect();
+    assert_eq!(lines, ["breaking: holding 00005 percent: unit, %"]);
+}
+
+#[test]
+fn the_padding_of_a_pdo_is_a_part_of_its_length() {
+    let esi = |bits: u32| {
+        format!(
+            "<EtherCATInfo><Vendor><Id>1</Id></Vendor><Descriptions><Devices><Device><Type ProductCode=\"1\">T</Type><Name>D</Name>\
+             <Sm>MBoxOut</Sm><Sm>MBoxIn</Sm><Sm>Outputs</Sm><TxPdo Sm=\"2\"><Index>#x1A00</Index><Name>P</Name>\
+             <Entry><Index>#x6000</Index><SubIndex>1</SubIndex><BitLen>8</BitLen><Name>V</Name><DataType>USINT</DataType></Entry>\
+             <Entry><Index>0</Index><BitLen>{bits}</BitLen></Entry></TxPdo></Device></Devices></Descriptions></EtherCATInfo>"
+        )
+    };
+    let told = compare(&read("old.xml", &esi(8)), &read("new.xml", &esi(16)));
+    let lines: Vec<String> = told.iter().map(Change::to_string).collect();
+    assert_eq!(lines, ["breaking: TPDO 0x1A00 P: length 16 bits, now 24 bits"]);
+}
+
+#[test]
 fn facts_of_values() {
     let one = |old: &str, new: &str| changes(&[(old, new)]).join("\n");
     assert_eq!(one("max = 3000", "max = 2000"), "breaking: holding 00001 speed: range 0 to 3000, now 0 to 2000");

@@ -55,6 +55,52 @@ fn no_name_or_text_breaks_out_of_the_code() {
     }
 }
 
+/// The Rust of an ESI with these PDOs, on one line.
+fn of_pdos(name: &str, pdos: &str) -> String {
+    let text = format!(
+        "<EtherCATInfo><Vendor><Id>1</Id></Vendor><Descriptions><Devices><Device><Type ProductCode=\"#x2\">D</Type><Name>D</Name>\
+         <Sm>MBoxOut</Sm><Sm>MBoxIn</Sm><Sm>Outputs</Sm><Sm>Inputs</Sm>{pdos}\
+         <Mailbox><CoE PdoAssign=\"1\"/></Mailbox></Device></Devices></Descriptions></EtherCATInfo>"
+    );
+    let options = Options { rust: everything(), ..Options::default() };
+    let text = check(Source::new("d.xml", text.into()), &options).rust(&options.rust).expect("bindings");
+    compile(name, &text).unwrap_or_else(|message| panic!("{message}\n{text}"));
+    text
+}
+
+#[test]
+fn more_pdos_than_an_assignment_has_room_for() {
+    let pdos = |count: u16| -> String {
+        (0..count)
+            .map(|at| {
+                format!(
+                    "<RxPdo Sm=\"2\"><Index>{}</Index><Name>P{at}</Name><Entry><Index>{}</Index><SubIndex>1</SubIndex>\
+                     <BitLen>8</BitLen><Name>V{at}</Name><DataType>USINT</DataType></Entry></RxPdo>",
+                    0x1600 + at,
+                    0x7000 + at
+                )
+            })
+            .collect()
+    };
+    assert!(of_pdos("254 PDOs", &pdos(254)).contains("new_u8(0x1C12, 0x00, 254)"));
+    assert!(!of_pdos("256 PDOs", &pdos(256)).contains("STARTUP"));
+}
+
+#[test]
+fn pdos_of_one_index_have_their_own_mappings() {
+    let pdo = |manager: u8, name: &str, object: u16, bits: u8| {
+        format!(
+            "<TxPdo Sm=\"{manager}\"><Index>#x1A02</Index><Name>{name}</Name><Entry><Index>{object}</Index>\
+             <SubIndex>1</SubIndex><BitLen>{bits}</BitLen><Name>V</Name><DataType>{}</DataType></Entry></TxPdo>",
+            if bits == 8 { "USINT" } else { "UINT" }
+        )
+    };
+    let text = of_pdos("PDOs of one index", &(pdo(3, "First", 0x6000, 8) + &pdo(2, "Second", 0x6001, 16)));
+    let mappings = text.matches(" as rt::Pdo>::MAPPING").count();
+    let first = text.matches("<pdo::First as rt::Pdo>::MAPPING").count();
+    assert_eq!((mappings, first), (2, 1), "{text}");
+}
+
 #[test]
 fn every_edition_of_rust_takes_it() {
     let options = Options { rust: everything(), ..Options::default() };

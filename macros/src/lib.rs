@@ -148,8 +148,14 @@ fn errors(compilation: &Compilation) -> String {
         return format!("the device description can't be used: {}", compile::NOTHING_TO_GENERATE);
     }
     let errors = compilation.diagnostics.list().iter().filter(|diagnostic| diagnostic.severity == Severity::Error);
-    let rendered = errors.take(MAX_SHOWN).map(|error| render::terminal::render(error, &compilation.sources, false));
-    format!("the device description has errors\n\n{}", rendered.collect::<Vec<_>>().join("\n\n"))
+    let shown = errors.clone().take(MAX_SHOWN);
+    let mut shown: Vec<String> =
+        shown.map(|error| render::terminal::render(error, &compilation.sources, false)).collect();
+    let hidden = errors.count() - shown.len();
+    if hidden > 0 {
+        shown.push(format!("{hidden} more errors; `lexibus check` shows all of them"));
+    }
+    format!("the device description has errors\n\n{}", shown.join("\n\n"))
 }
 
 #[cfg(test)]

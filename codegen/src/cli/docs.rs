@@ -37,7 +37,11 @@ pub(super) fn run(docs: &Docs) -> Result<bool, Failure> {
 
 /// Writes a page. A file that somebody else wrote is left alone.
 fn write(path: &Path, page: &Page) -> Result<(), String> {
-    let is_foreign = std::fs::read_to_string(path).is_ok_and(|text| !page.replaces(&text));
+    let is_foreign = match std::fs::read(path) {
+        Ok(bytes) => !page.replaces(&String::from_utf8_lossy(&bytes)),
+        // A folder, for instance; the same holds for a file that nobody may read.
+        Err(error) => error.kind() != std::io::ErrorKind::NotFound,
+    };
     if is_foreign {
         return Err(format!(
             "{} is there already and was not written by `lexibus docs`: choose a folder of its own with --out",

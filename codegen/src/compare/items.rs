@@ -8,23 +8,26 @@ use crate::ir::{Access, Binding, Group, Item, Limits, Quantity, Scale, Type, Val
 /// An item with the group that has it.
 type Placed<'a> = (&'a Group, &'a Item);
 
+/// The first address of an item, and of a further item there its name.
+type Key = (String, String);
+
 pub(super) fn compare(old: &Scope<'_>, new: &Scope<'_>, changes: &mut Changes) {
     let (was, is) = (placed(old), placed(new));
     let mut gone = Vec::new();
     let mut told = HashSet::new();
     for (key, own) in &was {
         match is.get(key) {
-            Some(other) => item((old, *own), (new, *other), key, &mut told, changes),
+            Some(other) => item((old, *own), (new, *other), &key.0, &mut told, changes),
             None => gone.push((key, *own)),
         }
     }
-    let mut added: Vec<(&String, Placed<'_>)> =
+    let mut added: Vec<(&Key, Placed<'_>)> =
         is.iter().filter(|(key, _)| !was.contains_key(*key)).map(|(key, own)| (key, *own)).collect();
-    for (key, own) in gone {
+    for ((key, _), own) in gone {
         // What goes by its old name at another address.
         let same = added.iter().position(|(_, other)| path(*other) == path(own) && !own.1.name.is_empty());
         match same.map(|at| added.remove(at)) {
-            Some((new_key, other)) => {
+            Some(((new_key, _), other)) => {
                 let element = element(new_key, own);
                 changes.push(&element, "address", (key.clone(), new_key.clone()), Judgement::Compatible);
                 item((old, own), (new, other), new_key, &mut told, changes);
@@ -32,17 +35,20 @@ pub(super) fn compare(old: &Scope<'_>, new: &Scope<'_>, changes: &mut Changes) {
             None => changes.existence(&element(key, own), true, false),
         }
     }
-    for (key, own) in added {
+    for ((key, _), own) in added {
         changes.existence(&element(key, own), false, true);
     }
 }
 
 /// All items by their first address.
-fn placed<'a>(scope: &Scope<'a>) -> BTreeMap<String, Placed<'a>> {
+fn placed<'a>(scope: &Scope<'a>) -> BTreeMap<Key, Placed<'a>> {
     let mut all = BTreeMap::new();
     for group in &scope.groups {
         for item in &group.items {
             let key = item.bindings.first().map(address).unwrap_or_default();
+            let key = (key, String::new());
+            // A second name of an address is an item of its own.
+            let key = if all.contains_key(&key) { (key.0, item.name.to_string()) } else { key };
             all.entry(key).or_insert((*group, item));
         }
     }
@@ -63,6 +69,29 @@ fn address(binding: &Binding) -> String {
         Binding::EscMemory { address, .. } => format!("memory 0x{address:04X}"),
         Binding::Indirect(own) => format!("{} window 0x{:04X}", own.space, own.number),
     }
+}
+
+/// The buses on which an item is, each in the way in which its handle says so.
+fn buses(item: &Item) -> Vec<&'static str> {
+    let mut all = Vec::new();
+    for binding in &item.bindings {
+        match binding {
+            Binding::Object { buses, .. } => {
+                all.extend(buses.canopen.then_some("CANopen"));
+                all.extend(buses.coe.then_some("EtherCAT"));
+            }
+            Binding::Register(_) => all.push("Modbus"),
+            Binding::Record { .. } => all.push("PROFINET"),
+            Binding::Image(_) => all.push("a process image"),
+            Binding::Parameter { .. } => all.push("a serial line"),
+            Binding::Ascii(_) => all.push("lines of text"),
+            Binding::EscMemory { .. } => all.push("the controller's memory"),
+            Binding::Indirect(_) => all.push("a window"),
+        }
+    }
+    all.sort_unstable();
+    all.dedup();
+    all
 }
 
 fn path<'a>((group, item): Placed<'a>) -> (&'a str, &'a str) {
@@ -94,8 +123,15 @@ fn item(
     if told.insert((was.ty, is.ty)) {
         types::compare((old_scope.types, was.ty), (new_scope.types, is.ty), &element, changes);
     }
-    let narrower = !is.access.readable() && was.access.readable() || !is.access.writable() && was.access.writable();
+    let (on, now_on) = (buses(was), buses(is));
+    let lost = on.iter().any(|bus| !now_on.contains(bus));
     let judged = |breaks: bool| if breaks { Judgement::Breaking } else { Judgement::Compatible };
+    changes.fact(&element, "buses", (on.join(", "), now_on.join(", ")), judged(lost));
+    let further = |item: &Item| item.bindings.iter().skip(1).map(address).collect::<Vec<_>>().join(", ");
+    if on == now_on {
+        changes.fact(&element, "further addresses", (further(was), further(is)), Judgement::Compatible);
+    }
+    let narrower = !is.access.readable() && was.access.readable() || !is.access.writable() && was.access.writable();
     let access = |own: Access| own.name().to_owned();
     changes.fact(&element, "access", (access(was.access), access(is.access)), judged(narrower));
     let mappable = |item: &Item| match (item.mappable.rpdo, item.mappable.tpdo) {
@@ -118,6 +154,9 @@ fn item(
     let (was, is) = (quantity(was), quantity(is));
     changes.fact(&element, "unit", (was.unit.to_string(), is.unit.to_string()), Judgement::Breaking);
     changes.fact(&element, "scale", (scale(&was), scale(&is)), Judgement::Breaking);
+    let sentinels =
+        |own: &Quantity| own.sentinels.iter().map(|(raw, _)| raw.to_string()).collect::<Vec<_>>().join(", ");
+    changes.fact(&element, "no number", (sentinels(&was), sentinels(&is)), Judgement::Breaking);
 }
 
 fn range(limits: &Limits) -> String {

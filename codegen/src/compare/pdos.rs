@@ -15,6 +15,11 @@ pub(super) fn compare(old: &Scope<'_>, new: &Scope<'_>, changes: &mut Changes) {
             continue;
         };
         let layouts = layouts((&was.entries, old.types), (&is.entries, new.types));
+        if layouts.0 == layouts.1 {
+            // Padding at the end has no place in the layout.
+            let length = |own: &Pdo| format!("{} bits", own.bits());
+            changes.fact(&element, "length", (length(was), length(is)), Judgement::Breaking);
+        }
         changes.fact(&element, "layout", layouts, Judgement::Breaking);
         let fixed = |own: &Pdo| if own.fixed { "fixed" } else { "variable" }.to_owned();
         let judgement = if is.fixed { Judgement::Breaking } else { Judgement::Compatible };

@@ -54,12 +54,29 @@ pub(super) fn compare(
                 .iter()
                 .filter_map(|one| Some((one, new.iter().find(|own| own.offset == one.offset && own.name == one.name)?)))
             {
+                let what = format!("{element}, {}", bits(other));
+                let meanings = (meaning(one, old_types), meaning(other, new_types));
+                changes.fact(&what, "meaning", meanings, Judgement::Breaking);
                 if let (BitMeaning::Enumeration(one), BitMeaning::Enumeration(other)) = (&one.meaning, &other.meaning) {
                     compare((old_types, Type::Named(*one)), (new_types, Type::Named(*other)), element, changes);
                 }
             }
         }
         _ => {}
+    }
+}
+
+/// What the getter of the bits gives.
+fn meaning(own: &crate::ir::BitFieldEntry, types: &[TypeDef]) -> String {
+    match own.meaning {
+        BitMeaning::Flag { inverted: false } => "a flag".to_owned(),
+        BitMeaning::Flag { inverted: true } => "a flag that is set by 0".to_owned(),
+        BitMeaning::Number => "a number".to_owned(),
+        BitMeaning::Enumeration(id) => {
+            let definition = Owner::of_types(types).definition(Type::Named(id));
+            definition.map_or_else(|| "a number".to_owned(), |own| format!("values {}", own.name))
+        }
+        BitMeaning::Reserved { .. } => "reserved".to_owned(),
     }
 }
 

@@ -117,7 +117,7 @@ pub(super) fn read(text: &str, style: Style) -> Option<Address> {
     let (first, last) = ends(place);
     let start = single(first, style)?;
     let last = match last {
-        Some(last) => Some(end_of(start.first, last, style)?),
+        Some(last) => Some(end_of(start.first, last, Style { is_hex: is_hexadecimal(first, style), ..style })?),
         None => None,
     };
     let last = last.filter(|&last| last > start.first);
@@ -184,13 +184,20 @@ fn end_of(first: u32, last: &str, style: Style) -> Option<u32> {
     if end >= first {
         return Some(end);
     }
-    let modulus = 10u32.checked_pow(u32::try_from(last.len()).ok()?)?;
-    let end = first / modulus * modulus + end;
+    let base: u32 = if is_hexadecimal(last, style) { 16 } else { 10 };
+    let digits = last.chars().filter(char::is_ascii_hexdigit).count();
+    let modulus = base.checked_pow(u32::try_from(digits).ok()?)?;
+    let end = (first / modulus * modulus).checked_add(end)?;
     if end >= first {
         Some(end)
     } else {
         end.checked_add(modulus)
     }
+}
+
+/// Whether the digits of a number are hexadecimal.
+fn is_hexadecimal(text: &str, style: Style) -> bool {
+    hexadecimal(text, style.is_hex).is_some() && !(style.is_x && x_notation(text.trim()).is_some())
 }
 
 fn single(text: &str, style: Style) -> Option<Address> {
@@ -311,6 +318,13 @@ mod tests {
             assert_eq!(read(text, plain), Some(Address { last: Some(64), ..number(63) }), "{text}");
         }
         assert_eq!(read("10099-100", plain), Some(Address { last: Some(10100), ..number(10099) }));
+        // An end without a mark is in the notation of the start.
+        let range = |first, last| Some(Address { last: Some(last), is_hex: true, ..number(first) });
+        assert_eq!(read("0x0010-11", plain), range(0x10, 0x11));
+        assert_eq!(read("0x0010-17", plain), range(0x10, 0x17));
+        assert_eq!(read("0x10F0-0x10FF", plain), range(0x10F0, 0x10FF));
+        assert_eq!(read("10F0-FF", Style { is_hex: true, ..plain }), range(0x10F0, 0x10FF));
+        assert_eq!(read("FFFFFFFFh-FFFFFFF0h", plain), None);
         for text in ["40010.3", "40010:3", "40010 bit 3", "40010/bit3", "40010.b3"] {
             assert_eq!(read(text, plain), Some(Address { bits: Some((3, 3)), ..number(40010) }), "{text}");
         }

@@ -3,7 +3,7 @@
 use super::cells::{self, Number, Order};
 use super::columns::{Field, Hint};
 use super::records::{Cell, Record};
-use super::rows::{tidy, Definition, Place, Reader, Reference, Type};
+use super::rows::{tidy, Place, Reader, Reference, Type};
 use super::types::{self, Base};
 use super::values::{self, List};
 use super::write::{digits, int, quoted, real};
@@ -285,30 +285,7 @@ impl Reader<'_, '_> {
             }
             entries.push((key, value));
         }
-        let found = self.definitions.iter().position(|own| own.is_bits == is_bits && own.entries == entries);
-        if entries.is_empty() {
-            return None;
-        }
-        Some(found.unwrap_or_else(|| {
-            let name = self.free_name(name);
-            self.definitions.push(Definition { name, is_bits, entries });
-            self.definitions.len() - 1
-        }))
-    }
-
-    /// A name for a definition, after the row that has it first.
-    fn free_name(&self, name: &str) -> String {
-        let words = name.split(|letter: char| !letter.is_ascii_alphanumeric()).filter(|word| !word.is_empty());
-        let camel: String =
-            words.map(|word| word[..1].to_ascii_uppercase() + &word[1..].to_ascii_lowercase()).collect();
-        let camel = if camel.is_empty() { "Values".to_owned() } else { camel };
-        let is_free = |name: &str| !self.definitions.iter().any(|own| own.name == name);
-        let numbered = || (2..).map(|number| format!("{camel}{number}")).find(|name| is_free(name));
-        if is_free(&camel) {
-            camel
-        } else {
-            numbered().unwrap_or_default()
-        }
+        (!entries.is_empty()).then(|| self.definitions.place(is_bits, entries, name))
     }
 
     /// A list of values or bits that stands among the words.

@@ -1,9 +1,10 @@
 //! Rows to chapters and spaces; names and addresses that occur twice.
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::{BTreeMap, HashMap, HashSet};
 
 use super::address::Table;
-use super::rows::{Definition, Place, Row, Rows};
+use super::definitions::Definition;
+use super::rows::{Place, Row, Rows};
 use super::types::Base;
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
 use crate::source::Span;
@@ -282,17 +283,19 @@ fn no_address(row: &Row, spaces: &[Space]) -> Option<&'static str> {
 /// Gives rows of the same name a number.
 fn distinct_names(rows: &mut [Row], diagnostics: &mut Diagnostics) {
     let mut taken: HashMap<String, Span> = HashMap::new();
+    // The next number behind a name.
+    let mut numbers: HashMap<String, u32> = HashMap::new();
     for row in rows.iter_mut().filter(|row| row.place.is_ok()) {
         if row.count.is_some() {
             row.name += " {n+1}";
         }
         let own = row.name.clone();
-        let mut number = 2;
+        let number = numbers.entry(own.clone()).or_insert(2);
         let mut first = None;
         while let Some(span) = names(row).iter().find_map(|name| taken.get(name)).copied() {
             first = first.or(Some(span));
             row.name = format!("{own} {number}");
-            number += 1;
+            *number += 1;
         }
         if let Some(first) = first {
             let message = format!("`{}` is the name of another row", crate::text::brief(&own));
@@ -311,7 +314,7 @@ fn names(row: &Row) -> Vec<String> {
 
 /// A factor that another row holds needs that row.
 fn references(rows: &mut [Row], diagnostics: &mut Diagnostics) {
-    let kept: Vec<String> = rows.iter().filter(|row| row.place.is_ok()).map(|row| row.name.clone()).collect();
+    let kept: HashSet<String> = rows.iter().filter(|row| row.place.is_ok()).map(|row| row.name.clone()).collect();
     for row in rows {
         let Some(reference) = row.scale.take_if(|own| !kept.contains(&own.name)) else { continue };
         let message = format!("`{}` is no row of the table", crate::text::brief(&reference.name));

@@ -18,6 +18,7 @@
 mod address;
 mod cells;
 mod columns;
+mod definitions;
 mod facts;
 mod layout;
 mod quotes;

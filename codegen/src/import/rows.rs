@@ -5,6 +5,7 @@ use std::collections::BTreeSet;
 use super::address::{self, Address, Table};
 use super::cells::{self, Number, Order};
 use super::columns::{Columns, Field};
+use super::definitions::{Definition, Definitions};
 use super::records::{Cell, Record, Records};
 use super::style::Style;
 use super::types::{self, Base, Written};
@@ -100,14 +101,6 @@ pub(super) struct Row {
     pub facts: Vec<(&'static str, String)>,
 }
 
-/// Named values or bits, as keys and values of TOML.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) struct Definition {
-    pub name: String,
-    pub is_bits: bool,
-    pub entries: Vec<(String, String)>,
-}
-
 /// All rows of a list.
 #[derive(Debug, Default)]
 pub(super) struct Rows {
@@ -130,7 +123,7 @@ pub(super) struct Reader<'r, 'd> {
     pub units: BTreeSet<String>,
     /// The names of all lines.
     pub names: BTreeSet<String>,
-    pub definitions: Vec<Definition>,
+    pub definitions: Definitions,
 }
 
 /// Reads the lines below the titles.
@@ -145,7 +138,7 @@ pub(super) fn read(records: &Records, columns: &Columns, diagnostics: &mut Diagn
         told: BTreeSet::new(),
         units: BTreeSet::new(),
         names: names.unwrap_or_default(),
-        definitions: Vec::new(),
+        definitions: Definitions::default(),
     };
     let mut chapter = String::new();
     let mut rows = Vec::new();
@@ -160,7 +153,7 @@ pub(super) fn read(records: &Records, columns: &Columns, diagnostics: &mut Diagn
     if let Some(header) = header.filter(|_| no_access) {
         reader.assume("access", header.span, "no column tells what may be written: all registers are read-only");
     }
-    Rows { rows, definitions: reader.definitions, no_access, from_one: style.addresses[0].is_x }
+    Rows { rows, definitions: reader.definitions.into_list(), no_access, from_one: style.addresses[0].is_x }
 }
 
 /// Whether the second of two addresses is no address on the wire, which is never above the number by so much.

@@ -383,13 +383,16 @@ pub enum Scale {
     /// physical = raw × factor + offset.
     Linear {
         /// Physical units per count.
+        #[serde(with = "super::real")]
         factor: f64,
         /// The physical value of raw 0.
+        #[serde(with = "super::real")]
         offset: f64,
     },
     /// physical = numerator / raw.
     Reciprocal {
         /// The numerator.
+        #[serde(with = "super::real")]
         numerator: f64,
     },
     /// A fraction of a base value: physical = raw / 2^bits × base.
@@ -413,6 +416,7 @@ pub enum Scale {
         /// The other item.
         item: CompactString,
         /// The constant part.
+        #[serde(with = "super::real")]
         factor: f64,
     },
     /// physical = raw × factor × value of another item.
@@ -420,6 +424,7 @@ pub enum Scale {
         /// The other item.
         item: CompactString,
         /// The constant part.
+        #[serde(with = "super::real")]
         factor: f64,
     },
 }

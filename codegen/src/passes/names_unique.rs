@@ -60,20 +60,33 @@ pub fn unique_up_to(wishes: &[Wish<'_>], reserved: &[&str], case: Case, length: 
     let mut taken: HashSet<String> =
         plain.iter().filter(|name| count[name.as_str()] == 1 && !is_reserved(name)).cloned().collect();
     let mut names = Vec::with_capacity(plain.len());
+    // The last number behind a name that two suffixes didn't make unique.
+    let mut numbers: HashMap<String, u32> = HashMap::new();
     for (wish, name) in wishes.iter().zip(&plain) {
         if count[name.as_str()] == 1 && !is_reserved(name) {
             names.push(name.clone());
             continue;
         }
-        let mut candidate = name.clone();
         let suffix = address(&wish.suffix);
-        loop {
-            candidate = join(&candidate, &suffix, case);
-            if !is_reserved(&candidate) && taken.insert(candidate.clone()) {
-                break;
-            }
+        let once = join(name, &suffix, case);
+        let mut take = |candidate: &str| !is_reserved(candidate) && taken.insert(candidate.to_owned());
+        if take(&once) {
+            names.push(once);
+            continue;
         }
-        names.push(candidate);
+        let twice = join(&once, &suffix, case);
+        if take(&twice) {
+            names.push(twice);
+            continue;
+        }
+        let number = numbers.entry(twice.clone()).or_insert(2);
+        names.push(loop {
+            *number += 1;
+            let candidate = join(&twice, &number.to_string(), case);
+            if take(&candidate) {
+                break candidate;
+            }
+        });
     }
     names
 }
@@ -308,6 +321,14 @@ mod tests {
         assert_eq!(write(&words("Vector Step 50 06"), Case::Pascal), "VectorStep50_06");
         assert!(snake(&"very ".repeat(100)).len() <= MAX_LENGTH + 5);
         assert_eq!(snake(&"x".repeat(300)).len(), MAX_LENGTH);
+    }
+
+    #[test]
+    fn names_that_suffixes_dont_tell_apart_are_counted() {
+        let names = names(&[("a", "1"), ("a", "1"), ("a", "1"), ("a_1_1_3", "x"), ("a", "1"), ("a", "2")]);
+        assert_eq!(names, ["a_1", "a_1_1", "a_1_1_4", "a_1_1_3", "a_1_1_5", "a_2"]);
+        let many = vec![("a", "1"); 20_000];
+        assert!(self::names(&many).iter().all(|name| name.len() < 16), "none grows with their number");
     }
 
     fn names(wanted: &[(&str, &str)]) -> Vec<String> {

@@ -1,6 +1,6 @@
 //! Names of files and addresses within pages, made of texts of the source.
 
-use std::collections::HashSet;
+use std::collections::{HashMap, HashSet};
 
 /// The longest name that a text gives.
 const LONGEST: usize = 40;
@@ -9,6 +9,8 @@ const LONGEST: usize = 40;
 #[derive(Debug, Default)]
 pub(super) struct Names {
     given: HashSet<String>,
+    /// The last number behind a name that was given several times.
+    numbers: HashMap<String, u32>,
     /// What addresses begin with.
     prefix: String,
 }
@@ -43,13 +45,17 @@ impl Names {
 
     /// `name`, with a number behind it where it was given before.
     fn once(&mut self, name: &str, separator: char) -> String {
-        let mut own = name.to_owned();
-        let mut number = 2;
-        while !self.given.insert(own.clone()) {
-            own = format!("{name}{separator}{number}");
-            number += 1;
+        if self.given.insert(name.to_owned()) {
+            return name.to_owned();
         }
-        own
+        let number = self.numbers.entry(name.to_owned()).or_insert(1);
+        loop {
+            *number += 1;
+            let own = format!("{name}{separator}{number}");
+            if self.given.insert(own.clone()) {
+                return own;
+            }
+        }
     }
 }
 
@@ -67,5 +73,6 @@ mod tests {
         assert_eq!(names.anchor("\"><script>"), "___script_");
         assert_eq!(Names::within("module-1").anchor("0x6040"), "module-1.0x6040");
         assert_eq!((names.anchor("x y"), names.anchor("x_y")), ("x_y".into(), "x_y.2".into()));
+        assert_eq!((names.anchor("x_y.3"), names.anchor("x_y")), ("x_y.3".into(), "x_y.4".into()));
     }
 }

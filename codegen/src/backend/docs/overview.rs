@@ -100,9 +100,13 @@ fn ethercat(own: &EtherCatSettings) -> String {
             ("EoE", mailbox.eoe.is_some()),
             ("SoE", mailbox.soe.is_some()),
             ("AoE", mailbox.aoe.is_some()),
+            ("VoE", mailbox.voe.is_some()),
         ];
         let protocols: Vec<&str> = protocols.into_iter().filter(|(_, has)| *has).map(|(name, _)| name).collect();
-        facts.push(format!("mailbox with {}", protocols.join(", ")));
+        facts.push(match protocols.is_empty() {
+            true => "mailbox".to_owned(),
+            false => format!("mailbox with {}", protocols.join(", ")),
+        });
     }
     facts.extend(own.clocks.as_deref().map(clocks));
     if facts.is_empty() {

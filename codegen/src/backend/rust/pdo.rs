@@ -14,6 +14,7 @@ use super::reachable::addressable;
 use super::scope::{ObjectBus, Scope};
 use crate::ir::{Direction, Group, ObjectBuses, Pdo, PdoCommunication, PdoEntry, PdoEntryKind, Value};
 use crate::passes::names_unique::{self, Case, Wish};
+use crate::source::Span;
 
 /// The longest name of a field: the lines that pack it have to stay below the margin.
 const MAX_FIELD_NAME: usize = 30;
@@ -34,6 +35,7 @@ pub(super) struct PdoModel {
     pub mapping_index: u16,
     /// The line on which it is declared.
     line: u32,
+    declared: Span,
     pub bits: u32,
     pub length: usize,
     /// Whether packing and unpacking are `const fn` in the oldest Rust that the runtime supports.
@@ -166,6 +168,7 @@ fn model(scope: &Scope<'_>, pdo: &Pdo, struct_name: String, options: &RustOption
         derives: options.derives(true),
         mapping_index: pdo.mapping_index,
         line: pdo.origin.line,
+        declared: pdo.origin.span,
         bits: pdo.bits(),
         length: pdo.bytes(),
         constant: if is_constant && word { "const " } else { "" },
@@ -401,7 +404,7 @@ fn field(scope: &Scope<'_>, entry: &PdoEntry, name: &str, text: &str, options: &
 impl PdoModel {
     /// Whether it is the model of `pdo`.
     pub(super) fn is(&self, pdo: &Pdo) -> bool {
-        self.mapping_index == pdo.mapping_index && self.line == pdo.origin.line
+        self.mapping_index == pdo.mapping_index && self.declared == pdo.origin.span && self.line == pdo.origin.line
     }
 
     /// The attribute that the names of a view's methods need.

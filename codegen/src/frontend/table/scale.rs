@@ -20,6 +20,7 @@ pub(super) fn read(
 ) -> Option<Scale> {
     let Some(given) = given else { return linear(1.0, offset.unwrap_or(0.0)) };
     let found = match &given.value {
+        _ if offset.is_some_and(|offset| !offset.is_finite()) => Err("an offset is a finite number".to_owned()),
         Scaling::Factor(factor) => number("the scale", *factor).map(|factor| linear(factor, offset.unwrap_or(0.0))),
         Scaling::Rule(rule) => self::rule(rule, offset, references),
     };

@@ -16,6 +16,12 @@ pub(super) fn commands(device: &Device, settings: &EtherCatSettings, assigned: &
     if assigned.is_empty() || settings.slots.is_some() {
         return Vec::new();
     }
+    let of =
+        |number: u8| assigned.iter().filter(move |own| own.sync_manager == number).map(|own| own.pdo.mapping_index);
+    // More than the object has room for can't be written at all.
+    if assigned.iter().any(|own| of(own.sync_manager).count() > MAX_SUBS) {
+        return Vec::new();
+    }
     let mut commands = Vec::new();
     let carries = |own: &&SyncManager| matches!(own.purpose, SyncManagerPurpose::Outputs | SyncManagerPurpose::Inputs);
     let managers: Vec<&SyncManager> =
@@ -35,11 +41,7 @@ pub(super) fn commands(device: &Device, settings: &EtherCatSettings, assigned: &
     }
     for own in managers {
         let object = ASSIGN + u16::from(own.number);
-        let list: Vec<u16> = assigned
-            .iter()
-            .filter(|assigned| assigned.sync_manager == own.number)
-            .map(|assigned| assigned.pdo.mapping_index)
-            .collect();
+        let list: Vec<u16> = of(own.number).collect();
         let entries = list.iter().zip(1..=u8::MAX);
         commands.extend(entries.map(|(index, sub)| write("u16", object, sub, &format!("0x{index:04X}"))));
         if !list.is_empty() {
