@@ -9,6 +9,7 @@ mod own_macro;
 mod sdo_write;
 mod word;
 
+#[cfg(any(feature = "canopen", feature = "std"))]
 pub(crate) use cob_id::is_restricted;
 pub use cob_id::CobId;
 pub use field::Field;

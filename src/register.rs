@@ -1,7 +1,7 @@
 //! Registers of Modbus, and how a value lies in them.
 
 use crate::error::LengthError;
-use crate::pdo::{from_bytes, mask, sign_extend};
+use crate::pdo::mask;
 use crate::value::byte_len;
 
 /// The four tables of Modbus.
@@ -242,22 +242,6 @@ impl Register {
             words[self.position(at, count)] = self.word([pair[0], pair[1]]);
         }
         Ok(())
-    }
-
-    /// Whether a number in these bytes fits into the [`part`](Register::part) of the register, or into its bits: what is above
-    /// is zero, or the sign of what is in it.
-    pub(crate) fn takes(&self, data: &[u8]) -> bool {
-        let bits = match (self.part, self.table) {
-            (Some(part), _) => u32::from(part.bits),
-            (None, RegisterTable::Coil | RegisterTable::DiscreteInput) => u32::from(self.count),
-            (None, _) => return true,
-        };
-        if bits == 0 || bits >= 64 || data.len() > 8 {
-            return true;
-        }
-        let value = from_bytes(data);
-        let whole = mask(8 * data.len() as u32);
-        value & !mask(bits) == 0 || sign_extend(value & mask(bits), bits) as u64 & whole == value
     }
 
     fn check(&self, words: &[u16]) -> Result<(), LengthError> {

@@ -43,6 +43,7 @@ impl CobId {
 }
 
 /// Whether a PDO must not have this CAN-ID (CiA 301 7.3.5): those of NMT, SDOs and heartbeats, and reserved ones.
+#[cfg(any(feature = "canopen", feature = "std"))]
 pub(crate) const fn is_restricted(can_id: u32) -> bool {
     matches!(can_id, 0..=0x7F | 0x101..=0x180 | 0x581..=0x5FF | 0x601..=0x67F | 0x6E0..=0x6FF | 0x701..)
 }

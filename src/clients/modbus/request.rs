@@ -8,6 +8,7 @@ use tokio_modbus::{Request, Response};
 use super::{ModbusError, Reply};
 use crate::error::{Error, OutOfRange};
 use crate::modbus::Limits;
+use crate::pdo::{from_bytes, mask, sign_extend};
 use crate::register::{Register, RegisterTable};
 
 /// Parts of a value that are read or written one after the other; one part, unless the limits say otherwise.
@@ -170,7 +171,7 @@ impl Writes {
         data: &[u8],
     ) -> Result<Vec<Request<'static>>, Error<ModbusError>> {
         let register = self.pieces.register;
-        if !register.takes(data) {
+        if !takes(register, data) {
             return Err(Error::OutOfRange(OutOfRange));
         }
         if register.table == RegisterTable::Coil {
@@ -211,6 +212,21 @@ impl Writes {
         }
         requests
     }
+}
+
+/// Whether a number in these bytes fits into the [`part`](Register::part) of the register, or into its bits: what is above is
+/// zero, or the sign of what is in it.
+fn takes(register: Register, data: &[u8]) -> bool {
+    let bits = match (register.part, register.table) {
+        (Some(part), _) => u32::from(part.bits),
+        (None, RegisterTable::Coil | RegisterTable::DiscreteInput) => u32::from(register.count),
+        (None, _) => return true,
+    };
+    if bits == 0 || bits >= 64 || data.len() > 8 {
+        return true;
+    }
+    let (value, whole) = (from_bytes(data), mask(8 * data.len() as u32));
+    value & !mask(bits) == 0 || sign_extend(value & mask(bits), bits) as u64 & whole == value
 }
 
 /// What the answer to a write repeats of it.
