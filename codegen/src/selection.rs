@@ -3,7 +3,7 @@
 //! A file of a vendor may describe hundreds of devices. What isn't selected is read, so that it is checked to be well
 //! formed, and then left alone: it costs nothing in the output.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::fmt;
 use std::str::FromStr;
 
@@ -171,6 +171,37 @@ fn keep_latest(catalog: &Catalog, found: &mut Vec<usize>) {
     found.retain(|&at| latest.get(&product(at)) == Some(&catalog.devices[at].identity.revision_number));
 }
 
+/// Takes out of `catalog` the modules that no device takes, and the submodules that neither a device nor a module takes.
+fn drop_unreached(catalog: &mut Catalog) {
+    let Catalog { devices, modules, submodules, .. } = catalog;
+    let reached = devices.iter().flat_map(|device| &device.modules).map(|own| own.module.0);
+    let places = keep_reached(modules, reached.collect());
+    for own in devices.iter_mut().flat_map(|device| &mut device.modules) {
+        own.module.0 = places.get(own.module.0 as usize).copied().unwrap_or(u32::MAX);
+    }
+    let of_devices = devices.iter().flat_map(|device| &device.submodules);
+    let reached = of_devices.chain(modules.iter().flat_map(|module| &module.submodules)).map(|own| own.submodule.0);
+    let places = keep_reached(submodules, reached.collect());
+    let of_devices = devices.iter_mut().flat_map(|device| &mut device.submodules);
+    for own in of_devices.chain(modules.iter_mut().flat_map(|module| &mut module.submodules)) {
+        own.submodule.0 = places.get(own.submodule.0 as usize).copied().unwrap_or(u32::MAX);
+    }
+}
+
+/// Keeps what is at the positions of `reached`; gives the new position of each.
+fn keep_reached<T>(list: &mut Vec<T>, reached: HashSet<u32>) -> Vec<u32> {
+    let is_kept = |at: u32| reached.contains(&at);
+    let mut kept = 0;
+    let mut places = Vec::with_capacity(list.len());
+    for at in (0..).take(list.len()) {
+        places.push(kept);
+        kept += u32::from(is_kept(at));
+    }
+    let mut at = 0..;
+    list.retain(|_| at.next().is_some_and(is_kept));
+    places
+}
+
 impl Selection {
     /// Takes out of `catalog` the devices that aren't wanted, and out of the devices the modules.
     pub(crate) fn devices_and_modules(&self, catalog: &mut Catalog, diagnostics: &mut Diagnostics) {
@@ -179,6 +210,11 @@ impl Selection {
         }
         if !self.modules.is_empty() {
             self.keep_modules(catalog, diagnostics);
+        }
+        let is_limited = !self.devices.is_empty() || !self.modules.is_empty();
+        // A file of modules alone has nothing that would reach them.
+        if is_limited && !catalog.devices.is_empty() {
+            drop_unreached(catalog);
         }
     }
 
@@ -280,6 +316,7 @@ fn nothing<'n>(what: &str, wanted: &str, filter: &Filter, names: impl Iterator<I
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::ir::{ModuleId, ModuleUse, Places, SubmoduleId, SubmoduleUse};
 
     fn device(name: &str, order_code: &str, product: u32, revision: u32) -> Device {
         let mut device = Device { name: name.into(), ..Device::default() };
@@ -304,6 +341,38 @@ mod tests {
             device.identity.product_code.unwrap() * 16 + device.identity.revision_number.unwrap_or_default()
         };
         (catalog.devices.iter().map(key).collect(), diagnostics.list().len())
+    }
+
+    #[test]
+    fn what_only_others_take_goes_with_them() {
+        let own = |module| ModuleUse { module: ModuleId(module), places: Places::default() };
+        let part = |submodule| SubmoduleUse { submodule: SubmoduleId(submodule), places: Places::default() };
+        let module = |name: &str, parts: &[u32]| Module {
+            name: name.into(),
+            submodules: parts.iter().map(|&at| part(at)).collect(),
+            ..Module::default()
+        };
+        let submodule = |name: &str| Submodule { name: name.into(), ..Submodule::default() };
+        let mut one = device("One", "", 1, 1);
+        (one.modules, one.submodules) = (vec![own(2), own(1)], vec![part(3)]);
+        let mut other = device("Other", "", 2, 1);
+        (other.modules, other.submodules) = (vec![own(0), own(1)], vec![part(0)]);
+        let mut catalog = Catalog {
+            devices: vec![other, one],
+            modules: vec![module("a", &[1]), module("b", &[2, 3]), module("c", &[]), module("d", &[4])],
+            submodules: ["p", "q", "r", "s", "t"].map(submodule).into(),
+            ..Catalog::default()
+        };
+        let devices = vec!["One".parse().unwrap()];
+        let mut diagnostics = Diagnostics::default();
+        Selection { devices, ..Selection::default() }.devices_and_modules(&mut catalog, &mut diagnostics);
+        let names: Vec<&str> = catalog.modules.iter().map(|module| module.name.as_str()).collect();
+        assert_eq!(names, ["b", "c"]);
+        let names: Vec<&str> = catalog.submodules.iter().map(|own| own.name.as_str()).collect();
+        assert_eq!(names, ["r", "s"]);
+        let [device] = &catalog.devices[..] else { panic!("one device") };
+        assert_eq!((&device.modules, &device.submodules), (&vec![own(1), own(0)], &vec![part(1)]));
+        assert_eq!(catalog.modules[0].submodules, [part(0), part(1)]);
     }
 
     #[test]
