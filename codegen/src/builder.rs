@@ -201,6 +201,10 @@ impl Builder {
         for other in compilation.sources.iter().skip(1) {
             self.tell_cargo(format_args!("cargo::rerun-if-changed={}", other.name()));
         }
+        // Once they are there, the description says more.
+        for path in &compilation.missing {
+            self.tell_cargo(format_args!("cargo::rerun-if-changed={}", path.display()));
+        }
         self.report(&compilation);
         compilation.rust(&options.rust).ok_or_else(|| BuildError::Input(errors(&compilation)))
     }

@@ -1,5 +1,7 @@
 //! The pipeline: source → syntax → IR → passes → output. The three doors (build script, macro, command line) all end here.
 
+use std::path::PathBuf;
+
 use crate::backend::rust::{self, RustOptions};
 use crate::diagnostics::{Diagnostic, Diagnostics, Levels};
 use crate::frontend::{detect, eds, esi, gsdml, table, xdd};
@@ -39,6 +41,8 @@ pub struct Compilation {
     pub diagnostics: Diagnostics,
     /// The format, where it was recognised.
     pub format: Option<Format>,
+    /// Files of the folder that the description refers to, and that aren't there.
+    pub missing: Vec<PathBuf>,
 }
 
 impl Compilation {
@@ -88,7 +92,7 @@ const LARGE: usize = 64 * 1024;
 pub fn read(source: Source, options: &Options) -> Compilation {
     let mut diagnostics = Diagnostics::new(options.levels.clone());
     let mut read = || front_end(&source, options, &mut diagnostics);
-    let (format, catalog, mut others) = if source.text().len() < LARGE {
+    let (format, catalog, (mut others, missing)) = if source.text().len() < LARGE {
         read()
     } else {
         std::thread::scope(|scope| {
@@ -103,7 +107,7 @@ pub fn read(source: Source, options: &Options) -> Compilation {
         catalog.files = sources.iter().map(|source| file_info(source, format)).collect();
         catalog
     });
-    Compilation { sources, catalog, diagnostics, format }
+    Compilation { sources, catalog, diagnostics, format, missing }
 }
 
 /// The format of `source`, what it describes, and the files that it refers to.
@@ -111,13 +115,13 @@ fn front_end(
     source: &Source,
     options: &Options,
     diagnostics: &mut Diagnostics,
-) -> (Option<Format>, Option<Catalog>, Vec<Source>) {
+) -> (Option<Format>, Option<Catalog>, (Vec<Source>, Vec<PathBuf>)) {
     let file = FileId(0);
     let format = match detect::format(source, file) {
         Ok(format) => format,
         Err(diagnostic) => {
             diagnostics.push(*diagnostic);
-            return (None, None, Vec::new());
+            return (None, None, Default::default());
         }
     };
     let aliases = &options.node_id_aliases;
@@ -133,7 +137,7 @@ fn front_end(
     let mut devices = catalog.iter().flat_map(|catalog| &catalog.devices);
     let commissioned = devices.any(|device| device.commissioning.is_some());
     let format = if format == Format::Eds && commissioned { Format::Dcf } else { format };
-    (Some(format), catalog, references.into_sources())
+    (Some(format), catalog, references.into_files())
 }
 
 fn file_info(source: &Source, format: Format) -> FileInfo {

@@ -41,10 +41,13 @@ fn cargo_watches_the_input_and_what_it_was_compiled_with() {
         Builder::new().overlay(input.with_extension("toml")).generate(&input).expect("bindings");
         return;
     }
-    let input = folder("watched").join("valve.eds");
-    std::fs::write(&input, EDS).expect("the input");
+    // What a description refers to is watched where it isn't there yet, too.
+    let input = folder("watched").join("valve.xml");
+    let esi = "<EtherCATInfo><Vendor><Id>1</Id></Vendor><Descriptions><Devices><Device><Type ProductCode=\"1\">V</Type>\
+        <Name>Valve</Name><Profile><DictionaryFile>Dict.xml</DictionaryFile></Profile></Device></Devices></Descriptions></EtherCATInfo>";
+    std::fs::write(&input, esi).expect("the input");
     let overlay =
-        "lexibus = 1\n[overlay]\nwhy = \"the manual\"\n[[chapters]]\n[chapters.objects]\n0x2000 = { unit = \"%\" }\n";
+        "lexibus = 1\n[overlay]\nwhy = \"the manual\"\n[[chapters]]\n[chapters.objects]\n0x2000 = { add = true, name = \"Opening\", type = \"u8\", access = \"rw\", unit = \"%\" }\n";
     std::fs::write(input.with_extension("toml"), overlay).expect("the overlay");
     let mut program = std::process::Command::new(std::env::current_exe().expect("this program"));
     program
@@ -53,9 +56,9 @@ fn cargo_watches_the_input_and_what_it_was_compiled_with() {
     let output = program.output().expect("it runs");
     let text = String::from_utf8_lossy(&output.stdout).into_owned();
     assert!(output.status.success(), "{text}");
-    for file in [input.clone(), input.with_extension("toml")] {
+    for file in [input.clone(), input.with_extension("toml"), input.with_file_name("Dict.xml")] {
         let line = format!("cargo::rerun-if-changed={}\n", file.display());
-        assert_eq!(text.matches(&line).count(), 1, "{text}");
+        assert_eq!(text.matches(&line).count(), 1, "{line}{text}");
     }
 }
 

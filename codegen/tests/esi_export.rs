@@ -6,7 +6,7 @@ use corpus_support::round_trip::options;
 use corpus_support::xsd::Schema;
 use lexibus_codegen::backend::esi::{export, Area, Export, NoteKind, Options, Refusal};
 use lexibus_codegen::compile::{read, Options as Reading};
-use lexibus_codegen::ir::{Catalog, Device, Value};
+use lexibus_codegen::ir::{Catalog, Device, Documentation, Value};
 use lexibus_codegen::source::Source;
 
 /// A slave with a bit of everything.
@@ -109,6 +109,24 @@ fn esi_of_a_slave() {
     let exported = export(&catalog("slave.xml", SLAVE), &Options::default()).expect("an ESI");
     insta::assert_snapshot!(told(&exported) + "\n" + &exported.text);
     valid("slave", &exported.text);
+}
+
+#[test]
+fn what_is_said_of_a_pdo_has_no_place() {
+    let mut catalog = catalog("slave.xml", SLAVE);
+    let notes = |catalog: &Catalog| -> Vec<(NoteKind, usize)> {
+        let exported = export(catalog, &Options::default()).expect("an ESI");
+        exported.notes.iter().map(|note| (note.kind, note.count)).collect()
+    };
+    let before = notes(&catalog);
+    let pdo = &mut catalog.devices[0].process_data.pdos[0];
+    pdo.documentation = Some(Box::new(Documentation { text: "Velocity.".to_owned(), ..Documentation::default() }));
+    let more = notes(&catalog);
+    assert_ne!(before, more, "it is told");
+    let count = |list: &[(NoteKind, usize)]| -> usize {
+        list.iter().filter(|(kind, _)| *kind == NoteKind::Documentation).map(|(_, count)| count).sum()
+    };
+    assert_eq!(count(&more), count(&before) + 1);
 }
 
 #[test]

@@ -67,7 +67,16 @@ pub fn import(source: Source, options: &Options) -> Import {
     let mut diagnostics = Diagnostics::new(options.levels.clone());
     let table = convert(&source, options, &mut diagnostics).filter(|_| !diagnostics.has_errors());
     diagnostics.sort();
-    Import { compilation: Compilation { sources: vec![source], catalog: None, diagnostics, format: None }, table }
+    Import {
+        compilation: Compilation {
+            sources: vec![source],
+            catalog: None,
+            diagnostics,
+            format: None,
+            missing: Vec::new(),
+        },
+        table,
+    }
 }
 
 fn convert(source: &Source, options: &Options, diagnostics: &mut Diagnostics) -> Option<String> {

@@ -1,7 +1,7 @@
 //! Files that a description refers to.
 
 use std::fmt;
-use std::path::{Component, Path};
+use std::path::{Component, Path, PathBuf};
 
 use super::{FileId, Source};
 
@@ -11,6 +11,7 @@ use super::{FileId, Source};
 pub struct References<'a> {
     main: &'a Source,
     read: Vec<Source>,
+    missing: Vec<PathBuf>,
 }
 
 /// Why a file isn't read.
@@ -48,7 +49,7 @@ pub const MAX_REFERENCES: usize = 64;
 impl<'a> References<'a> {
     /// No file read yet that `main` refers to.
     pub fn new(main: &'a Source) -> Self {
-        References { main, read: Vec::new() }
+        References { main, read: Vec::new(), missing: Vec::new() }
     }
 
     /// Opens the file called `name` in the description: a path relative to it, with `/` or `\\`.
@@ -56,7 +57,7 @@ impl<'a> References<'a> {
     /// # Errors
     ///
     /// Why the file isn't read.
-    pub fn open(&self, name: &str) -> Result<Source, Refusal> {
+    pub fn open(&mut self, name: &str) -> Result<Source, Refusal> {
         let folder = self.main.folder().ok_or(Refusal::NoFolder)?;
         if self.read.len() >= MAX_REFERENCES {
             return Err(Refusal::TooMany);
@@ -69,7 +70,12 @@ impl<'a> References<'a> {
         }
         // A link in the folder may lead anywhere: what counts is where the file lies.
         let path = folder.join(relative);
-        let real = path.canonicalize().map_err(Refusal::Unreadable)?;
+        let real = path.canonicalize().map_err(|error| {
+            if error.kind() == std::io::ErrorKind::NotFound {
+                self.missing.push(path.clone());
+            }
+            Refusal::Unreadable(error)
+        })?;
         let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
         if !real.starts_with(folder.canonicalize().map_err(Refusal::Unreadable)?) {
             return Err(Refusal::Outside);
@@ -92,9 +98,9 @@ impl<'a> References<'a> {
         file
     }
 
-    /// The files, in the order of their numbers.
-    pub fn into_sources(self) -> Vec<Source> {
-        self.read
+    /// The files, in the order of their numbers, and where files were looked for that aren't there.
+    pub fn into_files(self) -> (Vec<Source>, Vec<PathBuf>) {
+        (self.read, self.missing)
     }
 }
 
@@ -109,7 +115,7 @@ mod tests {
         std::fs::write(folder.join("secret.xml"), "s").unwrap();
         std::fs::write(folder.join("own/Dicts/a b.xml"), "<x/>").unwrap();
         let main = Source::new("main.xml", Vec::new()).in_folder(folder.join("own"));
-        let references = References::new(&main);
+        let mut references = References::new(&main);
         for name in ["Dicts/a b.xml", "./Dicts/a b.xml", "Dicts\\a b.xml", " Dicts/a b.xml "] {
             assert_eq!(references.open(name).unwrap().text(), "<x/>", "{name}");
         }
@@ -117,6 +123,7 @@ mod tests {
             assert!(matches!(references.open(name), Err(Refusal::Outside)), "{name}");
         }
         assert!(matches!(references.open("none.xml"), Err(Refusal::Unreadable(_))));
+        assert_eq!(references.missing, [folder.join("own/none.xml")]);
         assert!(matches!(references.open("Dicts"), Err(Refusal::NoFile)));
         #[cfg(unix)]
         {

@@ -58,6 +58,7 @@ pub fn compilation(bytes: &[u8], options: &Options) -> Compilation {
         catalog: Some(catalog),
         diagnostics: Diagnostics::new(options.levels.clone()),
         format,
+        missing: Vec::new(),
     };
     checked(read, options)
 }

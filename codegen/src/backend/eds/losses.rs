@@ -14,7 +14,7 @@ pub(super) fn of_device(context: &Context<'_>, catalog: &Catalog, notes: &mut No
         notes.add(NoteKind::Configuration, place);
     }
     let other_buses = usize::from(device.ethercat.is_some()) + usize::from(device.profinet.is_some());
-    notes.add_many(NoteKind::OtherBus, other_buses, place);
+    notes.add_many(NoteKind::OtherBus, other_buses + device.modbus.len(), place);
     notes.add_many(NoteKind::Slot, device.slots.len(), place);
     let parts = note::parts_of_tables(device)
         + device.code_tables.len()

@@ -21,6 +21,8 @@ pub(super) fn write(xml: &mut Xml, notes: &mut Notes, types: &Types<'_>, pdo: &P
     let is_lost = |extension: &&Extension| !is_attribute(extension);
     notes.add_many(NoteKind::Extension, pdo.extensions.iter().filter(is_lost).count(), place);
     notes.add_many(NoteKind::Pdo, usize::from(pdo.communication.is_some() && is_slave), place);
+    notes.add_many(NoteKind::Documentation, usize::from(pdo.documentation.is_some()), place);
+    notes.add_many(NoteKind::Doubt, pdo.doubts.len(), place);
 }
 
 fn attributes(xml: &mut Xml, pdo: &Pdo) {

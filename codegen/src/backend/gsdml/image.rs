@@ -374,6 +374,11 @@ fn losses(device: &Device, notes: &mut Notes) {
                     notes.add_many(NoteKind::Quantity, usize::from(item.quantity.is_some()), place);
                     let limits = usize::from(!item.limits.is_empty()) + usize::from(item.default.is_some());
                     notes.add_many(NoteKind::Limits, limits, place);
+                    notes.add_many(NoteKind::Behaviour, usize::from(item.behaviour.is_some()), place);
+                    let available = usize::from(item.availability.is_some()) + item.variants.len();
+                    notes.add_many(NoteKind::Availability, available, place);
+                    notes.add_many(NoteKind::Documentation, usize::from(item.documentation.is_some()), place);
+                    notes.add_many(NoteKind::Doubt, item.doubts.len(), place);
                 }
                 // What a record says at start-up, its defaults for every byte, no register tells.
                 (false, true) => notes.add(NoteKind::Binding, place),
