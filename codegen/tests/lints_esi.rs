@@ -74,6 +74,16 @@ fn pdo021_image_too_long() {
 }
 
 #[test]
+fn pdo024_too_many_pdos() {
+    let pdos: Vec<String> = (0x1600..0x16FF).map(|index| pdo(index, "Sm=\"0\"", "")).collect();
+    let pdos: Vec<&str> = pdos.iter().map(String::as_str).collect();
+    let without_limit = OUTPUTS.replace(" MaxSize=\"2\"", "");
+    let message = "sync manager 0 has 255 PDOs by default, and a list of them at most 254";
+    assert_eq!(findings(&slave(&without_limit, &pdos)), [("PDO024", 3, message.to_owned())]);
+    assert_eq!(findings(&slave(&without_limit, &pdos[1..])), []);
+}
+
+#[test]
 fn pdo022_entry_too_long() {
     const UINT: &str = "<DataType>UINT</DataType>";
     let long = pdo(0x1601, "Sm=\"0\"", "").replace(">16<", ">65536<").replace(UINT, "");

@@ -662,6 +662,10 @@ codes! {
         "a PDO of EtherCAT maps an object against its access by SDO"
         "The dictionary of the slave says that the object is read-only, and an RxPDO carries it. Many slaves give the access by SDO \
         only, so that this lint is off unless asked for."
+    PDO024 TOO_MANY_PDOS "too-many-pdos" Lint Warn
+        "a sync manager has more PDOs by default than its assignment has room for"
+        "The list of the PDOs of a sync manager is an object with 254 sub-indices, so that no master can write it. Generated code has \
+        no `STARTUP`."
     TAB001 REGISTER_FORMULA "register-formula" Lint Warn
         "an object isn't the one that its register's rule gives"
         "A row has the number of a register and an object, and the rule of its space gives another object for the number; or it \
