@@ -8,7 +8,7 @@ use std::convert::Infallible;
 use std::time::Duration;
 
 use can_script::{node, Script};
-use lexibus::clients::canopen::{CanPort, Node};
+use lexibus::clients::canopen::Node;
 use lexibus::codes::Cell;
 use lexibus::{
     CanOpen, Error, Fixed, Item, On, OutOfRange, Pdo, ReadRoute, Readable, Rw, SdoWrite, Timed, Writable, WriteRoute,
@@ -38,7 +38,7 @@ fn confirmed(request: [u8; 8]) -> ([u8; 8], [u8; 8]) {
 
 /// Whether the node got all that it expects.
 fn is_done(own: &mut Node<Script>) -> bool {
-    matches!(own.port().receive(Duration::ZERO, &mut |_| true), Ok(None))
+    own.port().is_done()
 }
 
 /// Holds what writing sends against the bytes that follow from a line of the manual.

@@ -8,23 +8,40 @@ use lexibus::clients::canopen::{CanFrame, CanPort, Node};
 use lexibus::NodeId;
 
 /// The requests that are still to come, with their answers.
-pub struct Script(VecDeque<([u8; 8], [u8; 8])>);
+pub struct Script {
+    left: VecDeque<([u8; 8], [u8; 8])>,
+    /// Whether the next request was sent, so that its answer comes.
+    is_asked: bool,
+}
+
+impl Script {
+    /// Whether all that is expected was sent and answered.
+    #[allow(dead_code)]
+    pub fn is_done(&self) -> bool {
+        self.left.is_empty()
+    }
+}
 
 impl CanPort for Script {
     type Error = Infallible;
 
     fn send(&mut self, frame: &CanFrame, _: Duration) -> Result<bool, Infallible> {
-        let expected = self.0.front().map(|(request, _)| request.as_slice());
+        let expected = self.left.front().map(|(request, _)| request.as_slice());
         assert_eq!((frame.id(), Some(frame.data())), (0x605, expected));
+        self.is_asked = true;
         Ok(true)
     }
 
     fn receive(
         &mut self,
-        _: Duration,
+        patience: Duration,
         wanted: &mut dyn FnMut(&CanFrame) -> bool,
     ) -> Result<Option<CanFrame>, Infallible> {
-        let answer = self.0.pop_front().and_then(|(_, answer)| CanFrame::new(0x585, &answer));
+        if !std::mem::take(&mut self.is_asked) {
+            assert!(self.left.is_empty() || patience.is_zero(), "nothing was asked");
+            return Ok(None);
+        }
+        let answer = self.left.pop_front().and_then(|(_, answer)| CanFrame::new(0x585, &answer));
         assert!(answer.as_ref().map_or(true, wanted));
         Ok(answer)
     }
@@ -32,5 +49,6 @@ impl CanPort for Script {
 
 /// Node 5, which expects these requests.
 pub fn node(script: &[([u8; 8], [u8; 8])]) -> Node<Script> {
-    Node::new(Script(script.iter().copied().collect()), NodeId::new(5).expect("a node-ID"))
+    let script = Script { left: script.iter().copied().collect(), is_asked: false };
+    Node::new(script, NodeId::new(5).expect("a node-ID"))
 }

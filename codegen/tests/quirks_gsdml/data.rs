@@ -120,6 +120,18 @@ fn a_value_and_its_status_are_two_fields() {
 }
 
 #[test]
+fn the_second_half_of_a_nameless_item_has_no_name_of_another() {
+    let checked = inputs(
+        "<DataItem DataType=\"Unsigned8\" TextId=\"T_Mode\"/>\n<DataItem DataType=\"Unsigned8\" TextId=\"T_Speed\"/>\n\
+         <DataItem DataType=\"Unsigned8\" TextId=\"T_Ready\"/>\n<DataItem DataType=\"Unsigned8+Unsigned8\"/>",
+    );
+    let names: Vec<&str> = checked.fields().iter().map(|(name, ..)| *name).collect();
+    assert_eq!(names[..3], ["Mode", "Speed", "Ready"]);
+    assert!(names[3..].iter().all(|name| !["Mode", "Speed", "Ready"].contains(name)), "{names:?}");
+    assert_eq!(names.last(), Some(&"2"));
+}
+
+#[test]
 fn bits_of_big_endian_numbers() {
     let item = |data_type: &str, bits: &[u32]| {
         let names = ["Speed", "Torque", "Ready", "Fault"];

@@ -100,6 +100,31 @@ fn channel_diagnosis() {
 }
 
 #[test]
+fn what_is_within_the_error_of_a_profile_is_that_profiles() {
+    let lists = "<ChannelDiagList>\n<ProfileChannelDiagItem API=\"14848\" ErrorType=\"36864\">\n<Name TextId=\"T_Fault\"/>\n\
+                 <ExtChannelDiagList>\n<ExtChannelDiagItem ErrorType=\"1\">\n<Name TextId=\"T_Off\"/>\n</ExtChannelDiagItem>\n\
+                 </ExtChannelDiagList>\n</ProfileChannelDiagItem>\n\
+                 <ChannelDiagItem ErrorType=\"256\">\n<Name TextId=\"T_On\"/>\n<ExtChannelDiagList>\n\
+                 <ProfileExtChannelDiagItem API=\"14848\" ErrorType=\"2\">\n<Name TextId=\"T_Mode\"/>\n\
+                 </ProfileExtChannelDiagItem>\n</ExtChannelDiagList>\n</ChannelDiagItem>\n</ChannelDiagList>\n";
+    let checked = read(&Parts { lists, ..Parts::default() });
+    checked.assert_clean();
+    let rows = &checked.table("extended_channel_diagnosis").rows;
+    let text = |text: &str| Value::Text(text.into());
+    assert_eq!(rows[0].cells, [Value::Int(36864), text("D"), Value::Int(0x3A00), text("")]);
+    let rust = lexibus_codegen::backend::rust::emit_catalog(checked.catalog(), &Default::default()).expect("bindings");
+    let rust: String = rust.split_whitespace().collect();
+    // Each error has a name, and what is within it.
+    for part in [
+        "of_profile(0x3A00,0x9000,\"Fault\",\"\",&[rt::profinet::ExtendedError::new(0x0001,\"Off\"",
+        "of_profile(0x3A00,0x0100,\"On\",\"\",&[rt::profinet::ExtendedError::new(0x0002,\"Mode\"",
+        "new(0x0100,\"On\",\"\",&[])",
+    ] {
+        assert!(rust.contains(part), "{part}\n{rust}");
+    }
+}
+
+#[test]
 fn process_alarms_and_log_book() {
     let lists = "<ChannelProcessAlarmList>\n<ChannelProcessAlarmItem Reason=\"256\">\n<Name TextId=\"T_Fault\"/>\n\
                  <ExtChannelProcessAlarmList>\n<ExtChannelProcessAlarmItem Reason=\"2\">\n<Name TextId=\"T_Off\"/>\n\

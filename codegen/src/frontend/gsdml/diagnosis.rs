@@ -99,12 +99,12 @@ impl<'a> Reader<'a, '_> {
         Ok(())
     }
 
-    /// Reads a code, or an extended code of the code `parent_code`, and the codes within it.
+    /// Reads a code, or an extended code of the code and application process `parent`, and the codes within it.
     fn code(
         &mut self,
         tag: &Tag<'a>,
         list: &'static List,
-        parent_code: Option<i128>,
+        parent: Option<(i128, u32)>,
         rows: &mut Rows,
         rest: &mut Extensions,
     ) -> Read<()> {
@@ -115,7 +115,8 @@ impl<'a> Reader<'a, '_> {
         let mut code = Code {
             code: self.unsigned16(given.as_ref(), "code").map(i128::from),
             state: state.map_or_else(|| "D".into(), |given| given.text.into()),
-            api: self.unsigned(api.as_ref(), u32::MAX, "API number").unwrap_or(0),
+            // What is within the error of a profile is that profile's.
+            api: self.unsigned(api.as_ref(), u32::MAX, "API number").or(parent.map(|(_, api)| api)).unwrap_or(0),
             name: CompactString::default(),
             documentation: None,
             add_value: String::new(),
@@ -130,10 +131,11 @@ impl<'a> Reader<'a, '_> {
                 "Help" => code.documentation = self.documentation(&child)?,
                 "ExtChannelDiagList" | "ExtChannelProcessAlarmList" => {
                     while let Some(inner) = self.cursor.child(&child)? {
-                        if is_code(inner.name) && parent_code.is_none() {
-                            self.code(&inner, list, Some(code.code.unwrap_or(0)), rows, rest)?;
-                        } else {
-                            self.unknown(&inner, rest)?;
+                        match code.code {
+                            Some(own) if is_code(inner.name) && parent.is_none() => {
+                                self.code(&inner, list, Some((own, code.api)), rows, rest)?;
+                            }
+                            _ => self.unknown(&inner, rest)?,
                         }
                     }
                 }
@@ -143,8 +145,8 @@ impl<'a> Reader<'a, '_> {
                 _ => self.unknown(&child, rest)?,
             }
         }
-        if let Some(row) = code.row(parent_code) {
-            let rows = if parent_code.is_some() { &mut rows.extended } else { &mut rows.own };
+        if let Some(row) = code.row(parent.map(|(code, _)| code)) {
+            let rows = if parent.is_some() { &mut rows.extended } else { &mut rows.own };
             rows.push(row);
         }
         Ok(())

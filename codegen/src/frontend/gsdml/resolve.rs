@@ -129,6 +129,10 @@ impl<'a, 'd> Resolver<'a, 'd> {
     /// Resolves a name.
     pub fn name(&mut self, name: &mut CompactString, names: &mut Texts) {
         let (mark, suffix) = name.split_once(' ').unwrap_or((name.as_str(), ""));
+        if mark.is_empty() {
+            *name = suffix.into();
+            return;
+        }
         let Some(at) = mark.parse::<usize>().ok() else { return };
         let Some(given) = self.names.get(at).cloned() else { return };
         let found = match suffix {

@@ -64,9 +64,7 @@ impl<'a> Reader<'a, '_> {
 
 /// What stands for the same text as `mark`, followed by `suffix`.
 pub(super) fn with_suffix(mark: &str, suffix: &str) -> CompactString {
-    if mark.is_empty() {
-        return suffix.into();
-    }
+    // Without a mark, the blank in front tells the suffix from one: `2` is a mark.
     format_compact!("{mark} {suffix}")
 }
 

@@ -2,7 +2,8 @@
 
 use smallvec::SmallVec;
 
-use super::at::At;
+use super::at::{At, TextOr};
+use super::definitions::Kind;
 use super::format::{NumberOrText, Row};
 use super::numbered::Numbered;
 use super::references::ITEM;
@@ -55,6 +56,12 @@ impl Rows {
             return Repeat::ONCE;
         }
         let unit = self.unit(space);
+        let of_definition = match (&row.ty, &row.bits, &row.values) {
+            (None, Some(At { value: TextOr::Text(name), .. }), _) => Some((Kind::Bits, name)),
+            (None, _, Some(At { value: TextOr::Text(name), .. })) => Some((Kind::Enumeration, name)),
+            _ => None,
+        };
+        let base = of_definition.and_then(|(kind, name)| self.definitions.base(reader, kind, name));
         let bits = row.ty.as_ref().and_then(|ty| types::named(&ty.value)).and_then(|named| {
             let bits = match named.ty {
                 Type::VisibleString(Some(bytes)) | Type::OctetString(Some(bytes)) => bytes.checked_mul(8),
@@ -63,15 +70,17 @@ impl Rows {
             };
             bits?.checked_mul(named.elements.unwrap_or(1))
         });
+        let bits = bits.or(base.and_then(Type::bits));
         let of_type = || if row.reg.is_some() { bits.unwrap_or(unit).div_ceil(unit) } else { 1 };
         Repeat { count, step: row.stride.unwrap_or_else(of_type) }
     }
 
     /// Whether a row may stand for `count` items. The first that may not is reported.
-    fn may_repeat(&mut self, reader: &mut Reader<'_, '_>, count: u32, span: Span) -> bool {
+    pub(super) fn may_repeat(&mut self, reader: &mut Reader<'_, '_>, count: u32, span: Span) -> bool {
         let left = self.repeats_left.and_then(|left| left.checked_sub(count as usize - 1));
         if left.is_none() && self.repeats_left.is_some() && count > 1 {
-            let message = format!("more than {} items follow from `count`", limits::MAX_DERIVED_ITEMS);
+            let message =
+                format!("more than {} items follow from `count` and from ranges of objects", limits::MAX_DERIVED_ITEMS);
             let found = Diagnostic::new(&codes::INPUT_TOO_LARGE, span, message);
             reader.diagnostics.push(found.label("this row and those below stand for one item each"));
         }
@@ -285,7 +294,7 @@ impl Rows {
             NumberOrText::Text(text) => text.clone(),
         };
         let found = place::objects(&text).filter(|found| found.indices.0 == found.indices.1);
-        let index = found.and_then(|found| u16::try_from(u32::from(found.indices.0) + shift).ok());
+        let index = found.and_then(|found| u16::try_from(u32::from(found.indices.0).checked_add(shift)?).ok());
         let (Some(found), Some(index)) = (found, index) else {
             let message = format!("`{}` is no object: write `0x6040` or `\"0x2000:1\"`", brief(&text));
             reader.report(&codes::TABLE_PLACE, reader.span(object), message);

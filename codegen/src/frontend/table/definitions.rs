@@ -339,7 +339,8 @@ fn bits_of_key(reader: &mut Reader<'_, '_>, key: &At<String>, (base, first): (Ty
         return None;
     };
     let bytes = base.bits().unwrap_or(0).div_ceil(8);
-    let number = u8::try_from(byte - i128::from(first)).ok().filter(|&number| u32::from(number) < bytes);
+    let number = byte.checked_sub(first.into()).and_then(|number| u8::try_from(number).ok());
+    let number = number.filter(|&number| u32::from(number) < bytes);
     if number.is_none() {
         let message = format!("the byte {byte:#06X} lies outside of {base} at {first:#06X}").replace("0X", "0x");
         let found = Diagnostic::new(&codes::BIT_OUTSIDE_TYPE, reader.span(key), message);

@@ -48,6 +48,7 @@ pub(super) fn add(
         None if row.value.ty.is_none() && has_no_value(&row.value) => row.value.clone(),
         _ => rows.complete(&row.value, chapter),
     };
+    let objects = affordable(reader, rows, objects, key);
     let count = u32::from(objects.indices.1 - objects.indices.0) + 1;
     rows.each_has_one(reader, key, &complete, count);
     for index in objects.indices.0..=objects.indices.1 {
@@ -59,9 +60,21 @@ pub(super) fn add(
     }
 }
 
+/// The range of a row, or its first object where the table stands for too many items.
+fn affordable(reader: &mut Reader<'_, '_>, rows: &mut Rows, objects: Objects, key: &At<String>) -> Objects {
+    let ((first, last), subs) = (objects.indices, objects.subs);
+    let of_each = subs.map_or(1, |(first, last)| u32::from(last - first) + 1);
+    let span = reader.span(key);
+    if rows.may_repeat(reader, (u32::from(last - first) + 1) * of_each, span) {
+        return objects;
+    }
+    Objects { indices: (first, first), subs: subs.map(|(first, _)| (first, first)) }
+}
+
 /// Whether a row only names an object whose values are its sub-entries.
 fn has_no_value(row: &Row) -> bool {
-    row.code.is_some() && row.bits.is_none() && row.values.is_none()
+    let has_subs = row.code.as_ref().is_some_and(|code| matches!(code.value.as_str(), "array" | "record"));
+    has_subs && row.bits.is_none() && row.values.is_none()
 }
 
 type Given<'r> = (&'r At<String>, &'r At<Row>, &'r Row);

@@ -45,7 +45,7 @@ pub(super) fn registers(text: &str) -> Option<(u32, u32)> {
     }
     // The end has the leading digits of the start, or those that follow where it turns over.
     let modulus = 10u32.checked_pow(u32::try_from(last.len()).ok()?)?;
-    let end = start / modulus * modulus + end;
+    let end = (start / modulus * modulus).checked_add(end)?;
     Some((start, if end < start { end.checked_add(modulus)? } else { end }))
 }
 

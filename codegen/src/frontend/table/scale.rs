@@ -34,6 +34,19 @@ pub(super) fn read(
     }
 }
 
+/// The scale of a variant: where it is 1, the row's isn't what counts.
+pub(super) fn of_variant(
+    reader: &mut Reader<'_, '_>,
+    given: Option<&At<Scaling>>,
+    references: &mut References,
+) -> Option<Scale> {
+    let is_one = given.is_some_and(|given| matches!(given.value, Scaling::Factor(factor) if factor == 1.0));
+    if is_one {
+        return Some(Scale::Linear { factor: 1.0, offset: 0.0 });
+    }
+    read(reader, given, None, references)
+}
+
 fn linear(factor: f64, offset: f64) -> Option<Scale> {
     (factor != 1.0 || offset != 0.0).then_some(Scale::Linear { factor, offset })
 }

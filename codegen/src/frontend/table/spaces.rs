@@ -184,7 +184,7 @@ fn modbus(reader: &mut Reader<'_, '_>, rule: &ModbusRule) -> Modbus {
     let order = rule.order.as_ref().and_then(|order| word_order(reader, order));
     Modbus {
         space: table.unwrap_or(RegisterSpace::Holding),
-        shift: rule.add.unwrap_or(0) - rule.first.unwrap_or(0),
+        shift: rule.add.unwrap_or(0).saturating_sub(rule.first.unwrap_or(0)),
         low_word_first: order.unwrap_or(false),
         bytes_swapped: rule.swap,
     }
@@ -204,7 +204,7 @@ impl Space {
     /// Index and sub-index of a register, where it is an object.
     pub fn object(&self, number: u32) -> Option<(u16, u8)> {
         let rule = self.canopen.or(self.ethercat)?;
-        Some((u16::try_from(rule.index + i64::from(number)).ok()?, rule.sub_index))
+        Some((u16::try_from(rule.index.checked_add(number.into())?).ok()?, rule.sub_index))
     }
 
     /// Where a register is on each bus. A number that a bus has no address for is reported.
@@ -233,7 +233,7 @@ impl Space {
         let mut bindings = Vec::new();
         let mut add = |rule: Option<Objects>, buses: ObjectBuses| {
             let Some(rule) = rule else { return };
-            match u16::try_from(rule.index + i64::from(numbers.first)) {
+            match u16::try_from(rule.index.saturating_add(numbers.first.into())) {
                 Ok(index) => bindings.push(Binding::Object { buses, index, sub_index: rule.sub_index }),
                 Err(_) => no_address(reader, span, numbers.first, "an object dictionary"),
             }
@@ -248,7 +248,7 @@ impl Space {
     }
 
     fn register(&self, reader: &mut Reader<'_, '_>, rule: Modbus, numbers: Numbers, span: Span) -> Option<Binding> {
-        let Ok(address) = u16::try_from(i64::from(numbers.first) + rule.shift) else {
+        let Ok(address) = u16::try_from(i64::from(numbers.first).saturating_add(rule.shift)) else {
             no_address(reader, span, numbers.first, "Modbus");
             return None;
         };

@@ -77,7 +77,7 @@ pub(super) fn listed(reader: &mut Reader<'_, '_>, (given, span): (&[Literal], Sp
     let mut values = Vec::new();
     for (first, last) in ranges(reader, (given, span), ty) {
         match (first.as_int(), last.as_int()) {
-            (Some(low), Some(high)) if low < high && high - low < MAX_LISTED => {
+            (Some(low), Some(high)) if low < high && high.checked_sub(low).is_some_and(|more| more < MAX_LISTED) => {
                 values.extend((low..=high).map(Value::Int));
             }
             (Some(low), Some(high)) if low < high => {

@@ -53,7 +53,7 @@ impl Rows {
             default,
             limits: limits(low, high, allowed.unwrap_or_default()),
             step,
-            scale: scale::read(reader, own.scale.as_ref(), None, &mut self.references),
+            scale: scale::of_variant(reader, own.scale.as_ref(), &mut self.references),
             documentation: reader.documentation(own.doc.as_deref(), own.cite.as_ref().map(cited)),
             at: reader.span(given),
         };
@@ -91,8 +91,11 @@ impl Rows {
 
 /// Of a list, the least and the greatest are limits, too.
 fn limits(low: Option<Value>, high: Option<Value>, allowed: ThinVec<(Value, Value)>) -> Limits {
-    let number = |value: &Value| value.as_int();
-    let least = allowed.iter().map(|(first, _)| first).min_by_key(|value| number(value)).cloned();
-    let greatest = allowed.iter().map(|(_, last)| last).max_by_key(|value| number(value)).cloned();
+    let compare = |one: &&Value, other: &&Value| match (one.as_int(), other.as_int()) {
+        (Some(one), Some(other)) => one.cmp(&other),
+        _ => one.as_real().unwrap_or(f64::NAN).total_cmp(&other.as_real().unwrap_or(f64::NAN)),
+    };
+    let least = allowed.iter().map(|(first, _)| first).min_by(compare).cloned();
+    let greatest = allowed.iter().map(|(_, last)| last).max_by(compare).cloned();
     Limits { low: low.or(least), high: high.or(greatest), allowed }
 }

@@ -115,7 +115,7 @@ pub(super) fn bindings<'w>(
     buses: Buses,
 ) -> impl Iterator<Item = Binding> + use<'w> {
     windows.iter().enumerate().filter_map(move |(at, window)| {
-        let number = u32::try_from(i64::from(first) + window.add).ok()?;
+        let number = u32::try_from(i64::from(first).checked_add(window.add)?).ok()?;
         let is_within = |(low, high): (i128, i128)| (low..=high).contains(&number.into());
         let buses = buses.and(window.buses);
         if buses == Buses::NONE || !window.numbers.is_none_or(is_within) {

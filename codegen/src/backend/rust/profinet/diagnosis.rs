@@ -40,7 +40,9 @@ pub(super) fn channel_errors(catalog: &Catalog) -> Vec<String> {
             errors.entry((api, parent)).or_default().1.entry(code).or_insert(row);
         }
     }
-    errors.iter().map(|(key, (row, extended))| error(*key, *row, extended)).collect()
+    // A profile may say more of an error that all know by the same name.
+    let of_all = |code: u16| errors.get(&(0, code)).and_then(|(row, _)| *row);
+    errors.iter().map(|(key, (row, extended))| error(*key, row.or(of_all(key.1)), extended)).collect()
 }
 
 fn number(row: &CodeRow, cell: usize) -> Option<u32> {
