@@ -167,9 +167,9 @@ pub fn checked(mut compilation: Compilation, options: &Options) -> Compilation {
         }
         options.select.objects(catalog);
     }
-    // One row of a table stands for several items, which share what is wrong with it.
+    // One row of a table stands for several items, and so does a type or parameter of XML: they share what is wrong with it.
     let described_by = compilation.catalog.as_ref().and_then(|catalog| catalog.files.first());
-    if described_by.is_some_and(|file| file.format == Format::Table) {
+    if described_by.is_some_and(|file| matches!(file.format, Format::Table | Format::Esi | Format::Xdd)) {
         compilation.diagnostics.forget_repeated(0);
     }
     compilation.diagnostics.sort();

@@ -896,3 +896,21 @@ fn a_real_device_gives_the_same_ir() {
 fn device_kind(index: u16) -> GroupKind {
     GroupKind::Object { index, code: ObjectCode::Array, category: None }
 }
+
+#[test]
+fn leading_zeros_are_not_octal() {
+    let subs: String = (0..10)
+        .map(|sub| {
+            let access = if sub == 0 { "const" } else { "rw" };
+            let default = if sub == 0 { "9" } else { "1" };
+            format!(
+                "<CANopenSubObject subIndex=\"{sub:02X}\" name=\"s{sub}\" objectType=\"7\" dataType=\"0005\" accessType=\"{access}\" \
+                 defaultValue=\"{default}\"/>"
+            )
+        })
+        .collect();
+    let object =
+        format!("<CANopenObject index=\"2000\" name=\"o\" objectType=\"9\" subNumber=\"010\">{subs}</CANopenObject>");
+    let device = clean(&objects("", &object));
+    assert_eq!(device.object(0x2000).expect("an object").items.len(), 10);
+}

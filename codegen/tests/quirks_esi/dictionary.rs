@@ -182,6 +182,9 @@ fn x15_the_default_of_a_whole_array() {
     assert_eq!((defaults, whole.found()), ((1..=4).map(int).collect(), vec!["ESI030 7:1".to_owned()]));
     let third = whole.item(0x2000, 3);
     assert_eq!((third.name.as_str(), whole.0.sources[0].slice(third.at.default)), ("Elements 3", "0300"));
+    let wrapped = with("01000200\n 03000400");
+    let defaults: Vec<_> = (1..=4).map(|sub| wrapped.item(0x2000, sub).default.clone()).collect();
+    assert_eq!((defaults, wrapped.found().len()), ((1..=4).map(int).collect(), 1), "as data may be, over lines");
     // Nothing else can be taken apart.
     let short = with("010002000300");
     assert_eq!((short.item(0x2000, 2).default.clone(), short.found().len()), (None, 2));

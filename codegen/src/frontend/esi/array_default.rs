@@ -26,8 +26,22 @@ pub(super) fn take_apart<'a>(
         let Some(whole) = sub.and_then(|sub| sub.info.default.as_mut()) else { continue };
         let digits = types.bits(entry.ty).filter(|bits| bits % 8 == 0).map_or(0, |bits| bits as usize / 4);
         let text = whole.given.text.as_ref();
+        // What is wrapped over lines has no place of its own for each part.
+        let without_blanks = text
+            .contains(|letter: char| letter.is_ascii_whitespace())
+            .then(|| text.chars().filter(|letter| !letter.is_ascii_whitespace()).collect::<String>());
+        let text = without_blanks.as_deref().unwrap_or(text);
         let is_whole = text.len() == digits * (others + 1) && text.bytes().all(|digit| digit.is_ascii_hexdigit());
         if whole.form != Form::Data || others == 0 || !is_whole {
+            continue;
+        }
+        if let Some(text) = without_blanks {
+            for number in 1..=others {
+                let given =
+                    Given { text: Cow::Owned(text[number * digits..][..digits].to_owned()), span: whole.given.span };
+                parts.insert(first + number, RawValue { form: Form::Data, given });
+            }
+            whole.given.text = Cow::Owned(text[..digits].to_owned());
             continue;
         }
         for number in 1..=others {

@@ -348,9 +348,13 @@ impl<'a> Reader<'a, '_> {
         let number = number::parse(&given.text)?;
         if number.bare {
             self.diagnostics.push(
-                Diagnostic::new(&codes::BARE_HEX, given.span, format!("`{}` has hexadecimal digits", given.text))
-                    .label(format!("read as {:#x}", number.value))
-                    .fix(format!("#x{}", given.text)),
+                Diagnostic::new(
+                    &codes::BARE_HEX,
+                    given.span,
+                    format!("`{}` has hexadecimal digits", shortened(&given.text)),
+                )
+                .label(format!("read as {:#x}", number.value))
+                .fix(format!("#x{}", given.text)),
             );
         }
         Some(number)

@@ -125,7 +125,8 @@ fn integer(reader: &mut Reader<'_, '_>, raw: &RawValue<'_>, ty: Type, role: Role
     }
     if reader.diagnostics.wants(&codes::ESI_OUT_OF_TYPE) {
         let what = if role == Role::Limit { "limit" } else { "default" };
-        let message = format!("the {what} {} doesn't fit {ty}, which goes from {low} to {high}", given.text);
+        let message =
+            format!("the {what} {} doesn't fit {ty}, which goes from {low} to {high}", shortened(&given.text));
         reader.report(&codes::ESI_OUT_OF_TYPE, given.span, message, "kept as it is");
     }
     Value::Int(value)
@@ -170,7 +171,7 @@ fn real(reader: &mut Reader<'_, '_>, raw: &RawValue<'_>, ty: Type) -> Value {
         return Value::Real(value);
     }
     let value = number.value as f64;
-    let message = format!("{} doesn't have the {} digits of a {ty}'s bits", given.text, bits / 4);
+    let message = format!("{} doesn't have the {} digits of a {ty}'s bits", shortened(&given.text), bits / 4);
     reader.report(&codes::VALUE_FORM, given.span, message, format!("read as the number {value}"));
     Value::Real(value)
 }

@@ -1,7 +1,6 @@
 //! What the file says about itself, and which device it describes.
 
-use super::reader::{note, Given, Read, Reader, Texts};
-use crate::frontend::canopen::number;
+use super::reader::{integer, note, Given, Read, Reader, Texts};
 use crate::ir::{CompactString, Device, Extension, Extensions};
 use crate::syntax::xml::Tag;
 
@@ -118,7 +117,7 @@ fn parse(given: &Given<'_>) -> Option<i128> {
     if text.len() == 8 && text.bytes().all(|byte| byte.is_ascii_hexdigit()) {
         return i128::from_str_radix(text, 16).ok();
     }
-    number::parse(text, &[]).int()
+    integer(text)
 }
 
 /// The first description of the product, preferably in English, is what an EDS calls the description.

@@ -2,10 +2,9 @@
 
 use super::application::{span_of, Allowed, AllowedRange, View};
 use super::objects::{Builder, Key, Raw};
-use super::reader::{Given, Texts};
+use super::reader::{integer, Given, Texts};
 use super::types::{enum_value, underlying};
 use crate::diagnostics::{codes, Diagnostic};
-use crate::frontend::canopen::number;
 use crate::frontend::canopen::value::Role;
 use crate::ir::{
     Access, Behaviour, Binding, CompactString, Configured, Extension, Extensions, Item, Limits, Mappable, ObjectCode,
@@ -219,8 +218,7 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
             let is_same = matches!(&self.types[known.0 as usize].shape, Shape::Enumeration { base, .. } if *base == ty);
             return if is_same { Type::Named(known) } else { ty };
         }
-        let value =
-            |(given, texts): &(Given<'a>, Texts)| Some(enum_value(number::parse(&given.text, &[]).int()?, texts));
+        let value = |(given, texts): &(Given<'a>, Texts)| Some(enum_value(integer(&given.text)?, texts));
         let Some(values) = allowed.values.iter().map(value).collect::<Option<Vec<_>>>() else { return ty };
         let id = TypeId(self.types.len() as u32);
         self.enumerations.insert(position, id);

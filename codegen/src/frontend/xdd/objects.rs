@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::application::{Application, View};
-use super::reader::{note, Given, Read, Reader};
+use super::reader::{integer, note, Given, Read, Reader};
 use super::types::underlying;
 use crate::diagnostics::{codes, Diagnostic};
 use crate::frontend::canopen::deftype::defined_type;
@@ -422,7 +422,7 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
         let Some(given) = raw.get(Key::SubNumber) else { return };
         let structure = group.items.iter().filter(|item| item.object().is_some_and(|(_, sub)| sub == 0xFF)).count();
         let described = group.items.len() - structure;
-        let announced = number::parse(&given.text, &[]).int();
+        let announced = integer(&given.text);
         if structure > 0 && announced == Some(group.items.len() as i128) {
             self.reader.diagnostics.push(
                 Diagnostic::new(&codes::STRUCTURE_ENTRY, given.span, "subNumber counts sub-index 0xFF")

@@ -194,18 +194,14 @@ impl<'a, 'd> Reader<'a, 'd> {
 
     /// Reports an attribute or text whose form CiA 311 doesn't allow.
     pub(super) fn bad(&mut self, given: &Given<'_>, what: &str, label: impl Into<String>) {
-        let message = format!("`{}` is no {what}", given.text);
+        let message = format!("`{}` is no {what}", shortened(&given.text));
         self.diagnostics.push(Diagnostic::new(&codes::XDD_VALUE, given.span, message).label(label));
     }
 
     /// A number up to `max`; anything else is reported.
     pub(super) fn unsigned(&mut self, given: Option<&Given<'_>>, max: u32, what: &str) -> Option<u32> {
         let given = given?;
-        let number = number::parse(&given.text, &[]);
-        // XML Schema has no octal numbers: a leading zero says nothing.
-        let decimal = given.text.bytes().all(|byte| byte.is_ascii_digit()).then(|| given.text.parse::<i128>().ok());
-        let value = decimal.flatten().or(number.int());
-        let value = value.and_then(|value| u32::try_from(value).ok()).filter(|&value| value <= max);
+        let value = integer(&given.text).and_then(|value| u32::try_from(value).ok()).filter(|&value| value <= max);
         if value.is_none() {
             self.bad(given, what, format!("left out; expected a number from 0 to {max}"));
         }
@@ -262,5 +258,13 @@ impl<'a, 'd> Reader<'a, 'd> {
 pub(super) fn note(key: &str, given: Option<&Given<'_>>, extensions: &mut Extensions) {
     if let Some(given) = given {
         extensions.push(Extension { key: key.into(), value: given.text.as_ref().into(), span: given.span });
+    }
+}
+/// An integer as XML Schema writes it: it has no octal numbers, so that a leading zero says nothing. Prefixes are taken as well.
+pub(super) fn integer(text: &str) -> Option<i128> {
+    let digits = text.strip_prefix(['-', '+']).unwrap_or(text);
+    match !digits.is_empty() && digits.bytes().all(|byte| byte.is_ascii_digit()) {
+        true => text.parse().ok(),
+        false => number::parse(text, &[]).int(),
     }
 }

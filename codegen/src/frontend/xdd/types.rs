@@ -1,9 +1,8 @@
 //! The data types of the application process (CiA 311, dataTypeList).
 
 use super::application::{dangling, insert, Application};
-use super::reader::{note, Given, Read, Reader, Texts};
+use super::reader::{integer, note, Given, Read, Reader, Texts};
 use crate::diagnostics::{codes, Diagnostic};
-use crate::frontend::canopen::number;
 use crate::ir::{CompactString, Device, EnumValue, Field, Shape, Type, TypeDef, TypeId};
 use crate::limits;
 use crate::source::{Origin, Span};
@@ -177,7 +176,7 @@ fn enumeration<'a>(
             }
             // Without a number, the values count up as in C.
             let value = match &given {
-                Some(given) => number::parse(&given.text, &[]).int(),
+                Some(given) => integer(&given.text),
                 None => Some(next),
             };
             match (value, given) {
