@@ -110,12 +110,15 @@ pub fn read(source: Source, options: &Options) -> Compilation {
     Compilation { sources, catalog, diagnostics, format, missing }
 }
 
+/// Files that a description refers to, and where files were looked for that aren't there.
+type Referred = (Vec<Source>, Vec<PathBuf>);
+
 /// The format of `source`, what it describes, and the files that it refers to.
 fn front_end(
     source: &Source,
     options: &Options,
     diagnostics: &mut Diagnostics,
-) -> (Option<Format>, Option<Catalog>, (Vec<Source>, Vec<PathBuf>)) {
+) -> (Option<Format>, Option<Catalog>, Referred) {
     let file = FileId(0);
     let format = match detect::format(source, file) {
         Ok(format) => format,
