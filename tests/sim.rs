@@ -367,20 +367,22 @@ fn parameters_are_stored() {
     assert_eq!(drive.client().device().bytes(Object::new(0x1010, 1)), Ok([1, 0, 0, 0].as_slice()));
 }
 
-/// An object of a device that no description has.
+/// What an entry of a device that no description has doesn't say.
+const BLANK: Entry = Entry {
+    object: None,
+    register: None,
+    name: "",
+    data_type: DataType::Unsigned8,
+    access: AccessRights::ReadWrite,
+    flags: Flags::NONE,
+    initial: lexibus::RawInitial::Unknown,
+    low: Bound::Unlimited,
+    high: Bound::Unlimited,
+    unit: "",
+};
+
 fn object(index: u16, sub_index: u8, data_type: DataType) -> Entry {
-    Entry {
-        object: Some(Object::new(index, sub_index)),
-        register: None,
-        name: "",
-        data_type,
-        access: AccessRights::ReadWrite,
-        flags: Flags::NONE,
-        initial: lexibus::RawInitial::Unknown,
-        low: Bound::Unlimited,
-        high: Bound::Unlimited,
-        unit: "",
-    }
+    Entry { object: Some(Object::new(index, sub_index)), data_type, ..BLANK }
 }
 
 #[test]
@@ -591,20 +593,7 @@ fn errors_are_listed() {
 #[test]
 fn a_device_that_is_only_on_modbus() {
     const fn entry(register: Register, data_type: DataType, access: AccessRights) -> Entry {
-        let initial = lexibus::RawInitial::Unknown;
-        let (low, high) = (Bound::Unlimited, Bound::Unlimited);
-        Entry {
-            object: None,
-            register: Some(register),
-            name: "",
-            data_type,
-            access,
-            flags: Flags::NONE,
-            initial,
-            low,
-            high,
-            unit: "",
-        }
+        Entry { register: Some(register), data_type, access, ..BLANK }
     }
     const STATUS: Register = Register::holding(5);
     const FAULT: Register = Register::holding(5).part(3, 1);

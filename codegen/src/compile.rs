@@ -46,6 +46,11 @@ pub struct Compilation {
 }
 
 impl Compilation {
+    /// Of `source`, which is no description, or wasn't read: what there is to say about it.
+    pub(crate) fn of_findings(source: Source, diagnostics: Diagnostics) -> Self {
+        Compilation { sources: vec![source], catalog: None, diagnostics, format: None, missing: Vec::new() }
+    }
+
     /// Whether output may be produced.
     pub fn is_usable(&self) -> bool {
         self.catalog.is_some() && !self.diagnostics.has_errors()

@@ -65,6 +65,7 @@ pub mod selection;
 pub mod source;
 pub mod syntax;
 mod text;
+mod unique;
 
 pub use backend::rust::{Presence, RustOptions};
 pub use builder::{BuildError, Builder};

@@ -91,16 +91,12 @@ impl<S, F: Framing, const N: usize> SerialLine<S, F, N> {
         self.within.take().unwrap_or_else(|| self.framing.decoder())
     }
 
-    /// The end of an exchange. Where a reply was given up before its end, the rest of it is still to come.
-    fn ended<T, E>(
-        &mut self,
-        decoder: F::Decoder,
-        end: Result<T, Error<SerialError<E>>>,
-    ) -> Result<T, Error<SerialError<E>>> {
-        if let Err(Error::Client(SerialError::Frame(FrameError::TooLong | FrameError::Escape))) = end {
+    /// Ends an exchange by `error`. Where a reply was given up before its end, the rest of it is still to come.
+    fn failed<E>(&mut self, decoder: F::Decoder, error: Error<SerialError<E>>) -> Error<SerialError<E>> {
+        if matches!(error, Error::Client(SerialError::Frame(FrameError::TooLong | FrameError::Escape))) {
             self.within = Some(decoder);
         }
-        end
+        error
     }
 
     /// Takes a byte of the reply.
@@ -179,7 +175,7 @@ where
             match self.take(&mut decoder, one(byte, count)?, reply) {
                 Ok(None) => {}
                 Ok(Some(length)) => return Ok(length),
-                Err(error) => return self.ended(decoder, Err(error)),
+                Err(error) => return Err(self.failed(decoder, error)),
             }
         }
     }
@@ -204,7 +200,7 @@ where
             match self.take(&mut decoder, one(byte, count)?, reply) {
                 Ok(None) => {}
                 Ok(Some(length)) => return Ok(length),
-                Err(error) => return self.ended(decoder, Err(error)),
+                Err(error) => return Err(self.failed(decoder, error)),
             }
         }
     }

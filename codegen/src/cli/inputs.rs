@@ -105,7 +105,7 @@ fn compile_file(path: &Path, options: &Options) -> Compilation {
             let message = format!("can't read the file: {error}");
             diagnostics.push(Diagnostic::new(&codes::UNREADABLE_FILE, Span::new(FileId(0), 0, 0), message));
             let source = Source::new(path.to_string_lossy(), Vec::new());
-            Compilation { sources: vec![source], catalog: None, diagnostics, format: None, missing: Vec::new() }
+            Compilation::of_findings(source, diagnostics)
         }
     }
 }

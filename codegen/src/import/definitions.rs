@@ -1,6 +1,10 @@
 //! Named values and bits of a list, each once.
 
-use std::collections::{HashMap, HashSet};
+use std::collections::HashMap;
+
+use compact_str::format_compact;
+
+use crate::unique::Unique;
 
 /// Named values or bits, as keys and values of TOML.
 #[derive(Clone, Debug, PartialEq)]
@@ -15,9 +19,7 @@ pub(super) struct Definition {
 pub(super) struct Definitions {
     list: Vec<Definition>,
     places: HashMap<(bool, Vec<(String, String)>), usize>,
-    names: HashSet<String>,
-    /// The last number behind a name.
-    numbers: HashMap<String, u32>,
+    names: Unique,
 }
 
 impl Definitions {
@@ -43,17 +45,7 @@ impl Definitions {
         let camel: String =
             words.map(|word| word[..1].to_ascii_uppercase() + &word[1..].to_ascii_lowercase()).collect();
         let camel = if camel.is_empty() { "Values".to_owned() } else { camel };
-        if self.names.insert(camel.clone()) {
-            return camel;
-        }
-        let number = self.numbers.entry(camel.clone()).or_insert(1);
-        loop {
-            *number += 1;
-            let name = format!("{camel}{number}");
-            if self.names.insert(name.clone()) {
-                return name;
-            }
-        }
+        self.names.unique(&camel, |number| format_compact!("{camel}{number}")).into_string()
     }
 }
 

@@ -67,16 +67,7 @@ pub fn import(source: Source, options: &Options) -> Import {
     let mut diagnostics = Diagnostics::new(options.levels.clone());
     let table = convert(&source, options, &mut diagnostics).filter(|_| !diagnostics.has_errors());
     diagnostics.sort();
-    Import {
-        compilation: Compilation {
-            sources: vec![source],
-            catalog: None,
-            diagnostics,
-            format: None,
-            missing: Vec::new(),
-        },
-        table,
-    }
+    Import { compilation: Compilation::of_findings(source, diagnostics), table }
 }
 
 fn convert(source: &Source, options: &Options, diagnostics: &mut Diagnostics) -> Option<String> {

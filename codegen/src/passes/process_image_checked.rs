@@ -4,7 +4,7 @@
 use std::collections::HashSet;
 
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
-use crate::ir::{Device, Module, Pdo, ProcessData};
+use crate::ir::{Device, Module, Pdo, ProcessData, MAX_PDO_SUBS};
 
 pub(super) fn run(device: &Device, diagnostics: &mut Diagnostics) {
     if device.ethercat.is_none() {
@@ -64,22 +64,19 @@ fn conflicts(data: &ProcessData, diagnostics: &mut Diagnostics) {
     }
 }
 
-/// Sub-indices of an assignment object (ETG.1000.6 5.6.7.4).
-const MAX_ASSIGNED: usize = 254;
-
 fn lengths(data: &ProcessData, diagnostics: &mut Diagnostics) {
     let assigned = data.assigned_by_default();
     for own in &data.sync_managers {
-        let count = assigned.iter().filter(|(_, number)| *number == own.number).count();
-        if count > MAX_ASSIGNED {
+        let inside = assigned.iter().filter(|(_, number)| *number == own.number);
+        let count = inside.clone().count();
+        if count > MAX_PDO_SUBS {
             let message = format!(
-                "sync manager {} has {count} PDOs by default, and a list of them at most {MAX_ASSIGNED}",
+                "sync manager {} has {count} PDOs by default, and a list of them at most {MAX_PDO_SUBS}",
                 own.number
             );
             diagnostics.push(Diagnostic::new(&codes::TOO_MANY_PDOS, own.origin.span, message));
         }
         let Some(max) = own.size_range.1.filter(|&max| max > 0) else { continue };
-        let inside = assigned.iter().filter(|(_, number)| *number == own.number);
         let bits = inside.map(|(pdo, _)| u64::from(pdo.bits())).sum::<u64>();
         if bits.div_ceil(8) > u64::from(max) {
             let message = format!(

@@ -1,6 +1,8 @@
 //! Names of files and addresses within pages, made of texts of the source.
 
-use std::collections::{HashMap, HashSet};
+use compact_str::format_compact;
+
+use crate::unique::Unique;
 
 /// The longest name that a text gives.
 const LONGEST: usize = 40;
@@ -8,9 +10,7 @@ const LONGEST: usize = 40;
 /// Names of files, or addresses within a page, each given once.
 #[derive(Debug, Default)]
 pub(super) struct Names {
-    given: HashSet<String>,
-    /// The last number behind a name that was given several times.
-    numbers: HashMap<String, u32>,
+    given: Unique,
     /// What addresses begin with.
     prefix: String,
 }
@@ -45,17 +45,7 @@ impl Names {
 
     /// `name`, with a number behind it where it was given before.
     fn once(&mut self, name: &str, separator: char) -> String {
-        if self.given.insert(name.to_owned()) {
-            return name.to_owned();
-        }
-        let number = self.numbers.entry(name.to_owned()).or_insert(1);
-        loop {
-            *number += 1;
-            let own = format!("{name}{separator}{number}");
-            if self.given.insert(own.clone()) {
-                return own;
-            }
-        }
+        self.given.unique(name, |number| format_compact!("{name}{separator}{number}")).into_string()
     }
 }
 

@@ -4,7 +4,7 @@ use std::collections::HashSet;
 
 use crate::ir::{
     Access, Binding, CompactString, Device, Direction, Group, Item, ObjectCode, Pdo, PdoEntry, PdoEntryKind, Type,
-    Value,
+    Value, MAX_PDO_SUBS,
 };
 
 /// A mapping object for every PDO of `device` that has none.
@@ -24,7 +24,7 @@ pub(super) fn can_be_told(pdo: &Pdo) -> bool {
     in_range
         && !pdo.implicit
         && !pdo.entries.is_empty()
-        && pdo.entries.len() <= 254
+        && pdo.entries.len() <= MAX_PDO_SUBS
         && pdo.entries.iter().all(|entry| entry.bits <= 0xFF && entry.kind != PdoEntryKind::Unnumbered)
 }
 

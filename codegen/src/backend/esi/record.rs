@@ -2,9 +2,10 @@
 
 use compact_str::{format_compact, CompactString};
 
-use super::types::{Made, MadeField, Types, Unique};
+use super::types::{unique, Made, MadeField, Types};
 use crate::backend::note::{NoteKind, Notes, Place};
 use crate::ir::{Access, Documentation, Field, Group, Item, Mappable, ObjectCode, Texts, Type};
+use crate::unique::Unique;
 
 /// The bus by its name in register tables.
 pub(super) const BUS: &str = "ethercat";
@@ -167,7 +168,7 @@ pub(super) fn field_names(types: &Types<'_>, at: u32) -> Vec<CompactString> {
 
 fn unique_names<'n>(names: impl Iterator<Item = &'n str>) -> Vec<CompactString> {
     let mut seen = Unique::default();
-    names.map(|wanted| seen.unique(wanted)).collect()
+    names.map(|wanted| unique(&mut seen, wanted)).collect()
 }
 
 /// The name of an entry that the object gives none.

@@ -3,7 +3,7 @@
 //! Every type that is named has to be defined in the file (the keys of ETG.2000's schema), basic ones too. An object with
 //! sub-indices needs a data type with as many sub-items, which also tells what may be done with each.
 
-use std::collections::{HashMap, HashSet};
+use std::collections::HashMap;
 
 use compact_str::{format_compact, CompactString};
 
@@ -11,6 +11,7 @@ use super::record::{self, Entry, FieldFacts};
 use crate::backend::note::{NoteKind, Notes, Place};
 use crate::etg::type_name::{self, Basic, Spelling};
 use crate::ir::{Shape, Type, TypeDef, TypeId};
+use crate::unique::Unique;
 
 /// The data types of a dictionary in the making.
 pub(super) struct Types<'a> {
@@ -30,25 +31,9 @@ pub(super) struct Types<'a> {
     pub(super) is_esi: bool,
 }
 
-/// Names of which no two are the same.
-#[derive(Default)]
-pub(super) struct Unique {
-    taken: HashSet<CompactString>,
-    /// The number that the next one with a name gets.
-    next: HashMap<CompactString, u32>,
-}
-
-impl Unique {
-    /// The name that is wanted, or that with a number behind it.
-    pub(super) fn unique(&mut self, wanted: &str) -> CompactString {
-        let mut name = CompactString::from(wanted);
-        while !self.taken.insert(name.clone()) {
-            let number = self.next.entry(wanted.into()).or_insert(2);
-            name = format_compact!("{wanted} ({number})");
-            *number += 1;
-        }
-        name
-    }
+/// The name that is wanted, or that with a number behind it.
+pub(super) fn unique(names: &mut Unique, wanted: &str) -> CompactString {
+    names.unique(wanted, |number| format_compact!("{wanted} ({number})"))
 }
 
 /// A data type that the device doesn't define.
@@ -104,7 +89,7 @@ impl<'a> Types<'a> {
 
     /// A name that no other type has: the one that is wanted, or that with a number behind it.
     pub(super) fn unique(&mut self, wanted: &str) -> CompactString {
-        self.taken.unique(if wanted.is_empty() { "Type" } else { wanted })
+        unique(&mut self.taken, if wanted.is_empty() { "Type" } else { wanted })
     }
 
     /// The name of a type of the device.

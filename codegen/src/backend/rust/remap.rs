@@ -8,10 +8,7 @@ use super::objects::ObjectModel;
 use super::pdo;
 use super::reachable::addressable;
 use super::scope::{ObjectBus, Scope};
-use crate::ir::{Device, Direction, Item, Mappable, Pdo, PdoEntryKind, Type};
-
-/// The most entries that a mapping object has.
-const MAX_ENTRIES: usize = 254;
+use crate::ir::{Device, Direction, Item, Mappable, Pdo, PdoEntryKind, Type, MAX_PDO_SUBS};
 
 /// The most bits that the length of an entry can say.
 const MAX_ENTRY: u32 = 0xFF;
@@ -55,7 +52,7 @@ fn model(scope: &Scope<'_>, device: &Device, pdo: &Pdo, name: String) -> Option<
             on_canopen(device, pdo, &mut constants)?
         }
         None => {
-            let entries = entries.or_else(|| configures(device).then_some(MAX_ENTRIES));
+            let entries = entries.or_else(|| configures(device).then_some(MAX_PDO_SUBS));
             constants.push(format!("ENTRIES: usize = {}", entries?));
             on_ethercat(scope, device, pdo, &mut constants)?
         }
@@ -83,7 +80,7 @@ fn model(scope: &Scope<'_>, device: &Device, pdo: &Pdo, name: String) -> Option<
 fn writable_entries(scope: &Scope<'_>, pdo: &Pdo) -> Option<usize> {
     let mapping = addressable(scope).find(|group| group.index() == Some(pdo.mapping_index))?;
     let writable = |sub: &u8| mapping.sub(*sub).is_some_and(|item| item.access.writable());
-    let entries = (1..=u8::MAX).take_while(writable).count().min(MAX_ENTRIES);
+    let entries = (1..=u8::MAX).take_while(writable).count().min(MAX_PDO_SUBS);
     (writable(&0) && entries > 0).then_some(entries)
 }
 

@@ -25,40 +25,39 @@ pub(super) fn take_apart<'a>(
         let sub = of_entry.get(first).copied().flatten().and_then(|at| subs.get_mut(at));
         let Some(whole) = sub.and_then(|sub| sub.info.default.as_mut()) else { continue };
         let digits = types.bits(entry.ty).filter(|bits| bits % 8 == 0).map_or(0, |bits| bits as usize / 4);
-        let text = whole.given.text.as_ref();
-        // What is wrapped over lines has no place of its own for each part.
-        let without_blanks = text
-            .contains(|letter: char| letter.is_ascii_whitespace())
-            .then(|| text.chars().filter(|letter| !letter.is_ascii_whitespace()).collect::<String>());
-        let text = without_blanks.as_deref().unwrap_or(text);
+        let data = without_blanks(&whole.given);
+        let text = data.text.as_ref();
         let is_whole = text.len() == digits * (others + 1) && text.bytes().all(|digit| digit.is_ascii_hexdigit());
         if whole.form != Form::Data || others == 0 || !is_whole {
             continue;
         }
-        if let Some(text) = without_blanks {
-            for number in 1..=others {
-                let given =
-                    Given { text: Cow::Owned(text[number * digits..][..digits].to_owned()), span: whole.given.span };
-                parts.insert(first + number, RawValue { form: Form::Data, given });
-            }
-            whole.given.text = Cow::Owned(text[..digits].to_owned());
-            continue;
-        }
         for number in 1..=others {
-            parts.insert(first + number, RawValue { form: Form::Data, given: part(&whole.given, number, digits) });
+            parts.insert(first + number, RawValue { form: Form::Data, given: part(&data, number, digits) });
         }
-        whole.given = part(&whole.given, 0, digits);
+        whole.given = part(&data, 0, digits);
     }
     parts
 }
 
+/// Data may be wrapped over lines.
+fn without_blanks<'a>(given: &Given<'a>) -> Given<'a> {
+    let is_blank = |letter: char| letter.is_ascii_whitespace();
+    let text = match given.text.contains(is_blank) {
+        true => Cow::Owned(given.text.replace(is_blank, "")),
+        false => given.text.clone(),
+    };
+    Given { text, span: given.span }
+}
+
+/// A part, with a place of its own where the text is as long as its place.
 fn part<'a>(whole: &Given<'a>, number: usize, digits: usize) -> Given<'a> {
     let range = number * digits..(number + 1) * digits;
+    let is_verbatim = whole.text.len() == (whole.span.end - whole.span.start) as usize;
     let start = whole.span.start + range.start as u32;
     let text = match &whole.text {
         Cow::Borrowed(text) => Cow::Borrowed(&text[range]),
         Cow::Owned(text) => Cow::Owned(text[range].to_owned()),
     };
-    let span = crate::source::Span { start, end: (start + digits as u32).min(whole.span.end), ..whole.span };
-    Given { text, span }
+    let own = crate::source::Span { start, end: start + digits as u32, ..whole.span };
+    Given { text, span: if is_verbatim { own } else { whole.span } }
 }

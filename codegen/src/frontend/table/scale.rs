@@ -19,32 +19,39 @@ pub(super) fn read(
     references: &mut References,
 ) -> Option<Scale> {
     let Some(given) = given else { return linear(1.0, offset.unwrap_or(0.0)) };
+    said(reader, given, offset, references).flatten()
+}
+
+/// What is said of a variant: a scale of 1, too, as the row's is another one.
+pub(super) fn of_variant(
+    reader: &mut Reader<'_, '_>,
+    given: Option<&At<Scaling>>,
+    references: &mut References,
+) -> Option<Scale> {
+    let found = said(reader, given?, None, references)?;
+    Some(found.unwrap_or(Scale::Linear { factor: 1.0, offset: 0.0 }))
+}
+
+/// A scale that is given, which is none where it is 1; `None` where it makes no sense.
+fn said(
+    reader: &mut Reader<'_, '_>,
+    given: &At<Scaling>,
+    offset: Option<f64>,
+    references: &mut References,
+) -> Option<Option<Scale>> {
     let found = match &given.value {
         _ if offset.is_some_and(|offset| !offset.is_finite()) => Err("an offset is a finite number".to_owned()),
         Scaling::Factor(factor) => number("the scale", *factor).map(|factor| linear(factor, offset.unwrap_or(0.0))),
         Scaling::Rule(rule) => self::rule(rule, offset, references),
     };
     match found {
-        Ok(scale) => scale,
+        Ok(scale) => Some(scale),
         Err(message) => {
             let found = Diagnostic::new(&codes::TABLE_VALUE, reader.span(given), message);
             reader.diagnostics.push(found.help("dictionaries/README.md has all forms of a scale"));
             None
         }
     }
-}
-
-/// The scale of a variant: where it is 1, the row's isn't what counts.
-pub(super) fn of_variant(
-    reader: &mut Reader<'_, '_>,
-    given: Option<&At<Scaling>>,
-    references: &mut References,
-) -> Option<Scale> {
-    let is_one = given.is_some_and(|given| matches!(given.value, Scaling::Factor(factor) if factor == 1.0));
-    if is_one {
-        return Some(Scale::Linear { factor: 1.0, offset: 0.0 });
-    }
-    read(reader, given, None, references)
 }
 
 fn linear(factor: f64, offset: f64) -> Option<Scale> {

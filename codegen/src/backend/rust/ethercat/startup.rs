@@ -2,13 +2,10 @@
 
 use super::Assigned;
 use crate::backend::rust::data::Data;
-use crate::ir::{Device, EtherCatSettings, SyncManager, SyncManagerPurpose};
+use crate::ir::{Device, EtherCatSettings, SyncManager, SyncManagerPurpose, MAX_PDO_SUBS};
 
 /// Index of the assignment object of sync manager 0 (ETG.1000.6 5.6.7.4).
 const ASSIGN: u16 = 0x1C10;
-
-/// Sub-indices of a mapping or assignment object.
-const MAX_SUBS: usize = 254;
 
 pub(super) fn commands(device: &Device, settings: &EtherCatSettings, assigned: &[Assigned<'_>]) -> Vec<Data> {
     let Some(coe) = settings.mailbox.as_ref().and_then(|mailbox| mailbox.coe.as_ref()) else { return Vec::new() };
@@ -19,7 +16,7 @@ pub(super) fn commands(device: &Device, settings: &EtherCatSettings, assigned: &
     let of =
         |number: u8| assigned.iter().filter(move |own| own.sync_manager == number).map(|own| own.pdo.mapping_index);
     // More than the object has room for can't be written at all.
-    if assigned.iter().any(|own| of(own.sync_manager).count() > MAX_SUBS) {
+    if device.process_data.sync_managers.iter().any(|own| of(own.number).count() > MAX_PDO_SUBS) {
         return Vec::new();
     }
     let mut commands = Vec::new();
@@ -28,7 +25,7 @@ pub(super) fn commands(device: &Device, settings: &EtherCatSettings, assigned: &
         device.process_data.sync_managers.iter().filter(carries).filter(|_| coe.pdo_assign).collect();
     commands.extend(managers.iter().map(|own| write("u8", ASSIGN + u16::from(own.number), 0, "0")));
     for Assigned { pdo, .. } in assigned.iter().filter(|_| coe.pdo_config) {
-        let fits = pdo.entries.len() <= MAX_SUBS && pdo.entries.iter().all(|entry| entry.bits <= 255);
+        let fits = pdo.entries.len() <= MAX_PDO_SUBS && pdo.entries.iter().all(|entry| entry.bits <= 255);
         if pdo.fixed || !fits {
             continue;
         }
