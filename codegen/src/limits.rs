@@ -8,8 +8,8 @@ pub use crate::source::{MAX_INPUT_BYTES, MAX_REFERENCES};
 /// Items that one row of a register table may stand for.
 pub const MAX_REPEAT: u32 = 0x1_0000;
 
-/// Items that a file may declare without a line for each, in total: through CompactSubObj of an EDS, through arrays of an ESI,
-/// through `count` of a register table; and copies of named values that types of GSDML need.
+/// Items that a file may declare without a line for each, in total: through CompactSubObj of an EDS, through arrays and shared
+/// dictionaries of an ESI, through `count` of a register table; and copies of named values that types of GSDML need.
 pub const MAX_DERIVED_ITEMS: usize = 200_000;
 
 /// Implicit PDOs that a file may declare through CompactPDO, per direction (CiA 301 knows 512).
@@ -18,7 +18,13 @@ pub const MAX_IMPLICIT_PDOS: u16 = 512;
 /// How many unknown keys of a section a further one is compared with to find a repeated one.
 pub const MAX_COMPARED_EXTENSIONS: usize = 64;
 
-/// Bytes of data types (ESI), parameters (XDD), texts of CompactSubObj and names of sections (EDS) that may be copied, for each
+/// Bytes of a row of a register table, and of what it inherits, that may be copied at no cost.
+pub const MAX_FREE_ROW_BYTES: usize = 4096;
+
+/// Bytes beyond them that count as one of [`MAX_DERIVED_ITEMS`] for every copy.
+pub const ROW_BYTES_PER_ITEM: usize = 1024;
+
+/// Bytes of data types, flags, vendors and shared files (ESI), parameters (XDD), texts of CompactSubObj and names of sections (EDS) that may be copied, for each
 /// byte of the file. One object a type is the rule.
 pub const MAX_COPIES_PER_BYTE: usize = 64;
 

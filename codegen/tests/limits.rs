@@ -204,6 +204,8 @@ fn the_book_has_each_limit() {
         ("`CompactPDO`", limits::MAX_IMPLICIT_PDOS.into()),
         ("modules that all slots", limits::MAX_MODULE_USES),
         ("for each byte of the file |", limits::MAX_COPIES_PER_BYTE),
+        ("bytes that a row", limits::MAX_FREE_ROW_BYTES),
+        ("bytes that a row", limits::ROW_BYTES_PER_ITEM),
         ("bytes of text that a GSDML copies", limits::MAX_TEXT_COPIES_PER_BYTE),
         ("bytes of text that a GSDML copies", limits::MIN_TEXT_COPIES),
     ];

@@ -114,8 +114,7 @@ fn field<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, raw: &mut RawField<'
             }
         }
     }
-    let display = raw.info.more.as_ref().map_or(0, |more| more.display.length());
-    raw.weight = raw.name.text.len() + raw.comment.length() + display;
+    raw.weight = raw.name.text.len() + raw.comment.length() + raw.info.weight() + raw.flags.weight();
     Ok(())
 }
 

@@ -138,6 +138,13 @@ impl Flags {
         self.more.get_or_insert_default()
     }
 
+    /// Bytes of texts that a copy takes: of what any number of items may have.
+    pub fn weight(&self) -> usize {
+        let Some(more) = self.more.as_deref() else { return 0 };
+        let states = more.read_states.iter().chain(&more.write_states);
+        states.chain(&more.safety).map(|text| size_of::<CompactString>() + text.len()).sum()
+    }
+
     /// The flags of a sub-item, those of its object where it doesn't say.
     pub fn access_or<'f>(&'f self, object: &'f Flags) -> (Option<Access>, Span) {
         let flags = if self.access.is_some() { self } else { object };

@@ -134,13 +134,20 @@ fn identify(
         value: text.clone(),
         span: vendor.names.span(),
     }));
-    let of_devices = catalog.devices.iter_mut().skip(first_device);
-    for device in of_devices {
-        device.header = vendor.header.clone();
-        (device.identity.vendor_id, device.identity.vendor_name) = (id, name.clone());
+    let Header { file_version, format_version, comments, .. } = &vendor.header;
+    let of_comments = comments.iter().map(|text| size_of_val(text) + text.len()).sum::<usize>();
+    let of_header = file_version.len() + format_version.len() + of_comments;
+    for device in catalog.devices.iter_mut().skip(first_device) {
+        device.identity.vendor_id = id;
+        if reader.derive((0, name.len() + of_header), root) {
+            (device.header, device.identity.vendor_name) = (vendor.header.clone(), name.clone());
+        }
     }
     for module in catalog.modules.iter_mut().skip(first_module) {
-        (module.identity.vendor_id, module.identity.vendor_name) = (id, name.clone());
+        module.identity.vendor_id = id;
+        if reader.derive((0, name.len()), root) {
+            module.identity.vendor_name = name.clone();
+        }
     }
 }
 

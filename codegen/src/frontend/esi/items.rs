@@ -144,10 +144,11 @@ impl<'t, 'a> Builder<'_, 't, 'a> {
         let mut matched = match_up(reader, &entries, subs);
         let mut parts = array_default::take_apart(self.types, &entries, &matched.of_entry, subs);
         group.items.reserve_exact(entries.len() + matched.extra.len());
+        let of_object = raw.flags.weight();
         for (position, entry) in entries.iter().enumerate() {
             let sub = matched.of_entry.get(position).copied().flatten().and_then(|at| subs.get_mut(at));
             let described = sub.is_some() || parts.contains_key(&position);
-            let cost = (usize::from(!described), entry.field.weight);
+            let cost = (usize::from(!described), entry.field.weight + of_object);
             if !reader.derive(cost, raw.origin.span) {
                 break;
             }
@@ -312,6 +313,9 @@ impl<'t, 'a> Builder<'_, 't, 'a> {
             reader.report(&codes::SUB_ITEM_MISMATCH, sub.name.span.or(sub.origin.span), message, label);
             let ty = last.filter(|entry| entry.sub_index > 0).map_or(Type::Opaque(None), |entry| entry.ty);
             let flags = last.filter(|entry| entry.sub_index > 0).map_or(&raw.flags, |entry| &entry.field.flags);
+            if !reader.derive((0, flags.weight() + raw.flags.weight()), sub.origin.span) {
+                break;
+            }
             let item = self.plain(reader, (raw.index.unwrap_or(0), sub_index), ty, flags, &raw.flags, sub);
             group.items.push(item);
             next += 1;
@@ -335,6 +339,9 @@ impl<'t, 'a> Builder<'_, 't, 'a> {
                 reader.report(&codes::SUB_INDEX_RANGE, sub.origin.span, message, "those from here on are left out");
                 break;
             };
+            if !reader.derive((0, raw.flags.weight()), sub.origin.span) {
+                break;
+            }
             // Sub-index 0 is the number of the others wherever there are others.
             let ty = if sub_index == 0 { Type::Unsigned(8) } else { Type::Opaque(None) };
             let item = self.plain(reader, (raw.index.unwrap_or(0), sub_index), ty, &raw.flags, &raw.flags, sub);
@@ -412,7 +419,10 @@ impl<'t, 'a> Builder<'_, 't, 'a> {
     fn unit(&self, reader: &mut Reader<'_, '_>, given: &Given<'_>) -> CompactString {
         let number = number::parse(&given.text).and_then(|number| u32::try_from(number.value).ok());
         match number {
-            Some(number) => unit::text(number, self.units).unwrap_or_else(|| given.compact()),
+            // A unit of the file's own may have a long name.
+            Some(number) => unit::text(number, self.units)
+                .filter(|text| reader.derive((0, text.len()), given.span))
+                .unwrap_or_else(|| given.compact()),
             None => {
                 reader.bad(given, "number of a unit", "kept as it is");
                 given.compact()

@@ -74,6 +74,14 @@ pub(super) enum Form {
 }
 
 impl<'a> RawInfo<'a> {
+    /// Bytes of its texts.
+    pub fn weight(&self) -> usize {
+        let length = |raw: &Option<RawValue<'a>>| raw.as_ref().map_or(0, |raw| raw.given.text.len());
+        let of_more =
+            |more: &MoreInfo<'a>| length(&more.min) + length(&more.max) + more.unit.text.len() + more.display.length();
+        length(&self.default) + self.more.as_deref().map_or(0, of_more)
+    }
+
     /// Reads a child of Info, or of a SubItem of a data type; false for any other element.
     pub fn read(&mut self, reader: &mut Reader<'a, '_>, tag: &Tag<'a>, extensions: &mut Extensions) -> Read<bool> {
         let form = match tag.name {

@@ -23,7 +23,7 @@ pub(super) struct Reader<'a, 'd> {
     pub budget: &'d mut Budget,
 }
 
-/// What data types may still add to objects: short references can stand for much.
+/// What data types may still add to objects, and a vendor to devices: short references can stand for much.
 #[derive(Debug)]
 pub(super) struct Budget {
     /// Items that no element of their own describes.
@@ -41,6 +41,11 @@ impl Budget {
             bytes: length.saturating_mul(limits::MAX_COPIES_PER_BYTE),
             exceeded: false,
         }
+    }
+
+    /// Adds what a further file of so many bytes brings along.
+    pub fn extend(&mut self, length: usize) {
+        self.bytes = self.bytes.saturating_add(length.saturating_mul(limits::MAX_COPIES_PER_BYTE));
     }
 
     /// Whether the budget still has so many items and bytes.
@@ -321,14 +326,19 @@ impl<'a> Reader<'a, '_> {
         Ok(())
     }
 
-    /// Whether so many items and bytes may be added to objects. That they may not is told once.
+    /// Whether so many items and bytes of texts may be copied. That they may not is told once.
     pub fn derive(&mut self, cost: (usize, usize), span: Span) -> bool {
         if self.budget.take(cost) {
             return true;
         }
         if !std::mem::replace(&mut self.budget.exceeded, true) {
-            let message = "data types would make the description many times longer";
-            self.report(&codes::INPUT_TOO_LARGE, span, message, "entries of objects are left out from here on");
+            let message = "what is said once and counts for many would make the description many times longer";
+            self.report(
+                &codes::INPUT_TOO_LARGE,
+                span,
+                message,
+                "it is left out from here on, and entries of objects with it",
+            );
         }
         false
     }

@@ -52,8 +52,8 @@ pub(super) fn follow(
     budget: &mut Budget,
 ) {
     let own = Path::new(main.name()).file_name().map(|name| name.to_string_lossy().into_owned());
-    // The content of each file, as far as others need it; `None` for one that can't be used.
-    let mut files: HashMap<String, Option<Box<Catalog>>> = HashMap::new();
+    // The content of each file and its length, as far as others need it; `None` for one that can't be used.
+    let mut files: HashMap<String, Option<(Box<Catalog>, usize)>> = HashMap::new();
     // Who refers to a file from a device wants the modules there; a mere list of files stands for the devices in them.
     let only_modules = !description.catalog.devices.is_empty();
     let mut queue: VecDeque<(Owner, Reference)> = std::mem::take(&mut description.references).into();
@@ -64,12 +64,12 @@ pub(super) fn follow(
             continue;
         }
         if let Some(content) = files.get(&name) {
-            if let (Some(content), true) = (content, reference.target != Target::Info) {
-                attach(description, owner, &reference, content, diagnostics, budget);
+            if let (Some((content, length)), true) = (content, reference.target != Target::Info) {
+                attach(description, owner, &reference, (content, *length), diagnostics, budget);
             }
             continue;
         }
-        let Some(mut read) = open(&reference, references, diagnostics, budget) else {
+        let Some((mut read, length)) = open(&reference, references, diagnostics, budget) else {
             files.insert(name, None);
             continue;
         };
@@ -84,8 +84,8 @@ pub(super) fn follow(
             }
             _ => {
                 queue.extend(read.references.drain(..).filter(|(owner, _)| *owner == Owner::Catalog));
-                attach(description, owner, &reference, &read.catalog, diagnostics, budget);
-                files.insert(name, Some(Box::new(read.catalog)));
+                attach(description, owner, &reference, (&read.catalog, length), diagnostics, budget);
+                files.insert(name, Some((Box::new(read.catalog), length)));
             }
         }
     }
@@ -97,12 +97,13 @@ fn normal(name: &str) -> String {
     name.trim_start_matches("./").to_owned()
 }
 
+/// Reads a file; its content, and its length in bytes.
 fn open(
     reference: &Reference,
     references: &mut References<'_>,
     diagnostics: &mut Diagnostics,
     budget: &mut Budget,
-) -> Option<Description> {
+) -> Option<(Description, usize)> {
     let source = match references.open(&reference.name) {
         Ok(source) => source,
         Err(refusal) => {
@@ -116,6 +117,8 @@ fn open(
         }
     };
     let mut read = Description::default();
+    let length = source.text().len();
+    budget.extend(length);
     let outcome = document(&source, references.next_file(), &mut read, diagnostics, budget);
     references.add(source);
     if let Err(stop) = outcome {
@@ -127,7 +130,7 @@ fn open(
         );
         return None;
     }
-    Some(read)
+    Some((read, length))
 }
 
 /// Adds a further description; what it refers to itself.
@@ -153,7 +156,7 @@ fn attach(
     description: &mut Description,
     owner: Owner,
     reference: &Reference,
-    content: &Catalog,
+    (content, length): (&Catalog, usize),
     diagnostics: &mut Diagnostics,
     budget: &mut Budget,
 ) {
@@ -175,7 +178,7 @@ fn attach(
             _ => Some(&mut catalog.code_tables),
         };
         let rows = content.code_tables.iter().map(|table| table.rows.len()).sum();
-        if let (Some(tables), true) = (tables, affordable(budget, rows, reference, diagnostics)) {
+        if let (Some(tables), true) = (tables, affordable(budget, (rows, length), reference, diagnostics)) {
             tables.extend(content.code_tables.iter().cloned());
         }
         return;
@@ -186,15 +189,26 @@ fn attach(
         Owner::Catalog => None,
     };
     let (Some((types, groups)), Some(dictionary)) = (target, dictionary) else { return };
-    let items = dictionary.groups.iter().map(|group| group.items.len()).sum();
-    if affordable(budget, items, reference, diagnostics) {
+    if affordable(budget, (items_of(dictionary), length), reference, diagnostics) {
         merge(types, groups, dictionary, diagnostics);
     }
 }
 
+/// What a copy of a dictionary adds: items, and what types are made of.
+fn items_of(dictionary: &Device) -> usize {
+    let parts = |shape: &Shape| match shape {
+        Shape::Record(fields) => fields.len(),
+        Shape::Enumeration { values, .. } => values.len(),
+        Shape::BitField { fields, .. } => fields.len(),
+        Shape::Alias(_) | Shape::Array { .. } | Shape::Scaled { .. } => 0,
+    };
+    let of_groups = dictionary.groups.iter().map(|group| group.items.len() + 1);
+    of_groups.chain(dictionary.types.iter().map(|def| parts(&def.shape) + 1)).sum()
+}
+
 /// Whether so much may be copied: many devices may refer to one large file.
-fn affordable(budget: &mut Budget, items: usize, reference: &Reference, diagnostics: &mut Diagnostics) -> bool {
-    let affordable = budget.take((items, 0));
+fn affordable(budget: &mut Budget, cost: (usize, usize), reference: &Reference, diagnostics: &mut Diagnostics) -> bool {
+    let affordable = budget.take(cost);
     if !affordable {
         let message = "files that are referred to would make the description many times longer";
         diagnostics.push(

@@ -14,7 +14,6 @@ use super::{lints, place, types};
 use crate::diagnostics::{codes, Diagnostic};
 use crate::ir::{Binding, Item, ObjectBuses, RegisterSpace, Type};
 use crate::limits;
-use crate::source::Span;
 use crate::text::brief;
 
 /// How many items a row stands for, and how many numbers lie between two.
@@ -52,7 +51,7 @@ impl Rows {
             return Repeat::ONCE;
         };
         let span = reader.span(given);
-        if !self.may_repeat(reader, count, span) {
+        if !self.repeats.repeat(reader, row, count, span) {
             return Repeat::ONCE;
         }
         let unit = self.unit(space);
@@ -73,19 +72,6 @@ impl Rows {
         let bits = bits.or(base.and_then(Type::bits));
         let of_type = || if row.reg.is_some() { bits.unwrap_or(unit).div_ceil(unit) } else { 1 };
         Repeat { count, step: row.stride.unwrap_or_else(of_type) }
-    }
-
-    /// Whether a row may stand for `count` items. The first that may not is reported.
-    pub(super) fn may_repeat(&mut self, reader: &mut Reader<'_, '_>, count: u32, span: Span) -> bool {
-        let left = self.repeats_left.and_then(|left| left.checked_sub(count as usize - 1));
-        if left.is_none() && self.repeats_left.is_some() && count > 1 {
-            let message =
-                format!("more than {} items follow from `count` and from ranges of objects", limits::MAX_DERIVED_ITEMS);
-            let found = Diagnostic::new(&codes::INPUT_TOO_LARGE, span, message);
-            reader.diagnostics.push(found.label("this row and those below stand for one item each"));
-        }
-        self.repeats_left = left;
-        left.is_some() || count == 1
     }
 
     /// Reports more defaults than a row has items, and several items of one name.

@@ -9,6 +9,7 @@
 //! | `scale` | how raw numbers become physical ones |
 //! | `conditions`, `variants` | when something exists; what differs between models and buses |
 //! | `references`, `numbered` | names that lead to something else, and numbers in their place |
+//! | `repeats` | how much short rows and long defaults may stand for |
 //! | `taken` | names and addresses that are in use |
 //! | `spaces` | what the number of a register means on each bus |
 //! | `rows`, `bindings`, `limits`, `objects` | rows to items and objects; their addresses; default, limits and only values |
@@ -49,6 +50,7 @@ pub mod overlay;
 mod place;
 mod process;
 mod references;
+mod repeats;
 mod rows;
 mod scale;
 #[cfg(feature = "cli")]
@@ -69,13 +71,13 @@ use toml::de::DeValue;
 
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
 use crate::ir::{Catalog, Device, Group, GroupKind, ObjectCode};
-use crate::limits::MAX_DERIVED_ITEMS;
 use crate::source::{FileId, Source, Span};
 use at::{At, Entries};
 use by_name::ByName;
 use definitions::Definitions;
 use format::{ChapterTable, DeviceTable, OptionTable, Row};
 use objects::Dictionary;
+use repeats::Repeats;
 use rows::Rows;
 use spaces::Buses;
 use taken::Taken;
@@ -288,17 +290,18 @@ impl<'a> Table<'a> {
         self.spaces.clone_from(&spaces);
         let at = |(name, table): (At<String>, _)| (name.clone(), At { value: table, start: name.start, end: name.end });
         let spaces = Entries(spaces.into_iter().map(at).collect());
+        let defaults = self.node("defaults").and_then(|node| defaults::read(reader, node));
         Rows {
+            repeats: Repeats::new(defaults.as_ref()),
             definitions,
             spaces: spaces::read(reader, &spaces),
             modbus: spaces::modbus_tables(reader, &spaces),
             buses,
-            defaults: self.node("defaults").and_then(|node| defaults::read(reader, node)),
+            defaults,
             references: windows::references(&spaces),
             numbered: Vec::new(),
             allowed: Vec::new(),
             summaries: Vec::new(),
-            repeats_left: Some(MAX_DERIVED_ITEMS),
         }
     }
 
@@ -398,6 +401,7 @@ fn chapter<'a>(
         None => (!rows.spaces.is_empty()).then_some(0),
     };
     let defaults = own.defaults.as_ref().map(|row| &row.value);
+    rows.repeats.chapter(defaults);
     let mut group = Group::object(0, ObjectCode::Record);
     group.kind = GroupKind::Chapter;
     group.name = own.title.as_deref().unwrap_or_default().into();

@@ -46,9 +46,9 @@ pub(super) fn add(
     let complete = match objects.subs {
         // What an object says about itself isn't a value's: it takes no defaults but its own.
         None if row.value.ty.is_none() && has_no_value(&row.value) => row.value.clone(),
-        _ => rows.complete(&row.value, chapter),
+        _ => rows.complete(reader, (key, &row.value), chapter),
     };
-    let objects = affordable(reader, rows, objects, key);
+    let objects = affordable(reader, rows, (objects, &complete), key);
     let count = u32::from(objects.indices.1 - objects.indices.0) + 1;
     rows.each_has_one(reader, key, &complete, count);
     for index in objects.indices.0..=objects.indices.1 {
@@ -61,11 +61,16 @@ pub(super) fn add(
 }
 
 /// The range of a row, or its first object where the table stands for too many items.
-fn affordable(reader: &mut Reader<'_, '_>, rows: &mut Rows, objects: Objects, key: &At<String>) -> Objects {
+fn affordable(
+    reader: &mut Reader<'_, '_>,
+    rows: &mut Rows,
+    (objects, row): (Objects, &Row),
+    key: &At<String>,
+) -> Objects {
     let ((first, last), subs) = (objects.indices, objects.subs);
     let of_each = subs.map_or(1, |(first, last)| u32::from(last - first) + 1);
     let span = reader.span(key);
-    if rows.may_repeat(reader, (u32::from(last - first) + 1) * of_each, span) {
+    if rows.repeats.repeat(reader, row, (u32::from(last - first) + 1) * of_each, span) {
         return objects;
     }
     Objects { indices: (first, first), subs: subs.map(|(first, _)| (first, first)) }

@@ -8,6 +8,7 @@ use super::definitions::{unfilled, Definitions, Kind};
 use super::format::{ConversionTable, FlagOrText, NumberOrText, Row};
 use super::numbered::Numbered;
 use super::references::{References, ITEM};
+use super::repeats::Repeats;
 use super::spaces::{Buses, Space};
 use super::tree::{cited, Reader};
 use super::{given, place, scale, types, value};
@@ -53,8 +54,8 @@ pub(super) struct Rows {
     pub allowed: Vec<(Span, &'static Code)>,
     /// What is said elsewhere of objects that have sub-entries.
     pub summaries: Vec<(u16, super::summary::Summaries)>,
-    /// How many items rows may still stand for beside their first; `None` once it was told that there are more.
-    pub repeats_left: Option<usize>,
+    /// How much rows may still copy.
+    pub repeats: Repeats,
 }
 
 /// The name of an item, its number among those of its row, and where the row stands.
@@ -69,8 +70,16 @@ pub(super) struct Named<'k> {
 
 impl Rows {
     /// The row with the defaults of its chapter and of the file.
-    pub fn complete(&self, row: &Row, chapter: Option<&Row>) -> Row {
+    pub fn complete(
+        &mut self,
+        reader: &mut Reader<'_, '_>,
+        (key, row): (&At<String>, &Row),
+        chapter: Option<&Row>,
+    ) -> Row {
         let row = row.clone();
+        if !self.repeats.inherit(reader, reader.span(key)) {
+            return row;
+        }
         let row = chapter.map_or(row.clone(), |defaults| row.or(defaults));
         self.defaults.as_ref().map_or(row.clone(), |defaults| row.or(defaults))
     }
@@ -83,7 +92,7 @@ impl Rows {
         (key, row): (&At<String>, &At<Row>),
         chapter: Option<&Row>,
     ) -> Vec<Item> {
-        let complete = self.complete(&row.value, chapter);
+        let complete = self.complete(reader, (key, &row.value), chapter);
         self.allow(reader, key, row);
         let repeat = self.repetition(reader, &complete, space);
         if row.value.count.is_none() && key.value.contains("{n") {
@@ -338,9 +347,11 @@ impl Rows {
         }
         let base = self.underlying(item.ty);
         let mut quantity = item.quantity.take().map_or_else(Quantity::default, |quantity| *quantity);
-        let own = row.unit.as_ref().and_then(|unit| self.definitions.units.get(&unit.value));
+        let units = &self.definitions.units;
+        let own = row.unit.as_ref().and_then(|unit| units.get(&unit.value));
         let own = own.map(|(_, table)| table.clone());
-        if let Some(unit) = &row.unit {
+        let mut affordable = |unit: &At<String>| self.repeats.unit(reader, units, &unit.value, reader.span(unit));
+        if let Some(unit) = row.unit.as_ref().filter(|unit| affordable(unit)) {
             quantity.unit = match &own {
                 Some(table) => table.symbol.as_deref().unwrap_or_default().into(),
                 None => unit.value.as_str().into(),

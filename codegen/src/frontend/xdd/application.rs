@@ -229,11 +229,12 @@ impl<'a> Application<'a> {
     fn note_groups(&mut self, reader: &mut Reader<'a, '_>) {
         for (given, name) in std::mem::take(&mut self.grouped) {
             match self.parameter_ids.get(given.text.as_ref()) {
-                Some(&at) if !name.text.is_empty() => self.parameters[at].extensions.push(Extension {
-                    key: "parameterGroup".into(),
-                    value: name.text,
-                    span: given.span,
-                }),
+                Some(&at) if !name.text.is_empty() => {
+                    let parameter = &mut self.parameters[at];
+                    parameter.weight += size_of::<Extension>() + name.text.len();
+                    let key = "parameterGroup".into();
+                    parameter.extensions.push(Extension { key, value: name.text, span: given.span });
+                }
                 Some(_) => {}
                 None => dangling(reader, &given, "parameter"),
             }

@@ -83,7 +83,12 @@ impl Applied<'_> {
         objects: Objects,
     ) -> Outcome {
         let mut outcome = Outcome::NoMatch;
-        for group in in_range(groups, objects.indices) {
+        let groups = in_range(groups, objects.indices);
+        let count = groups.iter().map(|group| group.items.len()).sum();
+        if !self.rows.repeats.patch(reader, &row.row.value, count, reader.span(&row.key)) {
+            return Outcome::NoChange;
+        }
+        for group in groups {
             let number = u32::from(group.index().unwrap_or_default().saturating_sub(objects.indices.0));
             let has_subs = group.object_code().is_some_and(ObjectCode::has_subs);
             let changed = match objects.subs {

@@ -20,13 +20,13 @@ use super::format::{
     ProcedureTable, ProfileTable, Row,
 };
 use super::place::{self, Objects};
+use super::repeats::Repeats;
 use super::rows::Rows;
 use super::spaces::Buses;
 use super::tree::Reader;
 use super::{code_tables, machines, Table};
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
 use crate::ir::{CodeTable, CompactString, Device, Doubts, Group, Item, ObjectCode, StateMachine, Type, TypeDef};
-use crate::limits::MAX_DERIVED_ITEMS;
 use crate::source::{FileId, Origin, Source, Span};
 use crate::text::brief;
 
@@ -138,7 +138,7 @@ impl Patch {
             numbered: Vec::new(),
             allowed: Vec::new(),
             summaries: Vec::new(),
-            repeats_left: Some(MAX_DERIVED_ITEMS),
+            repeats: Repeats::new(None),
         }
     }
 }
@@ -155,6 +155,7 @@ fn nowhere(doubts: &mut Doubts) -> Doubts {
 /// The rows of all chapters, each with the defaults of its chapter.
 fn rows<'a>(reader: &mut Reader<'a, '_>, table: &mut Table<'a>) -> Vec<PatchRow> {
     let mut rows = Vec::new();
+    let mut repeats = Repeats::new(None);
     for node in table.nodes(reader, "chapters") {
         let Some((registers, objects, mut node)) = super::divide(reader, node) else { continue };
         super::defaults::of_chapter(reader, &mut node);
@@ -163,16 +164,16 @@ fn rows<'a>(reader: &mut Reader<'a, '_>, table: &mut Table<'a>) -> Vec<PatchRow>
             super::misplaced::overlay(reader, key, row);
         }
         let defaults = chapter.defaults.as_ref().map(|defaults| &defaults.value);
-        let complete = |row: At<Row>| At {
-            value: defaults.map_or(row.value.clone(), |defaults| row.value.or(defaults)),
-            start: row.start,
-            end: row.end,
+        repeats.chapter(defaults);
+        let mut complete = |reader: &mut Reader<'_, '_>, key: At<String>, row: At<Row>, target| {
+            let defaults = defaults.filter(|_| repeats.inherit(reader, reader.span(&key)));
+            let value = defaults.map_or(row.value.clone(), |defaults| row.value.or(defaults));
+            PatchRow { key, row: At { value, start: row.start, end: row.end }, target }
         };
-        let named = registers.into_iter().map(|(key, row)| (key, row, Target::Name));
-        rows.extend(named.map(|(key, row, target)| PatchRow { key, row: complete(row), target }));
+        rows.extend(registers.into_iter().map(|(key, row)| complete(reader, key, row, Target::Name)));
         for (key, row) in objects {
             match place::objects(&key.value) {
-                Some(objects) => rows.push(PatchRow { key, row: complete(row), target: Target::Objects(objects) }),
+                Some(objects) => rows.push(complete(reader, key, row, Target::Objects(objects))),
                 None => {
                     let message = format!(
                         "`{}` is no object: write `0x6040`, `\"0x1018:1\"` or `\"0x1400..0x1403:1\"`",

@@ -1,0 +1,95 @@
+//! What rows copy: one may stand for many items, and long defaults count for every row.
+
+use std::fmt::{Debug, Write};
+
+use super::by_name::ByName;
+use super::format::{Row, UnitTable};
+use super::tree::Reader;
+use crate::diagnostics::{codes, Diagnostic};
+use crate::limits::{MAX_DERIVED_ITEMS, MAX_FREE_ROW_BYTES, ROW_BYTES_PER_ITEM};
+use crate::source::Span;
+
+/// How much may still be copied.
+pub(super) struct Repeats {
+    /// Items; `None` once it was told that there are more.
+    left: Option<usize>,
+    /// What the defaults of the file and those of the chapter are, in items.
+    defaults: [usize; 2],
+}
+
+impl Repeats {
+    pub fn new(of_file: Option<&Row>) -> Self {
+        Repeats { left: Some(MAX_DERIVED_ITEMS), defaults: [of_file.map_or(0, items), 0] }
+    }
+
+    /// Begins a chapter.
+    pub fn chapter(&mut self, defaults: Option<&Row>) {
+        self.defaults[1] = defaults.map_or(0, items);
+    }
+
+    /// Whether a row may inherit the defaults.
+    pub fn inherit(&mut self, reader: &mut Reader<'_, '_>, span: Span) -> bool {
+        self.take(reader, self.defaults.iter().sum(), span)
+    }
+
+    /// Whether a row may name a unit, whose texts it copies.
+    pub fn unit(&mut self, reader: &mut Reader<'_, '_>, units: &ByName<UnitTable>, name: &str, span: Span) -> bool {
+        let text = |text: &Option<String>| text.as_ref().map_or(0, String::len);
+        let length = units.get(name).map_or(0, |(_, unit)| text(&unit.symbol) + text(&unit.orig));
+        self.take(reader, beyond(length), span)
+    }
+
+    /// Whether a row may stand for `count` items.
+    pub fn repeat(&mut self, reader: &mut Reader<'_, '_>, row: &Row, count: u32, span: Span) -> bool {
+        count < 2 || self.take(reader, (count as usize - 1).saturating_mul(1 + items(row)), span)
+    }
+
+    /// Whether a row may say something of `count` items that are there.
+    pub fn patch(&mut self, reader: &mut Reader<'_, '_>, row: &Row, count: usize, span: Span) -> bool {
+        count < 2 || self.take(reader, (count - 1).saturating_mul(items(row)), span)
+    }
+
+    /// Takes so many items. The first that are too many are reported.
+    fn take(&mut self, reader: &mut Reader<'_, '_>, items: usize, span: Span) -> bool {
+        if items == 0 {
+            return true;
+        }
+        let left = self.left.and_then(|left| left.checked_sub(items));
+        if left.is_none() && self.left.is_some() {
+            let message = format!(
+                "what follows from `count`, ranges of objects and long texts of `defaults` and `units` are more than \
+                 {MAX_DERIVED_ITEMS} items"
+            );
+            let found = Diagnostic::new(&codes::INPUT_TOO_LARGE, span, message);
+            let label = "this row and those below stand for one item each, and don't copy long texts";
+            reader.diagnostics.push(found.label(label));
+        }
+        self.left = left;
+        left.is_some()
+    }
+}
+
+/// As how many items a row counts beside itself.
+fn items(row: &Row) -> usize {
+    beyond(length(row))
+}
+
+/// As how many items a text of so many bytes counts.
+fn beyond(length: usize) -> usize {
+    length.saturating_sub(MAX_FREE_ROW_BYTES) / ROW_BYTES_PER_ITEM
+}
+
+/// About how long something is. Its place in the file doesn't tell: that of a table with a header ends behind the header.
+fn length(of: &impl Debug) -> usize {
+    struct Count(usize);
+    impl Write for Count {
+        fn write_str(&mut self, text: &str) -> std::fmt::Result {
+            self.0 += text.len();
+            Ok(())
+        }
+    }
+    let mut count = Count(0);
+    // Counting doesn't fail.
+    let _ = write!(count, "{of:?}");
+    count.0
+}

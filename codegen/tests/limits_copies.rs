@@ -1,0 +1,170 @@
+//! What is said once and counts for many is copied so often and no more.
+
+use std::path::PathBuf;
+
+use lexibus_codegen::compile::{check, Compilation, Options};
+use lexibus_codegen::limits;
+use lexibus_codegen::source::Source;
+
+fn read(name: &str, text: &str) -> Compilation {
+    check(Source::new(name, text.as_bytes().to_vec()), &Options::default())
+}
+
+/// That `text` was cut short, with one finding, and that what was made of it is no longer than the bounds say.
+fn is_bounded(compilation: &Compilation) {
+    let found = compilation.diagnostics.list().iter().filter(|found| found.code.id == "IO003").count();
+    assert_eq!(found, 1, "{}", compilation.diagnostics.list().len());
+    let made = serde_json::to_vec(&compilation.catalog).expect("a catalogue").len();
+    let given: usize = compilation.sources.iter().map(|source| source.text().len()).sum();
+    // Beside texts, an item of the file or of the bound is some hundred bytes.
+    let most = given * (limits::MAX_COPIES_PER_BYTE + 20) + limits::MAX_DERIVED_ITEMS * 1_000;
+    assert!(made < most, "{made} bytes of {given}");
+}
+
+/// An ESI of one device with these data types and objects.
+fn esi(vendor: &str, types: &str, objects: &str) -> String {
+    format!(
+        "<EtherCATInfo><Vendor><Id>1</Id><Name>{vendor}</Name></Vendor><Descriptions><Devices><Device Physics='YY'>\
+         <Type ProductCode='1' RevisionNo='1'>T</Type><Name>T</Name><Profile><Dictionary><DataTypes>{types}</DataTypes>\
+         <Objects>{objects}</Objects></Dictionary></Profile></Device></Devices></Descriptions></EtherCATInfo>"
+    )
+}
+
+/// A record of so many bytes, each of which has these elements.
+fn record(count: usize, elements: &str) -> String {
+    let subs: String = (1..=count)
+        .map(|at| {
+            format!(
+                "<SubItem><SubIdx>{at}</SubIdx><Name>S</Name><Type>USINT</Type><BitSize>8</BitSize><BitOffs>{}</BitOffs>\
+                 {elements}</SubItem>",
+                at * 8
+            )
+        })
+        .collect();
+    format!("<DataType><Name>R</Name><BitSize>{}</BitSize>{subs}</DataType>", count * 8 + 8)
+}
+
+fn object(index: usize, elements: &str) -> String {
+    format!("<Object><Index>{index}</Index><Name>O</Name><Type>R</Type><BitSize>0</BitSize>{elements}</Object>\n")
+}
+
+fn long(letter: &str) -> String {
+    letter.repeat(30_000)
+}
+
+#[test]
+fn flags_of_an_object_for_its_entries() {
+    let flags = format!("<Flags><Access WriteRestrictions='{}'>rw</Access></Flags>", long("PreOP_"));
+    is_bounded(&read("flags.xml", &esi("V", &record(250, ""), &object(0x2000, &flags))));
+}
+
+#[test]
+fn what_a_data_type_says_for_the_objects_of_it() {
+    let objects: String = (0x2000..0x2800).map(|index| object(index, "")).collect();
+    for elements in [
+        format!("<DefaultString>{}</DefaultString>", long("d")),
+        format!("<MaxValue>{}</MaxValue>", long("9")),
+        format!("<Unit>{}</Unit>", long("u")),
+        format!("<Flags><SafetyMapping>{}</SafetyMapping></Flags>", long("s")),
+    ] {
+        is_bounded(&read("type.xml", &esi("V", &record(1, &elements), &objects)));
+    }
+}
+
+#[test]
+fn the_name_of_a_vendor_for_its_devices() {
+    let device = "<Device><Type ProductCode='1'>T</Type></Device>";
+    let text = esi(&long("v"), "", "").replace("<Devices>", &format!("<Devices>{}", device.repeat(5_000)));
+    let compilation = read("vendor.xml", &text);
+    is_bounded(&compilation);
+    let devices = &compilation.catalog.as_ref().expect("a catalogue").devices;
+    assert!(devices.iter().all(|device| device.identity.vendor_id == Some(1)));
+}
+
+#[test]
+fn a_dictionary_for_many_devices() {
+    let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("shared-dictionary");
+    std::fs::create_dir_all(&folder).expect("a folder for temporary files");
+    let values: String = (0..5_000).map(|at| format!("<EnumInfo><Text>V</Text><Enum>{at}</Enum></EnumInfo>")).collect();
+    let ty = format!("<DataType><Name>E</Name><BaseType>UINT</BaseType><BitSize>16</BitSize>{values}</DataType>");
+    let dictionary = format!(
+        "<EtherCATDict><Dictionary><DataTypes>{ty}</DataTypes><Objects><Object><Index>1</Index><Name>O</Name>\
+         <Type>E</Type></Object></Objects></Dictionary></EtherCATDict>"
+    );
+    std::fs::write(folder.join("dict.xml"), dictionary).expect("a file");
+    let device =
+        "<Device><Type ProductCode='1'>T</Type><Profile><DictionaryFile>dict.xml</DictionaryFile></Profile></Device>";
+    let of = |devices: usize| {
+        let text = esi("V", "", "").replace("<Devices>", &format!("<Devices>{}", device.repeat(devices)));
+        check(Source::new("main.xml", text.into_bytes()).in_folder(&folder), &Options::default())
+    };
+    let found = |compilation: &Compilation| compilation.diagnostics.list().iter().any(|one| one.code.id == "IO003");
+    assert!(!found(&of(30)));
+    let many = of(300);
+    assert!(found(&many));
+    let types =
+        many.catalog.iter().flat_map(|catalog| &catalog.devices).map(|device| device.types.len()).sum::<usize>();
+    assert!((30..60).contains(&types), "{types}");
+}
+
+#[test]
+fn groups_of_a_parameter_for_the_objects_that_refer_to_it() {
+    let groups = "<parameterRef uniqueIDRef='p'/>".repeat(3_000);
+    let objects: String =
+        (0x2000..0x3000).map(|index| format!("<CANopenObject index='{index:04X}' uniqueIDRef='p'/>")).collect();
+    let text = format!(
+        "<?xml version='1.0'?><ISO15745ProfileContainer xmlns='http://www.canopen.org/xml/1.0'><ISO15745Profile>\
+         <ProfileBody><ApplicationProcess><parameterList><parameter uniqueID='p'><USINT/></parameter></parameterList>\
+         <parameterGroupList><parameterGroup uniqueID='g'><label lang='en'>Motion</label>{groups}</parameterGroup>\
+         </parameterGroupList></ApplicationProcess></ProfileBody></ISO15745Profile><ISO15745Profile><ProfileBody>\
+         <ApplicationLayers><CANopenObjectList>{objects}</CANopenObjectList></ApplicationLayers></ProfileBody>\
+         </ISO15745Profile></ISO15745ProfileContainer>"
+    );
+    is_bounded(&read("groups.xdd", &text));
+}
+
+fn table(rest: &str) -> String {
+    format!("lexibus = 1\n[device]\nname = \"X\"\nbuses = [\"serial\"]\n[spaces.s]\nparameter = {{}}\n{rest}")
+}
+
+#[test]
+fn long_rows_that_stand_for_many_items() {
+    let values: String = (0..1_000).map(|at| format!("{at} = \"v{at}\", ")).collect();
+    for said in [format!("enum = {{ {values} }}"), format!("doc = \"{}\"", long("d"))] {
+        let row = format!(
+            "[[chapters]]\nspace = \"s\"\n[chapters.registers]\n\
+             \"a {{n}}\" = {{ reg = 0, count = 65535, type = \"u16\", access = \"ro\", {said} }}\n"
+        );
+        is_bounded(&read("rows.toml", &table(&row)));
+        let objects = format!(
+            "[[chapters]]\n[chapters.objects]\n\"0x1000..0xFFFF\" = {{ name = \"a\", type = \"u16\", access = \"ro\", {said} }}\n"
+        );
+        is_bounded(&read("objects.toml", &table(&objects).replace("serial", "canopen")));
+    }
+}
+
+#[test]
+fn long_defaults_and_units_for_many_rows() {
+    let rows = |said: &str| -> String {
+        (0..10_000).map(|at| format!("a{at} = {{ reg = {at}, type = \"u16\", access = \"ro\"{said} }}\n")).collect()
+    };
+    let na = format!("na = {{ 7 = \"{}\" }}\n", long("n"));
+    let is_bounded = |text: &str| {
+        let compilation = read("rows.toml", text);
+        assert_eq!(compilation.diagnostics.list().iter().filter(|found| found.code.id == "IO003").count(), 1);
+        let devices = compilation.catalog.iter().flat_map(|catalog| &catalog.devices);
+        let items: Vec<_> = devices.flat_map(|device| &device.groups).flat_map(|group| &group.items).collect();
+        let quantities = items.iter().filter_map(|item| item.quantity.as_deref());
+        let copies = quantities.filter(|own| own.unit.len() > 1_000 || !own.sentinels.is_empty()).count();
+        assert_eq!(items.len(), 10_000);
+        assert!((5_000..9_000).contains(&copies), "{copies}");
+    };
+    for defaults in [
+        format!("[defaults]\n{na}[[chapters]]\nspace = \"s\"\n"),
+        format!("[[chapters]]\nspace = \"s\"\ndefaults = {{ {} }}\n", na.trim()),
+    ] {
+        is_bounded(&table(&format!("{defaults}[chapters.registers]\n{}", rows(""))));
+    }
+    let unit = format!("[units.u]\nsymbol = \"{}\"\n[[chapters]]\nspace = \"s\"\n[chapters.registers]\n", long("u"));
+    is_bounded(&table(&(unit + &rows(", unit = \"u\""))));
+}
