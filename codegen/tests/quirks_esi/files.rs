@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use lexibus_codegen::compile::{check, Options};
+use lexibus_codegen::ir::Type;
 use lexibus_codegen::source::{Encoding, FileId, Source};
 
 use crate::support::*;
@@ -95,6 +96,25 @@ fn x03_dictionaries_and_messages_alone() {
     assert_eq!(table.rows[0].documentation.as_ref().unwrap().text, "Cause: No fan\n\nRemedy: Add one");
     assert_eq!((types.name.as_str(), types.rows[0].code), ("DiagType", 3));
     assert!(dictionary.found().is_empty() && messages.found().is_empty());
+}
+
+#[test]
+fn messages_in_several_languages() {
+    let of = |elements: &str| {
+        let checked = read_text(&format!(
+            "<EtherCATDiag><DiagMessages><DiagMessage><TextId>1</TextId><MessageText>X</MessageText>{elements}\
+             </DiagMessage></DiagMessages></EtherCATDiag>"
+        ));
+        checked.catalog().code_tables[0].rows[0].documentation.clone().unwrap()
+    };
+    let said = of("<CauseRemedy><Cause LcId='1031'>Kein L\u{fc}fter</Cause><Cause LcId='1033'>No fan</Cause>\
+         <Remedy LcId='1033'>Add one</Remedy></CauseRemedy><CauseRemedy><Cause LcId='1033'>Dust</Cause></CauseRemedy>\
+         <Hint LcId='1033'>Hot</Hint><Hint LcId='1031'>Hei\u{df}</Hint><Hint LcId='1033'>Loud</Hint>");
+    assert_eq!(said.text, "Cause: No fan\n\nRemedy: Add one\n\nCause: Dust\n\nHint: Hot\n\nHint: Loud");
+    let [german] = &said.translations[..] else { panic!("{:?}", said.translations) };
+    // What isn't translated stays as it is.
+    let text = "Cause: Kein L\u{fc}fter\n\nRemedy: Add one\n\nCause: Dust\n\nHint: Hei\u{df}\n\nHint: Loud";
+    assert_eq!((german.language.as_str(), german.text.as_str()), ("de-DE", text));
 }
 
 #[test]
@@ -210,6 +230,37 @@ fn main_file() -> String {
     };
     file(&format!("<Devices>{}{}</Devices>", device(1), device(2)))
         .replace("<Vendor>", "<InfoReference>modules.xml</InfoReference><Vendor>")
+}
+
+#[test]
+fn types_of_a_dictionary_file_for_entries() {
+    let dictionary = "<EtherCATDict><Dictionary><DataTypes>\
+        <DataType><Name>OWN</Name><BaseType>USINT</BaseType><BitSize>8</BitSize></DataType>\
+        <DataType><Name>E</Name><BaseType>USINT</BaseType><BitSize>8</BitSize><Own>x</Own>\
+        <EnumInfo><Text>On</Text><Enum>1</Enum></EnumInfo></DataType></DataTypes><Objects/></Dictionary></EtherCATDict>";
+    let entries: String = [("OWN", 8), ("E", 8), ("E", 16), ("NONE", 8), ("UINT", 16)]
+        .iter()
+        .map(|(name, bits)| format!("{}\n", entry("#x6000", 1, *bits, name)))
+        .collect();
+    let of = |profile: &str| {
+        let main = device_file(&format!("{}<Profile>{profile}</Profile>", tx_pdo("#x1A00", &entries)));
+        let (folder, checked) = folder("types", &[("main.xml", main.as_str()), ("dict.xml", dictionary)]);
+        std::fs::remove_dir_all(folder).unwrap();
+        checked
+    };
+    let checked = of("<DictionaryFile>dict.xml</DictionaryFile>");
+    let device = checked.device();
+    let types: Vec<_> = device.process_data.pdos[0].entries.iter().map(|entry| entry.ty).collect();
+    let [own, one, other, none, basic] = types[..] else { panic!("{types:?}") };
+    assert_eq!((own, basic, none), (Type::Unsigned(8), Type::Unsigned(16), Type::Opaque(None)));
+    let Type::Named(id) = one else { panic!("{one:?}") };
+    assert_eq!((one, device.types[id.0 as usize].name.as_str()), (other, "E"));
+    let found: Vec<_> = checked.found().iter().map(|one| one.split(' ').next().unwrap().to_owned()).collect();
+    assert_eq!(found, ["ESI044", "ESI010"], "{:?}", checked.found());
+    assert_eq!(value_of(&device.extensions, "E/DataType/Own"), Some("x"));
+    // Where the file isn't there, nothing says what the types are.
+    let missing = of("<DictionaryFile>none.xml</DictionaryFile>");
+    assert_eq!(missing.found().iter().filter(|one| one.starts_with("ESI010")).count(), 4);
 }
 
 #[test]

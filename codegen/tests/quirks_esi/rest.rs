@@ -77,6 +77,29 @@ fn x25_modules() {
 }
 
 #[test]
+fn what_a_module_and_a_record_say_beside() {
+    let mailbox =
+        "<Mailbox DataLinkLayer='1'><CoE DiagHistory='1'/><SoE ChannelCount='2'><InitCmd><Transition>PS</Transition>\
+                   <IDN>7</IDN><Data>0102</Data></InitCmd></SoE><FoE/></Mailbox>";
+    let text = file(&format!("<Modules>{}</Modules>", MODULE.replace("</Module>", &format!("{mailbox}</Module>"))));
+    let extensions = &read_text(&text).module().extensions.clone();
+    for (key, value) in [
+        ("Mailbox@DataLinkLayer", "true"),
+        ("CoE@DiagHistory", "true"),
+        ("SoE@ChannelCount", "2"),
+        ("SoE/InitCmd", "PS: 7:0 = 0102"),
+        ("Mailbox/FoE", "true"),
+    ] {
+        assert_eq!(value_of(extensions, key), Some(value), "{key}");
+    }
+    let record = format!("<DataType><Name>R</Name><BitSize>8</BitSize>{}</DataType>", sub_item(0, "N", "USINT", 8, 0));
+    let object = "<Object><Index>#x2000</Index><Name>O</Name><Type>R</Type><BitSize>8</BitSize>\
+                  <Info><DisplayName LcId='1031'>Ofen</DisplayName></Info></Object>";
+    let checked = read_text(&device_file(&profile(&record, object)));
+    assert_eq!(checked.device().groups[0].names[0].text, "Ofen");
+}
+
+#[test]
 fn modules_that_do_not_fit_and_twice() {
     let none = coupler("\n<Slots><Slot MinInstances='0' MaxInstances='1'><ModuleIdent>7</ModuleIdent></Slot></Slots>");
     assert_eq!(none.found(), ["ESI051 2:10"]);

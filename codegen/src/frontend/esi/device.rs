@@ -3,11 +3,12 @@
 use super::pdo::{self, Pdos};
 use super::profile::Profiles;
 use super::reader::{note, Given, Names, Read, Reader};
-use super::references::Reference;
+use super::references::{Elsewhere, EntryType, Target};
 use super::types::Types;
 use super::{clocks, device_info, dictionary, eeprom, items, mailbox, slots, sync};
-use crate::diagnostics::codes;
+use crate::diagnostics::{codes, Diagnostic, Diagnostics};
 use crate::ir::{Device, EtherCatSettings, Extensions, Group, PdoEntry, SyncManager, Type, TypeDef};
+use crate::source::Span;
 use crate::syntax::xml::Tag;
 
 /// What is collected of a device until its end.
@@ -24,7 +25,7 @@ struct Parts<'a> {
 }
 
 /// Reads a Device, and the files that it refers to.
-pub(super) fn read<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>) -> Read<(Device, Vec<Reference>)> {
+pub(super) fn read<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>) -> Read<(Device, Elsewhere)> {
     let mut parts = Parts::default();
     parts.device.origin = reader.cursor.origin(parent);
     let fields = reader.fields(parent, &["Physics", "Invisible"], &mut parts.device.extensions)?;
@@ -107,7 +108,7 @@ fn hide<'a>(
     Ok(())
 }
 
-fn finish(reader: &mut Reader<'_, '_>, parts: Parts<'_>) -> (Device, Vec<Reference>) {
+fn finish(reader: &mut Reader<'_, '_>, parts: Parts<'_>) -> (Device, Elsewhere) {
     let Parts { mut device, settings, names, comment, managers, pdos, mut profiles, .. } = parts;
     (device.name, device.names) = (names.name(), names.others());
     device.identity.product_name = device.name.clone();
@@ -116,22 +117,32 @@ fn finish(reader: &mut Reader<'_, '_>, parts: Parts<'_>) -> (Device, Vec<Referen
     device.profiles = profiles.numbers;
     device.code_tables = profiles.code_tables;
     device.extensions.append(&mut profiles.dictionary.take_extensions());
-    let lowered = lower(reader, profiles.dictionary, pdos, &mut device.process_data);
+    let lowered = lower(reader, profiles.dictionary, pdos, &mut device.process_data, &mut profiles.elsewhere);
     (device.types, device.groups) = lowered;
     device.ethercat = Some(Box::new(settings));
-    (device, profiles.files)
+    (device, profiles.elsewhere)
 }
 
 /// Lowers the data types and objects of a device or module, and the PDOs whose entries name such types.
+///
+/// Types that may be in a file which `elsewhere` has are left to it.
 pub(super) fn lower<'a>(
     reader: &mut Reader<'_, '_>,
     dictionary: dictionary::Dictionary<'a>,
     pdos: Pdos<'a>,
     data: &mut crate::ir::ProcessData,
+    elsewhere: &mut Elsewhere,
 ) -> (Vec<TypeDef>, Vec<Group>) {
     let dictionary::Dictionary { types: raw, objects, mut subs, units, .. } = dictionary;
     let mut types = Types::new(reader, &raw);
-    pdos.finish(data, |given, entry| entry_type(reader, &mut types, given, entry));
+    let has_files = elsewhere.files.iter().any(|file| file.target == Target::Dictionary);
+    pdos.finish(data, |given, entry| {
+        if has_files && entry.index != 0 && !given.is_empty() && !types.knows(&given.text) {
+            elsewhere.types.push(EntryType::new(entry, given));
+            return Type::Opaque(None);
+        }
+        entry_type(reader, &mut types, given, entry)
+    });
     let groups = items::build(reader, &mut types, objects, &mut subs, &units);
     (types.into_defs(), groups)
 }
@@ -149,12 +160,22 @@ fn entry_type(reader: &mut Reader<'_, '_>, types: &mut Types<'_, '_>, given: &Gi
         return Type::Opaque(None);
     }
     let ty = types.resolve(reader, given);
-    match types.bits(ty) {
-        Some(bits) if bits != entry.bits && entry.index != 0 && reader.diagnostics.wants(&codes::ENTRY_LENGTH) => {
-            let message = format!("the entry has {} bits, but {} has {bits}", entry.bits, given.text);
-            reader.report(&codes::ENTRY_LENGTH, given.span, message, "BitLen decides the layout");
+    check_length(reader.diagnostics, entry, (&given.text, given.span), types.bits(ty));
+    ty
+}
+
+/// Reports an entry that is longer or shorter than its type, which has so many bits.
+pub(super) fn check_length(
+    diagnostics: &mut Diagnostics,
+    entry: &PdoEntry,
+    (name, span): (&str, Span),
+    bits: Option<u32>,
+) {
+    match bits {
+        Some(bits) if bits != entry.bits && entry.index != 0 && diagnostics.wants(&codes::ENTRY_LENGTH) => {
+            let message = format!("the entry has {} bits, but {name} has {bits}", entry.bits);
+            diagnostics.push(Diagnostic::new(&codes::ENTRY_LENGTH, span, message).label("BitLen decides the layout"));
         }
         _ => {}
     }
-    ty
 }

@@ -5,7 +5,7 @@ use compact_str::CompactString;
 use super::data_type::enum_value;
 use super::reader::{Names, Read, Reader};
 use crate::diagnostics::codes;
-use crate::ir::{CodeRow, CodeTable, Documentation, Extensions, SharedList, Value};
+use crate::ir::{CodeRow, CodeTable, Documentation, Extensions, LocalText, SharedList, Value};
 use crate::syntax::xml::Tag;
 
 /// The flags of a message, in the order of the columns.
@@ -51,7 +51,7 @@ pub(super) fn read<'a>(
 }
 
 fn message<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, extensions: &mut Extensions) -> Read<Option<CodeRow>> {
-    let (mut names, mut text, mut number) = (Names::default(), String::new(), None);
+    let (mut names, mut paragraphs, mut number) = (Names::default(), Vec::new(), None);
     let mut description = Names::default();
     let mut cells: [CompactString; COLUMNS.len()] = Default::default();
     while let Some(tag) = reader.cursor.child(parent)? {
@@ -67,12 +67,8 @@ fn message<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, extensions: &mut E
                     }
                 }
             }
-            "CauseRemedy" => cause(reader, &tag, &mut text, extensions)?,
-            "Info" | "Hint" | "URL" => {
-                let mut own = Names::default();
-                reader.name(&tag, &mut own, extensions)?;
-                paragraph(&mut text, tag.name, &own.name());
-            }
+            "CauseRemedy" => cause(reader, &tag, &mut paragraphs, extensions)?,
+            "Info" | "Hint" | "URL" => paragraph(reader, &tag, (&mut paragraphs, 0), extensions)?,
             _ => reader.unknown(&tag, extensions)?,
         }
     }
@@ -80,44 +76,71 @@ fn message<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, extensions: &mut E
         reader.report(&codes::ESI_VALUE, parent.span, "this message has no TextId", "left out");
         return Ok(None);
     };
-    let mut documentation = description.documentation();
-    if !text.is_empty() {
-        let own = documentation.get_or_insert_with(|| Box::new(Documentation::default()));
-        own.text = [std::mem::take(&mut own.text), text].join("\n\n").trim().to_owned();
-    }
+    paragraphs.insert(0, ("", description));
+    let documentation = documentation(&paragraphs);
     let cells = cells.into_iter().map(Value::Text).collect();
     let (name, names) = (names.name(), names.others());
     Ok(Some(CodeRow { code, last: None, name, names, availability: None, documentation, cells }))
 }
 
+/// Behind how many other elements a text in another language still stands.
+const NEIGHBOURS: usize = 16;
+
+/// A title, and the text in the languages of the source.
+type Paragraph<'a> = (&'a str, Names<'a>);
+
 fn cause<'a>(
     reader: &mut Reader<'a, '_>,
     parent: &Tag<'a>,
-    text: &mut String,
+    paragraphs: &mut Vec<Paragraph<'a>>,
     extensions: &mut Extensions,
 ) -> Read<()> {
     // The number of a cause only tells it from the others.
     reader.fields(parent, &["Idx"], extensions)?;
+    let first = paragraphs.len();
     while let Some(tag) = reader.cursor.child(parent)? {
         match tag.name {
-            "Cause" | "Remedy" => {
-                let mut own = Names::default();
-                reader.name(&tag, &mut own, extensions)?;
-                paragraph(text, tag.name, &own.name());
-            }
+            "Cause" | "Remedy" => paragraph(reader, &tag, (paragraphs, first), extensions)?,
             _ => reader.unknown(&tag, extensions)?,
         }
     }
     Ok(())
 }
 
-fn paragraph(text: &mut String, title: &str, own: &str) {
-    if !own.is_empty() {
-        if !text.is_empty() {
-            text.push_str("\n\n");
-        }
-        text.push_str(title);
-        text.push_str(": ");
-        text.push_str(own);
+fn paragraph<'a>(
+    reader: &mut Reader<'a, '_>,
+    tag: &Tag<'a>,
+    (paragraphs, first): (&mut Vec<Paragraph<'a>>, usize),
+    extensions: &mut Extensions,
+) -> Read<()> {
+    let mut names = Names::default();
+    reader.name(tag, &mut names, extensions)?;
+    // Elements of one name are one text in several languages.
+    let is_other = |(title, own): &&mut Paragraph<'_>| *title == tag.name && !own.shares_language(&names);
+    match paragraphs.iter_mut().skip(first).rev().take(NEIGHBOURS).find(is_other) {
+        Some((_, own)) => own.append(names),
+        None => paragraphs.push((tag.name, names)),
     }
+    Ok(())
+}
+
+/// The paragraphs as one text, and that in the other languages that any of them has.
+fn documentation(paragraphs: &[Paragraph<'_>]) -> Option<Box<Documentation>> {
+    let join = |of: &dyn Fn(&Names<'_>) -> CompactString| -> String {
+        let texts = paragraphs.iter().map(|(title, names)| (*title, of(names))).filter(|(_, text)| !text.is_empty());
+        let titled = texts.map(|(title, text)| if title.is_empty() { text.into() } else { format!("{title}: {text}") });
+        titled.collect::<Vec<String>>().join("\n\n")
+    };
+    let text = join(&|names| names.name());
+    let others: Vec<_> = paragraphs.iter().map(|(_, names)| names.others()).collect();
+    let mut languages: Vec<&CompactString> = others.iter().flatten().map(|other| &other.language).collect();
+    languages.sort_unstable();
+    languages.dedup();
+    let in_language = |language: &CompactString| {
+        let own = |names: &Names<'_>| names.all().find(|text| text.language == *language).map(|text| text.text);
+        let text = join(&|names| own(names).unwrap_or_else(|| names.name())).into();
+        LocalText { language: language.clone(), text }
+    };
+    let translations = languages.into_iter().map(in_language).collect();
+    (!text.is_empty()).then(|| Box::new(Documentation { text, translations, cite: None }))
 }

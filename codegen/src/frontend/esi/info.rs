@@ -63,9 +63,8 @@ fn read_list<'a>(reader: &mut Reader<'a, '_>, list: &Tag<'a>, description: &mut 
                     reader.unknown(&tag, &mut description.catalog.extensions)?;
                     continue;
                 }
-                let (device, files) = device::read(reader, &tag)?;
-                let owner = Owner::Device(description.catalog.devices.len());
-                description.references.extend(files.into_iter().map(|file| (owner, file)));
+                let (device, elsewhere) = device::read(reader, &tag)?;
+                description.leave(Owner::Device(description.catalog.devices.len()), elsewhere);
                 description.catalog.devices.push(device);
             }
         }
@@ -75,9 +74,8 @@ fn read_list<'a>(reader: &mut Reader<'a, '_>, list: &Tag<'a>, description: &mut 
                     reader.unknown(&tag, &mut description.catalog.extensions)?;
                     continue;
                 }
-                let (module, files) = modules::read(reader, &tag)?;
-                let owner = Owner::Module(description.catalog.modules.len());
-                description.references.extend(files.into_iter().map(|file| (owner, file)));
+                let (module, elsewhere) = modules::read(reader, &tag)?;
+                description.leave(Owner::Module(description.catalog.modules.len()), elsewhere);
                 description.catalog.modules.push(module);
             }
         }

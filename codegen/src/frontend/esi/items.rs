@@ -182,6 +182,9 @@ impl<'t, 'a> Builder<'_, 't, 'a> {
         }
         if let Some(more) = more {
             super::reader::note("Unit", &more.unit, &mut group.extensions);
+            let mut names: Vec<_> = group.names.iter().cloned().collect();
+            names.extend(more.display.all().filter(|text| text.text != group.name));
+            group.names = names.into();
         }
     }
 

@@ -51,14 +51,25 @@ use crate::ir::{Catalog, Device};
 use crate::source::{FileId, References, Source};
 use crate::syntax::xml::{Cursor, Tag};
 use dictionary::Dictionary;
+use pdo::Pdos;
 use reader::{Budget, Read, Reader};
-use references::{Owner, Reference};
+use references::{Elsewhere, EntryType, Owner, Reference};
 
 /// What was read, and the files that it refers to.
 #[derive(Default)]
 struct Description {
     catalog: Catalog,
     references: Vec<(Owner, Reference)>,
+    /// Types of entries that may be in those files.
+    entry_types: Vec<(Owner, EntryType)>,
+}
+
+impl Description {
+    /// Notes what a device or module leaves to other files.
+    fn leave(&mut self, owner: Owner, elsewhere: Elsewhere) {
+        self.references.extend(elsewhere.files.into_iter().map(|file| (owner, file)));
+        self.entry_types.extend(elsewhere.types.into_iter().map(|ty| (owner, ty)));
+    }
 }
 
 /// Reads the devices and modules that `source` describes, and the files that it refers to. Everything that had to be
@@ -144,7 +155,8 @@ fn dictionary_only<'a>(reader: &mut Reader<'a, '_>, root: &Tag<'a>, description:
         }
     }
     device.extensions.append(&mut dictionary.take_extensions());
-    let lowered = device::lower(reader, dictionary, Default::default(), &mut device.process_data);
+    let lowered =
+        device::lower(reader, dictionary, Pdos::default(), &mut device.process_data, &mut Elsewhere::default());
     (device.types, device.groups) = lowered;
     device.ethercat = Some(Box::default());
     description.catalog.devices.push(device);

@@ -2,19 +2,23 @@
 
 use std::collections::{BTreeMap, HashMap};
 
+use compact_str::format_compact;
+
 use super::device::lower;
 use super::pdo::{self, Pdos};
 use super::profile::Profiles;
 use super::reader::{note, Names, Read, Reader};
-use super::references::Reference;
+use super::references::Elsewhere;
 use super::{dictionary::missing_index, mailbox};
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
-use crate::ir::{Catalog, CompactString, Device, Fit, Module, ModuleId, ModuleUse, Numbers, Places};
+use crate::ir::{
+    Catalog, CompactString, Device, Extension, Extensions, Fit, Mailbox, Module, ModuleId, ModuleUse, Numbers, Places,
+};
 use crate::limits;
 use crate::syntax::xml::Tag;
 
 /// Reads a Module, and the files that it refers to.
-pub(super) fn read<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>) -> Read<(Module, Vec<Reference>)> {
+pub(super) fn read<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>) -> Read<(Module, Elsewhere)> {
     let mut module = Module { origin: reader.cursor.origin(parent), ..Module::default() };
     reader.fields(parent, &[], &mut module.extensions)?;
     let (mut names, mut pdos, mut profiles) = (Names::default(), Pdos::default(), Profiles::default());
@@ -43,9 +47,9 @@ pub(super) fn read<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>) -> Read<(M
     (module.name, module.names) = (names.name(), names.others());
     module.profiles = profiles.numbers;
     module.extensions.append(&mut profiles.dictionary.take_extensions());
-    let lowered = lower(reader, profiles.dictionary, pdos, &mut module.process_data);
+    let lowered = lower(reader, profiles.dictionary, pdos, &mut module.process_data, &mut profiles.elsewhere);
     (module.types, module.groups) = lowered;
-    Ok((module, profiles.files))
+    Ok((module, profiles.elsewhere))
 }
 
 fn module_type<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, module: &mut Module) -> Read<()> {
@@ -68,9 +72,11 @@ fn module_type<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, module: &mut Modu
 /// What a master sends when such a module is there. What its protocol supports is kept beside it.
 fn settings<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, module: &mut Module) -> Read<()> {
     let mailbox = mailbox::read(reader, tag, &mut module.extensions)?;
+    beside_coe(&mailbox, tag, &mut module.extensions);
     let Some(coe) = mailbox.coe else { return Ok(()) };
     module.init_commands = coe.init_commands;
     let flags = [
+        ("DiagHistory", coe.diag_history),
         ("SdoInfo", coe.sdo_info),
         ("PdoAssign", coe.pdo_assign),
         ("PdoConfig", coe.pdo_config),
@@ -81,14 +87,40 @@ fn settings<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, module: &mut Module)
     for (name, set) in flags {
         if set {
             let given = super::reader::Given { text: "true".into(), span: tag.span };
-            note(&compact_str::format_compact!("CoE@{name}"), &given, &mut module.extensions);
+            note(&format_compact!("CoE@{name}"), &given, &mut module.extensions);
         }
     }
     for (name, value) in coe.attributes {
         let given = super::reader::Given { text: value.as_str().into(), span: tag.span };
-        note(&compact_str::format_compact!("CoE@{name}"), &given, &mut module.extensions);
+        note(&format_compact!("CoE@{name}"), &given, &mut module.extensions);
     }
     Ok(())
+}
+
+/// Keeps what a mailbox has beside CoE.
+fn beside_coe(mailbox: &Mailbox, tag: &Tag<'_>, extensions: &mut Extensions) {
+    let mut keep = |key: CompactString, value: &str| {
+        extensions.push(Extension { key, value: value.into(), span: tag.span });
+    };
+    for (name, set) in [("DataLinkLayer", mailbox.data_link_layer), ("RealTimeMode", mailbox.real_time)] {
+        if set {
+            keep(format_compact!("Mailbox@{name}"), "true");
+        }
+    }
+    let Mailbox { aoe, eoe, foe, soe, voe, .. } = mailbox;
+    for (name, protocol) in [("AoE", aoe), ("EoE", eoe), ("FoE", foe), ("SoE", soe), ("VoE", voe)] {
+        let Some(protocol) = protocol else { continue };
+        keep(format_compact!("Mailbox/{name}"), "true");
+        protocol.attributes.iter().for_each(|(attribute, value)| keep(format_compact!("{name}@{attribute}"), value));
+        for command in &protocol.init_commands {
+            let data: String = command.data.iter().map(|byte| format!("{byte:02X}")).collect();
+            let when = command.transitions.join(", ");
+            keep(
+                format_compact!("{name}/InitCmd"),
+                &format!("{when}: {}:{} = {data}", command.index, command.sub_index),
+            );
+        }
+    }
 }
 
 /// Notes for every device with slots which modules of the catalogue fit where.

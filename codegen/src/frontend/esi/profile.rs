@@ -5,7 +5,7 @@ use std::collections::HashSet;
 use super::diagnosis;
 use super::dictionary::Dictionary;
 use super::reader::{note, Read, Reader};
-use super::references::{Reference, Target};
+use super::references::{Elsewhere, Reference, Target};
 use crate::ir::{CodeTable, Extensions};
 use crate::syntax::xml::Tag;
 
@@ -17,8 +17,8 @@ pub(super) struct Profiles<'a> {
     seen: HashSet<u32>,
     pub dictionary: Dictionary<'a>,
     pub code_tables: Vec<CodeTable>,
-    /// Files that belong to the profiles.
-    pub files: Vec<Reference>,
+    /// Files that belong to the profiles, and what is left to them.
+    pub elsewhere: Elsewhere,
 }
 
 impl<'a> Profiles<'a> {
@@ -74,7 +74,7 @@ impl<'a> Profiles<'a> {
         let given = reader.leaf(tag, extensions)?;
         if !given.is_empty() {
             note(tag.name, &given, extensions);
-            self.files.push(Reference::new(&given, target));
+            self.elsewhere.files.push(Reference::new(&given, target));
         }
         Ok(())
     }

@@ -111,6 +111,15 @@ impl<'a> Names<'a> {
         others.map(|(_, (lcid, given))| local(*lcid, given)).collect()
     }
 
+    /// Whether both have a text in the same language. So has what is in more languages than there are.
+    pub fn shares_language(&self, other: &Names<'_>) -> bool {
+        self.0.len() > 255 || self.0.iter().any(|(own, _)| other.0.iter().any(|(lcid, _)| own == lcid))
+    }
+
+    pub fn append(&mut self, mut other: Names<'a>) {
+        self.0.append(&mut other.0);
+    }
+
     /// Bytes of all texts together.
     pub fn length(&self) -> usize {
         self.0.iter().map(|(_, given)| given.text.len()).sum()

@@ -4,10 +4,12 @@ use std::collections::HashMap;
 use std::collections::VecDeque;
 use std::path::Path;
 
+use super::device::check_length;
 use super::reader::{Budget, Given};
+use super::types::unresolved;
 use super::{document, Description};
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
-use crate::ir::{Catalog, Device, Group, Shape, Type, TypeDef, TypeId};
+use crate::ir::{Catalog, Device, Group, PdoEntry, Shape, Type, TypeDef, TypeId};
 use crate::source::{References, Source, Span};
 
 /// What a file is expected to contain.
@@ -34,12 +36,34 @@ pub(super) enum Owner {
 pub(super) struct Reference {
     name: String,
     span: Span,
-    target: Target,
+    pub target: Target,
 }
 
 impl Reference {
     pub fn new(given: &Given<'_>, target: Target) -> Self {
         Reference { name: given.text.to_string(), span: given.span, target }
+    }
+}
+
+/// What a device or module leaves to other files.
+#[derive(Default)]
+pub(super) struct Elsewhere {
+    pub files: Vec<Reference>,
+    pub types: Vec<EntryType>,
+}
+
+/// The type of an entry of a PDO that the dictionary beside it doesn't have.
+#[derive(Debug)]
+pub(super) struct EntryType {
+    /// Where the entry stands.
+    entry: Span,
+    name: String,
+    span: Span,
+}
+
+impl EntryType {
+    pub fn new(entry: &PdoEntry, given: &Given<'_>) -> Self {
+        EntryType { entry: entry.origin.span, name: given.text.to_string(), span: given.span }
     }
 }
 
@@ -78,6 +102,7 @@ pub(super) fn follow(
                 if only_modules {
                     read.catalog.devices.clear();
                     read.references.retain(|(owner, _)| !matches!(owner, Owner::Device(_)));
+                    read.entry_types.retain(|(owner, _)| !matches!(owner, Owner::Device(_)));
                 }
                 queue.extend(join(description, read));
                 files.insert(name, None);
@@ -87,6 +112,37 @@ pub(super) fn follow(
                 attach(description, owner, &reference, (&read.catalog, length), diagnostics, budget);
                 files.insert(name, Some((Box::new(read.catalog), length)));
             }
+        }
+    }
+    entry_types(description, diagnostics);
+}
+
+/// Finds the types of entries among those that files brought along.
+fn entry_types(description: &mut Description, diagnostics: &mut Diagnostics) {
+    let Description { catalog, entry_types, .. } = description;
+    for of_owner in entry_types.chunk_by(|(one, _), (other, _)| one == other) {
+        let found = match of_owner.first() {
+            Some((Owner::Device(at), _)) => catalog.devices.get_mut(*at).map(|own| (&own.types, &mut own.process_data)),
+            Some((Owner::Module(at), _)) => catalog.modules.get_mut(*at).map(|own| (&own.types, &mut own.process_data)),
+            _ => None,
+        };
+        let Some((types, data)) = found else { continue };
+        let mut by_name = HashMap::with_capacity(types.len());
+        for (at, def) in types.iter().enumerate() {
+            by_name.entry(def.name.as_str()).or_insert((TypeId(at as u32), def));
+        }
+        let waiting: HashMap<Span, &EntryType> = of_owner.iter().map(|(_, own)| (own.entry, own)).collect();
+        for entry in data.pdos.iter_mut().flat_map(|pdo| &mut pdo.entries) {
+            let Some(own) = waiting.get(&entry.origin.span) else { continue };
+            let Some(&(id, def)) = by_name.get(own.name.as_str()) else {
+                unresolved(diagnostics, &own.name, own.span);
+                continue;
+            };
+            entry.ty = match def.shape {
+                Shape::Alias(ty) => ty,
+                _ => Type::Named(id),
+            };
+            check_length(diagnostics, entry, (&own.name, own.span), def.bits);
         }
     }
 }
@@ -135,7 +191,7 @@ fn open(
 
 /// Adds a further description; what it refers to itself.
 fn join(description: &mut Description, read: Description) -> Vec<(Owner, Reference)> {
-    let Description { catalog: mut other, references } = read;
+    let Description { catalog: mut other, references, entry_types } = read;
     let catalog = &mut description.catalog;
     let (devices, modules) = (catalog.devices.len(), catalog.modules.len());
     catalog.devices.append(&mut other.devices);
@@ -148,6 +204,7 @@ fn join(description: &mut Description, read: Description) -> Vec<(Owner, Referen
         Owner::Module(at) => Owner::Module(at + modules),
         Owner::Catalog => Owner::Catalog,
     };
+    description.entry_types.extend(entry_types.into_iter().map(|(owner, ty)| (moved(owner), ty)));
     references.into_iter().map(|(owner, reference)| (moved(owner), reference)).collect()
 }
 
@@ -184,12 +241,17 @@ fn attach(
         return;
     }
     let target = match owner {
-        Owner::Device(at) => catalog.devices.get_mut(at).map(|device| (&mut device.types, &mut device.groups)),
-        Owner::Module(at) => catalog.modules.get_mut(at).map(|module| (&mut module.types, &mut module.groups)),
+        Owner::Device(at) => {
+            catalog.devices.get_mut(at).map(|own| (&mut own.types, &mut own.groups, &mut own.extensions))
+        }
+        Owner::Module(at) => {
+            catalog.modules.get_mut(at).map(|own| (&mut own.types, &mut own.groups, &mut own.extensions))
+        }
         Owner::Catalog => None,
     };
-    let (Some((types, groups)), Some(dictionary)) = (target, dictionary) else { return };
+    let (Some((types, groups, extensions)), Some(dictionary)) = (target, dictionary) else { return };
     if affordable(budget, (items_of(dictionary), length), reference, diagnostics) {
+        extensions.extend(dictionary.extensions.iter().cloned());
         merge(types, groups, dictionary, diagnostics);
     }
 }

@@ -9,7 +9,7 @@ use smallvec::SmallVec;
 use super::data_type::{Dimension, RawField, RawType};
 use super::reader::{shortened, Given, Reader};
 use super::type_name::{self, Basic, Spelling};
-use crate::diagnostics::{codes, Diagnostic};
+use crate::diagnostics::{codes, Diagnostic, Diagnostics};
 use crate::ir::{BitFieldEntry, BitMeaning, CompactString, Field, Shape, Type, TypeDef, TypeId};
 use crate::limits;
 use crate::source::{Origin, Span};
@@ -330,6 +330,11 @@ impl<'t, 'a> Types<'t, 'a> {
         }
     }
 
+    /// Whether a name is that of a data type, or of a basic one.
+    pub fn knows(&self, name: &str) -> bool {
+        self.by_name.contains_key(name) || type_name::basic(name).is_some()
+    }
+
     /// The record that a reference to a type means.
     pub fn record_of(&self, ty: Type) -> Option<&'t RawType<'a>> {
         let Type::Named(TypeId(at)) = ty else { return None };
@@ -365,12 +370,7 @@ impl<'t, 'a> Types<'t, 'a> {
             }
             Some((known, _)) => self.make(&given.text, known),
             None => {
-                let message = format!("no data type is called `{}`", shortened(&given.text));
-                reader.diagnostics.push(
-                    Diagnostic::new(&codes::UNRESOLVED_TYPE, given.span, message)
-                        .label("kept as raw bytes")
-                        .help("define it in DataTypes, or use the name of a basic type such as UINT"),
-                );
+                unresolved(reader.diagnostics, &given.text, given.span);
                 Type::Opaque(None)
             }
         }
@@ -578,4 +578,14 @@ fn bit_array(width: u8) -> Shape {
         at: Default::default(),
     };
     Shape::BitField { base: Type::Unsigned(width), fields: (0..width).map(bit).collect() }
+}
+
+/// Reports a name that is no type's.
+pub(super) fn unresolved(diagnostics: &mut Diagnostics, name: &str, span: Span) {
+    let message = format!("no data type is called `{}`", shortened(name));
+    diagnostics.push(
+        Diagnostic::new(&codes::UNRESOLVED_TYPE, span, message)
+            .label("kept as raw bytes")
+            .help("define it in DataTypes, or use the name of a basic type such as UINT"),
+    );
 }
