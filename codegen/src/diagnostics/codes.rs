@@ -357,7 +357,8 @@ codes! {
     XML003 WRONG_ENCODING "wrong-encoding" Repair Warn
         "the file isn't in the encoding that it declares"
         "The XML declaration names an encoding (UTF-8 where there is none), and the bytes are of another one. Bytes \
-        that are UTF-8 were read as such whatever is declared, all others as declared, or else as Windows-1252."
+        that are UTF-8 were read as such whatever is declared, all others as declared, or else as Windows-1252. Bytes \
+        that are no letter of that encoding are lost."
     XML004 SECOND_ROOT "second-root" Repair Warn
         "something follows the root element"
         "A document has one root element, and nothing but comments behind it. What follows was left out: often it is \

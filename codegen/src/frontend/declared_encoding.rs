@@ -3,28 +3,51 @@
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
 use crate::source::{Encoding, FileId, Source, Span};
 
-/// Reports bytes that aren't in the encoding that the declaration promises.
+/// What stands for bytes that are no letter.
+const REPLACEMENT: char = '\u{FFFD}';
+
+/// Reports bytes that aren't in the encoding that the declaration, or a byte order mark, promises.
 pub fn report(source: &Source, file: FileId, diagnostics: &mut Diagnostics) {
-    let declared = source.declared_encoding();
-    let (message, read_as) = match source.encoding() {
-        Encoding::Windows1252 if source.declares_unknown_encoding() => {
-            ("the file declares an encoding that can't be read here", "Windows-1252")
-        }
-        Encoding::Windows1252 if declared.is_none_or(|label| label.eq_ignore_ascii_case("utf-8")) => {
-            ("the file is neither UTF-8 nor of an encoding that it declares", "Windows-1252")
-        }
-        Encoding::Utf8 if declared.is_some_and(|label| !label.eq_ignore_ascii_case("utf-8")) => {
-            ("the file declares another encoding, but is UTF-8", "UTF-8")
-        }
-        _ => return,
+    let Some((message, read_as)) = mismatch(source) else { return };
+    let is_meant = |letter: char| if read_as.is_some() { !letter.is_ascii() } else { letter == REPLACEMENT };
+    // Without any such character the encodings are the same. UTF-16 is another one from the first letter on.
+    let found = source.text().char_indices().find(|(_, letter)| is_meant(*letter));
+    let found = found.or_else(|| source.text().char_indices().next().filter(|_| source.encoding() == Encoding::Utf16));
+    let Some((at, letter)) = found else { return };
+    let span = Span::new(file, at as u32, (at + letter.len_utf8()) as u32);
+    let label = match read_as {
+        Some(read_as) => format!("the first such character; read as {read_as}"),
+        None => "the first of them; its bytes are lost".to_owned(),
     };
-    // Without any such character the two encodings are the same.
-    let Some(at) = source.text().bytes().position(|byte| !byte.is_ascii()) else { return };
-    let length = source.text()[at..].chars().next().map_or(0, char::len_utf8);
-    let span = Span::new(file, at as u32, (at + length) as u32);
     diagnostics.push(
         Diagnostic::new(&codes::WRONG_ENCODING, span, message)
-            .label(format!("the first such character; read as {read_as}"))
+            .label(label)
             .help("declare the encoding that the file has: `<?xml version=\"1.0\" encoding=\"…\"?>`"),
     );
+}
+
+/// What is wrong, and as what the file was read; without that, some of its letters weren't read at all.
+fn mismatch(source: &Source) -> Option<(&'static str, Option<&'static str>)> {
+    const ANOTHER: &str = "the file declares another encoding";
+    // An encoding that isn't declared is UTF-8 (XML 1.0, 4.3.3).
+    let declared = source.declared_charset();
+    let is_named = source.declared_encoding().is_some_and(|label| !label.is_empty());
+    let is_unknown = is_named && declared.is_none();
+    let is = |charset: &str| if is_named { declared == Some(charset) } else { charset == "UTF-8" };
+    let has_lost = || source.text().contains(REPLACEMENT).then_some(("the file has bytes that are no letters", None));
+    match source.encoding() {
+        Encoding::Windows1252 if is_unknown => {
+            Some(("the file declares an encoding that can't be read here", Some("Windows-1252")))
+        }
+        Encoding::Windows1252 if !is("windows-1252") => {
+            Some(("the file is neither UTF-8 nor of an encoding that it declares", Some("Windows-1252")))
+        }
+        Encoding::Utf8Bom if std::str::from_utf8(&source.bytes()).is_err() => {
+            Some(("the file begins with the mark of UTF-8, and isn't UTF-8", Some("Windows-1252")))
+        }
+        Encoding::Utf8 | Encoding::Utf8Bom if !is("UTF-8") => Some((ANOTHER, Some("UTF-8"))),
+        Encoding::Utf16 if is_named && !is("UTF-16LE") && !is("UTF-16BE") => Some((ANOTHER, Some("UTF-16"))),
+        Encoding::Utf16 | Encoding::Declared => has_lost(),
+        Encoding::Utf8 | Encoding::Utf8Bom | Encoding::Windows1252 => None,
+    }
 }

@@ -83,9 +83,9 @@ pub(super) fn declared(bytes: &[u8]) -> Option<&str> {
     rest[1..].split_once(quote).map(|(label, _)| label.trim())
 }
 
-/// Whether this is the name of an encoding that can be read.
-pub(super) fn is_known(label: &str) -> bool {
-    Charset::for_label(label.as_bytes()).is_some()
+/// The encoding that goes by this name, as the WHATWG Encoding Standard calls it.
+pub(super) fn charset(label: &str) -> Option<&'static str> {
+    Charset::for_label(label.as_bytes()).map(Charset::name)
 }
 
 fn with(charset: &'static Charset, bytes: &[u8]) -> String {

@@ -106,9 +106,10 @@ impl Source {
         decode::declared(self.text.as_bytes())
     }
 
-    /// Whether the XML declaration names an encoding that nobody here can read.
-    pub fn declares_unknown_encoding(&self) -> bool {
-        self.declared_encoding().is_some_and(|label| !decode::is_known(label))
+    /// The encoding that the XML declaration names, as the WHATWG Encoding Standard calls it (`UTF-8`, `windows-1252`); `None`
+    /// where it names none, or one that can't be read.
+    pub fn declared_charset(&self) -> Option<&'static str> {
+        self.declared_encoding().and_then(decode::charset)
     }
 
     /// The name that diagnostics show.

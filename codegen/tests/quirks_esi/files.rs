@@ -36,6 +36,34 @@ fn x01_encodings() {
     assert_eq!(undeclared.found(), ["XML003 1:40"]);
     let wrong = named("<?xml version='1.0' encoding='iso-8859-1'?>", "ü".as_bytes());
     assert_eq!(wrong.found(), ["XML003 1:82"]);
+    // Other names of UTF-8, of Windows-1252, and what has no such letter.
+    for (label, name) in
+        [("utf8", "ü".as_bytes()), ("UTF_8", b"A"), ("us-ascii", b"\xfc"), ("utf-16", b"A"), ("", b"A")]
+    {
+        let other = named(&format!("<?xml version='1.0' encoding='{label}'?>"), name);
+        assert_eq!(other.found(), NOTHING, "{label}");
+    }
+    for (declaration, name, message) in [
+        ("<?xml version='1.0' encoding='utf-16'?>", &b"\xfc"[..], "neither UTF-8 nor"),
+        ("<?xml version='1.0' encoding='klingon'?>", b"\xfc", "can't be read here"),
+        ("<?xml version='1.0' encoding='gb2312'?>", b"\xd6\xd0\xff\xff", "bytes that are no letters"),
+        ("\u{feff}<?xml version='1.0'?>", b"\xfc", "begins with the mark of UTF-8"),
+        ("\u{feff}<?xml version='1.0' encoding='iso-8859-1'?>", "ü".as_bytes(), "declares another"),
+    ] {
+        let checked = named(declaration, name);
+        assert!(checked.only("XML003").message.contains(message), "{declaration}: {}", checked.only("XML003").message);
+        assert_eq!(checked.found().len(), 1);
+    }
+    let wide = |text: &str, more: &[u8]| {
+        let mut wide = vec![0xFF, 0xFE];
+        wide.extend(text.encode_utf16().flat_map(u16::to_le_bytes));
+        wide.extend(more);
+        bytes(&wide).found()
+    };
+    let root = "<EtherCATInfo><Vendor><Id>1</Id><Name>A</Name></Vendor></EtherCATInfo>";
+    assert_eq!(wide(&format!("<?xml version='1.0' encoding='utf-16'?>{root}"), b""), NOTHING);
+    assert_eq!(wide(&format!("<?xml version='1.0'?>{root}<!--"), b"\0\xD8-\0-\0>\0"), ["XML003 1:96"]);
+    assert_eq!(wide(&format!("<?xml version='1.0' encoding='utf-8'?>{root}"), b""), ["XML003 1:1"]);
 }
 
 #[test]
