@@ -729,12 +729,12 @@ fn only_values_against_the_limits_of_their_row() {
     );
     outside(
         r#"reg = 20, type = "u16", min = 0, max = 9, writable = [3, 12]"#,
-        "[3, 12]",
+        "12",
         "the value 12, which may be written, is above the upper limit 9",
     );
     outside(
         r#"reg = 20, type = "u16[3]", min = 1, max = 2, default = [1, 2, 7]"#,
-        "[1, 2, 7]",
+        "7",
         "the default 7 of element 3 is above the upper limit 2",
     );
     outside(
@@ -742,7 +742,7 @@ fn only_values_against_the_limits_of_their_row() {
         "[3, 2]",
         "the default 3 is above the upper limit 2",
     );
-    found(r#"reg = 20, type = "u16", writable = [70000]"#, "EDS025", "[70000]", "UNSIGNED16 is never 70000");
+    found(r#"reg = 20, type = "u16", writable = [70000]"#, "EDS025", "70000", "UNSIGNED16 is never 70000");
     let short = r#"a = { reg = 20, type = "u16[3]", default = [1, 2] }
 "#;
     registers(short, &[("TAB004", "[1, 2]")]);

@@ -1,7 +1,7 @@
 //! Numbers and ranges of register tables that are as large as they can be, or larger.
 
 use lexibus_codegen::compile::{check, Compilation, Options};
-use lexibus_codegen::ir::{Binding, Item, Scale, Value};
+use lexibus_codegen::ir::{Binding, Item, Scale, Shape, Value};
 use lexibus_codegen::source::Source;
 
 /// A table with these chapters, read.
@@ -97,4 +97,40 @@ fn numbers_that_are_too_large_are_told() {
         let compilation = read(&head, &chapters);
         assert!(!codes(&compilation).is_empty(), "{head}{chapters}");
     }
+}
+
+#[test]
+fn patterns_of_bits_are_signed_wherever_they_stand() {
+    let head =
+        "[enums.Signed]\nbase = \"i16\"\nvalues = { 0xFFFF = \"none\", \"0x8000..0x8003\" = \"low\", 5 = \"five\" }\n";
+    let row = "[chapters.registers]\n\
+               a = { reg = 0, type = \"i16\", access = \"rw\", allowed = [0x8000, 7, \"0xFFF0..0xFFFF\"], writable = [0x8000, 7],\n\
+               default = 0x8000 }\n\
+               b = { reg = 1, type = \"i16[2]\", access = \"rw\", default = [0xFFFF, 2] }\n\
+               c = { reg = 3, enum = \"Signed\", access = \"ro\" }\n\
+               \"d {n}\" = { reg = 4, count = 2, type = \"i16\", access = \"rw\", default = [1, 0xFFFE] }\n";
+    let compilation = read(&format!("{SPACE}{head}"), row);
+    assert!(codes(&compilation).iter().all(|code| *code == "EDS063"), "{:?}", codes(&compilation));
+    let list = items(&compilation);
+    let int = |number: i128| Some(Value::Int(number));
+    let allowed: Vec<_> = list[0].limits.allowed.iter().map(|(low, high)| (low.as_int(), high.as_int())).collect();
+    assert_eq!(allowed, [(Some(-32768), Some(-32768)), (Some(7), Some(7)), (Some(-16), Some(-1))]);
+    let writable = &list[0].behaviour.as_ref().expect("what may be written").writable_values;
+    assert_eq!((&list[0].default, &writable[..]), (&int(-32768), &[Value::Int(-32768), Value::Int(7)][..]));
+    assert_eq!((&list[1].default, &list[3].default, &list[4].default), (&int(-1), &int(1), &int(-2)));
+    let device = &compilation.catalog.as_ref().expect("a catalogue").devices[0];
+    let values = device.types.iter().find_map(|own| match &own.shape {
+        Shape::Enumeration { values, .. } => Some(values),
+        _ => None,
+    });
+    let values: Vec<_> = values.expect("an enumeration").iter().map(|own| (own.value, own.last)).collect();
+    assert_eq!(values, [(-1, None), (-32768, Some(-32765)), (5, None)]);
+}
+
+#[test]
+fn an_offset_is_a_finite_number() {
+    let row = "[chapters.registers]\na = { reg = 0, type = \"i16\", access = \"rw\", offset = inf }\n";
+    let compilation = read(SPACE, row);
+    let found = compilation.diagnostics.list().iter().filter(|found| found.message == "an offset is a finite number");
+    assert_eq!(found.count(), 1);
 }

@@ -43,7 +43,7 @@ impl Definitions {
                 ConditionValues::Bits(bits) => (bits.mask, bits.value.as_ref().map_or(&[][..], |own| own.0.as_slice())),
             };
             let span = reader.span(given);
-            let values = value::listed(reader, (literals, span), Type::Opaque(None));
+            let values = value::listed(reader, (literals, (given.start, given.end)), Type::Opaque(None));
             let outside =
                 |mask: u64| values.iter().filter_map(|own| own.as_int()).any(|own| own & !i128::from(mask) != 0);
             if literals.is_empty() || mask.is_some_and(outside) || mask == Some(0) {

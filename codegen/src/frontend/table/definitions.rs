@@ -11,7 +11,7 @@ use super::format::{BitEntries, BitTable, BitsTable, EnumTable, NumberOrText, Un
 use super::references::References;
 use super::rows::ACCESSES;
 use super::tree::{cited, Reader};
-use super::{lints, place, types};
+use super::{lints, place, types, value};
 use crate::diagnostics::{codes, Diagnostic};
 use crate::ir::{BitFieldEntry, BitMeaning, Doubts, EnumValue, Mark, Shape, Trigger, Type, TypeDef, TypeId, Zone};
 use crate::source::Origin;
@@ -168,7 +168,10 @@ impl Definitions {
     ) -> TypeId {
         let mut values = Vec::with_capacity(entries.0.len());
         for (key, entry) in entries.iter() {
-            let Some((first, last)) = place::range(&key.value).filter(|(first, last)| first <= last) else {
+            let is_pattern = reader.is_pattern(key);
+            let range = place::range(&key.value).filter(|(first, last)| first <= last);
+            let range = range.map(|(first, last)| [first, last].map(|own| value::integer(own, base, is_pattern)));
+            let Some([first, last]) = range.filter(|[first, last]| first <= last) else {
                 let message = format!("`{}` is no value: write `3`, `0x10`, `-1` or `\"3..7\"`", brief(&key.value));
                 reader.report(&codes::TABLE_PLACE, reader.span(key), message);
                 continue;

@@ -62,15 +62,14 @@ fn exclude(reader: &mut Reader<'_, '_>, span: Span, message: String) {
 /// The default of a row, or its share of a list.
 fn default(reader: &mut Reader<'_, '_>, item: &mut Item, named: Named<'_>, given: &At<OneOrMany<Literal>>, base: Type) {
     let list = &given.value.0;
-    let own = if list.len() > 1 { list.get(named.number as usize) } else { list.first() };
-    let Some(own) = own else {
+    let at = if list.len() > 1 { named.number as usize } else { 0 };
+    let Some(own) = reader.each(list, (given.start, given.end)).into_iter().nth(at) else {
         let message = format!("the list has {} defaults, and this is number {}", list.len(), named.number + 1);
         reader.report(&codes::TABLE_VALUE, reader.span(given), message);
         return;
     };
-    let own = At { value: own.clone(), start: given.start, end: given.end };
     item.default = Some(value::value(reader, &own, base));
-    item.at.default = reader.span(given);
+    item.at.default = reader.span(&own);
 }
 
 /// The defaults of an array, one for each element. The item keeps the first.
@@ -87,14 +86,12 @@ fn elements(
         reader.report(&codes::TABLE_VALUE, span, message);
         return;
     }
-    let mut values = Vec::with_capacity(list.len());
-    for own in list {
-        values.push(value::value(reader, &At { value: own.clone(), start: given.start, end: given.end }, base));
-    }
+    let each = reader.each(list, (given.start, given.end));
+    let values: Vec<Value> = each.iter().map(|own| value::value(reader, own, base)).collect();
     // The first is the item's, and checked with it.
-    for (own, number) in values.iter().zip(1..).skip(1) {
+    for ((own, given), number) in values.iter().zip(&each).zip(1..).skip(1) {
         if let Some(reason) = excluded(limits, own) {
-            exclude(reader, span, format!("the default {own} of element {number} is {reason}"));
+            exclude(reader, reader.span(given), format!("the default {own} of element {number} is {reason}"));
             break;
         }
     }
@@ -106,7 +103,7 @@ fn elements(
 fn allowed(reader: &mut Reader<'_, '_>, item: &mut Item, row: &Row, base: Type, own: &mut Limits) {
     let Some(given) = &row.allowed else { return };
     let span = reader.span(given);
-    let ranges = value::ranges(reader, (&given.value, span), base);
+    let ranges = value::ranges(reader, (&given.value, (given.start, given.end)), base);
     for (first, last) in &ranges {
         lints::range(reader, first, base, span);
         if last != first {
@@ -125,10 +122,11 @@ fn allowed(reader: &mut Reader<'_, '_>, item: &mut Item, row: &Row, base: Type, 
 fn writable(reader: &mut Reader<'_, '_>, row: &Row, base: Type, limits: &Limits) {
     let Some(given) = &row.writable else { return };
     // What is no value is reported where the item gets them.
-    for value in given.value.iter().filter_map(|literal| value::convert(literal, base, false)) {
-        lints::range(reader, &value, base, reader.span(given));
+    for own in reader.each(&given.value, (given.start, given.end)) {
+        let Some(value) = value::convert(&own.value, base, reader.is_pattern(&own)) else { continue };
+        lints::range(reader, &value, base, reader.span(&own));
         if let Some(reason) = excluded(limits, &value) {
-            exclude(reader, reader.span(given), format!("the value {value}, which may be written, is {reason}"));
+            exclude(reader, reader.span(&own), format!("the value {value}, which may be written, is {reason}"));
         }
     }
 }

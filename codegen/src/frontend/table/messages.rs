@@ -1,5 +1,7 @@
 //! Messages of a command protocol, and the spaces whose numbers they carry.
 
+use std::collections::HashSet;
+
 use super::at::{At, FlagOr, Literal, TextOr};
 use super::format::{
     field_row, CompletionTable, ExampleTable, FieldTable, MessageTable, NumberOrText, Row, SpaceTable,
@@ -54,14 +56,21 @@ pub(super) fn end(table: &At<MessageTable>) -> u32 {
 }
 
 /// A request and its reply.
-pub(super) fn message(reader: &mut Reader<'_, '_>, rows: &mut Rows, table: &At<MessageTable>, device: &mut Device) {
+///
+/// `names` are those of the messages that were read before.
+pub(super) fn message(
+    reader: &mut Reader<'_, '_>,
+    rows: &mut Rows,
+    table: &At<MessageTable>,
+    (device, names): (&mut Device, &mut HashSet<String>),
+) {
     let own = &table.value;
     let Some(name) = &own.name else {
         reader.report(&codes::TABLE_VALUE, reader.span(table), "a message has a `name`");
         return;
     };
     let (origin, cite) = (reader.origin(name), own.cite.as_ref().map(cited));
-    if device.messages.iter().any(|other| other.name == name.value) {
+    if !names.insert(name.value.clone()) {
         let message = format!("there are two messages called `{}`", brief(&name.value));
         reader.report(&codes::TABLE_DUPLICATE, reader.span(name), message);
     }
@@ -210,14 +219,16 @@ struct Fields<'r, 's, 'd> {
 impl Fields<'_, '_, '_> {
     fn list(&mut self, list: &[At<FieldTable>], depth: usize) -> Vec<MessageField> {
         let mut fields: Vec<MessageField> = Vec::new();
+        let mut before = HashSet::new();
         for field in list {
-            let before: Vec<CompactString> = field_names(&fields).cloned().collect();
-            fields.extend(self.one(field, &before, depth));
+            let own = self.one(field, &before, depth);
+            before.extend(field_names(own.as_slice()).cloned());
+            fields.extend(own);
         }
         fields
     }
 
-    fn one(&mut self, field: &At<FieldTable>, before: &[CompactString], depth: usize) -> Option<MessageField> {
+    fn one(&mut self, field: &At<FieldTable>, before: &HashSet<CompactString>, depth: usize) -> Option<MessageField> {
         let own = &field.value;
         let kinds = [
             own.field.is_some(),
@@ -265,9 +276,10 @@ impl Fields<'_, '_, '_> {
             return Some(MessageField::ItemPadding { space: text(space) });
         }
         if let Some(repeat) = &own.repeat {
-            if let Some(count) = repeat.count.as_ref().filter(|count| !before.iter().any(|own| *own == count.value)) {
-                let known = before.iter().map(CompactString::as_str);
-                self.reader.unresolved("field", &count.value, self.reader.span(count), known);
+            if let Some(count) = repeat.count.as_ref().filter(|count| !before.contains(count.value.as_str())) {
+                let mut known: Vec<&str> = before.iter().map(CompactString::as_str).collect();
+                known.sort_unstable();
+                self.reader.unresolved("field", &count.value, self.reader.span(count), known.into_iter());
             }
             let fields = self.list(&repeat.fields, depth + 1);
             return Some(MessageField::Repeat { count: repeat.count.as_ref().map(text), max: repeat.max, fields });

@@ -65,6 +65,8 @@ mod value;
 mod variants;
 mod windows;
 
+use std::collections::HashSet;
+
 use compact_str::CompactString;
 use serde::de::DeserializeOwned;
 use toml::de::DeValue;
@@ -310,9 +312,10 @@ impl<'a> Table<'a> {
         for image in self.list(reader, "images") {
             images::image(reader, rows, &image, device);
         }
+        let mut names = HashSet::new();
         for message in self.list::<format::MessageTable>(reader, "messages") {
             rows.allow_at(reader, (message.start, messages::end(&message)), &message.value.allow);
-            messages::message(reader, rows, &message, device);
+            messages::message(reader, rows, &message, (device, &mut names));
         }
         if let Some(framing) = self.take(reader, "framing") {
             framing::read(reader, &framing, device);

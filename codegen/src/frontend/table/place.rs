@@ -90,19 +90,29 @@ pub(super) fn bits(text: &str) -> Option<(u8, u8)> {
 
 /// `text` with `{n}`, `{n+1}` and `{sub}` filled in.
 pub(super) fn filled(text: &str, number: u32, sub: Option<u8>) -> String {
-    if !text.contains('{') {
-        return text.to_owned();
+    let mut filled = String::with_capacity(text.len());
+    let mut pieces = text.split('{');
+    filled.push_str(pieces.next().unwrap_or_default());
+    for piece in pieces {
+        let (word, rest) = piece.split_once('}').unwrap_or((piece, ""));
+        let number = match (word, word.strip_prefix("n+")) {
+            ("n", _) => Some(number),
+            ("sub", _) => sub.map(u32::from),
+            (_, Some(more)) => more.trim().parse().ok().map(|more| number.saturating_add(more)),
+            _ => None,
+        };
+        match number.filter(|_| word.len() < piece.len()) {
+            Some(number) => {
+                filled.push_str(&number.to_string());
+                filled.push_str(rest);
+            }
+            None => {
+                filled.push('{');
+                filled.push_str(piece);
+            }
+        }
     }
-    let mut text = text.replace("{n}", &number.to_string());
-    if let Some(sub) = sub {
-        text = text.replace("{sub}", &sub.to_string());
-    }
-    while let Some((start, rest)) = text.split_once("{n+") {
-        let Some((more, end)) = rest.split_once('}') else { break };
-        let Ok(more) = more.trim().parse::<u32>() else { break };
-        text = format!("{start}{}{end}", number.saturating_add(more));
-    }
-    text
+    filled
 }
 
 #[cfg(test)]
@@ -118,6 +128,23 @@ mod tests {
         for text in ["", "-", "--5", "0x", "1.5", "x", "0x-1", "+-1"] {
             assert_eq!(integer(text), None, "{text}");
         }
+    }
+
+    #[test]
+    fn numbers_in_names() {
+        let cases = [
+            ("a{n}b{n+1}", "a4b5"),
+            ("{sub} {n + 1} {n+ 2 }{", "7 {n + 1} 6{"),
+            ("{n+x} {n+1 {n}", "{n+x} {n+1 4"),
+            ("{}{n", "{}{n"),
+            ("", ""),
+            ("{n}}", "4}"),
+        ];
+        for (text, expected) in cases {
+            assert_eq!(filled(text, 4, Some(7)), expected, "{text}");
+        }
+        assert_eq!(filled("{sub}{n}", 1, None), "{sub}1");
+        assert_eq!(filled(&"{n+1}".repeat(200_000), 1, None).len(), 200_000);
     }
 
     #[test]

@@ -1,5 +1,6 @@
 //! Names that lead to something else in the table: items, models, constants, messages, procedures.
 
+use std::cell::OnceCell;
 use std::collections::{HashMap, HashSet};
 
 use super::at::At;
@@ -59,7 +60,12 @@ struct Known<'d> {
     items: HashSet<&'d str>,
     /// The chapters that have a name.
     chapters: HashMap<&'d str, Vec<&'d str>>,
+    /// The names of each of `KINDS`, once one is looked for.
+    others: [OnceCell<HashSet<&'d str>>; KINDS.len()],
 }
+
+/// What goes by names of its own.
+const KINDS: [&str; 5] = ["constant", "given number", "message", "procedure", "state"];
 
 impl<'d> Known<'d> {
     fn new(device: &'d Device) -> Self {
@@ -71,18 +77,17 @@ impl<'d> Known<'d> {
                 chapters.entry(&item.name).or_default().push(&group.name);
             }
         }
-        Known { device, items: all.chain(groups).collect(), chapters }
+        Known { device, items: all.chain(groups).collect(), chapters, others: Default::default() }
     }
 
     fn has(&self, kind: &str, text: &str) -> bool {
         let device = self.device;
         match kind {
             "model" => device.variants.is_empty() || device.variants.iter().any(|own| glob(text, &own.name)),
-            "constant" => device.variants.iter().any(|own| own.constants.iter().any(|(name, _)| name == text)),
-            "given number" => device.given.iter().any(|given| given.name == text),
-            "message" => device.messages.iter().any(|message| message.name == text),
-            "procedure" => device.procedures.iter().any(|procedure| procedure.name == text),
-            "state" => states(device).any(|state| state == text),
+            _ if KINDS.contains(&kind) => {
+                let names = KINDS.iter().position(|own| *own == kind).and_then(|at| self.others.get(at));
+                names.is_some_and(|names| names.get_or_init(|| self.names(kind).into_iter().collect()).contains(text))
+            }
             _ => self.items.contains(text) || self.by_place(text) || self.by_path(text),
         }
     }

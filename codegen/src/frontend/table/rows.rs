@@ -377,7 +377,7 @@ impl Rows {
             _ => (row.scale.as_ref(), row.offset),
         };
         if own.is_some() || row.scale.is_some() || row.offset.is_some() {
-            quantity.scale = scale::read(reader, scale, offset, &mut self.references);
+            quantity.scale = scale::read(reader, (scale, offset), item.at.name, &mut self.references);
         }
         for (key, meaning) in row.na.iter().flat_map(|na| na.iter()) {
             let literal = At { value: Literal::Text(key.value.clone()), start: key.start, end: key.end };
@@ -430,7 +430,7 @@ impl Rows {
             behaviour.write_when = self.definitions.conditions(reader, when);
         }
         if let Some(values) = &row.writable {
-            behaviour.writable_values = value::listed(reader, (&values.value, reader.span(values)), base);
+            behaviour.writable_values = value::listed(reader, (&values.value, (values.start, values.end)), base);
         }
         behaviour.self_clearing = row.clears.unwrap_or(behaviour.self_clearing);
         behaviour.write_once = row.once.unwrap_or(behaviour.write_once);

@@ -6,21 +6,30 @@ use super::references::{References, ITEM};
 use super::tree::Reader;
 use crate::diagnostics::{codes, Diagnostic};
 use crate::ir::Scale;
+use crate::source::Span;
 
 /// The greatest number of fractional bits.
 const MAX_FRACTION: u8 = 63;
 
 /// Reads a scale and the offset beside it; `None` where the raw number is the physical one. What makes no sense is
-/// reported, and no scale.
+/// reported, in the row where it has no place of its own, and no scale.
 pub(super) fn read(
     reader: &mut Reader<'_, '_>,
-    given: Option<&At<Scaling>>,
-    offset: Option<f64>,
+    (given, offset): (Option<&At<Scaling>>, Option<f64>),
+    row: Span,
     references: &mut References,
 ) -> Option<Scale> {
-    let Some(given) = given else { return linear(1.0, offset.unwrap_or(0.0)) };
-    said(reader, given, offset, references).flatten()
+    match (given, offset) {
+        (Some(given), _) => said(reader, given, offset, references).flatten(),
+        (None, Some(offset)) if !offset.is_finite() => {
+            reader.report(&codes::TABLE_VALUE, row, NO_OFFSET);
+            None
+        }
+        (None, offset) => linear(1.0, offset.unwrap_or(0.0)),
+    }
 }
+
+const NO_OFFSET: &str = "an offset is a finite number";
 
 /// What is said of a variant: a scale of 1, too, as the row's is another one.
 pub(super) fn of_variant(
@@ -40,7 +49,7 @@ fn said(
     references: &mut References,
 ) -> Option<Option<Scale>> {
     let found = match &given.value {
-        _ if offset.is_some_and(|offset| !offset.is_finite()) => Err("an offset is a finite number".to_owned()),
+        _ if offset.is_some_and(|offset| !offset.is_finite()) => Err(NO_OFFSET.to_owned()),
         Scaling::Factor(factor) => number("the scale", *factor).map(|factor| linear(factor, offset.unwrap_or(0.0))),
         Scaling::Rule(rule) => self::rule(rule, offset, references),
     };

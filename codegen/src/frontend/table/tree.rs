@@ -20,6 +20,9 @@ pub(super) type Node<'a> = Spanned<DeValue<'a>>;
 /// So many names are listed where none is like the one that was looked for.
 const MAX_LISTED: usize = 12;
 
+/// Behind so many findings no names are suggested.
+const MAX_HELPED: usize = 1000;
+
 /// The state of reading one file.
 pub(super) struct Reader<'a, 'd> {
     pub source: &'a Source,
@@ -126,6 +129,8 @@ impl<'a> Reader<'a, '_> {
     pub fn unresolved<'n>(&mut self, what: &str, name: &str, span: Span, known: impl Iterator<Item = &'n str>) {
         let message = format!("there is no {what} called `{}`", brief(name));
         let diagnostic = Diagnostic::new(&codes::UNRESOLVED_NAME, span, message);
+        // Behind so many findings nobody reads what was meant, and each would be compared with every name that there is.
+        let known = known.take_while(|_| self.diagnostics.list().len() < MAX_HELPED);
         let known: Vec<&str> = known.filter(|known| !known.trim().is_empty()).collect();
         self.diagnostics.push(match similar(name, known.iter().copied()) {
             Some(name) => diagnostic.help(format!("did you mean `{name}`?")),
@@ -174,6 +179,22 @@ impl<'a> Reader<'a, '_> {
     fn range(&self, range: Option<std::ops::Range<usize>>) -> Span {
         let range = range.unwrap_or(0..0);
         Span::new(self.file, range.start as u32, range.end as u32)
+    }
+
+    /// The literals of a list that stands between these bytes, each at its own place.
+    pub fn each(&self, list: &[Literal], (start, end): (u32, u32)) -> Vec<At<Literal>> {
+        let text = self.source.slice(Span::new(self.file, start, end));
+        let parsed = DeValue::parse(text).ok();
+        let elements = match parsed.as_ref().map(Spanned::get_ref) {
+            Some(DeValue::Array(elements)) if elements.len() == list.len() => Some(elements),
+            _ => None,
+        };
+        let place = |at: usize| elements.and_then(|all| all.get(at)).map_or(0..text.len(), Spanned::span);
+        let at = |(at, value): (usize, &Literal)| {
+            let place = place(at);
+            At { value: value.clone(), start: start + place.start as u32, end: start + place.end as u32 }
+        };
+        list.iter().enumerate().map(at).collect()
     }
 
     /// Whether a number is written in hexadecimal, or as bits.

@@ -39,12 +39,12 @@ const MAX_LISTED: i128 = 1024;
 /// The values of a list, and first and last of its ranges (`"3..7"`).
 pub(super) fn ranges(
     reader: &mut Reader<'_, '_>,
-    (given, span): (&[Literal], Span),
+    (given, place): (&[Literal], (u32, u32)),
     ty: Type,
 ) -> ThinVec<(Value, Value)> {
     let mut found = ThinVec::with_capacity(given.len());
-    for literal in given {
-        let range = match literal {
+    for literal in reader.each(given, place) {
+        let range = match &literal.value {
             Literal::Text(text) if has_numbers(ty) => {
                 place::range(text).filter(|(first, last)| first <= last).map(|(first, last)| {
                     let is_pattern = text.contains("0x") || text.contains("0b");
@@ -52,14 +52,14 @@ pub(super) fn ranges(
                     (one(first), one(last))
                 })
             }
-            other => convert(other, ty, false).map(|value| (value.clone(), value)),
+            other => convert(other, ty, reader.is_pattern(&literal)).map(|value| (value.clone(), value)),
         };
         match range {
             Some(range) => found.push(range),
             None => {
                 let what = if matches!(ty, Type::Opaque(_)) { "number".to_owned() } else { format!("value of {ty}") };
-                let message = format!("`{}` is no {what}, and no range of them", brief(&text_of(literal)));
-                let diagnostic = Diagnostic::new(&codes::TABLE_VALUE, span, message);
+                let message = format!("`{}` is no {what}, and no range of them", brief(&text_of(&literal.value)));
+                let diagnostic = Diagnostic::new(&codes::TABLE_VALUE, reader.span(&literal), message);
                 reader.diagnostics.push(diagnostic.help("write `3`, or `\"3..7\"` for a range"));
             }
         }
@@ -73,16 +73,16 @@ fn has_numbers(ty: Type) -> bool {
 }
 
 /// The same, each value of a range by itself.
-pub(super) fn listed(reader: &mut Reader<'_, '_>, (given, span): (&[Literal], Span), ty: Type) -> Vec<Value> {
+pub(super) fn listed(reader: &mut Reader<'_, '_>, (given, place): (&[Literal], (u32, u32)), ty: Type) -> Vec<Value> {
     let mut values = Vec::new();
-    for (first, last) in ranges(reader, (given, span), ty) {
+    for (first, last) in ranges(reader, (given, place), ty) {
         match (first.as_int(), last.as_int()) {
             (Some(low), Some(high)) if low < high && high.checked_sub(low).is_some_and(|more| more < MAX_LISTED) => {
                 values.extend((low..=high).map(Value::Int));
             }
             (Some(low), Some(high)) if low < high => {
                 let message = format!("{low} to {high} are more than {MAX_LISTED} values");
-                reader.report(&codes::TABLE_VALUE, span, message);
+                reader.report(&codes::TABLE_VALUE, Span::new(reader.file, place.0, place.1), message);
             }
             _ => values.push(first),
         }
@@ -106,6 +106,14 @@ pub(super) fn convert(literal: &Literal, ty: Type, is_pattern: bool) -> Option<V
         (_, Literal::Real(value)) => Value::Real(*value),
         (_, Literal::Text(_)) => return None,
     })
+}
+
+/// What a number, or a pattern of bits, means in a type.
+pub(super) fn integer(value: i128, ty: Type, is_pattern: bool) -> i128 {
+    match ty {
+        Type::Integer(bits) => signed(value, bits, is_pattern),
+        _ => value,
+    }
 }
 
 /// A bit pattern has no other way to be negative.

@@ -36,7 +36,8 @@ impl Rows {
             device::buses(reader, buses);
         }
         let ty = own.ty.as_ref().and_then(|given| self.other_type(reader, given, base));
-        let allowed = own.allowed.as_ref().map(|list| value::ranges(reader, (&list.value, reader.span(list)), base));
+        let allowed = own.allowed.as_ref();
+        let allowed = allowed.map(|list| value::ranges(reader, (&list.value, (list.start, list.end)), base));
         let on_models = own.models.is_some() && (own.ty.is_some() || own.access.is_some());
         if on_models || (own.buses.is_none() && (own.ty.is_some() || own.access.is_some())) {
             let message =
