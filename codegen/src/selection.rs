@@ -218,12 +218,24 @@ impl Selection {
         }
     }
 
+    fn has_object(&self, index: u16) -> bool {
+        self.objects.is_empty() || self.objects.iter().any(|filter| (filter.first..=filter.last).contains(&index))
+    }
+
+    /// Takes the PDOs out of which an EDS would make mapping objects that aren't wanted.
+    #[cfg(feature = "cli")]
+    pub(crate) fn mapping_objects(&self, catalog: &mut Catalog) {
+        for device in &mut catalog.devices {
+            device.process_data.pdos.retain(|pdo| self.has_object(pdo.mapping_index));
+        }
+    }
+
     /// Takes out of `catalog` the objects that aren't wanted. Done last: the names in PDOs come from them.
     pub(crate) fn objects(&self, catalog: &mut Catalog) {
         if self.objects.is_empty() {
             return;
         }
-        let wanted = |index: u16| self.objects.iter().any(|filter| (filter.first..=filter.last).contains(&index));
+        let wanted = |index: u16| self.has_object(index);
         let Catalog { devices, modules, .. } = catalog;
         let lists = devices.iter_mut().map(|device| &mut device.groups);
         for groups in lists.chain(modules.iter_mut().map(|module| &mut module.groups)) {

@@ -387,6 +387,13 @@ fn export_writes_an_eds_and_says_what_it_leaves_out() {
     assert_eq!(code(&one), 0, "{}", err(&one));
     let note = "1 × enumeration written as the integer below (first: 0x2000:01)";
     assert!(err(&one).lines().any(|line| line.starts_with("note: ") && line.ends_with(note)), "{}", err(&one));
+    let objects = |more: &[&str]| {
+        let call = ["export", "--format", "eds", COUPLER, "--device", "SV-1", "-A", "warnings"];
+        let text = out(&lexibus(&[&call, more].concat()));
+        text.lines().filter(|line| line.len() == 6 && line.starts_with('[')).map(str::to_owned).collect::<Vec<_>>()
+    };
+    assert!(objects(&[]).contains(&"[1A00]".to_owned()), "{:?}", objects(&[]));
+    assert_eq!(objects(&["--objects", "0x2000"]), ["[2000]"], "nor are mapping objects made");
     let target = folder.join("devices/").to_string_lossy().into_owned();
     assert_eq!(code(&lexibus(&["export", "--format", "eds", COUPLER, "--out", &target])), 0);
     for name in ["devices/coupler.esi_CP-32.eds", "devices/coupler.esi_SV-1.eds"] {

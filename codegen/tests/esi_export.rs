@@ -147,6 +147,17 @@ fn what_the_caller_says_counts_first() {
 }
 
 #[test]
+fn what_the_caller_says_and_the_file_does_not_take_is_told() {
+    let mut options = Options { vendor_id: Some(1), ..Options::default() };
+    for (key, value) in [("coe", "sdo-info"), ("mailbox-out", "0x1000:128")] {
+        options.set(key, value).expect("an option");
+    }
+    let exported = export(&catalog("slave.xml", SLAVE), &options).expect("an ESI");
+    let note = exported.notes.iter().find(|note| note.kind == NoteKind::GivenFact).expect("a note");
+    assert_eq!((note.count, note.first.as_str()), (2, "mailbox-out"), "it has a mailbox and sync managers");
+}
+
+#[test]
 fn what_nobody_says_is_asked_for() {
     let eds = catalog("pump.eds", EDS);
     let Err(Refusal::Missing(facts)) = export(&eds, &Options::default()) else { panic!("it has no physics") };

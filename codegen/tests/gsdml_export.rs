@@ -4,7 +4,7 @@ mod corpus_support;
 
 use corpus_support::round_trip::options as reading;
 use corpus_support::xsd::Schema;
-use lexibus_codegen::backend::gsdml::{export, file_name, Export, Options, Refusal};
+use lexibus_codegen::backend::gsdml::{export, file_name, Export, NoteKind, Options, Refusal};
 use lexibus_codegen::compile::{check, read};
 use lexibus_codegen::ir::{Catalog, Type};
 use lexibus_codegen::source::Source;
@@ -111,6 +111,10 @@ fn gsdml_of_process_images() {
     let findings: Vec<String> = again.diagnostics.list().iter().map(|found| again.one_line(found)).collect();
     assert_eq!(findings, Vec::<String>::new());
     let catalog = again.catalog.expect("a catalogue");
+    // What is said of a device access point counts only where one is made.
+    let of_itself = export(&catalog, &given()).expect("a GSDML");
+    let unused = of_itself.notes.iter().find(|note| note.kind == NoteKind::GivenFact).expect("a note");
+    assert_eq!((unused.count, unused.first.as_str()), (FACTS.len() - 5, "dns-name"));
     let data = catalog.submodules.iter().find_map(|own| own.output.as_ref()).expect("what a controller sends");
     let fields = &data.image.fields;
     let place = |name: &str| {

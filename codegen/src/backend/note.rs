@@ -62,6 +62,8 @@ macro_rules! kinds {
 }
 
 kinds! {
+    /// A fact that the caller gave.
+    GivenFact = "given-fact", "fact that was given and has no place in this file left out";
     /// ParameterValue, Denotation and the like in an EDS.
     Configuration = "configuration", "configuration of one device left out (of all formats, a DCF has it)";
     /// Unit, scale, sentinels, step.

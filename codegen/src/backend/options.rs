@@ -111,9 +111,11 @@ pub(super) fn parsed<T: OptionValue>(key: &str, text: &str) -> Result<Option<T>,
     T::parse(text).map(Some).ok_or_else(|| format!("`{key}` is {}, not `{text}`", T::WHAT))
 }
 
-/// Options that have a key each.
+/// Options that have a key each; beside them what notes which of them a file asked for.
 macro_rules! options {
-    ($(#[$attribute:meta])* pub struct $name:ident { $(#[doc = $doc:literal] $field:ident: $ty:ty = $key:literal,)+ }) => {
+    ($(#[$attribute:meta])* pub struct $name:ident, $asked:ident {
+        $(#[doc = $doc:literal] $field:ident: $ty:ty = $key:literal,)+
+    }) => {
         $(#[$attribute])*
         #[derive(Clone, Debug, Default, PartialEq)]
         pub struct $name {
@@ -134,6 +136,32 @@ macro_rules! options {
                     }
                 }
                 Ok(())
+            }
+        }
+
+        /// The options, and those of them that were asked for.
+        pub(super) struct $asked<'o> {
+            options: &'o $name,
+            keys: std::cell::RefCell<std::collections::HashSet<&'static str>>,
+        }
+
+        impl<'o> $asked<'o> {
+            pub(super) fn new(options: &'o $name) -> Self {
+                $asked { options, keys: Default::default() }
+            }
+
+            $(#[doc = $doc]
+            pub(super) fn $field(&self) -> Option<$ty> {
+                self.keys.borrow_mut().insert($key);
+                self.options.$field.clone()
+            })+
+
+            /// Notes the options that are given and that nothing asked for.
+            pub(super) fn note_others(&self, notes: &mut $crate::backend::note::Notes) {
+                let keys = self.keys.borrow();
+                $(if self.options.$field.is_some() && !keys.contains($key) {
+                    notes.add($crate::backend::note::NoteKind::GivenFact, $crate::backend::note::Place::Named($key));
+                })+
             }
         }
     };

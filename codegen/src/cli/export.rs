@@ -75,8 +75,11 @@ pub(super) fn run(export: &Export) -> Result<bool, Failure> {
     options.no_profiles = true;
     let mut reporter = Reporter::new(&export.inputs, false);
     let mut target = Target::new(&export.inputs, export.out.as_deref(), export.check)?;
-    inputs::each_by_path(&export.inputs, &options, |input, compilation| {
+    inputs::each_by_path(&export.inputs, &options, |input, mut compilation| {
         reporter.report(&compilation)?;
+        if let (Format::Eds(_), Some(catalog)) = (&format, &mut compilation.catalog) {
+            options.select.mapping_objects(catalog);
+        }
         match compilation.catalog.as_ref().filter(|_| compilation.is_usable()) {
             Some(catalog) => write(&format, input, &compilation, catalog, &mut target, &mut reporter),
             None => Ok(()),

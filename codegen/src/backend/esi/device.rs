@@ -27,7 +27,7 @@ pub(super) fn write(xml: &mut Xml, context: &mut Context<'_>, device: &Device) {
     extras::urls(xml, device);
     extras::info(xml, context, device, settings);
     let group = Some(settings.group.to_string()).filter(|group| !group.is_empty() || context.is_esi);
-    let group = context.wanted(context.options.group.clone(), group, "group");
+    let group = context.wanted(context.options.group(), group, "group");
     xml.leaf("GroupType", group);
     dictionary(xml, context, device, |xml, context, types| {
         sync::write(xml, context, device, settings);
@@ -101,7 +101,7 @@ fn physics(xml: &mut Xml, context: &mut Context<'_>, settings: &EtherCatSettings
     let is_known = |ports: &str| ports.len() <= 4 && ports.bytes().all(|port| b"YKH ,".contains(&port));
     let own = settings.physics.to_string();
     let own = Some(own).filter(|ports| context.is_esi || !ports.is_empty());
-    let ports = context.wanted(context.options.physics.clone(), own, "physics");
+    let ports = context.wanted(context.options.physics(), own, "physics");
     if !is_known(&ports) {
         context.notes.add(NoteKind::Spelling, Place::Named("Physics"));
         return xml.attribute("Physics", "");
@@ -111,8 +111,8 @@ fn physics(xml: &mut Xml, context: &mut Context<'_>, settings: &EtherCatSettings
 
 fn device_type(xml: &mut Xml, context: &mut Context<'_>, device: &Device) {
     let (identity, options) = (&device.identity, context.options);
-    let product = options.product_code.or(identity.product_code);
-    let revision = options.revision.or(identity.revision_number);
+    let product = options.product_code().or(identity.product_code);
+    let revision = options.revision().or(identity.revision_number);
     xml.open("Type");
     // A master can't tell a device without them from others.
     if !context.is_esi {
@@ -125,7 +125,7 @@ fn device_type(xml: &mut Xml, context: &mut Context<'_>, device: &Device) {
     extras::of_type(xml, device);
     let named = [&identity.order_code, &device.name].into_iter().find(|name| !name.is_empty());
     let own = if context.is_esi { Some(&identity.order_code) } else { named };
-    let own = context.wanted(options.order_code.clone(), own.map(CompactString::to_string), "order-code");
+    let own = context.wanted(options.order_code(), own.map(CompactString::to_string), "order-code");
     xml.content(own);
     xml.close();
 }

@@ -18,7 +18,7 @@ const ATTRIBUTES: [(&str, &[&str]); 4] = [
 
 /// Writes the mailbox of the source, or that of the options where the source has none.
 pub(super) fn write(xml: &mut Xml, context: &mut Context<'_>, own: Option<&Mailbox>) {
-    let given = context.options.coe.clone().filter(|_| own.is_none());
+    let given = if own.is_none() { context.options.coe() } else { None };
     let given = given.map(|coe| Mailbox { coe: Some(coe), ..Mailbox::default() });
     let Some(mailbox) = own.or(given.as_ref()) else { return };
     let notes = &mut context.notes;

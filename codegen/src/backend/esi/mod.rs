@@ -38,6 +38,7 @@ mod types;
 mod value;
 
 pub use super::{Export, MissingFact, Note, NoteKind, Refusal};
+use options::Asked;
 pub use options::{Area, Options};
 
 use std::collections::HashMap;
@@ -56,6 +57,7 @@ const VERSION: &str = "1.17";
 
 /// The file of all devices and modules of `catalog` that are EtherCAT slaves or have objects, in UTF-8.
 pub fn export(catalog: &Catalog, options: &Options) -> Result<Export, Refusal> {
+    let options = &Asked::new(options);
     let devices: Vec<&Device> = catalog.devices.iter().filter(|device| is_slave(device)).collect();
     let is_messages =
         devices.is_empty() && catalog.modules.is_empty() && catalog.code_tables.iter().any(diagnosis::is_list);
@@ -78,7 +80,8 @@ pub fn export(catalog: &Catalog, options: &Options) -> Result<Export, Refusal> {
     }
     context.notes.add_many(NoteKind::Control, xml.dropped, Place::Device);
     context.notes.add_many(NoteKind::Extension, xml.unnamed, Place::Device);
-    let Context { notes, wanted, .. } = context;
+    let Context { mut notes, wanted, .. } = context;
+    options.note_others(&mut notes);
     wanted.finish(xml.finish(), notes.finish())
 }
 
@@ -95,7 +98,7 @@ fn is_esi(catalog: &Catalog) -> bool {
 /// What every part of the file is written from.
 struct Context<'a> {
     catalog: &'a Catalog,
-    options: &'a Options,
+    options: &'a Asked<'a>,
     notes: Notes,
     wanted: Wanted,
     /// Numbers of units by their symbols.
@@ -194,10 +197,10 @@ fn vendor(xml: &mut Xml, context: &mut Context<'_>, device: Option<&&Device>, id
         Some(_) => context.notes.add(NoteKind::FileInfo, Place::Device),
         None => {}
     }
-    let id = context.wanted(context.options.vendor_id, identity.vendor_id, "vendor-id");
+    let id = context.wanted(context.options.vendor_id(), identity.vendor_id, "vendor-id");
     xml.leaf("Id", hex(id, 8));
     let own = Some(identity.vendor_name.to_string()).filter(|name| !name.is_empty() || context.is_esi);
-    let own = context.wanted(context.options.vendor_name.clone(), own, "vendor-name");
+    let own = context.wanted(context.options.vendor_name(), own, "vendor-name");
     xml.leaf("Name", own);
     extras::vendor_names(xml, context);
     if context.is_esi {
@@ -222,7 +225,7 @@ fn groups(xml: &mut Xml, context: &mut Context<'_>, devices: &[&Device]) {
         }
         xml.close();
     }
-    if let (Some(group), false) = (&context.options.group, devices.is_empty()) {
+    if let (Some(group), false) = (&context.options.group(), devices.is_empty()) {
         if !families.iter().any(|family| family.id == *group) {
             xml.open("Group");
             xml.leaf("Type", group);

@@ -5,7 +5,7 @@ use crate::ir::Coe;
 
 options! {
     /// Facts that count before those of the source, or that it doesn't have.
-    pub struct Options {
+    pub struct Options, Asked {
         /// Number of the vendor with the EtherCAT Technology Group.
         vendor_id: u32 = "vendor-id",
         /// Name of the vendor.

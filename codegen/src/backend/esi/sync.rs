@@ -57,10 +57,10 @@ fn given(context: &Context<'_>) -> Vec<SyncManager> {
     let options = context.options;
     // Control bytes of ETG.1000.4 6.7.2: mailbox or three buffers, direction, and an interrupt of the host.
     let areas = [
-        (SyncManagerPurpose::MailboxOut, 0x26, options.mailbox_out),
-        (SyncManagerPurpose::MailboxIn, 0x22, options.mailbox_in),
-        (SyncManagerPurpose::Outputs, 0x24, options.outputs),
-        (SyncManagerPurpose::Inputs, 0x20, options.inputs),
+        (SyncManagerPurpose::MailboxOut, 0x26, options.mailbox_out()),
+        (SyncManagerPurpose::MailboxIn, 0x22, options.mailbox_in()),
+        (SyncManagerPurpose::Outputs, 0x24, options.outputs()),
+        (SyncManagerPurpose::Inputs, 0x20, options.inputs()),
     ];
     let given = areas.into_iter().filter_map(|(purpose, control, area)| Some((purpose, control, area?)));
     let manager = |(number, (purpose, control, Area { start, length }))| SyncManager {

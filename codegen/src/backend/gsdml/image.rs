@@ -3,6 +3,7 @@
 use compact_str::{format_compact, CompactString};
 use smallvec::smallvec;
 
+use super::options::Asked;
 use super::Options;
 use crate::backend::note::{self, NoteKind, Notes, Place};
 use crate::backend::options::Wanted;
@@ -16,7 +17,12 @@ const INTERFACE: u16 = 0x8000;
 const PORT: u16 = 0x8001;
 
 /// The catalogue of the devices of `source` that have fixed process images; none where there are no such devices.
-pub(super) fn catalog(source: &Catalog, options: &Options, notes: &mut Notes, wanted: &mut Wanted) -> Option<Catalog> {
+pub(super) fn catalog(
+    source: &Catalog,
+    options: &Asked<'_>,
+    notes: &mut Notes,
+    wanted: &mut Wanted,
+) -> Option<Catalog> {
     let mut made = Catalog::default();
     for device in source.devices.iter().filter(|device| !device.process_data.images.is_empty()) {
         losses(device, notes);
@@ -29,7 +35,7 @@ pub(super) fn catalog(source: &Catalog, options: &Options, notes: &mut Notes, wa
 }
 
 struct Maker<'m> {
-    options: &'m Options,
+    options: &'m Asked<'m>,
     wanted: &'m mut Wanted,
     notes: &'m mut Notes,
     made: &'m mut Catalog,
@@ -43,7 +49,7 @@ impl Maker<'_> {
     }
 
     fn device(&mut self, source: &Device) -> Device {
-        self.want(self.options.date.clone(), "date");
+        self.want(self.options.date(), "date");
         let mut device = Device {
             name: source.name.clone(),
             names: source.names.clone(),
@@ -51,7 +57,7 @@ impl Maker<'_> {
             documentation: source.documentation.clone(),
             identity: Identity {
                 vendor_name: source.identity.vendor_name.clone(),
-                order_code: self.options.order_number.as_deref().unwrap_or(&source.identity.order_code).into(),
+                order_code: self.options.order_number().as_deref().unwrap_or(&source.identity.order_code).into(),
                 ..Identity::default()
             },
             header: Header {
@@ -62,7 +68,7 @@ impl Maker<'_> {
         };
         device.profinet = Some(Box::new(self.settings()));
         let submodule = self.submodule(source);
-        let subslot = self.options.subslot.unwrap_or(1);
+        let subslot = self.options.subslot().unwrap_or(1);
         self.add(&mut device, submodule, subslot);
         self.interface(&mut device);
         device
@@ -82,25 +88,25 @@ impl Maker<'_> {
 
     fn settings(&mut self) -> ProfinetSettings {
         let options = self.options;
-        let input = self.want(options.max_input_length, "max-input-length");
-        let output = self.want(options.max_output_length, "max-output-length");
+        let input = self.want(options.max_input_length(), "max-input-length");
+        let output = self.want(options.max_output_length(), "max-output-length");
         let mut settings = ProfinetSettings {
-            ident: self.want(options.module_ident, "module-ident"),
+            ident: self.want(options.module_ident(), "module-ident"),
             family: (
-                options.main_family.as_deref().unwrap_or_default().into(),
-                options.product_family.as_deref().unwrap_or_default().into(),
+                options.main_family().as_deref().unwrap_or_default().into(),
+                options.product_family().as_deref().unwrap_or_default().into(),
             ),
-            pnio_version: self.want(options.pnio_version.clone(), "pnio-version").into(),
+            pnio_version: self.want(options.pnio_version(), "pnio-version").into(),
             // The device access point is all that there is.
             slots: Numbers(smallvec![(0, 0)]),
-            dns_name: self.want(options.dns_name.clone(), "dns-name").into(),
-            min_device_interval: Some(self.want(options.min_device_interval, "min-device-interval")),
+            dns_name: self.want(options.dns_name(), "dns-name").into(),
+            min_device_interval: Some(self.want(options.min_device_interval(), "min-device-interval")),
             max_record_size: 4068,
             relations: 1,
-            startup_modes: list(options.startup_modes.as_deref().unwrap_or("Legacy")),
+            startup_modes: list(options.startup_modes().as_deref().unwrap_or("Legacy")),
             max_lengths: IoLengths { input: Some(input), output: Some(output), data: None },
-            send_clocks: numbers(options.send_clocks.as_deref().unwrap_or_default()),
-            reduction_ratios: numbers(options.reduction_ratios.as_deref().unwrap_or_default()),
+            send_clocks: numbers(options.send_clocks().as_deref().unwrap_or_default()),
+            reduction_ratios: numbers(options.reduction_ratios().as_deref().unwrap_or_default()),
             places: Places { fixed: Numbers(smallvec![(0, 0)]), ..Places::default() },
             ..ProfinetSettings::default()
         };
@@ -112,18 +118,15 @@ impl Maker<'_> {
     fn attributes(&mut self) -> Vec<(CompactString, CompactString)> {
         let options = self.options;
         let wanted = [
-            ("ObjectUUID_LocalIndex", self.want(options.object_uuid_index, "object-uuid-index").to_string()),
+            ("ObjectUUID_LocalIndex", self.want(options.object_uuid_index(), "object-uuid-index").to_string()),
             (
                 "NameOfStationNotTransferable",
-                self.want(options.name_not_transferable, "name-not-transferable").to_string(),
+                self.want(options.name_not_transferable(), "name-not-transferable").to_string(),
             ),
-            ("DeviceAccessSupported", self.want(options.device_access, "device-access").to_string()),
-            ("CheckDeviceID_Allowed", self.want(options.check_device_id, "check-device-id").to_string()),
+            ("DeviceAccessSupported", self.want(options.device_access(), "device-access").to_string()),
+            ("CheckDeviceID_Allowed", self.want(options.check_device_id(), "check-device-id").to_string()),
         ];
-        let given = [
-            ("HardwareRelease", options.hardware_release.clone()),
-            ("SoftwareRelease", options.software_release.clone()),
-        ];
+        let given = [("HardwareRelease", options.hardware_release()), ("SoftwareRelease", options.software_release())];
         let given = given.into_iter().filter_map(|(key, value)| Some((key, value?)));
         let all = wanted.into_iter().chain(self.certificate()).chain(given);
         all.map(|(key, value)| (CompactString::const_new(key), value.into())).collect()
@@ -132,10 +135,10 @@ impl Maker<'_> {
     /// CertificationInfo, which has a conformance class or isn't there.
     fn certificate(&mut self) -> Vec<(&'static str, String)> {
         let options = self.options;
-        let Some(conformance) = options.conformance_class.clone() else { return Vec::new() };
-        let application = self.want(options.application_class.clone(), "application-class");
+        let Some(conformance) = options.conformance_class() else { return Vec::new() };
+        let application = self.want(options.application_class(), "application-class");
         let application = if application == "none" { String::new() } else { application };
-        let netload = options.netload_class.clone().map(|class| ("CertificationInfo@NetloadClass", class));
+        let netload = options.netload_class().map(|class| ("CertificationInfo@NetloadClass", class));
         let classes =
             [("CertificationInfo@ConformanceClass", conformance), ("CertificationInfo@ApplicationClass", application)];
         classes.into_iter().chain(netload).collect()
@@ -145,7 +148,7 @@ impl Maker<'_> {
     fn submodule(&mut self, source: &Device) -> Submodule {
         let mut submodule = Submodule {
             id: self.id("IO"),
-            ident: self.want(self.options.submodule_ident, "submodule-ident"),
+            ident: self.want(self.options.submodule_ident(), "submodule-ident"),
             kind: SubmoduleKind::Virtual,
             name: source.name.clone(),
             names: source.names.clone(),
@@ -153,7 +156,7 @@ impl Maker<'_> {
             status_lengths: (1, 1),
             ..Submodule::default()
         };
-        let alarms = self.want(self.options.process_alarms, "process-alarms");
+        let alarms = self.want(self.options.process_alarms(), "process-alarms");
         submodule.attributes.push(("MayIssueProcessAlarm".into(), format_compact!("{alarms}")));
         for image in &source.process_data.images {
             let place = match image.direction {
@@ -164,7 +167,7 @@ impl Maker<'_> {
                 Some(_) => self.notes.add(NoteKind::OtherPart, Place::Named(&image.name)),
                 None => {
                     let data = io_data(image, &source.types, self.notes);
-                    let consistent = self.options.consistent.unwrap_or(false);
+                    let consistent = self.options.consistent().unwrap_or(false);
                     *place = Some(Box::new(IoData { consistent, ..data }));
                 }
             }
@@ -175,17 +178,17 @@ impl Maker<'_> {
     /// Interface and ports, if the caller gives an ident number of the interface.
     fn interface(&mut self, device: &mut Device) {
         let options = self.options;
-        let Some(ident) = options.interface_ident else {
+        let Some(ident) = options.interface_ident() else {
             return self.notes.add(NoteKind::Incomplete, Place::Named("InterfaceSubmoduleItem"));
         };
         let mut attributes = vec![(
             CompactString::const_new("SupportedProtocols"),
-            CompactString::from(self.want(options.supported_protocols.clone(), "supported-protocols")),
+            CompactString::from(self.want(options.supported_protocols(), "supported-protocols")),
         )];
-        if let Some(classes) = &options.rt_classes {
+        if let Some(classes) = &options.rt_classes() {
             attributes.push(("SupportedRT_Classes".into(), classes.into()));
         }
-        let name = CompactString::from(self.want(options.interface_name.clone(), "interface-name"));
+        let name = CompactString::from(self.want(options.interface_name(), "interface-name"));
         let interface = Submodule {
             id: self.id("Interface"),
             ident,
@@ -196,12 +199,12 @@ impl Maker<'_> {
             ..Submodule::default()
         };
         self.add(device, interface, INTERFACE);
-        let ports = self.want(options.ports, "ports");
+        let ports = self.want(options.ports(), "ports");
         for number in 0..ports.min(0x0FFF) {
-            let kind = self.want(options.mau_type, "mau-type");
+            let kind = self.want(options.mau_type(), "mau-type");
             let port = Submodule {
                 id: format_compact!("Port_{}_{}", self.position + 1, number + 1),
-                ident: self.want(options.port_ident, "port-ident"),
+                ident: self.want(options.port_ident(), "port-ident"),
                 kind: SubmoduleKind::Port,
                 name: format_compact!("{name} P{}", number + 1),
                 attributes: vec![("MAUTypeItem@Value".into(), format_compact!("{kind}"))],

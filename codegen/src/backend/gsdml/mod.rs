@@ -32,6 +32,7 @@ mod types;
 mod values;
 
 pub use super::{Export, MissingFact, Note, NoteKind, Refusal};
+use options::Asked;
 pub use options::Options;
 
 use std::collections::HashSet;
@@ -47,6 +48,9 @@ const VERSION: &str = "2.35";
 
 /// The file of all device access points of `catalog`, in UTF-8. Its name has to be that of [`file_name`].
 pub fn export(catalog: &Catalog, options: &Options) -> Result<Export, Refusal> {
+    let options = &Asked::new(options);
+    // It is a part of the file's name.
+    options.date();
     let (mut notes, mut wanted) = (Notes::default(), Wanted::default());
     let made = match is_gsdml(catalog) {
         true => None,
@@ -71,7 +75,8 @@ pub fn export(catalog: &Catalog, options: &Options) -> Result<Export, Refusal> {
     root(&mut xml, &mut context);
     context.notes.add_many(NoteKind::Control, xml.dropped, Place::Device);
     context.notes.add_many(NoteKind::Extension, xml.unnamed, Place::Device);
-    let Context { notes, wanted, .. } = context;
+    let Context { mut notes, wanted, .. } = context;
+    options.note_others(&mut notes);
     wanted.finish(xml.finish(), notes.finish())
 }
 
@@ -111,7 +116,7 @@ fn version(catalog: &Catalog) -> &str {
 /// What every part of the file is written from.
 struct Context<'a> {
     catalog: &'a Catalog,
-    options: &'a Options,
+    options: &'a Asked<'a>,
     types: &'a [TypeDef],
     notes: Notes,
     wanted: Wanted,
@@ -192,11 +197,11 @@ fn identity(xml: &mut Xml, context: &mut Context<'_>) {
     let main = family.map(|(main, _)| main.to_string()).filter(|main| context.is_gsdml || !main.is_empty());
     let product = family.map(|(_, product)| product.to_string()).filter(|product| !product.is_empty());
     xml.open("DeviceIdentity");
-    let vendor = context.wanted(options.vendor_id, vendor, "vendor-id");
+    let vendor = context.wanted(options.vendor_id(), vendor, "vendor-id");
     xml.attribute("VendorID", format_args!("0x{vendor:04X}"));
-    let number = context.wanted(options.device_id, number, "device-id");
+    let number = context.wanted(options.device_id(), number, "device-id");
     xml.attribute("DeviceID", format_args!("0x{number:04X}"));
-    let text = context.wanted(options.description.clone(), text, "description");
+    let text = context.wanted(options.description(), text, "description");
     let language = |extension: &Extension| {
         let language = extension.key.strip_prefix("DeviceIdentity/InfoText/")?;
         Some(LocalText { language: language.into(), text: extension.value.clone() })
@@ -204,15 +209,15 @@ fn identity(xml: &mut Xml, context: &mut Context<'_>) {
     let translations = catalog.extensions.iter().filter_map(language).collect();
     context.texts.documentation(xml, "InfoText", &Documentation { text, translations, cite: None });
     xml.open("VendorName");
-    let name = context.wanted(options.vendor_name.clone(), name, "vendor-name");
+    let name = context.wanted(options.vendor_name(), name, "vendor-name");
     xml.attribute("Value", name);
     xml.close();
     xml.close();
     xml.open("DeviceFunction");
     xml.open("Family");
-    let main = context.wanted(options.main_family.clone(), main, "main-family");
+    let main = context.wanted(options.main_family(), main, "main-family");
     xml.attribute("MainFamily", main);
-    xml.optional("ProductFamily", options.product_family.clone().or(product));
+    xml.optional("ProductFamily", options.product_family().or(product));
     xml.close();
     xml.close();
 }

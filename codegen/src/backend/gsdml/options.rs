@@ -5,7 +5,7 @@ use crate::backend::options::options;
 options! {
     /// Facts that count before those of the source, or that it doesn't have. Those of the device access point, its submodules and
     /// the interface are asked for only where a fixed process image becomes a device access point.
-    pub struct Options {
+    pub struct Options, Asked {
         /// Number of the vendor with PROFIBUS & PROFINET International (VendorID).
         vendor_id: u16 = "vendor-id",
         /// Number that tells the devices of the vendor apart (DeviceID).

@@ -1,6 +1,6 @@
 //! Parameter records: constants, parameters and menus.
 
-use std::collections::{HashMap, HashSet};
+use std::collections::{BTreeMap, HashMap, HashSet};
 use std::fmt::Write as _;
 
 use super::types;
@@ -18,7 +18,7 @@ pub(super) fn list(xml: &mut Xml, context: &mut Context<'_>, submodule: &Submodu
         return;
     }
     xml.open("RecordDataList");
-    let mut left: Vec<&Menu> = submodule.menus.iter().collect();
+    let mut menus = Menus::new(&submodule.menus);
     for group in &submodule.records {
         let GroupKind::Record(record) = &group.kind else { continue };
         xml.open("ParameterRecordDataItem");
@@ -31,40 +31,55 @@ pub(super) fn list(xml: &mut Xml, context: &mut Context<'_>, submodule: &Submodu
         xml.open("Name");
         xml.attribute("TextId", context.texts.id(&group.name, &group.names));
         xml.close();
-        let (own, others) = menus_of(group, left);
-        left = others;
-        body(xml, context, record, group, &own);
+        body(xml, context, record, group, &menus.take(group));
         xml.close();
     }
-    context.notes.add_many(NoteKind::OtherPart, left.len(), Place::Named(&submodule.name));
+    context.notes.add_many(NoteKind::OtherPart, menus.others(), Place::Named(&submodule.name));
     if let Some(parameters) = &submodule.f_parameters {
         f_record(xml, submodule, parameters);
     }
     xml.close();
 }
 
-/// The menus with parameters of a record and those that are connected with them, and the others.
-fn menus_of<'m>(group: &Group, left: Vec<&'m Menu>) -> (Vec<&'m Menu>, Vec<&'m Menu>) {
-    let mut by_name: HashMap<&str, Vec<usize>> = HashMap::new();
-    for (at, menu) in left.iter().enumerate() {
-        for name in menu.targets.iter().chain([&menu.id]) {
-            by_name.entry(name).or_default().push(at);
+/// The menus of a submodule, each taken by the first record that it belongs to.
+struct Menus<'m> {
+    /// Those that no record took so far.
+    left: Vec<Option<&'m Menu>>,
+    /// By their names and by those that they show.
+    by_name: HashMap<&'m str, Vec<usize>>,
+}
+
+impl<'m> Menus<'m> {
+    fn new(menus: &'m [Menu]) -> Self {
+        let mut by_name: HashMap<&str, Vec<usize>> = HashMap::new();
+        for (at, menu) in menus.iter().enumerate() {
+            for name in menu.targets.iter().chain([&menu.id]) {
+                by_name.entry(name).or_default().push(at);
+            }
         }
+        Menus { left: menus.iter().map(Some).collect(), by_name }
     }
-    let mut own = vec![false; left.len()];
-    let mut names: Vec<&str> = group.items.iter().filter_map(id).map(CompactString::as_str).collect();
-    while let Some(name) = names.pop() {
-        // Each name leads to its menus once.
-        for at in by_name.remove(name).into_iter().flatten() {
-            if let (Some(menu), Some(is_own)) = (left.get(at), own.get_mut(at)) {
-                if !std::mem::replace(is_own, true) {
+
+    /// The menus with parameters of a record and those that are connected with them, in their order.
+    fn take(&mut self, group: &'m Group) -> Vec<&'m Menu> {
+        let mut own = BTreeMap::new();
+        let mut names: Vec<&str> = group.items.iter().filter_map(id).map(CompactString::as_str).collect();
+        while let Some(name) = names.pop() {
+            // Each name leads to its menus once.
+            for at in self.by_name.remove(name).into_iter().flatten() {
+                if let Some(menu) = self.left.get_mut(at).and_then(Option::take) {
                     names.extend(menu.targets.iter().chain([&menu.id]).map(CompactString::as_str));
+                    own.insert(at, menu);
                 }
             }
         }
+        own.into_values().collect()
     }
-    let (own, others): (Vec<_>, Vec<_>) = left.into_iter().zip(own).partition(|(_, is_own)| *is_own);
-    (own.into_iter().map(|(menu, _)| menu).collect(), others.into_iter().map(|(menu, _)| menu).collect())
+
+    /// How many no record took.
+    fn others(&self) -> usize {
+        self.left.iter().flatten().count()
+    }
 }
 
 fn id(item: &Item) -> Option<&CompactString> {
