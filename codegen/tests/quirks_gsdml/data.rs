@@ -235,6 +235,19 @@ fn g19_trailers_of_safety_messages() {
 }
 
 #[test]
+fn data_behind_a_trailer() {
+    let trailer = "<DataItem DataType=\"F_MessageTrailer4Byte\" TextId=\"T_Mode\"/>\n";
+    let speed = "<DataItem DataType=\"Unsigned16\" TextId=\"T_Speed\"/>\n";
+    let checked = inputs(&format!("{trailer}{speed}{trailer}"));
+    assert_eq!(checked.fields(), [("Mode", 0, 32), ("Speed", 32, 16)]);
+    let input = checked.input();
+    assert_eq!((input.image.length, input.image.overhead), (6, 4));
+    let items: Vec<_> = input.items.iter().map(|item| (item.bit_offset, item.first_field, item.fields)).collect();
+    assert_eq!(items, [(0, 0, 1), (48, 2, 0)]);
+    assert_eq!(checked.codes(), ["GSD005"]);
+}
+
+#[test]
 fn data_items_whose_length_is_wrong_or_missing() {
     let checked = inputs("<DataItem DataType=\"Unsigned16\" Length=\"4\" TextId=\"T_Speed\"/>");
     assert_eq!(checked.fields(), [("Speed", 0, 16)]);

@@ -64,7 +64,7 @@ impl<'a> Reader<'a, '_> {
                 _ => self.unknown(&tag, rest)?,
             }
         }
-        let Layout { fields, items, at, overhead } = layout;
+        let Layout { fields, items, at, overhead, .. } = layout;
         let length = (at / 8).saturating_sub(overhead);
         let image = ProcessImage { name: parent.name.into(), direction, length, overhead, big_endian: true, fields };
         Ok(IoData { image, consistent, items, channels })
@@ -193,12 +193,17 @@ struct Layout {
     items: Vec<IoItem>,
     /// Number of bits so far.
     at: u32,
-    /// Number of bytes among them that aren't data of the user.
+    /// Number of bytes at the end that aren't data of the user.
     overhead: u32,
+    /// The items of these bytes, and where they stand.
+    trailers: Vec<(usize, Origin)>,
 }
 
 impl Layout {
     fn add(&mut self, item: DataItem, reader: &mut Reader<'_, '_>) {
+        if !matches!(item.found, Some(DataType::Trailer(_))) {
+            self.go_on(reader);
+        }
         let (first, start) = (self.fields.len(), self.at);
         let bytes = item.found.and_then(DataType::bytes).or(item.length).unwrap_or(0);
         let bits = bytes.saturating_mul(8);
@@ -222,7 +227,10 @@ impl Layout {
         self.at = start.saturating_add(bits);
         let count = self.fields.len() - first;
         if count != 1 || item.subordinate || !item.bits.is_empty() {
-            let DataItem { name, data_type, subordinate, .. } = item;
+            let DataItem { name, data_type, subordinate, found, origin, .. } = item;
+            if matches!(found, Some(DataType::Trailer(_))) {
+                self.trailers.push((self.items.len(), origin));
+            }
             self.items.push(IoItem {
                 name,
                 data_type,
@@ -234,6 +242,21 @@ impl Layout {
                 ..IoItem::default()
             });
         }
+    }
+
+    /// What stands before other data is data, too: the trailer of a safety message is the end of it.
+    fn go_on(&mut self, reader: &mut Reader<'_, '_>) {
+        for (at, origin) in std::mem::take(&mut self.trailers) {
+            let Some(item) = self.items.get_mut(at) else { continue };
+            let message = "the trailer of a safety message isn't the end of the data";
+            let diagnostic = Diagnostic::new(&codes::GSDML_VALUE, origin.span, message);
+            reader.diagnostics.push(diagnostic.label("read as data, as there are items behind it"));
+            (item.first_field, item.fields) = (u32::try_from(self.fields.len()).unwrap_or(u32::MAX), 1);
+            let (name, ty) = (item.name.clone(), Type::OctetString(Some(item.bits / 8)));
+            let entry = PdoEntry::new(0, 0, item.bits);
+            self.fields.push(PdoEntry { bit_offset: item.bit_offset, name, ty, origin, ..entry });
+        }
+        self.overhead = 0;
     }
 
     /// A field of an item, `offset` bits behind the item's start.
