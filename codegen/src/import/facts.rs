@@ -1,5 +1,7 @@
 //! What a line says of its register beside the address: order, unit and factor, limits, meaning, words.
 
+use std::collections::HashSet;
+
 use super::cells::{self, Number, Order};
 use super::columns::{Field, Hint};
 use super::records::{Cell, Record};
@@ -266,6 +268,7 @@ impl Reader<'_, '_> {
     /// A definition with these entries: one that is there already, or a new one.
     pub fn define(&mut self, span: Span, list: &List, is_bits: bool, ty: Type, name: &str) -> Option<usize> {
         let mut entries: Vec<(String, String)> = Vec::new();
+        let mut keys = HashSet::new();
         for entry in &list.entries {
             let last = entry.last.unwrap_or(entry.first);
             let fits =
@@ -278,7 +281,7 @@ impl Reader<'_, '_> {
                 continue;
             }
             let (key, value) = if is_bits { bit_entry(entry) } else { value_entry(entry) };
-            if entries.iter().any(|(own, _)| *own == key) {
+            if !keys.insert(key.clone()) {
                 let message = format!("`{}` occurs twice in the list", key.trim_matches('"'));
                 self.report(&codes::CSV_UNREADABLE_CELL, span, message, "the first is kept");
                 continue;

@@ -66,17 +66,27 @@ pub(super) fn arrange(list: Rows, diagnostics: &mut Diagnostics) -> Listing {
     objects_agree(&rows, diagnostics);
     distinct_names(&mut rows, diagnostics);
     references(&mut rows, diagnostics);
+    Listing { spaces, chapters: chapters(rows), definitions, no_access }
+}
+
+/// The rows of each chapter, by their tables.
+fn chapters(rows: Vec<Row>) -> Vec<Chapter> {
     let mut chapters: Vec<Chapter> = Vec::new();
+    // A list may have as many chapters as rows.
+    let mut by_title: HashMap<String, Vec<usize>> = HashMap::new();
     for row in rows {
         let table = table_of(&row);
+        let own = by_title.entry(row.chapter.clone()).or_default();
         // A line that is no row stays beside the one above it.
-        let of_row = |chapter: &Chapter| chapter.title == row.chapter && (chapter.table == table || row.place.is_err());
-        match chapters.iter().rposition(of_row) {
-            Some(at) => chapters[at].rows.push(row),
-            None => chapters.push(Chapter { title: row.chapter.clone(), table, rows: vec![row] }),
+        match own.iter().rfind(|&&at| chapters[at].table == table || row.place.is_err()) {
+            Some(&at) => chapters[at].rows.push(row),
+            None => {
+                own.push(chapters.len());
+                chapters.push(Chapter { title: row.chapter.clone(), table, rows: vec![row] });
+            }
         }
     }
-    Listing { spaces, chapters, definitions, no_access }
+    chapters
 }
 
 /// Leaves out the part of a register that has no such bits.
