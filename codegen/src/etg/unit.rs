@@ -9,8 +9,8 @@ pub(crate) fn text(number: u32, own: &[(u32, CompactString)]) -> Option<CompactS
         return None;
     }
     let symbol = |notation: u8| {
-        let defined = own.iter().find(|(number, _)| *number == u32::from(notation));
-        symbol(notation).or(defined.map(|(_, symbol)| symbol.as_str()))
+        let defined = || own.iter().find(|(number, _)| *number == u32::from(notation));
+        symbol(notation).or_else(|| defined().map(|(_, symbol)| symbol.as_str()))
     };
     let numerator = match numerator {
         0 if denominator != 0 => "1",

@@ -34,7 +34,7 @@ fn mismatch(source: &Source) -> Option<(&'static str, Option<&'static str>)> {
     let is_named = source.declared_encoding().is_some_and(|label| !label.is_empty());
     let is_unknown = is_named && declared.is_none();
     let is = |charset: &str| if is_named { declared == Some(charset) } else { charset == "UTF-8" };
-    let has_lost = || source.text().contains(REPLACEMENT).then_some(("the file has bytes that are no letters", None));
+    let has_lost = || source.has_lost_bytes().then_some(("the file has bytes that are no letters", None));
     match source.encoding() {
         Encoding::Windows1252 if is_unknown => {
             Some(("the file declares an encoding that can't be read here", Some("Windows-1252")))

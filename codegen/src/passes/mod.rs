@@ -48,7 +48,7 @@ mod windows_fit;
 mod windows_possible;
 
 use crate::diagnostics::Diagnostics;
-use crate::ir::{Catalog, Device, Format, Module};
+use crate::ir::{Catalog, CompactString, Device, Format, Module};
 pub(crate) use firmware_comparable::apart;
 use owner::Owner;
 use windows::Windows;
@@ -160,5 +160,15 @@ fn facts(device: &Device, is_table: bool, diagnostics: &mut Diagnostics) {
     if is_table || !device.procedures.is_empty() {
         procedures_possible::run(device, diagnostics);
         mapping_steps_checked::run(device, diagnostics);
+    }
+}
+
+/// A name that any number of entries may get from one object.
+fn short(name: &CompactString) -> CompactString {
+    const LONG: usize = 512;
+    if name.len() > LONG {
+        crate::text::brief(name).into()
+    } else {
+        name.clone()
     }
 }

@@ -92,7 +92,7 @@ fn resolve(entry: &mut PdoEntry, owner: &Owner<'_>, diagnostics: &mut Diagnostic
     };
     entry.kind = PdoEntryKind::Item;
     if entry.name.is_empty() {
-        (entry.name, entry.names) = (item.name.clone(), item.names.clone());
+        (entry.name, entry.names) = (super::short(&item.name), item.names.clone());
     }
     match owner.bits(item.ty) {
         Some(bits) if bits == entry.bits => entry.ty = item.ty,

@@ -206,7 +206,7 @@ impl<'a> Layout<'a> {
                 self.mapped(item, &entry, span);
                 entry.kind = PdoEntryKind::Item;
                 entry.ty = item.ty;
-                entry.name = item.name.clone();
+                entry.name = super::short(&item.name);
             }
             None if self.modules.extended.contains(&index) => {}
             None => {

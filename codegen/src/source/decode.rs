@@ -36,36 +36,47 @@ impl Encoding {
     }
 }
 
-/// Text, its encoding, and the bytes as read where they differ from the text's.
-pub(super) fn decode(bytes: Vec<u8>) -> (String, Encoding, Option<Vec<u8>>) {
+/// What became of a file's bytes.
+pub(super) struct Decoded {
+    pub text: String,
+    pub encoding: Encoding,
+    /// The bytes as read, where they differ from the text's.
+    pub original: Option<Vec<u8>>,
+    /// Whether some of them are no letters of the encoding.
+    pub has_lost: bool,
+}
+
+/// Reads bytes as text.
+pub(super) fn decode(bytes: Vec<u8>) -> Decoded {
+    let decoded = |(text, has_lost), encoding, original| Decoded { text, encoding, original: Some(original), has_lost };
     if let Some(rest) = bytes.strip_prefix(b"\xef\xbb\xbf") {
         let text = match std::str::from_utf8(rest) {
-            Ok(text) => text.to_owned(),
-            Err(_) => WINDOWS_1252.decode_without_bom_handling(rest).0.into_owned(),
+            Ok(text) => (text.to_owned(), false),
+            Err(_) => with(WINDOWS_1252, rest),
         };
-        return (text, Encoding::Utf8Bom, Some(bytes));
+        return decoded(text, Encoding::Utf8Bom, bytes);
     }
     for (mark, charset) in [(b"\xff\xfe", UTF_16LE), (b"\xfe\xff", UTF_16BE)] {
         if let Some(rest) = bytes.strip_prefix(mark) {
             let text = with(charset, rest);
-            return (text, Encoding::Utf16, Some(bytes));
+            return decoded(text, Encoding::Utf16, bytes);
         }
     }
     // Without a mark: the first two characters of XML (XML 1.0, appendix F).
     for (start, charset) in [(b"<\0?\0", UTF_16LE), (b"\0<\0?", UTF_16BE)] {
         if bytes.starts_with(start) {
-            return (with(charset, &bytes), Encoding::Utf16, Some(bytes));
+            return decoded(with(charset, &bytes), Encoding::Utf16, bytes);
         }
     }
     match String::from_utf8(bytes) {
-        Ok(text) => (text, Encoding::Utf8, None),
+        Ok(text) => Decoded { text, encoding: Encoding::Utf8, original: None, has_lost: false },
         Err(error) => {
             let bytes = error.into_bytes();
             let declared = declared(&bytes).and_then(|label| Charset::for_label(label.as_bytes()));
             let charset = declared.filter(|charset| charset.is_ascii_compatible() && *charset != UTF_8);
             let charset = charset.unwrap_or(WINDOWS_1252);
             let encoding = if charset == WINDOWS_1252 { Encoding::Windows1252 } else { Encoding::Declared };
-            (with(charset, &bytes), encoding, Some(bytes))
+            decoded(with(charset, &bytes), encoding, bytes)
         }
     }
 }
@@ -88,13 +99,20 @@ pub(super) fn charset(label: &str) -> Option<&'static str> {
     Charset::for_label(label.as_bytes()).map(Charset::name)
 }
 
-fn with(charset: &'static Charset, bytes: &[u8]) -> String {
-    charset.decode_without_bom_handling(bytes).0.into_owned()
+/// The text, and whether some bytes are no letters.
+fn with(charset: &'static Charset, bytes: &[u8]) -> (String, bool) {
+    let (text, has_lost) = charset.decode_without_bom_handling(bytes);
+    (text.into_owned(), has_lost)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    fn decode(bytes: Vec<u8>) -> (String, Encoding, Option<Vec<u8>>) {
+        let Decoded { text, encoding, original, .. } = super::decode(bytes);
+        (text, encoding, original)
+    }
 
     #[test]
     fn marks_are_stripped_and_bytes_that_are_not_utf8_are_cp1252() {

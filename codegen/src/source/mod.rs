@@ -24,6 +24,7 @@ pub struct Source {
     name: String,
     text: String,
     encoding: Encoding,
+    has_lost: bool,
     /// The folder in which files that it refers to are looked for.
     folder: Option<PathBuf>,
     /// The bytes as read, kept only where decoding changed them.
@@ -51,11 +52,12 @@ impl Source {
     /// Nothing is ever refused here: a byte sequence that isn't UTF-8 is read as Windows-1252, in which every byte
     /// has a meaning, and [`Source::encoding`] tells so.
     pub fn new(name: impl Into<String>, bytes: Vec<u8>) -> Self {
-        let (text, encoding, original) = decode::decode(bytes);
+        let decode::Decoded { text, encoding, original, has_lost } = decode::decode(bytes);
         Source {
             name: name.into(),
             text,
             encoding,
+            has_lost,
             folder: None,
             original,
             line_starts: OnceLock::new(),
@@ -125,6 +127,11 @@ impl Source {
     /// How the bytes were decoded.
     pub fn encoding(&self) -> Encoding {
         self.encoding
+    }
+
+    /// Whether some bytes were no letters of the encoding: U+FFFD stands for them.
+    pub fn has_lost_bytes(&self) -> bool {
+        self.has_lost
     }
 
     /// The bytes as they were read.

@@ -140,6 +140,11 @@ fn messages_in_several_languages() {
          <Hint LcId='1033'>Hot</Hint><Hint LcId='1031'>Hei\u{df}</Hint><Hint LcId='1033'>Loud</Hint>");
     assert_eq!(said.text, "Cause: No fan\n\nRemedy: Add one\n\nCause: Dust\n\nHint: Hot\n\nHint: Loud");
     let [german] = &said.translations[..] else { panic!("{:?}", said.translations) };
+    let twice = of("<Description>A</Description><Description>B</Description><Hint LcId='1033'>C</Hint><Hint>D</Hint>");
+    assert_eq!((twice.text.as_str(), twice.translations.len()), ("A\n\nB\n\nHint: C\n\nHint: D", 0));
+    let in_turn =
+        "<Hint LcId='1033'>1</Hint><Hint LcId='1033'>2</Hint><Hint LcId='1031'>a</Hint><Hint LcId='1031'>b</Hint>";
+    assert_eq!(of(in_turn).translations[0].text, "Hint: a\n\nHint: b");
     // What isn't translated stays as it is.
     let text = "Cause: Kein L\u{fc}fter\n\nRemedy: Add one\n\nCause: Dust\n\nHint: Hei\u{df}\n\nHint: Loud";
     assert_eq!((german.language.as_str(), german.text.as_str()), ("de-DE", text));
@@ -264,9 +269,11 @@ fn main_file() -> String {
 fn types_of_a_dictionary_file_for_entries() {
     let dictionary = "<EtherCATDict><Dictionary><DataTypes>\
         <DataType><Name>OWN</Name><BaseType>USINT</BaseType><BitSize>8</BitSize></DataType>\
+        <DataType><Name>UINT_Mode</Name><BaseType>UINT</BaseType><BitSize>16</BitSize>\
+        <EnumInfo><Text>On</Text><Enum>1</Enum></EnumInfo></DataType>\
         <DataType><Name>E</Name><BaseType>USINT</BaseType><BitSize>8</BitSize><Own>x</Own>\
         <EnumInfo><Text>On</Text><Enum>1</Enum></EnumInfo></DataType></DataTypes><Objects/></Dictionary></EtherCATDict>";
-    let entries: String = [("OWN", 8), ("E", 8), ("E", 16), ("NONE", 8), ("UINT", 16)]
+    let entries: String = [("OWN", 8), ("E", 8), ("E", 16), ("NONE", 8), ("UINT", 16), ("UINT_Mode", 16)]
         .iter()
         .map(|(name, bits)| format!("{}\n", entry("#x6000", 1, *bits, name)))
         .collect();
@@ -279,8 +286,9 @@ fn types_of_a_dictionary_file_for_entries() {
     let checked = of("<DictionaryFile>dict.xml</DictionaryFile>");
     let device = checked.device();
     let types: Vec<_> = device.process_data.pdos[0].entries.iter().map(|entry| entry.ty).collect();
-    let [own, one, other, none, basic] = types[..] else { panic!("{types:?}") };
+    let [own, one, other, none, basic, mode] = types[..] else { panic!("{types:?}") };
     assert_eq!((own, basic, none), (Type::Unsigned(8), Type::Unsigned(16), Type::Opaque(None)));
+    assert!(matches!(mode, Type::Named(_)), "no guess");
     let Type::Named(id) = one else { panic!("{one:?}") };
     assert_eq!((one, device.types[id.0 as usize].name.as_str()), (other, "E"));
     let found: Vec<_> = checked.found().iter().map(|one| one.split(' ').next().unwrap().to_owned()).collect();
@@ -289,6 +297,7 @@ fn types_of_a_dictionary_file_for_entries() {
     // Where the file isn't there, nothing says what the types are.
     let missing = of("<DictionaryFile>none.xml</DictionaryFile>");
     assert_eq!(missing.found().iter().filter(|one| one.starts_with("ESI010")).count(), 4);
+    assert_eq!(missing.device().process_data.pdos[0].entries[5].ty, Type::Unsigned(16), "a guess");
 }
 
 #[test]

@@ -114,7 +114,7 @@ fn field<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, raw: &mut RawField<'
             }
         }
     }
-    raw.weight = raw.name.text.len() + raw.comment.length() + raw.info.weight() + raw.flags.weight();
+    raw.weight = raw.name.text.len() + raw.comment.weight() + raw.info.weight() + raw.flags.weight();
     Ok(())
 }
 

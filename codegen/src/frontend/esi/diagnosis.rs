@@ -1,11 +1,14 @@
 //! Diagnosis messages.
 
+use std::collections::{BTreeSet, HashMap};
+
 use compact_str::CompactString;
 
 use super::data_type::enum_value;
 use super::reader::{Names, Read, Reader};
 use crate::diagnostics::codes;
 use crate::ir::{CodeRow, CodeTable, Documentation, Extensions, LocalText, SharedList, Value};
+use crate::source::Span;
 use crate::syntax::xml::Tag;
 
 /// The flags of a message, in the order of the columns.
@@ -51,14 +54,13 @@ pub(super) fn read<'a>(
 }
 
 fn message<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, extensions: &mut Extensions) -> Read<Option<CodeRow>> {
-    let (mut names, mut paragraphs, mut number) = (Names::default(), Vec::new(), None);
-    let mut description = Names::default();
+    let (mut names, mut paragraphs, mut descriptions, mut number) = (Names::default(), Vec::new(), Vec::new(), None);
     let mut cells: [CompactString; COLUMNS.len()] = Default::default();
     while let Some(tag) = reader.cursor.child(parent)? {
         match tag.name {
             "TextId" => number = reader.number::<i128>(&tag, "number of a message", extensions)?,
             "MessageText" => reader.name(&tag, &mut names, extensions)?,
-            "Description" => reader.name(&tag, &mut description, extensions)?,
+            "Description" => paragraph(reader, &tag, (&mut descriptions, 0), extensions)?,
             "Flags" => {
                 while let Some(flag) = reader.cursor.child(&tag)? {
                     match COLUMNS.iter().zip(&mut cells).find(|(column, _)| **column == flag.name) {
@@ -76,8 +78,9 @@ fn message<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, extensions: &mut E
         reader.report(&codes::ESI_VALUE, parent.span, "this message has no TextId", "left out");
         return Ok(None);
     };
-    paragraphs.insert(0, ("", description));
-    let documentation = documentation(&paragraphs);
+    descriptions.iter_mut().for_each(|(title, _)| *title = "");
+    descriptions.append(&mut paragraphs);
+    let documentation = documentation(reader, &descriptions, parent.span);
     let cells = cells.into_iter().map(Value::Text).collect();
     let (name, names) = (names.name(), names.others());
     Ok(Some(CodeRow { code, last: None, name, names, availability: None, documentation, cells }))
@@ -117,7 +120,8 @@ fn paragraph<'a>(
     reader.name(tag, &mut names, extensions)?;
     // Elements of one name are one text in several languages.
     let is_other = |(title, own): &&mut Paragraph<'_>| *title == tag.name && !own.shares_language(&names);
-    match paragraphs.iter_mut().skip(first).rev().take(NEIGHBOURS).find(is_other) {
+    let first = first.max(paragraphs.len().saturating_sub(NEIGHBOURS));
+    match paragraphs.iter_mut().skip(first).find(is_other) {
         Some((_, own)) => own.append(names),
         None => paragraphs.push((tag.name, names)),
     }
@@ -125,22 +129,33 @@ fn paragraph<'a>(
 }
 
 /// The paragraphs as one text, and that in the other languages that any of them has.
-fn documentation(paragraphs: &[Paragraph<'_>]) -> Option<Box<Documentation>> {
-    let join = |of: &dyn Fn(&Names<'_>) -> CompactString| -> String {
-        let texts = paragraphs.iter().map(|(title, names)| (*title, of(names))).filter(|(_, text)| !text.is_empty());
-        let titled = texts.map(|(title, text)| if title.is_empty() { text.into() } else { format!("{title}: {text}") });
+fn documentation(
+    reader: &mut Reader<'_, '_>,
+    paragraphs: &[Paragraph<'_>],
+    message: Span,
+) -> Option<Box<Documentation>> {
+    let join = |texts: &[CompactString]| -> String {
+        let texts = paragraphs.iter().zip(texts).filter(|(_, text)| !text.is_empty());
+        let titled = texts.map(|((title, _), text)| match *title {
+            "" => text.to_string(),
+            title => format!("{title}: {text}"),
+        });
         titled.collect::<Vec<String>>().join("\n\n")
     };
-    let text = join(&|names| names.name());
+    let main: Vec<CompactString> = paragraphs.iter().map(|(_, names)| names.name()).collect();
+    let text = join(&main);
     let others: Vec<_> = paragraphs.iter().map(|(_, names)| names.others()).collect();
-    let mut languages: Vec<&CompactString> = others.iter().flatten().map(|other| &other.language).collect();
-    languages.sort_unstable();
-    languages.dedup();
-    let in_language = |language: &CompactString| {
-        let own = |names: &Names<'_>| names.all().find(|text| text.language == *language).map(|text| text.text);
-        let text = join(&|names| own(names).unwrap_or_else(|| names.name())).into();
-        LocalText { language: language.clone(), text }
+    let languages: BTreeSet<&CompactString> = others.iter().flatten().map(|other| &other.language).collect();
+    let by_language = |(_, names): &Paragraph<'_>| -> HashMap<CompactString, CompactString> {
+        names.all().map(|own| (own.language, own.text)).collect()
     };
-    let translations = languages.into_iter().map(in_language).collect();
+    let texts: Vec<_> = paragraphs.iter().map(by_language).collect();
+    // What a language doesn't have is in each of them.
+    let affordable = reader.derive((0, languages.len().saturating_mul(text.len())), message);
+    let in_language = |language: &CompactString| {
+        let own = texts.iter().zip(&main).map(|(own, main)| own.get(language).unwrap_or(main).clone());
+        LocalText { language: language.clone(), text: join(&own.collect::<Vec<_>>()).into() }
+    };
+    let translations = languages.into_iter().filter(|_| affordable).map(in_language).collect();
     (!text.is_empty()).then(|| Box::new(Documentation { text, translations, cite: None }))
 }

@@ -55,6 +55,9 @@ struct Builder<'b, 't, 'a> {
 /// Sub-indices that an object has room for, 0 included.
 const SUB_INDICES: u32 = 256;
 
+/// How many sub-indices that occur twice are told of one object.
+const MAX_TOLD: usize = 16;
+
 /// A value of an object, as its data type describes it.
 pub(super) struct Entry<'t, 'a> {
     sub_index: u8,
@@ -197,7 +200,7 @@ impl<'t, 'a> Builder<'_, 't, 'a> {
         record: &'t RawType<'a>,
     ) -> Vec<Entry<'t, 'a>> {
         let mut entries: Vec<Entry<'t, 'a>> = Vec::with_capacity(record.fields.len());
-        let mut next = 0u32;
+        let (mut next, mut is_told) = (0u32, false);
         for (position, field) in record.fields.iter().enumerate() {
             let field_type = self.types.field(ty, position);
             let following = record.fields.get(position + 1).and_then(|field| field.sub_index);
@@ -209,8 +212,11 @@ impl<'t, 'a> Builder<'_, 't, 'a> {
             }
             for number in 0..count {
                 let Some(sub_index) = first.checked_add(number).and_then(|sub| u8::try_from(sub).ok()) else {
-                    let message = "an object has at most 255 sub-indices besides 0";
-                    reader.report(&codes::SUB_INDEX_RANGE, field.origin.span, message, "left out");
+                    // A type may have any number of them, and any number of objects.
+                    if !std::mem::replace(&mut is_told, true) {
+                        let message = "an object has at most 255 sub-indices besides 0";
+                        reader.report(&codes::SUB_INDEX_RANGE, field.origin.span, message, "left out");
+                    }
                     break;
                 };
                 let number = (element != field_type || count > 1).then_some(number + 1);
@@ -245,9 +251,11 @@ impl<'t, 'a> Builder<'_, 't, 'a> {
             return entries;
         }
         entries.sort_by_key(|entry| entry.sub_index);
+        let mut told = 0;
         entries.dedup_by(|later, earlier| {
             let twice = later.sub_index == earlier.sub_index;
-            if twice {
+            told += usize::from(twice);
+            if twice && told <= MAX_TOLD {
                 let message = format!("sub-index 0x{:02X} occurs twice", later.sub_index);
                 reader.diagnostics.push(
                     Diagnostic::new(&codes::ESI_DUPLICATE_OBJECT, later.field.origin.span, message)

@@ -44,6 +44,8 @@ mod sync;
 mod types;
 mod value;
 
+use std::collections::HashSet;
+
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
 use crate::etg::{language, type_name, unit};
 use crate::frontend::declared_encoding;
@@ -62,12 +64,15 @@ struct Description {
     references: Vec<(Owner, Reference)>,
     /// Types of entries that may be in those files.
     entry_types: Vec<(Owner, EntryType)>,
+    /// To whom such a file wasn't copied.
+    refused: HashSet<Owner>,
 }
 
 impl Description {
     /// Notes what a device or module leaves to other files.
     fn leave(&mut self, owner: Owner, elsewhere: Elsewhere) {
         self.references.extend(elsewhere.files.into_iter().map(|file| (owner, file)));
+        self.catalog.code_tables.extend(elsewhere.messages);
         self.entry_types.extend(elsewhere.types.into_iter().map(|ty| (owner, ty)));
     }
 }

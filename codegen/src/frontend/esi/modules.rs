@@ -49,6 +49,7 @@ pub(super) fn read<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>) -> Read<(M
     module.extensions.append(&mut profiles.dictionary.take_extensions());
     let lowered = lower(reader, profiles.dictionary, pdos, &mut module.process_data, &mut profiles.elsewhere);
     (module.types, module.groups) = lowered;
+    profiles.elsewhere.messages = profiles.code_tables;
     Ok((module, profiles.elsewhere))
 }
 
@@ -74,6 +75,7 @@ fn settings<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, module: &mut Module)
     let mailbox = mailbox::read(reader, tag, &mut module.extensions)?;
     beside_coe(&mailbox, tag, &mut module.extensions);
     let Some(coe) = mailbox.coe else { return Ok(()) };
+    module.extensions.push(Extension { key: "Mailbox/CoE".into(), value: "true".into(), span: tag.span });
     module.init_commands = coe.init_commands;
     let flags = [
         ("DiagHistory", coe.diag_history),

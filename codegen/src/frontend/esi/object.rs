@@ -78,7 +78,7 @@ impl<'a> RawInfo<'a> {
     pub fn weight(&self) -> usize {
         let length = |raw: &Option<RawValue<'a>>| raw.as_ref().map_or(0, |raw| raw.given.text.len());
         let of_more =
-            |more: &MoreInfo<'a>| length(&more.min) + length(&more.max) + more.unit.text.len() + more.display.length();
+            |more: &MoreInfo<'a>| length(&more.min) + length(&more.max) + more.unit.text.len() + more.display.weight();
         length(&self.default) + self.more.as_deref().map_or(0, of_more)
     }
 

@@ -113,16 +113,17 @@ impl<'a> Names<'a> {
 
     /// Whether both have a text in the same language. So has what is in more languages than there are.
     pub fn shares_language(&self, other: &Names<'_>) -> bool {
-        self.0.len() > 255 || self.0.iter().any(|(own, _)| other.0.iter().any(|(lcid, _)| own == lcid))
+        let is_same = |own: &Option<u32>, lcid: &Option<u32>| language::tag(*own) == language::tag(*lcid);
+        self.0.len() > 255 || self.0.iter().any(|(own, _)| other.0.iter().any(|(lcid, _)| is_same(own, lcid)))
     }
 
     pub fn append(&mut self, mut other: Names<'a>) {
         self.0.append(&mut other.0);
     }
 
-    /// Bytes of all texts together.
-    pub fn length(&self) -> usize {
-        self.0.iter().map(|(_, given)| given.text.len()).sum()
+    /// Bytes that a copy of all texts takes.
+    pub fn weight(&self) -> usize {
+        self.0.iter().map(|(_, given)| size_of::<LocalText>() + given.text.len()).sum()
     }
 
     /// The texts, each with its language.

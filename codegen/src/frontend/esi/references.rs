@@ -1,19 +1,18 @@
 //! Files that a description refers to: further descriptions, dictionaries, diagnosis messages.
 
-use std::collections::HashMap;
-use std::collections::VecDeque;
+use std::collections::{HashMap, HashSet, VecDeque};
 use std::path::Path;
 
 use super::device::check_length;
 use super::reader::{Budget, Given};
-use super::types::unresolved;
+use super::types::guessed;
 use super::{document, Description};
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
-use crate::ir::{Catalog, Device, Group, PdoEntry, Shape, Type, TypeDef, TypeId};
+use crate::ir::{Catalog, CodeTable, Device, Extension, Group, PdoEntry, Shape, Type, TypeDef, TypeId};
 use crate::source::{References, Source, Span};
 
 /// What a file is expected to contain.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(super) enum Target {
     /// Devices or modules (InfoReference).
     Info,
@@ -24,7 +23,7 @@ pub(super) enum Target {
 }
 
 /// To what the content of a file belongs.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(super) enum Owner {
     Catalog,
     Device(usize),
@@ -50,6 +49,8 @@ impl Reference {
 pub(super) struct Elsewhere {
     pub files: Vec<Reference>,
     pub types: Vec<EntryType>,
+    /// Messages of a module, which are those of all.
+    pub messages: Vec<CodeTable>,
 }
 
 /// The type of an entry of a PDO that the dictionary beside it doesn't have.
@@ -67,6 +68,27 @@ impl EntryType {
     }
 }
 
+/// A file that was read, and what a copy of it costs.
+struct Content {
+    catalog: Catalog,
+    dictionary: (usize, usize),
+    messages: (usize, usize),
+    /// Whether it was copied: the first copy takes no more than the file itself.
+    is_copied: bool,
+    /// Who has it.
+    owners: HashSet<(Owner, Target)>,
+}
+
+impl Content {
+    fn new(catalog: Catalog, length: usize) -> Self {
+        let dictionary = catalog.devices.iter().find(|device| device.dictionary_only);
+        let dictionary = dictionary.map_or((0, 0), |device| cost_of(device, length));
+        let rows = catalog.code_tables.iter().map(|table| table.rows.len()).sum();
+        let messages = (rows, length + catalog.code_tables.len() * size_of::<CodeTable>());
+        Content { catalog, dictionary, messages, is_copied: false, owners: HashSet::new() }
+    }
+}
+
 /// Reads the files that `description` refers to, and those that these refer to, each once.
 pub(super) fn follow(
     main: &Source,
@@ -76,8 +98,8 @@ pub(super) fn follow(
     budget: &mut Budget,
 ) {
     let own = Path::new(main.name()).file_name().map(|name| name.to_string_lossy().into_owned());
-    // The content of each file and its length, as far as others need it; `None` for one that can't be used.
-    let mut files: HashMap<String, Option<(Box<Catalog>, usize)>> = HashMap::new();
+    // The content of each file, as far as others need it; `None` for one that can't be used.
+    let mut files: HashMap<String, Option<Content>> = HashMap::new();
     // Who refers to a file from a device wants the modules there; a mere list of files stands for the devices in them.
     let only_modules = !description.catalog.devices.is_empty();
     let mut queue: VecDeque<(Owner, Reference)> = std::mem::take(&mut description.references).into();
@@ -87,9 +109,9 @@ pub(super) fn follow(
         if Some(&name) == own.as_ref() {
             continue;
         }
-        if let Some(content) = files.get(&name) {
-            if let (Some((content, length)), true) = (content, reference.target != Target::Info) {
-                attach(description, owner, &reference, (content, *length), diagnostics, budget);
+        if let Some(content) = files.get_mut(&name) {
+            if let (Some(content), true) = (content, reference.target != Target::Info) {
+                attach(description, owner, &reference, content, diagnostics, budget);
             }
             continue;
         }
@@ -109,8 +131,9 @@ pub(super) fn follow(
             }
             _ => {
                 queue.extend(read.references.drain(..).filter(|(owner, _)| *owner == Owner::Catalog));
-                attach(description, owner, &reference, (&read.catalog, length), diagnostics, budget);
-                files.insert(name, Some((Box::new(read.catalog), length)));
+                let mut content = Content::new(read.catalog, length);
+                attach(description, owner, &reference, &mut content, diagnostics, budget);
+                files.insert(name, Some(content));
             }
         }
     }
@@ -119,7 +142,9 @@ pub(super) fn follow(
 
 /// Finds the types of entries among those that files brought along.
 fn entry_types(description: &mut Description, diagnostics: &mut Diagnostics) {
-    let Description { catalog, entry_types, .. } = description;
+    let Description { catalog, entry_types, refused, .. } = description;
+    // What a file that wasn't copied says of them isn't known.
+    entry_types.retain(|(owner, _)| !refused.contains(owner));
     for of_owner in entry_types.chunk_by(|(one, _), (other, _)| one == other) {
         let found = match of_owner.first() {
             Some((Owner::Device(at), _)) => catalog.devices.get_mut(*at).map(|own| (&own.types, &mut own.process_data)),
@@ -134,15 +159,18 @@ fn entry_types(description: &mut Description, diagnostics: &mut Diagnostics) {
         let waiting: HashMap<Span, &EntryType> = of_owner.iter().map(|(_, own)| (own.entry, own)).collect();
         for entry in data.pdos.iter_mut().flat_map(|pdo| &mut pdo.entries) {
             let Some(own) = waiting.get(&entry.origin.span) else { continue };
-            let Some(&(id, def)) = by_name.get(own.name.as_str()) else {
-                unresolved(diagnostics, &own.name, own.span);
-                continue;
+            let (ty, bits) = match by_name.get(own.name.as_str()) {
+                Some((id, def)) => match def.shape {
+                    Shape::Alias(ty) => (ty, def.bits),
+                    _ => (Type::Named(*id), def.bits),
+                },
+                None => {
+                    let ty = guessed(diagnostics, &own.name, own.span);
+                    (ty, ty.bits())
+                }
             };
-            entry.ty = match def.shape {
-                Shape::Alias(ty) => ty,
-                _ => Type::Named(id),
-            };
-            check_length(diagnostics, entry, (&own.name, own.span), def.bits);
+            entry.ty = ty;
+            check_length(diagnostics, entry, (&own.name, own.span), bits);
         }
     }
 }
@@ -191,7 +219,7 @@ fn open(
 
 /// Adds a further description; what it refers to itself.
 fn join(description: &mut Description, read: Description) -> Vec<(Owner, Reference)> {
-    let Description { catalog: mut other, references, entry_types } = read;
+    let Description { catalog: mut other, references, entry_types, .. } = read;
     let catalog = &mut description.catalog;
     let (devices, modules) = (catalog.devices.len(), catalog.modules.len());
     catalog.devices.append(&mut other.devices);
@@ -208,36 +236,45 @@ fn join(description: &mut Description, read: Description) -> Vec<(Owner, Referen
     references.into_iter().map(|(owner, reference)| (moved(owner), reference)).collect()
 }
 
-/// Adds the dictionary or the messages of a file to what refers to it.
+/// Adds the dictionary or the messages of a file to what refers to it, once.
 fn attach(
     description: &mut Description,
     owner: Owner,
     reference: &Reference,
-    (content, length): (&Catalog, usize),
+    content: &mut Content,
     diagnostics: &mut Diagnostics,
     budget: &mut Budget,
 ) {
-    let dictionary = content.devices.iter().find(|device| device.dictionary_only);
-    let found = match reference.target {
-        Target::Dictionary => dictionary.is_some(),
-        _ => !content.code_tables.is_empty(),
-    };
+    let is_dictionary = reference.target == Target::Dictionary;
+    // Messages of modules are those of all.
+    let owner = if is_dictionary || matches!(owner, Owner::Device(_)) { owner } else { Owner::Catalog };
+    if !content.owners.insert((owner, reference.target)) {
+        return;
+    }
+    let dictionary = content.catalog.devices.iter().find(|device| device.dictionary_only);
+    let found = if is_dictionary { dictionary.is_some() } else { !content.catalog.code_tables.is_empty() };
     if !found {
-        let what = if reference.target == Target::Dictionary { "dictionary" } else { "diagnosis messages" };
+        let what = if is_dictionary { "dictionary" } else { "diagnosis messages" };
         let message = format!("the file `{}` has no {what}", reference.name);
         diagnostics.push(Diagnostic::new(&codes::REFERENCED_FILE, reference.span, message).label("it adds nothing"));
         return;
     }
-    let catalog = &mut description.catalog;
-    if reference.target == Target::Diagnosis {
-        let tables = match owner {
-            Owner::Device(at) => catalog.devices.get_mut(at).map(|device| &mut device.code_tables),
-            _ => Some(&mut catalog.code_tables),
+    let cost = if is_dictionary { content.dictionary } else { content.messages };
+    if std::mem::replace(&mut content.is_copied, true) && !affordable(budget, cost, reference, diagnostics) {
+        description.refused.insert(owner);
+        return;
+    }
+    let Description { catalog, .. } = description;
+    if !is_dictionary {
+        let (tables, extensions) = match owner {
+            Owner::Device(at) => match catalog.devices.get_mut(at) {
+                Some(own) => (&mut own.code_tables, &mut own.extensions),
+                None => return,
+            },
+            _ => (&mut catalog.code_tables, &mut catalog.extensions),
         };
-        let rows = content.code_tables.iter().map(|table| table.rows.len()).sum();
-        if let (Some(tables), true) = (tables, affordable(budget, (rows, length), reference, diagnostics)) {
-            tables.extend(content.code_tables.iter().cloned());
-        }
+        tables.extend(content.catalog.code_tables.iter().cloned());
+        extensions.extend(content.catalog.extensions.iter().cloned());
         return;
     }
     let target = match owner {
@@ -249,15 +286,14 @@ fn attach(
         }
         Owner::Catalog => None,
     };
-    let (Some((types, groups, extensions)), Some(dictionary)) = (target, dictionary) else { return };
-    if affordable(budget, (items_of(dictionary), length), reference, diagnostics) {
+    if let (Some((types, groups, extensions)), Some(dictionary)) = (target, dictionary) {
         extensions.extend(dictionary.extensions.iter().cloned());
         merge(types, groups, dictionary, diagnostics);
     }
 }
 
-/// What a copy of a dictionary adds: items, and what types are made of.
-fn items_of(dictionary: &Device) -> usize {
+/// What a copy of a dictionary adds: items and what types are made of, and bytes of a file of so many.
+fn cost_of(dictionary: &Device, length: usize) -> (usize, usize) {
     let parts = |shape: &Shape| match shape {
         Shape::Record(fields) => fields.len(),
         Shape::Enumeration { values, .. } => values.len(),
@@ -265,7 +301,12 @@ fn items_of(dictionary: &Device) -> usize {
         Shape::Alias(_) | Shape::Array { .. } | Shape::Scaled { .. } => 0,
     };
     let of_groups = dictionary.groups.iter().map(|group| group.items.len() + 1);
-    of_groups.chain(dictionary.types.iter().map(|def| parts(&def.shape) + 1)).sum()
+    let items = of_groups.chain(dictionary.types.iter().map(|def| parts(&def.shape) + 1)).sum();
+    let of_groups = dictionary.groups.iter().flat_map(|group| {
+        group.items.iter().map(|item| item.extensions.len()).chain(std::iter::once(group.extensions.len()))
+    });
+    let extensions: usize = of_groups.sum::<usize>() + dictionary.extensions.len();
+    (items, length + extensions * size_of::<Extension>())
 }
 
 /// Whether so much may be copied: many devices may refer to one large file.

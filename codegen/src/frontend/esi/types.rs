@@ -200,7 +200,7 @@ impl<'t, 'a> Types<'t, 'a> {
         match known {
             Some((Basic::Type(basic), Spelling::Prefix)) if ty.bits.is_some() && bits(basic) != ty.bits => {}
             Some((Basic::Type(basic), spelling)) => {
-                spelled(reader, spelling, &ty.name, basic);
+                spelled(reader.diagnostics, spelling, (&ty.name.text, ty.name.span), basic);
                 let basic = self.sized(reader, basic, ty);
                 return (Shape::Alias(basic), ty.bits.or(basic.bits()));
             }
@@ -330,9 +330,9 @@ impl<'t, 'a> Types<'t, 'a> {
         }
     }
 
-    /// Whether a name is that of a data type, or of a basic one.
+    /// Whether a name is that of a data type, or of a basic one as the standard spells it.
     pub fn knows(&self, name: &str) -> bool {
-        self.by_name.contains_key(name) || type_name::basic(name).is_some()
+        self.by_name.contains_key(name) || matches!(type_name::basic(name), Some((_, Spelling::Standard)))
     }
 
     /// The record that a reference to a type means.
@@ -365,7 +365,7 @@ impl<'t, 'a> Types<'t, 'a> {
     fn basic(&mut self, reader: &mut Reader<'_, '_>, given: &Given<'_>) -> Type {
         match type_name::basic(&given.text) {
             Some((Basic::Type(ty), spelling)) => {
-                spelled(reader, spelling, given, ty);
+                spelled(reader.diagnostics, spelling, (&given.text, given.span), ty);
                 ty
             }
             Some((known, _)) => self.make(&given.text, known),
@@ -446,15 +446,15 @@ impl<'t, 'a> Types<'t, 'a> {
 }
 
 /// Reports a name that isn't in the tables.
-fn spelled(reader: &mut Reader<'_, '_>, spelling: Spelling, given: &Given<'_>, ty: Type) {
+fn spelled(diagnostics: &mut Diagnostics, spelling: Spelling, (name, span): (&str, Span), ty: Type) {
     let code = match spelling {
         Spelling::Standard => return,
         Spelling::Alias => &codes::TYPE_ALIAS,
         Spelling::Prefix => &codes::GUESSED_TYPE,
     };
-    if reader.diagnostics.wants(code) {
-        let message = format!("`{}` is no type of ETG.1000.6", shortened(&given.text));
-        reader.report(code, given.span, message, format!("read as {ty}"));
+    if diagnostics.wants(code) {
+        let message = format!("`{}` is no type of ETG.1000.6", shortened(name));
+        diagnostics.push(Diagnostic::new(code, span, message).label(format!("read as {ty}")));
     }
 }
 
@@ -580,8 +580,22 @@ fn bit_array(width: u8) -> Shape {
     Shape::BitField { base: Type::Unsigned(width), fields: (0..width).map(bit).collect() }
 }
 
+/// The basic type that a name nearly is, where no data type has it.
+pub(super) fn guessed(diagnostics: &mut Diagnostics, name: &str, span: Span) -> Type {
+    match type_name::basic(name) {
+        Some((Basic::Type(ty), spelling)) => {
+            spelled(diagnostics, spelling, (name, span), ty);
+            ty
+        }
+        _ => {
+            unresolved(diagnostics, name, span);
+            Type::Opaque(None)
+        }
+    }
+}
+
 /// Reports a name that is no type's.
-pub(super) fn unresolved(diagnostics: &mut Diagnostics, name: &str, span: Span) {
+fn unresolved(diagnostics: &mut Diagnostics, name: &str, span: Span) {
     let message = format!("no data type is called `{}`", shortened(name));
     diagnostics.push(
         Diagnostic::new(&codes::UNRESOLVED_TYPE, span, message)

@@ -7,6 +7,9 @@ use crate::ir::{Catalog, CompactString, Documentation, Extension, Extensions};
 use crate::source::{FileId, Span};
 use crate::syntax::xml::Tag;
 
+/// Bytes of the texts of a header that every device may have at no cost.
+const MAX_FREE_TEXTS: usize = 1024;
+
 /// What all devices of a file share.
 #[derive(Default)]
 pub(super) struct Header {
@@ -63,14 +66,19 @@ impl Header {
     pub fn apply(mut self, catalog: &mut Catalog, resolver: &mut Resolver<'_, '_>) {
         resolver.documentation(&mut self.description);
         let description = self.description.as_ref().map_or("", |documentation| documentation.text.as_str());
+        let version = self.version.as_ref().map_or_else(CompactString::default, |(text, _)| text.clone());
+        let family = self.family.0.len() + self.family.1.len();
+        let weight = self.vendor_name.len() + description.len() + family + version.len();
         for device in &mut catalog.devices {
             let identity = &mut device.identity;
             (identity.vendor_id, identity.product_code) = (self.vendor_id, self.device_id);
+            if weight > MAX_FREE_TEXTS && !resolver.spend_at(weight, device.origin.span) {
+                continue;
+            }
             let own = std::mem::replace(&mut identity.vendor_name, self.vendor_name.clone());
             identity.product_name = device.name.clone();
             device.header.description = description.into();
-            device.header.format_version =
-                self.version.as_ref().map_or_else(Default::default, |(text, _)| text.clone());
+            device.header.format_version = version.clone();
             let Some(settings) = &mut device.profinet else { continue };
             settings.device_id = self.device_id.and_then(|id| u16::try_from(id).ok()).unwrap_or(0);
             settings.family = self.family.clone();

@@ -254,7 +254,14 @@ impl Layout {
             (item.first_field, item.fields) = (u32::try_from(self.fields.len()).unwrap_or(u32::MAX), 1);
             let (name, ty) = (item.name.clone(), Type::OctetString(Some(item.bits / 8)));
             let entry = PdoEntry::new(0, 0, item.bits);
-            self.fields.push(PdoEntry { bit_offset: item.bit_offset, name, ty, origin, ..entry });
+            self.fields.push(PdoEntry {
+                bit_offset: item.bit_offset,
+                kind: PdoEntryKind::Item,
+                name,
+                ty,
+                origin,
+                ..entry
+            });
         }
         self.overhead = 0;
     }

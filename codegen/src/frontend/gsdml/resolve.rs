@@ -13,6 +13,7 @@ use crate::ir::{
     TypeDef, UnitDiagnosis,
 };
 use crate::limits;
+use crate::source::Span;
 
 /// Resolves every name and description of a catalogue.
 pub(super) fn catalog(catalog: &mut Catalog, resolver: &mut Resolver<'_, '_>) {
@@ -170,13 +171,18 @@ impl<'a, 'd> Resolver<'a, 'd> {
 
     /// Whether one more text of this length may be copied: a long one to which everything refers must not multiply.
     fn spend(&mut self, length: usize, given: &Given<'_>) -> bool {
+        self.spend_at(length, given.span)
+    }
+
+    /// Whether a text of so many bytes may be copied. The first that may not is reported.
+    pub fn spend_at(&mut self, length: usize, span: Span) -> bool {
         if let Some(rest) = self.budget.checked_sub(length) {
             self.budget = rest;
             return true;
         }
         if std::mem::take(&mut self.budget) > 0 {
             let message = "the texts that the file refers to are many times longer than the file";
-            let diagnostic = Diagnostic::new(&codes::INPUT_TOO_LARGE, given.span, message);
+            let diagnostic = Diagnostic::new(&codes::INPUT_TOO_LARGE, span, message);
             self.diagnostics.push(diagnostic.label("from here on, identifiers are used as names"));
         }
         false

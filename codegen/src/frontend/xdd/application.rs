@@ -11,6 +11,7 @@ use crate::diagnostics::{codes, Diagnostic};
 use crate::ir::{CompactString, Device, Extension, Extensions, LocalText};
 use crate::source::Span;
 use crate::syntax::xml::Tag;
+use crate::text::brief;
 
 /// How many characters of a group's label its parameters remember.
 const MAX_GROUP_LABEL: usize = 128;
@@ -273,7 +274,7 @@ impl<'a> Application<'a> {
 }
 
 pub(super) fn dangling(reader: &mut Reader<'_, '_>, given: &Given<'_>, what: &str) {
-    let message = format!("no {what} has the uniqueID `{}`", given.text);
+    let message = format!("no {what} has the uniqueID `{}`", brief(&given.text));
     reader.diagnostics.push(Diagnostic::new(&codes::DANGLING_REFERENCE, given.span, message).label("not resolved"));
 }
 

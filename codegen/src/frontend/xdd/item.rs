@@ -10,6 +10,7 @@ use crate::ir::{
     Access, Behaviour, Binding, CompactString, Configured, Extension, Extensions, Item, Limits, Mappable, ObjectCode,
     Quantity, Scale, Shape, Storage, Type, TypeDef, TypeId, Value,
 };
+use crate::text::brief;
 
 /// What a sub-object takes from its object: the parameter of the whole, and the type of this component.
 pub(super) type Parent<'v, 'p, 'a> = Option<(&'v View<'p, 'a>, Option<Type>)>;
@@ -184,7 +185,7 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
 
     fn unknown_access(&mut self, given: &Given<'a>, access: Access, help: &str) {
         self.reader.diagnostics.push(
-            Diagnostic::new(&codes::UNKNOWN_ACCESS, given.span, format!("`{}` is no access type", given.text))
+            Diagnostic::new(&codes::UNKNOWN_ACCESS, given.span, format!("`{}` is no access type", brief(&given.text)))
                 .label(format!("read as {}", access.name()))
                 .help(help),
         );
