@@ -193,14 +193,19 @@ fn table(rest: &str) -> String {
 #[test]
 fn long_rows_that_stand_for_many_items() {
     let values: String = (0..1_000).map(|at| format!("{at} = \"v{at}\", ")).collect();
-    for said in [format!("enum = {{ {values} }}"), format!("doc = \"{}\"", long("d"))] {
+    for (name, said) in [
+        ("a".to_owned(), format!("enum = {{ {values} }}")),
+        ("a".to_owned(), format!("doc = \"{}\"", long("d"))),
+        ("a".to_owned(), "writable = [\"0..1000\"]".to_owned()),
+        (long("n"), "doc = \"d\"".to_owned()),
+    ] {
         let row = format!(
             "[[chapters]]\nspace = \"s\"\n[chapters.registers]\n\
-             \"a {{n}}\" = {{ reg = 0, count = 65535, type = \"u16\", access = \"ro\", {said} }}\n"
+             \"{name} {{n}}\" = {{ reg = 0, count = 65535, type = \"u16\", access = \"rw\", {said} }}\n"
         );
         is_bounded_by(&read("rows.toml", &table(&row)), limits::MAX_DERIVED_ITEMS);
         let objects = format!(
-            "[[chapters]]\n[chapters.objects]\n\"0x1000..0xFFFF\" = {{ name = \"a\", type = \"u16\", access = \"ro\", {said} }}\n"
+            "[[chapters]]\n[chapters.objects]\n\"0x1000..0xFFFF\" = {{ name = \"{name}\", type = \"u16\", access = \"ro\", {said} }}\n"
         );
         let compilation = read("objects.toml", &table(&objects).replace("serial", "canopen"));
         is_bounded_by(&compilation, limits::MAX_DERIVED_ITEMS);

@@ -134,3 +134,48 @@ fn an_offset_is_a_finite_number() {
     let found = compilation.diagnostics.list().iter().filter(|found| found.message == "an offset is a finite number");
     assert_eq!(found.count(), 1);
 }
+
+#[test]
+fn conditions_compare_with_what_the_item_holds() {
+    let head = "[enums.Mode]\nbase = \"i16\"\nvalues = { 0xFFFF = \"error\", 0 = \"ok\" }\n";
+    let row = "[chapters.registers]\nmode = { reg = 0, enum = \"Mode\", access = \"ro\" }\n\
+               x = { reg = 1, type = \"u16\", access = \"rw\", when = { mode = [0xFFFF] } }\n";
+    let compilation = read(&format!("{SPACE}{head}"), row);
+    assert!(codes(&compilation).iter().all(|code| *code == "EDS063"), "{:?}", codes(&compilation));
+    let condition = &items(&compilation)[1].behaviour.as_ref().expect("a condition").write_when[0];
+    assert_eq!(condition.values, [Value::Int(-1)]);
+}
+
+#[test]
+fn ranges_that_turn_over_and_ranges_beyond() {
+    let found = |row: &str| -> Vec<String> {
+        let compilation = read(SPACE, &format!("[chapters.registers]\na = {{ reg = 0, access = \"rw\", {row} }}\n"));
+        let list = compilation.diagnostics.list().iter().filter(|found| found.code.id != "EDS063");
+        list.map(|found| found.message.clone()).collect()
+    };
+    let none = "`0..0xFFFF` is no value of INTEGER16, and no range of them";
+    assert_eq!(found("type = \"i16\", allowed = [\"0..0xFFFF\"], default = 5"), [none]);
+    assert_eq!(found("type = \"i16\", allowed = [\"0x8000..0xFFFF\"], default = -5"), Vec::<String>::new());
+    let beyond = found("type = \"u8\", max = 100, writable = [\"0..300\"]");
+    assert_eq!(beyond.len(), 2, "{beyond:?}");
+    assert!(beyond.iter().all(|message| message.contains("300")), "{beyond:?}");
+    let many = found("type = \"u16\", writable = [\"0..1000\", \"2000..3000\"]");
+    assert_eq!(many, ["with 2000 to 3000 there are more than 1024 values"]);
+}
+
+#[test]
+fn sums_of_lengths_do_not_overflow() {
+    let copies = "{ copy = \"0..65535\" }, ".repeat(8_193);
+    let text = format!(
+        "lexibus = 1\n[device]\nname = \"X\"\nbuses = [\"serial\"]\n[[messages]]\nname = \"m\"\n\
+         request = [{{ bytes = [1], at = 0 }}, {copies}]\n"
+    );
+    let compilation = check(Source::new("t.toml", text.into()), &Options::default());
+    assert!(compilation.catalog.is_some());
+}
+
+#[test]
+fn what_is_said_of_a_row_is_said_once() {
+    let row = "[chapters.registers]\n\"a {n}\" = { reg = 0, count = 100, type = \"u16\" }\n";
+    assert_eq!(codes(&read(SPACE, row)).iter().filter(|code| **code == "TAB010").count(), 1);
+}

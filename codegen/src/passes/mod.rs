@@ -7,6 +7,7 @@ mod access_checked;
 mod aliases_agree;
 mod bit_fields_checked;
 mod conditions_possible;
+mod conditions_signed;
 mod conversions_agree;
 mod declared_pdos_checked;
 mod directions_agree;
@@ -73,6 +74,7 @@ fn device(device: &mut Device, modules: &[Module], format: Option<Format>, diagn
     if is_table {
         declared_pdos_checked::run(device, diagnostics);
     }
+    conditions_signed::run(device);
     identity_agrees::run(device, diagnostics);
     objects_checked::run(device, modules, format, diagnostics);
     values_checked::run(device.groups.iter(), &device.types, diagnostics);

@@ -147,7 +147,7 @@ fn cob_id(
     diagnostics: &mut Diagnostics,
 ) {
     let of_some_node = |item: &Item| match item.default {
-        Some(Value::NodeId(base)) => (1..=127).contains(&(value - base)),
+        Some(Value::NodeId(base)) => value.checked_sub(base).is_some_and(|node| (1..=127).contains(&node)),
         Some(Value::Int(default)) => default == value,
         _ => false,
     };

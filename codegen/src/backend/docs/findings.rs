@@ -9,6 +9,9 @@ use crate::diagnostics::{Class, Diagnostic};
 use crate::ir::{Group, Item};
 use crate::source::Span;
 
+/// How many findings one place has at most; the others are on the page of all.
+const MAX_AT_ONE_PLACE: usize = 64;
+
 /// A finding of the compiler.
 #[derive(Clone, Debug)]
 pub(super) struct Finding {
@@ -74,12 +77,13 @@ impl Findings {
         self.within(&[group.origin.span])
     }
 
+    /// A row may stand for thousands of items with a finding each, of which every item would show all.
     fn within(&self, spans: &[Span]) -> Vec<Finding> {
         let mut found: Vec<usize> = Vec::new();
         for span in spans.iter().filter(|span| !span.is_empty()) {
             let first = self.places.partition_point(|(own, _)| (own.file, own.start) < (span.file, span.start));
             let inside = |(own, _): &&(Span, usize)| own.file == span.file && own.start < span.end;
-            found.extend(self.places[first..].iter().take_while(inside).map(|(_, at)| *at));
+            found.extend(self.places[first..].iter().take_while(inside).map(|(_, at)| *at).take(MAX_AT_ONE_PLACE));
         }
         found.sort_unstable();
         found.dedup();

@@ -31,7 +31,9 @@ pub(super) fn registers(xml: &mut Xml, notes: &mut Notes, settings: &EtherCatSet
 pub(super) fn write(xml: &mut Xml, context: &mut Context<'_>, settings: &EtherCatSettings) {
     let Some(eeprom) = settings.eeprom.as_deref() else { return };
     let (notes, place) = (&mut context.notes, Place::Named("Eeprom"));
-    let size = context.options.eeprom_size().or(eeprom.byte_size);
+    // The whole content has its size.
+    let given = if eeprom.data.is_empty() { context.options.eeprom_size() } else { None };
+    let size = given.or(eeprom.byte_size);
     if eeprom.data.is_empty() && size.is_none() {
         return notes.add(NoteKind::Incomplete, place);
     }

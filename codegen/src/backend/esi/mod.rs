@@ -225,7 +225,8 @@ fn groups(xml: &mut Xml, context: &mut Context<'_>, devices: &[&Device]) {
         }
         xml.close();
     }
-    if let (Some(group), false) = (&context.options.group(), devices.is_empty()) {
+    let group = if devices.is_empty() { None } else { context.options.group() };
+    if let Some(group) = &group {
         if !families.iter().any(|family| family.id == *group) {
             xml.open("Group");
             xml.leaf("Type", group);

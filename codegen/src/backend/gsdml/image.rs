@@ -15,6 +15,7 @@ use crate::ir::{
 /// Subslots of the first interface, and of the first port.
 const INTERFACE: u16 = 0x8000;
 const PORT: u16 = 0x8001;
+const MAX_PORTS: u16 = 0x0FFF;
 
 /// The catalogue of the devices of `source` that have fixed process images; none where there are no such devices.
 pub(super) fn catalog(
@@ -105,8 +106,8 @@ impl Maker<'_> {
             relations: 1,
             startup_modes: list(options.startup_modes().as_deref().unwrap_or("Legacy")),
             max_lengths: IoLengths { input: Some(input), output: Some(output), data: None },
-            send_clocks: numbers(options.send_clocks().as_deref().unwrap_or_default()),
-            reduction_ratios: numbers(options.reduction_ratios().as_deref().unwrap_or_default()),
+            send_clocks: options.send_clocks().unwrap_or_default(),
+            reduction_ratios: options.reduction_ratios().unwrap_or_default(),
             places: Places { fixed: Numbers(smallvec![(0, 0)]), ..Places::default() },
             ..ProfinetSettings::default()
         };
@@ -200,7 +201,10 @@ impl Maker<'_> {
         };
         self.add(device, interface, INTERFACE);
         let ports = self.want(options.ports(), "ports");
-        for number in 0..ports.min(0x0FFF) {
+        if ports > MAX_PORTS {
+            self.notes.add(NoteKind::GivenFact, Place::Named("ports"));
+        }
+        for number in 0..ports.min(MAX_PORTS) {
             let kind = self.want(options.mau_type(), "mau-type");
             let port = Submodule {
                 id: format_compact!("Port_{}_{}", self.position + 1, number + 1),
@@ -219,11 +223,6 @@ impl Maker<'_> {
 /// Words with `;` between them.
 fn list(text: &str) -> Vec<CompactString> {
     text.split(';').map(str::trim).filter(|word| !word.is_empty()).map(Into::into).collect()
-}
-
-/// Numbers with blanks between them; what is none is left out, and the schema's default holds.
-fn numbers(text: &str) -> Numbers {
-    text.split([' ', ',']).filter_map(|number| number.parse::<u16>().ok()).collect()
 }
 
 /// The data of an image, as data items one behind the other. They are told in whole bytes: of fields that share bytes, those

@@ -1,6 +1,7 @@
 //! What a GSDML has to say and a source may not.
 
-use crate::backend::options::options;
+use crate::backend::options::{options, OptionValue};
+use crate::ir::Numbers;
 
 options! {
     /// Facts that count before those of the source, or that it doesn't have. Those of the device access point, its submodules and
@@ -65,9 +66,9 @@ options! {
         /// Start-up modes, such as Legacy;Advanced.
         startup_modes: String = "startup-modes",
         /// Send clock factors in units of 31.25 µs, such as 32 or 32 64 128.
-        send_clocks: String = "send-clocks",
+        send_clocks: Numbers = "send-clocks",
         /// Reduction ratios, such as 1 2 4 8.
-        reduction_ratios: String = "reduction-ratios",
+        reduction_ratios: Numbers = "reduction-ratios",
         /// Number of ports.
         ports: u16 = "ports",
         /// Ident number of the ports' submodules.
@@ -80,5 +81,19 @@ options! {
         application_class: String = "application-class",
         /// Netload class: I, II or III.
         netload_class: String = "netload-class",
+    }
+}
+
+impl OptionValue for Numbers {
+    const WHAT: &'static str = "a list of numbers and ranges such as `32 64 128` or `8..128`";
+
+    fn parse(text: &str) -> Option<Self> {
+        let number = |text: &str| text.trim().parse::<u16>().ok();
+        let range = |part: &str| match part.split_once("..") {
+            Some((first, last)) => Some((number(first)?, number(last)?)).filter(|(first, last)| first <= last),
+            None => number(part).map(|number| (number, number)),
+        };
+        let parts = text.split([' ', ',', ';']).filter(|part| !part.is_empty());
+        parts.map(range).collect::<Option<_>>().map(Numbers).filter(|numbers| !numbers.is_empty())
     }
 }

@@ -28,7 +28,12 @@ impl Repeat {
 }
 
 impl Rows {
-    pub(super) fn repetition(&mut self, reader: &mut Reader<'_, '_>, row: &Row, space: Option<usize>) -> Repeat {
+    pub(super) fn repetition(
+        &mut self,
+        reader: &mut Reader<'_, '_>,
+        (key, row): (&str, &Row),
+        space: Option<usize>,
+    ) -> Repeat {
         let Some(given) = &row.count else { return Repeat::ONCE };
         let count = match &given.value {
             NumberOrText::Number(count) => u32::try_from(*count).ok(),
@@ -51,7 +56,7 @@ impl Rows {
             return Repeat::ONCE;
         };
         let span = reader.span(given);
-        if !self.repeats.repeat(reader, row, count, span) {
+        if !self.repeats.repeat(reader, (key, row), count, span) {
             return Repeat::ONCE;
         }
         let unit = self.unit(space);

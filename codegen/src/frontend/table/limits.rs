@@ -63,11 +63,13 @@ fn exclude(reader: &mut Reader<'_, '_>, span: Span, message: String) {
 fn default(reader: &mut Reader<'_, '_>, item: &mut Item, named: Named<'_>, given: &At<OneOrMany<Literal>>, base: Type) {
     let list = &given.value.0;
     let at = if list.len() > 1 { named.number as usize } else { 0 };
-    let Some(own) = reader.each(list, (given.start, given.end)).into_iter().nth(at) else {
+    let Some(own) = list.get(at) else {
         let message = format!("the list has {} defaults, and this is number {}", list.len(), named.number + 1);
         reader.report(&codes::TABLE_VALUE, reader.span(given), message);
         return;
     };
+    let (start, end) = reader.place(list.len(), at, (given.start, given.end));
+    let own = At { value: own.clone(), start, end };
     item.default = Some(value::value(reader, &own, base));
     item.at.default = reader.span(&own);
 }
@@ -121,12 +123,15 @@ fn allowed(reader: &mut Reader<'_, '_>, item: &mut Item, row: &Row, base: Type, 
 /// The values that may be written are among those that there are.
 fn writable(reader: &mut Reader<'_, '_>, row: &Row, base: Type, limits: &Limits) {
     let Some(given) = &row.writable else { return };
-    // What is no value is reported where the item gets them.
     for own in reader.each(&given.value, (given.start, given.end)) {
-        let Some(value) = value::convert(&own.value, base, reader.is_pattern(&own)) else { continue };
-        lints::range(reader, &value, base, reader.span(&own));
-        if let Some(reason) = excluded(limits, &value) {
-            exclude(reader, reader.span(&own), format!("the value {value}, which may be written, is {reason}"));
+        // What is no value is reported where the item gets them.
+        let Some((first, last)) = value::range(reader, &own, base) else { continue };
+        let is_one = first == last;
+        for value in [Some(first), Some(last).filter(|_| !is_one)].into_iter().flatten() {
+            lints::range(reader, &value, base, reader.span(&own));
+            if let Some(reason) = excluded(limits, &value) {
+                exclude(reader, reader.span(&own), format!("the value {value}, which may be written, is {reason}"));
+            }
         }
     }
 }

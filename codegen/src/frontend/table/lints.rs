@@ -227,6 +227,8 @@ fn patterns(reader: &mut Reader<'_, '_>, list: &Entries<PatternTable>, what: &st
                 );
                 let found = Diagnostic::new(code, reader.span(key), message);
                 reader.diagnostics.push(found.note_at(reader.span(other_key), "the other one"));
+                // One says that it is wrong. With all of them there would be as many as pairs.
+                break;
             }
         }
     }

@@ -277,7 +277,10 @@ impl Fields<'_, '_, '_> {
         }
         if let Some(repeat) = &own.repeat {
             if let Some(count) = repeat.count.as_ref().filter(|count| !before.contains(count.value.as_str())) {
-                let mut known: Vec<&str> = before.iter().map(CompactString::as_str).collect();
+                let mut known: Vec<&str> = match self.reader.helps() {
+                    true => before.iter().map(CompactString::as_str).collect(),
+                    false => Vec::new(),
+                };
                 known.sort_unstable();
                 self.reader.unresolved("field", &count.value, self.reader.span(count), known.into_iter());
             }
@@ -308,8 +311,8 @@ impl Fields<'_, '_, '_> {
                     return;
                 }
             }
-            match self.bits(field) {
-                Some(own) => bits += own,
+            match self.bits(field).and_then(|own| bits.checked_add(own)) {
+                Some(all) => bits = all,
                 None => return,
             }
         }

@@ -138,7 +138,8 @@ pub fn read(
     chosen: &[(String, String)],
     diagnostics: &mut Diagnostics,
 ) -> Option<Catalog> {
-    let mut reader = Reader { source, file, diagnostics, language: CompactString::default() };
+    let mut reader =
+        Reader { source, file, diagnostics, language: CompactString::default(), lists: Default::default() };
     let mut table = Table::new(&mut reader, chosen)?;
     let Some(head) = table.take::<DeviceTable>(&mut reader, "device") else {
         let found = Diagnostic::new(&codes::TABLE_VALUE, Span::new(file, 0, 0), "the table has no `[device]`");

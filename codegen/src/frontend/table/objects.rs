@@ -70,7 +70,7 @@ fn affordable(
     let ((first, last), subs) = (objects.indices, objects.subs);
     let of_each = subs.map_or(1, |(first, last)| u32::from(last - first) + 1);
     let span = reader.span(key);
-    if rows.repeats.repeat(reader, row, (u32::from(last - first) + 1) * of_each, span) {
+    if rows.repeats.repeat(reader, (&key.value, row), (u32::from(last - first) + 1) * of_each, span) {
         return objects;
     }
     Objects { indices: (first, first), subs: subs.map(|(first, _)| (first, first)) }

@@ -8,6 +8,9 @@ use crate::diagnostics::{codes, Diagnostic};
 use crate::ir::{Device, Direction, Item, ObjectBuses, Pdo, PdoEntry, PdoEntryKind, Type};
 use crate::text::brief;
 
+/// As many PDOs as a device has in one direction (CiA 301 7.5.2.35).
+const MAX_EXCLUDED: usize = 512;
+
 /// A direction, seen from the device.
 pub(super) fn direction(reader: &mut Reader<'_, '_>, given: Option<&At<String>>) -> Option<Direction> {
     reader.word(given?, "direction", &[("rx", Direction::Receive), ("tx", Direction::Transmit)])
@@ -40,6 +43,10 @@ pub(super) fn pdo(reader: &mut Reader<'_, '_>, table: &At<PdoTable>, device: &mu
             NumberOrText::Text(text) => place::objects(text).map(|own| own.indices),
         };
         match found {
+            Some((first, last)) if usize::from(last.saturating_sub(first)) + pdo.excludes.len() > MAX_EXCLUDED => {
+                let message = format!("a PDO excludes {MAX_EXCLUDED} others at most: as many as there are");
+                reader.report(&codes::TABLE_VALUE, reader.span(table), message);
+            }
             Some((first, last)) => pdo.excludes.extend((first..=last).filter(|&other| other != index.value)),
             None => reader.report(&codes::TABLE_PLACE, reader.span(table), "`excludes` has indices of PDOs"),
         }

@@ -40,7 +40,8 @@ pub(super) fn resolve<'r>(
             if matches!(kind, ITEM | ITEM_OR_FIELD) && numbered::report(reader, numbered, text, reader.span(name)) {
                 continue;
             }
-            reader.unresolved(kind, text, reader.span(name), known.names(kind).into_iter());
+            let names = if reader.helps() { known.names(kind) } else { Vec::new() };
+            reader.unresolved(kind, text, reader.span(name), names.into_iter());
         } else if kind == ITEM {
             ambiguous(reader, &known, name);
         }

@@ -2,10 +2,14 @@
 
 use std::fmt::{Debug, Write};
 
+use super::alternatives::ConditionValues;
+use super::at::{Literal, OneOrMany};
 use super::by_name::ByName;
 use super::format::{Row, UnitTable};
 use super::tree::Reader;
+use super::value::MAX_LISTED;
 use crate::diagnostics::{codes, Diagnostic};
+use crate::ir::Value;
 use crate::limits::{MAX_DERIVED_ITEMS, MAX_FREE_ROW_BYTES, ROW_BYTES_PER_ITEM};
 use crate::source::Span;
 
@@ -34,14 +38,14 @@ impl Repeats {
 
     /// Whether a row may name a unit, whose texts it copies.
     pub fn unit(&mut self, reader: &mut Reader<'_, '_>, units: &ByName<UnitTable>, name: &str, span: Span) -> bool {
-        let text = |text: &Option<String>| text.as_ref().map_or(0, String::len);
-        let length = units.get(name).map_or(0, |(_, unit)| text(&unit.symbol) + text(&unit.orig));
-        self.take(reader, beyond(length), span)
+        let items = units.get(name).map_or(0, |(_, unit)| beyond(length(unit)));
+        self.take(reader, items, span)
     }
 
-    /// Whether a row may stand for `count` items.
-    pub fn repeat(&mut self, reader: &mut Reader<'_, '_>, row: &Row, count: u32, span: Span) -> bool {
-        count < 2 || self.take(reader, (count as usize - 1).saturating_mul(1 + items(row)), span)
+    /// Whether a row with this key may stand for `count` items.
+    pub fn repeat(&mut self, reader: &mut Reader<'_, '_>, (key, row): (&str, &Row), count: u32, span: Span) -> bool {
+        let each = || 1 + items(row) + beyond(key.len()) + expanded(row);
+        count < 2 || self.take(reader, (count as usize - 1).saturating_mul(each()), span)
     }
 
     /// Whether a row may say something of `count` items that are there.
@@ -72,6 +76,19 @@ impl Repeats {
 /// As how many items a row counts beside itself.
 fn items(row: &Row) -> usize {
     beyond(length(row))
+}
+
+/// As how many items the ranges of values count that each item has one by one.
+fn expanded(row: &Row) -> usize {
+    let has_range = |list: &[Literal]| list.iter().any(|own| matches!(own, Literal::Text(text) if text.contains("..")));
+    let conditions = row.when.iter().flat_map(|when| when.iter());
+    let conditions = conditions.map(|(_, given)| match &given.value {
+        ConditionValues::Values(OneOrMany(values)) => has_range(values),
+        ConditionValues::Bits(bits) => bits.value.as_ref().is_some_and(|own| has_range(&own.0)),
+    });
+    let writable = row.writable.as_ref().map(|list| has_range(&list.value));
+    conditions.chain(writable).filter(|has_range| *has_range).count() * MAX_LISTED as usize * size_of::<Value>()
+        / ROW_BYTES_PER_ITEM
 }
 
 /// As how many items a text of so many bytes counts.

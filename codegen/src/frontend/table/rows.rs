@@ -94,7 +94,7 @@ impl Rows {
     ) -> Vec<Item> {
         let complete = self.complete(reader, (key, &row.value), chapter);
         self.allow(reader, key, row);
-        let repeat = self.repetition(reader, &complete, space);
+        let repeat = self.repetition(reader, (&key.value, &complete), space);
         if row.value.count.is_none() && key.value.contains("{n") {
             let message = format!("`{}` needs a `count`: nothing says how many `{{n}}` counts", brief(&key.value));
             reader.report(&codes::TABLE_VALUE, reader.span(key), message);
@@ -124,7 +124,7 @@ impl Rows {
             let mut item = Item::new(bindings[0].clone());
             item.bindings = bindings;
             self.fill(reader, &mut item, named, &complete, ty);
-            if complete.access.is_none() && complete.fixed.is_none() {
+            if number == 0 && complete.access.is_none() && complete.fixed.is_none() {
                 self.no_access(reader, named);
             }
             read_only_table(reader, &item);
@@ -361,6 +361,7 @@ impl Rows {
             quantity.machine = machine.and_then(|machine| given::unit(reader, machine, &mut self.references));
             if own.is_none() && !super::units::is_known(&unit.value) {
                 let names = self.definitions.units.names().map(|name| name.value.as_str());
+                let names = names.take_while(|_| reader.helps());
                 let similar = super::tree::similar(&unit.value, names).or_else(|| super::units::usual(&unit.value));
                 let message =
                     format!("`{}` is neither a name of `[units]` nor a unit that is known", brief(&unit.value));

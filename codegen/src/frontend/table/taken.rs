@@ -15,8 +15,10 @@ use crate::text::brief;
 /// What is in use so far, and where.
 #[derive(Default)]
 pub(super) struct Taken {
+    /// Numbers of chapters, by their titles.
+    chapters: HashMap<CompactString, usize>,
     /// Names by their chapter.
-    names: HashMap<(CompactString, CompactString), Span>,
+    names: HashMap<(usize, CompactString), Span>,
     addresses: HashMap<CompactString, Vec<Holder>>,
     /// Registers by their first number.
     registers: BTreeMap<(&'static str, u32), Stretch>,
@@ -71,7 +73,12 @@ impl Taken {
     /// Takes name and addresses of a register's item; `part` are the bits that it is about, where it isn't all of it. A name is
     /// an item's own in its chapter.
     pub fn register(&mut self, reader: &mut Reader<'_, '_>, chapter: &CompactString, item: &Item, part: Option<Bits>) {
-        match self.names.entry((chapter.clone(), item.name.clone())) {
+        let next = self.chapters.len();
+        let chapter = match self.chapters.get(chapter) {
+            Some(&number) => number,
+            None => *self.chapters.entry(chapter.clone()).or_insert(next),
+        };
+        match self.names.entry((chapter, item.name.clone())) {
             Entry::Vacant(free) => {
                 free.insert(item.at.name);
             }

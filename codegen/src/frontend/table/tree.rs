@@ -1,6 +1,8 @@
 //! From the text of a table to the pieces of `format`, with every error at its place.
 
+use std::cell::RefCell;
 use std::collections::HashMap;
+use std::rc::Rc;
 
 use compact_str::CompactString;
 use serde::de::DeserializeOwned;
@@ -30,6 +32,8 @@ pub(super) struct Reader<'a, 'd> {
     pub diagnostics: &'d mut Diagnostics,
     /// The manual's language.
     pub language: CompactString,
+    /// Where the elements of lists stand, by the places of the lists.
+    pub lists: RefCell<HashMap<(u32, u32), Rc<[(u32, u32)]>>>,
 }
 
 impl<'a> Reader<'a, '_> {
@@ -129,8 +133,7 @@ impl<'a> Reader<'a, '_> {
     pub fn unresolved<'n>(&mut self, what: &str, name: &str, span: Span, known: impl Iterator<Item = &'n str>) {
         let message = format!("there is no {what} called `{}`", brief(name));
         let diagnostic = Diagnostic::new(&codes::UNRESOLVED_NAME, span, message);
-        // Behind so many findings nobody reads what was meant, and each would be compared with every name that there is.
-        let known = known.take_while(|_| self.diagnostics.list().len() < MAX_HELPED);
+        let known = known.take_while(|_| self.helps());
         let known: Vec<&str> = known.filter(|known| !known.trim().is_empty()).collect();
         self.diagnostics.push(match similar(name, known.iter().copied()) {
             Some(name) => diagnostic.help(format!("did you mean `{name}`?")),
@@ -182,19 +185,35 @@ impl<'a> Reader<'a, '_> {
     }
 
     /// The literals of a list that stands between these bytes, each at its own place.
-    pub fn each(&self, list: &[Literal], (start, end): (u32, u32)) -> Vec<At<Literal>> {
-        let text = self.source.slice(Span::new(self.file, start, end));
-        let parsed = DeValue::parse(text).ok();
-        let elements = match parsed.as_ref().map(Spanned::get_ref) {
-            Some(DeValue::Array(elements)) if elements.len() == list.len() => Some(elements),
-            _ => None,
-        };
-        let place = |at: usize| elements.and_then(|all| all.get(at)).map_or(0..text.len(), Spanned::span);
-        let at = |(at, value): (usize, &Literal)| {
-            let place = place(at);
-            At { value: value.clone(), start: start + place.start as u32, end: start + place.end as u32 }
-        };
+    pub fn each(&self, list: &[Literal], whole: (u32, u32)) -> Vec<At<Literal>> {
+        let places = self.places(whole);
+        let place = |at: usize| if places.len() == list.len() { places[at] } else { whole };
+        let at = |(at, value): (usize, &Literal)| At { value: value.clone(), start: place(at).0, end: place(at).1 };
         list.iter().enumerate().map(at).collect()
+    }
+
+    /// The place of an element of a list of so many.
+    pub fn place(&self, length: usize, at: usize, whole: (u32, u32)) -> (u32, u32) {
+        let places = self.places(whole);
+        places.get(at).copied().filter(|_| places.len() == length).unwrap_or(whole)
+    }
+
+    /// The places of the elements of a list between these bytes. A row may stand for many items, each of which looks.
+    fn places(&self, (start, end): (u32, u32)) -> Rc<[(u32, u32)]> {
+        let mut known = self.lists.borrow_mut();
+        let find = || {
+            let parsed = DeValue::parse(self.source.slice(Span::new(self.file, start, end))).ok();
+            let Some(DeValue::Array(elements)) = parsed.as_ref().map(Spanned::get_ref) else { return Rc::from([]) };
+            let place = |span: std::ops::Range<usize>| (start + span.start as u32, start + span.end as u32);
+            elements.iter().map(|element| place(element.span())).collect()
+        };
+        Rc::clone(known.entry((start, end)).or_insert_with(find))
+    }
+
+    /// Whether a finding still says what was meant: behind so many nobody reads that, and each name would be compared with every
+    /// one that there is.
+    pub fn helps(&self) -> bool {
+        self.diagnostics.list().len() < MAX_HELPED
     }
 
     /// Whether a number is written in hexadecimal, or as bits.

@@ -34,7 +34,7 @@ pub(super) fn value(reader: &mut Reader<'_, '_>, given: &At<Literal>, ty: Type) 
 }
 
 /// The greatest number of values that a range stands for where single values are meant.
-const MAX_LISTED: i128 = 1024;
+pub(super) const MAX_LISTED: i128 = 1024;
 
 /// The values of a list, and first and last of its ranges (`"3..7"`).
 pub(super) fn ranges(
@@ -44,17 +44,7 @@ pub(super) fn ranges(
 ) -> ThinVec<(Value, Value)> {
     let mut found = ThinVec::with_capacity(given.len());
     for literal in reader.each(given, place) {
-        let range = match &literal.value {
-            Literal::Text(text) if has_numbers(ty) => {
-                place::range(text).filter(|(first, last)| first <= last).map(|(first, last)| {
-                    let is_pattern = text.contains("0x") || text.contains("0b");
-                    let one = |number| convert(&Literal::Int(number), ty, is_pattern).unwrap_or(Value::Int(number));
-                    (one(first), one(last))
-                })
-            }
-            other => convert(other, ty, reader.is_pattern(&literal)).map(|value| (value.clone(), value)),
-        };
-        match range {
+        match range(reader, &literal, ty) {
             Some(range) => found.push(range),
             None => {
                 let what = if matches!(ty, Type::Opaque(_)) { "number".to_owned() } else { format!("value of {ty}") };
@@ -67,6 +57,21 @@ pub(super) fn ranges(
     found
 }
 
+/// The values that an element of a list stands for: first and last. `None` where it is none of them.
+pub(super) fn range(reader: &Reader<'_, '_>, literal: &At<Literal>, ty: Type) -> Option<(Value, Value)> {
+    match &literal.value {
+        Literal::Text(text) if has_numbers(ty) => {
+            let (first, last) = place::range(text)?;
+            let is_pattern = text.contains("0x") || text.contains("0b");
+            let one = |number| convert(&Literal::Int(number), ty, is_pattern).unwrap_or(Value::Int(number));
+            // What is in order as patterns may not be as numbers.
+            let in_order = first <= last && one(first).as_int() <= one(last).as_int();
+            in_order.then(|| (one(first), one(last)))
+        }
+        other => convert(other, ty, reader.is_pattern(literal)).map(|value| (value.clone(), value)),
+    }
+}
+
 /// Whether values of this type are numbers; of a type that isn't known they are.
 fn has_numbers(ty: Type) -> bool {
     matches!(ty, Type::Integer(_) | Type::Unsigned(_) | Type::Opaque(_) | Type::Boolean)
@@ -74,14 +79,17 @@ fn has_numbers(ty: Type) -> bool {
 
 /// The same, each value of a range by itself.
 pub(super) fn listed(reader: &mut Reader<'_, '_>, (given, place): (&[Literal], (u32, u32)), ty: Type) -> Vec<Value> {
-    let mut values = Vec::new();
+    let mut values: Vec<Value> = Vec::new();
+    let fits = |values: &[Value], low: i128, high: i128| {
+        high.checked_sub(low).is_some_and(|more| more.saturating_add(values.len() as i128) < MAX_LISTED)
+    };
     for (first, last) in ranges(reader, (given, place), ty) {
         match (first.as_int(), last.as_int()) {
-            (Some(low), Some(high)) if low < high && high.checked_sub(low).is_some_and(|more| more < MAX_LISTED) => {
+            (Some(low), Some(high)) if low < high && fits(&values, low, high) => {
                 values.extend((low..=high).map(Value::Int));
             }
             (Some(low), Some(high)) if low < high => {
-                let message = format!("{low} to {high} are more than {MAX_LISTED} values");
+                let message = format!("with {low} to {high} there are more than {MAX_LISTED} values");
                 reader.report(&codes::TABLE_VALUE, Span::new(reader.file, place.0, place.1), message);
             }
             _ => values.push(first),

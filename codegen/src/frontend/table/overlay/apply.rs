@@ -22,7 +22,8 @@ use crate::text::brief;
 /// Applies the overlay `source` to the devices or modules of `catalog` that it is for.
 pub fn apply(source: &Source, file: FileId, catalog: &mut Catalog, diagnostics: &mut Diagnostics) {
     let first = diagnostics.list().len();
-    let mut reader = Reader { source, file, diagnostics, language: CompactString::default() };
+    let mut reader =
+        Reader { source, file, diagnostics, language: CompactString::default(), lists: Default::default() };
     if let Some(overlay) = Overlay::read(&mut reader) {
         reader.language.clone_from(&overlay.patch.language);
         Applied::new(&overlay).run(&mut reader, catalog);
@@ -334,7 +335,10 @@ impl<'o> Applied<'o> {
             }
             Target::Name => {
                 let found = found(format!("no item is called `{key}`"));
-                match similar(&row.key.value, self.names.iter().map(CompactString::as_str)) {
+                match similar(
+                    &row.key.value,
+                    self.names.iter().map(CompactString::as_str).take_while(|_| reader.helps()),
+                ) {
                     Some(name) => found.help(format!("did you mean `{name}`?")),
                     None => found,
                 }

@@ -84,9 +84,12 @@ impl Applied<'_> {
     ) -> Outcome {
         let mut outcome = Outcome::NoMatch;
         let groups = in_range(groups, objects.indices);
-        let count = groups.iter().map(|group| group.items.len()).sum();
+        let is_meant = |item: &&Item| {
+            item.object().is_some_and(|(_, sub)| objects.subs.is_none_or(|(first, last)| (first..=last).contains(&sub)))
+        };
+        let count = groups.iter().map(|group| group.items.iter().filter(is_meant).count()).sum();
         if !self.rows.repeats.patch(reader, &row.row.value, count, reader.span(&row.key)) {
-            return Outcome::NoChange;
+            return Outcome::Changed;
         }
         for group in groups {
             let number = u32::from(group.index().unwrap_or_default().saturating_sub(objects.indices.0));

@@ -55,8 +55,13 @@ impl<'p> Completion<'p> {
 
     fn with_reader<T>(&mut self, act: impl FnOnce(&mut Reader<'_, '_>, &mut Rows) -> T) -> T {
         let language = self.profile.patch.language.clone();
-        let mut reader =
-            Reader { source: &self.profile.source, file: FileId(0), diagnostics: &mut self.silent, language };
+        let mut reader = Reader {
+            source: &self.profile.source,
+            file: FileId(0),
+            diagnostics: &mut self.silent,
+            language,
+            lists: Default::default(),
+        };
         act(&mut reader, &mut self.rows)
     }
 
