@@ -52,6 +52,8 @@ frames! {
         same |ours, hand| (ours.statusword.raw(), ours.modes_of_operation_display.raw()) == (hand.word, hand.mode.raw());
     vector_step_tx_pdo_2: 6, vector_step::pdo::TxPdo2, hand::WordAndLong,
         same |ours, hand| (ours.statusword.raw(), ours.position_actual_value) == (hand.word, hand.long);
+    eight_bytes: 8, axis::pdo::DriveStatus, hand::Full,
+        same |ours, hand| (ours.statusword.raw(), ours.position, ours.torque) == (hand.word, hand.long, hand.short);
     odd_bits: 6, axis::pdo::Encoder, hand::Encoder, same |ours, hand| hand == from_encoder(ours);
     long_whole_bytes: 14, axis::pdo::SetPoints, hand::SetPoints,
         same |ours, hand| hand == hand::SetPoints {

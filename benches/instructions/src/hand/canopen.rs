@@ -34,6 +34,38 @@ impl WordAndLong {
     }
 }
 
+/// The eight bytes that a frame of CAN has: a word, a number of 32 bits, one of 16.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Full {
+    /// Status word.
+    pub word: u16,
+    /// Position.
+    pub long: i32,
+    /// Torque.
+    pub short: i16,
+}
+
+impl Full {
+    /// The bytes of a frame.
+    #[inline]
+    pub fn pack(&self) -> [u8; 8] {
+        let bits = u64::from(self.word) | u64::from(self.long as u32) << 16 | u64::from(self.short as u16) << 48;
+        bits.to_le_bytes()
+    }
+
+    /// The fields of a frame.
+    ///
+    /// # Errors
+    ///
+    /// When it is too short.
+    #[inline]
+    pub fn unpack(data: &[u8]) -> Result<Self, LengthError> {
+        let data: &[u8; 8] = frame(data)?;
+        let bits = u64::from_le_bytes(*data);
+        Ok(Self { word: bits as u16, long: (bits >> 16) as i32, short: (bits >> 48) as i16 })
+    }
+}
+
 /// A word of 16 bits and a mode.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WordAndMode {

@@ -5,7 +5,7 @@ mod ethercat;
 mod modes;
 mod profinet;
 
-pub use canopen::{WordAndLong, WordAndMode};
+pub use canopen::{Full, WordAndLong, WordAndMode};
 pub use ethercat::{ActualValues, Encoder, Image, Mode, SetPoints};
 pub use modes::{AxisMode, StepMode};
 pub use profinet::{Inputs, Outputs};
