@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Fuzzes: codegen/fuzz/run.sh SECONDS [TARGET...]. Needs `cargo fuzz` and a nightly toolchain. What it finds lies in
+# Fuzzes: codegen/fuzz/run.sh SECONDS [TARGET...]. Needs `cargo fuzz` (cargo install cargo-fuzz) and a nightly toolchain
+# (rustup toolchain install nightly). What it finds lies in
 # codegen/fuzz/artifacts, one file a finding; what it learned stays in codegen/fuzz/corpus.
 set -euo pipefail
 cd "$(dirname "$0")"
@@ -14,12 +15,17 @@ corpus=../../../shared/corpus
 seeds() {
     case $1 in
     eds) named "$corpus/eds" '*.eds' '*.dcf' ;;
-    xdd) named "$corpus/eds" '*.xdd' '*.xdc' ;;
+    xdd)
+        find seeds/xdd -type f
+        named "$corpus/eds" '*.xdd' '*.xdc'
+        ;;
     esi) named "$corpus/esi" '*esi*.xml' '*.xml' ;;
     gsdml) named "$corpus/gsdml" '*gsdml*.xml' '*GSDML*.xml' ;;
     table) named '' '*.toml' ;;
     overlay) find seeds/overlay ../../docs/examples/pump.overlay.toml -type f ;;
     import | macro_input) find "seeds/$1" -type f ;;
+    messages) requests ;;
+    pdo) process_data ;;
     ir) random ;;
     esac | while read -r file; do
         if [[ $(stat -c %s "$file") -le 65536 ]]; then echo "$file"; fi
@@ -32,6 +38,34 @@ named() { # CORPUS PATTERN...
     for folder in ../../dictionaries ../tests ../../tests ../../benches ../../docs/examples "$1"; do
         if [[ -d $folder ]]; then find "$folder" -name target -prune -o -type f \( "${patterns[@]:1}" \) -print; fi
     done
+}
+
+# A request of every code to node 1, and a reply of zeros. A list of bytes is written as `arbitrary` reads it: 01 before each
+# byte, 00 behind the last.
+requests() {
+    local code number
+    mkdir -p corpus/requests
+    for number in {0..255}; do
+        printf -v code '%02x' "$number"
+        {
+            printf '\\x01\\x01\\x01\\x%s' "$code"
+            printf '\\x01\\x00%.0s' {1..12}
+            printf '\\x00'
+            printf '\\x01\\x00%.0s' {1..16}
+        } | xargs -0 printf '%b' >"corpus/requests/$code"
+    done
+    find corpus/requests -type f
+}
+
+# Process data of every length that the drives have.
+process_data() {
+    local length
+    mkdir -p corpus/process_data
+    for length in {1..48}; do
+        head -c "$length" /dev/zero >"corpus/process_data/zeros_$length"
+        head -c "$length" /dev/zero | tr '\0' '\377' >"corpus/process_data/ones_$length"
+    done
+    find corpus/process_data -type f
 }
 
 # A description is drawn from a few kilobytes of anything.
@@ -63,7 +97,7 @@ for target in "${targets[@]}"; do
     words=$(dictionary "$target")
     if [[ -n $words ]]; then options+=(-dict="$words"); fi
     echo "== $target"
-    # No code of this project is unsafe, so no sanitizer looks after memory: without one, three times as much is tried.
+    # No code of the crates that are published is unsafe, so no sanitizer looks after memory: without one, three times as much is tried.
     cargo +nightly fuzz run --sanitizer none "$target" -- "${options[@]}" || failed+=("$target")
 done
 if [[ ${#failed[@]} != 0 ]]; then

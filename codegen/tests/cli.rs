@@ -366,6 +366,19 @@ fn folders_are_searched_for_xml_that_describes_devices() {
 }
 
 #[test]
+fn folders_that_are_too_deep_are_told() {
+    let root = folder("deep");
+    let nested = |depth: usize| (0..depth).fold(root.join(depth.to_string()), |path, _| path.join("d"));
+    for (depth, status) in [(32, 0), (33, 2)] {
+        std::fs::create_dir_all(nested(depth)).expect("folders");
+        std::fs::copy(DEMO, nested(depth).join("demo.eds")).expect("a copy");
+        let checked = lexibus(&["check", &root.join(depth.to_string()).to_string_lossy()]);
+        assert_eq!(code(&checked), status, "{depth}: {}", err(&checked));
+        assert_eq!(err(&checked).contains("folders are searched 32 deep"), status == 2, "{}", err(&checked));
+    }
+}
+
+#[test]
 fn export_writes_an_eds_and_says_what_it_leaves_out() {
     let folder = folder("export");
     let made = lexibus(&["export", "--format", "eds", DEMO]);

@@ -128,7 +128,7 @@ fn files(paths: &[PathBuf]) -> Result<Vec<PathBuf>, Failure> {
     for path in paths {
         if path.is_dir() {
             let before = files.len();
-            search(path, 0, &mut HashSet::new(), &mut files);
+            search(path, 0, &mut HashSet::new(), &mut files)?;
             if files.len() == before {
                 return Err(Failure::Usage(format!("there is no device description in {}", path.display())));
             }
@@ -141,21 +141,31 @@ fn files(paths: &[PathBuf]) -> Result<Vec<PathBuf>, Failure> {
 
 /// Adds the device descriptions in `folder` and below. A folder that several links lead to is searched once: a link to its own
 /// parent would lead there again and again.
-fn search(folder: &Path, depth: usize, searched: &mut HashSet<PathBuf>, files: &mut Vec<PathBuf>) {
-    if depth > MAX_FOLDER_DEPTH || !folder.canonicalize().is_ok_and(|folder| searched.insert(folder)) {
-        return;
+fn search(
+    folder: &Path,
+    depth: usize,
+    searched: &mut HashSet<PathBuf>,
+    files: &mut Vec<PathBuf>,
+) -> Result<(), Failure> {
+    if !folder.canonicalize().is_ok_and(|folder| searched.insert(folder)) {
+        return Ok(());
     }
-    let Ok(entries) = std::fs::read_dir(folder) else { return };
+    if depth > MAX_FOLDER_DEPTH {
+        let message = format!("{}: folders are searched {MAX_FOLDER_DEPTH} deep; name this one", folder.display());
+        return Err(Failure::Usage(message));
+    }
+    let Ok(entries) = std::fs::read_dir(folder) else { return Ok(()) };
     let mut paths: Vec<PathBuf> = entries.filter_map(|entry| Some(entry.ok()?.path())).collect();
     paths.sort();
     for path in paths {
         if path.is_dir() {
-            search(&path, depth + 1, searched, files);
+            search(&path, depth + 1, searched, files)?;
         } else if path.is_file() && is_description(&path) {
             // Neither a pipe nor a device, which may never end.
             files.push(path);
         }
     }
+    Ok(())
 }
 
 /// By its ending; an XML or TOML file also by its content, for most of them are something else.

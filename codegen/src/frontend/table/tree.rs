@@ -25,6 +25,9 @@ const MAX_LISTED: usize = 12;
 /// Behind so many findings no names are suggested.
 const MAX_HELPED: usize = 1000;
 
+/// First byte, and one past the last.
+type Place = (u32, u32);
+
 /// The state of reading one file.
 pub(super) struct Reader<'a, 'd> {
     pub source: &'a Source,
@@ -33,7 +36,7 @@ pub(super) struct Reader<'a, 'd> {
     /// The manual's language.
     pub language: CompactString,
     /// Where the elements of lists stand, by the places of the lists.
-    pub lists: RefCell<HashMap<(u32, u32), Rc<[(u32, u32)]>>>,
+    pub lists: RefCell<HashMap<Place, Rc<[Place]>>>,
 }
 
 impl<'a> Reader<'a, '_> {
