@@ -1,11 +1,12 @@
 #!/usr/bin/env bash
-# What rustc takes for generated bindings, per entry: benches/compile-time.sh DESCRIPTION [RUNS]
+# What rustc takes for generated bindings, per entry: benches/compile-time.sh [DESCRIPTION [RUNS]]
 #
-# Prints, for handles alone, with accessors, and with PDO structs as well, the median of RUNS runs of `rustc --emit=metadata`, less
+# Without a description it makes an EDS of 9,999 entries. Prints, for handles alone, with accessors, and with PDO structs as well, the median of RUNS runs of `rustc --emit=metadata`, less
 # what rustc takes for an empty crate.
 set -euo pipefail
 cd "$(dirname "$0")/.."
-input=$1
+root=$PWD
+input=${1:-}
 runs=${2:-7}
 target=${CARGO_TARGET_DIR:-target}
 cargo build --quiet --release -p lexibus-codegen --features cli
@@ -13,6 +14,13 @@ cargo check --quiet --release -p lexibus
 runtime=$(ls -t "$target"/release/deps/liblexibus-*.rmeta | head -n 1)
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
+if [[ -z $input ]]; then
+    printf '#[allow(dead_code)] #[path = "%s/codegen/benches/inputs/eds.rs"] mod inputs;\n' "$root" > "$work/eds.rs"
+    echo 'fn main() { print!("{}", inputs::eds(1111)) }' >> "$work/eds.rs"
+    rustc --edition 2021 -O -o "$work/eds" "$work/eds.rs"
+    input=$work/bench.eds
+    "$work/eds" > "$input"
+fi
 
 median_ms() { # SOURCE
     for _ in $(seq "$runs"); do
