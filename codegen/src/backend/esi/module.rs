@@ -9,16 +9,20 @@ use crate::backend::xml::Xml;
 use crate::ir::{Extension, Module};
 
 /// Flags of CoE that the IR keeps as extensions of a module.
-const COE: [&str; 8] = [
+const COE: [&str; 9] = [
     "CoE@SdoInfo",
     "CoE@PdoAssign",
     "CoE@PdoConfig",
     "CoE@PdoUpload",
     "CoE@CompleteAccess",
     "CoE@SegmentedSdo",
+    "CoE@DiagHistory",
     "CoE@EdsFile",
     "CoE@ModuleOD",
 ];
+
+/// The extension of a module whose mailbox has CoE.
+const HAS_COE: &str = "Mailbox/CoE";
 
 /// Writes a module.
 pub(super) fn write(xml: &mut Xml, context: &mut Context<'_>, module: &Module) {
@@ -43,7 +47,8 @@ pub(super) fn write(xml: &mut Xml, context: &mut Context<'_>, module: &Module) {
         xml.leaf("DcOpModeName", &name.value);
     }
     xml.close();
-    let is_lost = |extension: &&Extension| extension.key != "DcOpModeName" && !is_coe(extension);
+    let is_told = |extension: &Extension| matches!(extension.key.as_str(), "DcOpModeName" | HAS_COE);
+    let is_lost = |extension: &&Extension| !is_told(extension) && !is_coe(extension);
     let lost = module.extensions.iter().filter(is_lost).filter(|extension| !extras::is_of_profile(extension)).count();
     context.notes.add_many(NoteKind::Extension, lost, place);
     losses::of_module(context, module);
@@ -55,7 +60,8 @@ fn is_coe(extension: &Extension) -> bool {
 
 fn mailbox(xml: &mut Xml, context: &mut Context<'_>, module: &Module) {
     let attributes: Vec<&Extension> = module.extensions.iter().filter(|extension| is_coe(extension)).collect();
-    if module.init_commands.is_empty() && attributes.is_empty() {
+    let has_coe = module.extensions.iter().any(|extension| extension.key == HAS_COE);
+    if module.init_commands.is_empty() && attributes.is_empty() && !has_coe {
         return;
     }
     xml.open("Mailbox");
