@@ -18,6 +18,12 @@ pub const MAX_IMPLICIT_PDOS: u16 = 512;
 /// How many unknown keys of a section a further one is compared with to find a repeated one.
 pub const MAX_COMPARED_EXTENSIONS: usize = 64;
 
+/// Messages of a register table: each is compared with all others.
+pub const MAX_MESSAGES: usize = 4_096;
+
+/// States, commands, transitions, rows and notes of all state machines of a device: what leaves any state is written for each.
+pub const MAX_MACHINE_ROWS: usize = 2_048;
+
 /// Bytes of a row of a register table, and of what it inherits, that may be copied at no cost.
 pub const MAX_FREE_ROW_BYTES: usize = 4096;
 

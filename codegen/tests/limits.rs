@@ -1,6 +1,7 @@
 //! A short line that stands for many elements stands for so many and no more, and the book says how many.
 
 use lexibus_codegen::compile::{check, Compilation, Options};
+use lexibus_codegen::import::{self, import};
 use lexibus_codegen::limits;
 use lexibus_codegen::source::Source;
 
@@ -192,6 +193,56 @@ fn texts_of_compact_sub_objects() {
 }
 
 /// Depth, references by text and copies have their tests at the quirks of their formats; here all are held against the book.
+fn protocol(rest: &str) -> Compilation {
+    checked("protocol.toml", format!("lexibus = 1\n[device]\nname = \"X\"\nbuses = [\"serial\"]\n{rest}"))
+}
+
+#[test]
+fn messages_of_a_table() {
+    let messages = |number: usize| {
+        let all = (0..number).map(|at| format!("[[messages]]\nname = \"m{at}\"\nrequest = [{{ bytes = [1] }}]\n"));
+        let compilation = protocol(&all.collect::<String>());
+        let kept = compilation.catalog.as_ref().expect("a catalogue").devices[0].messages.len();
+        (count(&compilation, "IO003"), kept)
+    };
+    assert_eq!(messages(limits::MAX_MESSAGES), (0, limits::MAX_MESSAGES));
+    assert_eq!(messages(limits::MAX_MESSAGES + 9), (1, limits::MAX_MESSAGES));
+}
+
+#[test]
+fn rows_of_state_machines() {
+    let machines = |from: usize, doc: usize| {
+        let from = vec!["\"idle\""; from].join(", ");
+        let compilation = protocol(&format!(
+            "[enums.State]\ntype = \"u8\"\n[enums.State.values]\n0 = \"idle\"\n1 = \"run\"\n\
+             [machines.a]\nstates = \"State\"\n[[machines.a.transitions]]\nfrom = [{from}]\nto = \"run\"\ndoc = \"{}\"\n\
+             [machines.b]\nstates = \"State\"\n",
+            "d".repeat(doc)
+        ));
+        let device = &compilation.catalog.as_ref().expect("a catalogue").devices[0];
+        (count(&compilation, "IO003"), device.machines.iter().map(|own| own.name.to_string()).collect::<Vec<_>>())
+    };
+    // Beside the transitions, each machine counts, and so do its two states.
+    let most = limits::MAX_MACHINE_ROWS - 2 * 3;
+    assert_eq!(machines(most, 9), (0, vec!["a".to_owned(), "b".to_owned()]));
+    assert_eq!(machines(most + 1, 9), (1, vec!["a".to_owned()]));
+    assert_eq!(machines(most / 2 + 9, limits::ROW_BYTES_PER_ITEM), (1, vec!["b".to_owned()]));
+}
+
+#[test]
+fn lines_of_a_list_that_stand_for_many_items() {
+    let list = |lines: usize| {
+        let line = |at: usize| format!("{},P{at},u8,1000\n", at * 1000);
+        let text = "Param,Name,Type,Repeat\n".to_owned() + &(0..lines).map(line).collect::<String>();
+        let imported = import(Source::new("list.csv", text.into_bytes()), &import::Options::default());
+        let table = imported.table.expect("a table");
+        (count(&imported.compilation, "CSV004"), table.lines().filter(|line| line.contains("count = 1000")).count())
+    };
+    let most = limits::MAX_DERIVED_ITEMS / 1000;
+    assert_eq!(list(most), (0, most));
+    assert_eq!(list(most + 9), (9, most));
+}
+
 #[test]
 fn the_book_has_each_limit() {
     let chapter = include_str!("../../docs/src/limits.md");
@@ -204,6 +255,9 @@ fn the_book_has_each_limit() {
         ("`CompactPDO`", limits::MAX_IMPLICIT_PDOS.into()),
         ("modules that all slots", limits::MAX_MODULE_USES),
         ("for each byte of the file |", limits::MAX_COPIES_PER_BYTE),
+        ("messages of a register table", limits::MAX_MESSAGES),
+        ("states, commands", limits::MAX_MACHINE_ROWS),
+        ("repeats the lines", limits::MAX_DERIVED_ITEMS),
         ("bytes that a row", limits::MAX_FREE_ROW_BYTES),
         ("bytes that a row", limits::ROW_BYTES_PER_ITEM),
         ("bytes of text that a GSDML copies", limits::MAX_TEXT_COPIES_PER_BYTE),

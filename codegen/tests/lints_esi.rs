@@ -46,6 +46,18 @@ fn pdo018_defaults_that_exclude_each_other() {
     assert!(!text.contains("pub p1602:"));
     let chosen = slave(OUTPUTS, &[&pdo(0x1601, "Sm=\"0\"", exclude), &pdo(0x1602, "", "")]);
     assert_eq!(findings(&chosen), []);
+    // It may be the other one that says so, and what is left out excludes nothing.
+    let own = slave(
+        "",
+        &[
+            &pdo(0x1601, "Sm=\"0\"", ""),
+            &pdo(0x1602, "Sm=\"0\"", "<Exclude>#x1601</Exclude><Exclude>#x1603</Exclude>"),
+            &pdo(0x1603, "Sm=\"0\"", ""),
+        ],
+    );
+    assert_eq!(findings(&own), [("PDO018", 5, message.to_owned())]);
+    let text = own.rust(&Options::default().rust).expect("bindings");
+    assert!(text.contains("default_pdos: &[0x1601, 0x1603],"), "{text}");
 }
 
 #[test]

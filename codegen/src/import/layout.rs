@@ -1,12 +1,14 @@
 //! Rows to chapters and spaces; names and addresses that occur twice.
 
 use std::collections::{BTreeMap, HashMap, HashSet};
+use std::rc::Rc;
 
 use super::address::Table;
 use super::definitions::Definition;
 use super::rows::{Place, Row, Rows};
 use super::types::Base;
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
+use crate::limits::{MAX_DERIVED_ITEMS, ROW_BYTES_PER_ITEM};
 use crate::source::Span;
 
 /// So many lines have to have their index above their number by as much.
@@ -28,7 +30,7 @@ pub(super) struct Space {
 /// Rows that belong together.
 #[derive(Debug)]
 pub(super) struct Chapter {
-    pub title: String,
+    pub title: Rc<str>,
     pub table: Option<Table>,
     pub rows: Vec<Row>,
 }
@@ -45,6 +47,7 @@ pub(super) struct Listing {
 /// Gives every row its table, its own name and its chapter.
 pub(super) fn arrange(list: Rows, diagnostics: &mut Diagnostics) -> Listing {
     let Rows { mut rows, definitions, no_access, from_one } = list;
+    within_budget(&mut rows, diagnostics);
     let is_classic = is_classic(&rows);
     for row in &mut rows {
         if let Ok(Place::Register { table, address, .. }) = &mut row.place {
@@ -69,11 +72,28 @@ pub(super) fn arrange(list: Rows, diagnostics: &mut Diagnostics) -> Listing {
     Listing { spaces, chapters: chapters(rows), definitions, no_access }
 }
 
+/// Rows that stand for more items than a table may are comments: each item is given a name and a place.
+fn within_budget(rows: &mut [Row], diagnostics: &mut Diagnostics) {
+    let mut left = MAX_DERIVED_ITEMS;
+    for row in rows.iter_mut().filter(|row| row.place.is_ok()) {
+        let Some(count) = row.count else { continue };
+        match left.checked_sub(count as usize * (1 + row.name.len() / ROW_BYTES_PER_ITEM)) {
+            Some(rest) => left = rest,
+            None => {
+                let message = format!("with this row, repeated rows stand for more than {MAX_DERIVED_ITEMS} items");
+                let found = Diagnostic::new(&codes::CSV_NO_ROW, row.span, message);
+                diagnostics.push(found.label("written down as a comment"));
+                row.place = Err("too many items");
+            }
+        }
+    }
+}
+
 /// The rows of each chapter, by their tables.
 fn chapters(rows: Vec<Row>) -> Vec<Chapter> {
     let mut chapters: Vec<Chapter> = Vec::new();
     // A list may have as many chapters as rows.
-    let mut by_title: HashMap<String, Vec<usize>> = HashMap::new();
+    let mut by_title: HashMap<Rc<str>, Vec<usize>> = HashMap::new();
     for row in rows {
         let table = table_of(&row);
         let own = by_title.entry(row.chapter.clone()).or_default();

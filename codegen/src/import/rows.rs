@@ -1,6 +1,7 @@
 //! A line to a row of the format.
 
 use std::collections::BTreeSet;
+use std::rc::Rc;
 
 use super::address::{self, Address, Table};
 use super::cells::{self, Number, Order};
@@ -87,7 +88,7 @@ pub(super) struct Row {
     pub span: Span,
     /// The text of the line, for a comment.
     pub text: String,
-    pub chapter: String,
+    pub chapter: Rc<str>,
     /// Where it is; `Err` has the reason why it can't be a row.
     pub place: Result<Place, &'static str>,
     pub ty: Type,
@@ -140,11 +141,11 @@ pub(super) fn read(records: &Records, columns: &Columns, diagnostics: &mut Diagn
         names: names.unwrap_or_default(),
         definitions: Definitions::default(),
     };
-    let mut chapter = String::new();
+    let mut chapter = Rc::from("");
     let mut rows = Vec::new();
     for record in data {
         match reader.title(record) {
-            Some(title) => chapter = title,
+            Some(title) => chapter = title.into(),
             None => rows.push(reader.row(record, &chapter)),
         }
     }
@@ -201,7 +202,7 @@ impl Reader<'_, '_> {
         (!readable && self.columns.list.len() > 1).then(|| tidy(&cell.text))
     }
 
-    fn row(&mut self, record: &Record, chapter: &str) -> Row {
+    fn row(&mut self, record: &Record, chapter: &Rc<str>) -> Row {
         self.count_cells(record);
         let place = self.place(record);
         let part = self.part(record, place.as_ref().ok());
@@ -228,7 +229,7 @@ impl Reader<'_, '_> {
             name,
             span: record.span,
             text: record.cells.iter().map(|cell| tidy(&cell.text)).collect::<Vec<_>>().join(" | "),
-            chapter: if own.is_empty() { chapter.to_owned() } else { own },
+            chapter: if own.is_empty() { chapter.clone() } else { own.into() },
             place,
             ty,
             access,

@@ -1,5 +1,7 @@
 //! What is exchanged cyclically, with exact bit positions.
 
+use std::collections::HashMap;
+
 use serde::{Deserialize, Serialize};
 
 use super::{CompactString, Documentation, Doubts, Extensions, ObjectBuses, Texts, Type, Value};
@@ -24,22 +26,60 @@ impl ProcessData {
     /// The PDOs that are assigned by default, each with its sync manager: outputs first, in the order of the source. Of
     /// PDOs that exclude each other, and of those of one index, the first one counts (ETG.2000, Sm of RxPdo and TxPdo).
     pub fn assigned_by_default(&self) -> Vec<(&Pdo, u8)> {
-        let mut assigned: Vec<(&Pdo, u8)> = Vec::new();
+        self.default_assignment().assigned
+    }
+
+    /// The same, with what is left out for it.
+    pub(crate) fn default_assignment(&self) -> DefaultAssignment<'_> {
+        let mut all = DefaultAssignment::default();
         for direction in [Direction::Receive, Direction::Transmit] {
             for pdo in self.pdos.iter().filter(|pdo| pdo.direction == direction && !pdo.is_virtual) {
-                let Some(number) = pdo.sync_manager else { continue };
-                let is_free = !assigned.iter().any(|(other, _)| other.conflicts_with(pdo));
-                if is_free && self.has_sync_manager(number) {
-                    assigned.push((pdo, number));
+                let Some(number) = pdo.sync_manager.filter(|&number| self.has_sync_manager(number)) else { continue };
+                match all.conflict(pdo) {
+                    Some(other) => all.left_out.push((pdo, other)),
+                    None => all.assign(pdo, number),
                 }
             }
         }
-        assigned
+        all
     }
 
     /// Whether there is a sync manager with this number. Some descriptions have no list of them at all.
     pub fn has_sync_manager(&self, number: u8) -> bool {
         self.sync_managers.is_empty() || self.sync_managers.iter().any(|own| own.number == number)
+    }
+}
+
+/// Which PDOs are assigned by default, looked up by index: a file may have as many as there are indices.
+#[derive(Debug, Default)]
+pub(crate) struct DefaultAssignment<'a> {
+    /// Each with its sync manager.
+    pub assigned: Vec<(&'a Pdo, u8)>,
+    /// Each with the first one that it conflicts with.
+    pub left_out: Vec<(&'a Pdo, &'a Pdo)>,
+    /// Places in `assigned` by mapping index: several where they are on different buses.
+    by_index: HashMap<u16, Vec<usize>>,
+    /// The first place in `assigned` that excludes an index.
+    excluded: HashMap<u16, usize>,
+}
+
+impl<'a> DefaultAssignment<'a> {
+    /// The first one for which [`Pdo::conflicts_with`] is true.
+    fn conflict(&self, pdo: &Pdo) -> Option<&'a Pdo> {
+        let of_index = |index: &u16| self.by_index.get(index).into_iter().flatten().copied();
+        let twin = of_index(&pdo.mapping_index).find(|&at| !self.assigned[at].0.is_apart(pdo));
+        let by_others = self.excluded.get(&pdo.mapping_index).copied();
+        let by_itself = pdo.excludes.iter().filter_map(|index| of_index(index).next()).min();
+        [twin, by_others, by_itself].into_iter().flatten().min().map(|at| self.assigned[at].0)
+    }
+
+    fn assign(&mut self, pdo: &'a Pdo, sync_manager: u8) {
+        let at = self.assigned.len();
+        self.by_index.entry(pdo.mapping_index).or_default().push(at);
+        for &index in &pdo.excludes {
+            self.excluded.entry(index).or_insert(at);
+        }
+        self.assigned.push((pdo, sync_manager));
     }
 }
 

@@ -4,7 +4,7 @@
 use std::collections::HashSet;
 
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
-use crate::ir::{Device, Module, Pdo, ProcessData, MAX_PDO_SUBS};
+use crate::ir::{DefaultAssignment, Device, Module, Pdo, ProcessData, SyncManager, MAX_PDO_SUBS};
 
 pub(super) fn run(device: &Device, diagnostics: &mut Diagnostics) {
     if device.ethercat.is_none() {
@@ -15,8 +15,9 @@ pub(super) fn run(device: &Device, diagnostics: &mut Diagnostics) {
     for pdo in &data.pdos {
         sync_manager_exists(pdo, data, diagnostics);
     }
-    conflicts(data, diagnostics);
-    lengths(data, diagnostics);
+    let by_default = data.default_assignment();
+    conflicts(&by_default, diagnostics);
+    lengths(&by_default, &data.sync_managers, diagnostics);
 }
 
 /// Of a module: its sync managers are those of the device that it is plugged into.
@@ -43,32 +44,31 @@ fn sync_manager_exists(pdo: &Pdo, data: &ProcessData, diagnostics: &mut Diagnost
     );
 }
 
-fn conflicts(data: &ProcessData, diagnostics: &mut Diagnostics) {
-    let assigned = data.assigned_by_default();
-    for pdo in data.pdos.iter().filter(|pdo| pdo.sync_manager.is_some() && !pdo.is_virtual) {
-        // One described twice has a finding of its own.
-        let conflict = |(other, _): &&(&Pdo, u8)| !std::ptr::eq(*other, pdo) && other.conflicts_with(pdo);
-        let other = assigned.iter().find(conflict).filter(|(other, _)| other.mapping_index != pdo.mapping_index);
-        let is_assigned = assigned.iter().any(|(other, _)| std::ptr::eq(*other, pdo));
-        if let Some((other, _)) = other.filter(|_| !is_assigned) {
-            let message = format!(
-                "0x{:04X} and 0x{:04X} are both assigned by default, and exclude each other",
-                other.mapping_index, pdo.mapping_index
-            );
-            diagnostics.push(
-                Diagnostic::new(&codes::DEFAULT_PDOS_CONFLICT, pdo.origin.span, message)
-                    .label("left out of the process image by default")
-                    .note_at(other.origin.span, "this one is in it"),
-            );
-        }
+fn conflicts(by_default: &DefaultAssignment, diagnostics: &mut Diagnostics) {
+    // One described twice has a finding of its own.
+    for (pdo, other) in by_default.left_out.iter().filter(|(pdo, other)| other.mapping_index != pdo.mapping_index) {
+        let message = format!(
+            "0x{:04X} and 0x{:04X} are both assigned by default, and exclude each other",
+            other.mapping_index, pdo.mapping_index
+        );
+        diagnostics.push(
+            Diagnostic::new(&codes::DEFAULT_PDOS_CONFLICT, pdo.origin.span, message)
+                .label("left out of the process image by default")
+                .note_at(other.origin.span, "this one is in it"),
+        );
     }
 }
 
-fn lengths(data: &ProcessData, diagnostics: &mut Diagnostics) {
-    let assigned = data.assigned_by_default();
-    for own in &data.sync_managers {
-        let inside = assigned.iter().filter(|(_, number)| *number == own.number);
-        let count = inside.clone().count();
+fn lengths(by_default: &DefaultAssignment, sync_managers: &[SyncManager], diagnostics: &mut Diagnostics) {
+    // Number and bits of the PDOs of each sync manager.
+    let mut inside = [(0usize, 0u64); 256];
+    for (pdo, number) in &by_default.assigned {
+        let (count, bits) = &mut inside[usize::from(*number)];
+        *count += 1;
+        *bits += u64::from(pdo.bits());
+    }
+    for own in sync_managers {
+        let (count, bits) = inside[usize::from(own.number)];
         if count > MAX_PDO_SUBS {
             let message = format!(
                 "sync manager {} has {count} PDOs by default, and a list of them at most {MAX_PDO_SUBS}",
@@ -77,7 +77,6 @@ fn lengths(data: &ProcessData, diagnostics: &mut Diagnostics) {
             diagnostics.push(Diagnostic::new(&codes::TOO_MANY_PDOS, own.origin.span, message));
         }
         let Some(max) = own.size_range.1.filter(|&max| max > 0) else { continue };
-        let bits = inside.map(|(pdo, _)| u64::from(pdo.bits())).sum::<u64>();
         if bits.div_ceil(8) > u64::from(max) {
             let message = format!(
                 "the PDOs of sync manager {} have {} bytes by default, and at most {max} fit",

@@ -62,7 +62,7 @@ impl Folder {
             self.device(device, catalog, is_alone, &spoken);
         }
         let title = self.listed.devices.first().filter(|_| is_alone).map_or(title, |own| own.title.as_str()).to_owned();
-        let set = Frameset { title, links: self.around(), languages: languages(&catalog.devices, &spoken) };
+        let set = Frameset::new(title, self.around(), languages(&catalog.devices, &spoken));
         self.module_pages(&modules, &files, &set);
         if let Some(file) = &findings {
             let text = self.format.findings(Around { set: &set, file }, &self.findings.list);
@@ -101,7 +101,7 @@ impl Folder {
         let (parts, pages) = self.parts(device, &manual, &prefix);
         let mut links = vec![(first.clone(), "Overview".to_owned())];
         links.extend(pages.iter().chain(&self.listed.shared).cloned());
-        let set = Frameset { title: title.clone(), links, languages: languages(std::slice::from_ref(device), spoken) };
+        let set = Frameset::new(title.clone(), links, languages(std::slice::from_ref(device), spoken));
         let own = overview::overview(device, catalog.files.first(), &manual);
         let text = format.overview(Around { set: &set, file: &first }, &own, &contents(device, &parts));
         self.page(&first, text);

@@ -1,5 +1,6 @@
 //! Pages of Markdown, for repositories and `mdBook`. Texts go through [`Escape`], which `askama.toml` names.
 
+use std::collections::HashSet;
 use std::fmt::{self, Write};
 
 use askama::Template;
@@ -133,7 +134,8 @@ impl Pages for Markdown {
 
     fn overview(&self, around: Around<'_>, own: &Overview, contents: &Contents) -> String {
         // The overview itself is the first of them; areas, process data and slots have lists of their own.
-        let shown = |file: &str| contents.areas.iter().any(|(area, ..)| area == file) || file == around.file;
+        let areas: HashSet<&str> = contents.areas.iter().map(|(area, ..)| area.as_str()).collect();
+        let shown = |file: &str| areas.contains(file) || file == around.file;
         let links: Vec<_> = around.set.links.iter().filter(|(file, _)| !shown(file)).cloned().collect();
         written(&OverviewPage { title: &around.set.title, own, contents, links: &links })
     }

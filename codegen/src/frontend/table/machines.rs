@@ -1,16 +1,17 @@
 //! State machines and procedures.
 
 use super::at::{At, Entries, TextOr};
-use super::format::{MachineTable, PatternTable, ProcedureTable, StepTable, TransitionTable};
+use super::format::{MachineTable, MatrixTable, PatternTable, ProcedureTable, StepTable, TransitionTable};
+use super::outcomes::Names;
 use super::references::References;
 use super::tree::{cited, Reader};
 use super::{lints, outcomes, process, value};
-use crate::diagnostics::codes;
+use crate::diagnostics::{codes, Diagnostic};
 use crate::ir::{
     CompactString, Device, EnumValue, MessageField, Pattern, Procedure, Shape, StateMachine, Step, Transition, Type,
     Value,
 };
-use crate::source::Span;
+use crate::limits::{MAX_MACHINE_ROWS, ROW_BYTES_PER_ITEM};
 use crate::text::brief;
 
 fn text(at: &At<String>) -> CompactString {
@@ -25,25 +26,24 @@ pub(super) fn machine(
     device: &mut Device,
     references: &mut References,
 ) {
+    if !is_affordable(reader, name, table, device) {
+        return;
+    }
     lints::machine(reader, table);
     let (origin, cite) = (reader.origin(name), table.cite.as_ref().map(cited));
     device.doubts.extend(reader.doubts([table.doubt.as_ref(), table.doubts.as_ref()], origin, cite.as_deref()));
     let (state_type, states) = states(reader, table, device);
     let commands = patterns(reader, &table.commands);
-    let mut transitions = Vec::new();
-    for given in &table.transitions {
-        transitions.extend(transition(reader, given, (&states, &commands), device));
-    }
+    let names = Names::new(&states, &commands, device);
+    let transitions: Vec<Transition> =
+        table.transitions.iter().flat_map(|given| transition(reader, given, &names)).collect();
     for item in [&table.status, &table.control].into_iter().flatten() {
         if !is_field_of_reply(device, &item.value) {
             references.push((item.clone(), "item"));
         }
     }
-    let list = |own: &[Pattern]| own.iter().map(|own| own.name.to_string()).collect::<Vec<_>>();
-    let mut names = outcomes::Names { states: list(&states), commands: list(&commands) };
-    names.commands.extend(device.messages.iter().map(|message| message.name.to_string()));
-    if let Some(initial) = table.initial.as_ref().filter(|own| !names.states.contains(&own.value)) {
-        reader.unresolved("state", &initial.value, reader.span(initial), names.states.iter().map(String::as_str));
+    if let Some(initial) = &table.initial {
+        names.state(reader, &initial.value, reader.span(initial));
     }
     let mut rows = Vec::new();
     if let Some(matrix) = &table.matrix {
@@ -64,6 +64,47 @@ pub(super) fn machine(
     });
 }
 
+/// Whether the machines of a device are no more than [`MAX_MACHINE_ROWS`] with this one.
+fn is_affordable(reader: &mut Reader<'_, '_>, name: &At<String>, table: &MachineTable, device: &Device) -> bool {
+    let of_list = |own: &[Pattern]| own.len();
+    let of_others = device
+        .machines
+        .iter()
+        .map(|own| 1 + of_list(&own.states) + of_list(&own.commands) + own.transitions.len() + own.outcomes.len());
+    let states = match table.states.as_ref().map(|own| &own.value) {
+        Some(TextOr::Table(own)) => own.iter().count(),
+        Some(TextOr::Text(name)) => enumeration(device, name).map_or(0, |(_, values)| values.len()),
+        None => 0,
+    };
+    // What a transition says is copied for each state that it leaves.
+    let transitions = table.transitions.iter().map(|own| {
+        let copies = own.value.from.as_ref().map_or(1, |list| list.value.0.len().max(1));
+        copies * (1 + own.value.doc.as_ref().map_or(0, String::len) / ROW_BYTES_PER_ITEM)
+    });
+    let of_matrix =
+        |own: &At<MatrixTable>| own.value.rows.iter().count() + own.value.states.len() + own.value.notes.iter().count();
+    let matrix = table.matrix.as_ref().map_or(0, of_matrix);
+    let rows = 1 + states + table.commands.iter().count() + transitions.sum::<usize>() + matrix;
+    if of_others.sum::<usize>() + rows <= MAX_MACHINE_ROWS {
+        return true;
+    }
+    let message = format!(
+        "with `{}`, the state machines of the device have more than {MAX_MACHINE_ROWS} states, commands, transitions and rows",
+        brief(&name.value)
+    );
+    let found = Diagnostic::new(&codes::INPUT_TOO_LARGE, reader.span(name), message);
+    reader.diagnostics.push(found.label("this one is left out"));
+    false
+}
+
+/// The type and the values of the enumeration that is called so.
+fn enumeration<'d>(device: &'d Device, name: &str) -> Option<(Type, &'d [EnumValue])> {
+    device.types.iter().filter(|own| own.name == name).find_map(|own| match &own.shape {
+        Shape::Enumeration { base, values, .. } => Some((*base, &**values)),
+        _ => None,
+    })
+}
+
 /// The states of a machine: patterns of its own, or the values of an enumeration.
 fn states(reader: &mut Reader<'_, '_>, table: &MachineTable, device: &Device) -> (Option<CompactString>, Vec<Pattern>) {
     let Some(given) = &table.states else { return (None, Vec::new()) };
@@ -71,9 +112,8 @@ fn states(reader: &mut Reader<'_, '_>, table: &MachineTable, device: &Device) ->
         TextOr::Table(own) => return (None, patterns(reader, own)),
         TextOr::Text(name) => name,
     };
-    let is_enumeration = |shape: &Shape| matches!(shape, Shape::Enumeration { .. });
-    let found = device.types.iter().find(|own| own.name == name.as_str() && is_enumeration(&own.shape));
-    let Some((Shape::Enumeration { base, values, .. }, ..)) = found.map(|own| (&own.shape, ())) else {
+    let Some((base, values)) = enumeration(device, name) else {
+        let is_enumeration = |shape: &Shape| matches!(shape, Shape::Enumeration { .. });
         let known = device.types.iter().filter(|own| is_enumeration(&own.shape)).map(|own| own.name.as_str());
         reader.unresolved("enumeration", name, reader.span(given), known);
         return (None, Vec::new());
@@ -122,28 +162,17 @@ fn patterns(reader: &mut Reader<'_, '_>, entries: &Entries<PatternTable>) -> Vec
 }
 
 /// A row of transitions: one for each state that it leaves.
-fn transition(
-    reader: &mut Reader<'_, '_>,
-    given: &At<TransitionTable>,
-    (states, commands): (&[Pattern], &[Pattern]),
-    device: &Device,
-) -> Vec<Transition> {
+fn transition(reader: &mut Reader<'_, '_>, given: &At<TransitionTable>, names: &Names<'_>) -> Vec<Transition> {
     let own = &given.value;
-    let names = |list: &[Pattern]| list.iter().map(|own| own.name.to_string()).collect::<Vec<_>>();
-    let (states, mut causes) = (names(states), names(commands));
-    causes.extend(device.messages.iter().map(|message| message.name.to_string()));
     let from: Vec<&String> = own.from.iter().flat_map(|list| &list.value.0).collect();
-    let mut mentioned: Vec<(&str, Span, &str, &[String])> = Vec::new();
     if let Some(list) = &own.from {
-        mentioned.extend(from.iter().map(|name| (name.as_str(), reader.span(list), "state", states.as_slice())));
+        from.iter().for_each(|name| names.state(reader, name, reader.span(list)));
     }
-    mentioned.extend(own.to.iter().map(|to| (to.value.as_str(), reader.span(to), "state", states.as_slice())));
-    mentioned
-        .extend(own.command.iter().map(|own| (own.value.as_str(), reader.span(own), "command", causes.as_slice())));
-    for (name, span, what, list) in mentioned {
-        if !list.iter().any(|own| own == name) {
-            reader.unresolved(what, name, span, list.iter().map(String::as_str));
-        }
+    if let Some(to) = &own.to {
+        names.state(reader, &to.value, reader.span(to));
+    }
+    if let Some(command) = &own.command {
+        names.command(reader, &command.value, reader.span(command));
     }
     if own.to.is_none() {
         reader.report(&codes::TABLE_VALUE, reader.span(given), "a transition leads `to` a state");

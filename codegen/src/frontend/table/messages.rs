@@ -10,11 +10,12 @@ use super::references::{References, ITEM_OR_FIELD};
 use super::rows::{Named, Rows};
 use super::tree::{cited, Reader};
 use super::{place, types, value};
-use crate::diagnostics::codes;
+use crate::diagnostics::{codes, Diagnostic};
 use crate::ir::{
     Access, Availability, Binding, CompactString, Completion, Device, Doubts, Item, Message, MessageExample,
     MessageField, MessageValue, ParameterSpace, Type, Value,
 };
+use crate::limits;
 use crate::text::brief;
 
 /// How deep repeated fields are read.
@@ -110,6 +111,13 @@ pub(super) fn message(
         doubts,
         origin,
     });
+}
+
+/// Reports the first message that isn't read because there are so many.
+pub(super) fn too_many(reader: &mut Reader<'_, '_>, table: &At<MessageTable>) {
+    let message = format!("there are more than {} messages", limits::MAX_MESSAGES);
+    let found = Diagnostic::new(&codes::INPUT_TOO_LARGE, reader.span(table), message);
+    reader.diagnostics.push(found.label("this one and those behind it are left out"));
 }
 
 /// Reports lengths that count from a field that their frame doesn't have.

@@ -316,6 +316,10 @@ impl<'a> Table<'a> {
         let mut names = HashSet::new();
         for message in self.list::<format::MessageTable>(reader, "messages") {
             rows.allow_at(reader, (message.start, messages::end(&message)), &message.value.allow);
+            if device.messages.len() >= crate::limits::MAX_MESSAGES {
+                messages::too_many(reader, &message);
+                break;
+            }
             messages::message(reader, rows, &message, (device, &mut names));
         }
         if let Some(framing) = self.take(reader, "framing") {

@@ -1,29 +1,59 @@
 //! What commands do in each state: the table of commands and states that a manual has of a machine.
 
+use std::collections::HashSet;
+
 use super::at::{At, TextOr};
 use super::format::{MatrixCell, MatrixRow, MatrixTable};
 use super::references::References;
 use super::tree::{cited, number_or_text, Reader};
 use crate::diagnostics::{codes, Diagnostic};
-use crate::ir::{Availability, CommandOutcomes, CompactString, Documentation, Doubts, Outcome, StateOutcome};
+use crate::ir::{
+    Availability, CommandOutcomes, CompactString, Device, Documentation, Doubts, Outcome, Pattern, StateOutcome,
+};
 use crate::source::Span;
 use crate::text::brief;
 
-/// What the cells may name: states of the machine, its commands and the device's messages.
-pub(super) struct Names {
-    pub states: Vec<String>,
-    pub commands: Vec<String>,
+/// What transitions and cells may name: states of the machine, its commands and the device's messages.
+pub(super) struct Names<'n> {
+    states: HashSet<&'n str>,
+    commands: HashSet<&'n str>,
+    /// The same, in the order of the source.
+    listed: [Vec<&'n str>; 2],
+}
+
+impl<'n> Names<'n> {
+    pub fn new(states: &'n [Pattern], commands: &'n [Pattern], device: &'n Device) -> Self {
+        let states: Vec<&str> = states.iter().map(|own| own.name.as_str()).collect();
+        let messages = device.messages.iter().map(|own| own.name.as_str());
+        let commands: Vec<&str> = commands.iter().map(|own| own.name.as_str()).chain(messages).collect();
+        let set = |list: &[&'n str]| list.iter().copied().collect();
+        Names { states: set(&states), commands: set(&commands), listed: [states, commands] }
+    }
+
+    /// Reports a state that there isn't.
+    pub fn state(&self, reader: &mut Reader<'_, '_>, name: &str, span: Span) {
+        if !self.states.contains(name) {
+            reader.unresolved("state", name, span, self.listed[0].iter().copied());
+        }
+    }
+
+    /// Reports a command that there isn't.
+    pub fn command(&self, reader: &mut Reader<'_, '_>, name: &str, span: Span) {
+        if !self.commands.contains(name) {
+            reader.unresolved("command", name, span, self.listed[1].iter().copied());
+        }
+    }
 }
 
 /// The rows of the table.
 pub(super) fn read(
     reader: &mut Reader<'_, '_>,
     table: &MatrixTable,
-    names: &Names,
+    names: &Names<'_>,
     references: &mut References,
 ) -> Vec<CommandOutcomes> {
     for state in &table.states {
-        known(reader, "state", &state.value, reader.span(state), &names.states);
+        names.state(reader, &state.value, reader.span(state));
     }
     let mut rows = Vec::new();
     for (name, row) in table.rows.iter() {
@@ -45,17 +75,11 @@ pub(super) fn doubts(reader: &Reader<'_, '_>, table: &At<MatrixTable>) -> Doubts
     found
 }
 
-fn known(reader: &mut Reader<'_, '_>, what: &str, name: &str, span: Span, list: &[String]) {
-    if !list.iter().any(|own| own == name) {
-        reader.unresolved(what, name, span, list.iter().map(String::as_str));
-    }
-}
-
 fn row(
     reader: &mut Reader<'_, '_>,
     table: &MatrixTable,
     (name, row): (&At<String>, &At<MatrixRow>),
-    names: &Names,
+    names: &Names<'_>,
     references: &mut References,
 ) -> CommandOutcomes {
     let own = &row.value;
@@ -64,7 +88,7 @@ fn row(
         None => vec![name.clone()],
     };
     for command in &commands {
-        known(reader, "command", &command.value, reader.span(command), &names.commands);
+        names.command(reader, &command.value, reader.span(command));
     }
     references.extend(own.models.iter().flatten().map(|model| (model.clone(), "model")));
     if own.cells.len() != table.states.len() {
@@ -101,7 +125,7 @@ fn cell(
     reader: &mut Reader<'_, '_>,
     table: &MatrixTable,
     given: &At<TextOr<MatrixCell>>,
-    names: &Names,
+    names: &Names<'_>,
 ) -> (Vec<Outcome>, Option<Box<Documentation>>) {
     let span = reader.span(given);
     let own = match &given.value {
@@ -129,7 +153,7 @@ fn cell(
 }
 
 /// `same`, `refused`, `?` or states that follow each other; several of these with `or` between them.
-fn outcomes(reader: &mut Reader<'_, '_>, text: &str, span: Span, names: &Names) -> Vec<Outcome> {
+fn outcomes(reader: &mut Reader<'_, '_>, text: &str, span: Span, names: &Names<'_>) -> Vec<Outcome> {
     if text.trim() == "?" {
         return Vec::new();
     }
@@ -141,7 +165,7 @@ fn outcomes(reader: &mut Reader<'_, '_>, text: &str, span: Span, names: &Names) 
             _ => {
                 let chain: Vec<CompactString> = one.split('>').map(|state| state.trim().into()).collect();
                 for state in &chain {
-                    known(reader, "state", state, span, &names.states);
+                    names.state(reader, state, span);
                 }
                 Outcome::States(chain)
             }

@@ -7,6 +7,8 @@ mod parameters;
 mod shaper;
 mod step;
 
+use std::collections::{HashMap, HashSet};
+
 use super::message_frames::Frame;
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
 use crate::ir::{Device, Framing, Message};
@@ -54,17 +56,41 @@ impl<'a> Shaped<'a> {
 
 /// The messages for which code is generated.
 pub(crate) fn shapes(device: &Device) -> Vec<Shaped<'_>> {
-    let mut all: Vec<Shaped<'_>> =
-        device.messages.iter().filter_map(|message| Shaped::new(device, message).ok()).collect();
-    loop {
-        let can = |name: &str| all.iter().any(|own| own.is_called(name) && own.can_select());
-        let is_known = |own: &Shaped<'_>| own.message.after.as_deref().is_none_or(can);
-        let known: Vec<Shaped<'_>> = all.iter().filter(|own| is_known(own)).cloned().collect();
-        if known.len() == all.len() {
-            return known;
+    let all: Vec<Shaped<'_>> = device.messages.iter().filter_map(|message| Shaped::new(device, message).ok()).collect();
+    let lost = without_selector(&all);
+    all.into_iter().zip(lost).filter(|(_, is_lost)| !is_lost).map(|(own, _)| own).collect()
+}
+
+/// Which messages depend on one that can't select anything, or on one that is lost for that.
+fn without_selector(all: &[Shaped<'_>]) -> Vec<bool> {
+    let mut selectors: HashMap<&str, usize> = HashMap::new();
+    let mut dependents: HashMap<&str, Vec<usize>> = HashMap::new();
+    for (at, own) in all.iter().enumerate() {
+        if own.can_select() {
+            *selectors.entry(&own.message.name).or_default() += 1;
         }
-        all = known;
+        if let Some(after) = own.message.after.as_deref() {
+            dependents.entry(after).or_default().push(at);
+        }
     }
+    let mut lost = vec![false; all.len()];
+    let mut found: Vec<usize> = dependents
+        .iter()
+        .filter(|(name, _)| !selectors.contains_key(*name))
+        .flat_map(|(_, list)| list.iter().copied())
+        .collect();
+    while let Some(at) = found.pop() {
+        if std::mem::replace(&mut lost[at], true) || !all[at].can_select() {
+            continue;
+        }
+        let name = all[at].message.name.as_str();
+        let left = selectors.entry(name).or_default();
+        *left -= 1;
+        if *left == 0 {
+            found.extend(dependents.get(name).into_iter().flatten());
+        }
+    }
+    lost
 }
 
 /// What comes where a device refuses a message; `None` where it doesn't, or no code can be generated for that.
@@ -87,6 +113,7 @@ fn framing(framing: &Framing) -> Option<Problem> {
 /// Reports messages for which no code is generated, and what they lack.
 pub(super) fn run(device: &Device, diagnostics: &mut Diagnostics) {
     let shapes = shapes(device);
+    let known: HashSet<&str> = shapes.iter().map(|own| own.message.name.as_str()).collect();
     let mut left_out = |at: Span, text: String| {
         diagnostics.push(Diagnostic::new(&codes::MESSAGE_UNSHAPED, at, text));
     };
@@ -96,7 +123,7 @@ pub(super) fn run(device: &Device, diagnostics: &mut Diagnostics) {
         let problem = match Shaped::new(device, message) {
             Err(problem) if is_told(device, message, problem) => continue,
             Err(problem) => Some(problem),
-            Ok(own) => (!shapes.iter().any(|other| other.is_called(&own.message.name))).then_some(SELECTOR),
+            Ok(own) => (!known.contains(own.message.name.as_str())).then_some(SELECTOR),
         };
         if let Some(problem) = problem {
             left_out(span, format!("no code for the message `{name}`: {problem}"));

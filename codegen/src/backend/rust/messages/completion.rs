@@ -1,5 +1,7 @@
 //! When an order is carried out, and what tells it.
 
+use std::collections::HashMap;
+
 use super::field::{self, Field};
 use crate::backend::rust::docs;
 use crate::backend::rust::links::Here;
@@ -26,33 +28,38 @@ pub(super) fn sentence(scope: &Scope<'_>, message: &Message, here: Here<'_>) -> 
 /// `None` where what the reply has may still be about the order before.
 pub(super) fn expression(
     scope: &Scope<'_>,
-    device: &Device,
+    conditions: &Conditions<'_>,
     message: &Message,
     (steps, fields): (&[Step<'_>], &[Field]),
 ) -> Option<String> {
     if matches!(message.completion, Completion::Polled { in_reply: false, .. }) {
         return None;
     }
-    let conditions: Vec<_> = device.messages.iter().filter_map(|other| condition(&other.completion)).collect();
     let named = steps.iter().filter(|step| field::name(step).is_some());
     named.zip(fields).find_map(|(step, field)| {
         let Step::Value { value, .. } = step else { return None };
-        let (_, bit, mask, expected) =
-            conditions.iter().find(|(name, ..)| *name == value.item.name.as_str()).copied()?;
+        let &(bit, mask, expected) = conditions.get(value.item.name.as_str())?;
         compare(scope, value, &field.name, bit, mask, expected)
     })
 }
 
-type Polled<'c> = (&'c str, Option<&'c str>, Option<u64>, Option<&'c Value>);
+/// The bit of a field that is polled, the mask, and the value.
+type Polled<'c> = (Option<&'c str>, Option<u64>, Option<&'c Value>);
 
-/// The field that is polled, the bit of it, the mask, and the value.
-fn condition(completion: &Completion) -> Option<Polled<'_>> {
-    let Completion::Polled { item, mask, value, .. } = completion else { return None };
-    let (field, bit) = match item.split_once('.') {
-        Some((field, bit)) => (field, Some(bit)),
-        None => (item.as_str(), None),
-    };
-    Some((field, bit, *mask, value.as_ref()))
+/// By what orders are polled: for each field the first condition.
+pub(super) type Conditions<'c> = HashMap<&'c str, Polled<'c>>;
+
+pub(super) fn conditions(device: &Device) -> Conditions<'_> {
+    let mut all = HashMap::new();
+    for message in &device.messages {
+        let Completion::Polled { item, mask, value, .. } = &message.completion else { continue };
+        let (field, bit) = match item.split_once('.') {
+            Some((field, bit)) => (field, Some(bit)),
+            None => (item.as_str(), None),
+        };
+        all.entry(field).or_insert((bit, *mask, value.as_ref()));
+    }
+    all
 }
 
 fn compare(

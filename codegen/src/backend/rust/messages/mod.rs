@@ -106,7 +106,16 @@ impl ProtocolModel {
         let steps = shapes.iter().flat_map(|own| own.request.steps.iter().chain(&own.reply.steps));
         let rules = Rules::new(scope, device, steps, &own_types);
         let states = outcomes::links(scope, device, types);
-        let make = Maker { scope, options, device, rules: &rules, shapes: &shapes, names: &names, states: &states };
+        let make = Maker {
+            scope,
+            options,
+            polled: completion::conditions(device),
+            selectors: shapes.iter().filter_map(|own| own.message.after.as_deref()).collect(),
+            rules: &rules,
+            shapes: &shapes,
+            names: &names,
+            states: &states,
+        };
         let mut outcomes = outcomes::models(scope, device, types);
         let mut messages: Vec<MessageModel> =
             shapes.iter().zip(&names).map(|(own, names)| make.message(own, names)).collect();
@@ -202,7 +211,10 @@ pub(super) fn paths(device: &Device) -> Vec<MessagePath> {
 struct Maker<'m, 'a> {
     scope: &'m Scope<'a>,
     options: &'m RustOptions,
-    device: &'m Device,
+    /// By what orders are polled.
+    polled: completion::Conditions<'m>,
+    /// The names of the messages after which others can be sent.
+    selectors: HashSet<&'m str>,
     rules: &'m Rules,
     shapes: &'m [Shaped<'a>],
     names: &'m [Names],
@@ -233,7 +245,7 @@ impl Maker<'_, '_> {
                 true => vec![format!("What is answered to {}.", links::beside(request_name))],
                 false => self.documentation(message, Here::MESSAGES),
             };
-            let polled = || completion::expression(self.scope, self.device, message, (&own.reply.steps, &data.fields));
+            let polled = || completion::expression(self.scope, &self.polled, message, (&own.reply.steps, &data.fields));
             let is_complete = has_request.then(polled).flatten();
             DataModel { docs, is_complete, ..data }
         });
@@ -245,7 +257,7 @@ impl Maker<'_, '_> {
             refusal: refusal.map_or_else(|| "core::convert::Infallible".to_owned(), |names| names[1].clone()),
             completion: completion(&message.completion),
             outcomes: Vec::new(),
-            is_selector: self.shapes.iter().any(|other| other.message.after.as_ref() == Some(&message.name)),
+            is_selector: self.selectors.contains(message.name.as_str()),
         }
     }
 
