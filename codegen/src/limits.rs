@@ -40,6 +40,12 @@ pub const MAX_XML_DEPTH: usize = 128;
 /// Modules that all slots of a description may take together.
 pub const MAX_MODULE_USES: usize = 200_000;
 
+/// Pages of a documentation of one kind that are all linked on each page.
+pub const MAX_LINKED_PAGES: usize = 200;
+
+/// Of more, so many before and behind a page are.
+pub const NEAR_LINKED_PAGES: usize = 20;
+
 /// Bytes of text that a GSDML file may copy by referring to its text list, for each byte of the file.
 pub const MAX_TEXT_COPIES_PER_BYTE: usize = 8;
 

@@ -192,7 +192,6 @@ fn texts_of_compact_sub_objects() {
     assert_eq!(items.iter().map(|item| item.name.as_str()).collect::<Vec<_>>(), ["NrOfObjects", "B"]);
 }
 
-/// Depth, references by text and copies have their tests at the quirks of their formats; here all are held against the book.
 fn protocol(rest: &str) -> Compilation {
     checked("protocol.toml", format!("lexibus = 1\n[device]\nname = \"X\"\nbuses = [\"serial\"]\n{rest}"))
 }
@@ -224,9 +223,30 @@ fn rows_of_state_machines() {
     };
     // Beside the transitions, each machine counts, and so do its two states.
     let most = limits::MAX_MACHINE_ROWS - 2 * 3;
-    assert_eq!(machines(most, 9), (0, vec!["a".to_owned(), "b".to_owned()]));
-    assert_eq!(machines(most + 1, 9), (1, vec!["a".to_owned()]));
-    assert_eq!(machines(most / 2 + 9, limits::ROW_BYTES_PER_ITEM), (1, vec!["b".to_owned()]));
+    let names = |list: &[&str]| list.iter().map(|name| name.to_string()).collect::<Vec<_>>();
+    assert_eq!(machines(most, 9), (0, names(&["a", "b"])));
+    assert_eq!(machines(most + 1, 9), (1, names(&["a"])));
+    // Long texts count for each state.
+    assert_eq!(machines(most / 2 + 9, limits::ROW_BYTES_PER_ITEM), (1, Vec::new()));
+}
+
+#[test]
+fn notes_of_many_cells() {
+    let machine = |length: usize| {
+        let states = (0..40).map(|at| format!("s{at} = {{ mask = 255, value = {at} }}\n")).collect::<String>();
+        let list = (0..40).map(|at| format!("\"s{at}\"")).collect::<Vec<_>>().join(", ");
+        let cells = ["{ to = \"same\", note = 1 }"; 40].join(", ");
+        let rows = (0..40).map(|at| format!("c{at} = {{ cells = [{cells}] }}\n")).collect::<String>();
+        let commands = (0..40).map(|at| format!("c{at} = {{ mask = 255, value = {at} }}\n")).collect::<String>();
+        let compilation = protocol(&format!(
+            "[machines.a.states]\n{states}[machines.a.commands]\n{commands}\
+             [machines.a.matrix]\nstates = [{list}]\n[machines.a.matrix.notes]\n1 = \"{}\"\n[machines.a.matrix.rows]\n{rows}",
+            "n".repeat(length)
+        ));
+        (count(&compilation, "IO003"), compilation.catalog.as_ref().expect("a catalogue").devices[0].machines.len())
+    };
+    assert_eq!(machine(1000), (0, 1));
+    assert_eq!(machine(2 * limits::ROW_BYTES_PER_ITEM), (1, 0));
 }
 
 #[test]
@@ -244,6 +264,22 @@ fn lines_of_a_list_that_stand_for_many_items() {
 }
 
 #[test]
+fn names_of_repeated_lines_that_are_taken() {
+    // Each line with a number takes a name that the second repeated one tries.
+    let tried = limits::MAX_DERIVED_ITEMS / 1000;
+    let lines = |taken: usize| {
+        let taken: String = (0..taken).map(|at| format!("{},P 1000 {},u8,\n", 5000 + at, at + 2)).collect();
+        let text = format!("Param,Name,Type,Repeat\n0,P,u8,1000\n{taken}1000,P,u8,1000\n");
+        let imported = import(Source::new("list.csv", text.into_bytes()), &import::Options::default());
+        let rows = imported.table.expect("a table").lines().filter(|line| line.contains("count = 1000")).count();
+        (count(&imported.compilation, "CSV004"), rows)
+    };
+    assert_eq!(lines(tried - 1), (0, 2));
+    assert_eq!(lines(tried + 9), (1, 1));
+}
+
+/// Depth, references by text and copies have their tests at the quirks of their formats; here all are held against the book.
+#[test]
 fn the_book_has_each_limit() {
     let chapter = include_str!("../../docs/src/limits.md");
     let limits = [
@@ -258,6 +294,8 @@ fn the_book_has_each_limit() {
         ("messages of a register table", limits::MAX_MESSAGES),
         ("states, commands", limits::MAX_MACHINE_ROWS),
         ("repeats the lines", limits::MAX_DERIVED_ITEMS),
+        ("linked on each", limits::MAX_LINKED_PAGES),
+        ("linked on each", limits::NEAR_LINKED_PAGES),
         ("bytes that a row", limits::MAX_FREE_ROW_BYTES),
         ("bytes that a row", limits::ROW_BYTES_PER_ITEM),
         ("bytes of text that a GSDML copies", limits::MAX_TEXT_COPIES_PER_BYTE),

@@ -65,6 +65,10 @@ fn pdo019_no_such_sync_manager() {
     let found = slave(OUTPUTS, &[&pdo(0x1601, "Sm=\"0\"", ""), &pdo(0x1602, "Sm=\"5\"", "")]);
     let message = "0x1602 is assigned to sync manager 5, which isn't described";
     assert_eq!(findings(&found), [("PDO019", 5, message.to_owned())]);
+    // What can't be assigned anyway is in nobody's way.
+    let exclude = "<Exclude>#x1601</Exclude>";
+    let found = slave(OUTPUTS, &[&pdo(0x1601, "Sm=\"0\"", ""), &pdo(0x1602, "Sm=\"5\"", exclude)]);
+    assert_eq!(findings(&found), [("PDO019", 5, message.to_owned())]);
     // Without any sync manager in the description, the number is believed.
     let without = slave("", &[&pdo(0x1602, "Sm=\"2\"", "")]);
     assert_eq!(findings(&without), []);

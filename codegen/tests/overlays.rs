@@ -2,6 +2,7 @@
 
 use lexibus_codegen::compile::{check, Compilation, Options};
 use lexibus_codegen::ir::{Access, Device, Item, Shape, Type, Value};
+use lexibus_codegen::limits;
 use lexibus_codegen::source::Source;
 use lexibus_codegen::Builder;
 
@@ -170,6 +171,17 @@ fn tables_of_the_device_are_added_or_replaced() {
     let names: Vec<&str> = device.code_tables[0].rows.iter().map(|row| row.name.as_str()).collect();
     assert_eq!((names, device.machines.len()), (vec!["too hot", "cold"], 1));
     assert!(device.machines[0].states.is_empty());
+    // One that can't be read takes no other's place.
+    let states: String =
+        (0..limits::MAX_MACHINE_ROWS).map(|at| format!("s{at} = {{ mask = 0xFFFF, value = {at} }}\n")).collect();
+    let huge = format!("lexibus = 1\n[overlay]\n[machines.pump]\nstatus = \"Flags\"\n[machines.pump.states]\n{states}");
+    let overlays = [text.as_str(), &huge].map(|text| Source::new("o.toml", text.as_bytes().to_vec()));
+    let options = Options { overlays: overlays.into(), no_profiles: true, ..Options::default() };
+    let compilation = check(Source::new("pump.eds", EDS.into()), &options);
+    let codes: Vec<_> = compilation.diagnostics.list().iter().map(|found| found.code.id).collect();
+    assert!(codes.contains(&"IO003"), "{codes:?}");
+    let kept: Vec<_> = self::device(&compilation).machines.iter().map(|own| own.states[0].name.as_str()).collect();
+    assert_eq!(kept, ["off"]);
 }
 
 #[test]

@@ -315,6 +315,8 @@ fn distinct_names(rows: &mut [Row], diagnostics: &mut Diagnostics) {
     let mut taken: HashMap<String, Span> = HashMap::new();
     // The next number behind a name.
     let mut numbers: HashMap<String, u32> = HashMap::new();
+    // Names of repeated rows that may be tried.
+    let mut left = MAX_DERIVED_ITEMS;
     for row in rows.iter_mut().filter(|row| row.place.is_ok()) {
         if row.count.is_some() {
             row.name += " {n+1}";
@@ -322,24 +324,37 @@ fn distinct_names(rows: &mut [Row], diagnostics: &mut Diagnostics) {
         let own = row.name.clone();
         let number = numbers.entry(own.clone()).or_insert(2);
         let mut first = None;
-        while let Some(span) = names(row).iter().find_map(|name| taken.get(name)).copied() {
+        let place = |row: &Row| names(row).find_map(|name| taken.get(&name).copied());
+        while let Some(span) = place(row) {
             first = first.or(Some(span));
+            match left.checked_sub(row.count.unwrap_or(0) as usize) {
+                Some(rest) => left = rest,
+                None => {
+                    row.place = Err("its names are taken");
+                    break;
+                }
+            }
             row.name = format!("{own} {number}");
             *number += 1;
         }
         if let Some(first) = first {
             let message = format!("`{}` is the name of another row", crate::text::brief(&own));
+            if row.place.is_err() {
+                let diagnostic = Diagnostic::new(&codes::CSV_NO_ROW, row.span, message);
+                diagnostics.push(diagnostic.label("written down as a comment").note_at(first, "the first is here"));
+                continue;
+            }
             let diagnostic = Diagnostic::new(&codes::CSV_SAME_NAME, row.span, message);
             diagnostics.push(diagnostic.label(format!("called `{}`", row.name)).note_at(first, "the first is here"));
         }
-        taken.extend(names(row).into_iter().map(|name| (name, row.span)));
+        taken.extend(names(row).map(|name| (name, row.span)));
     }
 }
 
 /// The names of the items of a row.
-fn names(row: &Row) -> Vec<String> {
+fn names(row: &Row) -> impl Iterator<Item = String> + '_ {
     let count = row.count.unwrap_or(1);
-    (1..=count).map(|number| row.name.replace("{n+1}", &number.to_string())).collect()
+    (1..=count).map(|number| row.name.replace("{n+1}", &number.to_string()))
 }
 
 /// A factor that another row holds needs that row.

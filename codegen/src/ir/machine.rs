@@ -62,7 +62,7 @@ pub struct StateOutcome {
 }
 
 /// What happens to a command.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Outcome {
     /// It is carried out, and the state stays.

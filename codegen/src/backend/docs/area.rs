@@ -1,5 +1,7 @@
 //! Pages of items: a chapter of registers, or a range of objects.
 
+use std::collections::HashMap;
+
 use super::anchor::Names;
 use super::entry::{self, Doubt, Known, Row, Rows};
 use super::findings::Finding;
@@ -61,17 +63,22 @@ pub(super) fn areas(
 /// A part for each chapter and image, and for each range of objects (CiA 301 7.4.1).
 fn parts(groups: &[Group]) -> Vec<Part<'_>> {
     let mut parts: Vec<Part<'_>> = Vec::new();
+    let mut ranges: HashMap<&str, usize> = HashMap::new();
     for group in groups.iter().filter(|group| !group.items.is_empty() || group.index().is_some()) {
         let title = match &group.kind {
-            GroupKind::Object { index, .. } => range_of(*index).to_owned(),
+            GroupKind::Object { index, .. } => {
+                let at = *ranges.entry(range_of(*index)).or_insert(parts.len());
+                if let Some(part) = parts.get_mut(at) {
+                    part.groups.push(group);
+                    continue;
+                }
+                range_of(*index).to_owned()
+            }
             GroupKind::Chapter => group.name.to_string(),
             GroupKind::Image { .. } => format!("Image {}", group.name),
             GroupKind::Record(_) => format!("Record {}", group.name),
         };
-        match parts.iter_mut().find(|part| part.title == title && group.index().is_some()) {
-            Some(part) => part.groups.push(group),
-            None => parts.push(Part { title, groups: vec![group] }),
-        }
+        parts.push(Part { title, groups: vec![group] });
     }
     parts
 }

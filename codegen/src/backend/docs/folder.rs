@@ -1,6 +1,7 @@
 //! The pages of a catalogue, in a folder of their own.
 
 use std::collections::{BTreeSet, HashMap};
+use std::rc::Rc;
 
 use super::anchor::Names;
 use super::area::{self, Area};
@@ -8,6 +9,7 @@ use super::codes::{self, Codes};
 use super::entry::{Known, Row};
 use super::findings::Findings;
 use super::format::{Around, Catalogue, Frameset, List, Listed, Pages};
+use super::links::Links;
 use super::machines;
 use super::modules::{self, ModuleModel};
 use super::overview::{self, Contents};
@@ -30,6 +32,10 @@ pub(super) struct Folder {
     pub index: Index,
     pub listed: Catalogue,
     findings: Findings,
+    /// Pages that all devices share.
+    shared: Rc<Links>,
+    /// The pages of the device that was written last.
+    last: Rc<Links>,
 }
 
 /// What a device has beside items, and the files that it goes to.
@@ -46,7 +52,16 @@ impl Folder {
     pub fn new(format: &'static dyn Pages, findings: Findings) -> Self {
         let mut files = Names::default();
         files.file(FIRST);
-        Folder { format, files, pages: Vec::new(), index: Index::default(), listed: Catalogue::default(), findings }
+        Folder {
+            format,
+            files,
+            pages: Vec::new(),
+            index: Index::default(),
+            listed: Catalogue::default(),
+            findings,
+            shared: Rc::default(),
+            last: Rc::default(),
+        }
     }
 
     /// All pages of a catalogue that is called `title`.
@@ -57,12 +72,16 @@ impl Folder {
         let findings = (!self.findings.list.is_empty()).then(|| self.file("Findings"));
         self.listed.shared.extend(files.iter().cloned());
         self.listed.shared.extend(findings.iter().map(|file| (file.clone(), "Findings".to_owned())));
+        // The first page of modules leads to the others.
+        self.shared = Rc::new(Links::new(self.listed.shared.clone(), files.len().min(1)..files.len()));
         let spoken = languages_of_modules(catalog);
         for device in &catalog.devices {
             self.device(device, catalog, is_alone, &spoken);
         }
         let title = self.listed.devices.first().filter(|_| is_alone).map_or(title, |own| own.title.as_str()).to_owned();
-        let set = Frameset::new(title, self.around(), languages(&catalog.devices, &spoken));
+        let own = if is_alone { self.last.clone() } else { Rc::default() };
+        let languages = languages(&catalog.devices, &spoken);
+        let set = Frameset { title, own, shared: self.shared.clone(), languages };
         self.module_pages(&modules, &files, &set);
         if let Some(file) = &findings {
             let text = self.format.findings(Around { set: &set, file }, &self.findings.list);
@@ -71,16 +90,6 @@ impl Folder {
         if !is_alone {
             self.list(&set);
         }
-    }
-
-    /// The pages of a device that is alone, and those that all devices share.
-    fn around(&self) -> Vec<(String, String)> {
-        let first = |own: &Listed| [(own.path.clone(), "Overview".to_owned())].into_iter().chain(own.pages.clone());
-        let alone = match self.listed.devices.as_slice() {
-            [only] => Some(first(only)),
-            _ => None,
-        };
-        alone.into_iter().flatten().chain(self.listed.shared.iter().cloned()).collect()
     }
 
     fn page(&mut self, file: &str, text: String) {
@@ -100,8 +109,10 @@ impl Folder {
         let manual = Manual::of(device);
         let (parts, pages) = self.parts(device, &manual, &prefix);
         let mut links = vec![(first.clone(), "Overview".to_owned())];
-        links.extend(pages.iter().chain(&self.listed.shared).cloned());
-        let set = Frameset::new(title.clone(), links, languages(std::slice::from_ref(device), spoken));
+        links.extend(pages.iter().cloned());
+        self.last = Rc::new(Links::new(links, 1..1 + parts.areas.len()));
+        let languages = languages(std::slice::from_ref(device), spoken);
+        let set = Frameset { title: title.clone(), own: self.last.clone(), shared: self.shared.clone(), languages };
         let own = overview::overview(device, catalog.files.first(), &manual);
         let text = format.overview(Around { set: &set, file: &first }, &own, &contents(device, &parts));
         self.page(&first, text);

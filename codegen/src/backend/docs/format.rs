@@ -1,11 +1,12 @@
 //! What a format of documentation has to write: a text for each kind of page.
 
-use std::collections::HashMap;
+use std::rc::Rc;
 
 use super::area::Area;
 use super::codes::Codes;
 use super::findings::Finding;
 use super::html::Html;
+use super::links::Links;
 use super::machines::{Machine, Sequence};
 use super::markdown::Markdown;
 use super::modules::ModuleModel;
@@ -34,40 +35,22 @@ impl Format {
 }
 
 /// What each page of a catalogue has around it.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub(super) struct Frameset {
     /// The catalogue, or the device of it.
     pub title: String,
-    /// Files and titles of the pages.
-    pub links: Vec<(String, String)>,
-    /// The places of the files among them.
-    places: HashMap<String, usize>,
+    /// The pages of the device.
+    pub own: Rc<Links>,
+    /// Those that all devices share.
+    pub shared: Rc<Links>,
     /// Languages of names.
     pub languages: Vec<String>,
 }
 
-/// Pages of which all are linked on each.
-const ALL_LINKED: usize = 200;
-
-/// Of more, so many before and behind a page are, and the first one.
-const NEAR_LINKED: usize = 20;
-
 impl Frameset {
-    pub fn new(title: String, links: Vec<(String, String)>, languages: Vec<String>) -> Self {
-        let places = links.iter().enumerate().map(|(at, (file, _))| (file.clone(), at)).collect();
-        Frameset { title, links, places, languages }
-    }
-
-    /// The pages that a page has links to: with all of very many, a site would grow with the square of their number.
-    pub fn near(&self, file: &str) -> impl Iterator<Item = &(String, String)> {
-        let all = &self.links;
-        let at = self.places.get(file).copied().unwrap_or(0);
-        let near = match all.len() {
-            0..=ALL_LINKED => 0..all.len(),
-            count => at.saturating_sub(NEAR_LINKED)..(at + NEAR_LINKED + 1).min(count),
-        };
-        let first = all.iter().take(usize::from(near.start > 0));
-        first.chain(all.get(near).into_iter().flatten())
+    /// The files and titles that a page has links to.
+    pub fn near(&self, file: &str) -> Vec<&(String, String)> {
+        self.own.near(file).chain(self.shared.near(file)).collect()
     }
 }
 
@@ -139,25 +122,4 @@ pub(super) trait Pages {
     fn of_catalog(&self, search: &dyn Fn() -> String) -> Vec<Page>;
     /// What all pages share. `search` is the index of all, where a catalogue's isn't enough.
     fn of_site(&self, catalogs: &[Catalogue], search: Option<&dyn Fn() -> String>) -> Vec<Page>;
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn of_many_pages_those_nearby_are_linked() {
-        let pages = |count: usize| (0..count).map(|at| (at.to_string(), at.to_string())).collect();
-        let of = |count, file: &str| {
-            let set = Frameset::new(String::new(), pages(count), Vec::new());
-            set.near(file).map(|(file, _)| file.parse::<usize>().unwrap()).collect::<Vec<_>>()
-        };
-        assert_eq!(of(ALL_LINKED, "7"), (0..ALL_LINKED).collect::<Vec<_>>());
-        let expected: Vec<usize> = [0].into_iter().chain(480..=520).collect();
-        assert_eq!(of(1000, "500"), expected);
-        assert_eq!(of(1000, "999").len(), 1 + NEAR_LINKED + 1);
-        assert_eq!(of(1000, "0"), (0..=NEAR_LINKED).collect::<Vec<_>>());
-        assert_eq!(of(1000, "no page of these"), of(1000, "0"));
-        assert_eq!(of(0, "0"), [0; 0]);
-    }
 }

@@ -1,7 +1,7 @@
 //! State machines: a diagram, lists of states, commands and transitions, and what commands do in each state.
 
 use std::cmp::Ordering;
-use std::collections::VecDeque;
+use std::collections::{HashMap, VecDeque};
 
 use super::words::{self, PLAIN};
 use crate::backend::words::Manual;
@@ -142,7 +142,8 @@ fn way((at, own): (usize, &Transition)) -> Way {
 fn matrix(own: &StateMachine) -> Option<Matrix> {
     let first = own.outcomes.first()?;
     let states: Vec<String> = first.cells.iter().map(|cell| cell.state.to_string()).collect();
-    let mut notes = Vec::new();
+    let mut notes: Vec<String> = Vec::new();
+    let mut places: HashMap<String, usize> = HashMap::new();
     let mut rows = Vec::new();
     for row in &own.outcomes {
         let mut cells = Vec::new();
@@ -152,11 +153,11 @@ fn matrix(own: &StateMachine) -> Option<Matrix> {
             let mark = if text.is_empty() {
                 String::new()
             } else {
-                let at = notes.iter().position(|own| *own == text).unwrap_or(notes.len());
-                if at == notes.len() {
-                    notes.push(text);
-                }
-                format!(" ({})", at + 1)
+                let at = *places.entry(text).or_insert_with_key(|text| {
+                    notes.push(text.clone());
+                    notes.len()
+                });
+                format!(" ({at})")
             };
             cells.push(outcomes.join(" or ") + &mark);
         }

@@ -40,7 +40,7 @@ struct OverviewPage<'p> {
     title: &'p str,
     own: &'p Overview,
     contents: &'p Contents,
-    links: &'p [(String, String)],
+    links: &'p [&'p (String, String)],
 }
 
 #[derive(Template)]
@@ -92,7 +92,7 @@ struct FindingsPage<'p> {
 struct ListPage<'p> {
     title: &'p str,
     devices: &'p [Listed],
-    links: &'p [(String, String)],
+    links: &'p [&'p (String, String)],
 }
 
 #[derive(Template)]
@@ -136,7 +136,7 @@ impl Pages for Markdown {
         // The overview itself is the first of them; areas, process data and slots have lists of their own.
         let areas: HashSet<&str> = contents.areas.iter().map(|(area, ..)| area.as_str()).collect();
         let shown = |file: &str| areas.contains(file) || file == around.file;
-        let links: Vec<_> = around.set.links.iter().filter(|(file, _)| !shown(file)).cloned().collect();
+        let links: Vec<_> = around.set.near(around.file).into_iter().filter(|(file, _)| !shown(file)).collect();
         written(&OverviewPage { title: &around.set.title, own, contents, links: &links })
     }
 
@@ -169,7 +169,7 @@ impl Pages for Markdown {
     }
 
     fn list(&self, around: Around<'_>, list: List<'_>) -> String {
-        written(&ListPage { title: &around.set.title, devices: list.devices, links: &around.set.links })
+        written(&ListPage { title: &around.set.title, devices: list.devices, links: &around.set.near(around.file) })
     }
 
     fn of_catalog(&self, _: &dyn Fn() -> String) -> Vec<Page> {

@@ -28,6 +28,7 @@ mod findings;
 mod folder;
 mod format;
 mod html;
+mod links;
 mod machines;
 mod markdown;
 mod modules;
@@ -115,7 +116,7 @@ impl Site {
     /// What all pages share: the list of devices, and what their format wants.
     pub fn finish(self) -> Vec<Page> {
         let format = self.format.pages();
-        let set = Frameset::new("Devices".to_owned(), Vec::new(), Vec::new());
+        let set = Frameset { title: "Devices".to_owned(), ..Frameset::default() };
         let file = format!("{}{}", format.front(), format.ending());
         let devices: Vec<Listed> = self.catalogs.iter().flat_map(Catalogue::in_site).collect();
         // All that a single catalogue has is in its own index.

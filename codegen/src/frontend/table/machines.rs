@@ -1,33 +1,34 @@
 //! State machines and procedures.
 
 use super::at::{At, Entries, TextOr};
-use super::format::{MachineTable, MatrixTable, PatternTable, ProcedureTable, StepTable, TransitionTable};
+use super::format::{MachineTable, PatternTable, ProcedureTable, StepTable, TransitionTable};
+use super::machine_budget::MachineBudget;
 use super::outcomes::Names;
 use super::references::References;
 use super::tree::{cited, Reader};
 use super::{lints, outcomes, process, value};
-use crate::diagnostics::{codes, Diagnostic};
+use crate::diagnostics::codes;
 use crate::ir::{
     CompactString, Device, EnumValue, MessageField, Pattern, Procedure, Shape, StateMachine, Step, Transition, Type,
     Value,
 };
-use crate::limits::{MAX_MACHINE_ROWS, ROW_BYTES_PER_ITEM};
 use crate::text::brief;
 
 fn text(at: &At<String>) -> CompactString {
     at.value.as_str().into()
 }
 
-/// A state machine. States that transitions name have to exist, and so have commands; a command may be a message.
+/// A state machine. States that transitions name have to exist, and so have commands; a command may be a message. Tells
+/// whether it was read: there is one that is too much for `budget`, and then no further one is to be read.
 pub(super) fn machine(
     reader: &mut Reader<'_, '_>,
-    name: &At<String>,
-    table: &MachineTable,
+    (name, table): (&At<String>, &MachineTable),
     device: &mut Device,
+    budget: &mut MachineBudget,
     references: &mut References,
-) {
-    if !is_affordable(reader, name, table, device) {
-        return;
+) -> bool {
+    if !budget.take(reader, (name, table), device) {
+        return false;
     }
     lints::machine(reader, table);
     let (origin, cite) = (reader.origin(name), table.cite.as_ref().map(cited));
@@ -62,43 +63,11 @@ pub(super) fn machine(
         outcomes: rows,
         documentation: reader.documentation(table.doc.as_deref(), cite),
     });
-}
-
-/// Whether the machines of a device are no more than [`MAX_MACHINE_ROWS`] with this one.
-fn is_affordable(reader: &mut Reader<'_, '_>, name: &At<String>, table: &MachineTable, device: &Device) -> bool {
-    let of_list = |own: &[Pattern]| own.len();
-    let of_others = device
-        .machines
-        .iter()
-        .map(|own| 1 + of_list(&own.states) + of_list(&own.commands) + own.transitions.len() + own.outcomes.len());
-    let states = match table.states.as_ref().map(|own| &own.value) {
-        Some(TextOr::Table(own)) => own.iter().count(),
-        Some(TextOr::Text(name)) => enumeration(device, name).map_or(0, |(_, values)| values.len()),
-        None => 0,
-    };
-    // What a transition says is copied for each state that it leaves.
-    let transitions = table.transitions.iter().map(|own| {
-        let copies = own.value.from.as_ref().map_or(1, |list| list.value.0.len().max(1));
-        copies * (1 + own.value.doc.as_ref().map_or(0, String::len) / ROW_BYTES_PER_ITEM)
-    });
-    let of_matrix =
-        |own: &At<MatrixTable>| own.value.rows.iter().count() + own.value.states.len() + own.value.notes.iter().count();
-    let matrix = table.matrix.as_ref().map_or(0, of_matrix);
-    let rows = 1 + states + table.commands.iter().count() + transitions.sum::<usize>() + matrix;
-    if of_others.sum::<usize>() + rows <= MAX_MACHINE_ROWS {
-        return true;
-    }
-    let message = format!(
-        "with `{}`, the state machines of the device have more than {MAX_MACHINE_ROWS} states, commands, transitions and rows",
-        brief(&name.value)
-    );
-    let found = Diagnostic::new(&codes::INPUT_TOO_LARGE, reader.span(name), message);
-    reader.diagnostics.push(found.label("this one is left out"));
-    false
+    true
 }
 
 /// The type and the values of the enumeration that is called so.
-fn enumeration<'d>(device: &'d Device, name: &str) -> Option<(Type, &'d [EnumValue])> {
+pub(super) fn enumeration<'d>(device: &'d Device, name: &str) -> Option<(Type, &'d [EnumValue])> {
     device.types.iter().filter(|own| own.name == name).find_map(|own| match &own.shape {
         Shape::Enumeration { base, values, .. } => Some((*base, &**values)),
         _ => None,

@@ -9,7 +9,7 @@
 //! | `scale` | how raw numbers become physical ones |
 //! | `conditions`, `variants` | when something exists; what differs between models and buses |
 //! | `references`, `numbered` | names that lead to something else, and numbers in their place |
-//! | `repeats` | how much short rows and long defaults may stand for |
+//! | `repeats`, `machine_budget` | how much short rows, long defaults and state machines may stand for |
 //! | `taken` | names and addresses that are in use |
 //! | `spaces` | what the number of a register means on each bus |
 //! | `rows`, `bindings`, `limits`, `objects` | rows to items and objects; their addresses; default, limits and only values |
@@ -40,6 +40,7 @@ mod given;
 mod images;
 mod limits;
 mod lints;
+mod machine_budget;
 mod machines;
 mod messages;
 mod misplaced;
@@ -71,6 +72,7 @@ use compact_str::CompactString;
 use serde::de::DeserializeOwned;
 use toml::de::DeValue;
 
+use self::machine_budget::MachineBudget;
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
 use crate::ir::{Catalog, Device, Group, GroupKind, ObjectCode};
 use crate::source::{FileId, Source, Span};
@@ -371,8 +373,11 @@ impl<'a> Table<'a> {
 
     /// State machines and procedures.
     fn sequences(&mut self, reader: &mut Reader<'a, '_>, rows: &mut Rows, device: &mut Device) {
+        let mut budget = MachineBudget::new();
         for (name, table) in self.named(reader, "machines") {
-            machines::machine(reader, &name, &table, device, &mut rows.references);
+            if !machines::machine(reader, (&name, &table), device, &mut budget, &mut rows.references) {
+                break;
+            }
         }
         for (name, table) in self.named::<format::ProcedureTable>(reader, "procedures") {
             let end = table.steps.iter().map(|step| step.end).fold(name.end, u32::max);

@@ -157,7 +157,7 @@ fn outcomes(reader: &mut Reader<'_, '_>, text: &str, span: Span, names: &Names<'
     if text.trim() == "?" {
         return Vec::new();
     }
-    let mut found = Vec::new();
+    let (mut found, mut known) = (Vec::new(), HashSet::new());
     for one in text.split(" or ").map(str::trim) {
         let outcome = match one {
             "same" => Outcome::Unchanged,
@@ -170,7 +170,7 @@ fn outcomes(reader: &mut Reader<'_, '_>, text: &str, span: Span, names: &Names<'
                 Outcome::States(chain)
             }
         };
-        if found.contains(&outcome) {
+        if !known.insert(outcome.clone()) {
             let message = format!("the cell says `{}` twice", brief(one));
             let help = "one of them is another outcome: compare the cell with the manual";
             reader.diagnostics.push(Diagnostic::new(&codes::TABLE_DUPLICATE, span, message).help(help));

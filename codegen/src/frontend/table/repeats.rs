@@ -97,7 +97,7 @@ fn beyond(length: usize) -> usize {
 }
 
 /// About how long something is. Its place in the file doesn't tell: that of a table with a header ends behind the header.
-fn length(of: &impl Debug) -> usize {
+pub(super) fn length(of: &impl Debug) -> usize {
     struct Count(usize);
     impl Write for Count {
         fn write_str(&mut self, text: &str) -> std::fmt::Result {

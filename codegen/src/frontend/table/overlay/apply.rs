@@ -4,6 +4,7 @@ use std::collections::{HashMap, HashSet};
 
 use super::super::definitions::Kind;
 use super::super::format::AppliesTable;
+use super::super::machine_budget::MachineBudget;
 use super::super::rows::Rows;
 use super::super::spaces::Buses;
 use super::super::tree::{similar, Reader};
@@ -169,9 +170,15 @@ impl<'o> Applied<'o> {
             code_tables::table(reader, name, table, device);
             merge(&mut device.code_tables);
         }
+        let mut budget = MachineBudget::new();
         for (name, table) in &patch.machines {
-            device.machines.retain(|own| own.name != name.value);
-            machines::machine(reader, name, table, device, &mut self.rows.references);
+            let before = device.machines.len();
+            if !machines::machine(reader, (name, table), device, &mut budget, &mut self.rows.references) {
+                break;
+            }
+            // It takes the place of one of the same name.
+            let mut at = 0..;
+            device.machines.retain(|own| at.next().is_some_and(|at| at >= before) || own.name != name.value);
             if let Some(machine) = device.machines.last_mut() {
                 machine.status_item = item_name(&device.groups, &machine.status_item);
                 machine.control_item = item_name(&device.groups, &machine.control_item);

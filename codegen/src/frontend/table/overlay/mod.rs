@@ -19,6 +19,7 @@ use super::format::{
     AxesTable, ChapterTable, CodesTable, DoubtTable, ImageTable, MachineTable, ManualTable, OverlayTable,
     ProcedureTable, ProfileTable, Row,
 };
+use super::machine_budget::MachineBudget;
 use super::place::{self, Objects};
 use super::repeats::Repeats;
 use super::rows::Rows;
@@ -117,9 +118,12 @@ impl Patch {
             tables.extend(device.code_tables.drain(..).map(|own| (own, doubts.clone())));
         }
         let mut machines = Vec::new();
+        let mut budget = MachineBudget::new();
         for (name, table) in &self.machines {
             // Whether its items exist is another matter with each device.
-            machines::machine(reader, name, table, &mut device, &mut Vec::new());
+            if !machines::machine(reader, (name, table), &mut device, &mut budget, &mut Vec::new()) {
+                break;
+            }
             let doubts = nowhere(&mut device.doubts);
             machines.extend(device.machines.drain(..).map(|own| (own, doubts.clone())));
         }
