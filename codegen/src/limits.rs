@@ -21,6 +21,9 @@ pub const MAX_COMPARED_EXTENSIONS: usize = 64;
 /// Messages of a register table: each is compared with all others.
 pub const MAX_MESSAGES: usize = 4_096;
 
+/// Unknown keys of one piece of a register table, such as a row or a list of codes, that are passed over.
+pub const MAX_UNKNOWN_KEYS: usize = 100;
+
 /// States, commands, transitions, rows and notes of all state machines of a device: what leaves any state is written for each.
 pub const MAX_MACHINE_ROWS: usize = 2_048;
 

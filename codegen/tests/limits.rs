@@ -197,6 +197,17 @@ fn protocol(rest: &str) -> Compilation {
 }
 
 #[test]
+fn keys_that_nobody_knows() {
+    let codes = |number: usize| {
+        let rows = (0..number).map(|at| format!("{at} = {{ name = \"c{at}\", severe = true }}\n"));
+        let compilation = protocol(&format!("[codes.fault.rows]\n{}", rows.collect::<String>()));
+        (count(&compilation, "TAB003"), count(&compilation, "TAB004"))
+    };
+    assert_eq!(codes(limits::MAX_UNKNOWN_KEYS - 1), (limits::MAX_UNKNOWN_KEYS - 1, 0));
+    assert_eq!(codes(limits::MAX_UNKNOWN_KEYS + 9), (limits::MAX_UNKNOWN_KEYS, 1));
+}
+
+#[test]
 fn messages_of_a_table() {
     let messages = |number: usize| {
         let all = (0..number).map(|at| format!("[[messages]]\nname = \"m{at}\"\nrequest = [{{ bytes = [1] }}]\n"));
@@ -291,6 +302,7 @@ fn the_book_has_each_limit() {
         ("`CompactPDO`", limits::MAX_IMPLICIT_PDOS.into()),
         ("modules that all slots", limits::MAX_MODULE_USES),
         ("for each byte of the file |", limits::MAX_COPIES_PER_BYTE),
+        ("unknown keys of a piece", limits::MAX_UNKNOWN_KEYS),
         ("messages of a register table", limits::MAX_MESSAGES),
         ("states, commands", limits::MAX_MACHINE_ROWS),
         ("repeats the lines", limits::MAX_DERIVED_ITEMS),

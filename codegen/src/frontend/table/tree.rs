@@ -13,6 +13,7 @@ use super::at::{At, Literal};
 use super::format::{DoubtTable, NumberOrText, OptionTable};
 use crate::diagnostics::{codes, Code, Diagnostic, Diagnostics};
 use crate::ir::{Documentation, Doubt, Doubts, LocalText, Texts};
+use crate::limits::MAX_UNKNOWN_KEYS;
 use crate::source::{FileId, Origin, Source, Span};
 use crate::text::{brief, edit_distance};
 
@@ -66,7 +67,8 @@ impl<'a> Reader<'a, '_> {
     pub fn piece<T: DeserializeOwned>(&mut self, node: Node<'a>) -> Option<T> {
         let whole = self.range(Some(node.span()));
         let mut node = node;
-        loop {
+        // Each costs another reading.
+        for _ in 0..MAX_UNKNOWN_KEYS {
             let error = match T::deserialize(ValueDeserializer::from(node.clone())) {
                 Ok(piece) => return Some(piece),
                 Err(error) => error,
@@ -91,6 +93,10 @@ impl<'a> Reader<'a, '_> {
                 }
             }
         }
+        let message = format!("more than {MAX_UNKNOWN_KEYS} keys that the format doesn't have");
+        let diagnostic = Diagnostic::new(&codes::TABLE_VALUE, whole, message);
+        self.diagnostics.push(diagnostic.label("the rest of this isn't read"));
+        None
     }
 
     /// The entries of a table in the order of the file.
