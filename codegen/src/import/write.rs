@@ -1,5 +1,6 @@
 //! The table as TOML: one aligned line a row.
 
+use std::collections::HashSet;
 use std::fmt::Write as _;
 
 use super::layout::{Chapter, Listing, Space};
@@ -202,11 +203,9 @@ fn rest(row: &Row, list: &Listing) -> Vec<String> {
 }
 
 fn definitions(out: &mut String, list: &Listing) {
-    let rows = || list.chapters.iter().flat_map(|chapter| &chapter.rows).filter(|row| row.place.is_ok());
-    for (at, own) in list.definitions.iter().enumerate() {
-        if !rows().any(|row| row.meaning == Some(at)) {
-            continue;
-        }
+    let rows = list.chapters.iter().flat_map(|chapter| &chapter.rows).filter(|row| row.place.is_ok());
+    let used: HashSet<usize> = rows.filter_map(|row| row.meaning).collect();
+    for (_, own) in list.definitions.iter().enumerate().filter(|(at, _)| used.contains(at)) {
         let (kind, inner) = if own.is_bits { ("bits", "at") } else { ("enums", "values") };
         let _ = writeln!(out, "\n[{kind}.{}.{inner}]", key(&own.name));
         for (key, value) in &own.entries {

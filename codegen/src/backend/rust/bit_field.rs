@@ -457,7 +457,9 @@ impl Context<'_, '_> {
         let number = native(false, bits);
         let named = match entry.meaning {
             BitMeaning::Enumeration(id) => {
-                let own = self.enumerations.iter().find(|(position, _)| *position == id.0).map(|(_, own)| own);
+                // They are in the order of their positions.
+                let place = self.enumerations.binary_search_by_key(&id.0, |(position, _)| *position).ok();
+                let own = place.and_then(|at| self.enumerations.get(at)).map(|(_, own)| own);
                 own.filter(|own| own.bits == bits && own.native == number)
             }
             _ => None,

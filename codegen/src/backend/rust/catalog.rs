@@ -1,5 +1,7 @@
 //! All devices and modules of a file in one Rust module.
 
+use std::collections::{HashMap, HashSet};
+
 use super::device_names::module_name;
 use super::ethercat::ModulePaths;
 use super::model::{Model, Place};
@@ -72,7 +74,7 @@ fn reachable(catalog: &Catalog) -> Vec<(ModuleId, &Module)> {
     if catalog.devices.is_empty() {
         return all.collect();
     }
-    let taken: std::collections::HashSet<ModuleId> = catalog
+    let taken: HashSet<ModuleId> = catalog
         .devices
         .iter()
         .filter(|device| device.ethercat.is_some())
@@ -82,12 +84,15 @@ fn reachable(catalog: &Catalog) -> Vec<(ModuleId, &Module)> {
 }
 
 fn module_names(modules: &[(ModuleId, &Module)]) -> Vec<String> {
+    let mut same: HashMap<u32, usize> = HashMap::new();
+    for (_, module) in modules {
+        *same.entry(module.number).or_default() += 1;
+    }
     let wishes: Vec<Wish<'_>> = modules
         .iter()
         .map(|(id, module)| {
             let name = if module.id.is_empty() { &module.name } else { &module.id };
-            let twice = modules.iter().filter(|(_, other)| other.number == module.number).count() > 1;
-            let place = if twice { format!("_{}", id.0) } else { String::new() };
+            let place = if same[&module.number] > 1 { format!("_{}", id.0) } else { String::new() };
             Wish::new(name, "module", format!("{:08X}{place}", module.number))
         })
         .collect();
@@ -97,20 +102,23 @@ fn module_names(modules: &[(ModuleId, &Module)]) -> Vec<String> {
 /// Devices go by their order code, which is shorter than their name; revisions are told apart by their number.
 fn device_names(devices: &[Device], file: &FileInfo) -> Vec<String> {
     let names: Vec<String> = devices.iter().map(|device| module_name(device, file)).collect();
+    let mut seen = HashSet::new();
+    let mut same: HashMap<(&str, Option<u32>), usize> = HashMap::new();
+    for (device, name) in devices.iter().zip(&names) {
+        *same.entry((name, device.identity.revision_number)).or_default() += 1;
+    }
     let wishes: Vec<Wish<'_>> = devices
         .iter()
         .zip(&names)
         .enumerate()
         .map(|(position, (device, name))| {
             let identity = &device.identity;
-            let key = |device: &Device| (device.identity.product_code, device.identity.revision_number);
-            let twice = devices[..position].iter().any(|other| key(other) == key(device));
+            let twice = !seen.insert((identity.product_code, identity.revision_number));
             let place = if twice { format!("_{position}") } else { String::new() };
             let revision = identity.revision_number.unwrap_or(0);
-            let same_name = |other: &Device| other.identity.revision_number == identity.revision_number;
+            let is_one_of_several = same[&(name.as_str(), identity.revision_number)] > 1;
             let product =
-                devices.iter().zip(&names).filter(|(other, own)| *own == name && same_name(other)).count() > 1;
-            let product = if product { format!("{:08X}_", identity.product_code.unwrap_or(0)) } else { String::new() };
+                if is_one_of_several { format!("{:08X}_", identity.product_code.unwrap_or(0)) } else { String::new() };
             Wish::new(name, "device", format!("{product}{revision:08X}{place}"))
         })
         .collect();

@@ -1,6 +1,6 @@
 //! The types that a device defines and that Rust code has under their names: enumerations, bit fields and their views.
 
-use std::collections::HashSet;
+use std::collections::{HashMap, HashSet};
 
 use super::bit_field::{self, BitFieldModel};
 use super::enumeration::{self, EnumerationModel};
@@ -41,8 +41,8 @@ impl NamedType {
 }
 
 impl Types {
-    /// What items and PDOs have to know of them.
-    pub(super) fn named(&self) -> Vec<(u32, NamedType)> {
+    /// What items and PDOs have to know of them, by the positions of their definitions.
+    pub(super) fn named(&self) -> HashMap<u32, NamedType> {
         let enumerations = self.enumerations.iter().map(|(position, own)| {
             let named = NamedType { name: own.name.clone(), native: own.native, ty: own.ty, bits: own.bits };
             (*position, named)
@@ -83,12 +83,12 @@ pub(super) fn types(scope: &Scope<'_>, machines: &[StateMachine], options: &Rust
 
     let definition = |at: u32| &scope.types[at as usize];
     let positions: Vec<u32> = types.enumerations.iter().map(|(at, _)| *at).chain(bit_fields.iter().copied()).collect();
+    let alike = Alike::new(scope, positions.iter().map(|&at| definition(at)));
     let wish = |at: u32, kind: &str| {
         let own = definition(at);
-        let same: Vec<&TypeDef> =
-            positions.iter().map(|&other| definition(other)).filter(|o| o.name == own.name).collect();
-        let own = Wish { name: &own.name, fallback: format!("{kind} {at}"), suffix: suffix(scope, own, &same, at) };
-        match same.len() == 1 && RESERVED_TYPES.contains(&pascal(&own).as_str()) {
+        let is_only = alike.by_name[own.name.as_str()] == 1;
+        let own = Wish { name: &own.name, fallback: format!("{kind} {at}"), suffix: alike.suffix(scope, own, at) };
+        match is_only && RESERVED_TYPES.contains(&pascal(&own).as_str()) {
             true => Wish { suffix: "Type".to_owned(), ..own },
             false => own,
         }
@@ -137,16 +137,39 @@ fn pascal(wish: &Wish<'_>) -> String {
     names_unique::unique(std::slice::from_ref(wish), &[], Case::Pascal).remove(0)
 }
 
-/// What tells types of one name apart: the integer below, or else their positions.
-fn suffix(scope: &Scope<'_>, own: &TypeDef, same: &[&TypeDef], position: u32) -> String {
-    let base = |definition: &TypeDef| match &definition.shape {
+/// How many types have a name, and a name and an integer below.
+struct Alike<'a> {
+    by_name: HashMap<&'a str, usize>,
+    by_base: HashMap<(&'a str, Type), usize>,
+}
+
+impl<'a> Alike<'a> {
+    fn new(scope: &Scope<'_>, types: impl Iterator<Item = &'a TypeDef>) -> Self {
+        let mut alike = Alike { by_name: HashMap::new(), by_base: HashMap::new() };
+        for own in types {
+            *alike.by_name.entry(&own.name).or_default() += 1;
+            *alike.by_base.entry((&own.name, below(scope, own))).or_default() += 1;
+        }
+        alike
+    }
+
+    /// What tells types of one name apart: the integer below, or else their positions.
+    fn suffix(&self, scope: &Scope<'_>, own: &TypeDef, position: u32) -> String {
+        let base = below(scope, own);
+        let name = own.name.as_str();
+        match self.by_name[name] > 1 && self.by_base[&(name, base)] == 1 {
+            true => ValueType::of(base).word(),
+            false => position.to_string(),
+        }
+    }
+}
+
+/// The integer below a type.
+fn below(scope: &Scope<'_>, own: &TypeDef) -> Type {
+    match &own.shape {
         Shape::Enumeration { base, .. } | Shape::BitField { base, .. } => scope.base(*base),
         _ => Type::Opaque(None),
-    };
-    if same.len() > 1 && same.iter().filter(|other| base(other) == base(own)).count() == 1 {
-        return ValueType::of(base(own)).word();
     }
-    position.to_string()
 }
 
 /// The positions of enumerations and of bit fields, and of the enumerations that fields of bit fields have.

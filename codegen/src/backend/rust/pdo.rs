@@ -302,12 +302,12 @@ pub(super) fn mapping_line(entry: &PdoEntry) -> String {
 
 fn fields(scope: &Scope<'_>, mapped: &[&PdoEntry], options: &RustOptions) -> Vec<FieldModel> {
     let texts: Vec<String> = mapped.iter().map(|entry| field_text(scope, entry)).collect();
+    let mut seen = HashSet::new();
     let wishes: Vec<Wish<'_>> = mapped
         .iter()
         .zip(&texts)
-        .enumerate()
-        .map(|(position, (entry, text))| {
-            let twice = mapped[..position].iter().any(|other| address(other) == address(entry));
+        .map(|(entry, text)| {
+            let twice = !seen.insert(address(entry));
             let place = if twice { format!("_{}", entry.bit_offset) } else { String::new() };
             Wish {
                 name: text,

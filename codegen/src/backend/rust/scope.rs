@@ -33,7 +33,7 @@ pub(super) struct Scope<'a> {
     /// The windows through which items are found.
     pub windows: Vec<Window>,
     /// The enumerations and bit fields that an item, a PDO or a bit field has, by the position of their types.
-    pub named: Vec<(u32, NamedType)>,
+    pub named: HashMap<u32, NamedType>,
     /// The items of chapters and images that a client can reach, with the titles of those.
     pub registers: Vec<(&'a str, &'a Item)>,
     /// The names of the handles.
@@ -70,7 +70,7 @@ impl<'a> Scope<'a> {
             device: None,
             manual: Manual::default(),
             windows: Vec::new(),
-            named: Vec::new(),
+            named: HashMap::new(),
             registers: Vec::new(),
             names: Names::default(),
             links: Links::default(),
@@ -134,7 +134,7 @@ impl<'a> Scope<'a> {
     /// The enumeration or the bit field of a type that is one.
     pub fn enumeration(&self, ty: Type) -> Option<&NamedType> {
         let (position, _) = self.resolve(ty).1?;
-        self.named.iter().find(|(own, _)| *own == position).map(|(_, named)| named)
+        self.named.get(&position)
     }
 
     /// The item that other elements of the description call so: by its name, its object's name, its address, or the names
