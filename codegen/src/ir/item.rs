@@ -214,12 +214,6 @@ impl Group {
         }
     }
 
-    /// The item that is meant by `Group/Item`, where this is the group and it has the item.
-    pub fn by_path(&self, path: &str) -> Option<&Item> {
-        let name = path.strip_prefix(self.name.as_str())?.strip_prefix('/')?;
-        self.items.iter().find(|item| item.name == name)
-    }
-
     /// The index, where the group is an object.
     pub fn index(&self) -> Option<u16> {
         match self.kind {

@@ -4,7 +4,7 @@
 use super::mentioned_objects_exist;
 use super::owner::Owner;
 use crate::diagnostics::{codes, Code, Diagnostic, Diagnostics};
-use crate::ir::{Device, Direction, Group, Item, Mappable, PdoEntryKind, Value};
+use crate::ir::{Device, Direction, Entries, Group, Item, Mappable, PdoEntryKind, Value};
 use crate::source::Span;
 
 /// Bits of a CAN frame.
@@ -12,12 +12,13 @@ pub(super) const CAN_BITS: u32 = 64;
 
 /// Runs before the PDOs that follow from mapping objects are added: those have checks of their own, as EtherCAT has.
 pub(super) fn run(device: &Device, diagnostics: &mut Diagnostics) {
+    let items = Entries::new(&device.groups);
     for pdo in &device.process_data.pdos {
         let has_object = |kind| !matches!(kind, PdoEntryKind::Padding | PdoEntryKind::Unnumbered);
         for entry in pdo.entries.iter().filter(|entry| has_object(entry.kind)) {
             let (object, span) = ((entry.index, entry.sub_index), entry.origin.span);
             let mapped = Mapped { object, bits: entry.bits, direction: pdo.direction, span };
-            mapped.check(device, device.ethercat.is_some(), diagnostics);
+            mapped.check((device, &items), device.ethercat.is_some(), diagnostics);
         }
         let bits = pdo.bits();
         if let Some(max) = pdo.max_bytes.filter(|&max| bits > u32::from(max) * 8) {
@@ -30,12 +31,12 @@ pub(super) fn run(device: &Device, diagnostics: &mut Diagnostics) {
         }
     }
     if device.canopen.is_none() {
-        device.groups.iter().for_each(|group| defaults(device, group, diagnostics));
+        device.groups.iter().for_each(|group| defaults((device, &items), group, diagnostics));
     }
 }
 
 /// What a mapping object maps by its defaults.
-fn defaults(device: &Device, group: &Group, diagnostics: &mut Diagnostics) {
+fn defaults((device, items): (&Device, &Entries<'_>), group: &Group, diagnostics: &mut Diagnostics) {
     let Some(direction) = group.index().and_then(direction_of) else { return };
     let number = |item: &Item| item.default.as_ref().and_then(Value::as_int);
     let count = group.sub(0).and_then(number).unwrap_or(i128::MAX);
@@ -45,7 +46,7 @@ fn defaults(device: &Device, group: &Group, diagnostics: &mut Diagnostics) {
         let mapped =
             number(item).filter(|_| i128::from(sub) <= count).and_then(|word| Mapped::word(word, direction, span));
         if let Some(mapped) = mapped {
-            mapped.check(device, false, diagnostics);
+            mapped.check((device, items), false, diagnostics);
         }
     }
 }
@@ -76,8 +77,8 @@ impl Mapped {
     }
 
     /// Holds it against its item. Where other checks look for missing objects and at lengths, this one doesn't.
-    pub fn check(&self, device: &Device, is_resolved: bool, diagnostics: &mut Diagnostics) {
-        let item = device.entry(self.object.0, self.object.1);
+    pub fn check(&self, (device, items): (&Device, &Entries<'_>), is_resolved: bool, diagnostics: &mut Diagnostics) {
+        let item = items.get(self.object.0, self.object.1);
         let found = match item {
             Some(item) => self.against(device, item, is_resolved),
             None => [self.missing(device).filter(|_| !is_resolved), None, None],

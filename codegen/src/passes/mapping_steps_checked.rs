@@ -6,15 +6,17 @@ use std::collections::{BTreeMap, BTreeSet};
 use super::declared_pdos_checked::{direction_of, Mapped, CAN_BITS};
 use super::owner::{Index, Owner};
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
-use crate::ir::{Device, Item, Procedure, Step, Value};
+use crate::ir::{Device, Entries, Item, Procedure, Step, Value};
 use crate::source::Span;
 use crate::text::brief;
 
 pub(super) fn run(device: &Device, diagnostics: &mut Diagnostics) {
     let groups = [device.groups.as_slice()];
     let items = Index::new(Owner { types: &device.types, groups: &groups });
+    let entries = Entries::new(&device.groups);
     for procedure in &device.procedures {
-        let mut mapping = Mapping { device, procedure, words: BTreeMap::new(), cleared: BTreeSet::new() };
+        let mut mapping =
+            Mapping { device, entries: &entries, procedure, words: BTreeMap::new(), cleared: BTreeSet::new() };
         for (step, span) in procedure.spanned() {
             let Step::Write(name, value) = step else { continue };
             let (object, value) = (items.find(name).and_then(Item::object), value.as_int());
@@ -28,6 +30,7 @@ pub(super) fn run(device: &Device, diagnostics: &mut Diagnostics) {
 /// What a procedure has mapped so far.
 struct Mapping<'a> {
     device: &'a Device,
+    entries: &'a Entries<'a>,
     procedure: &'a Procedure,
     words: BTreeMap<(u16, u8), i128>,
     /// The mappings whose number of entries is 0 by then.
@@ -48,7 +51,7 @@ impl Mapping<'_> {
                 );
             }
             if let Some(mapped) = Mapped::word(value, direction, span) {
-                mapped.check(self.device, false, diagnostics);
+                mapped.check((self.device, self.entries), false, diagnostics);
             }
             return;
         }
@@ -70,7 +73,7 @@ impl Mapping<'_> {
     fn count(&mut self, index: u16, value: i128) -> Option<String> {
         if value == 0 {
             self.cleared.insert(index);
-            self.words.retain(|(own, _), _| *own != index);
+            (1..=u8::MAX).for_each(|sub| _ = self.words.remove(&(index, sub)));
             return None;
         }
         let entries = self.device.object(index).map_or(0, |group| group.items.len().saturating_sub(1));
@@ -78,13 +81,13 @@ impl Mapping<'_> {
         if entries > 0 && value > entries as i128 {
             return Some(format!("which has {entries}"));
         }
-        let written = self.words.keys().filter(|(own, _)| *own == index).count();
+        let written = self.words.range((index, 0)..=(index, u8::MAX)).count();
         (was_cleared && value > written as i128).then(|| format!("and wrote {written} of them"))
     }
 
     /// The length of so many entries: those that were written, and by default the others.
     fn bits(&self, index: u16, count: i128) -> i128 {
-        let by_default = |sub| self.device.entry(index, sub)?.default.as_ref().and_then(Value::as_int);
+        let by_default = |sub| self.entries.get(index, sub)?.default.as_ref().and_then(Value::as_int);
         let word = |sub: u8| self.words.get(&(index, sub)).copied().or_else(|| by_default(sub)).unwrap_or(0);
         let last = u8::try_from(count.clamp(0, 64)).unwrap_or(0);
         (1..=last).map(|sub| word(sub) & 0xFF).sum()

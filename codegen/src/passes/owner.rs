@@ -3,7 +3,7 @@
 use std::cell::OnceCell;
 use std::collections::{HashMap, HashSet};
 
-use crate::ir::{EnumValue, Group, Item, Shape, Type, TypeDef, TypeId, Value, Zone};
+use crate::ir::{EnumValue, Group, Item, ItemPaths, Shape, Type, TypeDef, TypeId, Value, Zone};
 use crate::source::Span;
 
 /// How many names of types may lead from one to the next.
@@ -97,12 +97,13 @@ impl<'a> Places<'a> {
 pub(super) struct Index<'a> {
     names: OnceCell<HashMap<&'a str, &'a Item>>,
     objects: OnceCell<HashMap<(u16, u8), &'a Item>>,
+    paths: OnceCell<ItemPaths<'a>>,
     owner: Owner<'a>,
 }
 
 impl<'a> Index<'a> {
     pub fn new(owner: Owner<'a>) -> Self {
-        Index { names: OnceCell::new(), objects: OnceCell::new(), owner }
+        Index { names: OnceCell::new(), objects: OnceCell::new(), paths: OnceCell::new(), owner }
     }
 
     fn groups(&self) -> impl Iterator<Item = &'a Group> {
@@ -136,7 +137,8 @@ impl<'a> Index<'a> {
     pub fn find(&self, name: &str) -> Option<&'a Item> {
         let by_name = || self.names().get(name).copied();
         let by_object = || self.objects().get(&object(name)?).copied();
-        by_name().or_else(by_object).or_else(|| self.groups().find_map(|group| group.by_path(name)))
+        let by_path = || self.paths.get_or_init(|| ItemPaths::new(self.groups())).find(name);
+        by_name().or_else(by_object).or_else(by_path)
     }
 
     /// The indices of all objects that have a value.

@@ -4,39 +4,30 @@
 use std::collections::HashMap;
 
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
-use crate::ir::{Device, Group, Item, Module, Pdo, PdoEntry, PdoEntryKind, Type, TypeDef, TypeId};
+use crate::ir::{Device, Entries, Item, Module, Pdo, PdoEntry, PdoEntryKind, Type, TypeDef, TypeId};
 use crate::source::Span;
 
 /// Of a device.
 pub(super) fn device(device: &mut Device, diagnostics: &mut Diagnostics) {
-    let owner = Owner { groups: &device.groups, types: &device.types };
+    let owner = Owner { items: Entries::new(&device.groups), types: &device.types };
     pdos(&mut device.process_data.pdos, &owner, diagnostics);
 }
 
 /// Of a module.
 pub(super) fn module(module: &mut Module, diagnostics: &mut Diagnostics) {
-    let owner = Owner { groups: &module.groups, types: &module.types };
+    let owner = Owner { items: Entries::new(&module.groups), types: &module.types };
     pdos(&mut module.process_data.pdos, &owner, diagnostics);
 }
 
-/// What has the PDOs: objects sorted by index, and their types.
+/// What has the PDOs: items, and their types.
 struct Owner<'o> {
-    groups: &'o [Group],
+    items: Entries<'o>,
     types: &'o [TypeDef],
 }
 
 impl<'o> Owner<'o> {
     fn item(&self, entry: &PdoEntry) -> Option<&'o Item> {
-        match self.groups.binary_search_by_key(&Some(entry.index), Group::index) {
-            Ok(position) => self.groups.get(position)?.sub(entry.sub_index),
-            // Registers that are objects too stand in chapters, in front of the objects.
-            Err(_) => {
-                let mut chapters = self.groups.iter().take_while(|group| group.index().is_none());
-                chapters.find_map(|group| {
-                    group.items.iter().find(|item| item.object() == Some((entry.index, entry.sub_index)))
-                })
-            }
-        }
+        self.items.get(entry.index, entry.sub_index)
     }
 
     /// Length in bits, where fixed.
@@ -81,7 +72,7 @@ fn pdos(pdos: &mut [Pdo], owner: &Owner<'_>, diagnostics: &mut Diagnostics) {
 fn resolve(entry: &mut PdoEntry, owner: &Owner<'_>, diagnostics: &mut Diagnostics) {
     let Some(item) = owner.item(entry) else {
         // The objects of a slot belong to its module, and without a dictionary there is nothing to hold against.
-        if !entry.depends_on_slot && !owner.groups.is_empty() && diagnostics.wants(&codes::MAPPED_OBJECT_MISSING) {
+        if !entry.depends_on_slot && !owner.items.is_empty() && diagnostics.wants(&codes::MAPPED_OBJECT_MISSING) {
             let message = format!("{} is mapped, but the dictionary doesn't have it", address(entry));
             diagnostics.push(
                 Diagnostic::new(&codes::MAPPED_OBJECT_MISSING, entry.origin.span, message)
@@ -117,7 +108,7 @@ fn address(entry: &PdoEntry) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::ir::{Binding, Direction, ObjectCode};
+    use crate::ir::{Binding, Direction, Group, ObjectCode};
 
     #[test]
     fn offsets_add_up_and_types_are_those_of_the_items() {

@@ -7,8 +7,8 @@ use super::declared_pdos_checked;
 use super::owner::Owner;
 use crate::diagnostics::{codes, Code, Diagnostic, Diagnostics};
 use crate::ir::{
-    Access, CanOpenSettings, Device, Direction, Group, Item, Module, ObjectBuses, Pdo, PdoCommunication, PdoEntry,
-    PdoEntryKind, ProcessData, Type, Value,
+    Access, CanOpenSettings, Device, Direction, Entries, Group, Item, Module, ObjectBuses, Pdo, PdoCommunication,
+    PdoEntry, PdoEntryKind, ProcessData, Type, Value,
 };
 use crate::source::Span;
 
@@ -25,6 +25,7 @@ pub(super) fn run(device: &mut Device, modules: &[Module], diagnostics: &mut Dia
     lengths(&device.process_data, diagnostics);
     let Some(canopen) = device.canopen.take() else { return };
     let modules = OfModules::new(device, modules);
+    let items = Entries::new(&device.groups);
     let mut pdos = Vec::new();
     for direction in [Direction::Receive, Direction::Transmit] {
         let first = base(direction);
@@ -37,7 +38,7 @@ pub(super) fn run(device: &mut Device, modules: &[Module], diagnostics: &mut Dia
             .collect();
         present.sort_unstable();
         present.dedup();
-        let mut layout = Layout { device, modules: &modules, canopen: &canopen, diagnostics, direction };
+        let mut layout = Layout { device, items: &items, modules: &modules, canopen: &canopen, diagnostics, direction };
         pdos.extend(present.iter().filter_map(|&number| layout.pdo(number)));
         layout.counts(&present);
     }
@@ -86,15 +87,16 @@ impl<'a> OfModules<'a> {
     }
 }
 
-struct Layout<'a> {
+struct Layout<'a, 'd> {
     device: &'a Device,
+    items: &'a Entries<'d>,
     modules: &'a OfModules<'a>,
     canopen: &'a CanOpenSettings,
     diagnostics: &'a mut Diagnostics,
     direction: Direction,
 }
 
-impl<'a> Layout<'a> {
+impl<'a> Layout<'a, '_> {
     /// The PDO with this number, counted from 0.
     fn pdo(&mut self, number: u16) -> Option<Pdo> {
         let index = base(self.direction) + number;
@@ -200,7 +202,7 @@ impl<'a> Layout<'a> {
             entry.kind = PdoEntryKind::Padding;
             return entry;
         }
-        let item = self.device.entry(index, sub_index).or_else(|| self.modules.items.get(&(index, sub_index)).copied());
+        let item = self.items.get(index, sub_index).or_else(|| self.modules.items.get(&(index, sub_index)).copied());
         match item {
             Some(item) => {
                 self.mapped(item, &entry, span);
@@ -252,7 +254,7 @@ impl<'a> Layout<'a> {
         }
         // Bit fields and enumerations are as long as their integer.
         let owner = Owner::of_types(&self.device.types);
-        let is_own = self.device.entry(entry.index, entry.sub_index).is_some();
+        let is_own = self.items.get(entry.index, entry.sub_index).is_some();
         let ty = if is_own { owner.basic(item.object_type()) } else { item.ty };
         match ty.bits() {
             Some(bits) if bits != entry.bits => {

@@ -1,5 +1,7 @@
 //! Bit fields: integers whose bits have names.
 
+use std::collections::HashSet;
+
 use super::doc_table;
 use super::docs;
 use super::enumeration::EnumerationModel;
@@ -202,7 +204,7 @@ pub(super) fn model(
     let mut taken: Vec<&str> = RESERVED.to_vec();
     taken.extend(machine_methods.iter().map(String::as_str));
     let methods = view_methods(views, &taken);
-    let back = beside(&methods, snake(&name));
+    let back = beside(|name| methods.contains(name), snake(&name));
     taken.extend(methods.iter().map(String::as_str));
     let fields = with.fields(&entries, None, &taken, &|name| format!("[`{name}`](Self::{name})"));
     let (zeros, ones) = reserved(&entries);
@@ -396,22 +398,21 @@ impl Context<'_, '_> {
         };
         let entries: Vec<&BitFieldEntry> = all.iter().filter(is_field).copied().collect();
         // One name for one bit twice: two versions of the firmware mean different things by it.
-        let is_again = |position: usize, entry: &BitFieldEntry| {
-            entries[..position].iter().any(|own| own.name == entry.name && own.offset == entry.offset)
-        };
+        let mut seen = HashSet::new();
         let wishes: Vec<Wish<'_>> = entries
             .iter()
             .enumerate()
             .map(|(position, entry)| {
-                let place = if is_again(position, entry) { format!("_{position}") } else { String::new() };
+                let is_again = !seen.insert((&entry.name, entry.offset));
+                let place = if is_again { format!("_{position}") } else { String::new() };
                 Wish::new(&entry.name, "bit", format!("{}{place}", entry.offset))
             })
             .collect();
         let names = names_unique::unique(&wishes, reserved, Case::Snake);
-        let mut taken = names.clone();
+        let mut taken: HashSet<String> = names.iter().cloned().collect();
         let fields = entries.iter().zip(&names).map(|(entry, name)| {
-            let setter = beside(&taken, names_unique::prefixed("with_", name));
-            taken.push(setter.clone());
+            let setter = beside(|name| taken.contains(name), names_unique::prefixed("with_", name));
+            taken.insert(setter.clone());
             self.field(entry, name, setter, link(name))
         });
         fields.collect()

@@ -323,11 +323,12 @@ fn fields(scope: &Scope<'_>, mapped: &[&PdoEntry], options: &RustOptions) -> Vec
     // Methods called `new` and `at` make the view, others are those of traits that every type may have, and a field may be called as the
     // setter of another.
     const TAKEN: [&str; 5] = ["new", "at", "clone", "into", "try_into"];
+    let taken: HashSet<&String> = names.iter().collect();
     for (field, name) in fields.iter_mut().zip(&names) {
         let is_taken = TAKEN.contains(&name.as_str());
         field.getter = if is_taken { format!("{name}_") } else { field.name.clone() };
         // A name that starts with a digit has a line in front of it already.
-        field.setter = beside(&names, names_unique::prefixed("set_", name));
+        field.setter = beside(|name| taken.contains(name), names_unique::prefixed("set_", name));
     }
     fields
 }
@@ -401,12 +402,26 @@ fn field(scope: &Scope<'_>, entry: &PdoEntry, name: &str, text: &str, options: &
     }
 }
 
-impl PdoModel {
-    /// Whether it is the model of `pdo`.
-    pub(super) fn is(&self, pdo: &Pdo) -> bool {
-        self.mapping_index == pdo.mapping_index && self.declared == pdo.origin.span && self.line == pdo.origin.line
+/// What tells a PDO from all others: several may have one mapping object, of which only one is assigned.
+type Declared = (u16, Span, u32);
+
+/// The models of the PDOs of a device or a module.
+pub(super) struct PdoModels<'a>(HashMap<Declared, &'a PdoModel>);
+
+impl<'a> PdoModels<'a> {
+    pub(super) fn new(models: &'a [PdoModel]) -> Self {
+        // Of equal keys the last is kept: reversed, the first.
+        let keyed = models.iter().rev().map(|model| ((model.mapping_index, model.declared, model.line), model));
+        PdoModels(keyed.collect())
     }
 
+    /// The model of `pdo`, where it has one.
+    pub(super) fn of(&self, pdo: &Pdo) -> Option<&'a PdoModel> {
+        self.0.get(&(pdo.mapping_index, pdo.origin.span, pdo.origin.line)).copied()
+    }
+}
+
+impl PdoModel {
     /// The attribute that the names of a view's methods need.
     pub(super) fn view_allow(&self) -> Option<String> {
         super::method_names::method_allow(self.fields.iter().map(|field| field.getter.as_str()))

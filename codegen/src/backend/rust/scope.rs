@@ -11,7 +11,7 @@ use super::options::RustOptions;
 use super::reachable;
 use super::value_type::ValueType;
 use super::window::{self, Window};
-use crate::ir::{Device, Group, Item, Module, Pdo, ProcessImage, Shape, StateMachine, Type, TypeDef};
+use crate::ir::{Device, Group, Item, ItemPaths, Module, Pdo, ProcessImage, Shape, StateMachine, Type, TypeDef};
 
 /// The bus on which objects are addressed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -42,6 +42,9 @@ pub(super) struct Scope<'a> {
     pub links: Links,
     /// Items by their names: the first one of each.
     by_name: OnceCell<HashMap<&'a str, &'a Item>>,
+    /// The first values of objects by the names of those.
+    by_object: OnceCell<HashMap<&'a str, &'a Item>>,
+    paths: OnceCell<ItemPaths<'a>>,
 }
 
 impl<'a> Scope<'a> {
@@ -75,6 +78,8 @@ impl<'a> Scope<'a> {
             names: Names::default(),
             links: Links::default(),
             by_name: OnceCell::new(),
+            by_object: OnceCell::new(),
+            paths: OnceCell::new(),
         }
     }
 
@@ -140,13 +145,13 @@ impl<'a> Scope<'a> {
     /// The item that other elements of the description call so: by its name, its object's name, its address, or the names
     /// of its chapter and its own (`Chapter/Item`).
     pub fn item(&self, name: &str) -> Option<&'a Item> {
-        let by_group = || self.groups.iter().find(|group| group.name == name && group.index().is_some());
-        let found = self.by_name().get(name).copied().or_else(|| by_group()?.items.first()).or_else(|| {
+        let by_object = || self.by_object().get(name).copied();
+        let found = self.by_name().get(name).copied().or_else(by_object).or_else(|| {
             let (index, sub) = name.split_once(':').unwrap_or((name, "0"));
             let index = u16::from_str_radix(index.trim().strip_prefix("0x")?, 16).ok()?;
             self.object(index)?.sub(sub.trim().parse().ok()?)
         });
-        found.or_else(|| self.groups.iter().find_map(|group| group.by_path(name)))
+        found.or_else(|| self.paths.get_or_init(|| ItemPaths::new(self.groups)).find(name))
     }
 
     fn by_name(&self) -> &HashMap<&'a str, &'a Item> {
@@ -156,6 +161,17 @@ impl<'a> Scope<'a> {
                 items.entry(item.name.as_str()).or_insert(item);
             }
             items
+        })
+    }
+
+    /// By its name, the first value of an object.
+    fn by_object(&self) -> &HashMap<&'a str, &'a Item> {
+        self.by_object.get_or_init(|| {
+            let mut first: HashMap<&str, Option<&Item>> = HashMap::new();
+            for group in self.groups.iter().filter(|group| group.index().is_some()) {
+                first.entry(group.name.as_str()).or_insert(group.items.first());
+            }
+            first.into_iter().filter_map(|(name, item)| Some((name, item?))).collect()
         })
     }
 }

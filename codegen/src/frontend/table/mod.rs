@@ -343,11 +343,14 @@ impl<'a> Table<'a> {
             rows.references.extend(models.map(|model| (model.clone(), "model")));
             device::axes(reader, &axes, device);
         }
+        let mut pdos = Vec::new();
+        let targets = process::Targets::new(device);
         for pdo in self.list::<format::PdoTable>(reader, "pdos") {
             let end = pdo.value.entries.iter().map(|entry| entry.end).fold(pdo.end, u32::max);
             rows.allow_at(reader, (pdo.start, end), &pdo.value.allow);
-            process::pdo(reader, &pdo, device);
+            pdos.extend(process::pdo(reader, &pdo, &targets));
         }
+        device.process_data.pdos.extend(pdos);
         for (name, table) in self.named::<format::CodesTable>(reader, "codes") {
             let models = table.rows.iter().filter_map(|(_, row)| match &row.value {
                 at::TextOr::Table(row) => row.models.as_ref(),

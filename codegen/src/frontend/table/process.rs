@@ -1,11 +1,14 @@
 //! Process data that the table itself describes.
 
+use std::cell::OnceCell;
+use std::collections::HashMap;
+
 use super::at::At;
 use super::format::{NumberOrText, PdoTable};
 use super::place;
 use super::tree::{cited, Reader};
 use crate::diagnostics::{codes, Diagnostic};
-use crate::ir::{Device, Direction, Item, ObjectBuses, Pdo, PdoEntry, PdoEntryKind, Type};
+use crate::ir::{Device, Direction, Entries, Item, ItemPaths, ObjectBuses, Pdo, PdoEntry, PdoEntryKind, Type};
 use crate::text::brief;
 
 /// As many PDOs as a device has in one direction (CiA 301 7.5.2.35).
@@ -16,13 +19,42 @@ pub(super) fn direction(reader: &mut Reader<'_, '_>, given: Option<&At<String>>)
     reader.word(given?, "direction", &[("rx", Direction::Receive), ("tx", Direction::Transmit)])
 }
 
-/// Adds a PDO.
-pub(super) fn pdo(reader: &mut Reader<'_, '_>, table: &At<PdoTable>, device: &mut Device) {
+/// What the entries of PDOs name.
+pub(super) struct Targets<'d> {
+    device: &'d Device,
+    entries: Entries<'d>,
+    names: OnceCell<HashMap<&'d str, &'d Item>>,
+    paths: OnceCell<ItemPaths<'d>>,
+}
+
+impl<'d> Targets<'d> {
+    pub fn new(device: &'d Device) -> Self {
+        Targets { device, entries: Entries::new(&device.groups), names: OnceCell::new(), paths: OnceCell::new() }
+    }
+
+    fn items(&self) -> impl Iterator<Item = &'d Item> {
+        self.device.groups.iter().flat_map(|group| &group.items)
+    }
+
+    /// The first item of this name, or that at this path.
+    fn by_name(&self, name: &str) -> Option<&'d Item> {
+        let names = self.names.get_or_init(|| {
+            // Of equal keys the last is kept: reversed, the first.
+            let all: Vec<&Item> = self.items().collect();
+            all.into_iter().rev().map(|item| (item.name.as_str(), item)).collect()
+        });
+        let by_path = || self.paths.get_or_init(|| ItemPaths::new(&self.device.groups)).find(name);
+        names.get(name).copied().or_else(by_path)
+    }
+}
+
+/// Reads a PDO.
+pub(super) fn pdo(reader: &mut Reader<'_, '_>, table: &At<PdoTable>, targets: &Targets<'_>) -> Option<Pdo> {
     let own = &table.value;
     let direction = direction(reader, own.direction.as_ref());
     let (Some(index), Some(direction)) = (&own.index, direction) else {
         reader.report(&codes::TABLE_VALUE, reader.span(table), "a PDO has an `index` and a `direction`");
-        return;
+        return None;
     };
     let mut pdo = Pdo::new(direction, index.value);
     pdo.origin = reader.origin(table);
@@ -64,13 +96,13 @@ pub(super) fn pdo(reader: &mut Reader<'_, '_>, table: &At<PdoTable>, device: &mu
     pdo.max_bytes = own.max;
     pdo.doubts = reader.doubts([own.doubt.as_ref(), own.doubts.as_ref()], pdo.origin, cite.as_deref());
     for text in &own.entries {
-        if let Some(entry) = entry(reader, text, device) {
+        if let Some(entry) = entry(reader, text, targets) {
             let bit_offset = pdo.bits();
             pdo.entries.push(PdoEntry { bit_offset, ..entry });
         }
     }
     printed_lengths(reader, own, &pdo);
-    device.process_data.pdos.push(pdo);
+    Some(pdo)
 }
 
 /// Holds the lengths that the manual prints against the entries.
@@ -84,7 +116,7 @@ fn printed_lengths(reader: &mut Reader<'_, '_>, own: &PdoTable, pdo: &Pdo) {
 }
 
 /// `0x6040:0/16`, `item`, `item/16`, `pad/8`, `? name/16`.
-fn entry(reader: &mut Reader<'_, '_>, text: &At<String>, device: &Device) -> Option<PdoEntry> {
+fn entry(reader: &mut Reader<'_, '_>, text: &At<String>, targets: &Targets<'_>) -> Option<PdoEntry> {
     let (what, bits) = match text.value.rsplit_once('/') {
         Some((what, bits)) => (what.trim(), place::integer(bits).and_then(|bits| u32::try_from(bits).ok())),
         None => (text.value.trim(), None),
@@ -106,11 +138,7 @@ fn entry(reader: &mut Reader<'_, '_>, text: &At<String>, device: &Device) -> Opt
         let entry = PdoEntry::new(0, 0, bits?);
         return Some(PdoEntry { origin, kind: PdoEntryKind::Unnumbered, name: name.into(), ..entry });
     }
-    let by_name = || {
-        let mut items = device.groups.iter().flat_map(|group| &group.items);
-        let found = items.find(|item| item.name == what);
-        found.or_else(|| device.groups.iter().find_map(|group| group.by_path(what)))
-    };
+    let by_name = || targets.by_name(what);
     let by_place = || {
         let found = place::objects(what).filter(|own| own.indices.0 == own.indices.1)?;
         Some((found.indices.0, found.subs.map_or(0, |(first, _)| first)))
@@ -122,13 +150,13 @@ fn entry(reader: &mut Reader<'_, '_>, text: &At<String>, device: &Device) -> Opt
             reader.diagnostics.push(found.help("give it an `obj`, or its space a rule for CANopen or EtherCAT"));
             return None;
         }
-        let names = device.groups.iter().flat_map(|group| &group.items).map(|item| item.name.as_str());
+        let names = targets.items().map(|item| item.name.as_str());
         reader.unresolved("object", what, reader.span(text), names);
         return None;
     };
-    let item = device.entry(index, sub_index);
+    let item = targets.entries.get(index, sub_index);
     let known = item.and_then(|item| match item.object_type() {
-        Type::Named(id) => device.types.get(id.0 as usize).and_then(|def| def.bits),
+        Type::Named(id) => targets.device.types.get(id.0 as usize).and_then(|def| def.bits),
         ty => ty.bits(),
     });
     let Some(bits) = bits.or(known).filter(|&bits| bits > 0) else {

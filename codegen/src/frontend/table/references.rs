@@ -8,7 +8,7 @@ use super::numbered::{self, Numbered};
 use super::place;
 use super::tree::Reader;
 use crate::diagnostics::{codes, Diagnostic};
-use crate::ir::{Device, GroupKind, Shape};
+use crate::ir::{Device, Entries, GroupKind, ItemPaths, Shape};
 use crate::selection::glob;
 use crate::text::brief;
 
@@ -58,6 +58,8 @@ fn ambiguous(reader: &mut Reader<'_, '_>, known: &Known<'_>, name: &At<String>) 
 
 struct Known<'d> {
     device: &'d Device,
+    entries: Entries<'d>,
+    paths: OnceCell<ItemPaths<'d>>,
     items: HashSet<&'d str>,
     /// The chapters that have a name.
     chapters: HashMap<&'d str, Vec<&'d str>>,
@@ -78,7 +80,9 @@ impl<'d> Known<'d> {
                 chapters.entry(&item.name).or_default().push(&group.name);
             }
         }
-        Known { device, items: all.chain(groups).collect(), chapters, others: Default::default() }
+        let entries = Entries::new(&device.groups);
+        let (items, paths) = (all.chain(groups).collect(), OnceCell::new());
+        Known { device, entries, paths, items, chapters, others: Default::default() }
     }
 
     fn has(&self, kind: &str, text: &str) -> bool {
@@ -89,17 +93,17 @@ impl<'d> Known<'d> {
                 let names = KINDS.iter().position(|own| *own == kind).and_then(|at| self.others.get(at));
                 names.is_some_and(|names| names.get_or_init(|| self.names(kind).into_iter().collect()).contains(text))
             }
-            _ => self.items.contains(text) || self.by_place(text) || self.by_path(text),
+            _ => self.items.contains(text) || self.by_place(text) || self.paths().find(text).is_some(),
         }
     }
 
     fn by_place(&self, name: &str) -> bool {
         let found = place::objects(name).filter(|own| own.indices.0 == own.indices.1);
-        found.is_some_and(|own| self.device.entry(own.indices.0, own.subs.map_or(0, |(first, _)| first)).is_some())
+        found.is_some_and(|own| self.entries.get(own.indices.0, own.subs.map_or(0, |(first, _)| first)).is_some())
     }
 
-    fn by_path(&self, name: &str) -> bool {
-        name.contains('/') && self.device.groups.iter().any(|group| group.by_path(name).is_some())
+    fn paths(&self) -> &ItemPaths<'d> {
+        self.paths.get_or_init(|| ItemPaths::new(&self.device.groups))
     }
 
     fn names(&self, kind: &str) -> Vec<&'d str> {

@@ -3,7 +3,7 @@
 use super::{depends_on, Assigned, ModulePaths, NOTHING};
 use crate::backend::rust::data::Data;
 use crate::backend::rust::literal;
-use crate::backend::rust::pdo::{mapping_entry, PdoModel};
+use crate::backend::rust::pdo::{mapping_entry, PdoModels};
 use crate::ir::{
     Coe, CompactString, Device, Direction, EtherCatSettings, Fit, Group, InitCommand, Mailbox, Module, ModulePdoGroup,
     Pdo, Slot, SlotRules, SyncManager, SyncManagerPurpose,
@@ -15,7 +15,7 @@ const TRANSITIONS: [&str; 6] = ["IP", "PS", "SO", "SP", "OP", "OS"];
 pub(super) fn device(
     device: &Device,
     settings: &EtherCatSettings,
-    pdos: &[PdoModel],
+    pdos: &PdoModels<'_>,
     modules: &ModulePaths,
     assigned: &[Assigned<'_>],
 ) -> Data {
@@ -33,7 +33,7 @@ pub(super) fn device(
     )
 }
 
-pub(super) fn module(module: &Module, pdos: &[PdoModel]) -> Data {
+pub(super) fn module(module: &Module, pdos: &PdoModels<'_>) -> Data {
     Data::Struct(
         "rt::ethercat::Module",
         vec![
@@ -88,7 +88,7 @@ fn sync_manager(own: &SyncManager) -> Data {
 }
 
 /// Outputs first, as the runtime has them.
-fn pdo_list(pdos: &[Pdo], models: &[PdoModel]) -> Data {
+fn pdo_list(pdos: &[Pdo], models: &PdoModels<'_>) -> Data {
     // Those of CANopen may have the same indices.
     let is_own = |pdo: &&Pdo| !pdo.is_virtual && pdo.buses.is_none_or(|buses| buses.coe);
     let of = |direction| pdos.iter().filter(move |pdo| pdo.direction == direction).filter(is_own);
@@ -96,7 +96,7 @@ fn pdo_list(pdos: &[Pdo], models: &[PdoModel]) -> Data {
     Data::Slice(all.map(|pdo| pdo_info(pdo, models)).collect())
 }
 
-fn pdo_info(pdo: &Pdo, models: &[PdoModel]) -> Data {
+fn pdo_info(pdo: &Pdo, models: &PdoModels<'_>) -> Data {
     let direction = match pdo.direction {
         Direction::Receive => "Output",
         Direction::Transmit => "Input",
@@ -120,9 +120,8 @@ fn pdo_info(pdo: &Pdo, models: &[PdoModel]) -> Data {
 }
 
 /// The mapping of a PDO that has a struct is said there.
-fn mapping(pdo: &Pdo, models: &[PdoModel]) -> Data {
-    let model = models.iter().find(|model| model.is(pdo));
-    match model {
+fn mapping(pdo: &Pdo, models: &PdoModels<'_>) -> Data {
+    match models.of(pdo) {
         Some(model) => Data::text(format!("<pdo::{} as rt::Pdo>::MAPPING", model.name)),
         None => {
             let entry = |(path, arguments): (&'static str, Vec<String>)| {

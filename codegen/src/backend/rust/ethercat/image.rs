@@ -1,8 +1,10 @@
 //! The process image by default: for each sync manager, the PDOs that are assigned to it, one behind the other.
 
+use std::collections::HashSet;
+
 use super::Assigned;
 use crate::backend::rust::docs;
-use crate::backend::rust::pdo::PdoModel;
+use crate::backend::rust::pdo::{PdoModel, PdoModels};
 use crate::ir::Direction;
 use crate::passes::names_unique::{self, Case, Wish};
 
@@ -29,7 +31,7 @@ pub(in super::super) struct ImageField {
     pub length: usize,
 }
 
-pub(super) fn models(pdos: &[PdoModel], assigned: &[Assigned<'_>]) -> Vec<ImageModel> {
+pub(super) fn models(pdos: &PdoModels<'_>, assigned: &[Assigned<'_>]) -> Vec<ImageModel> {
     let mut images = Vec::new();
     let mut numbers: Vec<u8> = assigned.iter().map(|one| one.sync_manager).collect();
     numbers.sort_unstable();
@@ -55,12 +57,11 @@ pub(super) fn models(pdos: &[PdoModel], assigned: &[Assigned<'_>]) -> Vec<ImageM
     images
 }
 
-fn model(kind: &str, sync_manager: u8, inside: &[&Assigned<'_>], pdos: &[PdoModel]) -> Option<ImageModel> {
+fn model(kind: &str, sync_manager: u8, inside: &[&Assigned<'_>], pdos: &PdoModels<'_>) -> Option<ImageModel> {
     let mut bit = 0u32;
     let mut placed = Vec::new();
     for one in inside {
-        let model = pdos.iter().find(|model| model.is(one.pdo));
-        placed.extend(model.map(|model| (model, bit)));
+        placed.extend(pdos.of(one.pdo).map(|model| (model, bit)));
         bit = bit.checked_add(one.pdo.bits())?;
     }
     let derives = placed.first()?.0.derives.clone();
@@ -90,9 +91,10 @@ fn fields(placed: &[(&PdoModel, u32)]) -> Vec<ImageField> {
         })
         .collect();
     let names = names_unique::unique_up_to(&wishes, &RESERVED, Case::Snake, MAX_NAME);
+    let taken: HashSet<&String> = names.iter().collect();
     let field = |((model, bit), name): (&(&PdoModel, u32), &String)| ImageField {
         name: names_unique::escaped(name),
-        name_mut: beside(&names, format!("{name}_mut")),
+        name_mut: beside(|name| taken.contains(name), format!("{name}_mut")),
         pdo: model.name.clone(),
         docs: docs::sentence(model.docs.first().map_or("", String::as_str)),
         bit: *bit,
@@ -101,9 +103,9 @@ fn fields(placed: &[(&PdoModel, u32)]) -> Vec<ImageField> {
     placed.iter().zip(&names).map(field).collect()
 }
 
-/// A name that none of `taken` has.
-pub(in super::super) fn beside(taken: &[String], mut name: String) -> String {
-    while taken.contains(&name) {
+/// A name that isn't taken.
+pub(in super::super) fn beside(is_taken: impl Fn(&String) -> bool, mut name: String) -> String {
+    while is_taken(&name) {
         name.push('_');
     }
     name

@@ -8,7 +8,7 @@ use std::collections::HashMap;
 
 use super::data::Data;
 use super::literal;
-use super::pdo::PdoModel;
+use super::pdo::{PdoModel, PdoModels};
 use crate::ir::{ClockMode, ClockTime, Device, EtherCatSettings, Fmmu, Module, ModuleId, Pdo};
 
 pub(super) use image::{beside, ImageModel};
@@ -41,7 +41,8 @@ impl EtherCatModel {
     pub(super) fn new(device: &Device, pdos: &[PdoModel], modules: &ModulePaths, nest: usize) -> Option<Self> {
         let settings = device.ethercat.as_deref().filter(|_| !device.dictionary_only)?;
         let assigned = assigned_by_default(device);
-        let descriptor = descriptor::device(device, settings, pdos, modules, &assigned);
+        let pdos = PdoModels::new(pdos);
+        let descriptor = descriptor::device(device, settings, &pdos, modules, &assigned);
         let column = "pub static DEVICE: rt::ethercat::Device = ".len();
         let clocks = settings.clocks.as_ref().filter(|clocks| !clocks.modes.is_empty());
         let list = |list: Vec<Data>, name: &str, ty: &str| {
@@ -56,7 +57,7 @@ impl EtherCatModel {
             }),
             startup: list(startup::commands(device, settings, &assigned), "STARTUP", "&[rt::SdoWrite]"),
             bytes: bytes(settings),
-            images: image::models(pdos, &assigned),
+            images: image::models(&pdos, &assigned),
         })
     }
 }
@@ -64,7 +65,7 @@ impl EtherCatModel {
 /// `MODULE` of a module.
 pub(super) fn module(module: &Module, pdos: &[PdoModel], nest: usize) -> String {
     let column = "pub static MODULE: rt::ethercat::Module = ".len();
-    descriptor::module(module, pdos).render(0, column, 1, nest)
+    descriptor::module(module, &PdoModels::new(pdos)).render(0, column, 1, nest)
 }
 
 /// What an index grows with that is the same in every slot.

@@ -78,7 +78,7 @@ fn arguments(fields: &[Field]) -> Vec<String> {
     let mut names: Vec<String> = fields.iter().map(|field| field.name.clone()).collect();
     for at in 0..names.len() {
         if names[at].chars().all(|letter| letter == '_' || letter.is_ascii_digit()) {
-            names[at] = beside(&names, format!("value{}", names[at]));
+            names[at] = beside(|name| names.contains(name), format!("value{}", names[at]));
         }
     }
     names

@@ -1,0 +1,132 @@
+//! Finding many items, in a time that doesn't grow with the number of items: indexes that are made once.
+
+use std::cell::OnceCell;
+use std::collections::{BTreeSet, HashMap};
+
+use super::{Group, Item};
+
+/// The items at indices and sub-indices: of objects, and registers that are objects too.
+///
+/// The objects have to be sorted, and to stand behind groups that are none.
+#[derive(Clone, Debug)]
+pub struct Entries<'a> {
+    groups: &'a [Group],
+    /// Registers that are objects too, made when one is first asked for.
+    registers: OnceCell<HashMap<(u16, u8), &'a Item>>,
+}
+
+impl<'a> Entries<'a> {
+    /// The items of a device or of a module.
+    pub fn new(groups: &'a [Group]) -> Self {
+        Entries { groups, registers: OnceCell::new() }
+    }
+
+    /// The item at an index and sub-index. Where there is an object, it alone counts.
+    pub fn get(&self, index: u16, sub_index: u8) -> Option<&'a Item> {
+        match self.groups.binary_search_by_key(&Some(index), Group::index) {
+            Ok(position) => self.groups.get(position)?.sub(sub_index),
+            Err(_) => self.registers().get(&(index, sub_index)).copied(),
+        }
+    }
+
+    /// Whether there are neither objects nor chapters.
+    pub fn is_empty(&self) -> bool {
+        self.groups.is_empty()
+    }
+
+    fn registers(&self) -> &HashMap<(u16, u8), &'a Item> {
+        self.registers.get_or_init(|| {
+            let mut registers = HashMap::new();
+            let chapters = self.groups.iter().take_while(|group| group.index().is_none());
+            for item in chapters.flat_map(|group| &group.items) {
+                if let Some(object) = item.object() {
+                    registers.entry(object).or_insert(item);
+                }
+            }
+            registers
+        })
+    }
+}
+
+/// The items by the names of their chapter and their own, `Chapter/Item`.
+#[derive(Clone, Debug, Default)]
+pub struct ItemPaths<'a> {
+    chapters: HashMap<&'a str, HashMap<&'a str, &'a Item>>,
+    /// How many slashes the names of chapters have.
+    slashes: BTreeSet<usize>,
+}
+
+impl<'a> ItemPaths<'a> {
+    /// The items of these groups.
+    pub fn new(groups: impl IntoIterator<Item = &'a Group>) -> Self {
+        let mut paths = ItemPaths::default();
+        for group in groups {
+            paths.slashes.insert(group.name.matches('/').count());
+            let chapter = paths.chapters.entry(group.name.as_str()).or_default();
+            for item in &group.items {
+                chapter.entry(item.name.as_str()).or_insert(item);
+            }
+        }
+        paths
+    }
+
+    /// The item at a path. Of several it is that whose chapter's name has the fewest slashes, and of those the first.
+    pub fn find(&self, path: &str) -> Option<&'a Item> {
+        self.slashes.iter().find_map(|&slashes| {
+            let (at, _) = path.match_indices('/').nth(slashes)?;
+            self.chapters.get(&path[..at])?.get(&path[at + 1..]).copied()
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::ir::{Binding, GroupKind, ObjectBuses, ObjectCode};
+
+    fn item(name: &str, index: u16, sub_index: u8) -> Item {
+        let mut item = Item::new(Binding::Object { index, sub_index, buses: ObjectBuses { canopen: true, coe: true } });
+        item.name = name.into();
+        item
+    }
+
+    fn chapter(name: &str, items: &[&str]) -> Group {
+        let items = items.iter().map(|name| item(name, 0x2000, 0)).collect();
+        Group { name: name.into(), kind: GroupKind::Chapter, items, ..Group::object(0, ObjectCode::Var) }
+    }
+
+    #[test]
+    fn an_item_is_found_by_chapter_and_name() {
+        let groups = [
+            chapter("Axis", &["Speed", "Position/Rate"]),
+            chapter("In/Out", &["Speed"]),
+            chapter("Axis", &["Speed", "Torque"]),
+        ];
+        let paths = ItemPaths::new(&groups);
+        let is = |path: &str, group: usize, item: usize| {
+            paths.find(path).is_some_and(|found| std::ptr::eq(found, &groups[group].items[item]))
+        };
+        assert!(is("Axis/Speed", 0, 0));
+        assert!(is("Axis/Position/Rate", 0, 1));
+        assert!(is("In/Out/Speed", 1, 0));
+        assert!(is("Axis/Torque", 2, 1));
+        for unknown in ["Speed", "Axis", "Axis/", "/Speed", "In/Out", "In/Speed", "Axis/Speed/"] {
+            assert!(paths.find(unknown).is_none(), "{unknown}");
+        }
+    }
+
+    #[test]
+    fn an_object_counts_before_a_register_that_is_one_too() {
+        let mut registers = chapter("Registers", &[]);
+        registers.items = vec![item("a", 0x2000, 1), item("again", 0x2000, 1), item("hidden", 0x3000, 1)];
+        let mut object = Group::object(0x3000, ObjectCode::Record);
+        object.items.push(item("b", 0x3000, 2));
+        let groups = [registers, object];
+        let entries = Entries::new(&groups);
+        let name = |index, sub_index| entries.get(index, sub_index).map(|item| item.name.as_str());
+        assert_eq!(name(0x2000, 1), Some("a"));
+        assert_eq!(name(0x3000, 2), Some("b"));
+        assert_eq!(name(0x3000, 1), None);
+        assert_eq!(name(0x2000, 0), None);
+    }
+}
