@@ -128,6 +128,13 @@ fn texts_that_are_listed_twice_or_not_used() {
     let documentation = checked.device().documentation.as_ref().expect("a description");
     assert_eq!((documentation.text.as_str(), documentation.translations[0].text.as_str()), ("Info", "Auskunft"));
     assert_eq!(checked.places("GSD010"), [checked.place_of("|<Language xml:lang=\"de\">\n<Text TextId=\"T_Info\"")]);
+    // The same text twice is one translation; another one is kept beside it.
+    let languages = ["Gerät", "Gerät", "Antrieb", "Antrieb"]
+        .map(|text| format!("<Language xml:lang=\"de\">\n<Text TextId=\"T_Device\" Value=\"{text}\"/>\n</Language>\n"));
+    let checked = read(&Parts { languages: &languages.concat(), ..Parts::default() });
+    let texts: Vec<&str> = checked.device().names.iter().map(|local| local.text.as_str()).collect();
+    assert_eq!(texts, ["Gerät", "Antrieb"]);
+    assert_eq!(checked.places("GSD010").len(), 3);
 }
 
 #[test]

@@ -4,7 +4,7 @@
 //! perhaps with a suffix behind a blank; `resolve` puts the texts in its place.
 
 use std::borrow::Cow;
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 use compact_str::{format_compact, CompactString, ToCompactString};
 
@@ -145,7 +145,9 @@ impl<'a> TextList<'a> {
         if let Some(&first) = self.seen.get(&name) {
             let message = format!("the texts of the language `{name}` are listed twice");
             let diagnostic = Diagnostic::new(&codes::DUPLICATE_ID, parent.span, message);
-            reader.diagnostics.push(diagnostic.label("both lists are used").note_at(first, "the first list"));
+            reader
+                .diagnostics
+                .push(diagnostic.label("both lists are used, equal texts once").note_at(first, "the first list"));
         }
         self.seen.insert(name.clone(), parent.span);
         let language = self.languages.len();
@@ -220,11 +222,12 @@ impl<'a> TextList<'a> {
 
     /// The text with this identifier, and its translations.
     pub fn find(&mut self, id: &str) -> Option<(CompactString, Texts)> {
-        let entry = self.entries.get_mut(*self.places.get(id)?)?;
-        let (languages, translations) = (&self.languages, &self.translations);
-        let finished =
-            entry.finished.get_or_insert_with(|| finish(&entry.primary, entry.translations, translations, languages));
-        Some(finished.clone())
+        let at = *self.places.get(id)?;
+        if self.entries.get(at)?.finished.is_none() {
+            let finished = self.finish(self.entries.get(at)?);
+            self.entries.get_mut(at)?.finished = Some(finished);
+        }
+        self.entries.get(at)?.finished.clone()
     }
 
     /// Texts that nothing refers to become extensions, and those that the primary language lacks are reported.
@@ -247,7 +250,7 @@ impl<'a> TextList<'a> {
             let diagnostic = Diagnostic::new(&codes::UNUSED_TEXT, entry.span, message);
             diagnostics.push(diagnostic.label("kept as an extension attribute"));
         }
-        let (name, texts) = finish(&entry.primary, entry.translations, &self.translations, &self.languages);
+        let (name, texts) = self.finish(entry);
         let key = |language: &str| format_compact!("Text/{language}/{}", shortened(&entry.id));
         if entry.primary.is_some() {
             extensions.push(Extension { key: key("primary"), value: name, span: entry.span });
@@ -255,26 +258,28 @@ impl<'a> TextList<'a> {
         let others = texts.iter().map(|local| (key(&local.language), local.text.clone()));
         extensions.extend(others.map(|(key, value)| Extension { key, value, span: entry.span }));
     }
-}
 
-fn finish(
-    primary: &Option<Cow<'_, str>>,
-    mut chain: Option<(usize, usize)>,
-    translations: &[Translation<'_>],
-    languages: &[CompactString],
-) -> (CompactString, Texts) {
-    let mut texts = Vec::new();
-    while let Some(translation) = chain.and_then(|(at, _)| translations.get(at)) {
-        let language = languages.get(translation.language).cloned().unwrap_or_default();
-        texts.push(LocalText { language, text: translation.text.as_ref().into() });
-        chain = translation.next.map(|next| (next, next));
+    /// The name and its translations.
+    fn finish(&self, entry: &Entry<'a>) -> (CompactString, Texts) {
+        let mut texts = Vec::new();
+        // A language that is listed twice has some texts twice, mostly all of them.
+        let is_repeated = self.seen.len() < self.languages.len();
+        let mut seen = HashSet::new();
+        let mut chain = entry.translations;
+        while let Some(translation) = chain.and_then(|(at, _)| self.translations.get(at)) {
+            let language = self.languages.get(translation.language).cloned().unwrap_or_default();
+            if !is_repeated || seen.insert((language.clone(), translation.text.as_ref())) {
+                texts.push(LocalText { language, text: translation.text.as_ref().into() });
+            }
+            chain = translation.next.map(|next| (next, next));
+        }
+        let name = match (&entry.primary, texts.first()) {
+            (Some(primary), _) => primary.as_ref().into(),
+            (None, Some(first)) => first.text.clone(),
+            (None, None) => CompactString::default(),
+        };
+        (name, texts.into())
     }
-    let name = match (primary, texts.first()) {
-        (Some(primary), _) => primary.as_ref().into(),
-        (None, Some(first)) => first.text.clone(),
-        (None, None) => CompactString::default(),
-    };
-    (name, texts.into())
 }
 
 fn repeated(diagnostics: &mut Diagnostics, span: Span, entry: &Entry<'_>) {
