@@ -22,7 +22,7 @@ seeds() {
     esi) named "$corpus/esi" '*esi*.xml' '*.xml' ;;
     gsdml) named "$corpus/gsdml" '*gsdml*.xml' '*GSDML*.xml' ;;
     table) named '' '*.toml' ;;
-    overlay) find seeds/overlay ../../docs/examples/pump.overlay.toml -type f ;;
+    overlay) overlays ;;
     import | macro_input) find "seeds/$1" -type f ;;
     messages) requests ;;
     pdo) process_data ;;
@@ -37,6 +37,19 @@ named() { # CORPUS PATTERN...
     for pattern in "${@:2}"; do patterns+=(-o -name "$pattern"); done
     for folder in ../../dictionaries ../tests ../../tests ../../benches ../../docs/examples "$1"; do
         if [[ -d $folder ]]; then find "$folder" -name target -prune -o -type f \( "${patterns[@]:1}" \) -print; fi
+    done
+}
+
+# A table and its length tell which description it corrects: each is given for all three.
+overlays() {
+    local file lines name
+    mkdir -p corpus/overlays
+    find seeds/overlay ../../docs/examples/pump.overlay.toml -type f | while read -r file; do
+        for lines in '' '\n' '\n\n'; do
+            name=corpus/overlays/$(basename "$file")-${#lines}
+            { cat "$file" && printf "$lines"; } >"$name"
+            echo "$name"
+        done
     done
 }
 
@@ -82,6 +95,7 @@ dictionary() {
     eds) echo dictionaries/eds.dict ;;
     xdd | esi | gsdml) echo dictionaries/xml.dict ;;
     table | overlay) echo dictionaries/table.dict ;;
+    import) echo dictionaries/import.dict ;;
     macro_input) echo dictionaries/macro.dict ;;
     esac
 }

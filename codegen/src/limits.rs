@@ -54,3 +54,24 @@ pub const MAX_TEXT_COPIES_PER_BYTE: usize = 8;
 
 /// Bytes of text that any GSDML file may copy so.
 pub const MIN_TEXT_COPIES: usize = 1 << 20;
+
+/// Values that a range of a register table stands for where single values are meant.
+pub const MAX_LISTED_VALUES: i128 = 1024;
+
+/// Depth to which folders are searched for descriptions.
+pub const MAX_FOLDER_DEPTH: usize = 32;
+
+/// Names of a register table that texts are searched for.
+pub const MAX_SEARCHED_NAMES: usize = 5_000;
+
+/// Words of texts that they are looked for in.
+pub const MAX_SEARCHED_WORDS: usize = 50_000;
+
+/// Bits of an entry of a PDO that becomes a field.
+pub const MAX_FIELD_BITS: u32 = u16::MAX as u32;
+
+/// Bytes of a PROFINET record, or of what a diagnosis adds, that becomes a struct.
+pub const MAX_RECORD_BYTES: u32 = u16::MAX as u32;
+
+/// Letters of an identifier that a name gives.
+pub const MAX_IDENTIFIER: usize = 48;

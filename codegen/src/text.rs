@@ -1,10 +1,27 @@
 //! Small helpers on text.
 
+use std::borrow::Cow;
+
 /// As much of a text as a message quotes or a key takes, so that deep nesting can't multiply long names.
 pub(crate) fn brief(text: &str) -> &str {
     const LETTERS: usize = 64;
     let end = text.char_indices().nth(LETTERS).map_or(text.len(), |(at, _)| at);
     &text[..end]
+}
+
+/// Whether a character may move a terminal's cursor, colour its text, end its line or turn its direction.
+pub(crate) fn steers(c: char) -> bool {
+    matches!(c,
+        '\0'..='\u{1f}' | '\u{7f}'..='\u{9f}' | '\u{61c}' | '\u{200e}' | '\u{200f}'
+        | '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
+}
+
+/// A text of a description on one line that is safe to print.
+pub(crate) fn printable(text: &str) -> Cow<'_, str> {
+    match text.contains(steers) {
+        true => text.chars().map(|c| if steers(c) { ' ' } else { c }).collect(),
+        false => text.into(),
+    }
 }
 
 /// The Levenshtein distance: how many characters to insert, delete or replace to get from `a` to `b`.

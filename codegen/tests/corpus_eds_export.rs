@@ -122,6 +122,7 @@ fn eds_to_ir_to_eds_to_ir_is_the_identity() {
         identical += usize::from(wrong.len() == before);
     }
     eprintln!("{identical} of {total} files are identical after export");
+    assert!(total > 200, "only {total} files");
     assert!(wrong.is_empty(), "{} wrong:\n{}", wrong.len(), wrong.join("\n"));
 }
 
@@ -174,5 +175,6 @@ fn devices_of_other_formats_have_the_same_entries() {
     }
     let kinds: BTreeMap<&str, usize> = kinds;
     eprintln!("{devices} devices of other formats; left out or changed: {kinds:?}");
+    assert!(devices > 150, "only {devices} devices");
     assert!(wrong.is_empty(), "{} wrong:\n{}", wrong.len(), wrong[..wrong.len().min(40)].join("\n"));
 }

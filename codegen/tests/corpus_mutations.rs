@@ -531,7 +531,9 @@ fn two_runs_give_the_same_bytes() {
         let options = Options::default();
         let compilation = check(Source::new(file.name.as_str(), file.bytes.clone()), &options);
         let found: Vec<String> = compilation.diagnostics.list().iter().map(|one| compilation.one_line(one)).collect();
-        (compilation.rust(&options.rust).unwrap_or_default(), found)
+        let dump = compilation.catalog.as_ref().map(|catalog| serde_json::to_string(catalog).expect("JSON"));
+        let text = compilation.rust(&options.rust).unwrap_or_default() + &dump.unwrap_or_default();
+        (text, found)
     };
     let mut bytes = 0;
     for file in &files {

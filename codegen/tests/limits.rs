@@ -203,8 +203,8 @@ fn keys_that_nobody_knows() {
         let compilation = protocol(&format!("[codes.fault.rows]\n{}", rows.collect::<String>()));
         (count(&compilation, "TAB003"), count(&compilation, "TAB004"))
     };
-    assert_eq!(codes(limits::MAX_UNKNOWN_KEYS - 1), (limits::MAX_UNKNOWN_KEYS - 1, 0));
-    assert_eq!(codes(limits::MAX_UNKNOWN_KEYS + 9), (limits::MAX_UNKNOWN_KEYS, 1));
+    assert_eq!(codes(limits::MAX_UNKNOWN_KEYS), (limits::MAX_UNKNOWN_KEYS, 0));
+    assert_eq!(codes(limits::MAX_UNKNOWN_KEYS + 1), (limits::MAX_UNKNOWN_KEYS, 1));
 }
 
 #[test]
@@ -304,10 +304,18 @@ fn the_book_has_each_limit() {
         ("for each byte of the file |", limits::MAX_COPIES_PER_BYTE),
         ("unknown keys of a piece", limits::MAX_UNKNOWN_KEYS),
         ("messages of a register table", limits::MAX_MESSAGES),
-        ("states, commands", limits::MAX_MACHINE_ROWS),
+        ("state machines of a device", limits::MAX_MACHINE_ROWS),
         ("repeats the lines", limits::MAX_DERIVED_ITEMS),
         ("linked on each", limits::MAX_LINKED_PAGES),
         ("linked on each", limits::NEAR_LINKED_PAGES),
+        ("`writable`", limits::MAX_LISTED_VALUES as usize),
+        ("depth of folders", limits::MAX_FOLDER_DEPTH),
+        ("unknown keys of a section", limits::MAX_COMPARED_EXTENSIONS),
+        ("names of a register table that its texts", limits::MAX_SEARCHED_NAMES),
+        ("names of a register table that its texts", limits::MAX_SEARCHED_WORDS),
+        ("bits of an entry of a PDO", limits::MAX_FIELD_BITS as usize),
+        ("bytes of a PROFINET record", limits::MAX_RECORD_BYTES as usize),
+        ("letters of a name", limits::MAX_IDENTIFIER),
         ("bytes that a row", limits::MAX_FREE_ROW_BYTES),
         ("bytes that a row", limits::ROW_BYTES_PER_ITEM),
         ("bytes of text that a GSDML copies", limits::MAX_TEXT_COPIES_PER_BYTE),

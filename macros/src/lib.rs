@@ -165,7 +165,7 @@ mod tests {
     use super::*;
 
     /// Paths are relative to the folder of this crate, as they are to a user's.
-    const DICTIONARIES: [&str; 7] = [
+    const DICTIONARIES: [&str; 10] = [
         "../dictionaries/demo-drive.eds",
         "../dictionaries/aec-vector-step.toml",
         "../dictionaries/kollmorgen-akd.toml",
@@ -173,6 +173,9 @@ mod tests {
         "../dictionaries/eco.toml",
         "../tests/data/coupler.esi.xml",
         "../tests/data/drive.gsdml.xml",
+        "../benches/instructions/axis.esi.xml",
+        "../codegen/fuzz/seeds/xdd/gripper.xdd",
+        "../codegen/tests/quirks_eds/everything.dcf",
     ];
 
     /// The command line's are held against the build script's by `codegen/tests/cli.rs`.

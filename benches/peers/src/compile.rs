@@ -58,7 +58,8 @@ fn crates() -> Vec<Crate> {
             label: "svd2rust 0.37",
             dependencies: "vcell = \"0.1.3\"".to_owned(),
             code: svd2rust(&input),
-            target: None,
+            // 3.6 s where the goal is 1.5.
+            target: Some(2.4),
         },
         Crate {
             name: "with-device-driver",

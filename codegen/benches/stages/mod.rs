@@ -45,6 +45,14 @@ pub fn emit(bencher: Bencher<'_, '_>, name: &str, bytes: Vec<u8>) {
     bencher.counter(count).bench(|| divan::black_box(&compilation).rust(&RustOptions::default()).expect("bindings"));
 }
 
+/// Bytes to Rust.
+pub fn whole(bencher: Bencher<'_, '_>, name: &str, bytes: Vec<u8>) {
+    bencher.counter(BytesCount::new(bytes.len())).with_inputs(|| bytes.clone()).bench_values(|bytes| {
+        let compilation = compile::check(Source::new(name, bytes), &Options::default());
+        compilation.rust(&RustOptions::default()).expect("bindings")
+    });
+}
+
 /// The measurements of a format, of files with this name that `growing` makes.
 macro_rules! measure {
     ($name:literal) => {
@@ -66,6 +74,11 @@ macro_rules! measure {
         #[divan::bench(args = stages::SIZES, max_time = 2)]
         fn emit(bencher: divan::Bencher<'_, '_>, size: usize) {
             stages::emit(bencher, $name, growing(size));
+        }
+
+        #[divan::bench(args = stages::SIZES, max_time = 2)]
+        fn whole(bencher: divan::Bencher<'_, '_>, size: usize) {
+            stages::whole(bencher, $name, growing(size));
         }
     };
 }

@@ -12,13 +12,11 @@ use super::Failure;
 use crate::compile::{self, Compilation, Options};
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
 use crate::frontend::detect;
+use crate::limits::MAX_FOLDER_DEPTH;
 use crate::source::{FileId, Source, Span};
 
 /// Endings of the files that a folder is searched for.
 const ENDINGS: [&str; 5] = ["eds", "dcf", "xdd", "xdc", "xpd"];
-
-/// Folders deeper than this are not searched.
-const MAX_FOLDER_DEPTH: usize = 32;
 
 /// Compiles every input, several at a time, and hands the results to `use_it` in the order of the command line.
 pub(super) fn each(

@@ -23,6 +23,7 @@ use clap::CommandFactory;
 use crate::backend::json;
 use crate::compile::{self, Options};
 use crate::diagnostics::{codes, render};
+use crate::text::printable;
 use args::{Arguments, Command, ExplainFormat, InfoFormat, Inputs};
 use report::Reporter;
 
@@ -44,15 +45,17 @@ pub fn main() -> ExitCode {
             ExitCode::from(FAILED)
         }
         Err(Failure::Usage(message)) => {
-            say(&format!("error: {message}\n\nFor more information, try '--help'."));
+            say(&format!("error: {message}"));
+            say("");
+            say("For more information, try '--help'.");
             ExitCode::from(USAGE)
         }
     }
 }
 
-/// A line for people. That standard error can't be written is nothing that could be reported.
+/// A line for people, whatever is in the paths and names that it has. That standard error can't be written is nothing that could be reported.
 fn say(line: &str) {
-    let _ = writeln!(std::io::stderr(), "{line}");
+    let _ = writeln!(std::io::stderr(), "{}", printable(line));
 }
 
 /// Why a command ended early.

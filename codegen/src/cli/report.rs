@@ -12,6 +12,7 @@ use crate::backend::Note;
 use crate::compile::Compilation;
 use crate::diagnostics::{render, Diagnostic, Severity};
 use crate::source::{FileId, Source, Span};
+use crate::text::printable;
 
 /// What an export left out, for programs.
 #[derive(Serialize)]
@@ -160,7 +161,8 @@ impl Reporter {
 /// A summary for people.
 pub(super) fn info_text(info: &Info) -> String {
     let mut text = String::new();
-    let _ = writeln!(text, "{} ({}, {})", info.file, info.format.unwrap_or("unknown format"), info.encoding);
+    let _ =
+        writeln!(text, "{} ({}, {})", printable(&info.file), info.format.unwrap_or("unknown format"), info.encoding);
     let number = |value: Option<u32>| value.map_or("unknown".to_owned(), |value| format!("{value:#010x}"));
     for device in &info.devices {
         let _ = writeln!(text, "  {}", printable(&device_title(device)));
@@ -225,9 +227,4 @@ fn module_text(module: &ModuleInfo) -> String {
 
 fn pdo_text(pdo: &PdoInfo) -> String {
     format!("0x{:04X} ({} entries, {} bits)", pdo.index, pdo.entries, pdo.bits)
-}
-
-/// Control characters of a description don't reach the terminal.
-fn printable(text: &str) -> String {
-    text.chars().map(|letter| if letter.is_control() { ' ' } else { letter }).collect()
 }

@@ -27,6 +27,7 @@ use serde::Serialize;
 
 use crate::ir::{Catalog, Device, Group, Module, Pdo, ProcessImage, TypeDef};
 use crate::passes::names_unique::{self, Case, Wish};
+use crate::text::printable;
 
 /// Whether code that was written for the old description still fits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
@@ -69,6 +70,8 @@ pub struct Change {
 impl fmt::Display for Change {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Change { owner, element, fact, old, new, judgement } = self;
+        // They are texts of the descriptions, and this is for a terminal.
+        let [owner, element, old, new] = [owner, element, old, new].map(|text| printable(text));
         let of = if owner.is_empty() { String::new() } else { format!("{owner}: ") };
         write!(f, "{}: {of}{element}", judgement.name())?;
         match (old.is_empty(), new.is_empty()) {

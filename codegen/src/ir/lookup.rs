@@ -51,7 +51,8 @@ impl<'a> Entries<'a> {
 /// The items by the names of their chapter and their own, `Chapter/Item`.
 #[derive(Clone, Debug, Default)]
 pub struct ItemPaths<'a> {
-    chapters: HashMap<&'a str, HashMap<&'a str, &'a Item>>,
+    /// With the place of the chapter.
+    chapters: HashMap<&'a str, HashMap<&'a str, (usize, &'a Item)>>,
     /// How many slashes the names of chapters have.
     slashes: BTreeSet<usize>,
 }
@@ -60,22 +61,24 @@ impl<'a> ItemPaths<'a> {
     /// The items of these groups.
     pub fn new(groups: impl IntoIterator<Item = &'a Group>) -> Self {
         let mut paths = ItemPaths::default();
-        for group in groups {
+        for (place, group) in groups.into_iter().enumerate() {
             paths.slashes.insert(group.name.matches('/').count());
             let chapter = paths.chapters.entry(group.name.as_str()).or_default();
             for item in &group.items {
-                chapter.entry(item.name.as_str()).or_insert(item);
+                chapter.entry(item.name.as_str()).or_insert((place, item));
             }
         }
         paths
     }
 
-    /// The item at a path. Of several it is that whose chapter's name has the fewest slashes, and of those the first.
+    /// The item at a path; of several the first.
     pub fn find(&self, path: &str) -> Option<&'a Item> {
-        self.slashes.iter().find_map(|&slashes| {
+        // A slash may belong to either name.
+        let found = self.slashes.iter().filter_map(|&slashes| {
             let (at, _) = path.match_indices('/').nth(slashes)?;
-            self.chapters.get(&path[..at])?.get(&path[at + 1..]).copied()
-        })
+            self.chapters.get(&path[..at])?.get(&path[at + 1..])
+        });
+        found.min_by_key(|(place, _)| place).map(|&(_, item)| item)
     }
 }
 
@@ -101,6 +104,9 @@ mod tests {
             chapter("Axis", &["Speed", "Position/Rate"]),
             chapter("In/Out", &["Speed"]),
             chapter("Axis", &["Speed", "Torque"]),
+            chapter("A/B", &["C"]),
+            chapter("A", &["B/C", "B/D"]),
+            chapter("A/B", &["D"]),
         ];
         let paths = ItemPaths::new(&groups);
         let is = |path: &str, group: usize, item: usize| {
@@ -110,6 +116,8 @@ mod tests {
         assert!(is("Axis/Position/Rate", 0, 1));
         assert!(is("In/Out/Speed", 1, 0));
         assert!(is("Axis/Torque", 2, 1));
+        assert!(is("A/B/C", 3, 0));
+        assert!(is("A/B/D", 4, 1));
         for unknown in ["Speed", "Axis", "Axis/", "/Speed", "In/Out", "In/Speed", "Axis/Speed/"] {
             assert!(paths.find(unknown).is_none(), "{unknown}");
         }

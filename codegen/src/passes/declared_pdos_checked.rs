@@ -1,6 +1,9 @@
 //! After this pass the PDOs that a register table declares by themselves, and the values by which its objects map others where
 //! no CANopen settings have them checked, were held against the items that they map.
 
+use std::cell::OnceCell;
+use std::collections::HashSet;
+
 use super::mentioned_objects_exist;
 use super::owner::Owner;
 use crate::diagnostics::{codes, Code, Diagnostic, Diagnostics};
@@ -12,13 +15,13 @@ pub(super) const CAN_BITS: u32 = 64;
 
 /// Runs before the PDOs that follow from mapping objects are added: those have checks of their own, as EtherCAT has.
 pub(super) fn run(device: &Device, diagnostics: &mut Diagnostics) {
-    let items = Entries::new(&device.groups);
+    let described = Described::new(device);
     for pdo in &device.process_data.pdos {
         let has_object = |kind| !matches!(kind, PdoEntryKind::Padding | PdoEntryKind::Unnumbered);
         for entry in pdo.entries.iter().filter(|entry| has_object(entry.kind)) {
             let (object, span) = ((entry.index, entry.sub_index), entry.origin.span);
             let mapped = Mapped { object, bits: entry.bits, direction: pdo.direction, span };
-            mapped.check((device, &items), device.ethercat.is_some(), diagnostics);
+            mapped.check(&described, device.ethercat.is_some(), diagnostics);
         }
         let bits = pdo.bits();
         if let Some(max) = pdo.max_bytes.filter(|&max| bits > u32::from(max) * 8) {
@@ -31,12 +34,12 @@ pub(super) fn run(device: &Device, diagnostics: &mut Diagnostics) {
         }
     }
     if device.canopen.is_none() {
-        device.groups.iter().for_each(|group| defaults((device, &items), group, diagnostics));
+        device.groups.iter().for_each(|group| defaults(&described, group, diagnostics));
     }
 }
 
 /// What a mapping object maps by its defaults.
-fn defaults((device, items): (&Device, &Entries<'_>), group: &Group, diagnostics: &mut Diagnostics) {
+fn defaults(described: &Described<'_>, group: &Group, diagnostics: &mut Diagnostics) {
     let Some(direction) = group.index().and_then(direction_of) else { return };
     let number = |item: &Item| item.default.as_ref().and_then(Value::as_int);
     let count = group.sub(0).and_then(number).unwrap_or(i128::MAX);
@@ -46,7 +49,7 @@ fn defaults((device, items): (&Device, &Entries<'_>), group: &Group, diagnostics
         let mapped =
             number(item).filter(|_| i128::from(sub) <= count).and_then(|word| Mapped::word(word, direction, span));
         if let Some(mapped) = mapped {
-            mapped.check((device, items), false, diagnostics);
+            mapped.check(described, false, diagnostics);
         }
     }
 }
@@ -57,6 +60,24 @@ pub(super) fn direction_of(mapping: u16) -> Option<Direction> {
         0x1600..=0x17FF => Some(Direction::Receive),
         0x1A00..=0x1BFF => Some(Direction::Transmit),
         _ => None,
+    }
+}
+
+/// What a device says of its objects.
+pub(super) struct Described<'a> {
+    pub device: &'a Device,
+    pub entries: Entries<'a>,
+    /// The indices of its objects, those of further axes among them: made when they are first asked for.
+    indices: OnceCell<HashSet<u16>>,
+}
+
+impl<'a> Described<'a> {
+    pub fn new(device: &'a Device) -> Self {
+        Described { device, entries: Entries::new(&device.groups), indices: OnceCell::new() }
+    }
+
+    fn indices(&self) -> &HashSet<u16> {
+        self.indices.get_or_init(|| mentioned_objects_exist::known(self.device))
     }
 }
 
@@ -77,11 +98,11 @@ impl Mapped {
     }
 
     /// Holds it against its item. Where other checks look for missing objects and at lengths, this one doesn't.
-    pub fn check(&self, (device, items): (&Device, &Entries<'_>), is_resolved: bool, diagnostics: &mut Diagnostics) {
-        let item = items.get(self.object.0, self.object.1);
+    pub fn check(&self, described: &Described<'_>, is_resolved: bool, diagnostics: &mut Diagnostics) {
+        let item = described.entries.get(self.object.0, self.object.1);
         let found = match item {
-            Some(item) => self.against(device, item, is_resolved),
-            None => [self.missing(device).filter(|_| !is_resolved), None, None],
+            Some(item) => self.against(described.device, item, is_resolved),
+            None => [(!is_resolved).then(|| self.missing(described)).flatten(), None, None],
         };
         for (code, problem) in found.into_iter().flatten() {
             let message = format!("0x{:04X} sub-index {:#x} {problem}", self.object.0, self.object.1);
@@ -94,8 +115,9 @@ impl Mapped {
     }
 
     /// The objects of further axes are those of the first at other indices.
-    fn missing(&self, device: &Device) -> Option<(&'static Code, String)> {
-        let of_another_axis = || mentioned_objects_exist::known(device).contains(&self.object.0);
+    fn missing(&self, described: &Described<'_>) -> Option<(&'static Code, String)> {
+        let device = described.device;
+        let of_another_axis = || described.indices().contains(&self.object.0);
         let is_missing = !device.groups.is_empty() && (device.object(self.object.0).is_some() || !of_another_axis());
         is_missing.then(|| (&codes::MAPPED_OBJECT_MISSING, "is mapped, but not described".to_owned()))
     }

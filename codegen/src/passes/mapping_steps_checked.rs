@@ -3,20 +3,20 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::declared_pdos_checked::{direction_of, Mapped, CAN_BITS};
+use super::declared_pdos_checked::{direction_of, Described, Mapped, CAN_BITS};
 use super::owner::{Index, Owner};
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
-use crate::ir::{Device, Entries, Item, Procedure, Step, Value};
+use crate::ir::{Device, Item, Procedure, Step, Value};
 use crate::source::Span;
 use crate::text::brief;
 
 pub(super) fn run(device: &Device, diagnostics: &mut Diagnostics) {
     let groups = [device.groups.as_slice()];
     let items = Index::new(Owner { types: &device.types, groups: &groups });
-    let entries = Entries::new(&device.groups);
+    let described = Described::new(device);
     for procedure in &device.procedures {
         let mut mapping =
-            Mapping { device, entries: &entries, procedure, words: BTreeMap::new(), cleared: BTreeSet::new() };
+            Mapping { described: &described, procedure, words: BTreeMap::new(), cleared: BTreeSet::new() };
         for (step, span) in procedure.spanned() {
             let Step::Write(name, value) = step else { continue };
             let (object, value) = (items.find(name).and_then(Item::object), value.as_int());
@@ -29,8 +29,7 @@ pub(super) fn run(device: &Device, diagnostics: &mut Diagnostics) {
 
 /// What a procedure has mapped so far.
 struct Mapping<'a> {
-    device: &'a Device,
-    entries: &'a Entries<'a>,
+    described: &'a Described<'a>,
     procedure: &'a Procedure,
     words: BTreeMap<(u16, u8), i128>,
     /// The mappings whose number of entries is 0 by then.
@@ -51,7 +50,7 @@ impl Mapping<'_> {
                 );
             }
             if let Some(mapped) = Mapped::word(value, direction, span) {
-                mapped.check((self.device, self.entries), false, diagnostics);
+                mapped.check(self.described, false, diagnostics);
             }
             return;
         }
@@ -63,7 +62,7 @@ impl Mapping<'_> {
             diagnostics.push(Diagnostic::new(&codes::STEP_IMPOSSIBLE, span, message));
         }
         let bits = self.bits(index, value);
-        if self.device.ethercat.is_none() && bits > i128::from(CAN_BITS) {
+        if self.described.device.ethercat.is_none() && bits > i128::from(CAN_BITS) {
             let message = format!("the mapping 0x{index:04X} has {bits} bits by then, and a CAN frame has 64");
             diagnostics.push(Diagnostic::new(&codes::PDO_TOO_LONG, span, message));
         }
@@ -76,7 +75,7 @@ impl Mapping<'_> {
             (1..=u8::MAX).for_each(|sub| _ = self.words.remove(&(index, sub)));
             return None;
         }
-        let entries = self.device.object(index).map_or(0, |group| group.items.len().saturating_sub(1));
+        let entries = self.described.device.object(index).map_or(0, |group| group.items.len().saturating_sub(1));
         let was_cleared = self.cleared.remove(&index);
         if entries > 0 && value > entries as i128 {
             return Some(format!("which has {entries}"));
@@ -87,7 +86,7 @@ impl Mapping<'_> {
 
     /// The length of so many entries: those that were written, and by default the others.
     fn bits(&self, index: u16, count: i128) -> i128 {
-        let by_default = |sub| self.entries.get(index, sub)?.default.as_ref().and_then(Value::as_int);
+        let by_default = |sub| self.described.entries.get(index, sub)?.default.as_ref().and_then(Value::as_int);
         let word = |sub: u8| self.words.get(&(index, sub)).copied().or_else(|| by_default(sub)).unwrap_or(0);
         let last = u8::try_from(count.clamp(0, 64)).unwrap_or(0);
         (1..=last).map(|sub| word(sub) & 0xFF).sum()

@@ -6,6 +6,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use super::texts;
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
 use crate::ir::Device;
+use crate::limits;
 use crate::text::{brief, edit_distance};
 
 /// Names and words with fewer letters are told apart by too little.
@@ -13,10 +14,6 @@ const LETTERS: std::ops::RangeInclusive<usize> = 6..=48;
 
 /// Of so many names, nine tenths show how a table names its items.
 const CONVENTION: usize = 4;
-
-/// So many names and different words are compared at most: no table of a person has more.
-const MAX_NAMES: usize = 5_000;
-const MAX_WORDS: usize = 50_000;
 
 pub(super) fn run(device: &Device, diagnostics: &mut Diagnostics) {
     let names = Names::new(device);
@@ -26,7 +23,7 @@ pub(super) fn run(device: &Device, diagnostics: &mut Diagnostics) {
     let (mut known, mut said) = (BTreeMap::new(), BTreeSet::new());
     for text in texts::all(device) {
         for word in text.words.split(|c: char| !c.is_alphanumeric() && c != '_') {
-            if known.len() > MAX_WORDS {
+            if known.len() > limits::MAX_SEARCHED_WORDS {
                 return;
             }
             let meant = *known.entry(word).or_insert_with(|| names.meant(word));
@@ -58,7 +55,7 @@ impl<'a> Names<'a> {
             |name: &&str| name.len() <= 2 * LETTERS.end() && name.chars().all(|c| c.is_alphanumeric() || c == '_');
         let prefix = prefix(items.clone().filter(single));
         let is_like = |name: &&str| prefix.is_some_and(|own| has_prefix(name, own)) || is_composed(name);
-        let like_identifiers = own().filter(single).filter(is_like).take(MAX_NAMES).collect();
+        let like_identifiers = own().filter(single).filter(is_like).take(limits::MAX_SEARCHED_NAMES).collect();
         Names { all: all.map(str::to_lowercase).collect(), like_identifiers }
     }
 

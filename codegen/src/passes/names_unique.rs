@@ -7,8 +7,7 @@ use std::borrow::Cow;
 use std::collections::HashMap;
 use std::collections::HashSet;
 
-/// The longest identifier that a name gives.
-const MAX_LENGTH: usize = 48;
+use crate::limits::MAX_IDENTIFIER;
 
 /// How a scope's identifiers are written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -45,7 +44,7 @@ pub fn numbered<'a>(names: impl IntoIterator<Item = &'a str>, kind: &str) -> Vec
 
 /// Identifiers for all of `wishes`, in their order; none of them is in `reserved`. Longer names are cut at a word.
 pub fn unique(wishes: &[Wish<'_>], reserved: &[&str], case: Case) -> Vec<String> {
-    unique_up_to(wishes, reserved, case, MAX_LENGTH)
+    unique_up_to(wishes, reserved, case, MAX_IDENTIFIER)
 }
 
 /// The same, with names cut to `length` characters before they get a suffix.
@@ -153,7 +152,7 @@ fn write(words: &[String], case: Case) -> String {
                 name.push_str(letters.as_str());
             }
         }
-        if name.len() >= MAX_LENGTH {
+        if name.len() >= MAX_IDENTIFIER {
             break;
         }
     }
@@ -192,7 +191,7 @@ fn words(name: &str) -> Vec<String> {
         words.push(word);
     }
     for word in &mut words {
-        word.truncate(MAX_LENGTH);
+        word.truncate(MAX_IDENTIFIER);
     }
     words
 }
@@ -319,8 +318,8 @@ mod tests {
         assert_eq!(snake("type"), "type");
         assert_eq!(snake("日本"), "");
         assert_eq!(write(&words("Vector Step 50 06"), Case::Pascal), "VectorStep50_06");
-        assert!(snake(&"very ".repeat(100)).len() <= MAX_LENGTH + 5);
-        assert_eq!(snake(&"x".repeat(300)).len(), MAX_LENGTH);
+        assert!(snake(&"very ".repeat(100)).len() <= MAX_IDENTIFIER + 5);
+        assert_eq!(snake(&"x".repeat(300)).len(), MAX_IDENTIFIER);
     }
 
     #[test]

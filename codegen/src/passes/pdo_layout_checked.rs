@@ -18,9 +18,6 @@ const CAN_BITS: u32 = 64;
 /// PDOs of each direction in the dictionary.
 const PDOS: u16 = 512;
 
-/// Greatest length of an entry that generated code makes a field of.
-const MAX_ENTRY: u32 = u16::MAX as u32;
-
 pub(super) fn run(device: &mut Device, modules: &[Module], diagnostics: &mut Diagnostics) {
     lengths(&device.process_data, diagnostics);
     let Some(canopen) = device.canopen.take() else { return };
@@ -54,7 +51,7 @@ pub(super) fn module(module: &Module, diagnostics: &mut Diagnostics) {
 /// Those of CANopen are at most 255 bits long, and padding gets no field.
 fn lengths(data: &ProcessData, diagnostics: &mut Diagnostics) {
     for pdo in &data.pdos {
-        for entry in pdo.entries.iter().filter(|entry| entry.index != 0 && entry.bits > MAX_ENTRY) {
+        for entry in pdo.entries.iter().filter(|entry| entry.index != 0 && entry.bits > crate::limits::MAX_FIELD_BITS) {
             let message = format!("an entry of the PDO 0x{:04X} has {} bits", pdo.mapping_index, entry.bits);
             let found = Diagnostic::new(&codes::ENTRY_TOO_LONG, entry.origin.span, message);
             diagnostics.push(found.label("the PDO gets no struct"));

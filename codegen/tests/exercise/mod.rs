@@ -2,7 +2,9 @@
 //!
 //! Two crates have this module: the test of damaged files, and the fuzz targets.
 
+use lexibus_codegen::backend::docs::{Format, Site};
 use lexibus_codegen::backend::{eds, esi, gsdml, json, rust};
+use lexibus_codegen::compare::compare;
 use lexibus_codegen::compile::{check, Compilation, Options};
 use lexibus_codegen::diagnostics::{codes, render, Diagnostic, Level};
 use lexibus_codegen::ir::Catalog;
@@ -26,7 +28,26 @@ pub fn exercise_with(name: &str, bytes: &[u8], overlays: Vec<Source>) -> bool {
     assert!(log.is_ok(), "{log:?}");
     serde_json::to_string(&json::info(&compilation)).expect("a summary");
     emitted(&compilation);
+    if bytes.len() < SHORT {
+        documented(&compilation);
+    }
     compilation.catalog.is_some()
+}
+
+/// Inputs of fewer bytes get pages, which are many for each of their bytes.
+const SHORT: usize = 4_000;
+
+/// The pages, and the differences from itself.
+fn documented(compilation: &Compilation) {
+    for format in [Format::Html, Format::Markdown] {
+        let mut site = Site::new(format);
+        site.add_compilation("fuzz", compilation);
+        assert!(!site.finish().is_empty());
+    }
+    if let Some(catalog) = &compilation.catalog {
+        let changes = compare(catalog, catalog);
+        assert!(changes.is_empty(), "a description differs from itself: {}", changes[0]);
+    }
 }
 
 fn told(compilation: &Compilation, found: &Diagnostic) {

@@ -22,7 +22,7 @@ use crate::backend::words::Manual;
 use crate::ir::{Catalog, Device, Documentation, Group, Texts};
 
 /// The name of the first page of a folder, without ending.
-const FIRST: &str = "index";
+pub(super) const FIRST: &str = "index";
 
 /// The folder of a catalogue.
 pub(super) struct Folder {
@@ -72,7 +72,7 @@ impl Folder {
         let findings = (!self.findings.list.is_empty()).then(|| self.file("Findings"));
         self.listed.shared.extend(files.iter().cloned());
         self.listed.shared.extend(findings.iter().map(|file| (file.clone(), "Findings".to_owned())));
-        // The first page of modules leads to the others.
+        // The first page of modules leads to those behind it.
         self.shared = Rc::new(Links::new(self.listed.shared.clone(), files.len().min(1)..files.len()));
         let spoken = languages_of_modules(catalog);
         for device in &catalog.devices {

@@ -48,6 +48,11 @@ pub(super) struct Frameset {
 }
 
 impl Frameset {
+    /// The files and titles of all pages.
+    pub fn all(&self) -> Vec<&(String, String)> {
+        self.own.all().chain(self.shared.all()).collect()
+    }
+
     /// The files and titles that a page has links to.
     pub fn near(&self, file: &str) -> Vec<&(String, String)> {
         self.own.near(file).chain(self.shared.near(file)).collect()

@@ -20,6 +20,11 @@ impl Links {
         Links { list, many, places }
     }
 
+    /// All of them.
+    pub fn all(&self) -> impl Iterator<Item = &(String, String)> {
+        self.list.iter()
+    }
+
     /// All; of very many, those that are near to `file`, and those of other kinds.
     pub fn near(&self, file: &str) -> impl Iterator<Item = &(String, String)> {
         let Range { start, end } = self.many;

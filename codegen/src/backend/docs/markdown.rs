@@ -8,6 +8,7 @@ use askama::Template;
 use super::area::Area;
 use super::codes::Codes;
 use super::findings::Finding;
+use super::folder::FIRST;
 use super::format::{Around, Catalogue, List, Listed, Pages};
 use super::machines::{Machine, Sequence};
 use super::modules::ModuleModel;
@@ -136,7 +137,7 @@ impl Pages for Markdown {
         // The overview itself is the first of them; areas, process data and slots have lists of their own.
         let areas: HashSet<&str> = contents.areas.iter().map(|(area, ..)| area.as_str()).collect();
         let shown = |file: &str| areas.contains(file) || file == around.file;
-        let links: Vec<_> = around.set.near(around.file).into_iter().filter(|(file, _)| !shown(file)).collect();
+        let links: Vec<_> = links(around).into_iter().filter(|(file, _)| !shown(file)).collect();
         written(&OverviewPage { title: &around.set.title, own, contents, links: &links })
     }
 
@@ -169,7 +170,7 @@ impl Pages for Markdown {
     }
 
     fn list(&self, around: Around<'_>, list: List<'_>) -> String {
-        written(&ListPage { title: &around.set.title, devices: list.devices, links: &around.set.near(around.file) })
+        written(&ListPage { title: &around.set.title, devices: list.devices, links: &links(around) })
     }
 
     fn of_catalog(&self, _: &dyn Fn() -> String) -> Vec<Page> {
@@ -178,6 +179,16 @@ impl Pages for Markdown {
 
     fn of_site(&self, catalogs: &[Catalogue], _: Option<&dyn Fn() -> String>) -> Vec<Page> {
         vec![Page::new("SUMMARY.md", written(&SummaryPage { catalogs }))]
+    }
+}
+
+/// The pages that one leads to. The first of a folder leads to all of them: most others lead to none.
+fn links<'s>(around: Around<'s>) -> Vec<&'s (String, String)> {
+    let is_first = around.file.strip_suffix(".md") == Some(FIRST);
+    if is_first {
+        around.set.all()
+    } else {
+        around.set.near(around.file)
     }
 }
 
@@ -204,14 +215,35 @@ impl Machine {
 
 #[cfg(test)]
 mod tests {
+    use std::rc::Rc;
+
     use askama::filters::Escaper;
 
+    use super::super::format::Frameset;
+    use super::super::links::Links;
     use super::*;
 
     fn shown(text: &str) -> String {
         let mut target = String::new();
         Escape.write_escaped_str(&mut target, text).expect("a text");
         target
+    }
+
+    #[test]
+    fn the_first_page_leads_to_all_of_very_many() {
+        let pages = (0..1000).map(|at| (format!("modules-{at}.md"), format!("Modules {at}"))).collect();
+        let set = Frameset {
+            title: "Coupler".to_owned(),
+            own: Rc::default(),
+            shared: Rc::new(Links::new(pages, 0..1000)),
+            languages: Vec::new(),
+        };
+        let linked = |file: &str| {
+            let list = List { devices: &[], root: "", index: "" };
+            Markdown.list(Around { set: &set, file }, list).matches("](modules-").count()
+        };
+        assert_eq!(linked("index.md"), 1000);
+        assert_eq!(linked("drive.md"), 21);
     }
 
     #[test]

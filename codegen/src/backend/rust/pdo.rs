@@ -22,9 +22,6 @@ const MAX_FIELD_NAME: usize = 30;
 /// Bits of a word.
 const WORD: u32 = 64;
 
-/// The longest entry that gets a field: `PDO022` tells of longer ones.
-const MAX_ENTRY: u32 = u16::MAX as u32;
-
 /// A PDO, ready to be written.
 pub(super) struct PdoModel {
     pub name: String,
@@ -150,7 +147,7 @@ fn prefix(direction: Direction) -> &'static str {
 /// Whether there is a struct for a PDO.
 pub(super) fn is_generated(pdo: &Pdo) -> bool {
     let mut mapped = pdo.entries.iter().filter(|entry| is_field(entry)).peekable();
-    mapped.peek().is_some() && mapped.all(|entry| entry.bits <= MAX_ENTRY)
+    mapped.peek().is_some() && mapped.all(|entry| entry.bits <= crate::limits::MAX_FIELD_BITS)
 }
 
 fn model(scope: &Scope<'_>, pdo: &Pdo, struct_name: String, options: &RustOptions) -> Option<PdoModel> {

@@ -13,6 +13,7 @@ pub mod terminal;
 
 use super::codes::CODES;
 use super::{Class, Code, Level};
+use crate::text::steers;
 
 /// The width to which [`explain`] wraps.
 const COLUMNS: usize = 80;
@@ -92,12 +93,12 @@ fn wrapped(text: &str) -> String {
 ///
 /// They can only stand inside of a string, where an escape is as good.
 fn escaped(json: String) -> String {
-    if !json.contains(place::steers) {
+    if !json.contains(steers) {
         return json;
     }
     let mut text = String::with_capacity(json.len() + 16);
     for c in json.chars() {
-        if place::steers(c) {
+        if steers(c) {
             text += &format!("\\u{:04x}", u32::from(c));
         } else {
             text.push(c);

@@ -93,13 +93,6 @@ pub(super) fn quoted(source: &Source, mark: &Mark) -> String {
     format!("{before}{}{after}", &line[shown])
 }
 
-/// Whether a character may move a terminal's cursor, colour its text, end its line or turn its direction.
-pub(super) fn steers(c: char) -> bool {
-    matches!(c,
-        '\0'..='\u{1f}' | '\u{7f}'..='\u{9f}' | '\u{61c}' | '\u{200e}' | '\u{200f}'
-        | '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;

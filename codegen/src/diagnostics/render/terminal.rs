@@ -7,6 +7,7 @@ use annotate_snippets::{AnnotationKind, Element, Group, Level, Origin, Patch, Re
 use super::super::{Diagnostic, Severity};
 use super::place::{self, Mark, Place};
 use crate::source::Source;
+use crate::text::steers;
 
 /// A mark over more lines is only drawn on its first.
 const MAX_LINES: u32 = 6;
@@ -184,7 +185,7 @@ fn push_visible(shown: &mut String, text: &str) {
             // The control pictures are in the order of the characters that they stand for.
             '\0'..='\u{1f}' => shown.push(char::from_u32(0x2400 + u32::from(c)).unwrap_or('�')),
             '\u{fdd0}'..='\u{fdef}' => shown.push('�'),
-            _ if place::steers(c) => shown.push('�'),
+            _ if steers(c) => shown.push('�'),
             _ => shown.push(c),
         }
     }
@@ -218,7 +219,7 @@ mod tests {
 
     fn plain(diagnostic: &Diagnostic, sources: &[Source]) -> String {
         let text = render(diagnostic, sources, false);
-        assert!(!text.contains(|c: char| c != '\n' && place::steers(c)), "{text:?}");
+        assert!(!text.contains(|c: char| c != '\n' && steers(c)), "{text:?}");
         text
     }
 

@@ -1,6 +1,8 @@
 //! Codes with a meaning: alarms, emergency codes, abort codes.
 
-use super::at::{At, Entries, Literal, TextOr};
+use std::collections::hash_map::{Entry, HashMap};
+
+use super::at::{At, Literal, TextOr};
 use super::format::{CodeTableRow, CodesTable};
 use super::tree::{cited, Reader};
 use super::{place, value};
@@ -11,20 +13,21 @@ use crate::text::brief;
 /// A table of codes.
 pub(super) fn table(reader: &mut Reader<'_, '_>, name: &At<String>, table: &CodesTable, device: &mut Device) {
     let mut rows = Vec::with_capacity(table.rows.0.len());
+    let plain = CodeTableRow::default();
+    let mut distinct = table.distinct.then(Distinct::default);
     for (key, row) in table.rows.iter() {
         let Some((first, last)) = place::range(&key.value).filter(|(first, last)| first <= last) else {
             let message = format!("`{}` is no code: write `0x8110` or `\"0xFF13..0xFF15\"`", brief(&key.value));
             reader.report(&codes::TABLE_PLACE, reader.span(key), message);
             continue;
         };
-        let plain = CodeTableRow::default();
         let (name, row) = match &row.value {
             TextOr::Text(name) => (Some(name.as_str()), &plain),
             TextOr::Table(row) => (row.name.as_deref(), &**row),
         };
         let (origin, cite) = (reader.origin(key), row.cite.as_ref().map(cited));
         device.doubts.extend(reader.doubts([row.doubt.as_ref(), row.doubts.as_ref()], origin, cite.as_deref()));
-        let as_before = table.distinct.then(|| same_cells(&table.rows, key, row)).flatten();
+        let as_before = distinct.as_mut().and_then(|distinct| distinct.before(key, row));
         if let Some(other) = as_before {
             let message = format!("the codes {} and {} have the same cells", brief(&other.value), brief(&key.value));
             let found = Diagnostic::new(&codes::CELLS_TWICE, reader.span(key), message);
@@ -54,18 +57,45 @@ pub(super) fn table(reader: &mut Reader<'_, '_>, name: &At<String>, table: &Code
     });
 }
 
-/// The code in front of `key` that has the cells of `row`, where it has any.
-fn same_cells<'t>(
-    rows: &'t Entries<TextOr<CodeTableRow>>,
-    key: &At<String>,
-    row: &CodeTableRow,
-) -> Option<&'t At<String>> {
-    let before = rows.iter().take_while(|(other, _)| other.start < key.start);
-    let mut same = before.filter(|(_, other)| match &other.value {
-        TextOr::Table(other) => !row.cells.is_empty() && other.cells == row.cells,
-        TextOr::Text(_) => false,
-    });
-    same.next().map(|(other, _)| other)
+/// The first code of all that have the same cells.
+#[derive(Default)]
+struct Distinct<'t>(HashMap<Vec<Cell<'t>>, &'t At<String>>);
+
+impl<'t> Distinct<'t> {
+    /// A code in front of `key` that has the cells of `row`, where it has any.
+    fn before(&mut self, key: &'t At<String>, row: &'t CodeTableRow) -> Option<&'t At<String>> {
+        let cells = row.cells.iter().map(Cell::of).collect::<Option<Vec<_>>>().filter(|cells| !cells.is_empty())?;
+        match self.0.entry(cells) {
+            Entry::Occupied(first) => Some(first.get()),
+            Entry::Vacant(none) => {
+                none.insert(key);
+                None
+            }
+        }
+    }
+}
+
+/// A literal that can be looked up.
+#[derive(PartialEq, Eq, Hash)]
+enum Cell<'t> {
+    Bool(bool),
+    Int(i128),
+    Real(u64),
+    Text(&'t str),
+}
+
+impl<'t> Cell<'t> {
+    /// What isn't a number is equal to nothing.
+    fn of(literal: &'t Literal) -> Option<Self> {
+        Some(match literal {
+            Literal::Bool(value) => Cell::Bool(*value),
+            Literal::Int(value) => Cell::Int(*value),
+            Literal::Real(value) if value.is_nan() => return None,
+            // The zero with a sign is equal to the other one.
+            Literal::Real(value) => Cell::Real((value + 0.0).to_bits()),
+            Literal::Text(text) => Cell::Text(text),
+        })
+    }
 }
 
 /// Models and firmware that have a code.

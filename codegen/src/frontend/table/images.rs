@@ -1,5 +1,7 @@
 //! Fixed process images: where the items of a device, or fields of its own, are in cyclic data.
 
+use std::collections::{BTreeMap, HashMap};
+
 use super::at::At;
 use super::format::{field_row, ImageField, ImageTable, Row};
 use super::rows::{Named, Rows};
@@ -20,9 +22,64 @@ struct Placed {
     ty: Option<Type>,
 }
 
-/// Adds a process image. A field that is called as an item of the device is that item; any other is an item that is found
+/// What images have read so far.
+pub(super) struct Images {
+    /// The items that only images have, those of each in a group.
+    groups: Vec<Group>,
+    /// Where the items of the device and of earlier images are, by name: the first of each.
+    places: HashMap<CompactString, Place>,
+}
+
+/// A group and an item of it: of the device, or of the images.
+#[derive(Clone, Copy)]
+enum Place {
+    Device(usize, usize),
+    Image(usize, usize),
+}
+
+impl Images {
+    pub fn new(device: &Device) -> Self {
+        let mut images = Images { groups: Vec::new(), places: HashMap::new() };
+        for (at, group) in device.groups.iter().enumerate() {
+            images.know(group, |item| Place::Device(at, item));
+        }
+        images
+    }
+
+    fn know(&mut self, group: &Group, place: impl Fn(usize) -> Place) {
+        for (at, item) in group.items.iter().enumerate() {
+            self.places.entry(item.name.clone()).or_insert_with(|| place(at));
+        }
+    }
+
+    fn item<'d>(&'d mut self, device: &'d mut Device, name: &str) -> Option<&'d mut Item> {
+        match *self.places.get(name)? {
+            Place::Device(group, item) => device.groups.get_mut(group)?.items.get_mut(item),
+            Place::Image(group, item) => self.groups.get_mut(group)?.items.get_mut(item),
+        }
+    }
+
+    fn add(&mut self, group: Group) {
+        let at = self.groups.len();
+        self.know(&group, |item| Place::Image(at, item));
+        self.groups.push(group);
+    }
+
+    /// Puts the groups of the images in front of all others, the last one first.
+    pub fn finish(self, device: &mut Device) {
+        device.groups.splice(..0, self.groups.into_iter().rev());
+    }
+}
+
+/// Reads a process image. A field that is called as an item of the device is that item; any other is an item that is found
 /// nowhere else.
-pub(super) fn image(reader: &mut Reader<'_, '_>, rows: &mut Rows, table: &At<ImageTable>, device: &mut Device) {
+pub(super) fn image(
+    reader: &mut Reader<'_, '_>,
+    rows: &mut Rows,
+    table: &At<ImageTable>,
+    images: &mut Images,
+    device: &mut Device,
+) {
     let own = &table.value;
     let name: CompactString = own.name.as_deref().unwrap_or("image").into();
     let Some((direction, length)) = process::direction(reader, own.direction.as_ref()).zip(own.bytes) else {
@@ -37,10 +94,9 @@ pub(super) fn image(reader: &mut Reader<'_, '_>, rows: &mut Rows, table: &At<Ima
     group.name = name.clone();
     group.origin = origin;
     group.documentation = reader.documentation(own.doc.as_deref(), cite);
-    let mut fields: Vec<PdoEntry> = Vec::new();
+    let mut fields = Fields::default();
     for (key, field) in own.fields.iter() {
-        let found = device.groups.iter_mut().flat_map(|group| &mut group.items).find(|item| item.name == key.value);
-        let placed = match found {
+        let placed = match images.item(device, &key.value) {
             Some(item) => of_item(reader, rows, key, &field.value, item).map(|placed| {
                 item.bindings.push(binding(&name, &placed));
                 (placed, entry(item))
@@ -54,15 +110,15 @@ pub(super) fn image(reader: &mut Reader<'_, '_>, rows: &mut Rows, table: &At<Ima
         };
         let Some((Placed { bit_offset, bits, .. }, entry)) = placed else { continue };
         let entry = PdoEntry { bit_offset, bits, origin: reader.origin(key), ..entry };
-        if is_free(reader, key, &entry, (length, &fields)) {
-            fields.push(entry);
+        if fields.is_free(reader, key, &entry, length) {
+            fields.add(entry);
         }
     }
-    fields.sort_by_key(|field| field.bit_offset);
+    let fields = fields.0.into_values().collect();
     let big_endian = order.unwrap_or(true);
     device.process_data.images.push(ProcessImage { name, direction, length, overhead: 0, big_endian, fields });
     if !group.items.is_empty() {
-        device.groups.insert(0, group);
+        images.add(group);
     }
 }
 
@@ -141,24 +197,33 @@ fn placed(
     Some(Placed { bit_offset, bits, ty: ty.filter(|_| field.ty.is_some()) })
 }
 
-/// Whether a field lies in its image, and where no other is; if not, that is reported.
-fn is_free(
-    reader: &mut Reader<'_, '_>,
-    key: &At<String>,
-    entry: &PdoEntry,
-    (length, fields): (u32, &[PdoEntry]),
-) -> bool {
-    let end = |entry: &PdoEntry| u64::from(entry.bit_offset) + u64::from(entry.bits);
-    if end(entry) > u64::from(length) * 8 {
-        let message = format!("`{}` ends behind the {length} bytes of its image", brief(&key.value));
-        reader.report(&codes::TABLE_PLACE, reader.span(key), message);
-        return false;
+/// The bit behind a field.
+fn end(field: &PdoEntry) -> u64 {
+    u64::from(field.bit_offset) + u64::from(field.bits)
+}
+
+/// The fields of an image by where they begin and end, and their number: none lies where another is.
+#[derive(Default)]
+struct Fields(BTreeMap<(u32, u64, usize), PdoEntry>);
+
+impl Fields {
+    fn add(&mut self, field: PdoEntry) {
+        self.0.insert((field.bit_offset, end(&field), self.0.len()), field);
     }
-    let overlaps =
-        |other: &&PdoEntry| u64::from(other.bit_offset) < end(entry) && u64::from(entry.bit_offset) < end(other);
-    let Some(other) = fields.iter().find(overlaps) else { return true };
-    let message = format!("`{}` lies where `{}` is", brief(&key.value), brief(&other.name));
-    let found = Diagnostic::new(&codes::TABLE_PLACE, reader.span(key), message);
-    reader.diagnostics.push(found.note_at(other.origin.span, "the other one"));
-    false
+
+    /// Whether a field lies in its image, and where no other is; if not, that is reported.
+    fn is_free(&self, reader: &mut Reader<'_, '_>, key: &At<String>, entry: &PdoEntry, length: u32) -> bool {
+        if end(entry) > u64::from(length) * 8 {
+            let message = format!("`{}` ends behind the {length} bytes of its image", brief(&key.value));
+            reader.report(&codes::TABLE_PLACE, reader.span(key), message);
+            return false;
+        }
+        // Of those that begin in front of its end, the last one reaches furthest.
+        let before = self.0.range(..(u32::try_from(end(entry)).unwrap_or(u32::MAX), 0, 0)).next_back();
+        let Some((_, other)) = before.filter(|(place, _)| u64::from(entry.bit_offset) < place.1) else { return true };
+        let message = format!("`{}` lies where `{}` is", brief(&key.value), brief(&other.name));
+        let found = Diagnostic::new(&codes::TABLE_PLACE, reader.span(key), message);
+        reader.diagnostics.push(found.note_at(other.origin.span, "the other one"));
+        false
+    }
 }

@@ -312,9 +312,11 @@ impl<'a> Table<'a> {
 
     /// What has fields: process images and messages.
     fn frames(&mut self, reader: &mut Reader<'a, '_>, rows: &mut Rows, device: &mut Device) {
+        let mut images = images::Images::new(device);
         for image in self.list(reader, "images") {
-            images::image(reader, rows, &image, device);
+            images::image(reader, rows, &image, &mut images, device);
         }
+        images.finish(device);
         let mut names = HashSet::new();
         for message in self.list::<format::MessageTable>(reader, "messages") {
             rows.allow_at(reader, (message.start, messages::end(&message)), &message.value.allow);

@@ -95,10 +95,12 @@ pub(super) fn pdo(reader: &mut Reader<'_, '_>, table: &At<PdoTable>, targets: &T
     pdo.documentation = reader.documentation(own.doc.as_deref(), cite.clone());
     pdo.max_bytes = own.max;
     pdo.doubts = reader.doubts([own.doubt.as_ref(), own.doubts.as_ref()], pdo.origin, cite.as_deref());
+    let mut bit_offset = 0u32;
     for text in &own.entries {
         if let Some(entry) = entry(reader, text, targets) {
-            let bit_offset = pdo.bits();
+            let behind = bit_offset.saturating_add(entry.bits);
             pdo.entries.push(PdoEntry { bit_offset, ..entry });
+            bit_offset = behind;
         }
     }
     printed_lengths(reader, own, &pdo);

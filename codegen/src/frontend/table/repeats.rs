@@ -7,10 +7,9 @@ use super::at::{Literal, OneOrMany};
 use super::by_name::ByName;
 use super::format::{Row, UnitTable};
 use super::tree::Reader;
-use super::value::MAX_LISTED;
 use crate::diagnostics::{codes, Diagnostic};
 use crate::ir::Value;
-use crate::limits::{MAX_DERIVED_ITEMS, MAX_FREE_ROW_BYTES, ROW_BYTES_PER_ITEM};
+use crate::limits::{MAX_DERIVED_ITEMS, MAX_FREE_ROW_BYTES, MAX_LISTED_VALUES, ROW_BYTES_PER_ITEM};
 use crate::source::Span;
 
 /// How much may still be copied.
@@ -87,7 +86,7 @@ fn expanded(row: &Row) -> usize {
         ConditionValues::Bits(bits) => bits.value.as_ref().is_some_and(|own| has_range(&own.0)),
     });
     let writable = row.writable.as_ref().map(|list| has_range(&list.value));
-    conditions.chain(writable).filter(|has_range| *has_range).count() * MAX_LISTED as usize * size_of::<Value>()
+    conditions.chain(writable).filter(|has_range| *has_range).count() * MAX_LISTED_VALUES as usize * size_of::<Value>()
         / ROW_BYTES_PER_ITEM
 }
 

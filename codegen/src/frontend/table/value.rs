@@ -7,6 +7,7 @@ use super::place;
 use super::tree::{text_of, Reader};
 use crate::diagnostics::{codes, Diagnostic};
 use crate::ir::{Type, Value};
+use crate::limits::MAX_LISTED_VALUES;
 use crate::source::Span;
 use crate::text::brief;
 
@@ -32,9 +33,6 @@ pub(super) fn value(reader: &mut Reader<'_, '_>, given: &At<Literal>, ty: Type) 
         }
     }
 }
-
-/// The greatest number of values that a range stands for where single values are meant.
-pub(super) const MAX_LISTED: i128 = 1024;
 
 /// The values of a list, and first and last of its ranges (`"3..7"`).
 pub(super) fn ranges(
@@ -81,7 +79,7 @@ fn has_numbers(ty: Type) -> bool {
 pub(super) fn listed(reader: &mut Reader<'_, '_>, (given, place): (&[Literal], (u32, u32)), ty: Type) -> Vec<Value> {
     let mut values: Vec<Value> = Vec::new();
     let fits = |values: &[Value], low: i128, high: i128| {
-        high.checked_sub(low).is_some_and(|more| more.saturating_add(values.len() as i128) < MAX_LISTED)
+        high.checked_sub(low).is_some_and(|more| more.saturating_add(values.len() as i128) < MAX_LISTED_VALUES)
     };
     for (first, last) in ranges(reader, (given, place), ty) {
         match (first.as_int(), last.as_int()) {
@@ -89,7 +87,7 @@ pub(super) fn listed(reader: &mut Reader<'_, '_>, (given, place): (&[Literal], (
                 values.extend((low..=high).map(Value::Int));
             }
             (Some(low), Some(high)) if low < high => {
-                let message = format!("with {low} to {high} there are more than {MAX_LISTED} values");
+                let message = format!("with {low} to {high} there are more than {MAX_LISTED_VALUES} values");
                 reader.report(&codes::TABLE_VALUE, Span::new(reader.file, place.0, place.1), message);
             }
             _ => values.push(first),

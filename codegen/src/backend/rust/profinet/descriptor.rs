@@ -67,7 +67,7 @@ fn submodule_docs(
     let mut lines = vec![docs::titled(&submodule.name, &format!("submodule 0x{:08X}{api}", submodule.ident))];
     docs::paragraphs(&submodule.name, submodule.documentation.as_deref(), &mut lines);
     let too_long = submodule.records.iter().filter(|group| match &group.kind {
-        crate::ir::GroupKind::Record(record) => !(1..=record::MAX_LENGTH).contains(&record.length),
+        crate::ir::GroupKind::Record(record) => !(1..=crate::limits::MAX_RECORD_BYTES).contains(&record.length),
         _ => false,
     });
     let too_long = too_long.count();

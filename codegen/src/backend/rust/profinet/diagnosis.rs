@@ -11,9 +11,6 @@ use super::RustOptions;
 use crate::ir::{Catalog, CodeRow, Type, UnitDiagnosis, UnitDiagnosisField};
 use crate::passes::names_unique::{self, Case, Wish};
 
-/// The longest user structure that becomes a struct: that of an alarm lies far below.
-const MAX_LENGTH: u32 = 0xFFFF;
-
 /// The table of errors in the IR.
 const ERRORS: &str = "channel_diagnosis";
 
@@ -96,7 +93,7 @@ pub(super) fn units(catalog: &Catalog, values: &Values<'_>, options: &RustOption
 fn length(unit: &UnitDiagnosis) -> Option<u32> {
     let ends = unit.fields.iter().map(|field| u64::from(field.bit_offset) + u64::from(field.bits));
     let length = u32::try_from(ends.max()?.div_ceil(8)).ok()?;
-    (1..=MAX_LENGTH).contains(&length).then_some(length)
+    (1..=crate::limits::MAX_RECORD_BYTES).contains(&length).then_some(length)
 }
 
 fn unit_model(unit: &UnitDiagnosis, name: String, values: &Values<'_>, options: &RustOptions) -> UnitModel {

@@ -10,12 +10,10 @@ use super::literal;
 use super::values::Values;
 use super::RustOptions;
 use crate::ir::{Access, Binding, Group, GroupKind, Item, Record, Value};
+use crate::limits::MAX_RECORD_BYTES;
 use crate::passes::names_unique::{self, Case, Wish};
 use bytes::{default_bytes, value_of};
 use check::{check, ranges};
-
-/// The longest record that becomes a struct; PROFINET's own limit for one transfer lies below.
-pub(super) const MAX_LENGTH: u32 = 0xFFFF;
 
 /// The longest name of a record: the lines that name its type have to stay below the margin.
 const MAX_NAME: usize = 32;
@@ -67,7 +65,7 @@ struct Parameter<'i> {
 /// Records of a submodule, in their order.
 pub(super) fn models<'a>(groups: &'a [Group], values: &'a Values<'a>, options: &RustOptions) -> Vec<RecordModel> {
     let records = groups.iter().filter_map(|group| match &group.kind {
-        GroupKind::Record(record) if (1..=MAX_LENGTH).contains(&record.length) => Some((group, &**record)),
+        GroupKind::Record(record) if (1..=MAX_RECORD_BYTES).contains(&record.length) => Some((group, &**record)),
         _ => None,
     });
     let records: Vec<(&Group, &Record)> = records.collect();
