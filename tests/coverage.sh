@@ -6,7 +6,8 @@ cd "$(dirname "$0")/.."
 export CARGO_INCREMENTAL=0
 # Programs that the tests start write into few files, or there would be thousands.
 export LLVM_PROFILE_FILE_NAME='lexibus-%4m.profraw'
-if [[ -x target/python/bin/python ]]; then export LEXIBUS_PYTHON=${LEXIBUS_PYTHON:-$PWD/target/python/bin/python}; fi
+python=${LEXIBUS_PYTHON:-$PWD/target/python/bin/python}
+if "$python" -c 'import canopen, lxml' 2>/dev/null; then export LEXIBUS_PYTHON=$python; fi
 
 # Left out: what measures the size, the cost or the messages of other compilations, which counters would change.
 cargo llvm-cov test --no-report --workspace --all-features --no-fail-fast -- \

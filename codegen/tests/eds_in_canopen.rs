@@ -1,7 +1,8 @@
 //! Exported files in an independent library: `canopen`, the one of the Python world.
 //!
 //! What it can load it loads after export, too, with the same entries. Skipped, with a message, where there is no Python
-//! with this library: `LEXIBUS_PYTHON` names one, else it is `python3`.
+//! with this library: `LEXIBUS_PYTHON` names one, which then has to have it, else it is that of
+//! `tests/interop/setup.sh`, or `python3`.
 
 mod corpus_support;
 

@@ -1,7 +1,8 @@
 //! Validation against the schemas of ETG and PI, by libxml2.
 //!
 //! The schemas stand beside the repository and are no part of it. libxml2 is reached through `lxml`, which
-//! `tests/interop/setup.sh` installs: `LEXIBUS_PYTHON` names a Python that has it. Without either, tests say so and pass.
+//! `tests/interop/setup.sh` installs: `LEXIBUS_PYTHON` names a Python that has to have it. Without the schemas, or any Python with
+//! `lxml`, tests say so and pass.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;

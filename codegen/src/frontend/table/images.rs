@@ -204,11 +204,11 @@ fn end(field: &PdoEntry) -> u64 {
 
 /// The fields of an image by where they begin and end, and their number: none lies where another is.
 #[derive(Default)]
-struct Fields(BTreeMap<(u32, u64, usize), PdoEntry>);
+struct Fields(BTreeMap<(u64, u64, usize), PdoEntry>);
 
 impl Fields {
     fn add(&mut self, field: PdoEntry) {
-        self.0.insert((field.bit_offset, end(&field), self.0.len()), field);
+        self.0.insert((field.bit_offset.into(), end(&field), self.0.len()), field);
     }
 
     /// Whether a field lies in its image, and where no other is; if not, that is reported.
@@ -219,7 +219,7 @@ impl Fields {
             return false;
         }
         // Of those that begin in front of its end, the last one reaches furthest.
-        let before = self.0.range(..(u32::try_from(end(entry)).unwrap_or(u32::MAX), 0, 0)).next_back();
+        let before = self.0.range(..(end(entry), 0, 0)).next_back();
         let Some((_, other)) = before.filter(|(place, _)| u64::from(entry.bit_offset) < place.1) else { return true };
         let message = format!("`{}` lies where `{}` is", brief(&key.value), brief(&other.name));
         let found = Diagnostic::new(&codes::TABLE_PLACE, reader.span(key), message);
