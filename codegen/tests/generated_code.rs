@@ -256,7 +256,8 @@ fn process_data_of_any_name_and_length_compile() {
     let pdo = |index: u16, name: &str, entries: &str| {
         format!("<TxPdo Sm=\"0\"><Index>#x{index:04X}</Index><Name>{name}</Name>{entries}</TxPdo>")
     };
-    let names = "Data Bytes Self image bit view at new rt word value LEN unpack pack B b";
+    let names = "Data Bytes Self image bit view at new rt word value LEN unpack pack B b \
+                 clone into try_into into_it from_it as_it is_it next deref borrow";
     let pdos: String = names
         .split(' ')
         .zip(0..)

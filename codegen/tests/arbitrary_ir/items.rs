@@ -76,7 +76,7 @@ pub fn objects(b: &mut Bytes<'_>, around: &Around<'_>, most: usize) -> Vec<Group
 }
 
 fn object(b: &mut Bytes<'_>, around: &Around<'_>, index: u16) -> Group {
-    const CODES: [ObjectCode; 9] = [
+    const CODES: [ObjectCode; 10] = [
         ObjectCode::Var,
         ObjectCode::Var,
         ObjectCode::Var,
@@ -85,9 +85,11 @@ fn object(b: &mut Bytes<'_>, around: &Around<'_>, index: u16) -> Group {
         ObjectCode::Array,
         ObjectCode::Domain,
         ObjectCode::DefStruct,
+        ObjectCode::DefType,
         ObjectCode::Null,
     ];
-    const CATEGORIES: [Category; 3] = [Category::Mandatory, Category::Optional, Category::Manufacturer];
+    const CATEGORIES: [Category; 4] =
+        [Category::Mandatory, Category::Optional, Category::Conditional, Category::Manufacturer];
     let code = b.pick(&CODES);
     let count = if code.has_subs() { b.within(0..=5) } else { 1 };
     let items = (0..count).map(|sub_index| {
@@ -106,6 +108,7 @@ fn object(b: &mut Bytes<'_>, around: &Around<'_>, index: u16) -> Group {
         items,
         links: b.few(8, 2, |b| b.within(0x2000..=0x2020)),
         flags: b.pick(&[0, 1]),
+        described: b.within(0..=count.into()),
         depends_on_slot: b.one_in(8),
         depends_on_slot_group: b.one_in(8),
         documentation: names::documentation(b),

@@ -4,6 +4,7 @@ use std::collections::HashSet;
 
 use super::Assigned;
 use crate::backend::rust::docs;
+use crate::backend::rust::method_names::method_allow;
 use crate::backend::rust::pdo::{PdoModel, PdoModels};
 use crate::ir::Direction;
 use crate::passes::names_unique::{self, Case, Wish};
@@ -29,6 +30,18 @@ pub(in super::super) struct ImageField {
     pub docs: String,
     pub bit: u32,
     pub length: usize,
+}
+
+impl ImageModel {
+    /// The attribute that the names of the view's methods need.
+    pub(in super::super) fn view_allow(&self) -> Option<String> {
+        method_allow(self.fields.iter().map(|field| field.name.as_str()))
+    }
+
+    /// The same for those that write.
+    pub(in super::super) fn view_mut_allow(&self) -> Option<String> {
+        method_allow(self.fields.iter().map(|field| field.name_mut.as_str()))
+    }
 }
 
 pub(super) fn models(pdos: &PdoModels<'_>, assigned: &[Assigned<'_>]) -> Vec<ImageModel> {
@@ -76,8 +89,8 @@ fn model(kind: &str, sync_manager: u8, inside: &[&Assigned<'_>], pdos: &PdoModel
     })
 }
 
-/// Methods of a view that aren't fields.
-const RESERVED: [&str; 4] = ["new", "self", "super", "crate"];
+/// Methods of a view that aren't fields: its own, and those of traits that every type may have.
+const RESERVED: [&str; 7] = ["new", "clone", "into", "try_into", "self", "super", "crate"];
 
 /// The longest name: the lines that unpack it have to stay below the margin.
 const MAX_NAME: usize = 30;
