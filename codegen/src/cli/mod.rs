@@ -53,7 +53,8 @@ pub fn main() -> ExitCode {
     }
 }
 
-/// A line for people, whatever is in the paths and names that it has. That standard error can't be written is nothing that could be reported.
+/// A line for people, whatever is in the paths and names that it has. That standard error can't be written is nothing
+/// that could be reported.
 fn say(line: &str) {
     let _ = writeln!(std::io::stderr(), "{}", printable(line));
 }

@@ -931,8 +931,8 @@ codes! {
     CSV004 CSV_NO_ROW "csv-no-row" Repair Warn
         "a line of a list can't become a row"
         "It has no address, one that can't be read, or one that another line has; or, with it, the repeated lines stand for more \
-        items than a table may have, or their names are taken again and again. The line is written into the table as a comment, so that a person can decide. Bits of one \
-        register share its address: they need a column with the bit."
+        items than a table may have, or their names are taken again and again. The line is written into the table as a \
+        comment, so that a person can decide. Bits of one register share its address: they need a column with the bit."
     CSV005 CSV_RAGGED_ROW "csv-ragged-row" Repair Warn
         "a line has more or fewer cells than there are titles"
         "Often a delimiter stands within a cell that isn't in quotes, and then all cells behind it are in the wrong column."

@@ -48,6 +48,38 @@ impl<'a> Entries<'a> {
     }
 }
 
+/// The items by what they are called: the first of each name. Each index is made when it is first asked for.
+#[derive(Clone, Debug)]
+pub struct ItemNames<'a> {
+    groups: &'a [Group],
+    names: OnceCell<HashMap<&'a str, &'a Item>>,
+    paths: OnceCell<ItemPaths<'a>>,
+}
+
+impl<'a> ItemNames<'a> {
+    /// The items of a device or of a module.
+    pub fn new(groups: &'a [Group]) -> Self {
+        ItemNames { groups, names: OnceCell::new(), paths: OnceCell::new() }
+    }
+
+    /// The item of this name.
+    pub fn by_name(&self, name: &str) -> Option<&'a Item> {
+        let names = self.names.get_or_init(|| {
+            let mut names = HashMap::new();
+            for item in self.groups.iter().flat_map(|group| &group.items) {
+                names.entry(item.name.as_str()).or_insert(item);
+            }
+            names
+        });
+        names.get(name).copied()
+    }
+
+    /// The item at this path: the name of its chapter, and its own (`Chapter/Item`).
+    pub fn by_path(&self, path: &str) -> Option<&'a Item> {
+        self.paths.get_or_init(|| ItemPaths::new(self.groups)).find(path)
+    }
+}
+
 /// The items by the names of their chapter and their own, `Chapter/Item`.
 #[derive(Clone, Debug, Default)]
 pub struct ItemPaths<'a> {

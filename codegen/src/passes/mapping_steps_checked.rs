@@ -31,7 +31,8 @@ pub(super) fn run(device: &Device, diagnostics: &mut Diagnostics) {
 struct Mapping<'a> {
     described: &'a Described<'a>,
     procedure: &'a Procedure,
-    words: BTreeMap<(u16, u8), i128>,
+    /// The words of each mapping by their sub-indices.
+    words: BTreeMap<u16, BTreeMap<u8, i128>>,
     /// The mappings whose number of entries is 0 by then.
     cleared: BTreeSet<u16>,
 }
@@ -40,7 +41,7 @@ impl Mapping<'_> {
     fn step(&mut self, (index, sub): (u16, u8), value: i128, span: Span, diagnostics: &mut Diagnostics) {
         let Some(direction) = direction_of(index) else { return };
         if sub > 0 {
-            let before = self.words.insert((index, sub), value);
+            let before = self.words.entry(index).or_default().insert(sub, value);
             if before.is_some() && self.cleared.contains(&index) {
                 let name = brief(&self.procedure.name);
                 let message = format!("`{name}`: writes entry {sub} of 0x{index:04X} a second time");
@@ -72,7 +73,7 @@ impl Mapping<'_> {
     fn count(&mut self, index: u16, value: i128) -> Option<String> {
         if value == 0 {
             self.cleared.insert(index);
-            (1..=u8::MAX).for_each(|sub| _ = self.words.remove(&(index, sub)));
+            self.words.remove(&index);
             return None;
         }
         let entries = self.described.device.object(index).map_or(0, |group| group.items.len().saturating_sub(1));
@@ -80,14 +81,15 @@ impl Mapping<'_> {
         if entries > 0 && value > entries as i128 {
             return Some(format!("which has {entries}"));
         }
-        let written = self.words.range((index, 0)..=(index, u8::MAX)).count();
+        let written = self.words.get(&index).map_or(0, BTreeMap::len);
         (was_cleared && value > written as i128).then(|| format!("and wrote {written} of them"))
     }
 
     /// The length of so many entries: those that were written, and by default the others.
     fn bits(&self, index: u16, count: i128) -> i128 {
         let by_default = |sub| self.described.entries.get(index, sub)?.default.as_ref().and_then(Value::as_int);
-        let word = |sub: u8| self.words.get(&(index, sub)).copied().or_else(|| by_default(sub)).unwrap_or(0);
+        let written = self.words.get(&index);
+        let word = |sub: u8| written.and_then(|own| own.get(&sub).copied()).or_else(|| by_default(sub)).unwrap_or(0);
         let last = u8::try_from(count.clamp(0, 64)).unwrap_or(0);
         (1..=last).map(|sub| word(sub) & 0xFF).sum()
     }

@@ -55,3 +55,11 @@ pub(super) fn method_allow<'n>(names: impl Iterator<Item = &'n str>) -> Option<S
         (true, true) => Some("#[allow(clippy::should_implement_trait, clippy::wrong_self_convention)]".into()),
     }
 }
+
+/// A name that isn't taken.
+pub(super) fn beside(is_taken: impl Fn(&String) -> bool, mut name: String) -> String {
+    while is_taken(&name) {
+        name.push('_');
+    }
+    name
+}

@@ -4,11 +4,12 @@ use std::collections::{HashMap, HashSet};
 
 use super::doc_table;
 use super::docs;
-use super::ethercat::{beside, depends_on};
+use super::ethercat::depends_on;
 use super::field_type::{field_type, FieldType};
 use super::layout;
 use super::links::Here;
 use super::manual;
+use super::method_names::{beside, method_allow};
 use super::options::RustOptions;
 use super::reachable::addressable;
 use super::scope::{ObjectBus, Scope};
@@ -421,7 +422,7 @@ impl<'a> PdoModels<'a> {
 impl PdoModel {
     /// The attribute that the names of a view's methods need.
     pub(super) fn view_allow(&self) -> Option<String> {
-        super::method_names::method_allow(self.fields.iter().map(|field| field.getter.as_str()))
+        method_allow(self.fields.iter().map(|field| field.getter.as_str()))
     }
 
     /// The statements that pack more than a word. What takes whole bytes is stored byte by byte, which is what a processor

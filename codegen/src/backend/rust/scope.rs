@@ -11,7 +11,7 @@ use super::options::RustOptions;
 use super::reachable;
 use super::value_type::ValueType;
 use super::window::{self, Window};
-use crate::ir::{Device, Group, Item, ItemPaths, Module, Pdo, ProcessImage, Shape, StateMachine, Type, TypeDef};
+use crate::ir::{Device, Group, Item, ItemNames, Module, Pdo, ProcessImage, Shape, StateMachine, Type, TypeDef};
 
 /// The bus on which objects are addressed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -40,11 +40,10 @@ pub(super) struct Scope<'a> {
     pub names: Names,
     /// What documentation can link to.
     pub links: Links,
-    /// Items by their names: the first one of each.
-    by_name: OnceCell<HashMap<&'a str, &'a Item>>,
+    /// Items by what they are called.
+    called: ItemNames<'a>,
     /// The first values of objects by the names of those.
     by_object: OnceCell<HashMap<&'a str, &'a Item>>,
-    paths: OnceCell<ItemPaths<'a>>,
 }
 
 impl<'a> Scope<'a> {
@@ -77,9 +76,8 @@ impl<'a> Scope<'a> {
             registers: Vec::new(),
             names: Names::default(),
             links: Links::default(),
-            by_name: OnceCell::new(),
+            called: ItemNames::new(groups),
             by_object: OnceCell::new(),
-            paths: OnceCell::new(),
         }
     }
 
@@ -146,22 +144,12 @@ impl<'a> Scope<'a> {
     /// of its chapter and its own (`Chapter/Item`).
     pub fn item(&self, name: &str) -> Option<&'a Item> {
         let by_object = || self.by_object().get(name).copied();
-        let found = self.by_name().get(name).copied().or_else(by_object).or_else(|| {
+        let found = self.called.by_name(name).or_else(by_object).or_else(|| {
             let (index, sub) = name.split_once(':').unwrap_or((name, "0"));
             let index = u16::from_str_radix(index.trim().strip_prefix("0x")?, 16).ok()?;
             self.object(index)?.sub(sub.trim().parse().ok()?)
         });
-        found.or_else(|| self.paths.get_or_init(|| ItemPaths::new(self.groups)).find(name))
-    }
-
-    fn by_name(&self) -> &HashMap<&'a str, &'a Item> {
-        self.by_name.get_or_init(|| {
-            let mut items = HashMap::new();
-            for item in self.groups.iter().flat_map(|group| &group.items) {
-                items.entry(item.name.as_str()).or_insert(item);
-            }
-            items
-        })
+        found.or_else(|| self.called.by_path(name))
     }
 
     /// By its name, the first value of an object.

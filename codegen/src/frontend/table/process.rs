@@ -1,14 +1,11 @@
 //! Process data that the table itself describes.
 
-use std::cell::OnceCell;
-use std::collections::HashMap;
-
 use super::at::At;
 use super::format::{NumberOrText, PdoTable};
 use super::place;
 use super::tree::{cited, Reader};
 use crate::diagnostics::{codes, Diagnostic};
-use crate::ir::{Device, Direction, Entries, Item, ItemPaths, ObjectBuses, Pdo, PdoEntry, PdoEntryKind, Type};
+use crate::ir::{Device, Direction, Entries, Item, ItemNames, ObjectBuses, Pdo, PdoEntry, PdoEntryKind, Type};
 use crate::text::brief;
 
 /// As many PDOs as a device has in one direction (CiA 301 7.5.2.35).
@@ -23,28 +20,17 @@ pub(super) fn direction(reader: &mut Reader<'_, '_>, given: Option<&At<String>>)
 pub(super) struct Targets<'d> {
     device: &'d Device,
     entries: Entries<'d>,
-    names: OnceCell<HashMap<&'d str, &'d Item>>,
-    paths: OnceCell<ItemPaths<'d>>,
+    names: ItemNames<'d>,
 }
 
 impl<'d> Targets<'d> {
     pub fn new(device: &'d Device) -> Self {
-        Targets { device, entries: Entries::new(&device.groups), names: OnceCell::new(), paths: OnceCell::new() }
-    }
-
-    fn items(&self) -> impl Iterator<Item = &'d Item> {
-        self.device.groups.iter().flat_map(|group| &group.items)
+        Targets { device, entries: Entries::new(&device.groups), names: ItemNames::new(&device.groups) }
     }
 
     /// The first item of this name, or that at this path.
     fn by_name(&self, name: &str) -> Option<&'d Item> {
-        let names = self.names.get_or_init(|| {
-            // Of equal keys the last is kept: reversed, the first.
-            let all: Vec<&Item> = self.items().collect();
-            all.into_iter().rev().map(|item| (item.name.as_str(), item)).collect()
-        });
-        let by_path = || self.paths.get_or_init(|| ItemPaths::new(&self.device.groups)).find(name);
-        names.get(name).copied().or_else(by_path)
+        self.names.by_name(name).or_else(|| self.names.by_path(name))
     }
 }
 
@@ -152,7 +138,7 @@ fn entry(reader: &mut Reader<'_, '_>, text: &At<String>, targets: &Targets<'_>) 
             reader.diagnostics.push(found.help("give it an `obj`, or its space a rule for CANopen or EtherCAT"));
             return None;
         }
-        let names = targets.items().map(|item| item.name.as_str());
+        let names = targets.device.groups.iter().flat_map(|group| &group.items).map(|item| item.name.as_str());
         reader.unresolved("object", what, reader.span(text), names);
         return None;
     };

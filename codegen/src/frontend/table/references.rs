@@ -8,7 +8,7 @@ use super::numbered::{self, Numbered};
 use super::place;
 use super::tree::Reader;
 use crate::diagnostics::{codes, Diagnostic};
-use crate::ir::{Device, Entries, GroupKind, ItemPaths, Shape};
+use crate::ir::{Device, Entries, GroupKind, ItemNames, Shape};
 use crate::selection::glob;
 use crate::text::brief;
 
@@ -59,7 +59,7 @@ fn ambiguous(reader: &mut Reader<'_, '_>, known: &Known<'_>, name: &At<String>) 
 struct Known<'d> {
     device: &'d Device,
     entries: Entries<'d>,
-    paths: OnceCell<ItemPaths<'d>>,
+    names: ItemNames<'d>,
     items: HashSet<&'d str>,
     /// The chapters that have a name.
     chapters: HashMap<&'d str, Vec<&'d str>>,
@@ -81,8 +81,8 @@ impl<'d> Known<'d> {
             }
         }
         let entries = Entries::new(&device.groups);
-        let (items, paths) = (all.chain(groups).collect(), OnceCell::new());
-        Known { device, entries, paths, items, chapters, others: Default::default() }
+        let names = ItemNames::new(&device.groups);
+        Known { device, entries, names, items: all.chain(groups).collect(), chapters, others: Default::default() }
     }
 
     fn has(&self, kind: &str, text: &str) -> bool {
@@ -93,17 +93,13 @@ impl<'d> Known<'d> {
                 let names = KINDS.iter().position(|own| *own == kind).and_then(|at| self.others.get(at));
                 names.is_some_and(|names| names.get_or_init(|| self.names(kind).into_iter().collect()).contains(text))
             }
-            _ => self.items.contains(text) || self.by_place(text) || self.paths().find(text).is_some(),
+            _ => self.items.contains(text) || self.by_place(text) || self.names.by_path(text).is_some(),
         }
     }
 
     fn by_place(&self, name: &str) -> bool {
         let found = place::objects(name).filter(|own| own.indices.0 == own.indices.1);
         found.is_some_and(|own| self.entries.get(own.indices.0, own.subs.map_or(0, |(first, _)| first)).is_some())
-    }
-
-    fn paths(&self) -> &ItemPaths<'d> {
-        self.paths.get_or_init(|| ItemPaths::new(&self.device.groups))
     }
 
     fn names(&self, kind: &str) -> Vec<&'d str> {

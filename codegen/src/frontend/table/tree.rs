@@ -68,7 +68,7 @@ impl<'a> Reader<'a, '_> {
         let whole = self.range(Some(node.span()));
         let mut node = node;
         // Each costs another reading.
-        for left in (0..=MAX_UNKNOWN_KEYS).rev() {
+        for told in 0..=MAX_UNKNOWN_KEYS {
             let error = match T::deserialize(ValueDeserializer::from(node.clone())) {
                 Ok(piece) => return Some(piece),
                 Err(error) => error,
@@ -77,7 +77,7 @@ impl<'a> Reader<'a, '_> {
             let span = if error.span().is_some() { span } else { whole };
             let message = first_line(error.message());
             match unknown_key(message) {
-                Some(_) if left == 0 => break,
+                Some(_) if told == MAX_UNKNOWN_KEYS => break,
                 Some((key, known)) => {
                     self.unknown_key(key, &known, span);
                     // A key that is misspelt is read as the one that was meant, so that nothing more is said of it.

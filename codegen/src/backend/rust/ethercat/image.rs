@@ -4,7 +4,7 @@ use std::collections::HashSet;
 
 use super::Assigned;
 use crate::backend::rust::docs;
-use crate::backend::rust::method_names::method_allow;
+use crate::backend::rust::method_names::{beside, method_allow};
 use crate::backend::rust::pdo::{PdoModel, PdoModels};
 use crate::ir::Direction;
 use crate::passes::names_unique::{self, Case, Wish};
@@ -114,12 +114,4 @@ fn fields(placed: &[(&PdoModel, u32)]) -> Vec<ImageField> {
         length: model.length,
     };
     placed.iter().zip(&names).map(field).collect()
-}
-
-/// A name that isn't taken.
-pub(in super::super) fn beside(is_taken: impl Fn(&String) -> bool, mut name: String) -> String {
-    while is_taken(&name) {
-        name.push('_');
-    }
-    name
 }

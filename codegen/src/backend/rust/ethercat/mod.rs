@@ -11,7 +11,7 @@ use super::literal;
 use super::pdo::{PdoModel, PdoModels};
 use crate::ir::{ClockMode, ClockTime, Device, EtherCatSettings, Fmmu, Module, ModuleId, Pdo};
 
-pub(super) use image::{beside, ImageModel};
+pub(super) use image::ImageModel;
 
 /// What a device has beside objects and PDOs.
 pub(super) struct EtherCatModel {

@@ -3,9 +3,9 @@
 use super::field::Field;
 use super::rules::Rules;
 use super::{DataModel, MessageModel};
-use crate::backend::rust::ethercat::beside;
 use crate::backend::rust::links::Here;
 use crate::backend::rust::literal;
+use crate::backend::rust::method_names::beside;
 use crate::ir::Message;
 use crate::passes::messages_shaped::Shaped;
 use crate::passes::names_unique::{self, Case};
