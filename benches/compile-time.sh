@@ -9,7 +9,7 @@ root=$PWD
 input=${1:-}
 runs=${2:-7}
 target=${CARGO_TARGET_DIR:-target}
-cargo build --quiet --release -p lexibus-codegen --features cli
+cargo build --quiet --release -p lexibus-cli
 cargo check --quiet --release -p lexibus
 runtime=$(ls -t "$target"/release/deps/liblexibus-*.rmeta | head -n 1)
 work=$(mktemp -d)

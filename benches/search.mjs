@@ -2,7 +2,7 @@
 // the page is drawn.
 import { statSync } from "node:fs";
 import path from "node:path";
-import { pagesOf, Window, withBrowser } from "../codegen/tests/browser/browser.mjs";
+import { pagesOf, Window, withBrowser } from "../cli/tests/browser/browser.mjs";
 
 const QUERIES = [
   "0x6040", "24640", "6040", "control word", "velocity", "velocità", "rpm", "target position rpm", "motor overload", "akd mode", "1 2 3 4",

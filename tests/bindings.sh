@@ -4,8 +4,12 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 lexibus() {
-    if [[ -n ${LEXIBUS:-} ]]; then "$LEXIBUS" "$@"; else cargo run --quiet -p lexibus-codegen --features cli -- "$@"; fi
+    if [[ -n ${LEXIBUS:-} ]]; then "$LEXIBUS" "$@"; else cargo run --quiet -p lexibus-cli -- "$@"; fi
 }
+# A unit test of the compiler derives the schema and writes the file that the compiler contains.
+if [[ ${1:-} != --check && -z ${LEXIBUS:-} ]]; then
+    LEXIBUS_BLESS=1 cargo test --quiet -p lexibus-codegen --lib frontend::table::schema
+fi
 lexibus generate dictionaries/demo-drive.eds --table feature=table \
     --out generated/src/demo_drive.rs "$@"
 lexibus generate dictionaries/aec-vector-step.toml --table feature=table \

@@ -46,9 +46,8 @@ pub struct Compilation {
 }
 
 impl Compilation {
-    /// Of `source`, which is no description, or wasn't read: what there is to say about it.
-    #[cfg(feature = "cli")]
-    pub(crate) fn of_findings(source: Source, diagnostics: Diagnostics) -> Self {
+    /// Creates the compilation of a file that is no description or can't be read: it has diagnostics and no catalog.
+    pub fn of_diagnostics(source: Source, diagnostics: Diagnostics) -> Self {
         Compilation { sources: vec![source], catalog: None, diagnostics, format: None, missing: Vec::new() }
     }
 

@@ -23,8 +23,10 @@
 //! | Rust, documentation, JSON and other formats | [`backend`] |
 //! | what changed between two versions | [`compare`] |
 //! | what standards say of a device's objects | [`profiles`] |
+//! | texts within messages | [`text`] |
 //!
-//! With the feature `cli` it is also the command `lexibus`. [The book](https://github.com/lexibus/lexibus/blob/main/docs/src/SUMMARY.md)
+//! The crate `lexibus-cli` is the command `lexibus`, and `lexibus-import` turns lists of registers (CSV) into register tables.
+//! [The book](https://github.com/lexibus/lexibus/blob/main/docs/src/SUMMARY.md)
 //! has a chapter for each format, and one that writes a front end.
 //!
 //! Each stage can be used by itself:
@@ -48,15 +50,11 @@
 
 pub mod backend;
 pub mod builder;
-#[cfg(feature = "cli")]
-pub mod cli;
 pub mod compare;
 pub mod compile;
 pub mod diagnostics;
 mod etg;
 pub mod frontend;
-#[cfg(feature = "cli")]
-pub mod import;
 pub mod ir;
 pub mod limits;
 pub mod passes;
@@ -64,7 +62,7 @@ pub mod profiles;
 pub mod selection;
 pub mod source;
 pub mod syntax;
-mod text;
+pub mod text;
 mod unique;
 
 pub use backend::rust::{Presence, RustOptions};

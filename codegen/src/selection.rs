@@ -222,9 +222,9 @@ impl Selection {
         self.objects.is_empty() || self.objects.iter().any(|filter| (filter.first..=filter.last).contains(&index))
     }
 
-    /// Takes the PDOs out of which an EDS would make mapping objects that aren't wanted.
-    #[cfg(feature = "cli")]
-    pub(crate) fn mapping_objects(&self, catalog: &mut Catalog) {
+    /// Removes the PDOs whose mapping objects aren't selected. Use it before an export to EDS, which writes the mapping object
+    /// of every PDO. Bindings keep these PDOs.
+    pub fn mapping_objects(&self, catalog: &mut Catalog) {
         for device in &mut catalog.devices {
             device.process_data.pdos.retain(|pdo| self.has_object(pdo.mapping_index));
         }

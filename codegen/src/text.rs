@@ -1,9 +1,10 @@
-//! Small helpers on text.
+//! Shortens, sanitizes and compares texts for messages.
 
 use std::borrow::Cow;
 
-/// As much of a text as a message quotes or a key takes, so that deep nesting can't multiply long names.
-pub(crate) fn brief(text: &str) -> &str {
+/// Returns the first 64 characters of a text: as much as a message quotes or a key takes, so that deep nesting can't multiply
+/// long names.
+pub fn brief(text: &str) -> &str {
     const LETTERS: usize = 64;
     let end = text.char_indices().nth(LETTERS).map_or(text.len(), |(at, _)| at);
     &text[..end]
@@ -16,16 +17,17 @@ pub(crate) fn steers(c: char) -> bool {
         | '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
 }
 
-/// A text of a description on one line that is safe to print.
-pub(crate) fn printable(text: &str) -> Cow<'_, str> {
+/// Replaces characters that control a terminal, end the line or change the direction of text by spaces: a text of a
+/// description on one line that is safe to print.
+pub fn printable(text: &str) -> Cow<'_, str> {
     match text.contains(steers) {
         true => text.chars().map(|c| if steers(c) { ' ' } else { c }).collect(),
         false => text.into(),
     }
 }
 
-/// The Levenshtein distance: how many characters to insert, delete or replace to get from `a` to `b`.
-pub(crate) fn edit_distance(a: &str, b: &str) -> usize {
+/// Returns the Levenshtein distance: how many characters to insert, delete or replace to get from `a` to `b`.
+pub fn edit_distance(a: &str, b: &str) -> usize {
     // One row of the usual table: `row[j]` is the distance of the part of `a` read so far to the first `j` of `b`.
     let mut row: Vec<usize> = (0..=b.chars().count()).collect();
     for (i, from) in a.chars().enumerate() {

@@ -1,7 +1,6 @@
 //! A short line that stands for many elements stands for so many and no more, and the book says how many.
 
 use lexibus_codegen::compile::{check, Compilation, Options};
-use lexibus_codegen::import::{self, import};
 use lexibus_codegen::limits;
 use lexibus_codegen::source::Source;
 
@@ -258,35 +257,6 @@ fn notes_of_many_cells() {
     };
     assert_eq!(machine(1000), (0, 1));
     assert_eq!(machine(2 * limits::ROW_BYTES_PER_ITEM), (1, 0));
-}
-
-#[test]
-fn lines_of_a_list_that_stand_for_many_items() {
-    let list = |lines: usize| {
-        let line = |at: usize| format!("{},P{at},u8,1000\n", at * 1000);
-        let text = "Param,Name,Type,Repeat\n".to_owned() + &(0..lines).map(line).collect::<String>();
-        let imported = import(Source::new("list.csv", text.into_bytes()), &import::Options::default());
-        let table = imported.table.expect("a table");
-        (count(&imported.compilation, "CSV004"), table.lines().filter(|line| line.contains("count = 1000")).count())
-    };
-    let most = limits::MAX_DERIVED_ITEMS / 1000;
-    assert_eq!(list(most), (0, most));
-    assert_eq!(list(most + 9), (9, most));
-}
-
-#[test]
-fn names_of_repeated_lines_that_are_taken() {
-    // Each line with a number takes a name that the second repeated one tries.
-    let tried = limits::MAX_DERIVED_ITEMS / 1000;
-    let lines = |taken: usize| {
-        let taken: String = (0..taken).map(|at| format!("{},P 1000 {},u8,\n", 5000 + at, at + 2)).collect();
-        let text = format!("Param,Name,Type,Repeat\n0,P,u8,1000\n{taken}1000,P,u8,1000\n");
-        let imported = import(Source::new("list.csv", text.into_bytes()), &import::Options::default());
-        let rows = imported.table.expect("a table").lines().filter(|line| line.contains("count = 1000")).count();
-        (count(&imported.compilation, "CSV004"), rows)
-    };
-    assert_eq!(lines(tried - 1), (0, 2));
-    assert_eq!(lines(tried + 9), (1, 1));
 }
 
 /// Depth, references by text and copies have their tests at the quirks of their formats; here all are held against the book.

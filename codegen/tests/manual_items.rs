@@ -152,7 +152,7 @@ fn every_item_is_accounted_for() {
 #[test]
 fn the_tests_expect_what_the_list_says() {
     let lints = [include_str!("lints_manual.rs"), include_str!("lints_table.rs")];
-    let imports = [include_str!("import.rs")];
+    let imports = [include_str!("../import/tests/import.rs")];
     for (item, how) in ITEMS {
         let (sources, name, codes) = match how {
             Finding(name, codes) => (lints.as_slice(), name, codes),

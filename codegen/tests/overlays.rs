@@ -450,38 +450,6 @@ fn the_builder_takes_overlays() {
     assert!(missing.to_string().contains("none.toml"), "{missing}");
 }
 
-#[cfg(feature = "cli")]
-#[test]
-fn the_command_line_takes_overlays() {
-    let folder = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join("overlay-cli");
-    std::fs::create_dir_all(&folder).expect("a folder");
-    let (input, overlay) = (folder.join("pump.eds"), folder.join("pump.toml"));
-    std::fs::write(&input, EDS).expect("the description");
-    std::fs::write(&overlay, rows("0x2000 = { unit = \"rpm\" }\n0x2999 = { unit = \"rpm\" }\n")).expect("the overlay");
-    let run = |command: &str| {
-        let mut call = std::process::Command::new(env!("CARGO_BIN_EXE_lexibus"));
-        call.arg(command)
-            .arg(&input)
-            .arg("--overlay")
-            .arg(&overlay)
-            .args(["-A", "warnings", "-W", "TAB030"])
-            .output()
-            .expect("lexibus runs")
-    };
-    let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
-    let generated = run("generate");
-    assert!(generated.status.success() && text(&generated.stdout).contains("in rpm"));
-    assert!(text(&generated.stderr).contains("pump.toml:7:1"), "{}", text(&generated.stderr));
-    assert!(text(&run("dump").stdout).contains("\"overlay\""));
-    assert!(text(&run("info").stdout).contains("TAB030"));
-    assert!(text(&run("check").stderr).contains("TAB030"));
-    let missing = std::process::Command::new(env!("CARGO_BIN_EXE_lexibus"))
-        .args(["check", &input.to_string_lossy(), "--overlay", "nowhere.toml"])
-        .output()
-        .expect("lexibus runs");
-    assert_eq!(missing.status.code(), Some(2));
-}
-
 #[test]
 fn an_overlay_changes_no_lints_of_the_rest() {
     // A value that can't be written comes in an RPDO; two objects of one name; a text that mentions what isn't there.

@@ -243,17 +243,3 @@ fn telegrams_of_profidrive_have_their_words() {
     }
     assert_eq!(typed, 3, "telegrams 1, 2 and 3");
 }
-
-#[cfg(feature = "cli")]
-#[test]
-fn the_command_line_switches_them_off() {
-    let run = |arguments: &[&str]| {
-        let output =
-            std::process::Command::new(env!("CARGO_BIN_EXE_lexibus")).args(arguments).output().expect("lexibus runs");
-        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-        String::from_utf8(output.stdout).expect("UTF-8")
-    };
-    assert!(run(&["generate", DEMO]).contains("types::ModesOfOperation"));
-    assert!(!run(&["generate", DEMO, "--no-profiles"]).contains("ModesOfOperation"));
-    assert!(!run(&["export", DEMO, "--format", "eds"]).contains("Mode wanted"), "an EDS is what it was");
-}

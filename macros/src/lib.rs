@@ -178,7 +178,7 @@ mod tests {
         "../codegen/tests/quirks_eds/everything.dcf",
     ];
 
-    /// The command line's are held against the build script's by `codegen/tests/cli.rs`.
+    /// The command line's are held against the build script's by `cli/tests/cli.rs`.
     #[test]
     fn the_macro_and_the_build_script_give_the_same_bytes() {
         for path in DICTIONARIES {

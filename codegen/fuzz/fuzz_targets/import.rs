@@ -1,8 +1,8 @@
 //! Any bytes, given as a list of registers; the table that it becomes is read again.
 #![no_main]
 
-use lexibus_codegen::import::{import, Options};
 use lexibus_codegen::source::Source;
+use lexibus_import::{import, Options};
 
 libfuzzer_sys::fuzz_target!(|bytes: &[u8]| {
     let made = import(Source::new("fuzz.csv", bytes.to_vec()), &Options::default());

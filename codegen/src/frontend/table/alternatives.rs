@@ -40,7 +40,7 @@ impl<'de> Deserialize<'de> for Scaling {
 
 /// The values that a condition names, and the bits that it compares.
 #[derive(Clone, Debug)]
-#[cfg_attr(feature = "cli", derive(schemars::JsonSchema), schemars(untagged))]
+#[cfg_attr(test, derive(schemars::JsonSchema), schemars(untagged))]
 pub enum ConditionValues {
     /// Values of the whole item.
     Values(OneOrMany<Literal>),

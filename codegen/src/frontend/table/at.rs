@@ -240,7 +240,7 @@ fn one<'de, T: Deserialize<'de>, D: Deserializer<'de>>(deserializer: D) -> Resul
     T::deserialize(deserializer).map(|value| OneOrMany(vec![value]))
 }
 
-#[cfg(feature = "cli")]
+#[cfg(test)]
 mod schema {
     //! What editors are told of them.
 

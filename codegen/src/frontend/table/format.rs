@@ -7,7 +7,7 @@ use serde::Deserialize;
 
 use super::alternatives::ConditionValues;
 use super::at::{At, Entries, FlagOr, Literal, OneOrMany, TextOr};
-#[cfg(feature = "cli")]
+#[cfg(test)]
 use super::schema;
 
 /// Derives what every table of the format derives.
@@ -16,7 +16,7 @@ macro_rules! tables {
         $(
             $(#[$attribute])*
             #[derive(Clone, Debug, Default, Deserialize)]
-            #[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+            #[cfg_attr(test, derive(schemars::JsonSchema))]
             #[serde(deny_unknown_fields, default)]
             #[allow(missing_docs)]
             pub struct $name { $($body)* }
@@ -62,7 +62,7 @@ pub type ValueEntries = Entries<TextOr<ValueTable>>;
 
 /// A number or a text.
 #[derive(Clone, Debug, Deserialize)]
-#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(untagged, expecting = "a number or a text")]
 pub enum NumberOrText {
     /// A number.
@@ -82,7 +82,7 @@ impl fmt::Display for NumberOrText {
 
 /// `true`, `false` or a text.
 #[derive(Clone, Debug, Deserialize)]
-#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(untagged, expecting = "true, false or a text")]
 pub enum FlagOrText {
     /// A truth value.
@@ -93,7 +93,7 @@ pub enum FlagOrText {
 
 /// A number, or how the number is found.
 #[derive(Clone, Debug)]
-#[cfg_attr(feature = "cli", derive(schemars::JsonSchema), schemars(untagged))]
+#[cfg_attr(test, derive(schemars::JsonSchema), schemars(untagged))]
 pub enum Scaling {
     /// physical = raw × factor.
     Factor(f64),
@@ -183,7 +183,7 @@ tables! {
         /// Its number.
         pub number: Option<u8>,
         /// `mailbox_out`, `mailbox_in`, `outputs` or `inputs`, seen from the master.
-        #[cfg_attr(feature = "cli", schemars(transform = schema::words(schema::PURPOSES)))]
+        #[cfg_attr(test, schemars(transform = schema::words(schema::PURPOSES)))]
         pub purpose: Option<At<String>>,
         /// Its first address in the memory of the slave controller.
         pub start: Option<u16>,
@@ -206,7 +206,7 @@ tables! {
     /// A register table, an overlay or a profile.
     pub struct Document {
         /// Version of the format: 1.
-        #[cfg_attr(feature = "cli", schemars(extend("const" = 1)))]
+        #[cfg_attr(test, schemars(extend("const" = 1)))]
         pub lexibus: Option<At<u32>>,
         /// The device that the table describes.
         pub device: Option<At<DeviceTable>>,
@@ -285,12 +285,12 @@ tables! {
         /// Several contradictions.
         pub doubts: Option<OneOrMany<DoubtTable>>,
         /// `canopen`, `ethercat`, `modbus`, `profinet`, `serial`.
-        #[cfg_attr(feature = "cli", schemars(transform = schema::words(schema::BUSES)))]
+        #[cfg_attr(test, schemars(transform = schema::words(schema::BUSES)))]
         pub buses: Option<Vec<At<String>>>,
         /// Numbers of device profiles that it follows.
         pub profiles: Vec<u32>,
         /// The numbers that a node, or server, may have (`"1..90"`).
-        #[cfg_attr(feature = "cli", schemars(transform = schema::place("#(\\.\\.=?#)?")))]
+        #[cfg_attr(test, schemars(transform = schema::place("#(\\.\\.=?#)?")))]
         pub node_ids: Option<At<NumberOrText>>,
         /// CANopen bit rates in kbit/s.
         pub bit_rates: Vec<u16>,
@@ -313,7 +313,7 @@ tables! {
         /// Its language (BCP 47).
         pub language: Option<String>,
         /// What `cite` counts: `page` or `line`.
-        #[cfg_attr(feature = "cli", schemars(transform = schema::words(&["page", "line"])))]
+        #[cfg_attr(test, schemars(transform = schema::words(&["page", "line"])))]
         pub cites: Option<String>,
         /// What it is, in your own words.
         pub doc: Option<String>,
@@ -439,14 +439,14 @@ tables! {
     /// Where the registers of a space are on Modbus.
     pub struct ModbusRule {
         /// `holding`, `input`, `coil` or `discrete`.
-        #[cfg_attr(feature = "cli", schemars(transform = schema::words(&["holding", "input", "coil", "discrete"])))]
+        #[cfg_attr(test, schemars(transform = schema::words(&["holding", "input", "coil", "discrete"])))]
         pub table: Option<At<String>>,
         /// The number that the manual's table counts from.
         pub first: Option<i64>,
         /// What is added to get the address on the wire.
         pub add: Option<i64>,
         /// `high_first` or `low_first`: which word of a longer value comes first.
-        #[cfg_attr(feature = "cli", schemars(transform = schema::words(&["high_first", "low_first"])))]
+        #[cfg_attr(test, schemars(transform = schema::words(&["high_first", "low_first"])))]
         pub order: Option<At<String>>,
         /// Whether the bytes of a word are swapped.
         pub swap: bool,
@@ -471,7 +471,7 @@ tables! {
     /// How a value is reached through other items.
     pub struct IndirectRule {
         /// The buses on which it is; all of those of its items where nothing is said.
-        #[cfg_attr(feature = "cli", schemars(transform = schema::words(schema::BUSES)))]
+        #[cfg_attr(test, schemars(transform = schema::words(schema::BUSES)))]
         pub buses: Option<Vec<At<String>>>,
         /// The numbers that it takes: `"0x8000..0x8FFF"`; all where nothing is said.
         pub numbers: Option<At<String>>,
@@ -500,7 +500,7 @@ tables! {
         /// The item that has, or takes, the value.
         pub value: Option<At<String>>,
         /// What is written first: `address` or `value`.
-        #[cfg_attr(feature = "cli", schemars(transform = schema::words(&["address", "value"])))]
+        #[cfg_attr(test, schemars(transform = schema::words(&["address", "value"])))]
         pub first: Option<At<String>>,
         /// Whether the device sets the number to 0 once it is done.
         pub clears: Option<bool>,
@@ -533,22 +533,22 @@ tables! {
         /// Rows by name.
         pub registers: Entries<Row>,
         /// Rows by object (`0x6040`, `"0x1018:1"`, `"0x1400..0x1403:1"`).
-        #[cfg_attr(feature = "cli", schemars(transform = schema::keys(schema::OBJECTS)))]
+        #[cfg_attr(test, schemars(transform = schema::keys(schema::OBJECTS)))]
         pub objects: Entries<Row>,
     }
 
     /// One item of the device.
     pub struct Row {
         /// Number of the register, or numbers (`"63-64"`).
-        #[cfg_attr(feature = "cli", schemars(transform = schema::place("#( *[-–] *#)?")))]
+        #[cfg_attr(test, schemars(transform = schema::place("#( *[-–] *#)?")))]
         pub reg: Option<At<NumberOrText>>,
         /// Object and sub-index (`"0x2000:1"`).
-        #[cfg_attr(feature = "cli", schemars(transform = schema::place("#(:#)?")))]
+        #[cfg_attr(test, schemars(transform = schema::place("#(:#)?")))]
         pub obj: Option<At<NumberOrText>>,
         /// Address in the memory of an EtherCAT slave controller.
         pub esc: Option<At<u16>>,
         /// What the slave itself may do with that memory, where the manual says: `ro`, `rw` or `wo`.
-        #[cfg_attr(feature = "cli", schemars(transform = schema::words(&["ro", "rw", "wo"])))]
+        #[cfg_attr(test, schemars(transform = schema::words(&["ro", "rw", "wo"])))]
         pub pdi: Option<At<String>>,
         /// Length there, in bytes; of any other row what the manual prints, which is compared with the type.
         pub length: Option<At<u16>>,
@@ -559,24 +559,24 @@ tables! {
         /// The name of an object or sub-entry.
         pub name: Option<At<String>>,
         /// `var`, `array`, `record` or `domain`.
-        #[cfg_attr(feature = "cli", schemars(transform = schema::words(&["var", "array", "record", "domain"])))]
+        #[cfg_attr(test, schemars(transform = schema::words(&["var", "array", "record", "domain"])))]
         pub code: Option<At<String>>,
         /// `u16`, `i32`, `f32`, `bool`, `str(25)`, `bytes(6)`, `u16[10]`, …; `?` where the manual doesn't say.
         #[serde(rename = "type")]
-        #[cfg_attr(feature = "cli", schemars(transform = schema::types))]
+        #[cfg_attr(test, schemars(transform = schema::types))]
         pub ty: Option<At<String>>,
         /// What the bits mean: a name of `[bits]`, or the bits themselves.
-        #[cfg_attr(feature = "cli", schemars(transform = schema::keys(schema::BITS)))]
+        #[cfg_attr(test, schemars(transform = schema::keys(schema::BITS)))]
         pub bits: Option<At<TextOr<BitEntries>>>,
         /// What the values mean: a name of `[enums]`, or the values themselves.
         #[serde(rename = "enum")]
-        #[cfg_attr(feature = "cli", schemars(transform = schema::keys(schema::VALUES)))]
+        #[cfg_attr(test, schemars(transform = schema::keys(schema::VALUES)))]
         pub values: Option<At<TextOr<ValueEntries>>>,
         /// `ro`, `rw`, `wo`, `const`, `rwr` or `rww`.
-        #[cfg_attr(feature = "cli", schemars(transform = schema::words(&["ro", "rw", "wo", "const", "rwr", "rww"])))]
+        #[cfg_attr(test, schemars(transform = schema::words(&["ro", "rw", "wo", "const", "rwr", "rww"])))]
         pub access: Option<At<String>>,
         /// `rx`, `tx`, `both` or `no`.
-        #[cfg_attr(feature = "cli", schemars(transform = schema::words(&["rx", "tx", "both", "no"])))]
+        #[cfg_attr(test, schemars(transform = schema::words(&["rx", "tx", "both", "no"])))]
         pub pdo: Option<At<String>>,
         /// The smallest value, raw.
         pub min: Option<At<Literal>>,
@@ -627,7 +627,7 @@ tables! {
         /// Options that have to be fitted.
         pub needs: Option<Words>,
         /// The only buses on which it exists.
-        #[cfg_attr(feature = "cli", schemars(transform = schema::words(schema::BUSES)))]
+        #[cfg_attr(test, schemars(transform = schema::words(schema::BUSES)))]
         pub buses: Option<Vec<At<String>>>,
         /// Whether each axis has its own.
         pub per_axis: Option<bool>,
@@ -646,10 +646,10 @@ tables! {
         /// How many numbers lie between two of them.
         pub stride: Option<u32>,
         /// The bits of the register that the row is about (`"7-0"`).
-        #[cfg_attr(feature = "cli", schemars(transform = schema::place(schema::BITS)))]
+        #[cfg_attr(test, schemars(transform = schema::place(schema::BITS)))]
         pub part: Option<At<NumberOrText>>,
         /// `high_first` or `low_first`.
-        #[cfg_attr(feature = "cli", schemars(transform = schema::words(&["high_first", "low_first"])))]
+        #[cfg_attr(test, schemars(transform = schema::words(&["high_first", "low_first"])))]
         pub order: Option<At<String>>,
         /// Whether the bytes of a word are swapped.
         pub swap: Option<bool>,
@@ -684,14 +684,14 @@ tables! {
         /// The models; `*` stands for any letters.
         pub models: Option<Vec<At<String>>>,
         /// The buses.
-        #[cfg_attr(feature = "cli", schemars(transform = schema::words(schema::BUSES)))]
+        #[cfg_attr(test, schemars(transform = schema::words(schema::BUSES)))]
         pub buses: Option<Vec<At<String>>>,
         /// The type of the value there, on buses where it has another width.
         #[serde(rename = "type")]
-        #[cfg_attr(feature = "cli", schemars(transform = schema::types))]
+        #[cfg_attr(test, schemars(transform = schema::types))]
         pub ty: Option<At<String>>,
         /// What may be done there, on buses that allow less.
-        #[cfg_attr(feature = "cli", schemars(transform = schema::words(&["ro", "rw", "wo"])))]
+        #[cfg_attr(test, schemars(transform = schema::words(&["ro", "rw", "wo"])))]
         pub access: Option<At<String>>,
         /// The only values, and ranges of them.
         pub allowed: Option<At<Vec<Literal>>>,
@@ -722,7 +722,7 @@ tables! {
     /// What another place of the manual says of a row: an overview, a table of contents, the prose.
     pub struct SummaryTable {
         /// The type that it says.
-        #[cfg_attr(feature = "cli", schemars(transform = schema::types))]
+        #[cfg_attr(test, schemars(transform = schema::types))]
         #[serde(rename = "type")]
         pub ty: Option<At<String>>,
         /// The access that it says.
@@ -730,7 +730,7 @@ tables! {
         /// The direction of PDOs that it says.
         pub pdo: Option<At<String>>,
         /// The object code that it says.
-        #[cfg_attr(feature = "cli", schemars(transform = schema::words(&["var", "array", "record", "domain"])))]
+        #[cfg_attr(test, schemars(transform = schema::words(&["var", "array", "record", "domain"])))]
         pub code: Option<At<String>>,
         /// The name that it says.
         pub name: Option<At<String>>,
@@ -793,7 +793,7 @@ tables! {
     /// Named values of an integer.
     pub struct EnumTable {
         /// The integer, where rows don't tell.
-        #[cfg_attr(feature = "cli", schemars(transform = schema::types))]
+        #[cfg_attr(test, schemars(transform = schema::types))]
         pub base: Option<At<String>>,
         /// Whether a device never has a value that isn't listed.
         pub closed: bool,
@@ -810,7 +810,7 @@ tables! {
         /// Findings that the doubt explains.
         pub allow: Option<Vec<At<String>>>,
         /// The values, and ranges of values (`"3..7"`).
-        #[cfg_attr(feature = "cli", schemars(transform = schema::keys(schema::VALUES)))]
+        #[cfg_attr(test, schemars(transform = schema::keys(schema::VALUES)))]
         pub values: ValueEntries,
     }
 
@@ -819,7 +819,7 @@ tables! {
         /// A short English phrase; the identifier is made of it.
         pub name: Option<String>,
         /// `reserved` or `vendor`.
-        #[cfg_attr(feature = "cli", schemars(transform = schema::words(&["reserved", "vendor"])))]
+        #[cfg_attr(test, schemars(transform = schema::words(&["reserved", "vendor"])))]
         pub zone: Option<At<String>>,
         /// Its name or label in the manual's language.
         pub orig: Option<String>,
@@ -830,7 +830,7 @@ tables! {
         /// Models that have it; `*` stands for any letters.
         pub models: Option<Vec<At<String>>>,
         /// The only buses on which it exists.
-        #[cfg_attr(feature = "cli", schemars(transform = schema::words(schema::BUSES)))]
+        #[cfg_attr(test, schemars(transform = schema::words(schema::BUSES)))]
         pub buses: Option<Vec<At<String>>>,
         /// It exists while this item has one of these values.
         pub when: Option<Conditions>,
@@ -849,7 +849,7 @@ tables! {
     /// Named bits of an integer.
     pub struct BitsTable {
         /// The integer, where rows don't tell.
-        #[cfg_attr(feature = "cli", schemars(transform = schema::types))]
+        #[cfg_attr(test, schemars(transform = schema::types))]
         pub base: Option<At<String>>,
         /// What it is, in your own words.
         pub doc: Option<String>,
@@ -866,7 +866,7 @@ tables! {
         /// The address of the byte with bits 0 to 7, where the manual counts the bits of each byte (`"0x221:3-2"`).
         pub address: Option<u32>,
         /// The bits, and ranges of bits (`"3-2"`); a list where other items decide what they mean.
-        #[cfg_attr(feature = "cli", schemars(transform = schema::keys(schema::BITS_OF_BYTES)))]
+        #[cfg_attr(test, schemars(transform = schema::keys(schema::BITS_OF_BYTES)))]
         pub at: BitEntries,
     }
 
@@ -879,7 +879,7 @@ tables! {
         /// The bits are a number.
         pub number: bool,
         /// What the values of the bits mean.
-        #[cfg_attr(feature = "cli", schemars(transform = schema::keys(schema::VALUES)))]
+        #[cfg_attr(test, schemars(transform = schema::keys(schema::VALUES)))]
         pub values: Option<ValueEntries>,
         /// The same, as a name of `[enums]`.
         #[serde(rename = "enum")]
@@ -887,12 +887,12 @@ tables! {
         /// The bits mean nothing: a writer puts 0, 1, or `keep`s what was read.
         pub reserved: Option<NumberOrText>,
         /// `rising`, `falling`, `toggle` or `self_clearing`.
-        #[cfg_attr(feature = "cli", schemars(transform = schema::words(schema::TRIGGERS)))]
+        #[cfg_attr(test, schemars(transform = schema::words(schema::TRIGGERS)))]
         pub trigger: Option<At<String>>,
         /// The bits mean this while this item has one of these values.
         pub when: Option<Conditions>,
         /// `ro`, `rw` or `wo`, where it isn't as the row says.
-        #[cfg_attr(feature = "cli", schemars(transform = schema::words(&["ro", "rw", "wo", "const", "rwr", "rww"])))]
+        #[cfg_attr(test, schemars(transform = schema::words(&["ro", "rw", "wo", "const", "rwr", "rww"])))]
         pub access: Option<At<String>>,
         /// Its name or label in the manual's language.
         pub orig: Option<String>,
@@ -935,12 +935,12 @@ tables! {
     /// How to get to the object of the next axis.
     pub struct AxisRuleTable {
         /// The objects (`"0x6000..0x67FF"`).
-        #[cfg_attr(feature = "cli", schemars(transform = schema::place("#(\\.\\.=?#)?")))]
+        #[cfg_attr(test, schemars(transform = schema::place("#(\\.\\.=?#)?")))]
         pub objects: Option<At<NumberOrText>>,
         /// What is added to the index.
         pub index: Option<u16>,
         /// `axis`: the sub-index is the number of the axis.
-        #[cfg_attr(feature = "cli", schemars(transform = schema::words(&["axis"])))]
+        #[cfg_attr(test, schemars(transform = schema::words(&["axis"])))]
         pub sub: Option<String>,
         /// What is added to the sub-index.
         pub sub_stride: Option<u8>,
@@ -953,7 +953,7 @@ tables! {
         /// Its name.
         pub name: Option<String>,
         /// `rx` or `tx`, seen from the device.
-        #[cfg_attr(feature = "cli", schemars(transform = schema::words(&["rx", "tx"])))]
+        #[cfg_attr(test, schemars(transform = schema::words(&["rx", "tx"])))]
         pub direction: Option<At<String>>,
         /// `"0x6040:0/16"`, `"item"`, `"pad/8"`, or `"? name/16"` where the manual gives no object.
         pub entries: Vec<At<String>>,
@@ -972,7 +972,7 @@ tables! {
         /// PDOs that can't be assigned beside it (`0x1702`, `"0x1600..0x1603"`).
         pub excludes: Vec<NumberOrText>,
         /// The only buses on which it carries this: `canopen`, `ethercat`.
-        #[cfg_attr(feature = "cli", schemars(transform = schema::words(schema::BUSES)))]
+        #[cfg_attr(test, schemars(transform = schema::words(schema::BUSES)))]
         pub buses: Option<Vec<At<String>>>,
         /// What it is, in your own words.
         pub doc: Option<String>,
@@ -991,12 +991,12 @@ tables! {
         /// Its name.
         pub name: Option<String>,
         /// `rx` or `tx`, seen from the device.
-        #[cfg_attr(feature = "cli", schemars(transform = schema::words(&["rx", "tx"])))]
+        #[cfg_attr(test, schemars(transform = schema::words(&["rx", "tx"])))]
         pub direction: Option<At<String>>,
         /// Its length in bytes.
         pub bytes: Option<u32>,
         /// `big` (where nothing else is said) or `little`.
-        #[cfg_attr(feature = "cli", schemars(transform = schema::words(&["big", "little"])))]
+        #[cfg_attr(test, schemars(transform = schema::words(&["big", "little"])))]
         pub order: Option<At<String>>,
         /// Its fields, by the name of the item; what is no item of the table gets a `type`.
         pub fields: Entries<ImageField>,
@@ -1018,14 +1018,14 @@ tables! {
         pub bit: Option<u8>,
         /// Its type, where it isn't that of the item.
         #[serde(rename = "type")]
-        #[cfg_attr(feature = "cli", schemars(transform = schema::types))]
+        #[cfg_attr(test, schemars(transform = schema::types))]
         pub ty: Option<At<String>>,
         /// What the bits mean: a name of `[bits]`, or the bits themselves.
-        #[cfg_attr(feature = "cli", schemars(transform = schema::keys(schema::BITS)))]
+        #[cfg_attr(test, schemars(transform = schema::keys(schema::BITS)))]
         pub bits: Option<At<TextOr<BitEntries>>>,
         /// What the values mean: a name of `[enums]`, or the values themselves.
         #[serde(rename = "enum")]
-        #[cfg_attr(feature = "cli", schemars(transform = schema::keys(schema::VALUES)))]
+        #[cfg_attr(test, schemars(transform = schema::keys(schema::VALUES)))]
         pub values: Option<At<TextOr<ValueEntries>>>,
         /// A symbol, or a name of `[units]`.
         pub unit: Option<At<String>>,
@@ -1060,14 +1060,14 @@ tables! {
         /// Findings that a doubt explains.
         pub allow: Option<Vec<At<String>>>,
         /// The only buses on which the codes mean this.
-        #[cfg_attr(feature = "cli", schemars(transform = schema::words(schema::BUSES)))]
+        #[cfg_attr(test, schemars(transform = schema::words(schema::BUSES)))]
         pub buses: Option<Vec<At<String>>>,
         /// What it is, in your own words.
         pub doc: Option<String>,
         /// Page or line of the manual.
         pub cite: Option<OneOrMany<NumberOrText>>,
         /// The codes, and ranges of codes.
-        #[cfg_attr(feature = "cli", schemars(transform = schema::keys(schema::VALUES)))]
+        #[cfg_attr(test, schemars(transform = schema::keys(schema::VALUES)))]
         pub rows: Entries<TextOr<CodeTableRow>>,
     }
 
@@ -1267,7 +1267,7 @@ tables! {
         /// The message that is sent.
         pub send: Option<At<String>>,
         /// `rx` or `tx`: process data are exchanged once.
-        #[cfg_attr(feature = "cli", schemars(transform = schema::words(&["rx", "tx"])))]
+        #[cfg_attr(test, schemars(transform = schema::words(&["rx", "tx"])))]
         pub exchange: Option<At<String>>,
         /// What a person has to do.
         pub manual: Option<String>,
@@ -1306,7 +1306,7 @@ tables! {
         /// The bytes that are escaped.
         pub escaped: Vec<u8>,
         /// How the check is made.
-        #[cfg_attr(feature = "cli", schemars(transform = schema::words(schema::CHECKS)))]
+        #[cfg_attr(test, schemars(transform = schema::words(schema::CHECKS)))]
         pub check: Option<At<String>>,
         /// What the check begins with.
         pub seed: u32,
@@ -1438,16 +1438,16 @@ tables! {
         pub field: Option<At<String>>,
         /// Its type.
         #[serde(rename = "type")]
-        #[cfg_attr(feature = "cli", schemars(transform = schema::types))]
+        #[cfg_attr(test, schemars(transform = schema::types))]
         pub ty: Option<At<String>>,
         /// Order of its bytes, the most significant being `A`.
         pub order: Option<At<String>>,
         /// What the bits mean: a name of `[bits]`, or the bits themselves.
-        #[cfg_attr(feature = "cli", schemars(transform = schema::keys(schema::BITS)))]
+        #[cfg_attr(test, schemars(transform = schema::keys(schema::BITS)))]
         pub bits: Option<At<TextOr<BitEntries>>>,
         /// What the values mean: a name of `[enums]`, or the values themselves.
         #[serde(rename = "enum")]
-        #[cfg_attr(feature = "cli", schemars(transform = schema::keys(schema::VALUES)))]
+        #[cfg_attr(test, schemars(transform = schema::keys(schema::VALUES)))]
         pub values: Option<At<TextOr<ValueEntries>>>,
         /// A symbol, or a name of `[units]`.
         pub unit: Option<At<String>>,

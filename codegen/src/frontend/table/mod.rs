@@ -20,7 +20,7 @@
 //! | `composites` | numbers that are split over several items |
 //! | `overlay` | tables that say something of what another file describes |
 //! | `lints`, `summary` | what needs the table as it is written; what another place of the manual says |
-//! | `schema` | the JSON Schema of the format |
+//! | `schema` | derives the JSON Schema of the format, in tests only; the result is the file `schema/table.json` |
 
 mod alternatives;
 mod at;
@@ -54,8 +54,8 @@ mod references;
 mod repeats;
 mod rows;
 mod scale;
-#[cfg(feature = "cli")]
-pub mod schema;
+#[cfg(test)]
+mod schema;
 mod spaces;
 mod summary;
 mod taken;
@@ -87,15 +87,31 @@ use spaces::Buses;
 use taken::Taken;
 use tree::{Node, Reader};
 
-/// The symbol of a unit that is spelled in another way.
-#[cfg(feature = "cli")]
-pub(crate) fn usual_unit(text: &str) -> Option<&'static str> {
+/// JSON Schema (draft 7) of register tables, by which editors complete and check them. `lexibus schema` prints it.
+pub const SCHEMA: &str = include_str!("../../../schema/table.json");
+
+/// Returns the unit symbol for another spelling of a unit, such as `°C` for `degC` and `rpm` for `1/min`. Returns `None` if the
+/// spelling is unknown.
+///
+/// ```
+/// use lexibus_codegen::frontend::table::usual_unit;
+///
+/// assert_eq!(usual_unit("Volts"), Some("V"));
+/// assert_eq!(usual_unit("furlong"), None);
+/// ```
+pub fn usual_unit(text: &str) -> Option<&'static str> {
     units::usual(text)
 }
 
-/// Whether the format knows this symbol of a unit.
-#[cfg(feature = "cli")]
-pub(crate) fn is_unit(symbol: &str) -> bool {
+/// Returns whether the format knows a unit symbol, or a product, quotient or power of known symbols such as `rev/s²`. A table
+/// defines other units in `[units]`.
+///
+/// ```
+/// use lexibus_codegen::frontend::table::is_unit;
+///
+/// assert!(is_unit("rev/s²") && !is_unit("furlong"));
+/// ```
+pub fn is_unit(symbol: &str) -> bool {
     units::is_known(symbol)
 }
 

@@ -1,6 +1,11 @@
 //! The JSON Schema of the format, by which editors complete and check tables.
 //!
+//! The module is compiled for unit tests only: [`super::SCHEMA`] is the file that the test below compares with the schema, so
+//! that the compiler doesn't depend on `schemars`.
+//!
 //! `format` derives it; here is what `serde` can't tell: words, grammars of keys, and that options stand anywhere.
+
+use std::path::Path;
 
 use schemars::generate::SchemaSettings;
 use schemars::transform::{transform_subschemas, RecursiveTransform};
@@ -8,6 +13,7 @@ use schemars::{json_schema, Schema};
 use serde_json::{json, Map, Value};
 
 use super::format::Document;
+use crate::builder::write_if_changed;
 
 /// An integer as keys have it.
 const NUMBER: &str = r"(0[xX][0-9A-Fa-f_]+|0[bB][01_]+|0[oO][0-7_]+|[0-9][0-9_]*)";
@@ -16,7 +22,7 @@ const NUMBER: &str = r"(0[xX][0-9A-Fa-f_]+|0[bB][01_]+|0[oO][0-7_]+|[0-9][0-9_]*
 const OPTION: &str = r"^\$[a-z]";
 
 /// The schema, as text.
-pub fn text() -> String {
+fn text() -> String {
     let mut settings = SchemaSettings::draft07();
     settings.transforms.insert(0, Box::new(RecursiveTransform(without_null)));
     settings.transforms.push(Box::new(RecursiveTransform(with_options)));
@@ -150,3 +156,15 @@ pub(super) const BUSES: &[&str] = &["canopen", "ethercat", "modbus", "profinet",
 pub(super) const PURPOSES: &[&str] = &["mailbox_out", "mailbox_in", "outputs", "inputs"];
 pub(super) const CHECKS: &[&str] = &["xor", "sum", "lrc", "crc8", "crc16"];
 pub(super) const TRIGGERS: &[&str] = &["rising", "falling", "toggle", "self_clearing"];
+
+/// Compares the schema with the file, or writes the file if the environment variable `LEXIBUS_BLESS` is `1`.
+#[test]
+fn the_file_has_the_derived_schema() {
+    let derived = text();
+    if std::env::var_os("LEXIBUS_BLESS").is_some_and(|value| value == "1") {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("schema/table.json");
+        write_if_changed(&path, &derived).expect("the file of the schema");
+    } else {
+        assert!(derived == super::SCHEMA, "codegen/schema/table.json is stale: tests/bindings.sh writes it again");
+    }
+}

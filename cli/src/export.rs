@@ -1,0 +1,174 @@
+//! `lexibus export`: device descriptions in another format, and a list of what that format has no place for.
+
+use std::path::Path;
+
+use lexibus_codegen::backend::eds::{self, Flavour};
+use lexibus_codegen::backend::{esi, gsdml, Export as Exported, Refusal};
+use lexibus_codegen::compile::Compilation;
+use lexibus_codegen::ir::{Catalog, Device};
+
+use super::args::{Export, ExportFormat, MessageFormat};
+use super::inputs;
+use super::output::Target;
+use super::report::Reporter;
+use super::Failure;
+
+/// What is written, with the facts that go with it.
+enum Format {
+    Eds(Flavour),
+    Esi(Box<esi::Options>),
+    Gsdml(Box<gsdml::Options>),
+}
+
+impl Format {
+    fn new(export: &Export) -> Result<Self, Failure> {
+        let mut format = match export.format {
+            ExportFormat::Eds => Format::Eds(Flavour::Eds),
+            ExportFormat::Dcf => Format::Eds(Flavour::Dcf),
+            ExportFormat::Esi => Format::Esi(Box::default()),
+            ExportFormat::Gsdml => Format::Gsdml(Box::default()),
+        };
+        for (key, value) in &export.facts {
+            let set = match &mut format {
+                Format::Eds(_) => Err("an EDS or DCF wants no facts beside those of the source".to_owned()),
+                Format::Esi(options) => options.set(key, value),
+                Format::Gsdml(options) => options.set(key, value),
+            };
+            set.map_err(|message| Failure::Usage(format!("--set {key}: {message}")))?;
+        }
+        Ok(format)
+    }
+
+    /// What a source has that can't be written.
+    fn nothing(&self) -> &'static str {
+        match self {
+            Format::Eds(_) => "no device with objects",
+            Format::Esi(_) => "no EtherCAT slave and no device with objects",
+            Format::Gsdml(_) => "no PROFINET device and no process image",
+        }
+    }
+
+    fn ending(&self) -> &'static str {
+        match self {
+            Format::Eds(Flavour::Eds) => "eds",
+            Format::Eds(Flavour::Dcf) => "dcf",
+            Format::Esi(_) | Format::Gsdml(_) => "xml",
+        }
+    }
+}
+
+/// One file, and the device that it is of, if it is one's.
+struct File<'c> {
+    device: Option<&'c Device>,
+    /// What it has to be called; else it is called as the input.
+    name: Option<String>,
+    exported: Exported,
+}
+
+pub(super) fn run(export: &Export) -> Result<bool, Failure> {
+    if export.inputs.message_format == MessageFormat::Sarif {
+        let message = "what an export leaves out is told as text or JSON lines, not as SARIF";
+        return Err(Failure::Usage(message.into()));
+    }
+    let format = Format::new(export)?;
+    let mut options = export.inputs.options()?;
+    // What profiles add is known wherever the export is read, and no place for it is no loss.
+    options.no_profiles = true;
+    let mut reporter = Reporter::new(&export.inputs, false);
+    let mut target = Target::new(&export.inputs, export.out.as_deref(), export.check)?;
+    inputs::each_by_path(&export.inputs, &options, |input, mut compilation| {
+        reporter.report(&compilation)?;
+        if let (Format::Eds(_), Some(catalog)) = (&format, &mut compilation.catalog) {
+            options.select.mapping_objects(catalog);
+        }
+        match compilation.catalog.as_ref().filter(|_| compilation.is_usable()) {
+            Some(catalog) => write(&format, input, &compilation, catalog, &mut target, &mut reporter),
+            None => Ok(()),
+        }
+    })?;
+    reporter.finish()
+}
+
+/// Writes the files of an input.
+fn write(
+    format: &Format,
+    input: &Path,
+    compilation: &Compilation,
+    catalog: &Catalog,
+    target: &mut Target<'_>,
+    reporter: &mut Reporter,
+) -> Result<(), Failure> {
+    let Some(files) = files(format, input, catalog, target, reporter) else { return Ok(()) };
+    if files.len() > 1 && !target.takes_many() {
+        let message = "devices: choose one with --device, or name a folder with --out";
+        reporter.error(&format!("{}: it describes {} {message}", input.display(), files.len()));
+        return Ok(());
+    }
+    for file in &files {
+        let several = files.len() > 1;
+        let name = || match &file.name {
+            Some(name) => name.clone(),
+            None => file_name(input, file.device.filter(|_| several)),
+        };
+        target.put(name, format.ending(), &file.exported.text, reporter)?;
+        let source = compilation.sources.first().map_or("", |source| source.name());
+        let whose = file.device.filter(|_| several).map_or("", |device| device.name.as_str());
+        reporter.export_notes(source, whose, &file.exported.notes)?;
+    }
+    Ok(())
+}
+
+/// What an input becomes: an EDS a device, or all devices in one file. None where there is nothing to write, which is an error
+/// for an input that was named.
+fn files<'c>(
+    format: &Format,
+    input: &Path,
+    catalog: &'c Catalog,
+    target: &Target<'_>,
+    reporter: &mut Reporter,
+) -> Option<Vec<File<'c>>> {
+    let one = |exported, name| vec![File { device: None, name, exported }];
+    let files = match format {
+        Format::Eds(flavour) => {
+            let file = |device| {
+                let exported = eds::export(catalog, device, *flavour)?;
+                Some(File { device: Some(device), name: None, exported })
+            };
+            let files: Vec<File<'c>> = catalog.devices.iter().filter_map(file).collect();
+            if files.is_empty() {
+                Err(Refusal::Nothing)
+            } else {
+                Ok(files)
+            }
+        }
+        Format::Esi(options) => esi::export(catalog, options).map(|exported| one(exported, None)),
+        Format::Gsdml(options) => {
+            gsdml::export(catalog, options).map(|exported| one(exported, gsdml::file_name(catalog, options)))
+        }
+    };
+    match files {
+        Ok(files) => Some(files),
+        Err(Refusal::Nothing) if target.many => None,
+        Err(Refusal::Nothing) => {
+            let what = format.nothing();
+            reporter.error(&format!("{}: it describes {what}, so there is nothing to export", input.display()));
+            None
+        }
+        Err(refusal @ Refusal::Missing(_)) => {
+            let help = "with --set KEY=VALUE";
+            reporter.error(&format!("{}: {refusal}, {help}", input.display()));
+            None
+        }
+    }
+}
+
+/// The name of the input; of several devices, with that of the device.
+fn file_name(input: &Path, device: Option<&Device>) -> String {
+    let stem = input.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
+    let Some(device) = device else { return stem };
+    let names = [&device.identity.order_code, &device.name, &device.id];
+    let name = names.into_iter().find(|name| !name.is_empty()).map_or("device", |name| name.as_str());
+    let is_safe = |letter: char| letter.is_alphanumeric() || matches!(letter, '-' | '_' | '.');
+    let name: String = name.chars().map(|letter| if is_safe(letter) { letter } else { '_' }).collect();
+    format!("{stem}_{name}")
+}

@@ -1,0 +1,42 @@
+//! `lexibus generate`: bindings to files, to standard output, or compared with what is checked in.
+
+use std::path::Path;
+
+use lexibus_codegen::backend::rust;
+use lexibus_codegen::compile::{self, Compilation};
+
+use super::args::Generate;
+use super::inputs;
+use super::output::Target;
+use super::report::Reporter;
+use super::Failure;
+
+pub(super) fn run(generate: &Generate) -> Result<bool, Failure> {
+    let options = generate.inputs.options()?;
+    let rust_options = generate.rust_options();
+    let mut reporter = Reporter::new(&generate.inputs, false);
+    let mut target = Target::new(&generate.inputs, generate.out.as_deref(), generate.check)?;
+    inputs::each_by_path(&generate.inputs, &options, |input, compilation| {
+        reporter.report(&compilation)?;
+        match compilation.rust(&rust_options) {
+            Some(text) => target.put(|| file_name(input, &compilation), "rs", &text, &mut reporter),
+            // Its errors were told; among many files, one without a device was found rather than asked for.
+            None if !compilation.is_usable() || target.many => Ok(()),
+            None => {
+                reporter.error(&format!("{}: {}", input.display(), compile::NOTHING_TO_GENERATE));
+                Ok(())
+            }
+        }
+    })?;
+    reporter.finish()
+}
+
+/// The name of the input in Rust's case.
+fn file_name(input: &Path, compilation: &Compilation) -> String {
+    let stem = input.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
+    let name = rust::file_name(&stem).or_else(|| {
+        let catalog = compilation.catalog.as_ref()?;
+        Some(rust::module_name(catalog.devices.first()?, catalog.files.first()?))
+    });
+    name.unwrap_or_else(|| "device".to_owned())
+}

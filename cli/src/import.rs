@@ -1,0 +1,32 @@
+//! `lexibus import`: a list of registers to a register table.
+
+use std::io::Write;
+
+use lexibus_codegen::diagnostics::{Level, Levels};
+use lexibus_codegen::source::Source;
+use lexibus_import::Options;
+
+use super::args::Import;
+use super::output::create;
+use super::report::Reporter;
+use super::Failure;
+
+pub(super) fn run(import: &Import) -> Result<bool, Failure> {
+    let mut levels = if import.strict { Levels::strict() } else { Levels::lenient() };
+    for code in &import.allow {
+        levels.set(code, Level::Allow).map_err(|error| Failure::Usage(error.to_string()))?;
+    }
+    let source = Source::read(&import.path)
+        .map_err(|error| Failure::Usage(format!("can't read {}: {error}", import.path.display())))?;
+    let options = Options { levels, map: import.map.clone(), delimiter: import.delimiter, name: import.name.clone() };
+    let made = lexibus_import::import(source, &options);
+    let mut reporter = Reporter::with(import.message_format, import.color, false);
+    reporter.report(&made.compilation)?;
+    if let Some(text) = &made.table {
+        match &import.out {
+            Some(path) => create(path, text)?,
+            None => std::io::stdout().lock().write_all(text.as_bytes())?,
+        }
+    }
+    reporter.finish()
+}

@@ -1,0 +1,202 @@
+//! Reading many files at once.
+
+use std::collections::HashSet;
+use std::io::{IsTerminal, Read};
+use std::path::{Path, PathBuf};
+use std::sync::mpsc;
+
+use indicatif::{ProgressBar, ProgressStyle};
+use lexibus_codegen::compile::{self, Compilation, Options};
+use lexibus_codegen::diagnostics::{codes, Diagnostic, Diagnostics};
+use lexibus_codegen::frontend::detect;
+use lexibus_codegen::limits::MAX_FOLDER_DEPTH;
+use lexibus_codegen::source::{FileId, Source, Span};
+
+use super::args::Inputs;
+use super::Failure;
+
+/// Endings of the files that a folder is searched for.
+const ENDINGS: [&str; 5] = ["eds", "dcf", "xdd", "xdc", "xpd"];
+
+/// Compiles every input, several at a time, and hands the results to `use_it` in the order of the command line.
+pub(super) fn each(
+    inputs: &Inputs,
+    options: &Options,
+    use_it: impl FnMut(&Path, Compilation) -> Result<(), Failure>,
+) -> Result<(), Failure> {
+    compile_all(files(&inputs.paths)?, inputs, options, use_it)
+}
+
+/// The same in the order of the paths, each once: what is written to a folder doesn't depend on how its sources were named.
+pub(super) fn each_by_path(
+    inputs: &Inputs,
+    options: &Options,
+    use_it: impl FnMut(&Path, Compilation) -> Result<(), Failure>,
+) -> Result<(), Failure> {
+    let mut files = files(&inputs.paths)?;
+    files.sort();
+    files.dedup();
+    compile_all(files, inputs, options, use_it)
+}
+
+fn compile_all(
+    files: Vec<PathBuf>,
+    inputs: &Inputs,
+    options: &Options,
+    mut use_it: impl FnMut(&Path, Compilation) -> Result<(), Failure>,
+) -> Result<(), Failure> {
+    let pool = rayon::ThreadPoolBuilder::new()
+        .num_threads(threads(inputs.jobs, files.len()))
+        .build()
+        .map_err(|error| Failure::Usage(format!("can't start that many jobs: {error}")))?;
+    let progress = progress(files.len());
+    let (sender, receiver) = mpsc::channel();
+    std::thread::scope(|scope| {
+        let (files, pool) = (&files, &pool);
+        scope.spawn(move || {
+            pool.scope(|scope| {
+                for (position, path) in files.iter().enumerate() {
+                    let sender = sender.clone();
+                    // A receiver that has gone has seen an error already.
+                    scope.spawn(move |_| drop(sender.send((position, compile_file(path, options)))));
+                }
+            });
+        });
+        in_order(files, receiver, &progress, &mut use_it)
+    })?;
+    progress.finish_and_clear();
+    Ok(())
+}
+
+/// As many threads as were asked for, or as there are processors; never more than there is work for.
+fn threads(asked: Option<u16>, files: usize) -> usize {
+    let available = || std::thread::available_parallelism().map_or(1, usize::from);
+    asked.map_or_else(available, usize::from).clamp(1, files.max(1))
+}
+
+/// Passes results on in the order of `files`, however they come in.
+fn in_order(
+    files: &[PathBuf],
+    receiver: mpsc::Receiver<(usize, Compilation)>,
+    progress: &ProgressBar,
+    use_it: &mut impl FnMut(&Path, Compilation) -> Result<(), Failure>,
+) -> Result<(), Failure> {
+    let mut waiting: Vec<Option<Compilation>> = files.iter().map(|_| None).collect();
+    let mut next = 0;
+    for (position, compilation) in receiver {
+        waiting[position] = Some(compilation);
+        while let Some(compilation) = waiting.get_mut(next).and_then(Option::take) {
+            progress.suspend(|| use_it(&files[next], compilation))?;
+            progress.inc(1);
+            next += 1;
+        }
+    }
+    Ok(())
+}
+
+/// Reads and checks one file; one that can't be read is an error among the others.
+fn compile_file(path: &Path, options: &Options) -> Compilation {
+    match Source::read(path) {
+        Ok(source) => compile::check(source, options),
+        Err(error) => {
+            let mut diagnostics = Diagnostics::new(options.levels.clone());
+            let message = format!("can't read the file: {error}");
+            diagnostics.push(Diagnostic::new(&codes::UNREADABLE_FILE, Span::new(FileId(0), 0, 0), message));
+            let source = Source::new(path.to_string_lossy(), Vec::new());
+            Compilation::of_diagnostics(source, diagnostics)
+        }
+    }
+}
+
+/// A bar on a terminal, nothing in a pipe and nothing for a single file.
+fn progress(files: usize) -> ProgressBar {
+    if files < 2 || !std::io::stderr().is_terminal() || !std::io::stdout().is_terminal() {
+        return ProgressBar::hidden();
+    }
+    let bar = ProgressBar::new(files as u64);
+    if let Ok(style) = ProgressStyle::with_template("{bar:32} {pos}/{len} files") {
+        bar.set_style(style);
+    }
+    bar
+}
+
+/// The files that `paths` name: a folder stands for the device descriptions below it, sorted by name.
+fn files(paths: &[PathBuf]) -> Result<Vec<PathBuf>, Failure> {
+    let mut files = Vec::new();
+    for path in paths {
+        if path.is_dir() {
+            let before = files.len();
+            search(path, 0, &mut HashSet::new(), &mut files)?;
+            if files.len() == before {
+                return Err(Failure::Usage(format!("there is no device description in {}", path.display())));
+            }
+        } else {
+            files.push(path.clone());
+        }
+    }
+    Ok(files)
+}
+
+/// Adds the device descriptions in `folder` and below. A folder that several links lead to is searched once: a link to its own
+/// parent would lead there again and again.
+fn search(
+    folder: &Path,
+    depth: usize,
+    searched: &mut HashSet<PathBuf>,
+    files: &mut Vec<PathBuf>,
+) -> Result<(), Failure> {
+    if !folder.canonicalize().is_ok_and(|folder| searched.insert(folder)) {
+        return Ok(());
+    }
+    if depth > MAX_FOLDER_DEPTH {
+        let message = format!("{}: folders are searched {MAX_FOLDER_DEPTH} deep; name this one", folder.display());
+        return Err(Failure::Usage(message));
+    }
+    let Ok(entries) = std::fs::read_dir(folder) else { return Ok(()) };
+    let mut paths: Vec<PathBuf> = entries.filter_map(|entry| Some(entry.ok()?.path())).collect();
+    paths.sort();
+    for path in paths {
+        if path.is_dir() {
+            search(&path, depth + 1, searched, files)?;
+        } else if path.is_file() && is_description(&path) {
+            // Neither a pipe nor a device, which may never end.
+            files.push(path);
+        }
+    }
+    Ok(())
+}
+
+/// By its ending; an XML or TOML file also by its content, for most of them are something else.
+fn is_description(path: &Path) -> bool {
+    let extension = path.extension().and_then(|extension| extension.to_str()).unwrap_or_default();
+    if extension.eq_ignore_ascii_case("xml") {
+        return is_xml_description(path);
+    }
+    if extension.eq_ignore_ascii_case("toml") {
+        return is_table_of_device(path);
+    }
+    ENDINGS.iter().any(|ending| ending.eq_ignore_ascii_case(extension))
+}
+
+fn is_xml_description(path: &Path) -> bool {
+    // One that can't be read is worth an error.
+    head(path).is_none_or(|head| detect::format(&head, FileId(0)).is_ok())
+}
+
+/// Whether a TOML file is a register table; overlays and profiles describe no device by themselves.
+fn is_table_of_device(path: &Path) -> bool {
+    head(path).is_none_or(|head| {
+        let mut lines = head.text().lines().map(str::trim).filter(|line| !line.is_empty() && !line.starts_with('#'));
+        let first = lines.next().unwrap_or_default();
+        first.strip_prefix("lexibus").is_some_and(|rest| rest.trim_start().starts_with('='))
+            && lines.any(|line| line.starts_with("[device]"))
+    })
+}
+
+/// The start of a file.
+fn head(path: &Path) -> Option<Source> {
+    let mut head = Vec::new();
+    let file = std::fs::File::open(path).ok()?;
+    file.take(detect::LOOK_AHEAD as u64).read_to_end(&mut head).ok()?;
+    Some(Source::new(path.to_string_lossy(), head))
+}

@@ -1,0 +1,166 @@
+//! The `lexibus` command: `lexibus generate`, `export`, `docs`, `diff`, `check`, `info`, `dump`, `new`, `import`, `schema`,
+//! `explain`, `completions`.
+//!
+//! ```text
+//! $ lexibus generate drive.eds --out src/drive.rs
+//! $ lexibus check vendor-files/
+//! $ lexibus explain EDS020
+//! ```
+//!
+//! Exit codes: 0 on success, 1 for errors in the input, stale output or breaking changes, 2 for a wrong call.
+//!
+//! `args` has the arguments of all subcommands. Each subcommand with a module of its name is implemented there, the others below.
+//! `inputs` reads files in parallel, `output` writes files or compares them, and `report` prints diagnostics.
+
+#![forbid(unsafe_code)]
+
+mod args;
+mod diff;
+mod docs;
+mod export;
+mod generate;
+mod import;
+mod inputs;
+mod new;
+mod output;
+mod report;
+mod schema;
+
+use std::io::Write;
+use std::process::ExitCode;
+
+use clap::CommandFactory;
+use lexibus_codegen::backend::json;
+use lexibus_codegen::compile::{self, Options};
+use lexibus_codegen::diagnostics::{codes, render};
+use lexibus_codegen::text::printable;
+
+use args::{Arguments, Command, ExplainFormat, InfoFormat, Inputs};
+use report::Reporter;
+
+/// The input, or the output that was to be checked, has errors.
+const FAILED: u8 = 1;
+/// The call makes no sense.
+const USAGE: u8 = 2;
+
+fn main() -> ExitCode {
+    match run(Arguments::parse_in_order()) {
+        Ok(true) => ExitCode::SUCCESS,
+        Ok(false) => ExitCode::from(FAILED),
+        Err(Failure::Output(error)) => {
+            // Where whoever reads our output has gone, there is nobody to tell; but the work isn't done.
+            if error.kind() != std::io::ErrorKind::BrokenPipe {
+                say(&format!("error: can't write the output: {error}"));
+            }
+            ExitCode::from(FAILED)
+        }
+        Err(Failure::Usage(message)) => {
+            say(&format!("error: {message}"));
+            say("");
+            say("For more information, try '--help'.");
+            ExitCode::from(USAGE)
+        }
+    }
+}
+
+/// A line for people, whatever is in the paths and names that it has. That standard error can't be written is nothing
+/// that could be reported.
+fn say(line: &str) {
+    let _ = writeln!(std::io::stderr(), "{}", printable(line));
+}
+
+/// Why a command ended early.
+enum Failure {
+    /// The call makes no sense.
+    Usage(String),
+    /// The output can't be written.
+    Output(std::io::Error),
+}
+
+impl From<std::io::Error> for Failure {
+    fn from(error: std::io::Error) -> Self {
+        Failure::Output(error)
+    }
+}
+
+/// Whether everything went well.
+fn run(arguments: Arguments) -> Result<bool, Failure> {
+    match arguments.command {
+        Command::Generate(generate) => generate::run(&generate),
+        Command::Export(export) => export::run(&export),
+        Command::Docs(docs) => docs::run(&docs),
+        Command::Diff(diff) => diff::run(&diff),
+        Command::Check(check) => check_files(&check.inputs),
+        Command::Info(info) => info_files(&info.inputs, info.format),
+        Command::Dump(dump) => dump_files(&dump.inputs),
+        Command::New(new) => new::run(&new),
+        Command::Import(import) => import::run(&import),
+        Command::Schema(schema) => schema::run(&schema),
+        Command::Explain { code, format } => explain(code.as_deref(), format),
+        Command::Completions { shell } => {
+            let mut script = Vec::new();
+            clap_complete::generate(shell, &mut Arguments::command(), "lexibus", &mut script);
+            std::io::stdout().lock().write_all(&script)?;
+            Ok(true)
+        }
+    }
+}
+
+fn check_files(inputs: &Inputs) -> Result<bool, Failure> {
+    let options = inputs.options()?;
+    let mut reporter = Reporter::new(inputs, true);
+    inputs::each(inputs, &options, |_, compilation| {
+        reporter.report(&compilation)?;
+        Ok(())
+    })?;
+    reporter.finish()
+}
+
+fn info_files(inputs: &Inputs, format: InfoFormat) -> Result<bool, Failure> {
+    let options = inputs.options()?;
+    let mut ok = true;
+    let mut out = std::io::stdout().lock();
+    inputs::each(inputs, &options, |_, compilation| {
+        let info = json::info(&compilation);
+        ok &= info.errors.is_empty();
+        match format {
+            InfoFormat::Json => writeln!(out, "{}", serde_json::to_string(&info).map_err(std::io::Error::other)?)?,
+            InfoFormat::Text => write!(out, "{}", report::info_text(&info))?,
+        }
+        Ok(())
+    })?;
+    out.flush()?;
+    Ok(ok)
+}
+
+fn dump_files(inputs: &Inputs) -> Result<bool, Failure> {
+    let options: Options = inputs.options()?;
+    let mut reporter = Reporter::new(inputs, false);
+    let mut out = std::io::stdout().lock();
+    inputs::each(inputs, &options, |_, compilation: compile::Compilation| {
+        reporter.report(&compilation)?;
+        if let Some(catalog) = &compilation.catalog {
+            writeln!(out, "{}", json::dump(catalog))?;
+        }
+        Ok(())
+    })?;
+    out.flush()?;
+    reporter.finish()
+}
+
+fn explain(code: Option<&str>, format: ExplainFormat) -> Result<bool, Failure> {
+    let text = match code {
+        None if format == ExplainFormat::Markdown => render::markdown::catalogue(),
+        None => render::catalogue(),
+        Some(name) => match codes::find(name) {
+            Some(code) if format == ExplainFormat::Markdown => render::markdown::explain(code),
+            Some(code) => render::explain(code),
+            None => {
+                let hint = codes::similar(name).map_or(String::new(), |similar| format!("; did you mean `{similar}`?"));
+                return Err(Failure::Usage(format!("there is no diagnostic code `{name}`{hint}")));
+            }
+        },
+    };
+    std::io::stdout().lock().write_all(text.as_bytes())?;
+    Ok(true)
+}

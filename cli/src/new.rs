@@ -1,0 +1,53 @@
+//! `lexibus new`: a register table to start from.
+
+use std::path::{Path, PathBuf};
+
+use super::args::{Bus, New};
+use super::output::create;
+use super::Failure;
+
+/// The tables, with `{name}` where the name of the device goes.
+const MODBUS: &str = include_str!("../templates/table/modbus.toml");
+const CANOPEN: &str = include_str!("../templates/table/canopen.toml");
+const ETHERCAT: &str = include_str!("../templates/table/ethercat.toml");
+
+pub(super) fn run(new: &New) -> Result<bool, Failure> {
+    let name = new.name.trim();
+    if name.is_empty() || name.chars().any(char::is_control) {
+        return Err(Failure::Usage("the name of a device is a word or a few".into()));
+    }
+    let template = match new.bus {
+        Bus::Modbus => MODBUS,
+        Bus::Canopen => CANOPEN,
+        Bus::Ethercat => ETHERCAT,
+    };
+    let path = new.out.clone().unwrap_or_else(|| PathBuf::from(file_name(name)));
+    let shown = path.display();
+    let quoted = name.replace('\\', "\\\\").replace('"', "\\\"");
+    create(&path, &template.replace("{name}", &quoted).replace("{file}", &shown.to_string()))?;
+    super::say(&format!("{shown}: a table with rows to replace. Then: lexibus check {shown}"));
+    Ok(true)
+}
+
+/// The name as files are called.
+fn file_name(name: &str) -> String {
+    let letters = name.chars().map(|letter| if letter.is_alphanumeric() { letter } else { '-' });
+    let lower = letters.collect::<String>().to_lowercase();
+    let words: Vec<&str> = lower.split('-').filter(|word| !word.is_empty()).collect();
+    let stem = if words.is_empty() { "device".to_owned() } else { words.join("-") };
+    Path::new(&stem).with_extension("toml").to_string_lossy().into_owned()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::file_name;
+
+    #[test]
+    fn files_are_called_like_their_device() {
+        for (name, file) in
+            [("Pump Controller", "pump-controller.toml"), ("AB-12/3", "ab-12-3.toml"), ("--", "device.toml")]
+        {
+            assert_eq!(file_name(name), file);
+        }
+    }
+}

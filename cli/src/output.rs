@@ -1,0 +1,106 @@
+//! Where the output of a command goes: files, standard output, or a comparison with what is checked in.
+
+use std::collections::BTreeSet;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+use lexibus_codegen::builder::write_if_changed;
+
+use super::args::Inputs;
+use super::report::Reporter;
+use super::Failure;
+
+/// Where the output goes.
+pub(super) struct Target<'g> {
+    out: Option<&'g Path>,
+    /// Whether to compare instead of writing.
+    check: bool,
+    is_folder: bool,
+    /// Whether there are several inputs, or folders of them.
+    pub(super) many: bool,
+    /// Names given so far.
+    names: BTreeSet<PathBuf>,
+}
+
+impl<'g> Target<'g> {
+    pub(super) fn new(inputs: &Inputs, out: Option<&'g Path>, check: bool) -> Result<Self, Failure> {
+        let many = inputs.paths.len() > 1 || inputs.paths.iter().any(|path| path.is_dir());
+        let names_folder = |out: &Path| out.is_dir() || out.as_os_str().to_string_lossy().ends_with(['/', '\\']);
+        let is_folder = out.is_some_and(|out| many || names_folder(out));
+        if many && out.is_some_and(Path::is_file) {
+            return Err(Failure::Usage("several inputs need a folder to write to, and --out is a file".into()));
+        }
+        if many && out.is_none() {
+            return Err(Failure::Usage("several inputs need a folder to write to: name one with --out".into()));
+        }
+        let folder = out.and_then(|out| if is_folder { Some(out) } else { out.parent() });
+        if let Some(out) = folder.filter(|out| !check && !out.as_os_str().is_empty()) {
+            std::fs::create_dir_all(out)
+                .map_err(|error| Failure::Usage(format!("can't make the folder {}: {error}", out.display())))?;
+        }
+        Ok(Target { out, check, is_folder, many, names: BTreeSet::new() })
+    }
+
+    /// Whether it takes more than one output.
+    pub(super) fn takes_many(&self) -> bool {
+        self.is_folder
+    }
+
+    /// Takes one output. In a folder it is called `name` with `ending`; two of one name are told apart by a number.
+    pub(super) fn put(
+        &mut self,
+        name: impl FnOnce() -> String,
+        ending: &str,
+        text: &str,
+        reporter: &mut Reporter,
+    ) -> Result<(), Failure> {
+        let Some(out) = self.out else {
+            std::io::stdout().lock().write_all(text.as_bytes())?;
+            return Ok(());
+        };
+        let path = if self.is_folder { self.file_in(out, &name(), ending) } else { out.to_owned() };
+        if self.check {
+            check(&path, text, reporter);
+        } else if let Err(error) = write_if_changed(&path, text) {
+            reporter.error(&format!("can't write {}: {error}", path.display()));
+        }
+        Ok(())
+    }
+
+    fn file_in(&mut self, folder: &Path, name: &str, ending: &str) -> PathBuf {
+        let mut path = folder.join(format!("{name}.{ending}"));
+        let mut number = 2;
+        while !self.names.insert(path.clone()) {
+            path = folder.join(format!("{name}_{number}.{ending}"));
+            number += 1;
+        }
+        path
+    }
+}
+
+/// Writes a file that a person goes on with: one that exists already is left alone.
+pub(super) fn create(path: &Path, text: &str) -> Result<(), Failure> {
+    let file = std::fs::File::options().write(true).create_new(true).open(path);
+    let written = file.and_then(|mut file| file.write_all(text.as_bytes()));
+    written.map_err(|error| match error.kind() {
+        std::io::ErrorKind::AlreadyExists => {
+            Failure::Usage(format!("{} exists already; it is not overwritten", path.display()))
+        }
+        _ => Failure::Usage(format!("can't write {}: {error}", path.display())),
+    })
+}
+
+fn check(path: &Path, text: &str, reporter: &mut Reporter) {
+    if let Some(message) = difference(path, text) {
+        reporter.error(&message);
+    }
+}
+
+/// What to say where a file isn't what would be written.
+pub(super) fn difference(path: &Path, text: &str) -> Option<String> {
+    match std::fs::read(path) {
+        Ok(bytes) if bytes == text.as_bytes() => None,
+        Ok(_) => Some(format!("{} is stale: write it again without --check", path.display())),
+        Err(error) => Some(format!("{} can't be compared: {error}", path.display())),
+    }
+}

@@ -1,0 +1,230 @@
+//! Printing findings and summaries.
+
+use std::fmt::Write as _;
+use std::io::{IsTerminal, Write};
+
+use lexibus_codegen::backend::json::{DeviceInfo, Info, ModuleContent, ModuleInfo, PdoInfo, SubmoduleInfo};
+use lexibus_codegen::backend::Note;
+use lexibus_codegen::compile::Compilation;
+use lexibus_codegen::diagnostics::{render, Diagnostic, Severity};
+use lexibus_codegen::source::{FileId, Source, Span};
+use lexibus_codegen::text::printable;
+use serde::Serialize;
+
+use super::args::{Colour, Inputs, MessageFormat};
+use super::Failure;
+
+/// What an export left out, for programs.
+#[derive(Serialize)]
+struct ExportNote<'a> {
+    severity: &'static str,
+    name: &'static str,
+    message: &'static str,
+    file: &'a str,
+    device: &'a str,
+    count: usize,
+    first: &'a str,
+}
+
+/// Collects the findings of all inputs and prints them as the user chose.
+pub(super) struct Reporter {
+    format: MessageFormat,
+    colour: bool,
+    /// Whether the findings are the result of the command, and so go to standard output.
+    is_result: bool,
+    errors: usize,
+    warnings: usize,
+    files: usize,
+    /// For SARIF, which is one document.
+    kept: Vec<Diagnostic>,
+    sources: Vec<Source>,
+}
+
+impl Reporter {
+    pub(super) fn new(inputs: &Inputs, is_result: bool) -> Self {
+        Reporter::with(inputs.message_format, inputs.color, is_result)
+    }
+
+    pub(super) fn with(format: MessageFormat, colour: Colour, is_result: bool) -> Self {
+        let to_terminal = if is_result && format != MessageFormat::Text {
+            std::io::stdout().is_terminal()
+        } else {
+            std::io::stderr().is_terminal()
+        };
+        let colour = match colour {
+            Colour::Auto => to_terminal && std::env::var_os("NO_COLOR").is_none_or(|value| value.is_empty()),
+            Colour::Always => true,
+            Colour::Never => false,
+        };
+        Reporter { format, colour, is_result, errors: 0, warnings: 0, files: 0, kept: Vec::new(), sources: Vec::new() }
+    }
+
+    /// Takes the findings of one input.
+    pub(super) fn report(&mut self, compilation: &Compilation) -> Result<(), Failure> {
+        self.files += 1;
+        self.errors += compilation.diagnostics.count(Severity::Error);
+        self.warnings += compilation.diagnostics.count(Severity::Warning);
+        let diagnostics = compilation.diagnostics.list();
+        match self.format {
+            MessageFormat::Text => {
+                let mut out = std::io::stderr().lock();
+                for diagnostic in diagnostics {
+                    let text = render::terminal::render(diagnostic, &compilation.sources, self.colour);
+                    writeln!(out, "{text}\n")?;
+                }
+            }
+            MessageFormat::Json => {
+                let lines = diagnostics.iter().map(|diagnostic| render::json::line(diagnostic, &compilation.sources));
+                let text = lines.fold(String::new(), |text, line| text + &line + "\n");
+                self.print(&text)?;
+            }
+            MessageFormat::Sarif => self.keep(compilation),
+        }
+        Ok(())
+    }
+
+    /// Tells what an export left out or changed, a line a kind.
+    pub(super) fn export_notes(&mut self, source: &str, device: &str, notes: &[Note]) -> Result<(), Failure> {
+        for note in notes {
+            match self.format {
+                MessageFormat::Json => {
+                    let line = ExportNote {
+                        severity: "note",
+                        name: note.kind.name(),
+                        message: note.kind.text(),
+                        file: source,
+                        device,
+                        count: note.count,
+                        first: &note.first,
+                    };
+                    self.print(&(serde_json::to_string(&line).map_err(std::io::Error::other)? + "\n"))?;
+                }
+                _ => {
+                    let whose = if device.is_empty() { String::new() } else { format!("{}: ", printable(device)) };
+                    super::say(&format!("note: {}: {whose}{note}", printable(source)));
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// An error that isn't about the text of an input.
+    pub(super) fn error(&mut self, message: &str) {
+        self.errors += 1;
+        super::say(&format!("error: {message}"));
+    }
+
+    /// Whether there was no error; prints what is printed once.
+    pub(super) fn finish(self) -> Result<bool, Failure> {
+        match self.format {
+            MessageFormat::Text if self.is_result || self.errors + self.warnings > 0 => {
+                let files = if self.files == 1 { "1 file" } else { &format!("{} files", self.files) };
+                super::say(&format!("{files}: {}", render::summary(self.errors, self.warnings)));
+            }
+            MessageFormat::Sarif => {
+                let text = render::sarif::document(&self.kept, &self.sources, env!("CARGO_PKG_VERSION"));
+                self.print(&(text + "\n"))?;
+            }
+            _ => {}
+        }
+        Ok(self.errors == 0)
+    }
+
+    /// Machine-readable findings are the result of `check`; beside other results they go to standard error.
+    fn print(&self, text: &str) -> Result<(), Failure> {
+        if self.is_result {
+            std::io::stdout().lock().write_all(text.as_bytes())?;
+        } else {
+            std::io::stderr().lock().write_all(text.as_bytes())?;
+        }
+        Ok(())
+    }
+
+    /// Keeps findings with their sources, renumbered.
+    fn keep(&mut self, compilation: &Compilation) {
+        let shift = self.sources.len() as u32;
+        let moved = |span: Span| Span::new(FileId(span.file.0 + shift), span.start, span.end);
+        for source in &compilation.sources {
+            self.sources.push(Source::new(source.name(), source.bytes().into_owned()));
+        }
+        for diagnostic in compilation.diagnostics.list() {
+            let mut diagnostic = diagnostic.clone();
+            diagnostic.span = moved(diagnostic.span);
+            for note in &mut diagnostic.notes {
+                note.span = note.span.map(moved);
+            }
+            self.kept.push(diagnostic);
+        }
+    }
+}
+
+/// A summary for people.
+pub(super) fn info_text(info: &Info) -> String {
+    let mut text = String::new();
+    let _ =
+        writeln!(text, "{} ({}, {})", printable(&info.file), info.format.unwrap_or("unknown format"), info.encoding);
+    let number = |value: Option<u32>| value.map_or("unknown".to_owned(), |value| format!("{value:#010x}"));
+    for device in &info.devices {
+        let _ = writeln!(text, "  {}", printable(&device_title(device)));
+        let _ = writeln!(
+            text,
+            "    vendor {}, product {}, revision {}",
+            number(device.vendor_id),
+            number(device.product_code),
+            number(device.revision)
+        );
+        let registers = device.registers.map(|number| format!(", {number} registers")).unwrap_or_default();
+        let _ = writeln!(text, "    {} objects, {} entries{registers}", device.objects, device.entries);
+        for (direction, pdos) in [("RPDO", &device.rx_pdos), ("TPDO", &device.tx_pdos)] {
+            let all: Vec<String> = pdos.iter().map(pdo_text).collect();
+            if !all.is_empty() {
+                let _ = writeln!(text, "    {direction}: {}", all.join(", "));
+            }
+        }
+    }
+    if let Some(dictionary) = &info.dictionary {
+        let _ = writeln!(text, "  a dictionary: {} objects, {} entries", dictionary.objects, dictionary.entries);
+    }
+    for module in info.modules.iter().flatten() {
+        let _ = writeln!(text, "  module {} ({:#010x}): {}", printable(&module.id), module.ident, module_text(module));
+    }
+    for submodule in info.submodules.iter().flatten() {
+        let SubmoduleInfo { ident, input_bytes, output_bytes, .. } = submodule;
+        let id = printable(&submodule.id);
+        let _ = writeln!(text, "  submodule {id} ({ident:#010x}): {input_bytes} bytes in, {output_bytes} bytes out");
+    }
+    for (severity, counts) in [("errors", &info.errors), ("warnings", &info.warnings)] {
+        let all: Vec<String> = counts.iter().map(|(code, count)| format!("{code} × {count}")).collect();
+        if !all.is_empty() {
+            let _ = writeln!(text, "  {severity}: {}", all.join(", "));
+        }
+    }
+    text
+}
+
+/// Its order code, by which it can be selected, and its name.
+fn device_title(device: &DeviceInfo) -> String {
+    match (device.order_code.is_empty(), device.name.is_empty()) {
+        (true, true) => "(no name)".to_owned(),
+        (true, false) => device.name.clone(),
+        (false, true) => device.order_code.clone(),
+        (false, false) if device.name.contains(&device.order_code) => device.name.clone(),
+        (false, false) => format!("{}: {}", device.order_code, device.name),
+    }
+}
+
+fn module_text(module: &ModuleInfo) -> String {
+    match &module.content {
+        ModuleContent::Profinet { input_bytes, output_bytes, records, .. } => {
+            format!("{input_bytes} bytes in, {output_bytes} bytes out, {} records", records.len())
+        }
+        ModuleContent::EtherCat { objects, entries, rx_pdos, tx_pdos } => {
+            let pdos = rx_pdos.len() + tx_pdos.len();
+            format!("{objects} objects, {entries} entries, {pdos} PDOs")
+        }
+    }
+}
+
+fn pdo_text(pdo: &PdoInfo) -> String {
+    format!("0x{:04X} ({} entries, {} bits)", pdo.index, pdo.entries, pdo.bits)
+}

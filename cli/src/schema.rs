@@ -1,0 +1,24 @@
+//! `lexibus schema`: the JSON Schema by which editors complete and check register tables.
+
+use std::io::Write;
+
+use lexibus_codegen::builder::write_if_changed;
+use lexibus_codegen::frontend::table;
+
+use super::args::Schema;
+use super::output;
+use super::Failure;
+
+pub(super) fn run(schema: &Schema) -> Result<bool, Failure> {
+    let text = table::SCHEMA;
+    match &schema.out {
+        Some(path) if schema.check => {
+            let stale = output::difference(path, text);
+            stale.iter().for_each(|message| super::say(&format!("error: {message}")));
+            return Ok(stale.is_none());
+        }
+        Some(path) => write_if_changed(path, text)?,
+        None => std::io::stdout().lock().write_all(text.as_bytes())?,
+    }
+    Ok(true)
+}

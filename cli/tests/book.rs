@@ -1,0 +1,173 @@
+//! What the chapters of the book say besides Rust: their commands run and print what stands there, their tables are tables.
+
+mod book_support;
+#[path = "../../codegen/tests/table_support/mod.rs"]
+mod table_support;
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+use book_support::{chapter, docs, Block};
+use lexibus_codegen::compile::{check, Options};
+use lexibus_codegen::diagnostics::Severity;
+use lexibus_codegen::source::Source;
+use table_support::whole;
+
+/// Programs of commands that aren't run: what they need isn't here, or it takes too long.
+const OTHERS: [&str; 5] = ["cargo", "cd", "cp", "mdbook", "xdg-open"];
+
+/// The names of the chapters.
+fn chapters() -> Vec<String> {
+    let entries = std::fs::read_dir(docs().join("src")).expect("the chapters");
+    let names = entries.map(|entry| entry.expect("a chapter").file_name().to_string_lossy().into_owned());
+    let mut names: Vec<String> = names.filter(|name| name.ends_with(".md")).collect();
+    names.sort();
+    names
+}
+
+/// What a chapter's commands find: the book's examples, some of the tests' data, and the dictionaries.
+fn folder(name: &str) -> PathBuf {
+    let root = docs().join("..");
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("book").join(name);
+    let _ = std::fs::remove_dir_all(&folder);
+    std::fs::create_dir_all(folder.join("src")).expect("a folder for temporary files");
+    for shared in ["examples", "dictionaries"] {
+        let from = if shared == "examples" { docs().join(shared) } else { root.join(shared) };
+        std::fs::create_dir(folder.join(shared)).expect("a folder");
+        for entry in std::fs::read_dir(from).expect("descriptions") {
+            let path = entry.expect("a description").path();
+            if path.is_file() {
+                copy(&path, &folder.join(shared));
+            }
+        }
+    }
+    copy(&root.join("tests/data/coupler.esi.xml"), &folder);
+    // Two versions of a description, to be compared.
+    let old = std::fs::read_to_string(docs().join("examples/pump.eds")).expect("an example");
+    let new =
+        old.replace("ParameterName=Speed\nObjectType=0x7\nDataType=0x0006", "ParameterName=Speed\nDataType=0x0003");
+    assert_ne!(old, new);
+    std::fs::write(folder.join("old.eds"), old).expect("a description");
+    std::fs::write(folder.join("new.eds"), new).expect("a description");
+    folder
+}
+
+fn copy(path: &Path, folder: &Path) {
+    let name = path.file_name().expect("a name");
+    std::fs::copy(path, folder.join(name)).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
+}
+
+/// The words of a command; those between double quotes are one.
+fn words(line: &str) -> Vec<String> {
+    let mut words = Vec::new();
+    for (at, part) in line.split('"').enumerate() {
+        match at % 2 {
+            0 => words.extend(part.split_whitespace().map(str::to_owned)),
+            _ => words.push(part.to_owned()),
+        }
+    }
+    words
+}
+
+/// Runs a command of the book in `folder`, but those of other programs.
+fn run(line: &str, folder: &Path) -> Option<Output> {
+    let words = words(line);
+    let (program, arguments) = words.split_first()?;
+    if program != "lexibus" {
+        assert!(OTHERS.contains(&program.as_str()), "no program of the book: {line}");
+        return None;
+    }
+    let mut command = Command::new(env!("CARGO_BIN_EXE_lexibus"));
+    Some(command.args(arguments).current_dir(folder).output().expect("lexibus runs"))
+}
+
+/// What a command prints, without what is at the end of lines.
+fn printed(output: &Output) -> Vec<String> {
+    let text = [output.stdout.as_slice(), output.stderr.as_slice()].concat();
+    let text = String::from_utf8(text).expect("UTF-8");
+    text.trim_end().lines().map(|line| line.trim_end().to_owned()).collect()
+}
+
+/// Whether lines are those that are expected; `…` stands for any number of them.
+fn agrees(lines: &[String], expected: &[&str]) -> bool {
+    match expected.split_first() {
+        None => lines.is_empty(),
+        Some((&"…", rest)) => (0..=lines.len()).any(|skipped| agrees(&lines[skipped..], rest)),
+        Some((first, rest)) => lines.first().is_some_and(|line| line == first) && agrees(&lines[1..], rest),
+    }
+}
+
+/// A block of commands: each has to go well, or as its comment says.
+fn commands(block: &Block, folder: &Path, place: &str) -> usize {
+    let mut count = 0;
+    for line in block.text.replace("\\\n", " ").lines().filter(|line| !line.trim().is_empty()) {
+        let (command, comment) = line.split_once(" #").unwrap_or((line, ""));
+        let Some(output) = run(command, folder) else { continue };
+        let expected = if comment.contains("exit code 1") { 1 } else { 0 };
+        assert_eq!(output.status.code(), Some(expected), "{place}: {line}\n{}", printed(&output).join("\n"));
+        count += 1;
+    }
+    count
+}
+
+/// A block of commands behind `$`, each with what it prints.
+fn sessions(block: &Block, folder: &Path, place: &str) -> usize {
+    let mut count = 0;
+    for session in block.text.split("$ ").skip(1) {
+        let (command, expected) = session.split_once('\n').expect("a command is a line");
+        let Some(output) = run(command, folder) else { continue };
+        let (lines, expected) = (printed(&output), expected.trim_end().lines().map(str::trim_end).collect::<Vec<_>>());
+        assert!(agrees(&lines, &expected), "{place}: {command}\n{}", lines.join("\n"));
+        count += 1;
+    }
+    count
+}
+
+#[test]
+fn commands_run_and_print_what_stands_there() {
+    let mut count = 0;
+    for name in chapters() {
+        let folder = folder(&name);
+        for block in chapter(&name) {
+            let place = format!("{name}:{}", block.line);
+            if let Some(file) = &block.file {
+                std::fs::create_dir_all(folder.join(file).parent().expect("a folder")).expect("a folder");
+                std::fs::write(folder.join(file), &block.text).expect("a file of the book");
+            }
+            if let Some(example) = &block.same_as {
+                let path = docs().join("examples").join(example);
+                assert_eq!(block.text, std::fs::read_to_string(path).expect("an example"), "{place}: {example}");
+            }
+            count += match block.kind.as_str() {
+                "sh" => commands(&block, &folder, &place),
+                "console" => sessions(&block, &folder, &place),
+                _ => 0,
+            };
+        }
+    }
+    assert!(count > 30, "{count} commands");
+}
+
+/// Tables that are files are checked by the commands about them, with what these print.
+#[test]
+fn tables_are_tables() {
+    let mut count = 0;
+    for name in chapters() {
+        for block in chapter(&name).iter().filter(|block| block.kind == "toml" && block.file.is_none()) {
+            let compilation = check(Source::new(name.clone(), whole(&block.text).into()), &Options::default());
+            let errors = compilation.diagnostics.list().iter().filter(|own| own.severity == Severity::Error);
+            let errors: Vec<String> = errors.map(|own| compilation.one_line(own)).collect();
+            assert_eq!(errors, Vec::<String>::new(), "{name}:{}", block.line);
+            count += 1;
+        }
+    }
+    assert!(count > 0, "no table");
+}
+
+#[test]
+fn the_catalogue_of_codes_is_todays() {
+    let output = run("lexibus explain --format markdown", &docs()).expect("an output");
+    let text = std::fs::read_to_string(docs().join("src/lints.md")).expect("the catalogue");
+    let is_same = String::from_utf8(output.stdout).expect("UTF-8") == text;
+    assert!(is_same, "docs/src/lints.md is stale: tests/bindings.sh writes it again");
+}

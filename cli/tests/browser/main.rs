@@ -1,0 +1,69 @@
+//! What `lexibus docs` and `lexibus diff --format html` write, opened from disk in a headless browser: scripts in this folder do
+//! what people do, and look at what they see. See README.md in this folder.
+
+#[path = "../../../codegen/tests/docs_support/hostile.rs"]
+mod hostile;
+mod node;
+mod sites;
+
+use node::run;
+
+#[test]
+fn faults_of_pages_are_noticed() {
+    run("guard.mjs", || [sites::folder("guard")]);
+}
+
+#[test]
+fn each_page_loads_with_no_error_and_no_request_to_elsewhere() {
+    run("pages.mjs", || [sites::drives()]);
+}
+
+#[test]
+fn the_search_finds_what_is_typed_and_leads_there() {
+    run("search.mjs", || [sites::drives()]);
+}
+
+#[test]
+fn the_keyboard_is_enough() {
+    run("keyboard.mjs", || [sites::drives()]);
+}
+
+#[test]
+fn addresses_of_other_pages_lead_there() {
+    run("addresses.mjs", || [sites::drives(), sites::alone()]);
+}
+
+#[test]
+fn theme_and_language_are_kept() {
+    run("choices.mjs", || [sites::drives()]);
+}
+
+#[test]
+fn pages_fit_on_a_phone() {
+    run("phone.mjs", || [sites::drives()]);
+}
+
+#[test]
+fn pages_are_printed_black_on_white() {
+    run("print.mjs", || [sites::drives()]);
+}
+
+#[test]
+fn pages_are_accessible_in_both_themes() {
+    run("accessibility.mjs", || [sites::drives()]);
+}
+
+#[test]
+fn nothing_of_a_description_runs() {
+    run("hostile.mjs", || [sites::hostile()]);
+}
+
+#[test]
+fn two_thousand_registers_are_usable() {
+    run("large.mjs", || [sites::large()]);
+}
+
+#[test]
+fn pictures_are_kept() {
+    run("screenshots.mjs", || [sites::drives(), node::artefacts()]);
+}

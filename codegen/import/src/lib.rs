@@ -1,0 +1,208 @@
+//! Converts lists of registers (CSV, as spreadsheets save them) to register tables, which
+//! [`lexibus-codegen`](lexibus_codegen) compiles to typed Rust. The command `lexibus import` is the same as a program.
+//!
+//! ```
+//! use lexibus_codegen::source::Source;
+//! use lexibus_import::{import, Options};
+//!
+//! let list = "Register,Name,Type,Access,Unit\n40001,Set point,INT16,RW,rpm\n";
+//! let import = import(Source::new("pump.csv", list.into()), &Options::default());
+//! assert!(import.table.unwrap().contains(r#""Set point" = { reg = 40001, type = "i16", access = "rw", unit = "rpm" }"#));
+//! for finding in import.compilation.diagnostics.list() {
+//!     println!("{}: {}", finding.code.id, finding.message);
+//! }
+//! ```
+//!
+//! | file | subject |
+//! |---|---|
+//! | `records` | lines and cells, with their places |
+//! | `quotes` | the same where a quote is a letter |
+//! | `columns` | what each column is, by its title |
+//! | `cells`, `types`, `address`, `values` | what stands in a single cell |
+//! | `style` | what only all cells of a column tell: decimal comma, hexadecimal addresses, limits in physical units |
+//! | `rows` | a line to a row of the format: its place, type and access |
+//! | `facts` | what it says besides: unit, factor, limits, meaning, words |
+//! | `layout` | rows to chapters and spaces; names and addresses that occur twice |
+//! | `write` | all of it as TOML |
+//!
+//! Nothing is lost in silence: a cell that can't be read is reported, and a line that can't become a row is written
+//! down as a comment.
+#![forbid(unsafe_code)]
+
+mod address;
+mod cells;
+mod columns;
+mod definitions;
+mod facts;
+mod layout;
+mod quotes;
+mod records;
+mod rows;
+mod style;
+mod types;
+mod values;
+mod write;
+
+pub use columns::Field;
+
+use lexibus_codegen::compile::Compilation;
+use lexibus_codegen::diagnostics::{codes, Diagnostic, Diagnostics, Levels};
+use lexibus_codegen::source::{FileId, Source, Span};
+use lexibus_codegen::text::brief;
+
+use columns::Columns;
+use records::{Record, Records};
+
+/// What a caller may choose.
+#[derive(Clone, Debug, Default)]
+pub struct Options {
+    /// The level of each code.
+    pub levels: Levels,
+    /// Columns by their title, or `#` and their number.
+    pub map: Vec<(Field, String)>,
+    /// What stands between cells; by default, what fits.
+    pub delimiter: Option<u8>,
+    /// Name of the device; by default, that of the file.
+    pub name: Option<String>,
+}
+
+/// What became of a list.
+#[derive(Debug)]
+pub struct Import {
+    /// The file with the findings about it; its catalogue is empty.
+    pub compilation: Compilation,
+    /// The register table; `None` where there are errors.
+    pub table: Option<String>,
+}
+
+/// The file that is imported.
+const FILE: FileId = FileId(0);
+
+/// Reads a list of registers and writes it as a register table.
+pub fn import(source: Source, options: &Options) -> Import {
+    let mut diagnostics = Diagnostics::new(options.levels.clone());
+    let table = convert(&source, options, &mut diagnostics).filter(|_| !diagnostics.has_errors());
+    diagnostics.sort();
+    Import { compilation: Compilation::of_diagnostics(source, diagnostics), table }
+}
+
+fn convert(source: &Source, options: &Options, diagnostics: &mut Diagnostics) -> Option<String> {
+    let (records, columns) = match divide(source, options) {
+        Ok(divided) => divided,
+        Err(column) => {
+            let message = format!("there is no column called `{}`", brief(&column));
+            diagnostics.push(Diagnostic::new(&codes::CSV_NO_SUCH_COLUMN, Span::new(FILE, 0, 0), message));
+            return None;
+        }
+    };
+    if let Some(span) = records.unclosed {
+        let message = "a quote is opened here and never closed";
+        diagnostics.push(Diagnostic::new(&codes::CSV_UNCLOSED_QUOTE, span, message));
+    }
+    for &span in &records.letters {
+        let message = "a quote is opened here and not closed in its cell";
+        diagnostics.push(Diagnostic::new(&codes::CSV_UNCLOSED_QUOTE, span, message).label("taken as a letter"));
+    }
+    if !columns.has_address() {
+        let message = "no line has titles of columns, one of them an address";
+        let help =
+            "titles such as Name, Address, Type, Access are recognised; `--map reg=TITLE` or `--map reg=#2` says it";
+        diagnostics.push(Diagnostic::new(&codes::CSV_NO_COLUMNS, Span::new(FILE, 0, 0), message).help(help));
+        return None;
+    }
+    unknown_columns(&records, &columns, diagnostics);
+    let list = rows::read(&records, &columns, diagnostics);
+    let list = layout::arrange(list, diagnostics);
+    let stem = std::path::Path::new(source.name()).file_stem().map(|stem| stem.to_string_lossy().into_owned());
+    let name = options.name.clone().or(stem).unwrap_or_else(|| "device".to_owned());
+    Some(write::table(&list, &name, source.name()))
+}
+
+/// The lines of a file and what its columns are; `Err` has the title of a column that doesn't exist.
+fn divide(source: &Source, options: &Options) -> Result<(Records, Columns), String> {
+    let declared = records::declared_delimiter(source.text());
+    let start = declared.map_or(0, |(_, length)| length);
+    let known = options.delimiter.or(declared.map(|(delimiter, _)| delimiter));
+    let candidates = known.map_or(vec![b',', b';', b'\t', b'|'], |delimiter| vec![delimiter]);
+    let mut best: Option<(usize, Records, Columns)> = None;
+    let mut missing = None;
+    for delimiter in candidates {
+        let mut records = records::read(source, FILE, delimiter, start);
+        if delimiter == quotes::TAB && quotes::swallows(&records) {
+            records = quotes::divide(source, FILE, start);
+        }
+        match columns::find(&records, &options.map) {
+            // The one under which most titles make sense.
+            Ok(columns) if best.as_ref().is_none_or(|(score, ..)| columns.score() > *score) => {
+                best = Some((columns.score(), records, columns));
+            }
+            Ok(_) => {}
+            Err(column) => missing = Some(column.to_owned()),
+        }
+    }
+    match (best, missing) {
+        (Some((_, records, columns)), None) => Ok((records, columns)),
+        (Some((_, records, columns)), Some(_)) if columns.has_address() => Ok((records, columns)),
+        (_, Some(column)) => Err(column),
+        (None, None) => Ok(Default::default()),
+    }
+}
+
+/// One finding for all columns that are left out.
+fn unknown_columns(records: &Records, columns: &Columns, diagnostics: &mut Diagnostics) {
+    let Some(header) = columns.header.and_then(|line| records.list.get(line)) else { return };
+    let is_known = |at: usize| columns.list.iter().any(|column| column.at == at);
+    let unknown: Vec<_> = header.filled().filter(|(at, _)| !is_known(*at)).map(|(_, cell)| cell).collect();
+    let Some(first) = unknown.first() else { return };
+    let titles: Vec<String> = unknown.iter().map(|cell| format!("`{}`", brief(&cell.text))).collect();
+    let message = match titles.as_slice() {
+        [one] => format!("the column {one} isn't imported"),
+        all => format!("the columns {} aren't imported", all.join(", ")),
+    };
+    let help = format!("`--map doc=\"{}\"` keeps it as documentation", brief(&first.text));
+    diagnostics.push(Diagnostic::new(&codes::CSV_UNKNOWN_COLUMN, first.span, message).help(help));
+}
+
+/// The lines with data: what is below the titles, without titles that are repeated.
+fn data<'r>(records: &'r Records, columns: &Columns) -> impl Iterator<Item = &'r Record> {
+    let header = columns.header.and_then(|line| records.list.get(line));
+    let texts = |record: &Record| record.cells.iter().map(|cell| cell.text.clone()).collect::<Vec<_>>();
+    let titles = header.map(texts);
+    let start = columns.header.map_or(0, |line| line + 1);
+    let below = records.list.iter().skip(start);
+    below.filter(move |record| record.filled().next().is_some() && Some(texts(record)) != titles)
+}
+
+/// The argument `FIELD=COLUMN` of a command line.
+///
+/// # Errors
+///
+/// What is wrong with it.
+pub fn mapping(text: &str) -> Result<(Field, String), String> {
+    let (field, column) = text.split_once('=').ok_or("write FIELD=TITLE or FIELD=#NUMBER")?;
+    let (field, column) = (field.trim(), column.trim());
+    if column.is_empty() {
+        return Err("write FIELD=TITLE or FIELD=#NUMBER".to_owned());
+    }
+    let known = || Field::names().collect::<Vec<_>>().join(", ");
+    let hint =
+        || Field::similar(field).map_or_else(|| format!("one of {}", known()), |own| format!("did you mean `{own}`?"));
+    Field::find(field)
+        .map(|field| (field, column.to_owned()))
+        .ok_or_else(|| format!("there is no field `{field}`: {}", hint()))
+}
+
+/// The delimiter that an argument of a command line names.
+///
+/// # Errors
+///
+/// That it names none.
+pub fn delimiter(text: &str) -> Result<u8, String> {
+    match (text, text.as_bytes()) {
+        ("tab" | "\\t", _) => Ok(b'\t'),
+        ("comma", _) => Ok(b','),
+        ("semicolon", _) => Ok(b';'),
+        (_, &[byte]) if byte.is_ascii() && !matches!(byte, b'"' | b'\n' | b'\r') => Ok(byte),
+        _ => Err("one character, or tab, comma, semicolon".to_owned()),
+    }
+}

@@ -1,0 +1,137 @@
+//! The cells of a file, each with its place.
+
+use csv_core::{ReadFieldResult, ReaderBuilder};
+use lexibus_codegen::source::{FileId, Source, Span};
+
+/// A cell: its text without quotes and blanks around it, and where that stands.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Cell {
+    pub text: String,
+    pub span: Span,
+}
+
+/// A line of cells.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Record {
+    pub cells: Vec<Cell>,
+    pub span: Span,
+}
+
+impl Record {
+    /// The text of a cell; empty where the line is too short.
+    pub fn text(&self, column: usize) -> &str {
+        self.cells.get(column).map_or("", |cell| cell.text.as_str())
+    }
+
+    /// The cells that aren't empty, with their columns.
+    pub fn filled(&self) -> impl Iterator<Item = (usize, &Cell)> {
+        self.cells.iter().enumerate().filter(|(_, cell)| !cell.text.is_empty())
+    }
+}
+
+/// The lines of a file.
+#[derive(Debug, Default)]
+pub(super) struct Records {
+    pub list: Vec<Record>,
+    /// A quote that nothing closes.
+    pub unclosed: Option<Span>,
+    /// Quotes that were taken as letters.
+    pub letters: Vec<Span>,
+}
+
+/// Excel's own way to say what stands between cells: a first line `sep=;`.
+pub(super) fn declared_delimiter(text: &str) -> Option<(u8, usize)> {
+    let line = text.lines().next()?;
+    let &[delimiter] = line.trim_end().strip_prefix("sep=")?.as_bytes() else { return None };
+    Some((delimiter, line.len())).filter(|_| delimiter.is_ascii())
+}
+
+/// Divides the text from `start` on into cells.
+pub(super) fn read(source: &Source, file: FileId, delimiter: u8, start: usize) -> Records {
+    let bytes = source.text().as_bytes();
+    let mut reader = ReaderBuilder::new().delimiter(delimiter).build();
+    let mut records = Records::default();
+    let mut record = Record::default();
+    let mut buffer = vec![0; 256];
+    let (mut at, mut length, mut first) = (start, 0, start);
+    loop {
+        let (result, read, written) = reader.read_field(bytes.get(at..).unwrap_or_default(), &mut buffer[length..]);
+        (at, length) = (at + read, length + written);
+        match result {
+            // At the end of the file the next call says so.
+            ReadFieldResult::InputEmpty => {}
+            ReadFieldResult::OutputFull => buffer.resize(buffer.len() * 2, 0),
+            ReadFieldResult::Field { record_end } => {
+                let text = String::from_utf8_lossy(&buffer[..length]);
+                let span = Span::new(file, first as u32, at as u32);
+                let (span, is_open) = visible(source, span, delimiter);
+                record.cells.push(Cell { text: text.trim().to_owned(), span });
+                (length, first) = (0, at);
+                if record_end {
+                    records.unclosed = records.unclosed.or(is_open.then_some(span).filter(|_| at == bytes.len()));
+                    finish(&mut records, std::mem::take(&mut record));
+                }
+            }
+            ReadFieldResult::End => return records,
+        }
+    }
+}
+
+pub(super) fn finish(records: &mut Records, mut record: Record) {
+    if let (Some(first), Some(last)) = (record.cells.first(), record.cells.last()) {
+        record.span = Span { end: last.span.end.max(first.span.start), ..first.span };
+        records.list.push(record);
+    }
+}
+
+/// The part of a cell that is its text, and whether a quote is open at its end.
+pub(super) fn visible(source: &Source, raw: Span, delimiter: u8) -> (Span, bool) {
+    let text = source.slice(raw);
+    let body = text.trim_start_matches(['\r', '\n']);
+    let start = text.len() - body.len();
+    let ends = ['\r', '\n'];
+    let body = body.strip_suffix(char::from(delimiter)).unwrap_or_else(|| body.trim_end_matches(ends));
+    let is_quoted = body.starts_with('"');
+    let is_open = is_quoted && (body.len() < 2 || !body.trim_end().ends_with('"'));
+    let inner = if is_quoted { body.trim_matches('"') } else { body };
+    let blanks = inner.len() - inner.trim_start().len();
+    let from = start + usize::from(is_quoted && !body.is_empty()) + blanks;
+    let first = raw.start + from.min(text.len()) as u32;
+    (Span { start: first, end: (first + inner.trim().len() as u32).min(raw.end), ..raw }, is_open)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn read_all(text: &str, delimiter: u8) -> (Source, Records) {
+        let source = Source::new("x.csv", text.as_bytes().to_vec());
+        let records = read(&source, FileId(0), delimiter, 0);
+        (source, records)
+    }
+
+    #[test]
+    fn cells_have_their_place() {
+        let (source, records) = read_all("a; b ;\"c;\n d\"\r\n\r\n1;\"\";é\n", b';');
+        let texts: Vec<Vec<&str>> =
+            records.list.iter().map(|record| record.cells.iter().map(|cell| cell.text.as_str()).collect()).collect();
+        assert_eq!(texts, [vec!["a", "b", "c;\n d"], vec!["1", "", "é"]]);
+        for record in &records.list {
+            for cell in &record.cells {
+                assert_eq!(source.slice(cell.span), cell.text);
+            }
+        }
+        assert_eq!(source.position(records.list[1].cells[2].span.start).line, 4);
+        assert_eq!(records.unclosed, None);
+    }
+
+    #[test]
+    fn what_is_odd_is_read_all_the_same() {
+        let (_, records) = read_all("a,b\n\"1,2\n3,4\n", b',');
+        assert!(records.unclosed.is_some() && records.list.len() == 2);
+        assert!(read_all("", b',').1.list.is_empty());
+        assert_eq!(read_all("a,\"\"\"x\"\"\"", b',').1.list[0].text(1), "\"x\"");
+        assert_eq!(declared_delimiter("sep=;\r\na;b"), Some((b';', 5)));
+        assert_eq!(declared_delimiter("sep=\u{e9}\n"), None);
+    }
+}
