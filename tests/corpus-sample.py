@@ -9,7 +9,7 @@ each file was chosen for, and the features that only files above SIZE_LIMIT have
 
 A file is a set of features:
 
-- `format`: the format and encoding that `lexibus info` reports, and the folder and extension of the file;
+- `format`: the format and encoding that `lexibus info` reports, the folder and extension of the file, and the root of XML;
 - `code`: a diagnostic code that occurs, with every lint switched on;
 - `ir`: a part of the intermediate representation (`lexibus dump`) that isn't empty. Its name is the format family and the last
   KEYS keys of its path, without list positions. The variants of an enumeration are parts of their own. Numbers and texts only
@@ -37,9 +37,9 @@ LIST = ROOT / "tests" / "corpus-sample.txt"
 NOT_DESCRIPTIONS = {"MANIFEST.tsv", "oracle.json"}
 MINIMUM = {"eds": 12, "esi": 8, "gsdml": 8}
 # In bytes. Larger files are left to the full tests: a debug build takes longer for one of them than for ten others.
-SIZE_LIMIT = 1_000_000
+SIZE_LIMIT = 250_000
 # In bytes. Without it, many tiny files would be cheaper than one file of medium size.
-FILE_COST = 100_000
+FILE_COST = 50_000
 
 # Formats that one frontend reads, or that become the same part of the intermediate representation.
 FAMILIES = {"eds": "canopen", "dcf": "canopen", "xdd": "canopen", "esi": "ethercat", "gsdml": "profinet"}
@@ -199,6 +199,9 @@ def features_of_file(lexibus, warn, file):
     features |= {("code", code) for code in (*info["errors"], *info["warnings"])}
     if info.get("format") != "xdd":
         text = file.read_bytes().decode("latin-1")
+        root = re.search(r"<([A-Za-z]\w*)", text) if folder != "eds" else None
+        if root:
+            features.add(("format", f"root {root.group(1)}"))
         features.update(quirk_features(text, {"eds": "E", "esi": "X", "gsdml": "G"}[folder]))
     if size <= SIZE_LIMIT:
         # There is no dump of a file with errors.

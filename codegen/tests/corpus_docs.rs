@@ -3,7 +3,7 @@
 mod corpus_support;
 mod docs_support;
 
-use corpus_support::{all_files, File};
+use corpus_support::{all_files, lane, File};
 use docs_support::{html_links, markdown_links, values};
 use lexibus_codegen::backend::docs::{Format, Site};
 use lexibus_codegen::compile::{check, Options};
@@ -45,5 +45,6 @@ fn every_file_has_pages() {
         counts.iter().flatten().fold((0, 0), |(html, markdown), own| (html + own.0, markdown + own.1));
     println!("{} files, {html} links in HTML, {markdown} in Markdown", counts.iter().flatten().count());
     // Those that are left are rejected by the compiler, with errors that other tests look at.
-    assert!(counts.iter().flatten().count() * 100 > files.len() * 95);
+    let percent = if lane::is_full() { 95 } else { 75 };
+    assert!(counts.iter().flatten().count() * 100 > files.len() * percent);
 }

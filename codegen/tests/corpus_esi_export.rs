@@ -8,7 +8,7 @@ use std::sync::OnceLock;
 
 use corpus_support::round_trip::{content, difference, each_object, options, source, take_extensions};
 use corpus_support::xsd::Schema;
-use corpus_support::{files, files_of};
+use corpus_support::{files, files_of, lane};
 use lexibus_codegen::backend::esi::{export, NoteKind, Options, Refusal};
 use lexibus_codegen::backend::Export;
 use lexibus_codegen::compile::read;
@@ -129,7 +129,7 @@ fn make_exports() -> Option<Vec<(String, Catalog, Export)>> {
             exported.unwrap_or_else(|refusal| panic!("{}: {refusal}", file.name)),
         ));
     }
-    assert!(exports.len() > 130, "only {} files of the corpus are exported", exports.len());
+    assert!(exports.len() > lane::at_least(130), "only {} files of the corpus are exported", exports.len());
     Some(exports)
 }
 
@@ -217,7 +217,7 @@ fn canopen_devices_have_valid_dictionaries() {
     }
     eprintln!("{} CANopen devices have an ESI", texts.len());
     assert!(
-        texts.len() > 250 && wrong.is_empty(),
+        texts.len() > lane::at_least(250) && wrong.is_empty(),
         "{} wrong:\n{}",
         wrong.len(),
         wrong[..wrong.len().min(40)].join("\n")
@@ -246,7 +246,7 @@ fn what_is_exported_is_valid() {
         let own = exports.iter().filter(|(_, _, exported)| is_own(&exported.text));
         let own: Vec<(&str, &[u8])> =
             own.map(|(name, _, exported)| (name.as_str(), exported.text.as_bytes())).collect();
-        assert!(!own.is_empty(), "no export has the root {root}>");
+        assert!(!own.is_empty() || !lane::is_full(), "no export has the root {root}>");
         let violations = schema.violations(&root[1..], own.iter().copied());
         eprintln!("{} files with the root {root}>", own.len());
         assert!(violations.is_empty(), "{} violations:\n{}", violations.len(), violations.join("\n"));

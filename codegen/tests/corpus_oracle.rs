@@ -5,7 +5,7 @@ mod corpus_support;
 
 use std::collections::BTreeMap;
 
-use corpus_support::{files, folder, header, lines, File};
+use corpus_support::{files, folder, header, is_read, lane, lines, File};
 use lexibus_codegen::backend::json;
 use lexibus_codegen::compile::{check, Compilation, Options};
 use lexibus_codegen::diagnostics::{Diagnostic, Severity};
@@ -86,7 +86,10 @@ fn objects_and_sub_indices_are_as_many_as_the_oracle_counts() {
         subs += own;
     }
     eprintln!("{objects} objects and {subs} sub-indices are as many as the oracle counts");
-    assert!(objects > 18_000 && subs > 54_000, "only {objects} objects and {subs} sub-indices");
+    assert!(
+        objects > lane::at_least(18_000) && subs > lane::at_least(54_000),
+        "only {objects} objects and {subs} sub-indices"
+    );
 }
 
 /// E68: the script calls a file a DCF that has this section, and any other an EDS.
@@ -127,6 +130,7 @@ fn the_lists_agree_on_classes() {
         .lines()
         .skip(1)
         .map(|line| (line.split('\t').next().unwrap_or(""), line.rsplit('\t').next().unwrap_or("")))
+        .filter(|(name, _)| is_read("eds", name))
         .collect();
     for case in &cases {
         assert_eq!(classes.get(case.name()), Some(&case.class.as_str()), "{}", case.name());
@@ -144,7 +148,7 @@ fn no_canopen_file_is_rejected() {
         assert!(case.compilation.is_usable(), "{} ({}) is rejected: {errors:#?}", case.name(), case.class);
         real += usize::from(case.class == "real device/firmware");
     }
-    assert!(real >= 170, "only {real} files of real devices");
+    assert!(real >= lane::at_least(170), "only {real} files of real devices");
 }
 
 /// The one error that a file gets that is no CANopen description.
@@ -174,7 +178,10 @@ fn everything_else_is_rejected_with_one_error_that_says_what_it_is() {
         *rejected.entry(code).or_default() += 1;
     }
     let expected = BTreeMap::from([("EDS001", 8), ("EDS002", 3), ("IO002", 2), ("XDD002", 1)]);
-    assert_eq!(rejected, expected, "files rejected, by code");
+    if lane::is_full() {
+        assert_eq!(rejected, expected, "files rejected, by code");
+    }
+    assert!(rejected.keys().eq(expected.keys()), "the sample has a file for each code: {rejected:?}");
 }
 
 /// A template of a text processor looks like an EDS for the most part: what it has of its own mustn't go by unnoticed.
@@ -217,7 +224,7 @@ fn every_finding_has_a_place_that_exists() {
         }
     }
     eprintln!("{findings} findings have a place");
-    assert!(findings > 5_000, "only {findings} findings");
+    assert!(findings > lane::at_least(5_000), "only {findings} findings");
 }
 
 fn place(case: &Case, found: &Diagnostic, text: &str, lines: &[(usize, &str)]) {

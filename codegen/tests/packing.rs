@@ -22,6 +22,7 @@ use std::path::Path;
 use std::sync::Mutex;
 
 use corpus_support::bindings::{body, catalogs, on_all_processors};
+use corpus_support::lane;
 use found::Counts;
 use lexibus_codegen::backend::rust::emit_catalog;
 use lexibus_codegen::compile::{check, Options};
@@ -126,7 +127,8 @@ fn every_layout_of_the_corpus() {
     let Some(files) = corpus_support::all_files() else { return };
     let counts = run_all(files.into_iter().map(|file| Source::new(file.name.as_str(), file.bytes)).collect());
     eprintln!("{counts:?}");
-    assert!(counts.process_data > 3_000 && counts.records > 300 && counts.views > 2_500, "{counts:?}");
+    let has = |found: usize, full| found > lane::at_least(full);
+    assert!(has(counts.process_data, 3_000) && has(counts.records, 300) && has(counts.views, 2_500), "{counts:?}");
 }
 
 #[test]

@@ -11,6 +11,8 @@ use std::sync::Mutex;
 use std::time::{Duration, Instant};
 
 use compile_support::{document, page};
+use corpus_support::bindings::on_all_processors;
+use corpus_support::lane;
 use lexibus_codegen::compile::{check, Compilation, Options};
 use lexibus_codegen::selection::Selection;
 use lexibus_codegen::source::Source;
@@ -45,7 +47,7 @@ fn rustdoc_has_nothing_to_say_of_the_examples() {
         RustOptions { accessors: false, ..everything() },
         RustOptions { pdos: false, ..RustOptions::default() },
     ];
-    for path in examples() {
+    on_all_processors(examples(), |path| {
         let compilation = read(&path, &Options::default());
         // What ships is documented with everything in it, too, as a crate of the workspace.
         let chosen = if path.parent().is_some_and(|own| own.ends_with("data")) { &choices[..] } else { &choices[1..2] };
@@ -53,7 +55,7 @@ fn rustdoc_has_nothing_to_say_of_the_examples() {
         assert_eq!(texts.len(), chosen.len(), "{}", path.display());
         let texts: Vec<&str> = texts.iter().map(String::as_str).collect();
         document(&path.display().to_string(), &texts).unwrap_or_else(|message| panic!("{message}"));
-    }
+    });
 }
 
 #[test]
@@ -181,6 +183,9 @@ const DEVICES: usize = 2;
 
 #[test]
 fn rustdoc_has_nothing_to_say_of_a_sample_of_the_corpus() {
+    if lane::skips("rustdoc of the corpus") {
+        return;
+    }
     let end = Instant::now() + TIME;
     for (format, step) in [("eds", 9), ("esi", 7), ("gsdml", 5)] {
         let Some(files) = corpus_support::files_of(format) else { return };

@@ -18,6 +18,11 @@ export function pagesOf(site) {
   return all.filter((own) => own.endsWith(".html")).sort();
 }
 
+// All of `list` in the full lane, one of `step` in the fast lane.
+export function sampled(list, step) {
+  return list.filter((_, at) => process.env.LEXIBUS_LANE === "full" || at % step === 0);
+}
+
 // Neither may it talk to anybody by itself, nor look for a graphics card.
 const FLAGS = [
   "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking",

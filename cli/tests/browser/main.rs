@@ -3,6 +3,8 @@
 
 #[path = "../../../codegen/tests/docs_support/hostile.rs"]
 mod hostile;
+#[path = "../../../tests/support/lane.rs"]
+mod lane;
 mod node;
 mod sites;
 
@@ -10,6 +12,9 @@ use node::run;
 
 #[test]
 fn faults_of_pages_are_noticed() {
+    if lane::skips("a test of the other scripts") {
+        return;
+    }
     run("guard.mjs", || [sites::folder("guard")]);
 }
 
@@ -45,6 +50,9 @@ fn pages_fit_on_a_phone() {
 
 #[test]
 fn pages_are_printed_black_on_white() {
+    if lane::skips("printing") {
+        return;
+    }
     run("print.mjs", || [sites::drives()]);
 }
 
@@ -60,10 +68,16 @@ fn nothing_of_a_description_runs() {
 
 #[test]
 fn two_thousand_registers_are_usable() {
+    if lane::skips("a large site") {
+        return;
+    }
     run("large.mjs", || [sites::large()]);
 }
 
 #[test]
 fn pictures_are_kept() {
+    if lane::skips("taking pictures") {
+        return;
+    }
     run("screenshots.mjs", || [sites::drives(), node::artefacts()]);
 }

@@ -12,7 +12,17 @@ use std::sync::OnceLock;
 /// What the compiler printed.
 #[allow(dead_code)] // Not every test compiles by this one.
 pub fn compile(name: &str, bindings: &str) -> Result<(), String> {
-    compile_in("2021", name, bindings)
+    compile_with(compiler(), "2021", name, bindings)
+}
+
+/// The same without clippy.
+///
+/// # Errors
+///
+/// What the compiler printed.
+#[allow(dead_code)]
+pub fn compile_by_rustc(name: &str, bindings: &str) -> Result<(), String> {
+    compile_with(Command::new("rustc"), "2021", name, bindings)
 }
 
 /// The same in another edition of Rust.
@@ -22,13 +32,17 @@ pub fn compile(name: &str, bindings: &str) -> Result<(), String> {
 /// What the compiler printed.
 #[allow(dead_code)] // Not every test that compiles asks for an edition.
 pub fn compile_in(edition: &str, name: &str, bindings: &str) -> Result<(), String> {
+    compile_with(compiler(), edition, name, bindings)
+}
+
+fn compile_with(command: Command, edition: &str, name: &str, bindings: &str) -> Result<(), String> {
     let stem = stem();
     let (module, root) = (stem.with_extension("module.rs"), stem.with_extension("rs"));
     let lints = "#![no_std]\n#![deny(warnings, missing_docs, clippy::all)]\n//! Bindings.\n/// The device.\n";
     std::fs::write(&module, bindings).expect("a temporary file");
     std::fs::write(&root, format!("{lints}pub mod device {{\n    include!({module:?});\n}}\n"))
         .expect("a temporary file");
-    let result = metadata(compiler(), edition, &stem, &root);
+    let result = metadata(command, edition, &stem, &root);
     for path in [&module, &root, &stem.with_extension("rmeta")] {
         let _ = std::fs::remove_file(path);
     }

@@ -9,12 +9,15 @@ use lexibus_codegen::compile::{check, Compilation, Options};
 use lexibus_codegen::ir::{Catalog, Device, Format};
 use lexibus_codegen::source::Source;
 
-use super::File;
+use super::{lane, File};
 
 /// The text below the header, which names the file and its digest.
 pub fn body(text: &str) -> &str {
     text.split_once("\n\n").map_or(text, |(_, body)| body)
 }
+
+/// How many devices of a file the fast lane takes.
+const DEVICES: usize = 4;
 
 /// What a file describes, device by device: many files share devices, and one device a time needs little memory.
 pub fn catalogs(compilation: &Compilation) -> Box<dyn Iterator<Item = Cow<'_, Catalog>> + '_> {
@@ -24,7 +27,8 @@ pub fn catalogs(compilation: &Compilation) -> Box<dyn Iterator<Item = Cow<'_, Ca
     if catalog.devices.len() <= 1 || compilation.format == Some(Format::Gsdml) {
         return Box::new(std::iter::once(Cow::Borrowed(catalog)));
     }
-    Box::new(catalog.devices.iter().map(|device: &Device| {
+    let step = if lane::is_full() { 1 } else { catalog.devices.len().div_ceil(DEVICES) };
+    Box::new(catalog.devices.iter().step_by(step).map(|device: &Device| {
         let (files, devices) = (catalog.files.clone(), vec![device.clone()]);
         let modules = catalog.modules.clone();
         Cow::Owned(Catalog { files, devices, modules, ..Catalog::default() })

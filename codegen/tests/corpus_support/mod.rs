@@ -1,18 +1,23 @@
-//! The corpus of real device descriptions, for the tests that go through all of it.
+//! The corpus of real device descriptions. The full lane reads all of it, the fast lane the files that
+//! `tests/corpus-sample.txt` lists.
 //!
-//! It stands beside the repository and is no part of it: without it these tests say so and pass. Everything here but
-//! `round_trip` is written with the standard library alone, so that what a test expects doesn't come from the code under test.
+//! The corpus is next to the repository and not part of it: without it, these tests say so and pass. Everything here except
+//! `round_trip` uses the standard library alone, so that expected values do not come from the code under test.
 
 // Each test is a program of its own and uses its part of this module.
 #![allow(dead_code)]
 
 pub mod bindings;
+#[path = "../../../tests/support/lane.rs"]
+pub mod lane;
 pub mod number;
 pub mod reading;
 pub mod round_trip;
 pub mod xsd;
 
+use std::collections::HashSet;
 use std::path::{Path, PathBuf};
+use std::sync::OnceLock;
 
 /// One file of the corpus.
 pub struct File {
@@ -47,23 +52,39 @@ pub fn folder_of(format: &str) -> Option<PathBuf> {
     None
 }
 
-/// Every CANopen description of the corpus, sorted by name; `None`, with a message, where it isn't there.
+/// The CANopen descriptions that this lane reads, sorted by name; `None`, with a message, if there is no corpus.
 pub fn files() -> Option<Vec<File>> {
     let files = files_of("eds")?;
-    assert!(files.len() >= 285, "only {} files are in the corpus", files.len());
+    assert!(files.len() >= lane::at_least(285), "only {} files are in the corpus", files.len());
     Some(files)
 }
 
-/// Every description of all formats.
+/// The descriptions of all formats that this lane reads.
 pub fn all_files() -> Option<Vec<File>> {
     let lists: Option<Vec<Vec<File>>> = ["eds", "esi", "gsdml"].into_iter().map(files_of).collect();
     let files: Vec<File> = lists?.into_iter().flatten().collect();
-    assert!(files.len() >= 500, "only {} files are in the corpus", files.len());
+    assert!(files.len() >= lane::at_least(500), "only {} files are in the corpus", files.len());
     Some(files)
 }
 
-/// The descriptions of one format.
+/// Whether this lane reads a file: all of them in the full lane, the sample in the fast lane.
+pub fn is_read(format: &str, name: &str) -> bool {
+    static SAMPLE: OnceLock<HashSet<String>> = OnceLock::new();
+    let sample = SAMPLE.get_or_init(|| {
+        let list = include_str!("../../../tests/corpus-sample.txt").lines();
+        list.filter(|line| !line.starts_with('#')).map(str::to_owned).collect()
+    });
+    lane::is_full() || sample.contains(&format!("{format}/{name}"))
+}
+
+/// The descriptions of one format that this lane reads.
 pub fn files_of(format: &str) -> Option<Vec<File>> {
+    let files = whole(format)?;
+    Some(files.into_iter().filter(|file| is_read(format, &file.name)).collect())
+}
+
+/// The descriptions of one format in both lanes, for tests that draw from them.
+pub fn whole(format: &str) -> Option<Vec<File>> {
     let mut paths: Vec<PathBuf> = std::fs::read_dir(folder_of(format)?)
         .expect("the corpus is readable")
         .map(|entry| entry.expect("an entry of the corpus").path())

@@ -9,7 +9,7 @@ pub mod pump {
 
 lexibus::dictionary! {
     /// The same bindings, made by the macro.
-    pub mod by_macro = "pump.eds" { device_name: "MacroPump" }
+    pub mod by_macro = "pump.eds" { device_name: "MacroPump", serde: true, defmt: true }
 }
 
 #[cfg(test)]
@@ -65,6 +65,12 @@ mod tests {
         assert_eq!(super::by_macro::IDENTITY, pump::IDENTITY);
         let (one, other) = (pump::objects::SPEED, super::by_macro::objects::SPEED);
         assert_eq!((one.name(), one.range(), one.initial()), (other.name(), other.range(), other.initial()));
+    }
+
+    #[test]
+    fn types_have_the_traits_of_other_crates() {
+        fn both<T: serde::Serialize + for<'d> serde::Deserialize<'d> + defmt::Format>() {}
+        both::<super::by_macro::pdo::RxPdo1>();
     }
 
     #[test]

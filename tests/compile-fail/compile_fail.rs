@@ -1,11 +1,10 @@
-//! What must not compile, and what the compiler says to it.
+//! Code that must not compile, and what rustc says about it.
 //!
-//! The messages are those of one version of the compiler: after a change of it, run with `TRYBUILD=overwrite` and read
-//! the difference.
+//! The messages are those of one rustc version. After a change of it, run with `TRYBUILD=overwrite` and review the difference.
 
 use std::process::Command;
 
-/// The compiler whose messages `tests/compile-fail` has.
+/// The compiler whose messages `cases` has.
 const COMPILER: &str = "rustc 1.95.";
 
 #[test]
@@ -17,5 +16,5 @@ fn compile_fail() {
         println!("skipped: the messages are those of {COMPILER}x, and this is {version}");
         return;
     }
-    trybuild::TestCases::new().compile_fail("tests/compile-fail/*.rs");
+    trybuild::TestCases::new().compile_fail("cases/*.rs");
 }

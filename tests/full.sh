@@ -1,0 +1,129 @@
+#!/usr/bin/env bash
+# The full lane: everything that is tested, on the whole corpus. Goes on after a failure, and prints a table with times at the end.
+#
+#     tests/full.sh                   # all parts
+#     tests/full.sh clippy browser    # these parts
+#     tests/full.sh --list            # their names
+#     tests/full.sh coverage          # on request only: an hour more
+#
+# Logs are in target/full. Parts that need the corpus are skipped with a message if ../shared is absent.
+set -uo pipefail
+cd "$(dirname "$0")/.."
+export CARGO_TERM_COLOR=never CARGO_INCREMENTAL=0 LEXIBUS_LANE=full
+target=${CARGO_TARGET_DIR:-target}
+logs=$target/full
+
+parts=(programs format clippy features outside rustdoc build sample bindings units ui runtime drives corpus generated packing \
+    differential arbitrary mutations nested site browser book rest examples)
+
+# Names of test programs, as arguments of cargo. Each program of the workspace is in one part; `rest` runs what no other part names.
+ui=(ui)
+corpus=(corpus_docs corpus_eds_export corpus_esi corpus_esi_export corpus_gsdml corpus_gsdml_export corpus_lexer corpus_oracle corpus_values
+    eds_in_canopen profinet_corpus rust_format)
+generated=(generated_code rustdoc table_code)
+packing=(packing)
+differential=(differential)
+arbitrary=(arbitrary)
+mutations=(corpus_mutations hostile_exports)
+nested=(compile_fail drive_crate instructions no_std_size)
+site=(docs docs_markdown html)
+browser=(browser)
+book=(book)
+
+tests() {
+    local names=() name
+    for name in "$@"; do names+=(--test "$name"); done
+    cargo test --no-fail-fast --workspace --all-features "${names[@]}"
+}
+
+part_programs() { tests/programs.sh; }
+part_format() { cargo fmt --all --check; }
+part_clippy() { cargo clippy --quiet --workspace --all-targets --all-features -- -D warnings; }
+# Each feature of the runtime stands alone.
+part_features() {
+    local features failed=0
+    for features in "" std canopen socketcan socketcan-tokio ethercat modbus serial macros serde,defmt; do
+        echo "features: $features"
+        cargo check --quiet -p lexibus --no-default-features --features "$features" || failed=1
+    done
+    return $failed
+}
+# Crates outside of the workspace: they need a C++ compiler, or the newest Rust.
+part_outside() {
+    local crate failed=0
+    for crate in codegen/fuzz benches/packing benches/peers; do
+        echo "crate: $crate"
+        if ! { command -v c++ >/dev/null && cargo fetch --quiet --manifest-path "$crate/Cargo.toml"; }; then
+            echo "skipped: its dependencies cannot be fetched, or there is no C++ compiler"
+            continue
+        fi
+        cargo check --quiet --all-targets --manifest-path "$crate/Cargo.toml" --target-dir "$target/apart" || failed=1
+        # A lock file that does not fit is written again.
+        git diff --exit-code -- "$crate/Cargo.lock" || failed=1
+    done
+    return $failed
+}
+part_rustdoc() {
+    RUSTDOCFLAGS='-D warnings' cargo doc --quiet --workspace --all-features --no-deps --lib --bins --examples
+}
+part_sample() { tests/corpus-sample.py "$target/debug/lexibus" --check; }
+part_build() { cargo test --quiet --workspace --all-features --no-run; }
+part_bindings() { LEXIBUS=$target/debug/lexibus tests/bindings.sh --check; }
+part_units() { cargo test --no-fail-fast --workspace --all-features --lib --bins; }
+part_ui() { tests "${ui[@]}"; }
+part_runtime() { cargo test --no-fail-fast -p lexibus --all-features --doc; }
+part_drives() { cargo test --no-fail-fast --workspace --exclude lexibus --all-features --doc; }
+part_corpus() { tests "${corpus[@]}"; }
+part_generated() { tests "${generated[@]}"; }
+part_packing() { tests "${packing[@]}"; }
+part_differential() { tests "${differential[@]}"; }
+part_arbitrary() { LEXIBUS_ARBITRARY=400 tests "${arbitrary[@]}"; }
+part_mutations() { tests "${mutations[@]}"; }
+part_nested() { tests "${nested[@]}"; }
+part_site() { tests "${site[@]}"; }
+part_browser() { tests "${browser[@]}"; }
+part_book() { tests "${book[@]}"; }
+# Every test program that no other part names.
+part_rest() {
+    local named=" ${ui[*]} ${corpus[*]} ${generated[*]} ${packing[*]} ${differential[*]} ${arbitrary[*]} ${mutations[*]} ${nested[*]} ${site[*]} ${browser[*]} ${book[*]} "
+    local all rest=() name
+    all=$(cargo metadata --no-deps --format-version 1 |
+        python3 -c 'import json, sys; print("\n".join(sorted({target["name"] for package in json.load(sys.stdin)["packages"] for target in package["targets"] if "test" in target["kind"]})))')
+    for name in $all; do [[ $named == *" $name "* ]] || rest+=("$name"); done
+    tests "${rest[@]}"
+}
+# A program for each bus, each against a simulated device.
+part_examples() {
+    local example failed=0
+    cargo build --quiet --workspace --all-features --examples || return 1
+    for example in canopen ethercat modbus profinet serial; do timeout 60 "$target/debug/examples/$example" || failed=1; done
+    return $failed
+}
+part_coverage() { tests/coverage.sh; }
+
+case ${1:-} in
+--list) printf '%s\n' "${parts[@]}" coverage; exit ;;
+-*) sed -n '2,9p' "$0"; exit 2 ;;
+esac
+chosen=("$@")
+if ((${#chosen[@]} == 0)); then chosen=("${parts[@]}"); fi
+for part in "${chosen[@]}"; do
+    if ! declare -F "part_$part" >/dev/null; then echo "there is no part $part: tests/full.sh --list" >&2; exit 2; fi
+done
+
+mkdir -p "$logs"
+table=() failed=0
+for part in "${chosen[@]}"; do
+    # shellcheck source=/dev/null
+    if [[ -f $target/programs.env ]]; then source "$target/programs.env"; fi
+    start=$SECONDS
+    printf '== %s\n' "$part"
+    if "part_$part" >"$logs/$part.log" 2>&1; then result=ok; else result=FAILED failed=1; fi
+    passed=$(awk '/^test result:/ { sum += $4 } END { print sum + 0 }' "$logs/$part.log")
+    grep -hE '^(test .* FAILED|error)' "$logs/$part.log" | head -n 20
+    table+=("$(printf '%-14s %-7s %6d s %6d tests' "$part" "$result" $((SECONDS - start)) "$passed")")
+done
+printf '\n%-14s %-7s %8s %12s\n' part result time passed
+printf '%s\n' "${table[@]}"
+printf '%-14s %-7s %6d s\n' all "$( ((failed)) && echo FAILED || echo ok)" "$SECONDS"
+exit $failed
