@@ -1,8 +1,10 @@
-//! Each of the 48 items of section 4 of the notes on the Kollmorgen AKD's manual, with what accounts for it: the findings about a
-//! transcription as it is printed (`lints_manual_akd`), or the doubt in dictionaries/kollmorgen-akd.toml that says how it was read.
-//! The list is the overview; the tests hold it against the tests that it names, the doubts and, where the manual is beside the
-//! repository, its lines.
+//! Each of the 48 items of section 4 of the notes on the Kollmorgen AKD's manual, with what accounts for it: the diagnostics
+//! of a transcription as it is printed (the cases of `manual-akd` in `tests/ui`), or the doubt in
+//! dictionaries/kollmorgen-akd.toml that says how it was read. The list is the overview; the tests compare it with the cases
+//! that it names, the doubts and, if the manual is next to the repository, its lines.
 
+#[path = "table_support/cases.rs"]
+mod cases;
 #[path = "table_support/items.rs"]
 mod items;
 #[path = "table_support/manual.rs"]
@@ -13,9 +15,12 @@ use std::path::Path;
 
 use How::{Doubt, Finding};
 
+/// The area of the cases.
+const AREA: &str = "manual-akd";
+
 /// What accounts for an item.
 enum How {
-    /// A test of `lints_manual_akd`, and the codes that it expects.
+    /// A case, and what its diagnostics contain: codes, or words of a message.
     Finding(&'static str, &'static [&'static str]),
     /// Lines of the manual that a doubt names, each with a part of it: no check of facts can see what is odd there.
     Doubt(&'static [(usize, &'static str)]),
@@ -24,56 +29,57 @@ enum How {
 #[rustfmt::skip]
 const ITEMS: &[(u8, How)] = &[
     // 4.1: registers of the slave controller.
-    (1, Finding("item_01_an_access_that_is_none", &["TAB004"])),
-    (2, Finding("item_02_two_tables_with_another_access", &["TAB021"])),
+    (1, Finding("item-01-access-that-is-none", &["TAB004"])),
+    (2, Finding("item-02-two-tables-with-another-access", &["TAB021"])),
     (2, Doubt(&[(533, "R/W\tR/O"), (609, "SENZA"), (621, "SENZA"), (633, "SENZA")])),
     (3, Doubt(&[(532, "ZA ECAT*\tZA Drive*"), (566, "ZA Drive\tZA ECAT"), (608, "ZA Drive\tZA ECAT")])),
-    (4, Finding("item_04_reserved_bits_that_have_names", &["TAB014"])),
+    (4, Finding("item-04-reserved-bits-that-have-names", &["TAB014"])),
     (4, Doubt(&[(573, "Da 3 a 7")])),
-    (5, Finding("items_05_06_bytes_outside_of_the_register", &["TAB013"])),
+    (5, Finding("items-05-06-bytes-outside-of-the-register", &["TAB013"])),
     (5, Doubt(&[(593, "0x201"), (594, "0x201")])),
-    (6, Finding("item_06_a_length_that_is_not_that_of_the_type", &["TAB020"])),
+    (6, Finding("items-05-06-bytes-outside-of-the-register", &["TAB013"])),
+    (6, Finding("item-06-length-of-the-type", &["TAB020"])),
     (6, Doubt(&[(598, "0x222")])),
     (7, Doubt(&[(595, "SyncManager 4"), (597, "SyncManager 8"), (610, "0x02"), (622, "0x02")])),
-    (8, Finding("item_08_a_bit_without_a_row", &["TAB036"])),
+    (8, Finding("item-08-bit-without-a-row", &["TAB036"])),
     (8, Doubt(&[(585, "0x220\t0"), (586, "0x220\t2")])),
     (9, Doubt(&[(537, "R/W\tR/O"), (585, "R/O\tR/W")])),
     (10, Doubt(&[(650, "(BI)\t-"), (648, "Controllo AL I")])),
     (11, Doubt(&[(546, "Sync Manager 8"), (598, "SyncManager 15")])),
     (12, Doubt(&[(542, "Sync Manager 4"), (538, "SyncManager 0")])),
     // 4.2: the drive's state machine.
-    (13, Finding("item_13_a_command_that_is_two_others_as_well", &["TAB029"])),
+    (13, Finding("item-13-command-that-is-two-others-as-well", &["TAB029"])),
     (13, Doubt(&[(697, "Accensione"), (700, "Disabilitazione operazione")])),
     (14, Doubt(&[(671, "Disabilitazione accensione"), (744, "Accensione disabilitata"), (674, "Abilitazione operazione"), (747, "Operazione abilitata"), (732, "Accesa"), (742, "Accensione")])),
     (15, Doubt(&[(708, "solo modalità specifiche del produttore")])),
-    (16, Finding("item_16_a_mode_without_a_meaning_of_bit_4", &["TAB037"])),
+    (16, Finding("item-16-mode-without-bit-4", &["TAB037"])),
     (16, Doubt(&[(715, "07h\t\t")])),
-    (17, Finding("item_17_an_object_that_is_no_index", &["TAB006"])),
+    (17, Finding("item-17-object-that-is-no-index", &["TAB006"])),
     (17, Doubt(&[(758, "20subindex")])),
     (18, Doubt(&[(785, "sincrono ciclico"), (716, "08h"), (1006, "dati: 3")])),
-    (19, Finding("item_19_two_modes_with_the_same_parameters", &["TAB045"])),
+    (19, Finding("item-19-two-modes-with-the-same-parameters", &["TAB045"])),
     (19, Doubt(&[(1006, "DRC.CMDSOURCE"), (1007, "DRV.OPMODE 2")])),
     (20, Doubt(&[(702, "Ripristino errore"), (614, "fronte positivo")])),
     (21, Doubt(&[(663, "pagina)")])),
     // 4.3: PDOs.
-    (22, Finding("item_22_a_pdo_that_is_assigned_and_never_described", &["TAB034"])),
+    (22, Finding("item-22-assigned-pdo-that-is-not-described", &["TAB034"])),
     (22, Doubt(&[(889, "0x1704"), (1209, "0x1704"), (768, "0x1703")])),
     (23, Doubt(&[(796, "0x1B02"), (768, "0x1B20"), (800, "0x1703")])),
     (24, Doubt(&[(785, "Posizione di obiettivo"), (783, "max. coppia"), (784, "reset di informazioni"), (800, "coppia di torsione"), (789, "blocco negativo"), (790, "positivo/negativo"), (786, "Valore effettivo di posizione"), (791, "Valore effettivo di posizione"), (796, "Valore effettivo di posizione")])),
     (25, Doubt(&[(787, "seconde risposte"), (992, "Valore effettivo interno"), (995, "Seconda retroazione"), (997, "errore seguente"), (781, "parola del controllo del blocco"), (786, "Status word")])),
-    (26, Finding("item_26_an_object_of_32_bits_in_two_bytes", &["PDO005"])),
+    (26, Finding("item-26-object-of-32-bits-in-two-bytes", &["PDO005"])),
     (26, Doubt(&[(987, "UINT32"), (781, "uscite digitali (2 byte)"), (783, "uscite digitali (2 byte)"), (784, "uscite digitali (2 byte)")])),
     (27, Doubt(&[(780, "Valore di comando di posizione"), (982, "0x60C1")])),
     (28, Doubt(&[(808, "4 PDO con 8 byte"), (547, "Massimo 64")])),
-    (29, Finding("item_29_a_mapping_that_is_not_assigned", &["TAB035"])),
+    (29, Finding("item-29-mapping-that-is-not-assigned", &["TAB035"])),
     (29, Doubt(&[(942, "0x1B01"), (926, "0x1A00")])),
     (30, Doubt(&[(813, "p. 37")])),
     (31, Doubt(&[(801, "--------"), (817, "The screenshot"), (844, "<input"), (850, "0x1703")])),
     (32, Doubt(&[(791, "(2 byte),")])),
     // 4.4: objects.
-    (33, Finding("item_33_indices_without_a_prefix", &["TAB012", "TAB006"])),
+    (33, Finding("item-33-indices-without-a-prefix", &["TAB012", "TAB006"])),
     (33, Doubt(&[(985, "0x20a4"), (995, "2050"), (998, "20a0"), (996, "60FD"), (708, "6060h"), (924, "0x1C12:00")])),
-    (34, Finding("item_34_an_index_in_a_byte", &["TAB033"])),
+    (34, Finding("item-34-index-in-a-byte", &["TAB033"])),
     (34, Doubt(&[(945, "0x02"), (946, "0xFD"), (773, "0x1701"), (940, "0x1600")])),
     (35, Doubt(&[(1016, "indice di tempo"), (945, "Cycle time"), (946, "Cycle exp")])),
     (36, Doubt(&[(1028, "massime"), (1035, "≥ 0,25 ms")])),
@@ -81,20 +87,21 @@ const ITEMS: &[(u8, How)] = &[
     (38, Doubt(&[(1064, "x[ms]")])),
     (39, Doubt(&[(760, "RS232")])),
     // 4.5: latch words.
+    (40, Finding("items-40-41-bit-that-is-left-out", &["TAB036"])),
     (40, Doubt(&[(1081, "8-12"), (1096, "8-11")])),
-    (41, Finding("items_40_41_a_bit_that_is_left_out", &["TAB036"])),
+    (41, Finding("items-40-41-bit-that-is-left-out", &["TAB036"])),
     (41, Doubt(&[(1079, "4"), (1094, "4")])),
     // That 3 is a number and no bit stands in the documentation of the field, and the test of its values in `akd`.
     (42, Doubt(&[(1096, "z1zz")])),
     (43, Doubt(&[(1100, "12-15"), (1103, "stato 1")])),
     // 4.6: the mailbox.
     (44, Doubt(&[(1211, "dal byte 2 al byte 11")])),
-    (45, Finding("items_45_46_the_reply_of_the_mailbox", &["the reply has 14 for `length`"])),
+    (45, Finding("items-45-46-reply-of-the-mailbox", &["the reply has 14 for `length`"])),
     (45, Doubt(&[(1230, "0x0E")])),
-    (46, Finding("items_45_46_the_reply_of_the_mailbox", &["always 0x3000"])),
+    (46, Finding("items-45-46-reply-of-the-mailbox", &["always 0x3000"])),
     (46, Doubt(&[(1237, "0x20"), (1149, "richiesta SDO"), (1150, "risposta SDO")])),
     (47, Doubt(&[(1154, "7: richiesta"), (1193, "7: richiesta"), (1203, "codice di errore"), (1204, "valore dei dati")])),
-    (48, Finding("item_48_a_buffer_of_another_length_than_its_frames", &["TAB020"])),
+    (48, Finding("item-48-buffer-of-another-length-than-its-frames", &["TAB020"])),
     (48, Doubt(&[(1125, "16 byte"), (549, "512")])),
 ];
 
@@ -105,15 +112,25 @@ fn every_item_is_accounted_for() {
 }
 
 #[test]
-fn the_tests_expect_what_the_list_says() {
-    let source = [include_str!("lints_manual_akd.rs")];
+fn the_cases_report_what_the_list_says() {
     for (item, how) in ITEMS {
         let Finding(name, marks) = how else { continue };
-        let text = items::test(&source, name).unwrap_or_else(|| panic!("item {item}: there is no test `{name}`"));
+        let text = cases::diagnostics(AREA, name);
         for mark in *marks {
-            assert!(text.contains(mark), "item {item}: `{name}` doesn't expect {mark}");
+            assert!(text.contains(mark), "item {item}: `{name}` doesn't report {mark}");
         }
     }
+}
+
+#[test]
+fn the_list_has_every_case_of_an_item() {
+    let is_listed = |number: u8, case: &str| {
+        ITEMS.iter().any(|(item, how)| *item == number && matches!(how, Finding(name, _) if *name == case))
+    };
+    let cases = cases::of_items(AREA);
+    assert!(!cases.is_empty());
+    let missing: Vec<_> = cases.into_iter().filter(|(number, case)| !is_listed(*number, case)).collect();
+    assert!(missing.is_empty(), "{missing:?}");
 }
 
 #[test]

@@ -1,4 +1,4 @@
-//! What the overviews of a manual's odd passages share: the lines that a doubt names, and the text of a test.
+//! What the overviews of a manual's odd passages share: the lines that a doubt names.
 
 use std::collections::BTreeSet;
 
@@ -24,14 +24,4 @@ pub fn doubted(table: &str) -> BTreeSet<usize> {
         named(rest[1..].split(quote).next().unwrap_or_default(), &mut lines);
     }
     lines
-}
-
-/// The text of a test, from its name to its end.
-pub fn test<'s>(sources: &[&'s str], name: &str) -> Option<&'s str> {
-    let head = format!("fn {name}() {{");
-    sources.iter().find_map(|source| {
-        let start = source.find(&head)?;
-        let rest = &source[start..];
-        Some(&rest[..rest.find("\n}\n").unwrap_or(rest.len())])
-    })
 }

@@ -1,0 +1,30 @@
+//! What the overviews of a manual's odd passages need of the cases of `tests/ui`: their names, and what they report.
+
+use std::path::{Path, PathBuf};
+
+/// The folder of an area.
+fn folder(area: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../tests/ui").join(area)
+}
+
+/// The diagnostics that a case expects; empty if there is no such case, or if it reports nothing.
+pub fn diagnostics(area: &str, case: &str) -> String {
+    std::fs::read_to_string(folder(area).join(case).join("diagnostics")).unwrap_or_default()
+}
+
+/// Each case of an area that is called after items, with each of them: `items-01-04-mapping` is about 1 and 4.
+pub fn of_items(area: &str) -> Vec<(u8, String)> {
+    let mut found = Vec::new();
+    for entry in std::fs::read_dir(folder(area)).expect("the area") {
+        let name = entry.expect("a case").file_name().to_string_lossy().into_owned();
+        let mut words = name.split('-');
+        if !matches!(words.next(), Some("item" | "items")) {
+            continue;
+        }
+        let items: Vec<u8> = words.map_while(|word| word.parse().ok()).collect();
+        assert!(!items.is_empty(), "{name} has no number of an item");
+        found.extend(items.into_iter().map(|item| (item, name.clone())));
+    }
+    found.sort();
+    found
+}

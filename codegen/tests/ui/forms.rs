@@ -1,0 +1,97 @@
+//! The forms that real files come in: inputs are compiled with each line end, with and without a byte order mark and, for EDS,
+//! in Windows-1252. All forms have to say the same. The fast lane tries one form of each kind, and only on the quirks.
+
+use lexibus_codegen::compile::{check, Compilation};
+use lexibus_codegen::source::Source;
+use serde_json::Value;
+
+use crate::case::{ending, Case};
+use crate::lane;
+
+/// Compares the IR and the diagnostics of all forms of the case's inputs.
+///
+/// # Errors
+///
+/// The form that differs.
+pub fn all_say_the_same(case: &Case) -> Result<(), String> {
+    if case.settings.one_form || !(lane::is_full() || case.name().starts_with("quirks-")) {
+        return Ok(());
+    }
+    let options = case.options();
+    for input in case.inputs() {
+        let forms = forms(&input);
+        if forms.is_empty() {
+            continue;
+        }
+        let name = input.name().to_owned();
+        let plain = check(input, &options);
+        let (device, found) = (without_places(&plain), findings(&plain));
+        for (form, bytes) in forms {
+            let other = check(case.source_of(&name, bytes), &options);
+            if findings(&other) != found {
+                return Err(format!("{name} as {form}: {:?} instead of {found:?}", findings(&other)));
+            }
+            if without_places(&other) != device {
+                return Err(format!("{name} as {form}: another IR"));
+            }
+        }
+    }
+    Ok(())
+}
+
+/// The other forms of a file, each with its name; none of a table, which is UTF-8 by its format, or of a list of registers.
+fn forms(input: &Source) -> Vec<(String, Vec<u8>)> {
+    let is_eds = match ending(input.name()) {
+        "eds" | "dcf" => true,
+        "xml" | "xdd" | "xdc" | "xpd" => false,
+        _ => return Vec::new(),
+    };
+    let text = input.text();
+    let mut forms = Vec::new();
+    for (name, end) in [("LF", "\n"), ("CRLF", "\r\n"), ("CR", "\r")] {
+        let text = text.replace('\n', end);
+        forms.push((name.to_owned(), text.clone().into_bytes()));
+        if is_eds || !text.starts_with("<?xml") {
+            forms.push((format!("{name} with a byte order mark"), [b"\xef\xbb\xbf", text.as_bytes()].concat()));
+        }
+        let (cp1252, _, lossy) = encoding_rs::WINDOWS_1252.encode(&text);
+        if is_eds && !lossy {
+            forms.push((format!("{name} in Windows-1252"), cp1252.into_owned()));
+        }
+    }
+    if !lane::is_full() {
+        forms.retain(|(name, _)| {
+            matches!(name.as_str(), "CRLF with a byte order mark" | "CRLF" | "CR" | "LF in Windows-1252")
+        });
+    }
+    forms
+}
+
+/// Code, line and column of every diagnostic, except those about the encoding: that is what the forms differ in.
+fn findings(compilation: &Compilation) -> Vec<String> {
+    let list = compilation.diagnostics.list().iter().filter(|found| found.code.id != "EDS013");
+    let place = |file: u32, offset| compilation.sources[file as usize].position(offset);
+    list.map(|found| {
+        let at = place(found.span.file.0, found.span.start);
+        format!("{} {}:{}", found.code.id, at.line, at.column)
+    })
+    .collect()
+}
+
+/// The IR without places and files.
+fn without_places(compilation: &Compilation) -> Value {
+    let mut value = serde_json::to_value(&compilation.catalog).expect("JSON");
+    strip(&mut value);
+    value
+}
+
+fn strip(value: &mut Value) {
+    match value {
+        Value::Object(fields) => {
+            fields.retain(|key, _| !matches!(key.as_str(), "span" | "origin" | "at" | "name_at" | "files"));
+            fields.values_mut().for_each(strip);
+        }
+        Value::Array(values) => values.iter_mut().for_each(strip),
+        _ => {}
+    }
+}

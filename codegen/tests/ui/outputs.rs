@@ -1,0 +1,176 @@
+//! What a case makes: the diagnostics as the terminal prints them, and the outputs that its settings ask for.
+
+use lexibus_codegen::backend::docs::{Format, Page, Site};
+use lexibus_codegen::backend::eds::{self, Flavour};
+use lexibus_codegen::backend::{esi, gsdml, json, Export, Refusal};
+use lexibus_codegen::compare::{compare, Judgement};
+use lexibus_codegen::compile::{check, Compilation, Options};
+use lexibus_codegen::diagnostics::{render, Severity};
+use lexibus_codegen::ir::Catalog;
+use lexibus_codegen::source::Source;
+use lexibus_import::import;
+
+use crate::case::{ending, put_diagnostics, Case, Outputs};
+use crate::part::{parts, Form};
+
+/// Everything that the case makes.
+///
+/// # Errors
+///
+/// If an output that the case asks for cannot be made, or has not the part.
+pub fn of(case: &Case) -> Result<Outputs, String> {
+    let mut outputs = Outputs::new();
+    let inputs = case.inputs();
+    if inputs.iter().any(|input| ending(input.name()) == "csv") {
+        import_lists(case, inputs, &mut outputs)?;
+        return Ok(outputs);
+    }
+    let options = case.options();
+    let compilations: Vec<Compilation> = inputs.into_iter().map(|input| check(input, &options)).collect();
+    let mut diagnostics: String = compilations.iter().map(said).collect();
+    for compilation in &compilations {
+        let name = compilations.len().gt(&1).then(|| compilation.sources[0].name());
+        for (file, text) in made(case, compilation, &options, &mut diagnostics)? {
+            let heading = name.map_or(String::new(), |name| format!("== {name}\n"));
+            *outputs.entry(file).or_default() += &(heading + &text);
+        }
+    }
+    if case.settings.diff {
+        outputs.insert("output.diff".to_owned(), difference(case, &compilations)?);
+    }
+    put_diagnostics(&mut outputs, diagnostics);
+    Ok(outputs)
+}
+
+/// The diagnostics of a file as the terminal prints them.
+fn said(compilation: &Compilation) -> String {
+    let diagnostics = &compilation.diagnostics;
+    let list = diagnostics.list().iter();
+    let text: String =
+        list.map(|found| render::terminal::render(found, &compilation.sources, false) + "\n\n").collect();
+    if text.is_empty() {
+        return text;
+    }
+    let counts = (diagnostics.count(Severity::Error), diagnostics.count(Severity::Warning));
+    let name = compilation.sources[0].name();
+    format!("{text}{name}: {}\n", render::summary(counts.0, counts.1))
+}
+
+/// The outputs of one file, with their names. Notes of exports go to the diagnostics.
+fn made(
+    case: &Case,
+    compilation: &Compilation,
+    options: &Options,
+    said: &mut String,
+) -> Result<Vec<(String, String)>, String> {
+    let own = &case.settings;
+    let mut outputs = Vec::new();
+    let mut put = |name: &str, text: &str, form, wanted: &Vec<String>| -> Result<(), String> {
+        outputs.push((format!("output.{name}"), parts(text, form, wanted)?));
+        Ok(())
+    };
+    if let Some(wanted) = &own.rust {
+        put("rs", &compilation.rust(&options.rust).ok_or("no Rust is generated")?, Form::Rust, wanted)?;
+    }
+    if let Some(wanted) = &own.info {
+        put("info.json", &pretty(&json::info(compilation)), Form::Indented, wanted)?;
+    }
+    if let Some(pointers) = &own.dump {
+        let catalog = serde_json::to_value(usable(compilation)?).expect("JSON");
+        put("ir.json", &pointed(&catalog, pointers)?, Form::Indented, &Vec::new())?;
+    }
+    if let Some(wanted) = &own.markdown {
+        put("md", &pages(compilation), Form::Paragraphs, wanted)?;
+    }
+    let exports = [("eds", &own.eds), ("dcf", &own.dcf), ("esi.xml", &own.esi), ("gsdml.xml", &own.gsdml)];
+    for (name, wanted) in exports {
+        let Some(wanted) = wanted else { continue };
+        let form = if name.ends_with("xml") { Form::Indented } else { Form::Paragraphs };
+        match export(case, name, compilation)? {
+            Ok(exported) => {
+                put(name, &exported.text, form, wanted)?;
+                *said += &exported.notes.iter().map(|note| format!("note: {name}: {note}\n")).collect::<String>();
+            }
+            Err(refusal) => *said += &format!("error: {name}: {refusal}\n"),
+        }
+    }
+    Ok(outputs)
+}
+
+fn usable(compilation: &Compilation) -> Result<&Catalog, String> {
+    compilation.catalog.as_ref().ok_or_else(|| format!("{} could not be used", compilation.sources[0].name()))
+}
+
+fn pretty(value: &impl serde::Serialize) -> String {
+    serde_json::to_string_pretty(value).expect("JSON") + "\n"
+}
+
+/// The values at JSON pointers, each after its pointer.
+fn pointed(catalog: &serde_json::Value, pointers: &[String]) -> Result<String, String> {
+    let texts = pointers.iter().map(|pointer| {
+        let value = catalog.pointer(pointer).ok_or_else(|| format!("the IR has nothing at {pointer}"))?;
+        Ok(format!("{pointer}: {}", pretty(value)))
+    });
+    texts.collect::<Result<Vec<String>, String>>().map(|texts| texts.concat())
+}
+
+/// Every page that `lexibus docs --format markdown` writes of a file, each after its path.
+fn pages(compilation: &Compilation) -> String {
+    let mut site = Site::new(Format::Markdown);
+    let mut pages = site.add_compilation("input", compilation);
+    pages.extend(site.finish());
+    pages.iter().map(|Page { path, text, .. }| format!("== {path}\n\n{text}\n")).collect()
+}
+
+/// The outer error is one of the case, the inner one is what a user is told.
+fn export(case: &Case, name: &str, compilation: &Compilation) -> Result<Result<Export, Refusal>, String> {
+    // As `lexibus export`: what profiles add is known wherever an export is read.
+    let options = Options { no_profiles: true, ..case.options() };
+    let again =
+        check(case.source_of(compilation.sources[0].name(), compilation.sources[0].bytes().into_owned()), &options);
+    let mut catalog = again.catalog.ok_or("there is nothing to export")?;
+    Ok(match name {
+        "eds" | "dcf" => {
+            options.select.mapping_objects(&mut catalog);
+            let flavour = if name == "eds" { Flavour::Eds } else { Flavour::Dcf };
+            let device = catalog.devices.first().ok_or("there is no device to export")?;
+            eds::export(&catalog, device, flavour).ok_or(Refusal::Nothing)
+        }
+        "esi.xml" => {
+            let mut options = esi::Options::default();
+            case.settings.set.iter().try_for_each(|(key, value)| options.set(key, value))?;
+            esi::export(&catalog, &options)
+        }
+        _ => {
+            let mut options = gsdml::Options::default();
+            case.settings.set.iter().try_for_each(|(key, value)| options.set(key, value))?;
+            gsdml::export(&catalog, &options)
+        }
+    })
+}
+
+/// What `lexibus diff` prints.
+fn difference(case: &Case, compilations: &[Compilation]) -> Result<String, String> {
+    let [old, new] = compilations else { return Err(format!("{}: `diff` needs two inputs", case.name())) };
+    let changes = compare(usable(old)?, usable(new)?);
+    let breaking = changes.iter().filter(|change| change.judgement == Judgement::Breaking).count();
+    let lines: String = changes.iter().map(|change| format!("{change}\n")).collect();
+    Ok(format!("{lines}{} changes, {breaking} breaking\n", changes.len()))
+}
+
+/// The register tables of lists, as `lexibus import` makes them.
+fn import_lists(case: &Case, inputs: Vec<Source>, outputs: &mut Outputs) -> Result<(), String> {
+    let mut diagnostics = String::new();
+    for input in inputs {
+        let map: Result<_, String> = case.settings.map.iter().map(|text| lexibus_import::mapping(text)).collect();
+        let options = lexibus_import::Options { levels: case.levels(), map: map?, ..Default::default() };
+        let made = import(input, &options);
+        diagnostics += &said(&made.compilation);
+        if let Some(wanted) = &case.settings.table {
+            let text = made.table.ok_or("the list becomes no table")?;
+            *outputs.entry("output.toml".to_owned()).or_default() += &parts(&text, Form::Paragraphs, wanted)?;
+        }
+    }
+    put_diagnostics(outputs, diagnostics);
+    Ok(())
+}

@@ -1,0 +1,134 @@
+//! The parts of an output that a case is about.
+//!
+//! A part is found by a text in its first line. How far it goes depends on the form of the output:
+//!
+//! - Rust, XML, JSON: the line and everything indented below it, with the line that closes it; in Rust also the documentation
+//!   and attributes above it. In Rust, the text is matched by whole words in the line that begins an item (`SPEED`, `fn speed`,
+//!   `struct RxPdo1`). A `^` at the end of the text chooses the element around the line instead, `^^` the one around that.
+//! - EDS, Markdown, plain text: the lines up to the next empty one; of a Markdown table its head and the lines that contain the
+//!   text.
+
+use std::ops::Range;
+
+/// How the lines of an output belong together.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub enum Form {
+    /// Rust as `prettyplease` prints it.
+    Rust,
+    /// Indented lines.
+    Indented,
+    /// Paragraphs.
+    Paragraphs,
+}
+
+/// The parts of `text`; the whole text if none is asked for.
+///
+/// # Errors
+///
+/// If a part is not there.
+pub fn parts(text: &str, form: Form, wanted: &[String]) -> Result<String, String> {
+    if wanted.is_empty() {
+        return Ok(text.to_owned());
+    }
+    let lines: Vec<&str> = text.lines().collect();
+    let mut chosen = Vec::new();
+    for part in wanted {
+        let found = find(&lines, form, part);
+        if found.is_empty() {
+            return Err(format!("the output has no `{part}`:\n{text}"));
+        }
+        for lines in found {
+            if !chosen.contains(&lines) {
+                chosen.push(lines);
+            }
+        }
+    }
+    let texts: Vec<String> = chosen.iter().map(|block| block.join("\n") + "\n").collect();
+    let between = if form == Form::Paragraphs { "\n" } else { "" };
+    Ok(texts.join(between))
+}
+
+/// Every block that `part` names, as lines.
+fn find<'t>(lines: &[&'t str], form: Form, part: &str) -> Vec<Vec<&'t str>> {
+    let text = part.trim_end_matches('^');
+    let levels = part.len() - text.len();
+    let mut found: Vec<Vec<&str>> = Vec::new();
+    let mut behind = 0;
+    for at in 0..lines.len() {
+        let is_match = if form == Form::Rust { begins_item(lines[at], text) } else { lines[at].contains(text) };
+        if at < behind || !is_match {
+            continue;
+        }
+        let block = match form {
+            Form::Paragraphs => {
+                let block = paragraph(lines, at);
+                behind = block.end;
+                found.push(if lines[at].starts_with('|') { rows(&lines[block], text) } else { lines[block].to_vec() });
+                continue;
+            }
+            _ => indented(lines, outer(lines, at, levels), form),
+        };
+        behind = block.end;
+        found.push(lines[block].to_vec());
+    }
+    found
+}
+
+/// Whether the line begins an item of Rust with `text` in its head, as whole words.
+fn begins_item(line: &str, text: &str) -> bool {
+    let starts = ["pub ", "impl", "const ", "static ", "fn ", "type ", "mod ", "use "];
+    let line = line.trim_start();
+    if !starts.iter().any(|start| line.starts_with(start)) {
+        return false;
+    }
+    let head = line.split(" = ").next().unwrap_or(line);
+    let is_word = |letter: char| letter.is_alphanumeric() || letter == '_';
+    head.match_indices(text).any(|(at, _)| {
+        !head[..at].chars().next_back().is_some_and(is_word)
+            && !head[at + text.len()..].chars().next().is_some_and(is_word)
+    })
+}
+
+/// The line that opens the element `levels` around the line `at`.
+fn outer(lines: &[&str], at: usize, levels: usize) -> usize {
+    (0..levels).fold(at, |at, _| {
+        let own = indent(lines[at]);
+        (0..at).rev().find(|&above| !lines[above].is_empty() && indent(lines[above]) < own).unwrap_or(at)
+    })
+}
+
+/// The line `at`, what is indented below it, and what closes it; in Rust also what documents it.
+fn indented(lines: &[&str], at: usize, form: Form) -> Range<usize> {
+    let own = indent(lines[at]);
+    let is_above =
+        |line: &str| indent(line) == own && ["///", "#["].iter().any(|mark| line.trim_start().starts_with(mark));
+    let mut start = at;
+    while form == Form::Rust && start > 0 && is_above(lines[start - 1]) {
+        start -= 1;
+    }
+    let below = lines[at + 1..].iter().take_while(|line| line.is_empty() || indent(line) > own).count();
+    let closes = |line: &&&str| {
+        let line = line.trim_start();
+        line.starts_with(['}', ')', ']']) || line.starts_with("</")
+    };
+    let end = at + 1 + below;
+    start..end + usize::from(below > 0 && lines.get(end).filter(closes).is_some())
+}
+
+/// The lines around `at` up to empty ones.
+fn paragraph(lines: &[&str], at: usize) -> Range<usize> {
+    let start = lines[..at].iter().rposition(|line| line.is_empty()).map_or(0, |empty| empty + 1);
+    let end = lines[at..].iter().position(|line| line.is_empty()).map_or(lines.len(), |empty| at + empty);
+    start..end
+}
+
+/// The head of a Markdown table and its lines that contain `text`.
+fn rows<'t>(table: &[&'t str], text: &str) -> Vec<&'t str> {
+    let head = table.iter().position(|line| line.starts_with('|')).unwrap_or(0);
+    let body = table[head..].iter().skip(2).filter(|line| line.contains(text));
+    table[head..].iter().take(2).chain(body).copied().collect()
+}
+
+fn indent(line: &str) -> usize {
+    line.len() - line.trim_start().len()
+}

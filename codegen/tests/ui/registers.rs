@@ -1,0 +1,95 @@
+//! What holds for the cases together: no code and no quirk is without one, and what they generate compiles.
+
+use std::path::Path;
+
+use lexibus_codegen::compile::{check, Options};
+use lexibus_codegen::diagnostics::codes::CODES;
+use lexibus_codegen::source::Source;
+use lexibus_codegen::{Presence, RustOptions};
+use libtest_mimic::{Failed, Trial};
+
+use crate::case::{ending, Case};
+use crate::compile_support::compile_modules;
+
+/// Codes that no case can show: IO001 is about a file that cannot be read, and a test of the command line has it.
+const WITHOUT_INPUT: [&str; 1] = ["IO001"];
+
+/// Every diagnostic code has a case that is named after it and reports it.
+pub fn every_code_has_a_case(cases: &[Case]) -> Trial {
+    let cases: Vec<(String, String)> =
+        cases.iter().map(|case| (case.folder_name(), case.expected_diagnostics())).collect();
+    Trial::test("every code has a case", move || {
+        let is_shown = |id: &str, name: &str| {
+            let folder = format!("{}-{name}", id.to_lowercase());
+            cases.iter().any(|(own, said)| *own == folder && said.contains(&format!("[{id}]")))
+        };
+        let missing = CODES.iter().filter(|code| !is_shown(code.id, code.name)).map(|code| code.id);
+        let missing: Vec<&str> = missing.filter(|id| !WITHOUT_INPUT.contains(id)).collect();
+        none_missing("a case `<code>-<name>` whose `diagnostics` have the code", &missing)
+    })
+}
+
+/// Rows of `QUIRKS.md` that have no case yet: Lexibus does not do yet what they say.
+const LATER: [&str; 10] = ["E83", "E84", "E85", "X31", "X32", "X33", "X34", "X35", "X36", "X37"];
+
+/// Every row of `QUIRKS.md` has a case whose name begins with it.
+pub fn every_quirk_has_a_case(cases: &[Case]) -> Trial {
+    let names: Vec<String> = cases.iter().map(Case::folder_name).collect();
+    Trial::test("every quirk has a case", move || {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared/QUIRKS.md");
+        let Ok(text) = std::fs::read_to_string(&path) else {
+            eprintln!("skipped: there is no list of quirks at {}", path.display());
+            return Ok(());
+        };
+        let rows: Vec<&str> = text.lines().filter_map(row).filter(|row| !LATER.contains(row)).collect();
+        assert!(rows.len() > 100, "the list has only {} rows", rows.len());
+        let is_shown = |row: &str| {
+            let row = row.to_lowercase();
+            names.iter().any(|name| name.strip_prefix(&row).is_some_and(|rest| rest.starts_with('-')))
+        };
+        let missing: Vec<&str> = rows.into_iter().filter(|row| !is_shown(row)).collect();
+        none_missing("a case `<row>-…`", &missing)
+    })
+}
+
+/// The number of a row: `| E01 | …`.
+fn row(line: &str) -> Option<&str> {
+    let row = line.strip_prefix("| ")?.split(' ').next()?;
+    let digits = row.strip_prefix(['E', 'X', 'G'])?;
+    (digits.len() == 2 && digits.bytes().all(|digit| digit.is_ascii_digit())).then_some(row)
+}
+
+fn none_missing(what: &str, missing: &[&str]) -> Result<(), Failed> {
+    if missing.is_empty() {
+        return Ok(());
+    }
+    Err(format!("{what} is missing for {}", missing.join(", ")).into())
+}
+
+/// How many inputs are compiled as one crate. A crate each takes longer, and one crate of all needs too deep a stack.
+const INPUTS: usize = 50;
+
+/// The Rust of every input that has no error compiles without a warning. A trial for each crate.
+pub fn rust_of_all_cases_compiles(cases: &[Case]) -> Vec<Trial> {
+    let mut inputs = Vec::new();
+    for case in cases {
+        let rust = RustOptions { table: Presence::Always, ..RustOptions::default() };
+        let options = Options { rust, ..case.options() };
+        let name = case.name().replace(|letter: char| !letter.is_ascii_alphanumeric(), "_");
+        let described = case.inputs().into_iter().filter(|input| ending(input.name()) != "csv").enumerate();
+        inputs.extend(described.map(|(number, input)| (format!("{name}_{number}"), input, options.clone())));
+    }
+    let trial = |(number, inputs): (usize, &[(String, Source, Options)])| {
+        let inputs = inputs.to_vec();
+        Trial::test(format!("rust of all cases compiles, part {number}"), move || {
+            let rust = |(name, input, options): (String, Source, Options)| {
+                let text = check(input, &options).rust(&options.rust)?;
+                Some((name, text))
+            };
+            let modules: Vec<(String, String)> = inputs.into_iter().filter_map(rust).collect();
+            assert!(!modules.is_empty(), "no case generates Rust");
+            compile_modules(&modules).map_err(Failed::from)
+        })
+    };
+    inputs.chunks(INPUTS).enumerate().map(trial).collect()
+}

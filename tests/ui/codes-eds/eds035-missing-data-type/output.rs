@@ -1,0 +1,18 @@
+    /// Missing.
+    ///
+    /// 0x2000:00, unknown type, ro.
+    /// Accessor: [`missing`](super::Pump::missing).
+    pub const MISSING: ReadOnly<rt::Opaque> = ReadOnlyOpaque::object(
+        0x2000,
+        0x00,
+        "Missing",
+    );
+    /// Empty.
+    ///
+    /// 0x2001:00, unknown type, ro.
+    /// Accessor: [`empty`](super::Pump::empty).
+    pub const EMPTY: ReadOnly<rt::Opaque> = ReadOnlyOpaque::object(
+        0x2001,
+        0x00,
+        "Empty",
+    );

@@ -1,0 +1,40 @@
+    /// Speeds.
+    ///
+    /// RECORD 0x2000.
+    pub mod speeds {
+        /// Highest sub-index.
+        ///
+        /// 0x2000:00, UNSIGNED8, ro, default 1.
+        /// Accessor: [`Accessors::highest_sub_index`].
+        pub const HIGHEST_SUB_INDEX: super::ReadOnly<u8> = super::ReadOnlyU8::object_with_default(
+            0x2000,
+            0x00,
+            "Highest sub-index",
+            1,
+        );
+        /// First.
+        ///
+        /// 0x2000:01, UNSIGNED16, rw.
+        /// Accessor: [`Accessors::first`].
+        pub const FIRST: super::ReadWrite<u16> = super::ReadWriteU16::object(
+            0x2000,
+            0x01,
+            "First",
+        );
+        /// Access to the entries of Speeds: 0x2000.
+        pub struct Accessors<'c, C> {
+            pub(in super::super) client: &'c mut C,
+        }
+        impl<C> Accessors<'_, C> {
+            /// Highest sub-index: 0x2000:00.
+            /// Constant: [`HIGHEST_SUB_INDEX`].
+            pub fn highest_sub_index(&mut self) -> super::ReadOnlyAccess<'_, C, u8> {
+                HIGHEST_SUB_INDEX.at(self.client)
+            }
+            /// First: 0x2000:01.
+            /// Constant: [`FIRST`].
+            pub fn first(&mut self) -> super::ReadWriteAccess<'_, C, u16> {
+                FIRST.at(self.client)
+            }
+        }
+    }

@@ -1,0 +1,9 @@
+        /// Second.
+        ///
+        /// 0x2002:02, unknown type, ro.
+        /// Accessor: [`Accessors::second`].
+        pub const SECOND: super::ReadOnly<rt::Opaque> = super::ReadOnlyOpaque::object(
+            0x2002,
+            0x02,
+            "Second",
+        );

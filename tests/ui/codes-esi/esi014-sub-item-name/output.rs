@@ -1,0 +1,18 @@
+        /// A.
+        ///
+        /// 0x2000:01, UNSIGNED16, rw.
+        /// Accessor: [`Accessors::a_1`].
+        pub const A_1: super::ReadWrite<u16> = super::ReadWriteU16::coe_object(
+            0x2000,
+            0x01,
+            "A",
+        );
+        /// A.
+        ///
+        /// 0x2000:02, UNSIGNED16, rw.
+        /// Accessor: [`Accessors::a_2`].
+        pub const A_2: super::ReadWrite<u16> = super::ReadWriteU16::coe_object(
+            0x2000,
+            0x02,
+            "A",
+        );

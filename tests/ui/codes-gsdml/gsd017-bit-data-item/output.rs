@@ -1,0 +1,18 @@
+        /// Inputs: what the device sends to the controller.
+        ///
+        /// 3 bytes of user data, consistent item by item.
+        ///
+        /// | Place | Field | Type |
+        /// |---|---|---|
+        /// | bit 1 of byte 0 | [`one`](Self::one) | `bool` |
+        /// | bit 1 of byte 1 | [`two`](Self::two) | `bool` |
+        /// | bit 1 of byte 2 | [`three`](Self::three) | `bool` |
+        #[derive(Clone, Copy, Debug, PartialEq)]
+        pub struct Inputs {
+            /// One: bit 1 of byte 0.
+            pub one: bool,
+            /// Two: bit 1 of byte 1.
+            pub two: bool,
+            /// Three: bit 1 of byte 2.
+            pub three: bool,
+        }

@@ -1,0 +1,23 @@
+== chosen.xml
+    /// Outputs: the data of sync manager 0 by default.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct Outputs {
+        /// RxPDO 0x1601: Speed.
+        pub speed: super::pdo::Speed,
+    }
+== conflict.xml
+    /// Outputs: the data of sync manager 0 by default.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct Outputs {
+        /// RxPDO 0x1601: Speed.
+        pub speed: super::pdo::Speed,
+    }
+== later.xml
+    /// Outputs: the data of sync manager 0 by default.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct Outputs {
+        /// RxPDO 0x1601: Speed.
+        pub speed: super::pdo::Speed,
+        /// RxPDO 0x1603: Torque.
+        pub torque: super::pdo::Torque,
+    }

@@ -1,0 +1,6 @@
+    /// Outputs: the data of sync manager 0 by default.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct Outputs {
+        /// RxPDO 0x1602: Longest.
+        pub longest: super::pdo::Longest,
+    }

@@ -1,0 +1,9 @@
+    /// status.
+    ///
+    /// Values of [`STATUS`](super::objects::STATUS).
+    ///
+    /// | Bits | Name |
+    /// |---|---|
+    /// | 7 | [`running`](Self::running) |
+    #[derive(Clone, Copy, PartialEq)]
+    pub struct Status(u8);

@@ -1,0 +1,14 @@
+    /// Last.
+    ///
+    /// 0x2000:00, UNSIGNED16, ro.
+    /// Accessor: [`last`](super::Pump::last).
+    pub const LAST: ReadOnly<u16> = ReadOnlyU16::object(0x2000, 0x00, "Last");
+        /// Last sub.
+        ///
+        /// 0x2001:01, UNSIGNED16, rw.
+        /// Accessor: [`Accessors::last_sub`].
+        pub const LAST_SUB: super::ReadWrite<u16> = super::ReadWriteU16::object(
+            0x2001,
+            0x01,
+            "Last sub",
+        );

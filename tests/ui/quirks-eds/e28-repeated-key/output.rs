@@ -1,0 +1,10 @@
+    /// Speed.
+    ///
+    /// 0x2000:00, UNSIGNED8, rw, default 2.
+    /// Accessor: [`speed`](super::Pump::speed).
+    pub const SPEED: ReadWrite<u8> = ReadWriteU8::object_with_default(
+        0x2000,
+        0x00,
+        "Speed",
+        2,
+    );

@@ -1,0 +1,22 @@
+== byte-order-mark.eds
+    /// Gerät.
+    ///
+    /// 0x2000:00, VISIBLE_STRING, rw, default "5 €".
+    /// Accessor: [`geraet`](super::Pump::geraet).
+    pub const GERAET: ReadWrite<rt::VisibleString> = ReadWriteVisibleString::object_with_default(
+        0x2000,
+        0x00,
+        "Gerät",
+        "5 €",
+    );
+== input.eds
+    /// Gerät.
+    ///
+    /// 0x2000:00, VISIBLE_STRING, rw, default "5 €".
+    /// Accessor: [`geraet`](super::Pump::geraet).
+    pub const GERAET: ReadWrite<rt::VisibleString> = ReadWriteVisibleString::object_with_default(
+        0x2000,
+        0x00,
+        "Gerät",
+        "5 €",
+    );

@@ -1,0 +1,52 @@
+/// What a master has to know of Maker Drive.
+pub static DEVICE: rt::ethercat::Device = rt::ethercat::Device {
+    identity: IDENTITY,
+    sync_managers: &[
+        rt::ethercat::SyncManager {
+            number: 0,
+            purpose: rt::ethercat::SyncManagerPurpose::Outputs,
+            start_address: 0x1100,
+            default_size: 0,
+            min_size: None,
+            max_size: Some(2),
+            control: 0x64,
+            enable: true,
+            op_only: false,
+        },
+    ],
+    pdos: &[
+        rt::ethercat::PdoInfo {
+            index: 0x1601,
+            direction: rt::ethercat::Direction::Output,
+            bits: 16,
+            sync_manager: Some(0),
+            excluded_sync_managers: &[],
+            fixed: true,
+            mandatory: false,
+            depends_on: rt::ethercat::DependsOn::Nothing,
+            excludes: &[0x1602],
+            mapping: <pdo::P1601 as rt::Pdo>::MAPPING,
+        },
+        rt::ethercat::PdoInfo {
+            index: 0x1602,
+            direction: rt::ethercat::Direction::Output,
+            bits: 16,
+            sync_manager: Some(0),
+            excluded_sync_managers: &[],
+            fixed: true,
+            mandatory: false,
+            depends_on: rt::ethercat::DependsOn::Nothing,
+            excludes: &[],
+            mapping: <pdo::P1602 as rt::Pdo>::MAPPING,
+        },
+    ],
+    default_pdos: &[0x1601],
+    mailbox: rt::ethercat::Mailbox::NONE,
+    slots: None,
+};
+    /// Outputs: the data of sync manager 0 by default.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct Outputs {
+        /// RxPDO 0x1601: P1601.
+        pub p1601: super::pdo::P1601,
+    }

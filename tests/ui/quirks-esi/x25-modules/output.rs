@@ -1,0 +1,73 @@
+        /// What a master has to know of 4 inputs.
+        pub static MODULE: rt::ethercat::Module = rt::ethercat::Module {
+            ident: 0x00000030,
+            name: "4 inputs",
+            class: "Di",
+            pdo_group: 1,
+            pdos: &[
+                rt::ethercat::PdoInfo {
+                    index: 0x1A00,
+                    direction: rt::ethercat::Direction::Input,
+                    bits: 1,
+                    sync_manager: Some(3),
+                    excluded_sync_managers: &[],
+                    fixed: true,
+                    mandatory: false,
+                    depends_on: rt::ethercat::DependsOn::Slot,
+                    excludes: &[],
+                    mapping: <pdo::Inputs as rt::Pdo>::MAPPING,
+                },
+            ],
+            init_commands: &[
+                rt::ethercat::InitCommand {
+                    transitions: rt::ethercat::Transitions::of(
+                        &[rt::ethercat::Transition::PS],
+                    ),
+                    index: 0x8000,
+                    sub_index: 0x01,
+                    complete_access: false,
+                    depends_on: rt::ethercat::DependsOn::Slot,
+                    data: b"\x05",
+                },
+            ],
+            objects: &[
+                rt::ethercat::SlotObjects::new(
+                    0x6000,
+                    0x8000,
+                    rt::ethercat::DependsOn::Slot,
+                ),
+            ],
+        };
+            /// FILTER.
+            ///
+            /// Values of [`FILTER`](super::objects::FILTER).
+            ///
+            /// | Value | Name |
+            /// |---|---|
+            /// | 5 | [`Slow`](Self::Slow) |
+            #[derive(Clone, Copy, Debug, PartialEq)]
+            pub enum Filter {
+                /// 5: Slow.
+                Slow,
+                /// Any other number.
+                Unknown(u8),
+            }
+            /// Filter.
+            ///
+            /// 0x8000:00, UNSIGNED8, rw.
+            /// Values: [`Filter`](super::types::Filter).
+            pub const FILTER: ReadWrite<super::types::Filter> = ReadWriteNamedFilter::coe_object(
+                0x8000,
+                0x00,
+                "Filter",
+            );
+                /// In 1.
+                ///
+                /// 0x6000:01, BOOLEAN, ro, mappable into TPDOs.
+                /// Carried by [`Inputs`](super::super::pdo::Inputs).
+                pub const IN_1: super::ReadOnly<bool> = super::ReadOnlyBool::flagged_coe_object(
+                    0x6000,
+                    0x01,
+                    "In 1",
+                    rt::Flags::TPDO,
+                );

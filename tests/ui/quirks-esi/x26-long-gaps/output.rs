@@ -1,0 +1,5 @@
+        const MAPPING: &'static [rt::MappedEntry] = &[
+            rt::MappedEntry::new(0x6000, 0x01, 1),
+            rt::MappedEntry::new(0x0000, 0x00, 70000),
+            rt::MappedEntry::new(0x6000, 0x02, 1),
+        ];

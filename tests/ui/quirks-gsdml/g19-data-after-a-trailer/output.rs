@@ -1,0 +1,16 @@
+        /// Inputs: what the device sends to the controller.
+        ///
+        /// 6 bytes of user data, consistent item by item; behind them an F message trailer of 4 bytes.
+        ///
+        /// | Place | Field | Type |
+        /// |---|---|---|
+        /// | bytes 0 to 3 | [`safety`](Self::safety) | `[u8; 4]` |
+        /// | bytes 4 and 5 | [`speed`](Self::speed) | `u16` |
+        #[derive(Clone, Copy, Debug, PartialEq)]
+        pub struct Inputs {
+            /// Safety: OctetString, bytes 0 to 3.
+            pub safety: [u8; 4],
+            /// Speed: Unsigned16, bytes 4 and 5.
+            pub speed: u16,
+        }
+            const TRAILER_LEN: usize = 4;

@@ -1,0 +1,12 @@
+        /// Inputs: what the device sends to the controller.
+        ///
+        /// 2 bytes of user data, consistent item by item.
+        ///
+        /// | Place | Field | Type |
+        /// |---|---|---|
+        /// | bytes 0 and 1 | [`speed`](Self::speed) | `u16` |
+        #[derive(Clone, Copy, Debug, PartialEq)]
+        pub struct Inputs {
+            /// Speed: Unsigned16, bytes 0 and 1.
+            pub speed: u16,
+        }
