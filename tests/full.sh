@@ -13,8 +13,8 @@ export CARGO_TERM_COLOR=never CARGO_INCREMENTAL=0 LEXIBUS_LANE=full
 target=${CARGO_TARGET_DIR:-target}
 logs=$target/full
 
-parts=(programs format clippy features outside rustdoc build sample bindings units ui runtime drives corpus generated packing \
-    differential arbitrary mutations nested site browser book rest examples)
+parts=(programs format clippy features outside rustdoc build sample bindings units doctests ui corpus generated packing \
+    differential arbitrary mutations nested site browser book pages rest examples)
 
 # Names of test programs, as arguments of cargo. Each program of the workspace is in one part; `rest` runs what no other part names.
 ui=(ui)
@@ -26,14 +26,15 @@ differential=(differential)
 arbitrary=(arbitrary)
 mutations=(corpus_mutations hostile_exports)
 nested=(compile_fail drive_crate instructions no_std_size)
-site=(docs docs_markdown html)
+site=(docs docs_markdown)
+pages=(html drives)
 browser=(browser)
 book=(book)
 
 tests() {
     local names=() name
     for name in "$@"; do names+=(--test "$name"); done
-    cargo test --no-fail-fast --workspace --all-features "${names[@]}"
+    cargo test --no-fail-fast --all-features "${names[@]}"
 }
 
 part_programs() { tests/programs.sh; }
@@ -67,12 +68,17 @@ part_rustdoc() {
     RUSTDOCFLAGS='-D warnings' cargo doc --quiet --workspace --all-features --no-deps --lib --bins --examples
 }
 part_sample() { tests/corpus-sample.py "$target/debug/lexibus" --check; }
-part_build() { cargo test --quiet --workspace --all-features --no-run; }
+# The compiler is compiled once: for macros, tests and programs alike.
+part_build() {
+    local builds
+    builds=$(cargo test --all-features --no-run --message-format json | grep -c '"reason":"compiler-artifact".*"name":"lexibus_codegen".*"test":false')
+    echo "the compiler is compiled $builds times"
+    ((builds == 1))
+}
 part_bindings() { LEXIBUS=$target/debug/lexibus tests/bindings.sh --check; }
-part_units() { cargo test --no-fail-fast --workspace --all-features --lib --bins; }
+part_units() { cargo test --no-fail-fast --all-features --lib --bins; }
 part_ui() { tests "${ui[@]}"; }
-part_runtime() { cargo test --no-fail-fast -p lexibus --all-features --doc; }
-part_drives() { cargo test --no-fail-fast --workspace --exclude lexibus --all-features --doc; }
+part_doctests() { cargo test --no-fail-fast --all-features --doc; }
 part_corpus() { tests "${corpus[@]}"; }
 part_generated() { tests "${generated[@]}"; }
 part_packing() { tests "${packing[@]}"; }
@@ -83,9 +89,11 @@ part_nested() { tests "${nested[@]}"; }
 part_site() { tests "${site[@]}"; }
 part_browser() { tests "${browser[@]}"; }
 part_book() { tests "${book[@]}"; }
+# The book as mdBook builds it.
+part_pages() { cargo test --no-fail-fast -p lexibus-book-pages; }
 # Every test program that no other part names.
 part_rest() {
-    local named=" ${ui[*]} ${corpus[*]} ${generated[*]} ${packing[*]} ${differential[*]} ${arbitrary[*]} ${mutations[*]} ${nested[*]} ${site[*]} ${browser[*]} ${book[*]} "
+    local named=" ${ui[*]} ${corpus[*]} ${generated[*]} ${packing[*]} ${differential[*]} ${arbitrary[*]} ${mutations[*]} ${nested[*]} ${site[*]} ${browser[*]} ${book[*]} ${pages[*]} "
     local all rest=() name
     all=$(cargo metadata --no-deps --format-version 1 |
         python3 -c 'import json, sys; print("\n".join(sorted({target["name"] for package in json.load(sys.stdin)["packages"] for target in package["targets"] if "test" in target["kind"]})))')
@@ -95,7 +103,7 @@ part_rest() {
 # A program for each bus, each against a simulated device.
 part_examples() {
     local example failed=0
-    cargo build --quiet --workspace --all-features --examples || return 1
+    cargo build --quiet --all-features --examples || return 1
     for example in canopen ethercat modbus profinet serial; do timeout 60 "$target/debug/examples/$example" || failed=1; done
     return $failed
 }

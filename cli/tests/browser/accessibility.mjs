@@ -1,6 +1,6 @@
 // axe-core finds nothing on pages of every kind: names, labels, headings, roles and contrast, in both themes, and on a phone.
 import assert from "node:assert/strict";
-import { axe, sampled, Window, withBrowser } from "./browser.mjs";
+import { axe, Window, withBrowser } from "./browser.mjs";
 
 const DESKTOP = { width: 1280, height: 800 }, PHONE = { width: 390, height: 844 };
 
@@ -15,7 +15,7 @@ await withBrowser(async (browser) => {
   for (const colorScheme of ["light", "dark"]) {
     for (const viewport of colorScheme === "light" ? [DESKTOP, PHONE] : [DESKTOP]) {
       const window = await Window.open(browser, site, { colorScheme, viewport });
-      for (const place of sampled(PAGES, 4)) {
+      for (const place of PAGES) {
         await window.go(place);
         await examine(window.page, `${place}, ${colorScheme}, ${viewport.width} wide`);
       }

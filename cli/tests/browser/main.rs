@@ -58,6 +58,9 @@ fn pages_are_printed_black_on_white() {
 
 #[test]
 fn pages_are_accessible_in_both_themes() {
+    if lane::skips("accessibility") {
+        return;
+    }
     run("accessibility.mjs", || [sites::drives()]);
 }
 

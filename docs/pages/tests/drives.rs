@@ -28,7 +28,7 @@ fn written() -> PathBuf {
     let _ = fs::remove_dir_all(&folder);
     let (mut site, mut pages) = (Site::new(Format::Markdown), Vec::new());
     for path in DESCRIPTIONS {
-        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(path);
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").join(path);
         let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
         let compilation = check(Source::read(&path).expect("a description"), &Options::default());
         pages.extend(site.add_compilation(&name, &compilation));

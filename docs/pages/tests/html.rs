@@ -13,7 +13,7 @@ mod support;
 const REPOSITORY: &str = "https://github.com/lexibus/lexibus/blob/main/";
 
 fn docs() -> &'static Path {
-    Path::new(env!("CARGO_MANIFEST_DIR"))
+    Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("the folder of the book")
 }
 
 /// Builds the book into a folder of this test's own.
