@@ -40,7 +40,7 @@ tests() {
 part_programs() { tests/programs.sh; }
 part_format() { cargo fmt --all --check; }
 part_clippy() { cargo clippy --quiet --workspace --all-targets --all-features -- -D warnings; }
-# Each feature of the runtime stands alone.
+# Each feature of the runtime compiles alone.
 part_features() {
     local features failed=0
     for features in "" std canopen socketcan socketcan-tokio ethercat modbus serial macros serde,defmt; do

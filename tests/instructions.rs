@@ -1,8 +1,11 @@
 //! Packing, unpacking and accessing values takes no more instructions than the same written by hand, but for what [`TOLERATED`] has.
 //!
 //! `valgrind --tool=callgrind` counts what the pairs of functions in `benches/instructions` execute, in a release build:
-//! the counts are exact and the same in every run. `cargo test --test instructions -- --nocapture` prints them, and the bytes
+//! the counts are exact and the same in every run. `LEXIBUS_LANE=full cargo test --test instructions -- --nocapture` prints them, and the bytes
 //! of code of each function where `nm` tells them.
+
+#[path = "support/lane.rs"]
+mod lane;
 
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
@@ -102,6 +105,9 @@ fn size(sizes: &HashMap<String, u64>, case: &str, action: &str, side: &str) -> u
 
 #[test]
 fn generated_code_costs_what_a_person_would_write() {
+    if lane::skips("counting instructions of an optimized build") {
+        return;
+    }
     if !cfg!(target_arch = "x86_64") || Command::new("valgrind").arg("--version").output().is_err() {
         println!("skipped: instructions are counted on x86-64 with `valgrind`, which isn't here");
         return;

@@ -22,8 +22,8 @@ use proptest::prelude::*;
 use proptest::sample::{select, subsequence, Index};
 use proptest::test_runner::{RngSeed, TestError, TestRunner};
 
-/// The fewest cases that tell how many inputs reach the back end.
-const FEWEST: u32 = 60;
+/// The fewest cases that show how many inputs reach the back end.
+const FEWEST: u32 = 40;
 
 /// So many cases in an optimized build, a sixth of them in a debug build, and a fourth of these in the fast lane.
 fn config(cases: u32) -> ProptestConfig {

@@ -1,5 +1,8 @@
 //! Names that try to break out of an exported file: what is read from it again has the structure of what was exported.
 
+#[path = "../../tests/support/lane.rs"]
+mod lane;
+
 use std::path::Path;
 
 use lexibus_codegen::backend::{eds, esi, gsdml};
@@ -124,7 +127,8 @@ fn again(path: &str, name: &str, write: &dyn Fn(&Catalog) -> String, names: impl
 fn hold(path: &str, name: &str, write: &dyn Fn(&Catalog) -> String) {
     let expected = again(path, name, write, |number| format!("name {number}"));
     assert!(expected.len() > 5, "{path}: {expected:?}");
-    for at in 0..HOSTILE.len() {
+    let step = if lane::is_full() { 1 } else { 3 };
+    for at in (0..HOSTILE.len()).step_by(step) {
         let found = again(path, name, write, |number| format!("{number} {}", HOSTILE[(number + at) % HOSTILE.len()]));
         for (found, expected) in found.iter().zip(&expected) {
             assert_eq!(found, expected, "{path}, {at}");

@@ -17,7 +17,7 @@ pub fn body(text: &str) -> &str {
 }
 
 /// How many devices of a file the fast lane takes.
-const DEVICES: usize = 3;
+const DEVICES: usize = 2;
 
 /// What a file describes, device by device: many files share devices, and one device a time needs little memory.
 pub fn catalogs(compilation: &Compilation) -> Box<dyn Iterator<Item = Cow<'_, Catalog>> + '_> {

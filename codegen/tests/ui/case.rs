@@ -36,7 +36,7 @@ pub struct Settings {
     no_profiles: bool,
     /// The input is not compiled once more with other line ends, encodings and byte order marks.
     pub one_form: bool,
-    /// Parts of the outputs; an empty list stands for the whole output. See `part.rs`.
+    /// Parts of the outputs; an empty list means the whole output. See `part.rs`.
     pub rust: Option<Vec<String>>,
     pub info: Option<Vec<String>>,
     pub dump: Option<Vec<String>>,

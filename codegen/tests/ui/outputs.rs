@@ -122,7 +122,7 @@ fn pages(compilation: &Compilation) -> String {
     pages.iter().map(|Page { path, text, .. }| format!("== {path}\n\n{text}\n")).collect()
 }
 
-/// The outer error is one of the case, the inner one is what a user is told.
+/// The outer error is one of the case, the inner one is the refusal that a user sees.
 fn export(case: &Case, name: &str, compilation: &Compilation) -> Result<Result<Export, Refusal>, String> {
     // As `lexibus export`: what profiles add is known wherever an export is read.
     let options = Options { no_profiles: true, ..case.options() };
