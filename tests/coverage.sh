@@ -3,7 +3,7 @@
 # (`rustup component add llvm-tools`, or LLVM_COV and LLVM_PROFDATA). Takes about an hour. tests/COVERAGE.md has the last result.
 set -euo pipefail
 cd "$(dirname "$0")/.."
-export CARGO_INCREMENTAL=0
+export CARGO_INCREMENTAL=0 LEXIBUS_LANE=full
 # Programs that the tests start write into few files, or there would be thousands.
 export LLVM_PROFILE_FILE_NAME='lexibus-%4m.profraw'
 python=${LEXIBUS_PYTHON:-$PWD/target/python/bin/python}
