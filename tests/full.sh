@@ -83,7 +83,7 @@ part_corpus() { tests "${corpus[@]}"; }
 part_generated() { tests "${generated[@]}"; }
 part_packing() { tests "${packing[@]}"; }
 part_differential() { tests "${differential[@]}"; }
-part_arbitrary() { LEXIBUS_ARBITRARY=400 tests "${arbitrary[@]}"; }
+part_arbitrary() { tests "${arbitrary[@]}"; }
 part_mutations() { tests "${mutations[@]}"; }
 part_nested() { tests "${nested[@]}"; }
 part_site() { tests "${site[@]}"; }

@@ -20,8 +20,8 @@ use lexibus_codegen::ir::{Catalog, Device, Format, Group};
 use lexibus_codegen::source::Source;
 use lexibus_codegen::{Presence, RustOptions};
 
-/// How many catalogues are drawn in the full lane; the fast lane draws an eighth.
-const DRAWN: u64 = 200;
+/// How many catalogues are drawn in the full lane; the fast lane draws a sixteenth.
+const DRAWN: u64 = 400;
 
 /// Of so many of them, all other outputs are made where nobody asks for more.
 const OUTPUTS: usize = 30;
@@ -40,7 +40,7 @@ const BYTES: usize = 8000;
 
 fn seeds() -> Range<u64> {
     let Ok(wanted) = std::env::var("LEXIBUS_ARBITRARY") else {
-        return 0..if lane::is_full() { DRAWN } else { DRAWN / 8 };
+        return 0..if lane::is_full() { DRAWN } else { DRAWN / 16 };
     };
     let number = |text: &str| text.parse().expect("a number of seeds, or a range of them");
     match wanted.split_once("..") {
