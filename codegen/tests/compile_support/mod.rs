@@ -1,33 +1,28 @@
-//! Runs `rustc`, clippy if it is installed, and rustdoc over generated code.
-
-#[path = "../../../tests/support/lane.rs"]
-mod lane;
+//! Runs `rustc`, or clippy where it is installed, and rustdoc over generated code.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::OnceLock;
 
-/// Compiles `bindings` as the module of a `no_std` crate in which every warning is an error. The full lane does it with clippy,
-/// which takes half as long again as rustc.
+/// Compiles `bindings` as the module of a `no_std` crate in which every warning is an error.
 ///
 /// # Errors
 ///
 /// What the compiler printed.
 #[allow(dead_code)] // Not every test compiles by this one.
 pub fn compile(name: &str, bindings: &str) -> Result<(), String> {
-    let command = if lane::is_full() { compiler() } else { Command::new("rustc") };
-    compile_with(command, "2021", name, bindings)
+    compile_with(compiler(), "2021", name, bindings)
 }
 
-/// The same with clippy in both lanes.
+/// The same without clippy.
 ///
 /// # Errors
 ///
 /// What the compiler printed.
 #[allow(dead_code)]
-pub fn compile_by_clippy(name: &str, bindings: &str) -> Result<(), String> {
-    compile_with(compiler(), "2021", name, bindings)
+pub fn compile_by_rustc(name: &str, bindings: &str) -> Result<(), String> {
+    compile_with(Command::new("rustc"), "2021", name, bindings)
 }
 
 /// The same in another edition of Rust.
