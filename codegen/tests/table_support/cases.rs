@@ -13,7 +13,7 @@ pub fn diagnostics(area: &str, case: &str) -> String {
 }
 
 /// Each case of an area that is called after items, with each of them: `items-01-04-mapping` is about 1 and 4.
-pub fn of_items(area: &str) -> Vec<(u8, String)> {
+fn of_items(area: &str) -> Vec<(u8, String)> {
     let mut found = Vec::new();
     for entry in std::fs::read_dir(folder(area)).expect("the area") {
         let name = entry.expect("a case").file_name().to_string_lossy().into_owned();
@@ -27,4 +27,12 @@ pub fn of_items(area: &str) -> Vec<(u8, String)> {
     }
     found.sort();
     found
+}
+
+/// Asserts that an area has cases of items, and that `is_listed` has each of them: item and case.
+pub fn all_are_listed(area: &str, is_listed: impl Fn(u8, &str) -> bool) {
+    let cases = of_items(area);
+    assert!(!cases.is_empty());
+    let missing: Vec<_> = cases.into_iter().filter(|(number, case)| !is_listed(*number, case)).collect();
+    assert!(missing.is_empty(), "{missing:?}");
 }

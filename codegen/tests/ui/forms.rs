@@ -3,10 +3,9 @@
 
 use lexibus_codegen::compile::{check, Compilation};
 use lexibus_codegen::source::Source;
-use serde_json::Value;
 
 use crate::case::{ending, Case};
-use crate::lane;
+use crate::corpus_support::{lane, round_trip::content};
 
 /// Compares the IR and the diagnostics of all forms of the case's inputs.
 ///
@@ -25,13 +24,13 @@ pub fn all_say_the_same(case: &Case) -> Result<(), String> {
         }
         let name = input.name().to_owned();
         let plain = check(input, &options);
-        let (device, found) = (without_places(&plain), findings(&plain));
+        let (described, found) = (plain.catalog.as_ref().map(content), findings(&plain));
         for (form, bytes) in forms {
             let other = check(case.source_of(&name, bytes), &options);
             if findings(&other) != found {
                 return Err(format!("{name} as {form}: {:?} instead of {found:?}", findings(&other)));
             }
-            if without_places(&other) != device {
+            if other.catalog.as_ref().map(content) != described {
                 return Err(format!("{name} as {form}: another IR"));
             }
         }
@@ -76,22 +75,4 @@ fn findings(compilation: &Compilation) -> Vec<String> {
         format!("{} {}:{}", found.code.id, at.line, at.column)
     })
     .collect()
-}
-
-/// The IR without places and files.
-fn without_places(compilation: &Compilation) -> Value {
-    let mut value = serde_json::to_value(&compilation.catalog).expect("JSON");
-    strip(&mut value);
-    value
-}
-
-fn strip(value: &mut Value) {
-    match value {
-        Value::Object(fields) => {
-            fields.retain(|key, _| !matches!(key.as_str(), "span" | "origin" | "at" | "name_at" | "files"));
-            fields.values_mut().for_each(strip);
-        }
-        Value::Array(values) => values.iter_mut().for_each(strip),
-        _ => {}
-    }
 }

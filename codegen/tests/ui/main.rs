@@ -9,9 +9,9 @@
 mod case;
 #[path = "../compile_support/mod.rs"]
 mod compile_support;
+#[path = "../corpus_support/mod.rs"]
+mod corpus_support;
 mod forms;
-#[path = "../../../tests/support/lane.rs"]
-mod lane;
 mod outputs;
 mod part;
 mod registers;
