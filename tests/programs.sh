@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Installs the programs that tests use next to cargo: Python's canopen, pymodbus and lxml, valgrind, Chromium with playwright-core.
+# Installs the programs that tests use next to cargo: Python's canopen, pymodbus, jsonschema and lxml, valgrind, Chromium with playwright-core.
 # Writes the environment in which the tests find them to target/programs.env, and says what cannot be installed.
 set -uo pipefail
 cd "$(dirname "$0")/.."
@@ -18,7 +18,7 @@ command -v valgrind >/dev/null || echo "no valgrind: the tests that count instru
 if tests/interop/setup.sh >/dev/null; then
     echo "export LEXIBUS_PYTHON=$PWD/target/python/bin/python" >>target/programs.env
 else
-    echo "no Python with canopen, pymodbus and lxml: the tests against them are skipped, and exports are not validated by schema"
+    echo "no Python with canopen, pymodbus, jsonschema and lxml: the tests against them are skipped, and nothing is validated by schema"
 fi
 # Where there is a browser, no test of the site may be skipped.
 if cli/tests/browser/setup.sh >/dev/null; then

@@ -6,6 +6,9 @@ mod xsd;
 #[path = "../../tests/support/lane.rs"]
 mod lane;
 
+#[path = "../../tests/support/python.rs"]
+mod python;
+
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 

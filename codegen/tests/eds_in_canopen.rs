@@ -1,8 +1,7 @@
 //! Exported files in an independent library: `canopen`, the one of the Python world.
 //!
 //! What it can load it loads after export, too, with the same entries. Skipped, with a message, where there is no Python
-//! with this library: `LEXIBUS_PYTHON` names one, which then has to have it, else it is that of
-//! `tests/interop/setup.sh`, or `python3`.
+//! with this library.
 
 mod corpus_support;
 
@@ -10,7 +9,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use corpus_support::{files, files_of, File};
+use corpus_support::{files, files_of, python, File};
 use lexibus_codegen::backend::eds::{export, Flavour};
 use lexibus_codegen::compile::{check, read, Compilation, Options};
 use lexibus_codegen::diagnostics::Diagnostic;
@@ -34,22 +33,6 @@ struct Entry {
     data_type: u64,
     access: String,
     default: Option<String>,
-}
-
-/// A Python that has the library.
-fn python() -> Option<PathBuf> {
-    let own = Path::new(env!("CARGO_MANIFEST_DIR")).join("../target/python/bin/python");
-    let usual = if own.is_file() { own } else { "python3".into() };
-    let named = std::env::var_os("LEXIBUS_PYTHON").map(PathBuf::from);
-    let python = named.clone().unwrap_or(usual);
-    let imports = Command::new(&python).args(["-c", "import canopen"]).output();
-    if imports.is_ok_and(|output| output.status.success()) {
-        return Some(python);
-    }
-    // Whoever names one wants these tests.
-    assert!(named.is_none(), "{} has no library `canopen`", python.display());
-    eprintln!("skipped: {} has no library `canopen` (pip install canopen)", python.display());
-    None
 }
 
 /// A folder of this test's own.
@@ -146,7 +129,7 @@ fn reason(pair: &Pair, at: (u16, u8), before: Option<&Entry>, after: Option<&Ent
 
 #[test]
 fn what_the_library_loads_it_loads_after_export_too() {
-    let (Some(python), Some(files)) = (python(), files()) else { return };
+    let (Some(python), Some(files)) = (python::with(&["canopen"]), files()) else { return };
     let folder = folder("eds-in-canopen");
     let originals = files.into_iter().filter(|file| !file.is_xml()).enumerate();
     let pairs: Vec<Pair> = originals.filter_map(|(number, file)| pair(&folder, file, number)).collect();
@@ -194,7 +177,7 @@ fn compare(
 /// Devices of other formats: the library loads them, with the entries that they have.
 #[test]
 fn devices_of_other_formats_load() {
-    let Some(python) = python() else { return };
+    let Some(python) = python::with(&["canopen"]) else { return };
     let xdd = files().into_iter().flatten().filter(File::is_xml);
     let esi = files_of("esi").into_iter().flatten();
     let options = Options { no_profiles: true, ..Options::default() };
@@ -229,7 +212,7 @@ fn devices_of_other_formats_load() {
 /// The descriptions that this project has checked in, register tables among them.
 #[test]
 fn dictionaries_load() {
-    let Some(python) = python() else { return };
+    let Some(python) = python::with(&["canopen"]) else { return };
     let folder = folder("dictionaries-in-canopen");
     let dictionaries = Path::new(env!("CARGO_MANIFEST_DIR")).join("../dictionaries");
     let mut sources: Vec<PathBuf> = std::fs::read_dir(dictionaries)

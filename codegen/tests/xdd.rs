@@ -1,7 +1,8 @@
 //! XDD and XDC files: the same device as an EDS gives the same IR, real files are read whole, and nothing panics.
 
-use std::path::PathBuf;
+mod corpus_support;
 
+use corpus_support::File;
 use lexibus_codegen::diagnostics::{Diagnostics, Severity};
 use lexibus_codegen::frontend::{eds, xdd};
 use lexibus_codegen::ir::{
@@ -766,35 +767,16 @@ fn what_cia_311_does_not_have_is_kept() {
     assert_eq!(extensions, [("tool", "x"), ("CANopenObject/note", "n")]);
 }
 
-/// The folder of real files, where it is there.
-fn corpus() -> Option<PathBuf> {
-    let folder = PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/../../shared/corpus/eds"));
-    if !folder.is_dir() {
-        eprintln!("skipped: there are no real files at {}", folder.display());
-        return None;
-    }
-    Some(folder)
-}
-
+/// The XDDs, XDCs and XPDs of the corpus.
 fn corpus_files() -> Vec<(String, Vec<u8>)> {
-    let Some(folder) = corpus() else { return Vec::new() };
-    let mut files = Vec::new();
-    for entry in std::fs::read_dir(folder).unwrap() {
-        let path = entry.unwrap().path();
-        if path.extension().is_some_and(|extension| extension == "xdd" || extension == "xpd" || extension == "xdc") {
-            files.push((path.file_name().unwrap().to_string_lossy().into_owned(), std::fs::read(&path).unwrap()));
-        }
-    }
-    files.sort();
-    // Synopsys design constraints, too, end in .xdc.
-    files.retain(|(_, bytes)| Source::new("", bytes.clone()).text().trim_start().starts_with('<'));
-    files
+    let files = corpus_support::files().into_iter().flatten();
+    files.filter(File::is_xml).map(|file| (file.name, file.bytes)).collect()
 }
 
 #[test]
 fn real_files_have_as_many_objects_as_counted() {
     let files = corpus_files();
-    let Some(folder) = corpus() else { return };
+    let Some(folder) = corpus_support::folder() else { return };
     let oracle: serde_json::Value =
         serde_json::from_slice(&std::fs::read(folder.join("oracle.json")).unwrap()).unwrap();
     for (name, bytes) in files {
@@ -862,7 +844,7 @@ fn no_cut_and_no_damage_panics() {
 /// One real device comes in both formats, written by the same tool.
 #[test]
 fn a_real_device_gives_the_same_ir() {
-    let Some(folder) = corpus() else { return };
+    let Some(folder) = corpus_support::folder() else { return };
     let source = |name: &str| Source::new(name, std::fs::read(folder.join(name)).unwrap());
     let mut diagnostics = Diagnostics::default();
     let eds = source("CANopenNode__CANopenNode__DS301_profile.eds");

@@ -10,28 +10,19 @@ use std::time::Duration;
 
 use serde_json::Value;
 
+#[path = "../support/python.rs"]
+mod finder;
+
 /// How long an answer may take: Python starts slowly on a busy machine.
 const PATIENCE: Duration = Duration::from_secs(60);
 
 /// The folder of these tests.
 const FOLDER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/interop");
 
-/// The Python that `setup.sh` made, or the one that `LEXIBUS_PYTHON` names; `None`, with a message, where it lacks what the
-/// scripts need.
+/// A Python with what the scripts import; looked for once.
 pub fn python() -> Option<&'static Path> {
     static PYTHON: OnceLock<Option<PathBuf>> = OnceLock::new();
-    let python = PYTHON.get_or_init(find).as_deref();
-    if python.is_none() {
-        eprintln!("skipped: no Python with canopen, pymodbus and pyserial; tests/interop/setup.sh makes one");
-    }
-    python
-}
-
-fn find() -> Option<PathBuf> {
-    let own = || Path::new(env!("CARGO_MANIFEST_DIR")).join("target/python/bin/python");
-    let python = std::env::var_os("LEXIBUS_PYTHON").map_or_else(own, PathBuf::from);
-    let imports = Command::new(&python).args(["-c", "import canopen, pymodbus, serial"]).output();
-    imports.is_ok_and(|output| output.status.success()).then_some(python)
+    PYTHON.get_or_init(|| finder::with(&["canopen", "pymodbus", "serial"])).as_deref()
 }
 
 /// A script that runs, and answers commands. It is ended when this is dropped.

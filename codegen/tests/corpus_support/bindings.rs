@@ -16,9 +16,6 @@ pub fn body(text: &str) -> &str {
     text.split_once("\n\n").map_or(text, |(_, body)| body)
 }
 
-/// How many devices of a file the fast lane takes.
-const DEVICES: usize = 2;
-
 /// What a file describes, device by device: many files share devices, and one device a time needs little memory.
 pub fn catalogs(compilation: &Compilation) -> Box<dyn Iterator<Item = Cow<'_, Catalog>> + '_> {
     let Some(catalog) = compilation.catalog.as_ref().filter(|_| compilation.is_usable()) else {
@@ -27,8 +24,9 @@ pub fn catalogs(compilation: &Compilation) -> Box<dyn Iterator<Item = Cow<'_, Ca
     if catalog.devices.len() <= 1 || compilation.format == Some(Format::Gsdml) {
         return Box::new(std::iter::once(Cow::Borrowed(catalog)));
     }
-    let step = if lane::is_full() { 1 } else { catalog.devices.len().div_ceil(DEVICES) };
-    Box::new(catalog.devices.iter().step_by(step).map(|device: &Device| {
+    // The first one is enough for the fast lane: the others of a file are like it.
+    let count = if lane::is_full() { catalog.devices.len() } else { 1 };
+    Box::new(catalog.devices.iter().take(count).map(|device: &Device| {
         let (files, devices) = (catalog.files.clone(), vec![device.clone()]);
         let modules = catalog.modules.clone();
         Cow::Owned(Catalog { files, devices, modules, ..Catalog::default() })

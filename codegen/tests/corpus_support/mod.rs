@@ -11,6 +11,8 @@ pub mod bindings;
 #[path = "../../../tests/support/lane.rs"]
 pub mod lane;
 pub mod number;
+#[path = "../../../tests/support/python.rs"]
+pub mod python;
 pub mod reading;
 pub mod round_trip;
 pub mod xsd;

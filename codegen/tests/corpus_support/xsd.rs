@@ -1,11 +1,12 @@
 //! Validation against the schemas of ETG and PI, by libxml2.
 //!
-//! The schemas stand beside the repository and are no part of it. libxml2 is reached through `lxml`, which
-//! `tests/interop/setup.sh` installs: `LEXIBUS_PYTHON` names a Python that has to have it. Without the schemas, or any Python with
+//! The schemas are next to the repository and no part of it. libxml2 is called through Python's `lxml`. Without the schemas or
 //! `lxml`, tests say so and pass.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
+
+use super::python;
 
 /// Prints a line for every violation: the name of the file, the line, and what is wrong.
 const SCRIPT: &str = "\
@@ -40,16 +41,7 @@ impl Schema {
             eprintln!("skipped: there is no schema at {}", path.display());
             return None;
         }
-        let own = root.join("target/python/bin/python");
-        let usual = if own.is_file() { own } else { "python3".into() };
-        let python = std::env::var_os("LEXIBUS_PYTHON").map_or(usual, PathBuf::from);
-        let found = Command::new(&python).args(["-c", "import lxml"]).output();
-        if !found.is_ok_and(|output| output.status.success()) {
-            // Whoever names one wants these tests.
-            assert!(std::env::var_os("LEXIBUS_PYTHON").is_none(), "{} has no lxml", python.display());
-            eprintln!("skipped: {} has no lxml (tests/interop/setup.sh installs it)", python.display());
-            return None;
-        }
+        let python = python::with(&["lxml"])?;
         Some(Schema { path, python })
     }
 

@@ -1,0 +1,29 @@
+//! Python, for tests against programs that nobody of this project wrote.
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+/// A Python that can import `modules`; `None`, with a message, if there is none.
+///
+/// It is the one that `LEXIBUS_PYTHON` names, else that of `tests/interop/setup.sh`, else `python3`.
+///
+/// # Panics
+///
+/// If `LEXIBUS_PYTHON` names one that lacks a module: who sets it wants these tests.
+pub fn with(modules: &[&str]) -> Option<PathBuf> {
+    let named = std::env::var_os("LEXIBUS_PYTHON").map(PathBuf::from);
+    let installed = || {
+        let folders = Path::new(env!("CARGO_MANIFEST_DIR")).ancestors();
+        folders.map(|folder| folder.join("target/python/bin/python")).find(|python| python.is_file())
+    };
+    let python = named.clone().or_else(installed).unwrap_or_else(|| "python3".into());
+    let import = format!("import {}", modules.join(", "));
+    let imported = Command::new(&python).args(["-c", &import]).output();
+    if imported.is_ok_and(|output| output.status.success()) {
+        return Some(python);
+    }
+    let lacks = format!("{} cannot {import}; tests/interop/setup.sh makes a Python that can", python.display());
+    assert!(named.is_none(), "LEXIBUS_PYTHON is {lacks}");
+    println!("skipped: {lacks}");
+    None
+}
