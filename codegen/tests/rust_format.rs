@@ -4,6 +4,7 @@ mod corpus_support;
 
 use std::path::Path;
 
+use corpus_support::lane;
 use lexibus_codegen::compile::{check, Options};
 use lexibus_codegen::source::Source;
 use lexibus_codegen::Presence;
@@ -32,11 +33,13 @@ fn canonical(name: &str, text: &str) -> Result<(), String> {
 
 #[test]
 fn output_is_as_prettyplease_prints_it() {
-    let Some(files) = corpus_support::all_files() else { return };
+    let Some(mut files) = corpus_support::all_files() else { return };
+    // Parsing is slow in a build for tests.
+    files.retain(|file| lane::is_full() || file.bytes.len() < 60_000);
     let mut options = Options::default();
     options.rust.table = Presence::Feature("table".into());
     let compared = corpus_support::bindings::each(files, &options, canonical);
-    assert!(compared > corpus_support::lane::at_least(500), "only {compared} different devices");
+    assert!(compared > lane::at_least(500), "only {compared} different devices");
 }
 
 /// Several devices and modules of one file are modules of one another; a register table has what no file of the corpus has.
