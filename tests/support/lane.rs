@@ -1,7 +1,7 @@
 //! The two lanes of the tests. The fast lane runs on every change and samples what takes long. The full lane (`tests/full.sh`)
 //! runs everything.
 
-// Each test is a program of its own and uses its part of this module.
+// Each test program uses a part of this module.
 #![allow(dead_code)]
 
 /// Whether the full lane runs: `LEXIBUS_LANE=full`.

@@ -1,4 +1,4 @@
-//! Python, for tests against programs that nobody of this project wrote.
+//! Python, for tests against independent programs.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -9,7 +9,7 @@ use std::process::Command;
 ///
 /// # Panics
 ///
-/// If `LEXIBUS_PYTHON` names one that lacks a module: who sets it wants these tests.
+/// If `LEXIBUS_PYTHON` names one that lacks a module.
 pub fn with(modules: &[&str]) -> Option<PathBuf> {
     let named = std::env::var_os("LEXIBUS_PYTHON").map(PathBuf::from);
     let installed = || {
