@@ -3,6 +3,7 @@
 
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
 use crate::ir::{AxisStep, Device, Format, Group, Item, Module, ObjectCode, Shape, Type, TypeDef, TypeId, Value};
+use crate::passes::values_checked::excluded;
 
 pub(super) fn run(device: &Device, modules: &[Module], format: Option<Format>, diagnostics: &mut Diagnostics) {
     let fixed = device.own_modules(modules).flat_map(|module| &module.fixed_objects);
@@ -18,7 +19,7 @@ pub(super) fn run(device: &Device, modules: &[Module], format: Option<Format>, d
         if matches!(code, ObjectCode::Array | ObjectCode::Record) {
             structure(group, index, format, diagnostics);
             if !has_entries_of_axes(device, index) {
-                highest_sub(group, index, diagnostics);
+                highest_sub(group, index, format, diagnostics);
             }
             sub0_access(group, index, diagnostics);
         }
@@ -87,14 +88,24 @@ fn has_entries_of_axes(device: &Device, index: u16) -> bool {
     rule.is_some_and(|rule| !matches!(rule.step, AxisStep::Index(_)))
 }
 
-fn highest_sub(group: &Group, index: u16, diagnostics: &mut Diagnostics) {
+fn highest_sub(group: &Group, index: u16, format: Option<Format>, diagnostics: &mut Diagnostics) {
     let Some(sub0) = group.sub(0).filter(|_| !is_counter(index)) else { return };
     let Some(default) = sub0.default.as_ref().and_then(Value::as_int) else { return };
     let highest = group.items.iter().map(sub_of).filter(|&sub| sub != 0xFF).max().unwrap_or(0);
     if default != i128::from(highest) {
         let span = sub0.at.default.or(sub0.origin.span);
         let message = format!("sub-index 0 of 0x{index:04X} says {default}, but the highest sub-index is {highest}");
-        diagnostics.push(Diagnostic::new(&codes::SUB0_MISMATCH, span, message).fix(highest.to_string()));
+        let found = Diagnostic::new(&codes::SUB0_MISMATCH, span, message);
+        // Another number must be one that sub-index 0 may have.
+        let is_possible = excluded(&sub0.limits, &Value::Int(highest.into())).is_none();
+        diagnostics.push(match format {
+            // The form depends on the element that gives the default.
+            Some(Format::Esi) => {
+                found.help(format!("write `{highest:02X}` in DefaultData, or `{highest}` in DefaultValue"))
+            }
+            _ if is_possible && !sub0.at.default.is_empty() => found.fix(highest.to_string()),
+            _ => found,
+        });
     }
 }
 

@@ -8,6 +8,7 @@
 #![allow(dead_code)]
 
 pub mod bindings;
+pub mod fixes;
 #[path = "../../../tests/support/lane.rs"]
 pub mod lane;
 pub mod number;

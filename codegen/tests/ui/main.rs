@@ -19,6 +19,7 @@ mod registers;
 use std::path::{Path, PathBuf};
 
 use case::Case;
+use corpus_support::fixes;
 use libtest_mimic::{Arguments, Failed, Trial};
 
 fn main() {
@@ -42,7 +43,19 @@ fn run(case: &Case, bless: bool) -> Result<(), Failed> {
     } else {
         case.compare(&actual)?;
     }
+    fixes_hold(case)?;
     forms::all_say_the_same(case).map_err(Failed::from)
+}
+
+/// Each suggested fix, applied alone, removes its diagnostic and adds none. Two of each code are enough.
+fn fixes_hold(case: &Case) -> Result<(), String> {
+    let options = case.options();
+    for input in case.inputs() {
+        let (name, text) = (input.name().to_owned(), input.text().to_owned());
+        fixes::all_hold(&text, &options, 2, |text| case.source_of(&name, text.into_bytes()))
+            .map_err(|message| format!("{name}: {message}"))?;
+    }
+    Ok(())
 }
 
 /// The folders in `folder`, sorted by name.

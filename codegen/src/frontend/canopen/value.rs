@@ -66,17 +66,17 @@ impl Converter<'_> {
 
     /// Text without one pair of quotation marks around it.
     pub fn unquoted<'t>(&mut self, text: &'t str, span: Span) -> &'t str {
-        match text.strip_prefix('"').and_then(|rest| rest.strip_suffix('"')) {
-            Some(inner) => {
-                self.diagnostics.push(
-                    Diagnostic::new(&codes::QUOTED_VALUE, span, "the text is in quotation marks")
-                        .label("the marks were removed")
-                        .fix(inner),
-                );
-                inner
-            }
-            None => text,
-        }
+        let inside = |text: &'t str| text.strip_prefix('"')?.strip_suffix('"');
+        let Some(inner) = inside(text) else { return text };
+        let found = Diagnostic::new(&codes::QUOTED_VALUE, span, "the text is in quotation marks")
+            .label("one pair of marks was removed");
+        // Without one of two pairs, the text is in quotation marks again.
+        self.diagnostics.push(if inside(inner).is_some() {
+            found.help("remove the quotation marks")
+        } else {
+            found.fix(inner)
+        });
+        inner
     }
 
     fn integer(&mut self, text: &str, span: Span, ty: Type, role: Role) -> Value {

@@ -433,7 +433,7 @@ fn dynamic_channels(
         }
     }
     if let Some(count) = count {
-        lists::announced_count(reader, &count, segments.len());
+        lists::announced_count(reader, &count, segments.len(), false);
     }
     canopen.dynamic_channels.extend(segments.values().map(|fields| dynamic_channel(reader, fields)));
 }

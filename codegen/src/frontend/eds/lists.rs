@@ -51,24 +51,26 @@ pub(super) fn numbered(
     extensions: &mut Extensions,
 ) -> Vec<Entry> {
     let (entries, count) = by_number(reader, sections, count_key, |reader, entry| reader.extension(entry, extensions));
+    let gap = entries.iter().zip(1..).find(|((number, _), expected)| number != expected);
     let agrees = match count {
-        Some(count) => announced_count(reader, &count, entries.len()),
+        Some(count) => announced_count(reader, &count, entries.len(), gap.is_some()),
         None => {
             reader.missing_entry(sections, count_key);
             true
         }
     };
-    let gap = entries.iter().zip(1..).find(|((number, _), expected)| number != expected);
     if let (Some(((number, entry), expected)), true) = (gap, agrees) {
         let message = format!("the list goes on with {number}, but its next entry should be {expected}");
         reader.diagnostics.push(
             Diagnostic::new(&codes::LIST_COUNT, reader.doc.key_span(entry), message)
                 .label("the entries that exist are used")
-                .help("number the entries from 1 without a gap"),
+                .help(NO_GAP),
         );
     }
     entries.into_iter().map(|(_, entry)| entry).collect()
 }
+
+const NO_GAP: &str = "number the entries from 1 without a gap";
 
 /// Every entry of a list whose keys are sub-indices, with its sub-index; the list may have gaps, but not `others`.
 pub(super) fn by_sub_index(
@@ -79,7 +81,7 @@ pub(super) fn by_sub_index(
     let section = std::slice::from_ref(section);
     let (entries, count) = by_number(reader, section, "NrOfEntries", others);
     match count {
-        Some(count) => _ = announced_count(reader, &count, entries.len()),
+        Some(count) => _ = announced_count(reader, &count, entries.len(), false),
         None => reader.missing_entry(section, "NrOfEntries"),
     }
     entries
@@ -121,17 +123,15 @@ fn by_number(
     (entries, count)
 }
 
-/// Whether `entry` announces as many entries as there are; reports where not.
-pub(super) fn announced_count(reader: &mut Reader<'_, '_>, entry: &Entry, count: usize) -> bool {
+/// Returns whether `entry` announces as many entries as there are; reports it if not. If the list has a gap, the number may be
+/// right and the numbering wrong, so no fix is suggested.
+pub(super) fn announced_count(reader: &mut Reader<'_, '_>, entry: &Entry, count: usize, has_gap: bool) -> bool {
     let Some(announced) = reader.unsigned(entry, 0xFFFF) else { return true };
     let (key, text, span) = (reader.doc.key(entry), reader.doc.value(entry), reader.doc.value_span(entry));
     if announced as usize != count {
         let message = format!("{key} announces {announced} entries, but there are {count}");
-        reader.diagnostics.push(
-            Diagnostic::new(&codes::LIST_COUNT, span, message)
-                .label("the entries that exist are used")
-                .fix(count.to_string()),
-        );
+        let found = Diagnostic::new(&codes::LIST_COUNT, span, message).label("the entries that exist are used");
+        reader.diagnostics.push(if has_gap { found.help(NO_GAP) } else { found.fix(count.to_string()) });
         return false;
     }
     if text.starts_with("0x") || text.starts_with("0X") {

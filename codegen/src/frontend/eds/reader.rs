@@ -85,7 +85,10 @@ impl<'a, 'd> Reader<'a, 'd> {
             _ => None,
         };
         if let Some((code, message)) = found {
-            self.diagnostics.push(Diagnostic::new(code, rest, message).label(format!("the value is `{kept}`")).fix(""));
+            // The blanks before the comment go with it.
+            let marked = Span::new(rest.file, rest.start - (cut - kept.len()) as u32, rest.end);
+            self.diagnostics
+                .push(Diagnostic::new(code, marked, message).label(format!("the value is `{kept}`")).fix(""));
         }
         let comment = text[cut + 1..].trim();
         if !comment.is_empty() {

@@ -1,0 +1,66 @@
+//! Suggested fixes: each one, applied alone, removes its diagnostic and adds none.
+
+use std::collections::BTreeMap;
+
+use lexibus_codegen::compile::{check, Compilation, Options};
+use lexibus_codegen::diagnostics::Diagnostic;
+use lexibus_codegen::source::Source;
+
+/// Applies the fixes in the first file of a compilation one by one, at most `most` of each code, and compares the diagnostics. Gives
+/// the number of fixes. `source` makes a source of another text.
+///
+/// # Errors
+///
+/// The fixes that change nothing, leave their diagnostic or add another one.
+pub fn all_hold(
+    text: &str,
+    options: &Options,
+    most: usize,
+    source: impl Fn(String) -> Source,
+) -> Result<usize, String> {
+    // The text is decoded already; a fix is applied to UTF-8.
+    let plain = check(source(text.to_owned()), options);
+    let before = places(&plain);
+    let (mut counts, mut wrong, mut applied) = (BTreeMap::new(), Vec::new(), 0);
+    for diagnostic in plain.diagnostics.list() {
+        let Some(fix) = diagnostic.fix.as_deref().filter(|_| diagnostic.span.file.0 == 0) else { continue };
+        let count = counts.entry(diagnostic.code.id).or_insert(0);
+        *count += 1;
+        if *count > most {
+            continue;
+        }
+        applied += 1;
+        let range = diagnostic.span.start as usize..diagnostic.span.end as usize;
+        let (old, mut fixed) = (&text[range.clone()], text.to_owned());
+        fixed.replace_range(range, fix);
+        let after = places(&check(source(fixed), options));
+        let own = key(&plain, diagnostic);
+        let count_in = |places: &BTreeMap<Key, usize>, key: &Key| places.get(key).copied().unwrap_or_default();
+        let added: Vec<_> = after.keys().filter(|key| count_in(&after, key) > count_in(&before, key)).collect();
+        if count_in(&after, &own) >= count_in(&before, &own) || !added.is_empty() {
+            wrong.push(format!("{own:?}: `{old}` to `{fix}` ({}) adds {added:?}", diagnostic.message));
+        }
+    }
+    if wrong.is_empty() {
+        Ok(applied)
+    } else {
+        Err(format!("{} wrong fixes of {applied}:\n{}", wrong.len(), wrong.join("\n")))
+    }
+}
+
+/// Code and line of a diagnostic.
+type Key = (&'static str, usize, usize);
+
+fn key(compilation: &Compilation, diagnostic: &Diagnostic) -> Key {
+    let file = diagnostic.span.file.0 as usize;
+    (diagnostic.code.id, file, compilation.sources[file].position(diagnostic.span.start).line as usize)
+}
+
+/// How many diagnostics each code has on each line.
+fn places(compilation: &Compilation) -> BTreeMap<Key, usize> {
+    let mut places = BTreeMap::new();
+    for diagnostic in compilation.diagnostics.list() {
+        *places.entry(key(compilation, diagnostic)).or_default() += 1;
+    }
+    places
+}
