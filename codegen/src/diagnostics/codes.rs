@@ -448,8 +448,8 @@ codes! {
         "An index is unique in a device and a sub-index in its object. The first one is used."
     ESI033 ESI_MISSING_INDEX "esi-missing-index" Repair Warn
         "an object, PDO entry or module has no usable number"
-        "Without an index an object can't be addressed and is left out; an entry becomes padding. A module without an \
-        ident number fits into no slot."
+        "Without an index an object can't be addressed and is left out. An entry is kept without an object if it has a name and \
+        a type, and is padding otherwise. A module without an ident number fits into no slot."
     ESI034 SUB_INDEX_RANGE "sub-index-range" Repair Warn
         "an object has more than 255 sub-indices"
         "Sub-indices are numbers of one byte. An array that has no room is kept as one value, and a sub-item behind \

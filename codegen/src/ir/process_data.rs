@@ -185,6 +185,11 @@ impl Pdo {
         }
     }
 
+    /// Returns whether the device can be told this mapping: every entry has an index, or is padding.
+    pub fn is_mapping_known(&self) -> bool {
+        self.entries.iter().all(|entry| entry.kind != PdoEntryKind::Unnumbered)
+    }
+
     /// Whether no bus has both.
     pub fn is_apart(&self, other: &Pdo) -> bool {
         let of_both = self.buses.zip(other.buses);

@@ -3,8 +3,8 @@
 use std::collections::HashSet;
 
 use crate::ir::{
-    Access, Binding, CompactString, Device, Direction, Group, Item, ObjectCode, Pdo, PdoEntry, PdoEntryKind, Type,
-    Value, MAX_PDO_SUBS,
+    Access, Binding, CompactString, Device, Direction, Group, Item, ObjectCode, Pdo, PdoEntry, Type, Value,
+    MAX_PDO_SUBS,
 };
 
 /// A mapping object for every PDO of `device` that has none.
@@ -25,7 +25,8 @@ pub(super) fn can_be_told(pdo: &Pdo) -> bool {
         && !pdo.implicit
         && !pdo.entries.is_empty()
         && pdo.entries.len() <= MAX_PDO_SUBS
-        && pdo.entries.iter().all(|entry| entry.bits <= 0xFF && entry.kind != PdoEntryKind::Unnumbered)
+        && pdo.is_mapping_known()
+        && pdo.entries.iter().all(|entry| entry.bits <= 0xFF)
 }
 
 fn object(pdo: &Pdo) -> Group {

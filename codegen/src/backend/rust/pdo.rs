@@ -642,7 +642,7 @@ fn mapping_writes(scope: &Scope<'_>, pdo: &Pdo) -> Vec<String> {
     };
     let count = pdo.entries.len();
     let all = u8::try_from(count).is_ok_and(|count| (0..=count).all(|sub| writable(mapping, sub)));
-    if !all {
+    if !all || !pdo.is_mapping_known() {
         return Vec::new();
     }
     let mut writes = vec![write("u8", pdo.mapping_index, 0, "0")];

@@ -6,25 +6,36 @@ pub(super) struct Number {
     pub value: i128,
     /// Hexadecimal and without a sign.
     pub hex: bool,
-    /// Hexadecimal digits without `#x` in front.
-    pub bare: bool,
+    /// How it deviates from ETG.2000.
+    pub fault: Option<Fault>,
 }
 
-/// Reads decimal digits with or without a sign, or hexadecimal ones behind `#x` or `0x`. Digits of which one is a letter
-/// can only be hexadecimal.
+/// A form that ETG.2000 does not have and real files do.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Fault {
+    /// Hexadecimal digits without `#x`.
+    Bare,
+    /// Two prefixes: `#x0x6041`.
+    TwoPrefixes,
+}
+
+/// Reads decimal digits with or without a sign, or hexadecimal ones after `#x` or `0x`, or after both. Digits of which one is a
+/// letter can only be hexadecimal.
 pub(super) fn parse(text: &str) -> Option<Number> {
     let bytes = text.as_bytes();
     if let Some(value) = decimal(bytes) {
-        return Some(Number { value: i128::from(value), hex: false, bare: false });
+        return Some(Number { value: i128::from(value), hex: false, fault: None });
     }
-    match bytes {
-        [b'-', rest @ ..] => signed(rest).map(|value| Number { value: -value, hex: false, bare: false }),
-        [b'+', rest @ ..] => signed(rest).map(|value| Number { value, hex: false, bare: false }),
-        _ => match prefixed(bytes) {
-            Some(digits) => hexadecimal(digits).map(|value| Number { value, hex: true, bare: false }),
-            None => hexadecimal(bytes).map(|value| Number { value, hex: true, bare: true }),
+    let (digits, fault) = match bytes {
+        [b'-', rest @ ..] => return signed(rest).map(|value| Number { value: -value, hex: false, fault: None }),
+        [b'+', rest @ ..] => return signed(rest).map(|value| Number { value, hex: false, fault: None }),
+        _ => match prefixed(bytes).map(|rest| (rest, prefixed(rest))) {
+            Some((_, Some(digits))) => (digits, Some(Fault::TwoPrefixes)),
+            Some((digits, None)) => (digits, None),
+            None => (bytes, Some(Fault::Bare)),
         },
-    }
+    };
+    hexadecimal(digits).map(|value| Number { value, hex: true, fault })
 }
 
 /// What follows a sign.
@@ -88,10 +99,24 @@ mod tests {
         }
         assert_eq!(int("18446744073709551615"), Some(u64::MAX.into()));
         assert_eq!(int("#x0000000000FFFFFFFFFFFFFFFF"), Some(u64::MAX.into()));
-        for text in ["", "#x", "-", "2.5", "#x1G", "1 2", "18446744073709551616", "#x1FFFFFFFFFFFFFFFF", "--1", "µ"] {
+        for text in [
+            "",
+            "#x",
+            "-",
+            "2.5",
+            "#x1G",
+            "1 2",
+            "18446744073709551616",
+            "#x1FFFFFFFFFFFFFFFF",
+            "--1",
+            "µ",
+            "#x0x",
+            "#x#x#x1",
+        ] {
             assert_eq!(int(text), None, "{text}");
         }
-        assert_eq!(parse("2E"), Some(Number { value: 0x2E, hex: true, bare: true }));
-        assert!(parse("#x2E").is_some_and(|number| number.hex && !number.bare));
+        for (text, fault) in [("2E", Some(Fault::Bare)), ("#x2E", None), ("#x0x2E", Some(Fault::TwoPrefixes))] {
+            assert_eq!(parse(text), Some(Number { value: 0x2E, hex: true, fault }), "{text}");
+        }
     }
 }

@@ -2,7 +2,6 @@
 
 use compact_str::format_compact;
 
-use super::dictionary::missing_index;
 use super::reader::{note, Given, Names, Read, Reader};
 use crate::diagnostics::codes;
 use crate::ir::{Direction, Extensions, Oversampling, Pdo, PdoEntry, PdoEntryKind, ProcessData, Type};
@@ -122,13 +121,17 @@ fn entry<'a>(
         }
     }
     (entry.name, entry.names) = (names.name(), names.others());
-    entry.index = reader.int(&index, "index").unwrap_or(0);
+    let known = reader.int(&index, "index");
+    entry.index = known.unwrap_or(0);
     entry.sub_index = reader.int(&sub_index, "sub-index").unwrap_or(0);
-    if index.is_empty() {
-        missing_index(reader, parent.span, "this entry has no index");
-    }
-    if entry.index == 0 {
+    if known.is_none() && !entry.name.is_empty() && !ty.is_empty() {
+        entry.kind = PdoEntryKind::Unnumbered;
+    } else if entry.index == 0 {
         entry.kind = PdoEntryKind::Padding;
+    }
+    if index.is_empty() {
+        let read_as = if entry.kind == PdoEntryKind::Unnumbered { "kept without an object" } else { "read as padding" };
+        reader.report(&codes::ESI_MISSING_INDEX, parent.span, "this entry has no index", read_as);
     }
     Ok((entry, ty))
 }

@@ -6,7 +6,7 @@ use compact_str::{format_compact, CompactString};
 use smallvec::SmallVec;
 
 use super::language;
-use super::number::{self, Number};
+use super::number::{self, Fault, Number};
 use crate::diagnostics::{codes, Code, Diagnostic, Diagnostics};
 use crate::ir::{Documentation, Extension, Extensions, LocalText, Texts};
 use crate::limits;
@@ -366,16 +366,18 @@ impl<'a> Reader<'a, '_> {
     /// A number, however it is written; what is none is left to the caller to report.
     pub fn parse(&mut self, given: &Given<'_>) -> Option<Number> {
         let number = number::parse(&given.text)?;
-        if number.bare {
-            self.diagnostics.push(
-                Diagnostic::new(
-                    &codes::BARE_HEX,
-                    given.span,
-                    format!("`{}` has hexadecimal digits", shortened(&given.text)),
-                )
-                .label(format!("read as {:#x}", number.value))
-                .fix(format!("#x{}", given.text)),
-            );
+        if let Some(fault) = number.fault {
+            let text = shortened(&given.text);
+            let (code, message, fix) = match fault {
+                Fault::Bare => {
+                    (&codes::BARE_HEX, format!("`{text}` has hexadecimal digits"), format!("#x{}", given.text))
+                }
+                Fault::TwoPrefixes => {
+                    (&codes::ESI_VALUE, format!("`{text}` has two prefixes"), format!("#x{}", &given.text[4..]))
+                }
+            };
+            let found = Diagnostic::new(code, given.span, message).label(format!("read as {:#x}", number.value));
+            self.diagnostics.push(found.fix(fix));
         }
         Some(number)
     }

@@ -165,7 +165,7 @@ fn real(reader: &mut Reader<'_, '_>, raw: &RawValue<'_>, ty: Type) -> Value {
     };
     let digits = given.text.len().saturating_sub(2) as u32;
     let bits = ty.bits().unwrap_or(32);
-    if number.hex && !number.bare && digits * 4 == bits {
+    if number.hex && number.fault.is_none() && digits * 4 == bits {
         let pattern = number.value as u64;
         let value = if bits == 32 { f64::from(f32::from_bits(pattern as u32)) } else { f64::from_bits(pattern) };
         return Value::Real(value);

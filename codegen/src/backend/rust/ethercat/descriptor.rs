@@ -110,7 +110,8 @@ fn pdo_info(pdo: &Pdo, models: &PdoModels<'_>) -> Data {
             ("bits", Data::text(pdo.bits().to_string())),
             ("sync_manager", Data::option(pdo.sync_manager)),
             ("excluded_sync_managers", numbers(pdo.excluded_sync_managers.iter().map(u8::to_string).collect())),
-            ("fixed", Data::flag(pdo.fixed)),
+            // A mapping with an unknown index cannot be written.
+            ("fixed", Data::flag(pdo.fixed || !pdo.is_mapping_known())),
             ("mandatory", Data::flag(pdo.mandatory)),
             ("depends_on", Data::text(depends_on(pdo.depends_on_slot, pdo.depends_on_slot_group))),
             ("excludes", numbers(pdo.excludes.iter().map(|index| format!("0x{index:04X}")).collect())),

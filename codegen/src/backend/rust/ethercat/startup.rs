@@ -26,7 +26,7 @@ pub(super) fn commands(device: &Device, settings: &EtherCatSettings, assigned: &
     commands.extend(managers.iter().map(|own| write("u8", ASSIGN + u16::from(own.number), 0, "0")));
     for Assigned { pdo, .. } in assigned.iter().filter(|_| coe.pdo_config) {
         let fits = pdo.entries.len() <= MAX_PDO_SUBS && pdo.entries.iter().all(|entry| entry.bits <= 255);
-        if pdo.fixed || !fits {
+        if pdo.fixed || !fits || !pdo.is_mapping_known() {
             continue;
         }
         commands.push(write("u8", pdo.mapping_index, 0, "0"));
