@@ -198,6 +198,19 @@ mod tests {
     }
 
     #[test]
+    fn descriptions_that_cannot_be_used_are_errors() {
+        for (path, expected) in [
+            ("../no-such-file.eds", "can't read"),
+            ("../tests/ui/codes-other/io002-unknown-format/page.html", "error[IO002]"),
+            ("../tests/ui/quirks-esi/x03-messages-alone/input.xml", compile::NOTHING_TO_GENERATE),
+        ] {
+            let call: Call = syn::parse_str(&format!("mod drive = {path:?};")).expect("a call");
+            let error = expand(&call).expect_err("no bindings").to_string();
+            assert!(error.contains(expected), "{path}: {error}");
+        }
+    }
+
+    #[test]
     fn wrong_calls_are_errors() {
         for (text, expected) in [
             ("mod drive = 5;", "expected string literal"),
