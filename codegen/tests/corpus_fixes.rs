@@ -24,5 +24,5 @@ fn a_fix_removes_its_diagnostic_and_adds_none() {
     });
     let (applied, failures) = (applied.into_inner().expect("the number"), failures.into_inner().expect("the failures"));
     assert!(failures.is_empty(), "{} files:\n{}", failures.len(), failures.join("\n"));
-    assert!(applied > lane::at_least(1_200), "only {applied} fixes");
+    assert!(applied > lane::at_least(800), "only {applied} fixes");
 }
