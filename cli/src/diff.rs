@@ -6,6 +6,7 @@ use std::path::Path;
 use askama::Template;
 use lexibus_codegen::compare::{compare, Change, Judgement};
 use lexibus_codegen::compile::{self, Compilation, Options};
+use lexibus_codegen::output::write_if_changed;
 use lexibus_codegen::source::Source;
 
 use super::args::{Colour, Diff, DiffFormat, MessageFormat};
@@ -32,7 +33,7 @@ pub(super) fn run(diff: &Diff) -> Result<bool, Failure> {
     let breaking = changes.iter().filter(|own| own.judgement == Judgement::Breaking).count();
     let text = written(diff, &changes, breaking)?;
     match &diff.out {
-        Some(path) => std::fs::write(path, text)
+        Some(path) => write_if_changed(path, &text)
             .map_err(|error| Failure::Usage(format!("can't write {}: {error}", path.display())))?,
         None => std::io::stdout().lock().write_all(text.as_bytes())?,
     }

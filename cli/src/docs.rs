@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use lexibus_codegen::backend::docs::{Format, Page, Site};
-use lexibus_codegen::builder::write_if_changed;
+use lexibus_codegen::output::write_if_changed;
 
 use super::args::{Docs, DocsFormat};
 use super::output::difference;
@@ -13,10 +13,15 @@ use super::{inputs, Failure};
 pub(super) fn run(docs: &Docs) -> Result<bool, Failure> {
     let options = docs.inputs.options()?;
     let mut reporter = Reporter::new(&docs.inputs, false);
-    let mut site = Site::new(match docs.format {
+    let format = match docs.format {
         DocsFormat::Html => Format::Html,
         DocsFormat::Markdown => Format::Markdown,
-    });
+    };
+    if let Some(reason) = foreign(&docs.out, format) {
+        reporter.error(&reason);
+        return reporter.finish();
+    }
+    let mut site = Site::new(format);
     let put = |pages: &[Page], reporter: &mut Reporter| {
         for page in pages {
             let path = docs.out.join(&page.path);
@@ -36,6 +41,28 @@ pub(super) fn run(docs: &Docs) -> Result<bool, Failure> {
     reporter.finish()
 }
 
+/// Why nothing may be written to a folder: it has files, but not the first page of an earlier call.
+fn foreign(folder: &Path, format: Format) -> Option<String> {
+    let names = std::fs::read_dir(folder).ok()?.filter_map(|entry| Some(entry.ok()?.file_name()));
+    let first = names.filter(|name| !name.as_encoded_bytes().starts_with(b".")).min()?;
+    let page = Page { path: format.first_page(), text: String::new() };
+    let path = folder.join(&page.path);
+    match std::fs::read(&path) {
+        Ok(bytes) if page.replaces(&String::from_utf8_lossy(&bytes)) => None,
+        Err(error) if error.kind() == std::io::ErrorKind::NotFound => Some(format!(
+            "{} has files that `lexibus docs` did not write, such as {}: choose an empty folder with --out",
+            folder.display(),
+            Path::new(&first).display()
+        )),
+        _ => Some(taken(&path)),
+    }
+}
+
+fn taken(path: &Path) -> String {
+    let reason = "is there already and was not written by `lexibus docs`: choose an empty folder with --out";
+    format!("{} {reason}", path.display())
+}
+
 /// Writes a page. A file that somebody else wrote is left alone.
 fn write(path: &Path, page: &Page) -> Result<(), String> {
     let is_foreign = match std::fs::read(path) {
@@ -44,10 +71,7 @@ fn write(path: &Path, page: &Page) -> Result<(), String> {
         Err(error) => error.kind() != std::io::ErrorKind::NotFound,
     };
     if is_foreign {
-        return Err(format!(
-            "{} is there already and was not written by `lexibus docs`: choose a folder of its own with --out",
-            path.display()
-        ));
+        return Err(taken(path));
     }
     let folder = path.parent().map_or(Ok(()), std::fs::create_dir_all);
     folder

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use lexibus_codegen::builder::write_if_changed;
+use lexibus_codegen::output::{is_no_regular_file, write_if_changed};
 
 use super::args::Inputs;
 use super::report::Reporter;
@@ -98,9 +98,12 @@ fn check(path: &Path, text: &str, reporter: &mut Reporter) {
 
 /// What to say where a file isn't what would be written.
 pub(super) fn difference(path: &Path, text: &str) -> Option<String> {
+    if is_no_regular_file(path) {
+        return Some(format!("{} cannot be compared: it is no regular file", path.display()));
+    }
     match std::fs::read(path) {
         Ok(bytes) if bytes == text.as_bytes() => None,
         Ok(_) => Some(format!("{} is stale: write it again without --check", path.display())),
-        Err(error) => Some(format!("{} can't be compared: {error}", path.display())),
+        Err(error) => Some(format!("{} cannot be compared: {error}", path.display())),
     }
 }

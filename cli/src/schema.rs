@@ -2,8 +2,8 @@
 
 use std::io::Write;
 
-use lexibus_codegen::builder::write_if_changed;
 use lexibus_codegen::frontend::table;
+use lexibus_codegen::output::write_if_changed;
 
 use super::args::Schema;
 use super::output;

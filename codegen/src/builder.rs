@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use crate::backend::rust::{Presence, RustOptions};
 use crate::compile::{self, Compilation, Options};
 use crate::diagnostics::{render, Level, Levels, Severity, UnknownCode};
+use crate::output::write_if_changed;
 use crate::selection::SelectionError;
 use crate::source::Source;
 
@@ -250,18 +251,6 @@ fn errors(compilation: &Compilation) -> String {
     let errors = compilation.diagnostics.list().iter().filter(|d| d.severity == Severity::Error);
     let shown = errors.map(|error| render::terminal::render(error, &compilation.sources, false));
     shown.collect::<Vec<_>>().join("\n\n")
-}
-
-/// Writes `text` to `path` unless the file has just these bytes already, so that nothing that depends on it is built anew.
-///
-/// # Errors
-///
-/// What the operating system says.
-pub fn write_if_changed(path: &Path, text: &str) -> std::io::Result<()> {
-    if std::fs::read(path).is_ok_and(|bytes| bytes == text.as_bytes()) {
-        return Ok(());
-    }
-    std::fs::write(path, text)
 }
 
 /// Why nothing was generated.

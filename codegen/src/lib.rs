@@ -24,6 +24,7 @@
 //! | what changed between two versions | [`compare`] |
 //! | what standards say of a device's objects | [`profiles`] |
 //! | texts within messages | [`text`] |
+//! | files that are complete or untouched | [`output`] |
 //!
 //! The crate `lexibus-cli` is the command `lexibus`, and `lexibus-import` turns lists of registers (CSV) into register tables.
 //! [The book](https://github.com/lexibus/lexibus/blob/main/docs/src/SUMMARY.md)
@@ -57,6 +58,7 @@ mod etg;
 pub mod frontend;
 pub mod ir;
 pub mod limits;
+pub mod output;
 pub mod passes;
 pub mod profiles;
 pub mod selection;

@@ -70,13 +70,17 @@ impl Source {
     ///
     /// # Errors
     ///
-    /// What the operating system says, or `FileTooLarge` above [`MAX_INPUT_BYTES`].
+    /// What the operating system says, `FileTooLarge` above [`MAX_INPUT_BYTES`], or `InvalidInput` for a pipe or a device.
     pub fn read(path: &Path) -> std::io::Result<Self> {
         Source::read_from(path, path)
     }
 
     /// Reads the file at `place`, which is called `path`.
     fn read_from(place: &Path, path: &Path) -> std::io::Result<Self> {
+        // A pipe or a device may never end.
+        if crate::output::is_no_regular_file(place) {
+            return Err(std::io::Error::new(std::io::ErrorKind::InvalidInput, "it is no regular file"));
+        }
         let file = std::fs::File::open(place)?;
         // Room for all of it at once; what tells no length, or a wrong one, is read piece by piece.
         let length = file.metadata().map_or(0, |metadata| metadata.len());

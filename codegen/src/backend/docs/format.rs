@@ -26,6 +26,11 @@ pub enum Format {
 }
 
 impl Format {
+    /// Returns the path of the first page of a site, which lists the devices.
+    pub fn first_page(self) -> String {
+        format!("{}{}", self.pages().front(), self.pages().ending())
+    }
+
     pub(super) fn pages(self) -> &'static dyn Pages {
         match self {
             Format::Html => &Html,

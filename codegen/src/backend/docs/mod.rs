@@ -117,7 +117,7 @@ impl Site {
     pub fn finish(self) -> Vec<Page> {
         let format = self.format.pages();
         let set = Frameset { title: "Devices".to_owned(), ..Frameset::default() };
-        let file = format!("{}{}", format.front(), format.ending());
+        let file = self.format.first_page();
         let devices: Vec<Listed> = self.catalogs.iter().flat_map(Catalogue::in_site).collect();
         // All that a single catalogue has is in its own index.
         let index = match self.catalogs.as_slice() {

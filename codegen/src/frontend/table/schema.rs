@@ -13,7 +13,7 @@ use schemars::{json_schema, Schema};
 use serde_json::{json, Map, Value};
 
 use super::format::Document;
-use crate::builder::write_if_changed;
+use crate::output::write_if_changed;
 
 /// An integer as keys have it.
 const NUMBER: &str = r"(0[xX][0-9A-Fa-f_]+|0[bB][01_]+|0[oO][0-7_]+|[0-9][0-9_]*)";

@@ -1,0 +1,107 @@
+//! Where output goes: regular files are complete or untouched, pipes and devices are written to, foreign folders are left alone.
+#![cfg(unix)]
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output, Stdio};
+use std::time::{Duration, Instant};
+
+const DEMO: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../dictionaries/demo-drive.eds");
+
+fn folder(name: &str) -> PathBuf {
+    let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join("output-files").join(name);
+    let _ = std::fs::remove_dir_all(&path);
+    std::fs::create_dir_all(&path).expect("a folder for temporary files");
+    path
+}
+
+/// Runs a command of the shell in which `$LEXIBUS` is the program. A program that waits for a pipe is ended after a minute.
+fn shell(folder: &Path, script: &str) -> Output {
+    let mut child = Command::new("sh")
+        .args(["-c", script])
+        .current_dir(folder)
+        .env("LEXIBUS", env!("CARGO_BIN_EXE_lexibus"))
+        .env("DEMO", DEMO)
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .expect("the shell runs");
+    let (started, mut stdout) = (Instant::now(), child.stdout.take().expect("a pipe"));
+    let reader = std::thread::spawn(move || {
+        let mut text = Vec::new();
+        let _ = std::io::Read::read_to_end(&mut stdout, &mut text);
+        text
+    });
+    while child.try_wait().expect("the state of the shell").is_none() {
+        if started.elapsed() > Duration::from_secs(60) {
+            child.kill().expect("the shell ends");
+            panic!("`{script}` does not end");
+        }
+        std::thread::sleep(Duration::from_millis(10));
+    }
+    let output = child.wait_with_output().expect("the shell ends");
+    Output { stdout: reader.join().expect("its output"), ..output }
+}
+
+fn error(output: &Output) -> String {
+    String::from_utf8_lossy(&output.stderr).into_owned()
+}
+
+#[test]
+fn a_pipe_and_a_device_are_written_to() {
+    let folder = folder("pipe");
+    let plain = shell(&folder, "$LEXIBUS generate $DEMO");
+    assert!(plain.status.success() && !plain.stdout.is_empty());
+    let piped = shell(&folder, "$LEXIBUS generate $DEMO --out /dev/stdout | cat");
+    assert!(piped.stdout == plain.stdout, "{}", error(&piped));
+    let named = shell(&folder, "mkfifo p; cat p & $LEXIBUS generate $DEMO --out p; wait");
+    assert!(named.stdout == plain.stdout, "{}", error(&named));
+    if Path::new("/dev/full").exists() {
+        for command in ["generate", "export --format eds", "diff $DEMO"] {
+            let full = shell(&folder, &format!("$LEXIBUS {command} $DEMO --out /dev/full"));
+            assert!(!full.status.success() && error(&full).contains("can't write /dev/full"), "{}", error(&full));
+        }
+        let checked = shell(&folder, "$LEXIBUS generate $DEMO --out /dev/full --check");
+        assert!(error(&checked).contains("/dev/full cannot be compared: it is no regular file"), "{}", error(&checked));
+    }
+}
+
+#[test]
+fn a_pipe_is_no_input() {
+    let folder = folder("input");
+    let checked = shell(&folder, "mkfifo p.eds; $LEXIBUS check p.eds");
+    assert_eq!(checked.status.code(), Some(1));
+    assert!(error(&checked).contains("can't read the file: it is no regular file"), "{}", error(&checked));
+    // A folder is searched for files, and a pipe in it is none.
+    let searched = shell(&folder, "cp $DEMO .; $LEXIBUS check .");
+    assert!(error(&searched).contains("1 file"), "{}", error(&searched));
+}
+
+#[test]
+fn a_full_disk_leaves_the_old_file() {
+    let folder = folder("full");
+    std::fs::write(folder.join("drive.rs"), "old").expect("a file");
+    // No file may have more than one block, and the signal that says so is ignored.
+    let output = shell(&folder, "trap '' XFSZ; ulimit -f 1; exec $LEXIBUS generate $DEMO --out drive.rs");
+    assert_eq!(output.status.code(), Some(1), "{}", error(&output));
+    assert!(error(&output).contains("can't write drive.rs"), "{}", error(&output));
+    assert_eq!(std::fs::read_to_string(folder.join("drive.rs")).expect("the file"), "old");
+    assert_eq!(std::fs::read_dir(&folder).expect("the folder").count(), 1, "no temporary file is left");
+}
+
+#[test]
+fn pages_are_not_written_to_a_foreign_folder() {
+    let folder = folder("docs");
+    std::fs::write(folder.join("notes.txt"), "mine").expect("a file");
+    for format in ["html", "markdown"] {
+        let output = shell(&folder, &format!("$LEXIBUS docs $DEMO --format {format} --out ."));
+        assert_eq!(output.status.code(), Some(1));
+        let message =
+            "has files that `lexibus docs` did not write, such as notes.txt: choose an empty folder with --out";
+        assert!(error(&output).contains(message), "{}", error(&output));
+        assert_eq!(std::fs::read_dir(&folder).expect("the folder").count(), 1);
+    }
+    // Hidden files are no reason, and a second call replaces the pages of the first.
+    let script = "mkdir site; touch site/.gitkeep; $LEXIBUS docs $DEMO --out site && $LEXIBUS docs $DEMO --out site";
+    let output = shell(&folder, script);
+    assert!(output.status.success(), "{}", error(&output));
+}

@@ -1,0 +1,125 @@
+//! Writing files: complete or untouched, and only if they change.
+
+use std::fs::{self, File, OpenOptions};
+use std::io::{Error, ErrorKind, Result, Write};
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicU32, Ordering};
+
+/// Returns whether a path names something other than a file or a folder: a pipe, a terminal, a device.
+pub fn is_no_regular_file(path: &Path) -> bool {
+    fs::metadata(path).is_ok_and(|metadata| !metadata.is_file() && !metadata.is_dir())
+}
+
+/// Writes `text` to `path` unless the file has these bytes already, so that nothing that depends on it is built again.
+///
+/// A regular file is replaced as a whole: if writing fails, the old file stays. A symbolic link stays a link. A pipe or a device is
+/// written to.
+///
+/// # Errors
+///
+/// Those of the operating system.
+pub fn write_if_changed(path: &Path, text: &str) -> Result<()> {
+    if is_no_regular_file(path) {
+        return OpenOptions::new().write(true).open(path)?.write_all(text.as_bytes());
+    }
+    if fs::read(path).is_ok_and(|bytes| bytes == text.as_bytes()) {
+        return Ok(());
+    }
+    match fs::canonicalize(path) {
+        Ok(target) => replace(&target, text),
+        // A link that leads nowhere: the file that it names is created.
+        Err(_) if path.is_symlink() => fs::write(path, text),
+        Err(error) if error.kind() == ErrorKind::NotFound => replace(path, text),
+        Err(error) => Err(error),
+    }
+}
+
+/// Writes a file next to `path` and gives it its name.
+fn replace(path: &Path, text: &str) -> Result<()> {
+    let (file, temporary) = temporary(path)?;
+    let written = fill(file, path, text).and_then(|()| fs::rename(&temporary, path));
+    if written.is_err() {
+        // It is incomplete, or has no use.
+        let _ = fs::remove_file(&temporary);
+    }
+    written
+}
+
+fn fill(mut file: File, path: &Path, text: &str) -> Result<()> {
+    file.write_all(text.as_bytes())?;
+    match fs::metadata(path) {
+        Ok(old) => file.set_permissions(old.permissions()),
+        Err(_) => Ok(()),
+    }
+}
+
+/// A new file in the folder of `path`.
+fn temporary(path: &Path) -> Result<(File, PathBuf)> {
+    static COUNT: AtomicU32 = AtomicU32::new(0);
+    let Some(name) = path.file_name() else { return Err(Error::new(ErrorKind::InvalidInput, "it names no file")) };
+    loop {
+        let mut hidden = std::ffi::OsString::from(".");
+        hidden.push(name);
+        hidden.push(format!(".{}-{}.tmp", std::process::id(), COUNT.fetch_add(1, Ordering::Relaxed)));
+        let temporary = path.with_file_name(hidden);
+        match OpenOptions::new().write(true).create_new(true).open(&temporary) {
+            Ok(file) => return Ok((file, temporary)),
+            Err(error) if error.kind() == ErrorKind::AlreadyExists => {}
+            Err(error) => return Err(error),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn folder(name: &str) -> PathBuf {
+        let folder = std::env::temp_dir().join(format!("lexibus-output-{name}-{}", std::process::id()));
+        let _ = fs::remove_dir_all(&folder);
+        fs::create_dir_all(&folder).unwrap();
+        folder
+    }
+
+    #[test]
+    fn files_are_replaced_and_nothing_else_is_left() {
+        let folder = folder("replaced");
+        let path = folder.join("a.rs");
+        for text in ["one", "two", "two", ""] {
+            write_if_changed(&path, text).unwrap();
+            assert_eq!(fs::read_to_string(&path).unwrap(), text);
+        }
+        assert!(write_if_changed(&folder, "x").is_err(), "a folder");
+        assert!(write_if_changed(&folder.join("missing/a.rs"), "x").is_err());
+        assert_eq!(fs::read_dir(&folder).unwrap().count(), 1);
+        fs::remove_dir_all(folder).unwrap();
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn permissions_and_links_stay() {
+        use std::os::unix::fs::{symlink, PermissionsExt};
+        let folder = folder("links");
+        let (path, link, dangling) = (folder.join("a"), folder.join("link"), folder.join("dangling"));
+        fs::write(&path, "old").unwrap();
+        fs::set_permissions(&path, fs::Permissions::from_mode(0o640)).unwrap();
+        symlink("a", &link).unwrap();
+        symlink("b", &dangling).unwrap();
+        write_if_changed(&link, "new").unwrap();
+        write_if_changed(&dangling, "new").unwrap();
+        assert!(link.is_symlink() && dangling.is_symlink());
+        assert_eq!(fs::read_to_string(&path).unwrap(), "new");
+        assert_eq!(fs::read_to_string(folder.join("b")).unwrap(), "new");
+        assert_eq!(fs::metadata(&path).unwrap().permissions().mode() & 0o777, 0o640);
+        fs::remove_dir_all(folder).unwrap();
+    }
+
+    #[cfg(target_os = "linux")]
+    #[test]
+    fn devices_are_written_to() {
+        assert!(is_no_regular_file(Path::new("/dev/null")));
+        write_if_changed(Path::new("/dev/null"), "x").unwrap();
+        let error = write_if_changed(Path::new("/dev/full"), "x").unwrap_err();
+        assert_eq!(error.kind(), ErrorKind::StorageFull);
+    }
+}
