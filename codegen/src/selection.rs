@@ -3,12 +3,12 @@
 //! A file of a vendor may describe hundreds of devices. What isn't selected is read, so that it is checked to be well
 //! formed, and then left alone: it costs nothing in the output.
 
-use std::collections::{HashMap, HashSet};
+use std::collections::{BTreeSet, HashMap, HashSet};
 use std::fmt;
 use std::str::FromStr;
 
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
-use crate::ir::{Catalog, Device, Module, Submodule};
+use crate::ir::{Catalog, Device, Group, Module, ProcessData, Submodule};
 use crate::source::{FileId, Span};
 use crate::text::edit_distance;
 
@@ -29,13 +29,17 @@ pub struct Selection {
 /// identifier, whatever the case of its letters, in which `*` stands for any letters.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Filter {
+    /// As the user wrote it.
+    typed: String,
+    /// The same in lower case.
     text: String,
     number: Option<u32>,
 }
 
 impl Filter {
     fn new(text: &str) -> Self {
-        Filter { text: text.trim().to_lowercase(), number: number(text.trim()) }
+        let typed = text.trim();
+        Filter { typed: typed.to_owned(), text: typed.to_lowercase(), number: number(typed) }
     }
 
     fn matches(&self, number: Option<u32>, names: &[&str]) -> bool {
@@ -52,7 +56,7 @@ impl From<&str> for Filter {
 
 impl fmt::Display for Filter {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.text)
+        f.write_str(&self.typed)
     }
 }
 
@@ -119,6 +123,16 @@ impl FromStr for ObjectFilter {
             (Some(first), Some(last)) if first <= last => Ok(ObjectFilter { first, last }),
             _ => Err(SelectionError(format!("`{text}` is no index: expected 0x6040 or 0x6000..0x67FF"))),
         }
+    }
+}
+
+impl fmt::Display for ObjectFilter {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "0x{:04X}", self.first)?;
+        if self.last != self.first {
+            write!(f, "..0x{:04X}", self.last)?;
+        }
+        Ok(())
     }
 }
 
@@ -231,9 +245,16 @@ impl Selection {
     }
 
     /// Takes out of `catalog` the objects that aren't wanted. Done last: the names in PDOs come from them.
-    pub(crate) fn objects(&self, catalog: &mut Catalog) {
+    pub(crate) fn objects(&self, catalog: &mut Catalog, diagnostics: &mut Diagnostics) {
         if self.objects.is_empty() {
             return;
+        }
+        let existing = indices(catalog);
+        let is_missing = |filter: &&ObjectFilter| existing.range(filter.first..=filter.last).next().is_none();
+        for filter in self.objects.iter().filter(is_missing) {
+            let message = format!("there is no object `{filter}` in the file");
+            let found = Diagnostic::new(&codes::NOTHING_SELECTED, Span::new(FileId(0), 0, 0), message);
+            diagnostics.push(found.help(nearest(&existing, *filter)));
         }
         let wanted = |index: u16| self.has_object(index);
         let Catalog { devices, modules, .. } = catalog;
@@ -286,6 +307,36 @@ impl Selection {
             let mut at = wanted_modules.into_iter();
             catalog.modules.retain(|_| at.next().unwrap_or(false));
         }
+    }
+}
+
+/// The indices of all objects, of registers that are also objects, and of PDO mappings.
+fn indices(catalog: &Catalog) -> BTreeSet<u16> {
+    let Catalog { devices, modules, .. } = catalog;
+    let parts = devices.iter().map(|device| (&device.groups, &device.process_data));
+    let parts = parts.chain(modules.iter().map(|module| (&module.groups, &module.process_data)));
+    let of_part = |(groups, data): (&[Group], &ProcessData)| {
+        let mappings = data.pdos.iter().map(|pdo| pdo.mapping_index);
+        let items = groups.iter().flat_map(|group| &group.items).filter_map(|item| Some(item.object()?.0));
+        groups.iter().filter_map(Group::index).chain(items).chain(mappings).collect::<BTreeSet<u16>>()
+    };
+    parts.flat_map(|(groups, data)| of_part((groups, data))).collect()
+}
+
+/// The objects next to a range that has none.
+fn nearest(existing: &BTreeSet<u16>, filter: ObjectFilter) -> String {
+    let below = existing.range(..filter.first).next_back().map(|&last| {
+        let first = (0..=last).rev().take_while(|index| existing.contains(index)).last().unwrap_or(last);
+        ObjectFilter { first, last }
+    });
+    let above = existing.range(filter.last..).next().map(|&first| {
+        let last = (first..=u16::MAX).take_while(|index| existing.contains(index)).last().unwrap_or(first);
+        ObjectFilter { first, last }
+    });
+    match (below, above) {
+        (Some(below), Some(above)) => format!("the nearest objects are {below} and {above}"),
+        (Some(only), None) | (None, Some(only)) => format!("the nearest objects are {only}"),
+        (None, None) => "the file has no objects".to_owned(),
     }
 }
 

@@ -103,7 +103,7 @@ fn of_many_devices_those_that_are_selected() {
     let text = builder.clone().device("0x00A10001").module("AI-2").generate(coupler).expect("bindings");
     assert!(text.contains("pub mod ai_2 {") && !text.contains("di_16"));
     let error = builder.clone().device("SV-1@7").generate(coupler).expect_err("no such revision").to_string();
-    assert!(error.contains("IO004") && error.contains("sv-1@0x00000007"), "{error}");
+    assert!(error.contains("IO004") && error.contains("SV-1@0x00000007"), "{error}");
     let error = builder.objects("x").generate(coupler).expect_err("no index").to_string();
     assert!(error.contains("expected 0x6040"), "{error}");
 }

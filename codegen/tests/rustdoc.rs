@@ -71,7 +71,7 @@ fn what_is_not_selected_is_not_linked() {
     };
     let drive = of("dictionaries/demo-drive.eds", "0x6040..0x6060");
     assert!(drive.contains("Carried by [`RxPdo1`](pdo::RxPdo1)") && !drive.contains("MODES_OF_OPERATION_DISPLAY"));
-    let press = of("tests/data/press.toml", "0x2000..0x2001");
+    let press = of("tests/data/press.toml", "0x2008");
     document("selected", &[&drive, &press]).unwrap_or_else(|message| panic!("{message}"));
 }
 
