@@ -271,12 +271,23 @@ pub(super) struct Export {
     /// be repeated. Which ones there are is told where one is missing, or unknown.
     #[arg(long = "set", value_name = "KEY=VALUE", value_parser = fact)]
     pub facts: Vec<(String, String)>,
+    /// The form of REAL32 and REAL64 values in an EDS or DCF [default: decimal]
+    #[arg(long, value_enum, value_name = "FORM")]
+    pub real: Option<RealForm>,
     /// The file to write (for one device), or the folder to write to; standard output where neither is given.
     #[arg(short, long, value_name = "PATH")]
     pub out: Option<PathBuf>,
     /// Write nothing; fail where the output is missing or isn't what would be written.
     #[arg(long, requires = "out")]
     pub check: bool,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(super) enum RealForm {
+    /// Decimal numbers, which Python's `canopen` reads.
+    Decimal,
+    /// The bits of IEEE 754 in hexadecimal, which the tools of lely read.
+    Hex,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]

@@ -2,12 +2,12 @@
 
 use std::path::Path;
 
-use lexibus_codegen::backend::eds::{self, Flavour};
+use lexibus_codegen::backend::eds::{self, Flavour, Reals};
 use lexibus_codegen::backend::{esi, gsdml, Export as Exported, Refusal};
 use lexibus_codegen::compile::Compilation;
 use lexibus_codegen::ir::{Catalog, Device};
 
-use super::args::{Export, ExportFormat, MessageFormat};
+use super::args::{Export, ExportFormat, MessageFormat, RealForm};
 use super::inputs;
 use super::output::Target;
 use super::report::Reporter;
@@ -15,19 +15,26 @@ use super::Failure;
 
 /// What is written, with the facts that go with it.
 enum Format {
-    Eds(Flavour),
+    Eds(eds::Options),
     Esi(Box<esi::Options>),
     Gsdml(Box<gsdml::Options>),
 }
 
 impl Format {
     fn new(export: &Export) -> Result<Self, Failure> {
+        let reals = match export.real {
+            None | Some(RealForm::Decimal) => Reals::Decimal,
+            Some(RealForm::Hex) => Reals::Pattern,
+        };
         let mut format = match export.format {
-            ExportFormat::Eds => Format::Eds(Flavour::Eds),
-            ExportFormat::Dcf => Format::Eds(Flavour::Dcf),
+            ExportFormat::Eds => Format::Eds(eds::Options { flavour: Flavour::Eds, reals }),
+            ExportFormat::Dcf => Format::Eds(eds::Options { flavour: Flavour::Dcf, reals }),
             ExportFormat::Esi => Format::Esi(Box::default()),
             ExportFormat::Gsdml => Format::Gsdml(Box::default()),
         };
+        if export.real.is_some() && !matches!(format, Format::Eds(_)) {
+            return Err(Failure::Usage("--real is only for the formats eds and dcf".into()));
+        }
         for (key, value) in &export.facts {
             let set = match &mut format {
                 Format::Eds(_) => Err("an EDS or DCF wants no facts beside those of the source".to_owned()),
@@ -50,8 +57,8 @@ impl Format {
 
     fn ending(&self) -> &'static str {
         match self {
-            Format::Eds(Flavour::Eds) => "eds",
-            Format::Eds(Flavour::Dcf) => "dcf",
+            Format::Eds(eds::Options { flavour: Flavour::Eds, .. }) => "eds",
+            Format::Eds(_) => "dcf",
             Format::Esi(_) | Format::Gsdml(_) => "xml",
         }
     }
@@ -129,9 +136,9 @@ fn files<'c>(
 ) -> Option<Vec<File<'c>>> {
     let one = |exported, name| vec![File { device: None, name, exported }];
     let files = match format {
-        Format::Eds(flavour) => {
+        Format::Eds(options) => {
             let file = |device| {
-                let exported = eds::export(catalog, device, *flavour)?;
+                let exported = eds::export(catalog, device, *options)?;
                 Some(File { device: Some(device), name: None, exported })
             };
             let files: Vec<File<'c>> = catalog.devices.iter().filter_map(file).collect();

@@ -84,6 +84,8 @@ kinds! {
     AllowedValues = "allowed-values", "list of allowed values left out but for the least and the greatest";
     /// Default and limits of a value in cyclic data.
     Limits = "limits", "default or limits of a value in cyclic data left out";
+    /// A lower limit above the upper one.
+    SwappedLimits = "swapped-limits", "limits left out because the lower one is above the upper one";
     /// A default or limit of another kind than its type.
     Value = "value", "value that its type can't have left out";
     /// A limit between two integers.

@@ -1,11 +1,12 @@
 //! Values: defaults, limits, configured values, labels of enumerations.
 
+use std::cmp::Ordering;
 use std::fmt;
 
 use serde::{Deserialize, Serialize};
 use thin_vec::ThinVec;
 
-use super::CompactString;
+use super::{CompactString, Type};
 
 /// A value as its source means it, converted to its type.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -52,6 +53,14 @@ impl Value {
         }
     }
 
+    /// Compares two numbers; `None` if one is no number.
+    pub fn compare(&self, other: &Value) -> Option<Ordering> {
+        match (self.as_int(), other.as_int()) {
+            (Some(one), Some(other)) => Some(one.cmp(&other)),
+            _ => self.as_real()?.partial_cmp(&other.as_real()?),
+        }
+    }
+
     /// The number as a real, for comparisons across integer and real values.
     pub fn as_real(&self) -> Option<f64> {
         match self {
@@ -94,5 +103,15 @@ impl Limits {
     /// Whether neither limit is given.
     pub fn is_empty(&self) -> bool {
         self.low.is_none() && self.high.is_none()
+    }
+
+    /// Returns whether the lower limit is above the upper one. Limits of an integer are rounded to the integers between them.
+    pub fn are_swapped(&self, ty: Type) -> bool {
+        let (Some(low), Some(high)) = (&self.low, &self.high) else { return false };
+        let is_whole = matches!(ty, Type::Integer(_) | Type::Unsigned(_));
+        match (low.as_real(), high.as_real()) {
+            (Some(low), Some(high)) if is_whole && low.ceil() > high.floor() => true,
+            _ => low.compare(high) == Some(Ordering::Greater),
+        }
     }
 }

@@ -35,18 +35,10 @@ fn with_other_sign(ty: Type, low: &Value, high: &Value) -> Option<String> {
     }
 }
 
-/// How two numbers compare; `None` where one is no number.
-fn compare(left: &Value, right: &Value) -> Option<Ordering> {
-    match (left.as_int(), right.as_int()) {
-        (Some(left), Some(right)) => Some(left.cmp(&right)),
-        _ => left.as_real()?.partial_cmp(&right.as_real()?),
-    }
-}
-
 fn limits(owner: Owner<'_>, item: &Item, diagnostics: &mut Diagnostics) {
     let (low, high) = (item.limits.low.as_ref(), item.limits.high.as_ref());
     if let (Some(low), Some(high)) = (low, high) {
-        if compare(low, high) == Some(Ordering::Greater) {
+        if low.compare(high) == Some(Ordering::Greater) {
             let message = format!("the lower limit {low} is greater than the upper limit {high}");
             let found = Diagnostic::new(&codes::LIMITS_SWAPPED, item.at.low.or(item.origin.span), message)
                 .label("the limits are kept, and not checked by generated code");
@@ -89,7 +81,7 @@ impl fmt::Display for Excluded<'_> {
 
 /// Whether limits exclude a value. What is no number they don't.
 pub(crate) fn excluded<'l>(limits: &'l Limits, value: &Value) -> Option<Excluded<'l>> {
-    let is = |limit: &&Value, order| compare(value, limit) == Some(order);
+    let is = |limit: &&Value, order| value.compare(limit) == Some(order);
     let below = || limits.low.as_ref().filter(|low| is(low, Ordering::Less)).map(Excluded::Below);
     let above = || limits.high.as_ref().filter(|high| is(high, Ordering::Greater)).map(Excluded::Above);
     let not_allowed = || (!is_allowed(value, &limits.allowed)).then_some(Excluded::NotAllowed);
@@ -99,8 +91,8 @@ pub(crate) fn excluded<'l>(limits: &'l Limits, value: &Value) -> Option<Excluded
 /// Whether a number is in one of the ranges, where there are any.
 fn is_allowed(value: &Value, allowed: &[(Value, Value)]) -> bool {
     let within = |(first, last): &(Value, Value)| {
-        compare(first, value).is_none_or(|order| order != Ordering::Greater)
-            && compare(value, last).is_none_or(|order| order != Ordering::Greater)
+        first.compare(value).is_none_or(|order| order != Ordering::Greater)
+            && value.compare(last).is_none_or(|order| order != Ordering::Greater)
     };
     allowed.is_empty() || allowed.iter().any(within)
 }

@@ -51,6 +51,8 @@ pub struct Settings {
     pub map: Vec<String>,
     /// The register table that an import makes of the input, a CSV file.
     pub table: Option<Vec<String>>,
+    /// REAL values of an EDS or DCF as the bits of IEEE 754: `--real hex`.
+    pub real_hex: bool,
     /// Facts that an export is given: `key = "value"`.
     pub set: BTreeMap<String, String>,
 }

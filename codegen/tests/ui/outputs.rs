@@ -1,7 +1,7 @@
 //! What a case makes: the diagnostics as the terminal prints them, and the outputs that its settings ask for.
 
 use lexibus_codegen::backend::docs::{Format, Page, Site};
-use lexibus_codegen::backend::eds::{self, Flavour};
+use lexibus_codegen::backend::eds::{self, Flavour, Reals};
 use lexibus_codegen::backend::{esi, gsdml, json, Export, Refusal};
 use lexibus_codegen::compare::{compare, Judgement};
 use lexibus_codegen::compile::{check, Compilation, Options};
@@ -134,7 +134,8 @@ fn export(case: &Case, name: &str, compilation: &Compilation) -> Result<Result<E
             options.select.mapping_objects(&mut catalog);
             let flavour = if name == "eds" { Flavour::Eds } else { Flavour::Dcf };
             let device = catalog.devices.first().ok_or("there is no device to export")?;
-            eds::export(&catalog, device, flavour).ok_or(Refusal::Nothing)
+            let reals = if case.settings.real_hex { Reals::Pattern } else { Reals::Decimal };
+            eds::export(&catalog, device, eds::Options { flavour, reals }).ok_or(Refusal::Nothing)
         }
         "esi.xml" => {
             let mut options = esi::Options::default();

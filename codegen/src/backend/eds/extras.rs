@@ -153,8 +153,14 @@ mod tests {
         let extension = |key: &str| Extension { key: key.into(), value: "v".into(), span: Span::default() };
         let keys = [";", "DeviceInfo/a", "FileInfo/b", "DeviceInfo/;", "Vendor/x/y", "SupportedModules/Slots"];
         let device = Device { extensions: keys.map(extension).into(), ..Device::default() };
-        let context =
-            Context { device: &device, flavour: Flavour::Eds, file_name: "", is_verbatim: true, is_canopen: true };
+        let context = Context {
+            device: &device,
+            flavour: Flavour::Eds,
+            reals: super::super::Reals::default(),
+            file_name: "",
+            is_verbatim: true,
+            is_canopen: true,
+        };
         let extras = Extras::new(&context, &mut Notes::default());
         let order = extras.order();
         assert_eq!(order[..3], [Header::DeviceInfo, Header::FileInfo, Header::DummyUsage]);

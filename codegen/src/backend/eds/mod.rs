@@ -49,9 +49,35 @@ pub enum Flavour {
     Dcf,
 }
 
+/// How REAL32 and REAL64 values are written. CiA 306 names no form, and tools differ in what they read.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Reals {
+    /// Decimal numbers, as in real files and for Python's `canopen`.
+    #[default]
+    Decimal,
+    /// The bits of IEEE 754 in hexadecimal, for the tools of lely.
+    Pattern,
+}
+
+/// What is written, and how.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Options {
+    /// Which file.
+    pub flavour: Flavour,
+    /// The form of real numbers.
+    pub reals: Reals,
+}
+
+impl From<Flavour> for Options {
+    fn from(flavour: Flavour) -> Self {
+        Options { flavour, ..Options::default() }
+    }
+}
+
 /// The file of `device`, which is one of `catalog`, with the line ends of CiA 306 (CR LF): ASCII where the device's texts are,
 /// else to be written as UTF-8. `None` where the device has no objects.
-pub fn export(catalog: &Catalog, device: &Device, flavour: Flavour) -> Option<Export> {
+pub fn export(catalog: &Catalog, device: &Device, options: impl Into<Options>) -> Option<Export> {
+    let Options { flavour, reals } = options.into();
     let registers = registers::objects(device, Item::object);
     let completed = registers::completed(&registers);
     let made = [mapping::objects(device), registers].concat();
@@ -63,6 +89,7 @@ pub fn export(catalog: &Catalog, device: &Device, flavour: Flavour) -> Option<Ex
     let context = Context {
         device,
         flavour,
+        reals,
         file_name: catalog.files.first().map_or("", |file| &file.name),
         is_verbatim: matches!(format, Some(Format::Eds | Format::Dcf)),
         is_canopen: device.canopen.is_some(),
@@ -95,6 +122,7 @@ pub fn export(catalog: &Catalog, device: &Device, flavour: Flavour) -> Option<Ex
 struct Context<'a> {
     device: &'a Device,
     flavour: Flavour,
+    reals: Reals,
     /// The name of the file that was read.
     file_name: &'a str,
     /// Whether the source was a file of CiA 306: then what it leaves out stays left out, and what it spells stays so.

@@ -7,7 +7,7 @@ use super::data_type::{data_type, DataType};
 use super::header;
 use super::losses;
 use super::note::{NoteKind, Place};
-use super::value::{self, Role};
+use super::value::{self, Form, Role};
 use super::writer::Writer;
 use super::{Context, Flavour};
 use crate::ir::{Access, Configured, Extension, Group, Item, Mappable, ObjectCode, Type, TypeDef, Value};
@@ -162,7 +162,7 @@ impl<'a> Object<'a> {
         list("Name", elements.names());
         if self.context.flavour == Flavour::Dcf {
             let ty = self.data_type(elements.template).ty;
-            list("Value", elements.values(|value| value::text(value, ty, Role::Value, self.is_hex()).0));
+            list("Value", elements.values(|value| value::text(value, ty, Role::Value, self.form()).0));
             list("Denotation", elements.denotations());
         } else {
             let count = elements.configured();
@@ -174,9 +174,9 @@ impl<'a> Object<'a> {
         data_type(item.type_on("canopen"), self.types, self.context.is_canopen, self.context.is_verbatim)
     }
 
-    /// What there is in the area of communication objects are identifiers, mappings and masks.
-    fn is_hex(&self) -> bool {
-        (0x1000..0x2000).contains(&self.index)
+    /// The form of numbers. Communication objects contain identifiers, mappings and masks, which are hexadecimal.
+    fn form(&self) -> Form {
+        Form { hex: (0x1000..0x2000).contains(&self.index), reals: self.context.reals }
     }
 
     /// The entries of one value, from its type on.
@@ -198,8 +198,12 @@ impl<'a> Object<'a> {
         let ty = data_type.ty;
         self.number(writer, "DefaultValue", item.default.as_ref(), ty, Role::Value, place);
         writer.flag("PDOMapping", is_mappable);
-        self.number(writer, "LowLimit", item.limits.low.as_ref(), ty, Role::Low, place);
-        self.number(writer, "HighLimit", item.limits.high.as_ref(), ty, Role::High, place);
+        if item.limits.are_swapped(ty) {
+            writer.notes.add(NoteKind::SwappedLimits, place);
+        } else {
+            self.number(writer, "LowLimit", item.limits.low.as_ref(), ty, Role::Low, place);
+            self.number(writer, "HighLimit", item.limits.high.as_ref(), ty, Role::High, place);
+        }
         flags(writer, item_flags);
         if let Some(configured) = &item.configured {
             self.configured(writer, configured, ty, place);
@@ -231,7 +235,7 @@ impl<'a> Object<'a> {
         place: Place<'_>,
     ) {
         let Some(value) = value else { return };
-        let (text, note) = value::text(value, ty, role, self.is_hex());
+        let (text, note) = value::text(value, ty, role, self.form());
         if let Some(note) = note {
             writer.notes.add(note, place);
         }

@@ -4,6 +4,7 @@ use std::fmt::Write as _;
 
 use super::note::NoteKind;
 use super::writer::quoted;
+use super::Reals;
 use crate::ir::{Type, Value};
 
 /// What a value is for.
@@ -20,10 +21,19 @@ pub(super) enum Role {
 /// A text, or none where the type can't have the value; and what there is to say about it.
 type Written = (Option<String>, Option<NoteKind>);
 
-/// `value` as an entry of type `ty` has it; unsigned numbers in hexadecimal where `hex`.
-pub(super) fn text(value: &Value, ty: Type, role: Role, hex: bool) -> Written {
+/// The form of numbers.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct Form {
+    /// Unsigned integers are hexadecimal.
+    pub hex: bool,
+    pub reals: Reals,
+}
+
+/// Formats `value` as an entry of type `ty`.
+pub(super) fn text(value: &Value, ty: Type, role: Role, form: Form) -> Written {
     match ty {
-        Type::Boolean | Type::Integer(_) | Type::Unsigned(_) => integer(value, ty, role, hex),
+        Type::Boolean | Type::Integer(_) | Type::Unsigned(_) => integer(value, ty, role, form.hex),
+        Type::Real32 | Type::Real64 if form.reals == Reals::Pattern => pattern(value, ty),
         Type::Real32 | Type::Real64 => real(value, ty),
         Type::VisibleString(_) | Type::UnicodeString(_) => string(value),
         Type::OctetString(_) => octets(value),
@@ -82,6 +92,15 @@ fn real(value: &Value, ty: Type) -> Written {
     }
 }
 
+/// The bits of IEEE 754: 8 digits of a REAL32, 16 of a REAL64.
+fn pattern(value: &Value, ty: Type) -> Written {
+    match (value.as_real().filter(|value| value.is_finite()), ty) {
+        (Some(value), Type::Real32) => written(format!("0x{:08X}", (value as f32).to_bits())),
+        (Some(value), _) => written(format!("0x{:016X}", value.to_bits())),
+        (None, _) => real(value, ty),
+    }
+}
+
 fn string(value: &Value) -> Written {
     match value {
         // An empty text is a value, an empty entry none.
@@ -130,21 +149,22 @@ mod tests {
     use super::*;
 
     fn of(value: Value, ty: Type) -> Option<String> {
-        text(&value, ty, Role::Value, false).0
+        text(&value, ty, Role::Value, Form::default()).0
     }
 
     #[test]
     fn numbers_and_formulas() {
         let u32 = Type::Unsigned(32);
-        assert_eq!(text(&Value::Int(0x1A0), u32, Role::Value, true), written("0x1A0".into()));
-        assert_eq!(text(&Value::Int(-1), Type::Integer(32), Role::Value, true), written("-1".into()));
+        let hex = Form { hex: true, ..Form::default() };
+        assert_eq!(text(&Value::Int(0x1A0), u32, Role::Value, hex), written("0x1A0".into()));
+        assert_eq!(text(&Value::Int(-1), Type::Integer(32), Role::Value, hex), written("-1".into()));
         assert_eq!(of(Value::Int(70_000), Type::Unsigned(16)).as_deref(), Some("70000"));
         assert_eq!(of(Value::NodeId(0x180), u32).as_deref(), Some("$NODEID+0x180"));
         assert_eq!(of(Value::NodeId(0), u32).as_deref(), Some("$NODEID+0x0"), "some want a number there");
-        assert_eq!(text(&Value::NodeId(-2), u32, Role::Value, true).1, Some(NoteKind::NegativeFormula));
+        assert_eq!(text(&Value::NodeId(-2), u32, Role::Value, hex).1, Some(NoteKind::NegativeFormula));
         assert_eq!(of(Value::Bool(true), Type::Boolean).as_deref(), Some("1"));
         for (role, expected) in [(Role::Low, Some("3")), (Role::High, Some("2")), (Role::Value, None)] {
-            assert_eq!(text(&Value::Real(2.5), u32, role, false).0.as_deref(), expected);
+            assert_eq!(text(&Value::Real(2.5), u32, role, Form::default()).0.as_deref(), expected);
         }
         assert_eq!(of(Value::Raw("a;b".into()), u32).as_deref(), Some("\"a;b\""));
         assert_eq!(of(Value::Text("x".into()), u32), None);
@@ -160,6 +180,18 @@ mod tests {
             (1e300, Type::Real64, "1e300"),
         ] {
             assert_eq!(of(Value::Real(value), ty).as_deref(), Some(expected));
+        }
+    }
+
+    #[test]
+    fn reals_as_patterns() {
+        let form = Form { reals: Reals::Pattern, ..Form::default() };
+        for (value, ty, expected) in [
+            (Value::Real(1.0), Type::Real32, "0x3F800000"),
+            (Value::Int(0), Type::Real32, "0x00000000"),
+            (Value::Real(-0.1), Type::Real64, "0xBFB999999999999A"),
+        ] {
+            assert_eq!(text(&value, ty, Role::Value, form).0.as_deref(), Some(expected));
         }
     }
 

@@ -11,8 +11,13 @@ pub(super) type Written = (Vec<(&'static str, String)>, Vec<NoteKind>);
 
 /// What the Info of an item of the basic type `ty` says of its limits and its default.
 pub(super) fn elements(item: &Item, ty: Type) -> Written {
-    let values = [item.limits.low.as_ref(), item.limits.high.as_ref(), item.default.as_ref()];
+    let (mut low, mut high) = (item.limits.low.as_ref(), item.limits.high.as_ref());
     let mut notes = Vec::new();
+    if item.limits.are_swapped(ty) {
+        (low, high) = (None, None);
+        notes.push(NoteKind::SwappedLimits);
+    }
+    let values = [low, high, item.default.as_ref()];
     if let (Some(Value::Text(text)), true) = (&item.default, is_plain(item.default.as_ref())) {
         notes.extend(values.iter().take(2).flatten().map(|_| NoteKind::Value));
         return (vec![("DefaultString", text.to_string())], notes);

@@ -130,6 +130,9 @@ fn parameter(xml: &mut Xml, context: &mut Context<'_>, item: &Item) {
     if let Some(default) = item.default.as_ref().and_then(value) {
         xml.attribute("DefaultValue", default);
     }
+    if item.limits.are_swapped(ty) && item.limits.allowed.is_empty() {
+        context.notes.add(NoteKind::SwappedLimits, place);
+    }
     xml.optional("AllowedValues", allowed(item));
     if !matches!(item.access, Access::ReadWrite) {
         xml.attribute("Changeable", "false");
@@ -170,7 +173,7 @@ fn allowed(item: &Item) -> Option<String> {
         return Some(kept.to_string());
     }
     let limits = &item.limits;
-    let one = limits.low.clone().zip(limits.high.clone());
+    let one = limits.low.clone().zip(limits.high.clone()).filter(|_| !limits.are_swapped(item.ty));
     let ranges = if limits.allowed.is_empty() { one.as_slice() } else { &limits.allowed };
     let range = |(first, last): &(Value, Value)| match (value(first)?, value(last)?) {
         (first, last) if first == last => Some(first),
