@@ -456,11 +456,12 @@ codes! {
         sub-index 255 is left out; often the number of elements of an array is wrong."
     ESI040 SYNC_MANAGER_PURPOSE "sync-manager-purpose" Repair Warn
         "nothing says what a sync manager is for"
-        "The text of Sm is MBoxOut, MBoxIn, Outputs or Inputs. The purpose follows from the control byte, or else from the \
-        place among the others."
+        "The text of Sm is MBoxOut, MBoxIn, Outputs or Inputs. The purpose follows from the PDOs that name the sync manager, else from \
+        its control byte or its position."
     ESI041 PDO_WITHOUT_INDEX "pdo-without-index" Repair Warn
         "a PDO has no index"
-        "Old files describe process data by other means (Ref, Chn). The entries are kept, but nothing can be assigned."
+        "The entries are kept, but nothing can be assigned. A PDO of an old file may name a template (Ref), which is a Pdo with this \
+        RefName in Descriptions/Pdos of the same file."
     ESI042 DUPLICATE_PDO "duplicate-pdo" Lint Warn
         "two PDOs have the same index"
         "Both are kept: some devices offer one PDO on either of two sync managers, and only one can be assigned."

@@ -20,7 +20,7 @@ pub(crate) enum Spelling {
     Standard,
     /// It is another usual name of the type (UINT16).
     Alias,
-    /// It begins with the name of a type (`UINT_hex`).
+    /// It begins with the name of a type, or an alias of one (`UINT_hex`, `Uint16_hex`).
     Prefix,
 }
 
@@ -36,7 +36,7 @@ pub(crate) fn basic(name: &str) -> Option<(Basic, Spelling)> {
         return Some((Basic::Type(ty), Spelling::Alias));
     }
     let (start, _) = name.split_once('_')?;
-    standard(start).map(|ty| (Basic::Type(ty), Spelling::Prefix))
+    standard(start).or_else(|| alias(start)).map(|ty| (Basic::Type(ty), Spelling::Prefix))
 }
 
 fn standard(name: &str) -> Option<Type> {

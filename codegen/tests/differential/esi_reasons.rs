@@ -21,8 +21,10 @@ const PEER: &[(&str, &str)] = &[
     ),
 ];
 
-pub const REASONS: Reasons =
-    Reasons { quirks: &["X01", "X02", "X11", "X13", "X14", "X15", "X16", "X17", "X19", "X21", "X22"], peer: PEER };
+pub const REASONS: Reasons = Reasons {
+    quirks: &["X01", "X02", "X11", "X13", "X14", "X15", "X16", "X17", "X19", "X21", "X22", "X32"],
+    peer: PEER,
+};
 
 /// A file, and what both read from it.
 pub struct Case<'a> {
@@ -83,7 +85,11 @@ pub fn reason(case: &Case<'_>, difference: &Difference<'_>) -> Option<&'static s
         "purpose" if element.contains(" Sm ") => {
             let usual = ["MBoxOut", "MBoxIn", "Outputs", "Inputs"];
             let is_unusual = !peer.is_some_and(|text| usual.contains(&text));
-            Some("X19").filter(|_| is_unusual && own == purpose(case, element))
+            let (row, expected) = match purpose_of_pdos(case, element) {
+                Some(purpose) => ("X32", Some(purpose)),
+                None => ("X19", purpose(case, element)),
+            };
+            Some(row).filter(|_| is_unusual && own == expected)
         }
         "enable" => {
             let byte: u8 = peer?.parse().ok()?;
@@ -140,6 +146,21 @@ fn missing(case: &Case<'_>, element: &str, is_own: bool) -> Option<&'static str>
 fn is_as_mapped(case: &Case<'_>, element: &str, entries: &[&Facts]) -> bool {
     let Some(own) = case.own.get(element) else { return false };
     entries.iter().any(|entry| ["name", "type"].iter().all(|fact| own.get(*fact) == entry.get(*fact)))
+}
+
+/// What a sync manager is for according to the PDOs that name it, if they have one direction.
+fn purpose_of_pdos(case: &Case<'_>, element: &str) -> Option<&'static str> {
+    let (owner, number) = element.split_once(" Sm ")?;
+    let is_named_by = |kind: &str| {
+        let start = format!("{owner} {kind} ");
+        let is_pdo = |name: &str| name.strip_prefix(&start).is_some_and(|rest| !rest.contains(" entry "));
+        case.peer.iter().any(|(name, facts)| is_pdo(name) && facts.get("Sm").is_some_and(|sm| sm == number))
+    };
+    match (is_named_by("RxPdo"), is_named_by("TxPdo")) {
+        (true, false) => Some("Outputs"),
+        (false, true) => Some("Inputs"),
+        _ => None,
+    }
 }
 
 /// What a sync manager is for where its text doesn't say it: by the mode and the direction in its control byte, or by its

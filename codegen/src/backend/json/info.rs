@@ -54,9 +54,9 @@ pub struct DeviceInfo {
     pub name: String,
     /// Order code, or Type of ETG.2000; empty where there is none.
     pub order_code: String,
-    /// Number of distinct indices that the file declares.
+    /// Number of distinct indices that the file and a dictionary file of the device declare.
     pub objects: usize,
-    /// Number of addressable sub-entries that the file declares, sub-index 0 included.
+    /// Number of addressable sub-entries that they declare, sub-index 0 included.
     pub entries: usize,
     /// For register tables: number of registers, which are items of chapters.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -182,9 +182,9 @@ pub fn info(compilation: &Compilation) -> Info {
         encoding: source.map_or("utf-8", |source| source.encoding().name()),
         devices: own_devices()
             .filter(|device| !device.dictionary_only)
-            .map(|own| DeviceInfo { registers: is_table.then(|| registers(own)), ..device(own) })
+            .map(|own| DeviceInfo { registers: is_table.then(|| registers(own)), ..device(own, catalog) })
             .collect(),
-        dictionary: own_devices().find(|device| device.dictionary_only).map(dictionary),
+        dictionary: own_devices().find(|device| device.dictionary_only).map(|device| dictionary(device, catalog)),
         daps: is_gsdml.then(|| catalog.devices.iter().map(|device| dap(device, catalog)).collect()),
         modules: is_modular.then(|| own_modules().map(|one| module(one, catalog, is_gsdml)).collect()),
         submodules: is_gsdml.then(|| {
@@ -209,14 +209,18 @@ fn is_own(origin: Origin) -> bool {
     origin.span.file == FileId(0)
 }
 
-/// What the file itself declares of `groups`: neither what follows from something else, nor what another file adds.
-fn declared(groups: &[Group]) -> impl Iterator<Item = &Group> {
-    let own = |group: &&Group| group.origin.line > 0 && is_own(group.origin) && group.index().is_some();
-    groups.iter().filter(own)
+/// The objects that the file and the dictionary files of its devices declare, without those of overlays and profiles.
+fn declared<'g>(groups: &'g [Group], catalog: &'g Catalog) -> impl Iterator<Item = &'g Group> {
+    let format = |origin: Origin| catalog.files.get(origin.span.file.0 as usize).map(|file| file.format);
+    let is_declared = move |group: &&Group| {
+        let is_described = is_own(group.origin) || format(group.origin) == Some(Format::Esi);
+        group.origin.line > 0 && group.index().is_some() && is_described
+    };
+    groups.iter().filter(is_declared)
 }
 
-fn device(device: &Device) -> DeviceInfo {
-    let DictionaryInfo { objects, entries } = dictionary(device);
+fn device(device: &Device, catalog: &Catalog) -> DeviceInfo {
+    let DictionaryInfo { objects, entries } = dictionary(device, catalog);
     DeviceInfo {
         vendor_id: device.identity.vendor_id,
         product_code: device.identity.product_code,
@@ -237,8 +241,8 @@ fn registers(device: &Device) -> usize {
     chapters.map(|group| group.items.len()).sum()
 }
 
-fn dictionary(device: &Device) -> DictionaryInfo {
-    let groups = || declared(&device.groups);
+fn dictionary(device: &Device, catalog: &Catalog) -> DictionaryInfo {
+    let groups = || declared(&device.groups, catalog);
     DictionaryInfo { objects: groups().count(), entries: groups().map(|group| group.items.len()).sum() }
 }
 
@@ -261,8 +265,8 @@ fn module(module: &Module, catalog: &Catalog, is_gsdml: bool) -> ModuleInfo {
         }
     } else {
         ModuleContent::EtherCat {
-            objects: declared(&module.groups).count(),
-            entries: declared(&module.groups).map(|group| group.items.len()).sum(),
+            objects: declared(&module.groups, catalog).count(),
+            entries: declared(&module.groups, catalog).map(|group| group.items.len()).sum(),
             rx_pdos: pdos(&module.process_data, Direction::Receive),
             tx_pdos: pdos(&module.process_data, Direction::Transmit),
         }

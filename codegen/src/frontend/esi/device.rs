@@ -7,7 +7,7 @@ use super::references::{Elsewhere, EntryType, Target};
 use super::types::Types;
 use super::{clocks, device_info, dictionary, eeprom, items, mailbox, slots, sync};
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
-use crate::ir::{Device, EtherCatSettings, Extensions, Group, PdoEntry, SyncManager, Type, TypeDef};
+use crate::ir::{Device, EtherCatSettings, Extensions, Group, PdoEntry, PdoEntryKind, SyncManager, Type, TypeDef};
 use crate::source::Span;
 use crate::syntax::xml::Tag;
 
@@ -113,7 +113,7 @@ fn finish(reader: &mut Reader<'_, '_>, parts: Parts<'_>) -> (Device, Elsewhere) 
     (device.name, device.names) = (names.name(), names.others());
     device.identity.product_name = device.name.clone();
     device.documentation = comment.documentation();
-    device.process_data.sync_managers = sync::settle(reader, managers);
+    device.process_data.sync_managers = sync::settle(reader, managers, &pdos.list);
     device.profiles = profiles.numbers;
     device.code_tables = profiles.code_tables;
     device.extensions.append(&mut profiles.dictionary.take_extensions());
@@ -137,7 +137,7 @@ pub(super) fn lower<'a>(
     let mut types = Types::new(reader, &raw);
     let has_files = elsewhere.files.iter().any(|file| file.target == Target::Dictionary);
     pdos.finish(data, |given, entry| {
-        if has_files && entry.index != 0 && !given.is_empty() && !types.knows(&given.text) {
+        if has_files && entry.kind != PdoEntryKind::Padding && !given.is_empty() && !types.knows(&given.text) {
             elsewhere.types.push(EntryType::new(entry, given));
             return Type::Opaque(None);
         }
@@ -151,12 +151,12 @@ pub(super) fn lower<'a>(
 fn entry_type(reader: &mut Reader<'_, '_>, types: &mut Types<'_, '_>, given: &Given<'_>, entry: &PdoEntry) -> Type {
     if given.is_empty() {
         return match u8::try_from(entry.bits) {
-            Ok(bits @ 1..=64) if entry.index != 0 => Type::Unsigned(bits),
+            Ok(bits @ 1..=64) if entry.kind != PdoEntryKind::Padding => Type::Unsigned(bits),
             _ => Type::Opaque(None),
         };
     }
     // What padding is called doesn't matter.
-    if entry.index == 0 && super::type_name::basic(&given.text).is_none() {
+    if entry.kind == PdoEntryKind::Padding && super::type_name::basic(&given.text).is_none() {
         return Type::Opaque(None);
     }
     let ty = types.resolve(reader, given);
@@ -172,7 +172,9 @@ pub(super) fn check_length(
     bits: Option<u32>,
 ) {
     match bits {
-        Some(bits) if bits != entry.bits && entry.index != 0 && diagnostics.wants(&codes::ENTRY_LENGTH) => {
+        Some(bits)
+            if bits != entry.bits && entry.kind != PdoEntryKind::Padding && diagnostics.wants(&codes::ENTRY_LENGTH) =>
+        {
             let message = format!("the entry has {} bits, but {name} has {bits}", entry.bits);
             diagnostics.push(Diagnostic::new(&codes::ENTRY_LENGTH, span, message).label("BitLen decides the layout"));
         }

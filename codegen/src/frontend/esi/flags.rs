@@ -158,10 +158,11 @@ impl Flags {
         (flags.mappable.unwrap_or_default(), flags.mappable_at)
     }
 
-    /// Storage, safety and conditions of a sub-item, each that of its object where it doesn't say.
+    /// Storage, safety and states of a sub-item. Without flags it is stored as its object is; safety and states are those of the
+    /// object unless the sub-item has its own.
     pub fn behaviour_or(&self, object: &Flags) -> Option<Box<Behaviour>> {
-        let backup = self.backup.or(object.backup).unwrap_or(false);
-        let setting = self.setting.or(object.setting).unwrap_or(false);
+        let stored = if self.given { self } else { object };
+        let (backup, setting) = (stored.backup.unwrap_or(false), stored.setting.unwrap_or(false));
         let [own, of_object] = [self, object].map(|flags| flags.more.as_deref());
         if own.or(of_object).is_none() && !backup && !setting {
             return None;

@@ -79,6 +79,8 @@ fn read_list<'a>(reader: &mut Reader<'a, '_>, list: &Tag<'a>, description: &mut 
                 description.catalog.modules.push(module);
             }
         }
+        // PDOs that name a template read it.
+        "Pdos" => reader.cursor.skip(list)?,
         _ => reader.unknown(list, &mut description.catalog.extensions)?,
     }
     Ok(())

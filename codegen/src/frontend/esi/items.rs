@@ -467,7 +467,7 @@ struct Matched {
     extra: Vec<usize>,
 }
 
-/// By name where the names are those of the type, else by place.
+/// Matches by name if the names are those of the type, else by position. A name that the type repeats matches by position, too.
 fn match_up(reader: &mut Reader<'_, '_>, entries: &[Entry<'_, '_>], subs: &[RawSub<'_>]) -> Matched {
     let mut matched = Matched { of_entry: vec![None; entries.len()], extra: Vec::new() };
     let named = |entry: &Entry<'_, '_>, sub: &RawSub<'_>| sub.name.text == entry.field.name.text;
@@ -477,10 +477,15 @@ fn match_up(reader: &mut Reader<'_, '_>, entries: &[Entry<'_, '_>], subs: &[RawS
         (0..subs.len()).zip(&mut matched.of_entry).for_each(|(at, place)| *place = Some(at));
         return matched;
     }
-    let single = entries.iter().enumerate().filter(|(_, entry)| entry.element.is_none_or(|number| number == 1));
+    let singles = entries.iter().enumerate().filter(|(_, entry)| entry.element.is_none_or(|number| number == 1));
+    let singles: Vec<_> = singles.collect();
     let mut by_name: HashMap<&str, usize> = HashMap::with_capacity(entries.len());
-    for (at, entry) in single {
+    for &(at, entry) in &singles {
         by_name.entry(entry.field.name.text.as_ref()).or_insert(at);
+    }
+    if by_name.len() < singles.len() && subs.len() == entries.len() {
+        // A repeated name tells nothing about the position.
+        return by_position(reader, entries, subs);
     }
     let mut next = 0;
     for (at, sub) in subs.iter().enumerate() {
@@ -503,9 +508,26 @@ fn match_up(reader: &mut Reader<'_, '_>, entries: &[Entry<'_, '_>], subs: &[RawS
     matched
 }
 
+/// Each sub-item of the object belongs to the entry at the same position.
+fn by_position(reader: &mut Reader<'_, '_>, entries: &[Entry<'_, '_>], subs: &[RawSub<'_>]) -> Matched {
+    for (entry, sub) in entries.iter().zip(subs) {
+        let (name, of_type) = (&sub.name.text, &entry.field.name.text);
+        if entry.element.is_none() && name != of_type {
+            let message = format!("`{}` is called `{}` in the data type", shortened(name), shortened(of_type));
+            let label = format!("read as sub-index 0x{:02X}: the data type has a name twice", entry.sub_index);
+            mismatch(reader, entry, sub, message, label);
+        }
+    }
+    Matched { of_entry: (0..subs.len()).map(Some).collect(), extra: Vec::new() }
+}
+
 fn by_place_only(reader: &mut Reader<'_, '_>, entry: &Entry<'_, '_>, sub: &RawSub<'_>) {
     let message = format!("the data type has no sub-item called `{}`", shortened(&sub.name.text));
-    let label = format!("taken as sub-index 0x{:02X}, by its place", entry.sub_index);
+    let label = format!("read as sub-index 0x{:02X}, by its position", entry.sub_index);
+    mismatch(reader, entry, sub, message, label);
+}
+
+fn mismatch(reader: &mut Reader<'_, '_>, entry: &Entry<'_, '_>, sub: &RawSub<'_>, message: String, label: String) {
     reader.diagnostics.push(
         Diagnostic::new(&codes::SUB_ITEM_MISMATCH, sub.name.span.or(sub.origin.span), message)
             .label(label)

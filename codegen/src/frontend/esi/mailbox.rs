@@ -1,6 +1,6 @@
 //! The mailbox: its protocols, and what a master sends at start-up.
 
-use super::pdo::slot_index;
+use super::pdo::{slot_index, SlotIndex};
 use super::reader::{has_attributes, Read, Reader};
 use crate::diagnostics::codes;
 use crate::ir::{Coe, CompactString, Extension, Extensions, InitCommand, Mailbox, Protocol};
@@ -102,7 +102,7 @@ fn init_command<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, extensions: &
                 command.transitions.push(given.compact());
             }
             "Index" => {
-                let (given, slot, group) = slot_index(reader, &tag, extensions)?;
+                let SlotIndex { given, slot, group, .. } = slot_index(reader, &tag, extensions)?;
                 (command.depends_on_slot, command.depends_on_slot_group) = (slot, group);
                 command.index = reader.int(&given, "index").unwrap_or(0);
             }

@@ -12,7 +12,7 @@
 //! | `info` | the vendor, groups, lists of devices and modules |
 //! | `device`, `device_info`, `eeprom` | devices |
 //! | `sync`, `mailbox`, `clocks` | FMMUs and sync managers; the mailbox; distributed clocks |
-//! | `pdo` | PDOs and their entries |
+//! | `pdo`, `templates` | PDOs and their entries; PDO templates of old files |
 //! | `slots`, `modules` | slots, modules, and which fit where |
 //! | `profile`, `diagnosis` | profiles, diagnosis messages |
 //! | `dictionary` | dictionaries as they stand in the file: `data_type`, `object`, `flags` |
@@ -41,6 +41,7 @@ mod reader;
 mod references;
 mod slots;
 mod sync;
+mod templates;
 mod types;
 mod value;
 
@@ -56,6 +57,7 @@ use dictionary::Dictionary;
 use pdo::Pdos;
 use reader::{Budget, Read, Reader};
 use references::{Elsewhere, EntryType, Owner, Reference};
+use templates::Templates;
 
 /// What was read, and the files that it refers to.
 #[derive(Default)]
@@ -107,7 +109,8 @@ fn document(
     budget: &mut Budget,
 ) -> Read<()> {
     declared_encoding::report(source, file, diagnostics);
-    let mut reader = Reader { cursor: Cursor::new(source.text(), file), diagnostics, budget };
+    let templates = Templates::of(source.text(), file);
+    let mut reader = Reader { cursor: Cursor::new(source.text(), file), diagnostics, budget, templates: &templates };
     let root = reader.cursor.root()?;
     match root.name {
         "EtherCATInfo" | "EtherCATModule" => info::read(&mut reader, &root, description)?,

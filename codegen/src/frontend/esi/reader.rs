@@ -7,6 +7,7 @@ use smallvec::SmallVec;
 
 use super::language;
 use super::number::{self, Fault, Number};
+use super::templates::Templates;
 use crate::diagnostics::{codes, Code, Diagnostic, Diagnostics};
 use crate::ir::{Documentation, Extension, Extensions, LocalText, Texts};
 use crate::limits;
@@ -21,6 +22,7 @@ pub(super) struct Reader<'a, 'd> {
     pub cursor: Cursor<'a>,
     pub diagnostics: &'d mut Diagnostics,
     pub budget: &'d mut Budget,
+    pub templates: &'d Templates<'a>,
 }
 
 /// What data types may still add to objects, and a vendor to devices: short references can stand for much.
@@ -119,6 +121,10 @@ impl<'a> Names<'a> {
 
     pub fn append(&mut self, mut other: Names<'a>) {
         self.0.append(&mut other.0);
+    }
+
+    pub fn is_empty(&self) -> bool {
+        self.0.is_empty()
     }
 
     /// Bytes that a copy of all texts takes.

@@ -2,7 +2,7 @@
 
 use super::reader::{shortened, Given, Read, Reader};
 use crate::diagnostics::codes;
-use crate::ir::{EtherCatSettings, Extensions, Fmmu, SyncManager, SyncManagerPurpose, SyncUnit};
+use crate::ir::{Direction, EtherCatSettings, Extensions, Fmmu, Pdo, SyncManager, SyncManagerPurpose, SyncUnit};
 use crate::syntax::xml::Tag;
 
 /// Reads a Fmmu.
@@ -79,8 +79,12 @@ pub(super) fn sync_manager<'a>(
     Ok(())
 }
 
-/// Settles what each sync manager is for: by its text, or else by its control byte or place.
-pub(super) fn settle(reader: &mut Reader<'_, '_>, list: Vec<(SyncManager, Given<'_>)>) -> Vec<SyncManager> {
+/// Settles the purpose of each sync manager: by its text, else by the PDOs that name it, else by its control byte or position.
+pub(super) fn settle(
+    reader: &mut Reader<'_, '_>,
+    list: Vec<(SyncManager, Given<'_>)>,
+    pdos: &[Pdo],
+) -> Vec<SyncManager> {
     use SyncManagerPurpose::{Inputs, MailboxIn, MailboxOut, Outputs};
     // With a mailbox there are four, and its two come first.
     let has_mailbox = list.len() >= 4;
@@ -91,25 +95,39 @@ pub(super) fn settle(reader: &mut Reader<'_, '_>, list: Vec<(SyncManager, Given<
             0 => (has_mailbox && position < 2, position == 0 || (has_mailbox && position == 2)),
             control => (control & 0b11 == 2, control & 0b1100 == 0b0100),
         };
-        let by_place = match (is_mailbox, is_written) {
+        let by_position = match (is_mailbox, is_written) {
             (true, true) => MailboxOut,
             (true, false) => MailboxIn,
             (false, true) => Outputs,
             (false, false) => Inputs,
         };
-        manager.purpose = by_text(&given.text).unwrap_or(by_place);
-        if by_text(&given.text).is_none() {
+        let by_text = by_text(&given.text);
+        let by_pdos = by_pdos(manager.number, pdos);
+        manager.purpose = by_text.or(by_pdos).unwrap_or(by_position);
+        if by_text.is_none() {
             let message = match given.text.as_ref() {
                 "" => "nothing says what this sync manager is for".to_owned(),
                 text => format!("`{}` doesn't say what this sync manager is for", shortened(text)),
             };
-            let label = format!("taken as {}, by its control byte or place", by_place.label());
+            let reason = if by_pdos.is_some() { "as the PDOs that name it" } else { "by its control byte or position" };
+            let label = format!("read as {}, {reason}", manager.purpose.label());
             let span = given.span.or(manager.origin.span);
             reader.report(&codes::SYNC_MANAGER_PURPOSE, span, message, label);
         }
         managers.push(manager);
     }
     managers
+}
+
+/// The direction of the PDOs that are assigned to a sync manager, if all have the same one.
+fn by_pdos(number: u8, pdos: &[Pdo]) -> Option<SyncManagerPurpose> {
+    let mut directions = pdos.iter().filter(|pdo| pdo.sync_manager == Some(number)).map(|pdo| pdo.direction);
+    let first = directions.next()?;
+    let purpose = match first {
+        Direction::Receive => SyncManagerPurpose::Outputs,
+        Direction::Transmit => SyncManagerPurpose::Inputs,
+    };
+    directions.all(|direction| direction == first).then_some(purpose)
 }
 
 fn by_text(text: &str) -> Option<SyncManagerPurpose> {
