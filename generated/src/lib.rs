@@ -1,14 +1,15 @@
 //! Typed bindings of the drives that Lexibus ships: a module and a feature a drive.
 //!
-//! The modules are generated from the descriptions in the repository's folder `dictionaries`, and checked in.
+//! The modules are generated from the descriptions in the repository's folder `dictionaries`, and checked in. The documentation shows all of
+//! them, whatever the features.
 //!
 //! | feature | module | drive |
 //! |---|---|---|
-//! | `akd` | `akd` | Kollmorgen AKD servo drives, on EtherCAT |
-//! | `demo-drive` | `demo_drive` | an imaginary CiA 402 drive, to try things on |
-//! | `hsd` | `hsd` | HSD SM137 and SM140 positioning motors, on RS-485 |
-//! | `vector-step` | `vector_step` | AEC Vector Step stepper drives, on CANopen, EtherCAT and Modbus |
-//! | `eco` | `eco` | Eco drives, on CANopen, EtherCAT, Modbus and PROFINET |
+//! | `akd` | [`akd`] | Kollmorgen AKD servo drives, on EtherCAT |
+//! | `demo-drive` | [`demo_drive`] | an imaginary CiA 402 drive, to try things on |
+//! | `hsd` | [`hsd`] | HSD SM137 and SM140 positioning motors, on RS-485 |
+//! | `vector-step` | [`vector_step`] | AEC Vector Step stepper drives, on CANopen, EtherCAT and Modbus |
+//! | `eco` | [`eco`] | Eco drives, on CANopen, EtherCAT, Modbus and PROFINET |
 //! | `table` | – | adds `ENTRIES`, a table of all entries, to each module |
 //!
 //! ```
@@ -25,26 +26,26 @@
 #![forbid(unsafe_code)]
 
 /// Kollmorgen AKD servo drives (`dictionaries/kollmorgen-akd.toml`).
-#[cfg(feature = "akd")]
+#[cfg(any(doc, feature = "akd"))]
 #[rustfmt::skip]
 pub mod akd;
 
 /// An imaginary CiA 402 drive (`dictionaries/demo-drive.eds`).
-#[cfg(feature = "demo-drive")]
+#[cfg(any(doc, feature = "demo-drive"))]
 #[rustfmt::skip]
 pub mod demo_drive;
 
 /// HSD SM137 and SM140 positioning motors (`dictionaries/hsd-sm137-sm140.toml`).
-#[cfg(feature = "hsd")]
+#[cfg(any(doc, feature = "hsd"))]
 #[rustfmt::skip]
 pub mod hsd;
 
 /// AEC Vector Step stepper drives (`dictionaries/aec-vector-step.toml`).
-#[cfg(feature = "vector-step")]
+#[cfg(any(doc, feature = "vector-step"))]
 #[rustfmt::skip]
 pub mod vector_step;
 
 /// Eco drives (`dictionaries/eco.toml`).
-#[cfg(feature = "eco")]
+#[cfg(any(doc, feature = "eco"))]
 #[rustfmt::skip]
 pub mod eco;
