@@ -1,6 +1,6 @@
 //! Objects, registers and parameters.
 
-use std::collections::{BTreeMap, HashSet};
+use std::collections::{BTreeMap, HashMap, HashSet, VecDeque};
 
 use super::{renamed, types, Changes, Judgement, Scope};
 use crate::ir::{Access, Binding, Group, Item, Limits, Quantity, Scale, Type, Value};
@@ -21,12 +21,16 @@ pub(super) fn compare(old: &Scope<'_>, new: &Scope<'_>, changes: &mut Changes) {
             None => gone.push((key, *own)),
         }
     }
-    let mut added: Vec<(&Key, Placed<'_>)> =
-        is.iter().filter(|(key, _)| !was.contains_key(*key)).map(|(key, own)| (key, *own)).collect();
+    let mut added: Vec<Option<(&Key, Placed<'_>)>> =
+        is.iter().filter(|(key, _)| !was.contains_key(*key)).map(|(key, own)| Some((key, *own))).collect();
+    let mut by_path: HashMap<(&str, &str), VecDeque<usize>> = HashMap::new();
+    for (position, (_, own)) in added.iter().flatten().enumerate() {
+        by_path.entry(path(*own)).or_default().push_back(position);
+    }
     for ((key, _), own) in gone {
-        // What goes by its old name at another address.
-        let same = added.iter().position(|(_, other)| path(*other) == path(own) && !own.1.name.is_empty());
-        match same.map(|at| added.remove(at)) {
+        // An item of the same name at another address has moved there.
+        let same = by_path.get_mut(&path(own)).filter(|_| !own.1.name.is_empty()).and_then(VecDeque::pop_front);
+        match same.and_then(|position| added[position].take()) {
             Some(((new_key, _), other)) => {
                 let element = element(new_key, own);
                 changes.push(&element, "address", (key.clone(), new_key.clone()), Judgement::Compatible);
@@ -35,7 +39,7 @@ pub(super) fn compare(old: &Scope<'_>, new: &Scope<'_>, changes: &mut Changes) {
             None => changes.existence(&element(key, own), true, false),
         }
     }
-    for ((key, _), own) in added {
+    for ((key, _), own) in added.into_iter().flatten() {
         changes.existence(&element(key, own), false, true);
     }
 }

@@ -21,6 +21,7 @@ mod messages;
 mod pdos;
 mod types;
 
+use std::collections::BTreeMap;
 use std::fmt;
 
 use serde::Serialize;
@@ -225,13 +226,15 @@ fn pairs<'a, T, K: Ord>(
     if alone {
         return vec![(old.first(), new.first())];
     }
-    let mut left: std::collections::BTreeMap<K, Vec<&T>> = std::collections::BTreeMap::new();
-    for own in new.iter().rev() {
-        left.entry(key(own)).or_default().push(own);
+    let mut left: BTreeMap<K, Vec<usize>> = BTreeMap::new();
+    for (position, own) in new.iter().enumerate().rev() {
+        left.entry(key(own)).or_default().push(position);
     }
-    let mut all: Vec<_> = old.iter().map(|own| (Some(own), left.get_mut(&key(own)).and_then(Vec::pop))).collect();
-    let is_left = |own: &&T| left.values().flatten().any(|other| std::ptr::eq(*other, *own));
-    all.extend(new.iter().filter(is_left).map(|own| (None, Some(own))));
+    let mut pair = |own: &T| left.get_mut(&key(own)).and_then(Vec::pop).map(|position| &new[position]);
+    let mut all: Vec<_> = old.iter().map(|own| (Some(own), pair(own))).collect();
+    let mut added: Vec<usize> = left.into_values().flatten().collect();
+    added.sort_unstable();
+    all.extend(added.into_iter().map(|position| (None, Some(&new[position]))));
     all
 }
 
