@@ -5,7 +5,7 @@ use std::process::Command;
 
 /// A Python that can import `modules`; `None`, with a message, if there is none.
 ///
-/// It is the one that `LEXIBUS_PYTHON` names, else that of `tests/interop/setup.sh`, else `python3`.
+/// It is the first that exists of the one that `LEXIBUS_PYTHON` names, that of `tests/interop/setup.sh`, and `python3`.
 ///
 /// # Panics
 ///

@@ -456,8 +456,8 @@ codes! {
         sub-index 255 is left out; often the number of elements of an array is wrong."
     ESI040 SYNC_MANAGER_PURPOSE "sync-manager-purpose" Repair Warn
         "nothing says what a sync manager is for"
-        "The text of Sm is MBoxOut, MBoxIn, Outputs or Inputs. The purpose follows from the PDOs that name the sync manager, else from \
-        its control byte or its position."
+        "The text of Sm is MBoxOut, MBoxIn, Outputs or Inputs. Without such a text, the purpose follows from the PDOs that name the sync \
+        manager, or from its control byte or its position."
     ESI041 PDO_WITHOUT_INDEX "pdo-without-index" Repair Warn
         "a PDO has no index"
         "The entries are kept, but nothing can be assigned. A PDO of an old file may name a template (Ref), which is a Pdo with this \

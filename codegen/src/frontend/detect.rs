@@ -183,7 +183,9 @@ mod tests {
             detect("a.eds", " <?xml version=\"1.0\"?><!-- <x> --><c:ISO15745ProfileContainer a=''>"),
             Ok(Format::Xdd)
         );
-        assert_eq!(detect("a.eds", ""), Err("IO002"));
+        for name in ["a.eds", "a.xdd", "GSDML-V2.35-A-B-20200131.xml", "a.toml"] {
+            assert_eq!(detect(name, ""), Err("IO002"), "{name} without a byte");
+        }
         assert_eq!(detect("a.xdc", "set_max_delay -from [get_pins x]"), Err("IO002"));
         assert_eq!(detect("a.xml", "<html>"), Err("IO002"));
         assert_eq!(detect("a.xml", "<e:EtherCATInfo>"), Ok(Format::Esi));

@@ -185,7 +185,7 @@ impl Pdo {
         }
     }
 
-    /// Returns whether the device can be told this mapping: every entry has an index, or is padding.
+    /// Returns whether the mapping can be written to the device: every entry has an index, or is padding.
     pub fn is_mapping_known(&self) -> bool {
         self.entries.iter().all(|entry| entry.kind != PdoEntryKind::Unnumbered)
     }

@@ -145,6 +145,7 @@ impl<'a> Extras<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::backend::eds::Reals;
     use crate::ir::Device;
     use crate::source::Span;
 
@@ -156,7 +157,7 @@ mod tests {
         let context = Context {
             device: &device,
             flavour: Flavour::Eds,
-            reals: super::super::Reals::default(),
+            reals: Reals::default(),
             file_name: "",
             is_verbatim: true,
             is_canopen: true,

@@ -467,7 +467,7 @@ struct Matched {
     extra: Vec<usize>,
 }
 
-/// Matches by name if the names are those of the type, else by position. A name that the type repeats matches by position, too.
+/// Matches by name if the names are those of the type and the type has each only once. Matches by position otherwise.
 fn match_up(reader: &mut Reader<'_, '_>, entries: &[Entry<'_, '_>], subs: &[RawSub<'_>]) -> Matched {
     let mut matched = Matched { of_entry: vec![None; entries.len()], extra: Vec::new() };
     let named = |entry: &Entry<'_, '_>, sub: &RawSub<'_>| sub.name.text == entry.field.name.text;
@@ -484,7 +484,7 @@ fn match_up(reader: &mut Reader<'_, '_>, entries: &[Entry<'_, '_>], subs: &[RawS
         by_name.entry(entry.field.name.text.as_ref()).or_insert(at);
     }
     if by_name.len() < singles.len() && subs.len() == entries.len() {
-        // A repeated name tells nothing about the position.
+        // A repeated name matches several positions.
         return by_position(reader, entries, subs);
     }
     let mut next = 0;

@@ -79,7 +79,7 @@ pub(super) fn sync_manager<'a>(
     Ok(())
 }
 
-/// Settles the purpose of each sync manager: by its text, else by the PDOs that name it, else by its control byte or position.
+/// Settles the purpose of each sync manager: by its text, by the PDOs that name it, or by its control byte or position, in this order.
 pub(super) fn settle(
     reader: &mut Reader<'_, '_>,
     list: Vec<(SyncManager, Given<'_>)>,

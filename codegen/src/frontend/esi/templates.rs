@@ -8,7 +8,7 @@ use std::cell::Cell;
 use std::collections::HashMap;
 
 use super::pdo::{self, Content};
-use super::reader::{note, Given, Read, Reader};
+use super::reader::{note, shortened, Given, Read, Reader};
 use crate::diagnostics::{codes, Diagnostics};
 use crate::ir::{Direction, Pdo};
 use crate::source::{FileId, Origin, Span};
@@ -75,7 +75,7 @@ pub(super) fn complete<'a>(
     content: &mut Content<'a>,
 ) -> Read<bool> {
     let Some(template) = reader.templates.by_name.get(reference.name.text.as_ref()) else {
-        let message = format!("the file has no PDO template `{}`", super::reader::shortened(&reference.name.text));
+        let message = format!("the file has no PDO template `{}`", shortened(&reference.name.text));
         let label = "the PDO has no index and no entries";
         reader.report(&codes::PDO_WITHOUT_INDEX, reference.name.span, message, label);
         note("Pdo@Ref", &reference.name, &mut pdo.extensions);
