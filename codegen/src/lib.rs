@@ -55,6 +55,7 @@ pub mod compare;
 pub mod compile;
 pub mod diagnostics;
 mod etg;
+pub(crate) mod facts;
 pub mod frontend;
 pub mod ir;
 pub mod limits;

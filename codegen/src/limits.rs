@@ -5,6 +5,9 @@
 
 pub use crate::source::{MAX_INPUT_BYTES, MAX_REFERENCES};
 
+/// Diagnostics of one code in one file that are kept; more are counted.
+pub const MAX_SAME_DIAGNOSTICS: usize = 10_000;
+
 /// Items that one row of a register table may stand for.
 pub const MAX_REPEAT: u32 = 0x1_0000;
 

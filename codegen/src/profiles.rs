@@ -8,8 +8,8 @@ use std::sync::OnceLock;
 
 use crate::diagnostics::{Diagnostic, Diagnostics};
 use crate::frontend::table::overlay::{Completion, Profile};
-use crate::ir::{Catalog, Device, Group, Value};
-use crate::source::Source;
+use crate::ir::{Catalog, Device, Format, Group, Value};
+use crate::source::{FileId, Source};
 
 /// The files, in the order in which they are applied: what one of them says, later ones leave alone.
 pub const FILES: [(&str, &str); 4] = [
@@ -44,14 +44,16 @@ pub fn check(name: &str, text: &str) -> Vec<Diagnostic> {
 
 /// Completes all devices and modules of `catalog`.
 pub(crate) fn apply(catalog: &mut Catalog) {
-    let Catalog { devices, modules, submodules, types, .. } = catalog;
+    let Catalog { files, devices, modules, submodules, types, .. } = catalog;
+    // Overlays are in no list of files.
+    let is_table = |FileId(id): FileId| files.get(id as usize).is_none_or(|file| file.format == Format::Table);
     for profile in all() {
         let mut completion = None;
         for device in devices.iter_mut().filter(|device| is_device_of(device, profile)) {
             let completion = completion.get_or_insert_with(|| Completion::new(profile));
             let (canopen, ethercat) = completion.buses();
             if is_on(device, canopen, ethercat) {
-                completion.device(device);
+                completion.device(device, &is_table);
             }
         }
         for module in modules.iter_mut().filter(|module| follows(&module.profiles, &module.groups, profile)) {

@@ -42,6 +42,14 @@ pub fn edit_distance(a: &str, b: &str) -> usize {
     row[row.len() - 1]
 }
 
+/// `CiA 402, 17.3.7`.
+pub(crate) fn standard_and_clause(standard: &str, clause: &str) -> String {
+    match clause {
+        "" => standard.to_owned(),
+        clause => format!("{standard}, {clause}"),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::edit_distance;

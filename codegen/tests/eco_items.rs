@@ -1,117 +1,114 @@
 //! Each of the 85 items of section 4 of the notes on the Eco's manual has doubts in dictionaries/eco.toml that name its lines.
 //! The cases of `manual-eco` in `tests/ui` show what the checks report of passages as they are printed.
 
+#[path = "table_support/doubts.rs"]
+mod doubts;
 mod eco_support;
 
 use std::collections::BTreeSet;
 use std::ops::RangeInclusive;
 
-use eco_support::{device, items, notes, table};
-use lexibus_codegen::ir::Doubt;
+use eco_support::notes;
 
 /// The items of section 4: how the doubts about each begin, and the numbers in its text that are no lines.
 #[rustfmt::skip]
 const ITEMS: &[(&str, &[&str], &[u32])] = &[
     ("A1", &["A page marker is glued"], &[104]),
-    ("A2", &["19 characters are lost"], &[]),
-    ("A3", &["Limits are printed as X7fffffff"], &[]),
-    ("A4", &["Limits are printed as X7fffffff"], &[35]),
-    ("A5", &["Limits are printed as X7fffffff"], &[]),
-    ("A6", &["Limits of a row stand on two or three lines"], &[]),
-    ("A7", &["Limits of a row stand on two or three lines"], &[]),
+    ("A2", &["19 characters are lost:"], &[]),
+    ("A3", &["Limits are printed"], &[]),
+    ("A4", &["Limits are printed"], &[35]),
+    ("A5", &["Limits are printed"], &[]),
+    ("A6", &["The limits of a row"], &[]),
+    ("A7", &["The limits of a row"], &[]),
     // Digits of frames and of ranges.
-    ("A8", &["Text is cut off or mistyped", "1312 for 0x3344", "divelocità", "A closing bracket", "An opening bracket"], &[38, 255, 1312]),
-    ("A9", &["Labels that stand upright"], &[]),
-    ("A10", &["References lead to chapters"], &[]),
-    ("A11", &["Registers for indirect access are in bold"], &[]),
-    ("A12", &["The value stands beside or below"], &[]),
-    ("A13", &["The maker's name is taken out", "A page marker is glued"], &[]),
-    ("A14", &["Two paragraphs are printed twice"], &[]),
-    ("B1", &["The lower address of a register"], &[]),
-    ("B2", &["Each register is two consecutive registers"], &[32]),
-    ("B3", &["Byte count of function 16"], &[]),
-    ("B4", &["The request that reads R00 and R01"], &[80]),
-    ("B5", &["The reply to that request"], &[]),
-    ("B6", &["The address eventually has to be increased"], &[]),
-    ("B7", &["The address eventually has to be increased"], &[]),
-    ("B8", &["Address of parameter d1"], &[]),
-    ("B9", &["The check is labelled high, then low"], &[]),
+    ("A8", &["Text is cut off or", "1312 for 0x3344, 5", "divelocità, in one", "A closing bracket without", "An opening bracket"], &[38, 255, 1312]),
+    ("A9", &["Upright labels next"], &[]),
+    ("A10", &["References lead to"], &[]),
+    ("A11", &["Registers for indirect"], &[]),
+    ("A12", &["The value of c8 is"], &[]),
+    ("A13", &["The vendor's name is", "A page marker is glued"], &[]),
+    ("A14", &["Two paragraphs are"], &[]),
+    ("B1", &["By one paragraph the"], &[]),
+    ("B2", &["By the text each register"], &[32]),
+    ("B3", &["By the text the byte"], &[]),
+    ("B4", &["The request that reads"], &[80]),
+    ("B5", &["The reply to the request"], &[]),
+    ("B6", &["The address eventually"], &[]),
+    ("B7", &["The address eventually"], &[]),
+    ("B8", &["The text names parameter"], &[]),
+    ("B9", &["The check is labeled"], &[]),
     ("B10", &["E3 is 9 for this map"], &[]),
-    ("B11", &["Save is answered at once"], &[]),
-    ("B12", &["0x3802 is in none of the tables"], &[]),
-    ("B13", &["Bit 6 of the control word starts"], &[]),
-    ("B14", &["An edge starts the positioning", "Whether bits 3 and 4 act by level"], &[]),
-    ("B15", &["Nodes 1 to 90 on Modbus"], &[]),
-    ("B16", &["Neither a bit rate of Modbus", "Illegal addresses and values are answered"], &[]),
-    ("C1", &["Not used (L512)"], &[]),
-    ("C2", &["Keypad parameters are spelled"], &[]),
+    ("B11", &["In one place the drive"], &[]),
+    ("B12", &["0x3802 is in none of"], &[]),
+    ("B13", &["Bit 6 of the control"], &[]),
+    ("B14", &["An edge starts the", "Whether bits 3 and"], &[]),
+    ("B15", &["The same parameter c7"], &[]),
+    ("B16", &["The Modbus bit rate", "Illegal addresses and"], &[]),
+    ("C1", &["Not used in the table"], &[]),
+    ("C2", &["Keypad parameters are"], &[]),
     // Addresses of parameters.
-    ("C3", &["F4 and O4 are reserved", "Reserved, with an address (L494)", "Reserved, with an address (L527)", "The addresses 23 to 34"], &[54, 56, 68, 84, 91]),
-    ("C4", &["Thousandths of the rated speed", "Most rows say Numero"], &[38]),
-    ("C5", &["0x80000000 to 0x7FFFFFFF in the register"], &[]),
-    ("C6", &["From 0x80000000 on (L252-255)", "0x80000000 is the smallest value"], &[]),
-    ("C7", &["Kept over power-off"], &[]),
-    ("C8", &["Following_error_windows (L129)", "digital_outputs (L372)", "Aux in 1 (L279)", "Hardware Latched User Position is"], &[]),
-    ("C9", &["Torque max, with Object CANopen"], &[]),
+    ("C3", &["F4 and O4 are reserved", "Reserved, with an address", "The addresses 23 to"], &[54, 56, 68, 84, 91]),
+    ("C4", &["Thousandths of the", "Most rows have Numero"], &[38]),
+    ("C5", &["0x80000000 to 0x7FFFFFFF in the register, and two bytes in 0x3401", "0x80000000 to 0x7FFFFFFF in the register, and two bytes in 0x3701"], &[]),
+    ("C6", &["The minimum is 0x80000000", "0x80000000 is the minimum"], &[]),
+    ("C7", &["R00 is non-volatile", "The register is non-volatile; the object is ro and not in the list of saved objects", "A status is non-volatile", "A measured value is"], &[]),
+    ("C8", &["Following_error_windows", "digital_outputs in", "Aux in 1 in the table", "Hardware Latched User"], &[]),
+    ("C9", &["The register is called"], &[]),
     // The line of input 9 is right.
     ("C10", &["Input 10 is 0x3701", "Input 11 is 0x3701"], &[3394, 3701, 3702, 3703]),
-    ("C11", &["0 to 0xFF (L135)"], &[]),
-    ("C12", &["Register R01 excludes -128"], &[]),
-    ("C13", &["Outputs are aux_out_1 and 2"], &[33]),
-    ("D1", &["Receive PDO 2 Mapping Parameter"], &[]),
-    ("D2", &["The legend has wr"], &[]),
-    ("D3", &["4 bytes (L3480)", "4 bytes (L3550)", "4 bytes, as 0x1003:0", "4 bytes (L3806)"], &[]),
-    ("D4", &["1 byte (L3851, L3853)"], &[255]),
-    ("D5", &["The time is at sub-index 2"], &[]),
-    ("D6", &["object 2003, sub 3 and 4"], &[2003]),
-    ("D7", &["Sub-index 1 of 0x1A00 is written twice"], &[]),
-    ("D8", &["The guarding identifier is 701"], &[701, 1792]),
-    ("D9", &["Two TPDOs with 0x1400"], &[]),
-    ("D10", &["In ms (L2792)"], &[100]),
-    ("D11", &["The size bit is used"], &[]),
-    ("D12", &["Lists of abort codes have"], &[]),
-    ("D13", &["Numbers without prefix are decimal"], &[701, 2000]),
-    ("D14", &["DSP 402 v1.1 and DS 301 v4.01"], &[301, 402]),
-    ("D15", &["Text from a general introduction"], &[512]),
-    ("D16", &["rw (L3860)", "rw (L3862)", "rw (L3863)", "rw (L3845)"], &[]),
-    ("D17", &["Interpolation Time Period.Numofentries", "Digital Outputs.Numofentries", "Position Actual Unit Value"], &[]),
-    ("D18", &["Objects have a length and no type"], &[6060, 6081, 6083, 6084, 6092, 6098, 6099]),
-    ("D19", &["R01 has the mode (L79)"], &[]),
-    ("D20", &["`statusword & 0x0001 == 0`"], &[]),
-    ("D21", &["The bits of 0x60FD are the vendor's"], &[]),
-    ("D22", &["One sub-entry (L3490-3503)"], &[]),
-    ("D23", &["Transmission types 252 and 253"], &[252, 253]),
-    ("E1", &["The dictionary of EtherCAT is that of CANopen"], &[]),
-    ("E2", &["8 for csp (L5649)"], &[]),
-    ("E3", &["EtherCAT maps Modes of Operation"], &[]),
-    ("E4", &["On CANopen the value first"], &[]),
-    ("E5", &["Reading a parameter over CoE"], &[]),
-    ("E6", &["The mailbox header has six bytes"], &[]),
-    ("E7", &["The mailbox header has six bytes"], &[]),
-    ("E8", &["The mailbox header has six bytes", "8 PDOs are active"], &[]),
+    ("C11", &["Limits 0 to 0xFF, and"], &[]),
+    ("C12", &["The limits of R01 exclude"], &[]),
+    ("C13", &["Outputs are aux_out_1"], &[33]),
+    ("D1", &["Receive PDO 2 Mapping"], &[]),
+    ("D2", &["The legend has wr,"], &[]),
+    ("D3", &["4 bytes; sub-index 0 of other objects has 1", "4 bytes, as for 0x1003:0"], &[]),
+    ("D4", &["1 byte, and parameters"], &[255]),
+    ("D5", &["By the text the time"], &[]),
+    ("D6", &["The text has object"], &[2003]),
+    ("D7", &["Sub-index 1 of 0x1A00"], &[]),
+    ("D8", &["The guarding identifier"], &[701, 1792]),
+    ("D9", &["The two TPDOs of versions"], &[]),
+    ("D10", &["In ms in the table"], &[100]),
+    ("D11", &["By the text the size"], &[]),
+    ("D12", &["The list of abort codes"], &[]),
+    ("D13", &["By the legend numbers"], &[701, 2000]),
+    ("D14", &["DSP 402 v1.1 and DS"], &[301, 402]),
+    ("D15", &["The general introduction"], &[512]),
+    ("D16", &["rw for a measured value", "rw for a measured value that", "rw for the type of"], &[]),
+    ("D17", &["Interpolation Time", "Digital Outputs.Numofentries", "Position Actual Unit"], &[]),
+    ("D18", &["Objects have a length"], &[6060, 6081, 6083, 6084, 6092, 6098, 6099]),
+    ("D19", &["R01 has the mode, the"], &[]),
+    ("D20", &["`statusword & 0x0001"], &[]),
+    ("D21", &["The printed bits of"], &[]),
+    ("D22", &["One sub-entry, and"], &[]),
+    ("D23", &["Transmission types"], &[252, 253]),
+    ("E1", &["The EtherCAT dictionary"], &[]),
+    ("E2", &["8 for csp, which no"], &[]),
+    ("E3", &["EtherCAT maps Modes of Operation with", "EtherCAT maps Modes of Operation Display"], &[]),
+    ("E4", &["On CANopen the value"], &[]),
+    ("E5", &["Reading a parameter"], &[]),
+    ("E6", &["The mailbox header"], &[]),
+    ("E7", &["The mailbox header"], &[]),
+    ("E8", &["The mailbox header", "8 PDOs are active,"], &[]),
     // Numbers of alarms.
-    ("E9", &["Two dashes for the code", "11, 12, 20, 21 and 30 to 35", "22 is in this table only"], &[30, 31, 32]),
-    ("E10", &["31 to 34 (L5902-5905)"], &[31]),
-    ("E11", &["Slot is a choice of PDOs"], &[]),
-    ("F1", &["Input and output of PROFINET"], &[]),
-    ("F2", &["0x8640 looks like a statusword"], &[]),
-    ("F3", &["Fields are listed in the order of a figure"], &[]),
-    ("F4", &["The addresses 0 to 99 are parameters"], &[99]),
-    ("F5", &["Following Error and Torque Actual Value"], &[]),
-    ("F6", &["The axis at node 1"], &[]),
-    ("F7", &["PROFINET tells drives by their IP address"], &[]),
-    ("F8", &["33 without a meaning on Modbus"], &[33, 34]),
+    ("E9", &["Two dashes for the", "11, 12, 20, 21 and", "22 is in this table"], &[30, 31, 32]),
+    ("E10", &["31 to 34 have other"], &[31]),
+    ("E11", &["Slot is a choice of"], &[]),
+    ("F1", &["PROFINET input and"], &[]),
+    ("F2", &["The value 0x8640 in"], &[]),
+    ("F3", &["Fields are listed in"], &[]),
+    ("F4", &["Parameters have the"], &[99]),
+    ("F5", &["Following Error and"], &[]),
+    ("F6", &["The PROFINET example"], &[]),
+    ("F7", &["PROFINET identifies"], &[]),
+    ("F8", &["33 without a meaning"], &[33, 34]),
 ];
 
 /// Every item of section 4 has its doubts, and each line, or range of lines, that it names is in one of these.
 #[test]
 fn every_contradiction_has_its_doubts() {
     let Some(notes) = notes() else { return };
-    let compilation = table();
-    let device = device(&compilation);
-    let of_items = items(device).flat_map(|item| &item.doubts);
-    let of_groups = device.groups.iter().flat_map(|group| &group.doubts);
-    let all: Vec<&Doubt> = device.doubts.iter().chain(of_items).chain(of_groups).collect();
+    let all = doubts::doubts(&doubts::catalog("eco.toml"));
     let section = notes.split("\n## 4. ").nth(1).and_then(|rest| rest.split("\n## 5. ").next()).expect("section 4");
     let printed: Vec<&str> = section.split("\n* ").skip(1).collect();
     let listed: Vec<&str> = ITEMS.iter().map(|own| own.0).collect();
@@ -123,12 +120,10 @@ fn every_contradiction_has_its_doubts() {
             let own: Vec<_> = all.iter().filter(|doubt| doubt.says.starts_with(beginning)).collect();
             assert!(!own.is_empty(), "{item}: no doubt begins with `{beginning}`");
             for doubt in own {
-                for text in [doubt.says.as_str(), doubt.why.as_str(), doubt.chosen.as_str()] {
-                    lines.extend(ranges(text, "L").into_iter().flatten());
-                }
+                lines.extend(doubt.cite.as_deref().into_iter().flat_map(doubts::lines).map(|line| line as u32));
             }
         }
-        let mut missing = ranges(text, "");
+        let mut missing = ranges(text);
         missing.retain(|range| !range.clone().any(|line| lines.contains(&line)));
         let superfluous = no_lines.iter().filter(|own| !missing.iter().any(|range| range.start() == *own));
         left.extend(superfluous.map(|own| format!("{item}: {own} is no exception")));
@@ -138,12 +133,12 @@ fn every_contradiction_has_its_doubts() {
     assert_eq!((left, ITEMS.len()), (Vec::<String>::new(), 85));
 }
 
-/// The lines, and ranges of lines, in a text: numbers of up to four digits, behind `before`.
-fn ranges(text: &str, before: &str) -> Vec<RangeInclusive<u32>> {
+/// The lines, and ranges of lines, in a text: numbers of up to four digits.
+fn ranges(text: &str) -> Vec<RangeInclusive<u32>> {
     let mut found = Vec::new();
     let is_part = |c: char| c.is_ascii_alphanumeric() || c == '-' || c == '_' || c == '.';
     for word in text.split(|c: char| !is_part(c)) {
-        let Some(word) = word.trim_end_matches('.').strip_prefix(before) else { continue };
+        let word = word.trim_end_matches('.');
         let mut ends = word.split('-').map(str::parse::<u32>);
         let (Some(Ok(first)), last) = (ends.next(), ends.next().and_then(Result::ok)) else { continue };
         let last = last.unwrap_or(first);

@@ -5,13 +5,14 @@
 
 #[path = "table_support/cases.rs"]
 mod cases;
+#[path = "table_support/doubts.rs"]
+mod doubts;
 #[path = "table_support/items.rs"]
 mod items;
 #[path = "table_support/manual.rs"]
 mod manual_text;
 
 use std::collections::BTreeSet;
-use std::path::Path;
 
 use How::{Doubt, Finding, Import};
 
@@ -189,8 +190,7 @@ fn the_list_has_every_case_of_an_item() {
 
 #[test]
 fn the_doubts_name_the_lines() {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../dictionaries/aec-vector-step.toml");
-    let doubted = items::doubted(&std::fs::read_to_string(path).expect("the table"));
+    let doubted = items::doubted("aec-vector-step.toml");
     let mut missing = Vec::new();
     for (item, how) in ITEMS {
         let Doubt(lines) = how else { continue };

@@ -488,8 +488,8 @@ fn registers_of_32_bits_have_an_address_each() {
         "rt::Register::high_first(32769, 2).words_per_address(2)",
         "rt::Register::holding(32770).words_per_address(2)",
         "rt::Register::high_first(32771, 4).words_per_address(2)",
-        "olding register 32769 of 32 bits, INTEGER32",
-        "olding registers 32771 to 32772 of 32 bits each",
+        "Modbus 1 (holding; wire 32769; FC 3; 32 bits an address; high word first), INTEGER32",
+        "Modbus 3–4 (holding; wire 32771–32772; FC 3; 32 bits an address; high word first)",
         "readable: &[rt::modbus::Span::new(32768, 32772).words_per_address(2)],",
     ] {
         assert!(text.contains(part), "{part}\n{text}");

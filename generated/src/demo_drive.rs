@@ -33,7 +33,7 @@ impl<C> DemoDrive<C> {
     }
     /// Device type: 0x1000:00.
     ///
-    /// The profile that the device follows.
+    /// Device type: the device profile and additional information.
     ///
     /// Constant: [`objects::DEVICE_TYPE`]. Values: [`DeviceType`](types::DeviceType).
     pub fn device_type(&mut self) -> objects::ReadOnlyAccess<'_, C, types::DeviceType> {
@@ -41,7 +41,7 @@ impl<C> DemoDrive<C> {
     }
     /// Error register: 0x1001:00.
     ///
-    /// Kinds of errors that there are.
+    /// Error register: the kinds of errors that are present.
     ///
     /// Constant: [`objects::ERROR_REGISTER`]. Values: [`ErrorRegister`](types::ErrorRegister).
     pub fn error_register(
@@ -60,7 +60,7 @@ impl<C> DemoDrive<C> {
     }
     /// COB-ID SYNC message: 0x1005:00.
     ///
-    /// Identifier of SYNC.
+    /// COB-ID of SYNC.
     ///
     /// Constant: [`objects::COB_ID_SYNC_MESSAGE`]. Values: [`SyncIdentifier`](types::SyncIdentifier).
     pub fn cob_id_sync_message(
@@ -91,7 +91,7 @@ impl<C> DemoDrive<C> {
     }
     /// COB-ID EMCY: 0x1014:00.
     ///
-    /// Identifier of emergencies.
+    /// COB-ID of the emergency messages.
     ///
     /// Constant: [`objects::COB_ID_EMCY`]. Values: [`EmergencyIdentifier`](types::EmergencyIdentifier).
     pub fn cob_id_emcy(
@@ -101,7 +101,7 @@ impl<C> DemoDrive<C> {
     }
     /// Producer heartbeat time: 0x1017:00.
     ///
-    /// Time between two heartbeats; 0 where none is sent.
+    /// Heartbeat period; 0 disables the heartbeat.
     ///
     /// Constant: [`objects::PRODUCER_HEARTBEAT_TIME`].
     pub fn producer_heartbeat_time(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -209,7 +209,7 @@ impl<C> DemoDrive<C> {
     }
     /// Controlword: 0x6040:00.
     ///
-    /// Commands of the state machine, and of the mode of operation.
+    /// Control word: commands of the state machine and of the mode of operation.
     ///
     /// Constant: [`objects::CONTROLWORD`]. Values: [`Controlword`](types::Controlword). Carried by [`RxPdo1`](pdo::RxPdo1), [`RxPdo2`](pdo::RxPdo2).
     pub fn controlword(
@@ -219,7 +219,7 @@ impl<C> DemoDrive<C> {
     }
     /// Statusword: 0x6041:00.
     ///
-    /// The state, and what the mode of operation has to tell.
+    /// Status word: the state of the drive and the status of the mode of operation.
     ///
     /// Constant: [`objects::STATUSWORD`]. Values: [`Statusword`](types::Statusword). Carried by [`TxPdo1`](pdo::TxPdo1), [`TxPdo2`](pdo::TxPdo2).
     pub fn statusword(&mut self) -> objects::ReadOnlyAccess<'_, C, types::Statusword> {
@@ -227,7 +227,7 @@ impl<C> DemoDrive<C> {
     }
     /// Modes of operation: 0x6060:00.
     ///
-    /// The mode wanted. The mode in force is in 0x6061.
+    /// Requested mode of operation; the active mode is in 0x6061.
     ///
     /// Constant: [`objects::MODES_OF_OPERATION`]. Values: [`ModesOfOperation`](types::ModesOfOperation).
     pub fn modes_of_operation(
@@ -237,7 +237,7 @@ impl<C> DemoDrive<C> {
     }
     /// Modes of operation display: 0x6061:00.
     ///
-    /// The mode in force.
+    /// Active mode of operation.
     ///
     /// Constant: [`objects::MODES_OF_OPERATION_DISPLAY`]. Values: [`ModesOfOperation`](types::ModesOfOperation).
     pub fn modes_of_operation_display(
@@ -280,6 +280,8 @@ pub mod types {
     use ::lexibus as rt;
     /// ModesOfOperation.
     ///
+    /// From CiA 402, 10.3.8.
+    ///
     /// Values of [`MODES_OF_OPERATION`](super::objects::MODES_OF_OPERATION), [`MODES_OF_OPERATION_DISPLAY`](super::objects::MODES_OF_OPERATION_DISPLAY).
     ///
     /// | Value | Name | Meaning |
@@ -294,7 +296,7 @@ pub mod types {
     /// | 8 | [`CyclicSynchronousPosition`](Self::CyclicSynchronousPosition) |  |
     /// | 9 | [`CyclicSynchronousVelocity`](Self::CyclicSynchronousVelocity) |  |
     /// | 10 | [`CyclicSynchronousTorque`](Self::CyclicSynchronousTorque) |  |
-    /// | 11 | [`CyclicSynchronousTorqueWithAngle`](Self::CyclicSynchronousTorqueWithAngle) | With the commutation angle from the controller. |
+    /// | 11 | [`CyclicSynchronousTorqueWithAngle`](Self::CyclicSynchronousTorqueWithAngle) | The controller supplies the commutation angle. |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum ModesOfOperation {
         /// 0: no mode.
@@ -317,7 +319,7 @@ pub mod types {
         CyclicSynchronousVelocity,
         /// 10: cyclic synchronous torque.
         CyclicSynchronousTorque,
-        /// 11: cyclic synchronous torque with angle. With the commutation angle from the controller.
+        /// 11: cyclic synchronous torque with angle. The controller supplies the commutation angle.
         CyclicSynchronousTorqueWithAngle,
         /// Any other number.
         Unknown(i8),
@@ -369,26 +371,28 @@ pub mod types {
     }
     /// StoreParameters.
     ///
+    /// From CiA 301, 7.5.2.13.
+    ///
     /// Values of [`store_parameters::SAVE_ALL_PARAMETERS`](super::objects::store_parameters::SAVE_ALL_PARAMETERS).
     ///
     /// | Value | Name | Meaning |
     /// |---|---|---|
-    /// | 0 | [`Never`](Self::Never) | Read: parameters are not kept. |
-    /// | 1 | [`OnCommand`](Self::OnCommand) | Read: parameters are kept on command. |
-    /// | 2 | [`AtOnce`](Self::AtOnce) | Read: the device keeps parameters by itself. |
+    /// | 0 | [`Never`](Self::Never) | Read: parameters cannot be stored. |
+    /// | 1 | [`OnCommand`](Self::OnCommand) | Read: parameters are stored on command. |
+    /// | 2 | [`AtOnce`](Self::AtOnce) | Read: the device stores parameters automatically. |
     /// | 3 | [`OnCommandAndAtOnce`](Self::OnCommandAndAtOnce) | Read: both. |
-    /// | 0x65766173 | [`Save`](Self::Save) | To write: the letters s, a, v, e. |
+    /// | 0x65766173 | [`Save`](Self::Save) | Written: the letters s, a, v, e. |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum StoreParameters {
-        /// 0: never. Read: parameters are not kept.
+        /// 0: never. Read: parameters cannot be stored.
         Never,
-        /// 1: on command. Read: parameters are kept on command.
+        /// 1: on command. Read: parameters are stored on command.
         OnCommand,
-        /// 2: at once. Read: the device keeps parameters by itself.
+        /// 2: at once. Read: the device stores parameters automatically.
         AtOnce,
         /// 3: on command and at once. Read: both.
         OnCommandAndAtOnce,
-        /// 0x65766173: save. To write: the letters s, a, v, e.
+        /// 0x65766173: save. Written: the letters s, a, v, e.
         Save,
         /// Any other number.
         Unknown(u32),
@@ -428,19 +432,21 @@ pub mod types {
     }
     /// ReceiveType.
     ///
-    /// When what was received takes effect.
+    /// When received data take effect.
+    ///
+    /// Description from CiA 301, 7.5.2.35.
     ///
     /// Values of [`rpdo_1_communication::TRANSMISSION_TYPE`](super::objects::rpdo_1_communication::TRANSMISSION_TYPE), [`rpdo_2_communication::TRANSMISSION_TYPE`](super::objects::rpdo_2_communication::TRANSMISSION_TYPE).
     ///
     /// | Value | Name | Meaning |
     /// |---|---|---|
-    /// | 254 | [`EventOfTheManufacturer`](Self::EventOfTheManufacturer) | At once, or as the manufacturer says. |
-    /// | 255 | [`EventOfTheProfile`](Self::EventOfTheProfile) | At once, or as the profile says. |
+    /// | 254 | [`EventOfTheManufacturer`](Self::EventOfTheManufacturer) | At once, or as the manufacturer defines. |
+    /// | 255 | [`EventOfTheProfile`](Self::EventOfTheProfile) | At once, or as the profile defines. |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum ReceiveType {
-        /// 254: event of the manufacturer. At once, or as the manufacturer says.
+        /// 254: event of the manufacturer. At once, or as the manufacturer defines.
         EventOfTheManufacturer,
-        /// 255: event of the profile. At once, or as the profile says.
+        /// 255: event of the profile. At once, or as the profile defines.
         EventOfTheProfile,
         /// Any other number.
         Unknown(u8),
@@ -474,28 +480,30 @@ pub mod types {
     }
     /// TransmitType.
     ///
-    /// When it is sent. From 1 to 240, with every so many SYNC.
+    /// When the PDO is transmitted.
+    ///
+    /// Description from CiA 301, 7.5.2.37.
     ///
     /// Values of [`tpdo_1_communication::TRANSMISSION_TYPE`](super::objects::tpdo_1_communication::TRANSMISSION_TYPE), [`tpdo_2_communication::TRANSMISSION_TYPE`](super::objects::tpdo_2_communication::TRANSMISSION_TYPE).
     ///
     /// | Value | Name | Meaning |
     /// |---|---|---|
-    /// | 0 | [`SynchronousAcyclic`](Self::SynchronousAcyclic) | With the SYNC that follows an event. |
-    /// | 252 | [`RemoteRequestSynchronous`](Self::RemoteRequestSynchronous) | remote request, synchronous. Sampled with SYNC, sent when asked for. |
-    /// | 253 | [`RemoteRequest`](Self::RemoteRequest) | Sampled and sent when asked for. |
-    /// | 254 | [`EventOfTheManufacturer`](Self::EventOfTheManufacturer) | When the manufacturer says. |
-    /// | 255 | [`EventOfTheProfile`](Self::EventOfTheProfile) | When the profile says. |
+    /// | 0 | [`SynchronousAcyclic`](Self::SynchronousAcyclic) | With the SYNC after an event. |
+    /// | 252 | [`RemoteRequestSynchronous`](Self::RemoteRequestSynchronous) | remote request, synchronous. Sampled with SYNC, transmitted on a remote frame. |
+    /// | 253 | [`RemoteRequest`](Self::RemoteRequest) | Sampled and transmitted on a remote frame. |
+    /// | 254 | [`EventOfTheManufacturer`](Self::EventOfTheManufacturer) | On events that the manufacturer defines. |
+    /// | 255 | [`EventOfTheProfile`](Self::EventOfTheProfile) | On events that the profile defines. |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum TransmitType {
-        /// 0: synchronous acyclic. With the SYNC that follows an event.
+        /// 0: synchronous acyclic. With the SYNC after an event.
         SynchronousAcyclic,
-        /// 252: remote request, synchronous. Sampled with SYNC, sent when asked for.
+        /// 252: remote request, synchronous. Sampled with SYNC, transmitted on a remote frame.
         RemoteRequestSynchronous,
-        /// 253: remote request. Sampled and sent when asked for.
+        /// 253: remote request. Sampled and transmitted on a remote frame.
         RemoteRequest,
-        /// 254: event of the manufacturer. When the manufacturer says.
+        /// 254: event of the manufacturer. On events that the manufacturer defines.
         EventOfTheManufacturer,
-        /// 255: event of the profile. When the profile says.
+        /// 255: event of the profile. On events that the profile defines.
         EventOfTheProfile,
         /// Any other number.
         Unknown(u8),
@@ -535,6 +543,8 @@ pub mod types {
     }
     /// Controlword.
     ///
+    /// From CiA 402, 10.3.1.
+    ///
     /// Values of [`CONTROLWORD`](super::objects::CONTROLWORD).
     ///
     /// Bits 0x400 are written as 0.
@@ -543,19 +553,19 @@ pub mod types {
     /// |---|---|---|
     /// | 0 | [`switch_on`](Self::switch_on) |  |
     /// | 1 | [`enable_voltage`](Self::enable_voltage) |  |
-    /// | 2 | [`quick_stop`](Self::quick_stop) | 0 asks for a quick stop. Holds while the bit is 0. |
+    /// | 2 | [`quick_stop`](Self::quick_stop) | 0 requests a quick stop. Holds while the bit is 0. |
     /// | 3 | [`enable_operation`](Self::enable_operation) |  |
-    /// | 4 | [`in_profile_position().new_set_point()`](ControlwordInProfilePosition::new_set_point) | Takes the target position. Acts on the change from 0 to 1. |
+    /// | 4 | [`in_profile_position().new_set_point()`](ControlwordInProfilePosition::new_set_point) | Accepts the target position. Acts on the change from 0 to 1. |
     /// | 4 | [`in_velocity().enable_ramp()`](ControlwordInVelocity::enable_ramp) |  |
-    /// | 4 | [`in_homing().homing_start()`](ControlwordInHoming::homing_start) | Starts homing, and interrupts it when 0. |
+    /// | 4 | [`in_homing().homing_start()`](ControlwordInHoming::homing_start) | 1 starts homing, 0 interrupts it. |
     /// | 4 | [`in_interpolated_position().enable_interpolation()`](ControlwordInInterpolatedPosition::enable_interpolation) |  |
-    /// | 5 | [`in_profile_position().change_set_immediately()`](ControlwordInProfilePosition::change_set_immediately) | The set-point replaces the one under way; otherwise it follows it. |
+    /// | 5 | [`in_profile_position().change_set_immediately()`](ControlwordInProfilePosition::change_set_immediately) | 1: the set-point replaces the active one; 0: it is executed after the active one. |
     /// | 5 | [`in_velocity().unlock_ramp()`](ControlwordInVelocity::unlock_ramp) |  |
-    /// | 6 | [`in_profile_position().relative()`](ControlwordInProfilePosition::relative) | The target position is a distance. |
+    /// | 6 | [`in_profile_position().relative()`](ControlwordInProfilePosition::relative) | 1: the target position is relative. |
     /// | 6 | [`in_velocity().reference_ramp()`](ControlwordInVelocity::reference_ramp) |  |
     /// | 7 | [`fault_reset`](Self::fault_reset) | Acts on the change from 0 to 1. |
-    /// | 8 | [`halt`](Self::halt) | Stops the axis as the halt option code says. |
-    /// | 9 | [`in_profile_position().change_on_set_point()`](ControlwordInProfilePosition::change_on_set_point) | The previous target is passed with its profile velocity. |
+    /// | 8 | [`halt`](Self::halt) | Stops the axis as selected by the halt option code (0x605D). |
+    /// | 9 | [`in_profile_position().change_on_set_point()`](ControlwordInProfilePosition::change_on_set_point) | The axis passes the previous target at its profile velocity. |
     /// | 10 | reserved | Written as 0. |
     /// | 11–15 | [`manufacturer_specific`](Self::manufacturer_specific) |  |
     #[derive(Clone, Copy, PartialEq)]
@@ -591,7 +601,7 @@ pub mod types {
         pub const fn with_enable_voltage(self, value: bool) -> Self {
             Self((self.0 & !0x2) | ((value as u16) << 1))
         }
-        /// Bit 2: quick stop. Holds while the bit is 0. 0 asks for a quick stop.
+        /// Bit 2: quick stop. Holds while the bit is 0. 0 requests a quick stop.
         pub const fn quick_stop(self) -> bool {
             self.0 & 0x4 == 0
         }
@@ -618,7 +628,7 @@ pub mod types {
         pub const fn with_fault_reset(self, value: bool) -> Self {
             Self((self.0 & !0x80) | ((value as u16) << 7))
         }
-        /// Bit 8: halt. Stops the axis as the halt option code says.
+        /// Bit 8: halt. Stops the axis as selected by the halt option code (0x605D).
         pub const fn halt(self) -> bool {
             self.0 & 0x100 != 0
         }
@@ -700,7 +710,7 @@ pub mod types {
         pub const fn controlword(self) -> Controlword {
             Controlword(self.0)
         }
-        /// Bit 4: new set-point. Acts on the change from 0 to 1. Takes the target position.
+        /// Bit 4: new set-point. Acts on the change from 0 to 1. Accepts the target position.
         pub const fn new_set_point(self) -> bool {
             self.0 & 0x10 != 0
         }
@@ -709,7 +719,7 @@ pub mod types {
         pub const fn with_new_set_point(self, value: bool) -> Self {
             Self((self.0 & !0x10) | ((value as u16) << 4))
         }
-        /// Bit 5: change set immediately. The set-point replaces the one under way; otherwise it follows it.
+        /// Bit 5: change set immediately. 1: the set-point replaces the active one; 0: it is executed after the active one.
         pub const fn change_set_immediately(self) -> bool {
             self.0 & 0x20 != 0
         }
@@ -718,7 +728,7 @@ pub mod types {
         pub const fn with_change_set_immediately(self, value: bool) -> Self {
             Self((self.0 & !0x20) | ((value as u16) << 5))
         }
-        /// Bit 6: relative. The target position is a distance.
+        /// Bit 6: relative. 1: the target position is relative.
         pub const fn relative(self) -> bool {
             self.0 & 0x40 != 0
         }
@@ -727,7 +737,7 @@ pub mod types {
         pub const fn with_relative(self, value: bool) -> Self {
             Self((self.0 & !0x40) | ((value as u16) << 6))
         }
-        /// Bit 9: change on set-point. The previous target is passed with its profile velocity.
+        /// Bit 9: change on set-point. The axis passes the previous target at its profile velocity.
         pub const fn change_on_set_point(self) -> bool {
             self.0 & 0x200 != 0
         }
@@ -781,7 +791,7 @@ pub mod types {
         pub const fn controlword(self) -> Controlword {
             Controlword(self.0)
         }
-        /// Bit 4: homing start. Starts homing, and interrupts it when 0.
+        /// Bit 4: homing start. 1 starts homing, 0 interrupts it.
         pub const fn homing_start(self) -> bool {
             self.0 & 0x10 != 0
         }
@@ -811,6 +821,8 @@ pub mod types {
     }
     /// Statusword.
     ///
+    /// From CiA 402, 10.3.2.
+    ///
     /// Values of [`STATUSWORD`](super::objects::STATUSWORD).
     ///
     /// | Bits | Name | Meaning |
@@ -820,13 +832,13 @@ pub mod types {
     /// | 2 | [`operation_enabled`](Self::operation_enabled) |  |
     /// | 3 | [`fault`](Self::fault) |  |
     /// | 4 | [`voltage_enabled`](Self::voltage_enabled) | The power stage is supplied. |
-    /// | 5 | [`quick_stop`](Self::quick_stop) | 0 while a quick stop is asked for. Holds while the bit is 0. |
+    /// | 5 | [`quick_stop`](Self::quick_stop) | 0 while a quick stop is requested. Holds while the bit is 0. |
     /// | 6 | [`switch_on_disabled`](Self::switch_on_disabled) |  |
     /// | 7 | [`warning`](Self::warning) |  |
     /// | 8 | [`manufacturer_specific_8`](Self::manufacturer_specific_8) | manufacturer specific. |
-    /// | 9 | [`remote`](Self::remote) | The drive obeys the control word. |
-    /// | 10 | [`target_reached`](Self::target_reached) | In the cyclic modes the bit means nothing, or toggles with each cycle. |
-    /// | 11 | [`internal_limit_active`](Self::internal_limit_active) | A limit keeps the drive from doing what the set-point asks for. |
+    /// | 9 | [`remote`](Self::remote) | The drive follows the control word. |
+    /// | 10 | [`target_reached`](Self::target_reached) | In the cyclic modes the bit is reserved or toggles in each cycle. |
+    /// | 11 | [`internal_limit_active`](Self::internal_limit_active) | A limit prevents the drive from following the set-point. |
     /// | 12 | [`in_profile_position().set_point_acknowledge()`](StatuswordInProfilePosition::set_point_acknowledge) |  |
     /// | 12 | [`in_profile_velocity().speed_zero()`](StatuswordInProfileVelocity::speed_zero) |  |
     /// | 12 | [`in_homing().homing_attained()`](StatuswordInHoming::homing_attained) |  |
@@ -899,7 +911,7 @@ pub mod types {
         pub const fn with_voltage_enabled(self, value: bool) -> Self {
             Self((self.0 & !0x10) | ((value as u16) << 4))
         }
-        /// Bit 5: quick stop. Holds while the bit is 0. 0 while a quick stop is asked for.
+        /// Bit 5: quick stop. Holds while the bit is 0. 0 while a quick stop is requested.
         pub const fn quick_stop(self) -> bool {
             self.0 & 0x20 == 0
         }
@@ -935,7 +947,7 @@ pub mod types {
         pub const fn with_manufacturer_specific_8(self, value: bool) -> Self {
             Self((self.0 & !0x100) | ((value as u16) << 8))
         }
-        /// Bit 9: remote. The drive obeys the control word.
+        /// Bit 9: remote. The drive follows the control word.
         pub const fn remote(self) -> bool {
             self.0 & 0x200 != 0
         }
@@ -944,7 +956,7 @@ pub mod types {
         pub const fn with_remote(self, value: bool) -> Self {
             Self((self.0 & !0x200) | ((value as u16) << 9))
         }
-        /// Bit 10: target reached. In the cyclic modes the bit means nothing, or toggles with each cycle.
+        /// Bit 10: target reached. In the cyclic modes the bit is reserved or toggles in each cycle.
         pub const fn target_reached(self) -> bool {
             self.0 & 0x400 != 0
         }
@@ -953,7 +965,7 @@ pub mod types {
         pub const fn with_target_reached(self, value: bool) -> Self {
             Self((self.0 & !0x400) | ((value as u16) << 10))
         }
-        /// Bit 11: internal limit active. A limit keeps the drive from doing what the set-point asks for.
+        /// Bit 11: internal limit active. A limit prevents the drive from following the set-point.
         pub const fn internal_limit_active(self) -> bool {
             self.0 & 0x800 != 0
         }
@@ -1213,11 +1225,13 @@ pub mod types {
     }
     /// DeviceType.
     ///
+    /// From CiA 301, 7.5.2.1.
+    ///
     /// Values of [`DEVICE_TYPE`](super::objects::DEVICE_TYPE).
     ///
     /// | Bits | Name | Meaning |
     /// |---|---|---|
-    /// | 0–15 | [`profile`](Self::profile) | 0 where it follows none. |
+    /// | 0–15 | [`profile`](Self::profile) | 0 if it follows none. |
     /// | 16–31 | [`additional_information`](Self::additional_information) |  |
     #[derive(Clone, Copy, PartialEq)]
     pub struct DeviceType(u32);
@@ -1234,7 +1248,7 @@ pub mod types {
         pub const fn raw(self) -> u32 {
             self.0
         }
-        /// Bits 15 to 0: profile. 0 where it follows none.
+        /// Bits 15 to 0: profile. 0 if it follows none.
         pub const fn profile(self) -> u16 {
             (self.0 & 0xFFFF) as u16
         }
@@ -1278,6 +1292,8 @@ pub mod types {
         }
     }
     /// ErrorRegister.
+    ///
+    /// From CiA 301, 7.5.2.2.
     ///
     /// Values of [`ERROR_REGISTER`](super::objects::ERROR_REGISTER).
     ///
@@ -1409,11 +1425,13 @@ pub mod types {
     }
     /// MappingEntry.
     ///
+    /// From CiA 301, 7.5.2.36, 7.5.2.38.
+    ///
     /// Values of [`rpdo_1_mapping::MAPPED_OBJECT_1`](super::objects::rpdo_1_mapping::MAPPED_OBJECT_1), [`rpdo_2_mapping::MAPPED_OBJECT_1`](super::objects::rpdo_2_mapping::MAPPED_OBJECT_1), [`rpdo_2_mapping::MAPPED_OBJECT_2`](super::objects::rpdo_2_mapping::MAPPED_OBJECT_2), [`tpdo_1_mapping::MAPPED_OBJECT_1`](super::objects::tpdo_1_mapping::MAPPED_OBJECT_1), [`tpdo_2_mapping::MAPPED_OBJECT_1`](super::objects::tpdo_2_mapping::MAPPED_OBJECT_1), [`tpdo_2_mapping::MAPPED_OBJECT_2`](super::objects::tpdo_2_mapping::MAPPED_OBJECT_2).
     ///
     /// | Bits | Name | Meaning |
     /// |---|---|---|
-    /// | 0–7 | [`length`](Self::length) | In bits. |
+    /// | 0–7 | [`length`](Self::length) | Length in bits. |
     /// | 8–15 | [`sub_index`](Self::sub_index) |  |
     /// | 16–31 | [`index`](Self::index) |  |
     #[derive(Clone, Copy, PartialEq)]
@@ -1431,7 +1449,7 @@ pub mod types {
         pub const fn raw(self) -> u32 {
             self.0
         }
-        /// Bits 7 to 0: length. In bits.
+        /// Bits 7 to 0: length. Length in bits.
         pub const fn length(self) -> u8 {
             (self.0 & 0xFF) as u8
         }
@@ -1484,6 +1502,8 @@ pub mod types {
         }
     }
     /// ErrorFieldEntry.
+    ///
+    /// From CiA 301, 7.5.2.3.
     ///
     /// Values of [`pre_defined_error_field::PRE_DEFINED_ERROR_FIELD1`](super::objects::pre_defined_error_field::PRE_DEFINED_ERROR_FIELD1), [`pre_defined_error_field::PRE_DEFINED_ERROR_FIELD2`](super::objects::pre_defined_error_field::PRE_DEFINED_ERROR_FIELD2), [`pre_defined_error_field::PRE_DEFINED_ERROR_FIELD3`](super::objects::pre_defined_error_field::PRE_DEFINED_ERROR_FIELD3), [`pre_defined_error_field::PRE_DEFINED_ERROR_FIELD4`](super::objects::pre_defined_error_field::PRE_DEFINED_ERROR_FIELD4).
     ///
@@ -1551,13 +1571,15 @@ pub mod types {
     }
     /// SyncIdentifier.
     ///
+    /// From CiA 301, 7.5.2.5.
+    ///
     /// Values of [`COB_ID_SYNC_MESSAGE`](super::objects::COB_ID_SYNC_MESSAGE).
     ///
     /// | Bits | Name | Meaning |
     /// |---|---|---|
     /// | 0–28 | [`identifier`](Self::identifier) |  |
-    /// | 29 | [`extended`](Self::extended) | The identifier has 29 bits. |
-    /// | 30 | [`generates`](Self::generates) | The device sends SYNC. |
+    /// | 29 | [`extended`](Self::extended) | 1: 29-bit CAN-ID; 0: 11-bit CAN-ID. |
+    /// | 30 | [`generates`](Self::generates) | The device transmits SYNC. |
     #[derive(Clone, Copy, PartialEq)]
     pub struct SyncIdentifier(u32);
     impl SyncIdentifier {
@@ -1582,7 +1604,7 @@ pub mod types {
         pub const fn with_identifier(self, value: u32) -> Self {
             Self((self.0 & !0x1FFFFFFF) | (value & 0x1FFFFFFF))
         }
-        /// Bit 29: extended. The identifier has 29 bits.
+        /// Bit 29: extended. 1: 29-bit CAN-ID; 0: 11-bit CAN-ID.
         pub const fn extended(self) -> bool {
             self.0 & 0x20000000 != 0
         }
@@ -1591,7 +1613,7 @@ pub mod types {
         pub const fn with_extended(self, value: bool) -> Self {
             Self((self.0 & !0x20000000) | ((value as u32) << 29))
         }
-        /// Bit 30: generates. The device sends SYNC.
+        /// Bit 30: generates. The device transmits SYNC.
         pub const fn generates(self) -> bool {
             self.0 & 0x40000000 != 0
         }
@@ -1631,6 +1653,8 @@ pub mod types {
     }
     /// EmergencyIdentifier.
     ///
+    /// From CiA 301, 7.5.2.17.
+    ///
     /// Values of [`COB_ID_EMCY`](super::objects::COB_ID_EMCY).
     ///
     /// Bits 0x40000000 are written as 0.
@@ -1638,9 +1662,9 @@ pub mod types {
     /// | Bits | Name | Meaning |
     /// |---|---|---|
     /// | 0–28 | [`identifier`](Self::identifier) |  |
-    /// | 29 | [`extended`](Self::extended) | The identifier has 29 bits. |
+    /// | 29 | [`extended`](Self::extended) | 1: 29-bit CAN-ID; 0: 11-bit CAN-ID. |
     /// | 30 | reserved | Written as 0. |
-    /// | 31 | [`valid`](Self::valid) | 0 where it is in use. Holds while the bit is 0. |
+    /// | 31 | [`valid`](Self::valid) | 0 if it is in use. Holds while the bit is 0. |
     #[derive(Clone, Copy, PartialEq)]
     pub struct EmergencyIdentifier(u32);
     impl EmergencyIdentifier {
@@ -1665,7 +1689,7 @@ pub mod types {
         pub const fn with_identifier(self, value: u32) -> Self {
             Self((self.0 & !0x1FFFFFFF) | (value & 0x1FFFFFFF))
         }
-        /// Bit 29: extended. The identifier has 29 bits.
+        /// Bit 29: extended. 1: 29-bit CAN-ID; 0: 11-bit CAN-ID.
         pub const fn extended(self) -> bool {
             self.0 & 0x20000000 != 0
         }
@@ -1674,7 +1698,7 @@ pub mod types {
         pub const fn with_extended(self, value: bool) -> Self {
             Self((self.0 & !0x20000000) | ((value as u32) << 29))
         }
-        /// Bit 31: valid. Holds while the bit is 0. 0 where it is in use.
+        /// Bit 31: valid. Holds while the bit is 0. 0 if it is in use.
         pub const fn valid(self) -> bool {
             self.0 & 0x80000000 == 0
         }
@@ -1714,12 +1738,14 @@ pub mod types {
     }
     /// RevisionNumber.
     ///
+    /// From CiA 301, 7.5.2.21.
+    ///
     /// Values of [`identity_object::REVISION_NUMBER`](super::objects::identity_object::REVISION_NUMBER).
     ///
     /// | Bits | Name | Meaning |
     /// |---|---|---|
-    /// | 0–15 | [`minor`](Self::minor) | Versions that differ in it behave alike on the bus. |
-    /// | 16–31 | [`major`](Self::major) | Versions that differ in it behave otherwise on the bus. |
+    /// | 0–15 | [`minor`](Self::minor) | Differs between versions with the same behavior on the bus. |
+    /// | 16–31 | [`major`](Self::major) | Differs between versions with different behavior on the bus. |
     #[derive(Clone, Copy, PartialEq)]
     pub struct RevisionNumber(u32);
     impl RevisionNumber {
@@ -1735,7 +1761,7 @@ pub mod types {
         pub const fn raw(self) -> u32 {
             self.0
         }
-        /// Bits 15 to 0: minor. Versions that differ in it behave alike on the bus.
+        /// Bits 15 to 0: minor. Differs between versions with the same behavior on the bus.
         pub const fn minor(self) -> u16 {
             (self.0 & 0xFFFF) as u16
         }
@@ -1744,7 +1770,7 @@ pub mod types {
         pub const fn with_minor(self, value: u16) -> Self {
             Self((self.0 & !0xFFFF) | (value as u32))
         }
-        /// Bits 31 to 16: major. Versions that differ in it behave otherwise on the bus.
+        /// Bits 31 to 16: major. Differs between versions with different behavior on the bus.
         pub const fn major(self) -> u16 {
             ((self.0 >> 16) & 0xFFFF) as u16
         }
@@ -1780,13 +1806,15 @@ pub mod types {
     }
     /// ReceivePdoIdentifier.
     ///
+    /// From CiA 301, 7.5.2.35.
+    ///
     /// Values of [`rpdo_1_communication::COB_ID`](super::objects::rpdo_1_communication::COB_ID), [`rpdo_2_communication::COB_ID`](super::objects::rpdo_2_communication::COB_ID).
     ///
     /// | Bits | Name | Meaning |
     /// |---|---|---|
     /// | 0–28 | [`identifier`](Self::identifier) |  |
-    /// | 29 | [`extended`](Self::extended) | The identifier has 29 bits. |
-    /// | 31 | [`valid`](Self::valid) | 0 where the PDO is in use. Holds while the bit is 0. |
+    /// | 29 | [`extended`](Self::extended) | 1: 29-bit CAN-ID; 0: 11-bit CAN-ID. |
+    /// | 31 | [`valid`](Self::valid) | 0 if the PDO is in use. Holds while the bit is 0. |
     #[derive(Clone, Copy, PartialEq)]
     pub struct ReceivePdoIdentifier(u32);
     impl ReceivePdoIdentifier {
@@ -1811,7 +1839,7 @@ pub mod types {
         pub const fn with_identifier(self, value: u32) -> Self {
             Self((self.0 & !0x1FFFFFFF) | (value & 0x1FFFFFFF))
         }
-        /// Bit 29: extended. The identifier has 29 bits.
+        /// Bit 29: extended. 1: 29-bit CAN-ID; 0: 11-bit CAN-ID.
         pub const fn extended(self) -> bool {
             self.0 & 0x20000000 != 0
         }
@@ -1820,7 +1848,7 @@ pub mod types {
         pub const fn with_extended(self, value: bool) -> Self {
             Self((self.0 & !0x20000000) | ((value as u32) << 29))
         }
-        /// Bit 31: valid. Holds while the bit is 0. 0 where the PDO is in use.
+        /// Bit 31: valid. Holds while the bit is 0. 0 if the PDO is in use.
         pub const fn valid(self) -> bool {
             self.0 & 0x80000000 == 0
         }
@@ -1857,14 +1885,16 @@ pub mod types {
     }
     /// TransmitPdoIdentifier.
     ///
+    /// From CiA 301, 7.5.2.37.
+    ///
     /// Values of [`tpdo_1_communication::COB_ID`](super::objects::tpdo_1_communication::COB_ID), [`tpdo_2_communication::COB_ID`](super::objects::tpdo_2_communication::COB_ID).
     ///
     /// | Bits | Name | Meaning |
     /// |---|---|---|
     /// | 0–28 | [`identifier`](Self::identifier) |  |
-    /// | 29 | [`extended`](Self::extended) | The identifier has 29 bits. |
-    /// | 30 | [`remote_request`](Self::remote_request) | 0 where the PDO may be asked for by a remote frame. Holds while the bit is 0. |
-    /// | 31 | [`valid`](Self::valid) | 0 where the PDO is in use. Holds while the bit is 0. |
+    /// | 29 | [`extended`](Self::extended) | 1: 29-bit CAN-ID; 0: 11-bit CAN-ID. |
+    /// | 30 | [`remote_request`](Self::remote_request) | 0 if remote frames may request the PDO. Holds while the bit is 0. |
+    /// | 31 | [`valid`](Self::valid) | 0 if the PDO is in use. Holds while the bit is 0. |
     #[derive(Clone, Copy, PartialEq)]
     pub struct TransmitPdoIdentifier(u32);
     impl TransmitPdoIdentifier {
@@ -1889,7 +1919,7 @@ pub mod types {
         pub const fn with_identifier(self, value: u32) -> Self {
             Self((self.0 & !0x1FFFFFFF) | (value & 0x1FFFFFFF))
         }
-        /// Bit 29: extended. The identifier has 29 bits.
+        /// Bit 29: extended. 1: 29-bit CAN-ID; 0: 11-bit CAN-ID.
         pub const fn extended(self) -> bool {
             self.0 & 0x20000000 != 0
         }
@@ -1898,7 +1928,7 @@ pub mod types {
         pub const fn with_extended(self, value: bool) -> Self {
             Self((self.0 & !0x20000000) | ((value as u32) << 29))
         }
-        /// Bit 30: remote request. Holds while the bit is 0. 0 where the PDO may be asked for by a remote frame.
+        /// Bit 30: remote request. Holds while the bit is 0. 0 if remote frames may request the PDO.
         pub const fn remote_request(self) -> bool {
             self.0 & 0x40000000 == 0
         }
@@ -1907,7 +1937,7 @@ pub mod types {
         pub const fn with_remote_request(self, value: bool) -> Self {
             Self((self.0 & !0x40000000) | ((!value as u32) << 30))
         }
-        /// Bit 31: valid. Holds while the bit is 0. 0 where the PDO is in use.
+        /// Bit 31: valid. Holds while the bit is 0. 0 if the PDO is in use.
         pub const fn valid(self) -> bool {
             self.0 & 0x80000000 == 0
         }
@@ -1945,33 +1975,35 @@ pub mod types {
     }
     /// States of drive, as [Statusword](super::objects::STATUSWORD) tells them.
     ///
-    /// | State | Mask | Value |
-    /// |---|---|---|
-    /// | [`NotReadyToSwitchOn`](Self::NotReadyToSwitchOn) | 0x4F | 0 |
-    /// | [`SwitchOnDisabled`](Self::SwitchOnDisabled) | 0x4F | 0x40 |
-    /// | [`ReadyToSwitchOn`](Self::ReadyToSwitchOn) | 0x6F | 0x21 |
-    /// | [`SwitchedOn`](Self::SwitchedOn) | 0x6F | 0x23 |
-    /// | [`OperationEnabled`](Self::OperationEnabled) | 0x6F | 0x27 |
-    /// | [`QuickStopActive`](Self::QuickStopActive) | 0x6F | 0x7 |
-    /// | [`FaultReactionActive`](Self::FaultReactionActive) | 0x4F | 0xF |
-    /// | [`Fault`](Self::Fault) | 0x4F | 0x8 |
+    /// From CiA 402, 10.1.1.
+    ///
+    /// | State | Bits |
+    /// |---|---|
+    /// | [`NotReadyToSwitchOn`](Self::NotReadyToSwitchOn) | `xxxx xxxx x0xx 0000` |
+    /// | [`SwitchOnDisabled`](Self::SwitchOnDisabled) | `xxxx xxxx x1xx 0000` |
+    /// | [`ReadyToSwitchOn`](Self::ReadyToSwitchOn) | `xxxx xxxx x01x 0001` |
+    /// | [`SwitchedOn`](Self::SwitchedOn) | `xxxx xxxx x01x 0011` |
+    /// | [`OperationEnabled`](Self::OperationEnabled) | `xxxx xxxx x01x 0111` |
+    /// | [`QuickStopActive`](Self::QuickStopActive) | `xxxx xxxx x00x 0111` |
+    /// | [`FaultReactionActive`](Self::FaultReactionActive) | `xxxx xxxx x0xx 1111` |
+    /// | [`Fault`](Self::Fault) | `xxxx xxxx x0xx 1000` |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum State {
-        /// not ready to switch on: 0 of the bits 0x4F.
+        /// not ready to switch on: `xxxx xxxx x0xx 0000`.
         NotReadyToSwitchOn,
-        /// switch on disabled: 0x40 of the bits 0x4F.
+        /// switch on disabled: `xxxx xxxx x1xx 0000`.
         SwitchOnDisabled,
-        /// ready to switch on: 0x21 of the bits 0x6F.
+        /// ready to switch on: `xxxx xxxx x01x 0001`.
         ReadyToSwitchOn,
-        /// switched on: 0x23 of the bits 0x6F.
+        /// switched on: `xxxx xxxx x01x 0011`.
         SwitchedOn,
-        /// operation enabled: 0x27 of the bits 0x6F.
+        /// operation enabled: `xxxx xxxx x01x 0111`.
         OperationEnabled,
-        /// quick stop active: 0x7 of the bits 0x6F.
+        /// quick stop active: `xxxx xxxx x00x 0111`.
         QuickStopActive,
-        /// fault reaction active: 0xF of the bits 0x4F.
+        /// fault reaction active: `xxxx xxxx x0xx 1111`.
         FaultReactionActive,
-        /// fault: 0x8 of the bits 0x4F.
+        /// fault: `xxxx xxxx x0xx 1000`.
         Fault,
     }
     impl State {
@@ -2095,15 +2127,17 @@ pub mod types {
     }
     /// Commands of drive, as [Controlword](super::objects::CONTROLWORD) takes them.
     ///
-    /// | Command | Mask | Value |
-    /// |---|---|---|
-    /// | [`Shutdown`](Self::Shutdown) | 0x87 | 0x6 |
-    /// | [`SwitchOn`](Self::SwitchOn) | 0x8F | 0x7 |
-    /// | [`EnableOperation`](Self::EnableOperation) | 0x8F | 0xF |
-    /// | [`DisableVoltage`](Self::DisableVoltage) | 0x82 | 0 |
-    /// | [`QuickStop`](Self::QuickStop) | 0x86 | 0x2 |
-    /// | [`DisableOperation`](Self::DisableOperation) | 0x8F | 0x7 |
-    /// | [`FaultReset`](Self::FaultReset) | 0x80 | 0x80 |
+    /// From CiA 402, 10.1.1.
+    ///
+    /// | Command | Bits |
+    /// |---|---|
+    /// | [`Shutdown`](Self::Shutdown) | `xxxx xxxx 0xxx x110` |
+    /// | [`SwitchOn`](Self::SwitchOn) | `xxxx xxxx 0xxx 0111` |
+    /// | [`EnableOperation`](Self::EnableOperation) | `xxxx xxxx 0xxx 1111` |
+    /// | [`DisableVoltage`](Self::DisableVoltage) | `xxxx xxxx 0xxx xx0x` |
+    /// | [`QuickStop`](Self::QuickStop) | `xxxx xxxx 0xxx x01x` |
+    /// | [`DisableOperation`](Self::DisableOperation) | `xxxx xxxx 0xxx 0111` |
+    /// | [`FaultReset`](Self::FaultReset) | `xxxx xxxx 1xxx xxxx` |
     ///
     /// Transitions:
     ///
@@ -2127,19 +2161,19 @@ pub mod types {
     /// | 13 | any state | [`FaultReactionActive`](State::FaultReactionActive) | itself | After a fault. |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum Command {
-        /// shutdown: 0x6 of the bits 0x87.
+        /// shutdown: `xxxx xxxx 0xxx x110`.
         Shutdown,
-        /// switch on: 0x7 of the bits 0x8F.
+        /// switch on: `xxxx xxxx 0xxx 0111`.
         SwitchOn,
-        /// enable operation: 0xF of the bits 0x8F.
+        /// enable operation: `xxxx xxxx 0xxx 1111`.
         EnableOperation,
-        /// disable voltage: 0 of the bits 0x82.
+        /// disable voltage: `xxxx xxxx 0xxx xx0x`.
         DisableVoltage,
-        /// quick stop: 0x2 of the bits 0x86.
+        /// quick stop: `xxxx xxxx 0xxx x01x`.
         QuickStop,
-        /// disable operation: 0x7 of the bits 0x8F.
+        /// disable operation: `xxxx xxxx 0xxx 0111`.
         DisableOperation,
-        /// fault reset: 0x80 of the bits 0x80.
+        /// fault reset: `xxxx xxxx 1xxx xxxx`.
         FaultReset,
     }
     impl Command {
@@ -2180,6 +2214,8 @@ pub mod types {
 pub mod codes {
     use ::lexibus as rt;
     /// drive errors.
+    ///
+    /// From CiA 402, 6.2.
     ///
     /// As a type: [`DriveErrors`].
     pub static DRIVE_ERRORS: &[rt::codes::Code] = &[
@@ -2409,9 +2445,11 @@ pub mod codes {
     }
     /// emergency.
     ///
+    /// From CiA 301, 7.2.7.1.
+    ///
     /// As a type: [`Emergency`].
     pub static EMERGENCY: &[rt::codes::Code] = &[
-        rt::codes::Code::new(0, 0, "no error", "Or an error is gone.", &[]),
+        rt::codes::Code::new(0, 0, "no error", "Or an error was reset", &[]),
         rt::codes::Code::new(0x1000, 0x10FF, "generic error", "", &[]),
         rt::codes::Code::new(0x2000, 0x20FF, "current", "", &[]),
         rt::codes::Code::new(0x2100, 0x21FF, "current on the input side", "", &[]),
@@ -2432,7 +2470,7 @@ pub mod codes {
         rt::codes::Code::new(0x7000, 0x70FF, "additional modules", "", &[]),
         rt::codes::Code::new(0x8000, 0x80FF, "monitoring", "", &[]),
         rt::codes::Code::new(0x8100, 0x8100, "communication", "", &[]),
-        rt::codes::Code::new(0x8110, 0x8110, "CAN overrun", "Objects were lost.", &[]),
+        rt::codes::Code::new(0x8110, 0x8110, "CAN overrun", "Messages were lost", &[]),
         rt::codes::Code::new(0x8120, 0x8120, "CAN error passive", "", &[]),
         rt::codes::Code::new(0x8130, 0x8130, "life guarding or heartbeat", "", &[]),
         rt::codes::Code::new(0x8140, 0x8140, "recovered from bus off", "", &[]),
@@ -2442,14 +2480,14 @@ pub mod codes {
             0x8210,
             0x8210,
             "PDO too short",
-            "It wasn't processed.",
+            "The PDO was not processed",
             &[],
         ),
         rt::codes::Code::new(
             0x8220,
             0x8220,
             "PDO too long",
-            "More was received than is mapped.",
+            "The PDO is longer than its mapping",
             &[],
         ),
         rt::codes::Code::new(
@@ -2469,7 +2507,7 @@ pub mod codes {
     ///
     /// | Code | Name | Meaning |
     /// |---|---|---|
-    /// | 0 | [`NoError`](Self::NoError) | Or an error is gone. |
+    /// | 0x0000 | [`NoError`](Self::NoError) | Or an error was reset. |
     /// | 0x1000 to 0x10FF | [`GenericError`](Self::GenericError) |  |
     /// | 0x2000 to 0x20FF | [`Current`](Self::Current) |  |
     /// | 0x2100 to 0x21FF | [`CurrentOnTheInputSide`](Self::CurrentOnTheInputSide) |  |
@@ -2490,14 +2528,14 @@ pub mod codes {
     /// | 0x7000 to 0x70FF | [`AdditionalModules`](Self::AdditionalModules) |  |
     /// | 0x8000 to 0x80FF | [`Monitoring`](Self::Monitoring) |  |
     /// | 0x8100 | [`Communication`](Self::Communication) |  |
-    /// | 0x8110 | [`CanOverrun`](Self::CanOverrun) | Objects were lost. |
+    /// | 0x8110 | [`CanOverrun`](Self::CanOverrun) | Messages were lost. |
     /// | 0x8120 | [`CanErrorPassive`](Self::CanErrorPassive) |  |
     /// | 0x8130 | [`LifeGuardingOrHeartbeat`](Self::LifeGuardingOrHeartbeat) |  |
     /// | 0x8140 | [`RecoveredFromBusOff`](Self::RecoveredFromBusOff) |  |
     /// | 0x8150 | [`TwoNodesWithOneIdentifier`](Self::TwoNodesWithOneIdentifier) |  |
     /// | 0x8200 | [`Protocol`](Self::Protocol) |  |
-    /// | 0x8210 | [`PdoTooShort`](Self::PdoTooShort) | It wasn't processed. |
-    /// | 0x8220 | [`PdoTooLong`](Self::PdoTooLong) | More was received than is mapped. |
+    /// | 0x8210 | [`PdoTooShort`](Self::PdoTooShort) | The PDO was not processed. |
+    /// | 0x8220 | [`PdoTooLong`](Self::PdoTooLong) | The PDO is longer than its mapping. |
     /// | 0x8230 | [`DestinationOfAMultiplexedPdoDoesnTExist`](Self::DestinationOfAMultiplexedPdoDoesnTExist) | destination of a multiplexed PDO doesn't exist. |
     /// | 0x8240 | [`SyncOfAnotherLength`](Self::SyncOfAnotherLength) |  |
     /// | 0x8250 | [`RpdoTimeout`](Self::RpdoTimeout) |  |
@@ -2506,7 +2544,7 @@ pub mod codes {
     /// | 0xFF00 to 0xFFFF | [`DeviceSpecific`](Self::DeviceSpecific) |  |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum Emergency {
-        /// 0: no error. Or an error is gone.
+        /// 0x0000: no error. Or an error was reset.
         NoError,
         /// 0x1000 to 0x10FF: generic error.
         GenericError(u16),
@@ -2548,7 +2586,7 @@ pub mod codes {
         Monitoring(u16),
         /// 0x8100: communication.
         Communication,
-        /// 0x8110: CAN overrun. Objects were lost.
+        /// 0x8110: CAN overrun. Messages were lost.
         CanOverrun,
         /// 0x8120: CAN error passive.
         CanErrorPassive,
@@ -2560,9 +2598,9 @@ pub mod codes {
         TwoNodesWithOneIdentifier,
         /// 0x8200: protocol.
         Protocol,
-        /// 0x8210: PDO too short. It wasn't processed.
+        /// 0x8210: PDO too short. The PDO was not processed.
         PdoTooShort,
-        /// 0x8220: PDO too long. More was received than is mapped.
+        /// 0x8220: PDO too long. The PDO is longer than its mapping.
         PdoTooLong,
         /// 0x8230: destination of a multiplexed PDO doesn't exist.
         DestinationOfAMultiplexedPdoDoesnTExist,
@@ -2725,7 +2763,11 @@ pub mod objects {
     /// 0x1000:00, UNSIGNED32, ro, default 0x20192.
     /// Accessor: [`device_type`](super::DemoDrive::device_type). Values: [`DeviceType`](super::types::DeviceType).
     ///
-    /// The profile that the device follows.
+    /// Device type: the device profile and additional information.
+    ///
+    /// Bits from CiA 301, 7.5.2.1.
+    ///
+    /// Description from CiA 301, 7.5.2.1.
     pub const DEVICE_TYPE: ReadOnly<super::types::DeviceType> = ReadOnlyNamedDeviceType::object_with_default(
         0x1000,
         0x00,
@@ -2737,7 +2779,11 @@ pub mod objects {
     /// 0x1001:00, UNSIGNED8, ro, mappable into TPDOs, default 0.
     /// Accessor: [`error_register`](super::DemoDrive::error_register). Values: [`ErrorRegister`](super::types::ErrorRegister).
     ///
-    /// Kinds of errors that there are.
+    /// Error register: the kinds of errors that are present.
+    ///
+    /// Bits from CiA 301, 7.5.2.2.
+    ///
+    /// Description from CiA 301, 7.5.2.2.
     pub const ERROR_REGISTER: ReadOnly<super::types::ErrorRegister> = ReadOnlyNamedErrorRegister::flagged_object_with_default(
         0x1001,
         0x00,
@@ -2764,7 +2810,11 @@ pub mod objects {
         /// 0x1003:01, UNSIGNED32, ro.
         /// Accessor: [`Accessors::pre_defined_error_field1`]. Values: [`ErrorFieldEntry`](super::super::types::ErrorFieldEntry).
         ///
-        /// An error; the newest is in sub-index 1.
+        /// Recorded error; the newest is in sub-index 1.
+        ///
+        /// Bits from CiA 301, 7.5.2.3.
+        ///
+        /// Description from CiA 301, 7.5.2.3.
         pub const PRE_DEFINED_ERROR_FIELD1: super::ReadOnly<
             super::super::types::ErrorFieldEntry,
         > = super::ReadOnlyNamedErrorFieldEntry::object(
@@ -2777,7 +2827,11 @@ pub mod objects {
         /// 0x1003:02, UNSIGNED32, ro.
         /// Accessor: [`Accessors::pre_defined_error_field2`]. Values: [`ErrorFieldEntry`](super::super::types::ErrorFieldEntry).
         ///
-        /// An error; the newest is in sub-index 1.
+        /// Recorded error; the newest is in sub-index 1.
+        ///
+        /// Bits from CiA 301, 7.5.2.3.
+        ///
+        /// Description from CiA 301, 7.5.2.3.
         pub const PRE_DEFINED_ERROR_FIELD2: super::ReadOnly<
             super::super::types::ErrorFieldEntry,
         > = super::ReadOnlyNamedErrorFieldEntry::object(
@@ -2790,7 +2844,11 @@ pub mod objects {
         /// 0x1003:03, UNSIGNED32, ro.
         /// Accessor: [`Accessors::pre_defined_error_field3`]. Values: [`ErrorFieldEntry`](super::super::types::ErrorFieldEntry).
         ///
-        /// An error; the newest is in sub-index 1.
+        /// Recorded error; the newest is in sub-index 1.
+        ///
+        /// Bits from CiA 301, 7.5.2.3.
+        ///
+        /// Description from CiA 301, 7.5.2.3.
         pub const PRE_DEFINED_ERROR_FIELD3: super::ReadOnly<
             super::super::types::ErrorFieldEntry,
         > = super::ReadOnlyNamedErrorFieldEntry::object(
@@ -2803,7 +2861,11 @@ pub mod objects {
         /// 0x1003:04, UNSIGNED32, ro.
         /// Accessor: [`Accessors::pre_defined_error_field4`]. Values: [`ErrorFieldEntry`](super::super::types::ErrorFieldEntry).
         ///
-        /// An error; the newest is in sub-index 1.
+        /// Recorded error; the newest is in sub-index 1.
+        ///
+        /// Bits from CiA 301, 7.5.2.3.
+        ///
+        /// Description from CiA 301, 7.5.2.3.
         pub const PRE_DEFINED_ERROR_FIELD4: super::ReadOnly<
             super::super::types::ErrorFieldEntry,
         > = super::ReadOnlyNamedErrorFieldEntry::object(
@@ -2823,7 +2885,7 @@ pub mod objects {
             }
             /// Pre-defined error field1: 0x1003:01.
             ///
-            /// An error; the newest is in sub-index 1.
+            /// Recorded error; the newest is in sub-index 1.
             ///
             /// Constant: [`PRE_DEFINED_ERROR_FIELD1`]. Values: [`ErrorFieldEntry`](super::super::types::ErrorFieldEntry).
             pub fn pre_defined_error_field1(
@@ -2833,7 +2895,7 @@ pub mod objects {
             }
             /// Pre-defined error field2: 0x1003:02.
             ///
-            /// An error; the newest is in sub-index 1.
+            /// Recorded error; the newest is in sub-index 1.
             ///
             /// Constant: [`PRE_DEFINED_ERROR_FIELD2`]. Values: [`ErrorFieldEntry`](super::super::types::ErrorFieldEntry).
             pub fn pre_defined_error_field2(
@@ -2843,7 +2905,7 @@ pub mod objects {
             }
             /// Pre-defined error field3: 0x1003:03.
             ///
-            /// An error; the newest is in sub-index 1.
+            /// Recorded error; the newest is in sub-index 1.
             ///
             /// Constant: [`PRE_DEFINED_ERROR_FIELD3`]. Values: [`ErrorFieldEntry`](super::super::types::ErrorFieldEntry).
             pub fn pre_defined_error_field3(
@@ -2853,7 +2915,7 @@ pub mod objects {
             }
             /// Pre-defined error field4: 0x1003:04.
             ///
-            /// An error; the newest is in sub-index 1.
+            /// Recorded error; the newest is in sub-index 1.
             ///
             /// Constant: [`PRE_DEFINED_ERROR_FIELD4`]. Values: [`ErrorFieldEntry`](super::super::types::ErrorFieldEntry).
             pub fn pre_defined_error_field4(
@@ -2865,10 +2927,14 @@ pub mod objects {
     }
     /// COB-ID SYNC message.
     ///
-    /// 0x1005:00, UNSIGNED32, rw, default 128.
+    /// 0x1005:00, UNSIGNED32, rw, default 0x80.
     /// Accessor: [`cob_id_sync_message`](super::DemoDrive::cob_id_sync_message). Values: [`SyncIdentifier`](super::types::SyncIdentifier).
     ///
-    /// Identifier of SYNC.
+    /// COB-ID of SYNC.
+    ///
+    /// Bits from CiA 301, 7.5.2.5.
+    ///
+    /// Description from CiA 301, 7.5.2.5.
     pub const COB_ID_SYNC_MESSAGE: ReadWrite<super::types::SyncIdentifier> = ReadWriteNamedSyncIdentifier::object_with_default(
         0x1005,
         0x00,
@@ -2914,7 +2980,11 @@ pub mod objects {
         /// 0x1010:01, UNSIGNED32, rw, default 1.
         /// Accessor: [`Accessors::save_all_parameters`]. Values: [`StoreParameters`](super::super::types::StoreParameters).
         ///
-        /// Writing \`save\` keeps the parameters over power-off; read, it tells how they are kept.
+        /// Writing \`save\` stores the parameters in non-volatile memory; reading returns the storage capability.
+        ///
+        /// Values from CiA 301, 7.5.2.13.
+        ///
+        /// Description from CiA 301, 7.5.2.13.
         pub const SAVE_ALL_PARAMETERS: super::ReadWrite<
             super::super::types::StoreParameters,
         > = super::ReadWriteNamedStoreParameters::object_with_default(
@@ -2937,7 +3007,7 @@ pub mod objects {
             }
             /// Save all parameters: 0x1010:01.
             ///
-            /// Writing \`save\` keeps the parameters over power-off; read, it tells how they are kept.
+            /// Writing \`save\` stores the parameters in non-volatile memory; reading returns the storage capability.
             ///
             /// Constant: [`SAVE_ALL_PARAMETERS`]. Values: [`StoreParameters`](super::super::types::StoreParameters).
             pub fn save_all_parameters(
@@ -2952,7 +3022,11 @@ pub mod objects {
     /// 0x1014:00, UNSIGNED32, rw, default \$NODEID+0x80.
     /// Accessor: [`cob_id_emcy`](super::DemoDrive::cob_id_emcy). Values: [`EmergencyIdentifier`](super::types::EmergencyIdentifier).
     ///
-    /// Identifier of emergencies.
+    /// COB-ID of the emergency messages.
+    ///
+    /// Bits from CiA 301, 7.5.2.17.
+    ///
+    /// Description from CiA 301, 7.5.2.17.
     pub const COB_ID_EMCY: ReadWrite<super::types::EmergencyIdentifier> = ReadWriteNamedEmergencyIdentifier::new(
         rt::OnCanOpen::canopen(0x1014, 0x00),
         "COB-ID EMCY",
@@ -2966,7 +3040,11 @@ pub mod objects {
     /// 0x1017:00, UNSIGNED16, rw, default 0, in ms.
     /// Accessor: [`producer_heartbeat_time`](super::DemoDrive::producer_heartbeat_time).
     ///
-    /// Time between two heartbeats; 0 where none is sent.
+    /// Heartbeat period; 0 disables the heartbeat.
+    ///
+    /// Unit from CiA 301, 7.5.2.20.
+    ///
+    /// Description from CiA 301, 7.5.2.20.
     pub const PRODUCER_HEARTBEAT_TIME: ReadWrite<u16> = ReadWriteU16::new(
         rt::OnCanOpen::canopen(0x1017, 0x00),
         "Producer heartbeat time",
@@ -2994,7 +3072,9 @@ pub mod objects {
         /// 0x1018:01, UNSIGNED32, ro, default 0.
         /// Accessor: [`Accessors::vendor_id`].
         ///
-        /// Number of the vendor.
+        /// Vendor ID.
+        ///
+        /// Description from CiA 301, 7.5.2.21.
         pub const VENDOR_ID: super::ReadOnly<u32> = super::ReadOnlyU32::object_with_default(
             0x1018,
             0x01,
@@ -3006,7 +3086,9 @@ pub mod objects {
         /// 0x1018:02, UNSIGNED32, ro, default 16417.
         /// Accessor: [`Accessors::product_code`].
         ///
-        /// Number of the product, given by the vendor.
+        /// Product code, assigned by the vendor.
+        ///
+        /// Description from CiA 301, 7.5.2.21.
         pub const PRODUCT_CODE: super::ReadOnly<u32> = super::ReadOnlyU32::object_with_default(
             0x1018,
             0x02,
@@ -3018,7 +3100,11 @@ pub mod objects {
         /// 0x1018:03, UNSIGNED32, ro, default 0x10000.
         /// Accessor: [`Accessors::revision_number`]. Values: [`RevisionNumber`](super::super::types::RevisionNumber).
         ///
-        /// Revision of the product.
+        /// Revision number of the product.
+        ///
+        /// Bits from CiA 301, 7.5.2.21.
+        ///
+        /// Description from CiA 301, 7.5.2.21.
         pub const REVISION_NUMBER: super::ReadOnly<
             super::super::types::RevisionNumber,
         > = super::ReadOnlyNamedRevisionNumber::object_with_default(
@@ -3033,6 +3119,8 @@ pub mod objects {
         /// Accessor: [`Accessors::serial_number`].
         ///
         /// Serial number.
+        ///
+        /// Description from CiA 301, 7.5.2.21.
         pub const SERIAL_NUMBER: super::ReadOnly<u32> = super::ReadOnlyU32::object(
             0x1018,
             0x04,
@@ -3052,7 +3140,7 @@ pub mod objects {
             }
             /// Vendor-ID: 0x1018:01.
             ///
-            /// Number of the vendor.
+            /// Vendor ID.
             ///
             /// Constant: [`VENDOR_ID`].
             pub fn vendor_id(&mut self) -> super::ReadOnlyAccess<'_, C, u32> {
@@ -3060,7 +3148,7 @@ pub mod objects {
             }
             /// Product code: 0x1018:02.
             ///
-            /// Number of the product, given by the vendor.
+            /// Product code, assigned by the vendor.
             ///
             /// Constant: [`PRODUCT_CODE`].
             pub fn product_code(&mut self) -> super::ReadOnlyAccess<'_, C, u32> {
@@ -3068,7 +3156,7 @@ pub mod objects {
             }
             /// Revision number: 0x1018:03.
             ///
-            /// Revision of the product.
+            /// Revision number of the product.
             ///
             /// Constant: [`REVISION_NUMBER`]. Values: [`RevisionNumber`](super::super::types::RevisionNumber).
             pub fn revision_number(
@@ -3105,6 +3193,12 @@ pub mod objects {
         ///
         /// 0x1400:01, UNSIGNED32, rw, default \$NODEID+0x200.
         /// Accessor: [`Accessors::cob_id`]. Values: [`ReceivePdoIdentifier`](super::super::types::ReceivePdoIdentifier).
+        ///
+        /// COB-ID of the RPDO.
+        ///
+        /// Bits from CiA 301, 7.5.2.35.
+        ///
+        /// Description from CiA 301, 7.5.2.35.
         pub const COB_ID: super::ReadWrite<super::super::types::ReceivePdoIdentifier> = super::ReadWriteNamedReceivePdoIdentifier::new(
             rt::OnCanOpen::canopen(0x1400, 0x01),
             "COB-ID",
@@ -3119,6 +3213,12 @@ pub mod objects {
         ///
         /// 0x1400:02, UNSIGNED8, rw, default 255.
         /// Accessor: [`Accessors::transmission_type`]. Values: [`ReceiveType`](super::super::types::ReceiveType).
+        ///
+        /// Transmission type: when received data take effect.
+        ///
+        /// Values from CiA 301, 7.5.2.35.
+        ///
+        /// Description from CiA 301, 7.5.2.35.
         pub const TRANSMISSION_TYPE: super::ReadWrite<
             super::super::types::ReceiveType,
         > = super::ReadWriteNamedReceiveType::object_with_default(
@@ -3140,6 +3240,9 @@ pub mod objects {
                 HIGHEST_SUB_INDEX_SUPPORTED.at(self.client)
             }
             /// COB-ID: 0x1400:01.
+            ///
+            /// COB-ID of the RPDO.
+            ///
             /// Constant: [`COB_ID`]. Values: [`ReceivePdoIdentifier`](super::super::types::ReceivePdoIdentifier).
             pub fn cob_id(
                 &mut self,
@@ -3151,6 +3254,9 @@ pub mod objects {
                 COB_ID.at(self.client)
             }
             /// Transmission type: 0x1400:02.
+            ///
+            /// Transmission type: when received data take effect.
+            ///
             /// Constant: [`TRANSMISSION_TYPE`]. Values: [`ReceiveType`](super::super::types::ReceiveType).
             pub fn transmission_type(
                 &mut self,
@@ -3178,6 +3284,12 @@ pub mod objects {
         ///
         /// 0x1401:01, UNSIGNED32, rw, default \$NODEID+0x300.
         /// Accessor: [`Accessors::cob_id`]. Values: [`ReceivePdoIdentifier`](super::super::types::ReceivePdoIdentifier).
+        ///
+        /// COB-ID of the RPDO.
+        ///
+        /// Bits from CiA 301, 7.5.2.35.
+        ///
+        /// Description from CiA 301, 7.5.2.35.
         pub const COB_ID: super::ReadWrite<super::super::types::ReceivePdoIdentifier> = super::ReadWriteNamedReceivePdoIdentifier::new(
             rt::OnCanOpen::canopen(0x1401, 0x01),
             "COB-ID",
@@ -3192,6 +3304,12 @@ pub mod objects {
         ///
         /// 0x1401:02, UNSIGNED8, rw, default 1.
         /// Accessor: [`Accessors::transmission_type`]. Values: [`ReceiveType`](super::super::types::ReceiveType).
+        ///
+        /// Transmission type: when received data take effect.
+        ///
+        /// Values from CiA 301, 7.5.2.35.
+        ///
+        /// Description from CiA 301, 7.5.2.35.
         pub const TRANSMISSION_TYPE: super::ReadWrite<
             super::super::types::ReceiveType,
         > = super::ReadWriteNamedReceiveType::object_with_default(
@@ -3213,6 +3331,9 @@ pub mod objects {
                 HIGHEST_SUB_INDEX_SUPPORTED.at(self.client)
             }
             /// COB-ID: 0x1401:01.
+            ///
+            /// COB-ID of the RPDO.
+            ///
             /// Constant: [`COB_ID`]. Values: [`ReceivePdoIdentifier`](super::super::types::ReceivePdoIdentifier).
             pub fn cob_id(
                 &mut self,
@@ -3224,6 +3345,9 @@ pub mod objects {
                 COB_ID.at(self.client)
             }
             /// Transmission type: 0x1401:02.
+            ///
+            /// Transmission type: when received data take effect.
+            ///
             /// Constant: [`TRANSMISSION_TYPE`]. Values: [`ReceiveType`](super::super::types::ReceiveType).
             pub fn transmission_type(
                 &mut self,
@@ -3250,6 +3374,12 @@ pub mod objects {
         ///
         /// 0x1600:01, UNSIGNED32, rw, default 0x60400010.
         /// Accessor: [`Accessors::mapped_object_1`]. Values: [`MappingEntry`](super::super::types::MappingEntry).
+        ///
+        /// Object that is mapped to the RPDO: index, sub-index and length.
+        ///
+        /// Bits from CiA 301, 7.5.2.36, 7.5.2.38.
+        ///
+        /// Description from CiA 301, 7.5.2.36.
         pub const MAPPED_OBJECT_1: super::ReadWrite<super::super::types::MappingEntry> = super::ReadWriteNamedMappingEntry::object_with_default(
             0x1600,
             0x01,
@@ -3269,6 +3399,9 @@ pub mod objects {
                 NUMBER_OF_MAPPED_OBJECTS.at(self.client)
             }
             /// Mapped object 1: 0x1600:01.
+            ///
+            /// Object that is mapped to the RPDO: index, sub-index and length.
+            ///
             /// Constant: [`MAPPED_OBJECT_1`]. Values: [`MappingEntry`](super::super::types::MappingEntry).
             pub fn mapped_object_1(
                 &mut self,
@@ -3295,6 +3428,12 @@ pub mod objects {
         ///
         /// 0x1601:01, UNSIGNED32, rw, default 0x60400010.
         /// Accessor: [`Accessors::mapped_object_1`]. Values: [`MappingEntry`](super::super::types::MappingEntry).
+        ///
+        /// Object that is mapped to the RPDO: index, sub-index and length.
+        ///
+        /// Bits from CiA 301, 7.5.2.36, 7.5.2.38.
+        ///
+        /// Description from CiA 301, 7.5.2.36.
         pub const MAPPED_OBJECT_1: super::ReadWrite<super::super::types::MappingEntry> = super::ReadWriteNamedMappingEntry::object_with_default(
             0x1601,
             0x01,
@@ -3305,6 +3444,12 @@ pub mod objects {
         ///
         /// 0x1601:02, UNSIGNED32, rw, default 0x607A0020.
         /// Accessor: [`Accessors::mapped_object_2`]. Values: [`MappingEntry`](super::super::types::MappingEntry).
+        ///
+        /// Object that is mapped to the RPDO: index, sub-index and length.
+        ///
+        /// Bits from CiA 301, 7.5.2.36, 7.5.2.38.
+        ///
+        /// Description from CiA 301, 7.5.2.36.
         pub const MAPPED_OBJECT_2: super::ReadWrite<super::super::types::MappingEntry> = super::ReadWriteNamedMappingEntry::object_with_default(
             0x1601,
             0x02,
@@ -3324,6 +3469,9 @@ pub mod objects {
                 NUMBER_OF_MAPPED_OBJECTS.at(self.client)
             }
             /// Mapped object 1: 0x1601:01.
+            ///
+            /// Object that is mapped to the RPDO: index, sub-index and length.
+            ///
             /// Constant: [`MAPPED_OBJECT_1`]. Values: [`MappingEntry`](super::super::types::MappingEntry).
             pub fn mapped_object_1(
                 &mut self,
@@ -3331,6 +3479,9 @@ pub mod objects {
                 MAPPED_OBJECT_1.at(self.client)
             }
             /// Mapped object 2: 0x1601:02.
+            ///
+            /// Object that is mapped to the RPDO: index, sub-index and length.
+            ///
             /// Constant: [`MAPPED_OBJECT_2`]. Values: [`MappingEntry`](super::super::types::MappingEntry).
             pub fn mapped_object_2(
                 &mut self,
@@ -3358,6 +3509,12 @@ pub mod objects {
         ///
         /// 0x1800:01, UNSIGNED32, rw, default \$NODEID+0x180.
         /// Accessor: [`Accessors::cob_id`]. Values: [`TransmitPdoIdentifier`](super::super::types::TransmitPdoIdentifier).
+        ///
+        /// COB-ID of the TPDO.
+        ///
+        /// Bits from CiA 301, 7.5.2.37.
+        ///
+        /// Description from CiA 301, 7.5.2.37.
         pub const COB_ID: super::ReadWrite<super::super::types::TransmitPdoIdentifier> = super::ReadWriteNamedTransmitPdoIdentifier::new(
             rt::OnCanOpen::canopen(0x1800, 0x01),
             "COB-ID",
@@ -3372,6 +3529,12 @@ pub mod objects {
         ///
         /// 0x1800:02, UNSIGNED8, rw, default 255.
         /// Accessor: [`Accessors::transmission_type`]. Values: [`TransmitType`](super::super::types::TransmitType).
+        ///
+        /// Transmission type: when the TPDO is transmitted.
+        ///
+        /// Values from CiA 301, 7.5.2.37.
+        ///
+        /// Description from CiA 301, 7.5.2.37.
         pub const TRANSMISSION_TYPE: super::ReadWrite<
             super::super::types::TransmitType,
         > = super::ReadWriteNamedTransmitType::object_with_default(
@@ -3393,6 +3556,9 @@ pub mod objects {
                 HIGHEST_SUB_INDEX_SUPPORTED.at(self.client)
             }
             /// COB-ID: 0x1800:01.
+            ///
+            /// COB-ID of the TPDO.
+            ///
             /// Constant: [`COB_ID`]. Values: [`TransmitPdoIdentifier`](super::super::types::TransmitPdoIdentifier).
             pub fn cob_id(
                 &mut self,
@@ -3404,6 +3570,9 @@ pub mod objects {
                 COB_ID.at(self.client)
             }
             /// Transmission type: 0x1800:02.
+            ///
+            /// Transmission type: when the TPDO is transmitted.
+            ///
             /// Constant: [`TRANSMISSION_TYPE`]. Values: [`TransmitType`](super::super::types::TransmitType).
             pub fn transmission_type(
                 &mut self,
@@ -3431,6 +3600,12 @@ pub mod objects {
         ///
         /// 0x1801:01, UNSIGNED32, rw, default \$NODEID+0x280.
         /// Accessor: [`Accessors::cob_id`]. Values: [`TransmitPdoIdentifier`](super::super::types::TransmitPdoIdentifier).
+        ///
+        /// COB-ID of the TPDO.
+        ///
+        /// Bits from CiA 301, 7.5.2.37.
+        ///
+        /// Description from CiA 301, 7.5.2.37.
         pub const COB_ID: super::ReadWrite<super::super::types::TransmitPdoIdentifier> = super::ReadWriteNamedTransmitPdoIdentifier::new(
             rt::OnCanOpen::canopen(0x1801, 0x01),
             "COB-ID",
@@ -3445,6 +3620,12 @@ pub mod objects {
         ///
         /// 0x1801:02, UNSIGNED8, rw, default 1.
         /// Accessor: [`Accessors::transmission_type`]. Values: [`TransmitType`](super::super::types::TransmitType).
+        ///
+        /// Transmission type: when the TPDO is transmitted.
+        ///
+        /// Values from CiA 301, 7.5.2.37.
+        ///
+        /// Description from CiA 301, 7.5.2.37.
         pub const TRANSMISSION_TYPE: super::ReadWrite<
             super::super::types::TransmitType,
         > = super::ReadWriteNamedTransmitType::object_with_default(
@@ -3466,6 +3647,9 @@ pub mod objects {
                 HIGHEST_SUB_INDEX_SUPPORTED.at(self.client)
             }
             /// COB-ID: 0x1801:01.
+            ///
+            /// COB-ID of the TPDO.
+            ///
             /// Constant: [`COB_ID`]. Values: [`TransmitPdoIdentifier`](super::super::types::TransmitPdoIdentifier).
             pub fn cob_id(
                 &mut self,
@@ -3477,6 +3661,9 @@ pub mod objects {
                 COB_ID.at(self.client)
             }
             /// Transmission type: 0x1801:02.
+            ///
+            /// Transmission type: when the TPDO is transmitted.
+            ///
             /// Constant: [`TRANSMISSION_TYPE`]. Values: [`TransmitType`](super::super::types::TransmitType).
             pub fn transmission_type(
                 &mut self,
@@ -3503,6 +3690,12 @@ pub mod objects {
         ///
         /// 0x1A00:01, UNSIGNED32, rw, default 0x60410010.
         /// Accessor: [`Accessors::mapped_object_1`]. Values: [`MappingEntry`](super::super::types::MappingEntry).
+        ///
+        /// Object that is mapped to the TPDO: index, sub-index and length.
+        ///
+        /// Bits from CiA 301, 7.5.2.36, 7.5.2.38.
+        ///
+        /// Description from CiA 301, 7.5.2.38.
         pub const MAPPED_OBJECT_1: super::ReadWrite<super::super::types::MappingEntry> = super::ReadWriteNamedMappingEntry::object_with_default(
             0x1A00,
             0x01,
@@ -3522,6 +3715,9 @@ pub mod objects {
                 NUMBER_OF_MAPPED_OBJECTS.at(self.client)
             }
             /// Mapped object 1: 0x1A00:01.
+            ///
+            /// Object that is mapped to the TPDO: index, sub-index and length.
+            ///
             /// Constant: [`MAPPED_OBJECT_1`]. Values: [`MappingEntry`](super::super::types::MappingEntry).
             pub fn mapped_object_1(
                 &mut self,
@@ -3548,6 +3744,12 @@ pub mod objects {
         ///
         /// 0x1A01:01, UNSIGNED32, rw, default 0x60410010.
         /// Accessor: [`Accessors::mapped_object_1`]. Values: [`MappingEntry`](super::super::types::MappingEntry).
+        ///
+        /// Object that is mapped to the TPDO: index, sub-index and length.
+        ///
+        /// Bits from CiA 301, 7.5.2.36, 7.5.2.38.
+        ///
+        /// Description from CiA 301, 7.5.2.38.
         pub const MAPPED_OBJECT_1: super::ReadWrite<super::super::types::MappingEntry> = super::ReadWriteNamedMappingEntry::object_with_default(
             0x1A01,
             0x01,
@@ -3558,6 +3760,12 @@ pub mod objects {
         ///
         /// 0x1A01:02, UNSIGNED32, rw, default 0x60640020.
         /// Accessor: [`Accessors::mapped_object_2`]. Values: [`MappingEntry`](super::super::types::MappingEntry).
+        ///
+        /// Object that is mapped to the TPDO: index, sub-index and length.
+        ///
+        /// Bits from CiA 301, 7.5.2.36, 7.5.2.38.
+        ///
+        /// Description from CiA 301, 7.5.2.38.
         pub const MAPPED_OBJECT_2: super::ReadWrite<super::super::types::MappingEntry> = super::ReadWriteNamedMappingEntry::object_with_default(
             0x1A01,
             0x02,
@@ -3577,6 +3785,9 @@ pub mod objects {
                 NUMBER_OF_MAPPED_OBJECTS.at(self.client)
             }
             /// Mapped object 1: 0x1A01:01.
+            ///
+            /// Object that is mapped to the TPDO: index, sub-index and length.
+            ///
             /// Constant: [`MAPPED_OBJECT_1`]. Values: [`MappingEntry`](super::super::types::MappingEntry).
             pub fn mapped_object_1(
                 &mut self,
@@ -3584,6 +3795,9 @@ pub mod objects {
                 MAPPED_OBJECT_1.at(self.client)
             }
             /// Mapped object 2: 0x1A01:02.
+            ///
+            /// Object that is mapped to the TPDO: index, sub-index and length.
+            ///
             /// Constant: [`MAPPED_OBJECT_2`]. Values: [`MappingEntry`](super::super::types::MappingEntry).
             pub fn mapped_object_2(
                 &mut self,
@@ -3693,7 +3907,11 @@ pub mod objects {
     /// 0x6040:00, UNSIGNED16, rww, mappable into RPDOs, default 0.
     /// Accessor: [`controlword`](super::DemoDrive::controlword). Values: [`Controlword`](super::types::Controlword). Carried by [`RxPdo1`](super::pdo::RxPdo1), [`RxPdo2`](super::pdo::RxPdo2).
     ///
-    /// Commands of the state machine, and of the mode of operation.
+    /// Control word: commands of the state machine and of the mode of operation.
+    ///
+    /// Bits from CiA 402, 10.3.1.
+    ///
+    /// Description from CiA 402, 10.3.1.
     pub const CONTROLWORD: ReadWrite<super::types::Controlword> = ReadWriteNamedControlword::flagged_object_with_default(
         0x6040,
         0x00,
@@ -3706,7 +3924,11 @@ pub mod objects {
     /// 0x6041:00, UNSIGNED16, ro, mappable into TPDOs.
     /// Accessor: [`statusword`](super::DemoDrive::statusword). Values: [`Statusword`](super::types::Statusword). Carried by [`TxPdo1`](super::pdo::TxPdo1), [`TxPdo2`](super::pdo::TxPdo2).
     ///
-    /// The state, and what the mode of operation has to tell.
+    /// Status word: the state of the drive and the status of the mode of operation.
+    ///
+    /// Bits from CiA 402, 10.3.2.
+    ///
+    /// Description from CiA 402, 10.3.2.
     pub const STATUSWORD: ReadOnly<super::types::Statusword> = ReadOnlyNamedStatusword::flagged_object(
         0x6041,
         0x00,
@@ -3718,7 +3940,11 @@ pub mod objects {
     /// 0x6060:00, INTEGER8, rw, mappable into any PDO, default 1, range \-128 to 8.
     /// Accessor: [`modes_of_operation`](super::DemoDrive::modes_of_operation). Values: [`ModesOfOperation`](super::types::ModesOfOperation).
     ///
-    /// The mode wanted. The mode in force is in 0x6061.
+    /// Requested mode of operation; the active mode is in 0x6061.
+    ///
+    /// Values from CiA 402, 10.3.8.
+    ///
+    /// Description from CiA 402, 10.3.8.
     pub const MODES_OF_OPERATION: ReadWrite<super::types::ModesOfOperation> = ReadWriteNamedModesOfOperation::new(
         rt::OnCanOpen::canopen(0x6060, 0x00),
         "Modes of operation",
@@ -3732,7 +3958,11 @@ pub mod objects {
     /// 0x6061:00, INTEGER8, ro, mappable into TPDOs.
     /// Accessor: [`modes_of_operation_display`](super::DemoDrive::modes_of_operation_display). Values: [`ModesOfOperation`](super::types::ModesOfOperation).
     ///
-    /// The mode in force.
+    /// Active mode of operation.
+    ///
+    /// Values from CiA 402, 10.3.8.
+    ///
+    /// Description from CiA 402, 10.3.9.
     pub const MODES_OF_OPERATION_DISPLAY: ReadOnly<super::types::ModesOfOperation> = ReadOnlyNamedModesOfOperation::flagged_object(
         0x6061,
         0x00,

@@ -128,7 +128,7 @@ impl<C> Ax1<C> {
     }
     /// Controlword: 0x6040:00.
     ///
-    /// Commands of the state machine, and of the mode of operation.
+    /// Control word: commands of the state machine and of the mode of operation.
     ///
     /// Constant: [`objects::CONTROLWORD`]. Values: [`Controlword`](types::Controlword). Carried by [`SetPoints`](pdo::SetPoints).
     pub fn controlword(
@@ -138,7 +138,7 @@ impl<C> Ax1<C> {
     }
     /// Statusword: 0x6041:00.
     ///
-    /// The state, and what the mode of operation has to tell.
+    /// Status word: the state of the drive and the status of the mode of operation.
     ///
     /// Constant: [`objects::STATUSWORD`]. Values: [`Statusword`](types::Statusword). Carried by [`ActualValues`](pdo::ActualValues), [`DriveStatus`](pdo::DriveStatus).
     pub fn statusword(&mut self) -> objects::ReadOnlyAccess<'_, C, types::Statusword> {
@@ -146,7 +146,7 @@ impl<C> Ax1<C> {
     }
     /// Modes of operation: 0x6060:00.
     ///
-    /// The mode wanted. The mode in force is in 0x6061.
+    /// Requested mode of operation; the active mode is in 0x6061.
     ///
     /// Constant: [`objects::MODES_OF_OPERATION`]. Values: [`ModesOfOperation`](types::ModesOfOperation). Carried by [`SetPoints`](pdo::SetPoints).
     pub fn modes_of_operation(
@@ -166,7 +166,7 @@ impl<C> Ax1<C> {
     }
     /// Torque: 0x6077:00.
     ///
-    /// Torque, of the rated torque.
+    /// Actual torque, relative to the rated torque.
     ///
     /// Constant: [`objects::TORQUE`]. Carried by [`DriveStatus`](pdo::DriveStatus).
     pub fn torque(&mut self) -> objects::ReadOnlyAccess<'_, C, rt::Scaled<i16, 1, 10>> {
@@ -179,7 +179,7 @@ impl<C> Ax1<C> {
     }
     /// Torque offset: 0x60B2:00.
     ///
-    /// Added to the torque wanted, of the rated torque.
+    /// Torque offset: added to the target torque, relative to the rated torque.
     ///
     /// Constant: [`objects::TORQUE_OFFSET`]. Carried by [`SetPoints`](pdo::SetPoints).
     pub fn torque_offset(
@@ -252,6 +252,8 @@ pub mod types {
     }
     /// ModesOfOperation.
     ///
+    /// From CiA 402, 10.3.8.
+    ///
     /// Values of [`MODES_OF_OPERATION`](super::objects::MODES_OF_OPERATION).
     ///
     /// | Value | Name | Meaning |
@@ -266,7 +268,7 @@ pub mod types {
     /// | 8 | [`CyclicSynchronousPosition`](Self::CyclicSynchronousPosition) |  |
     /// | 9 | [`CyclicSynchronousVelocity`](Self::CyclicSynchronousVelocity) |  |
     /// | 10 | [`CyclicSynchronousTorque`](Self::CyclicSynchronousTorque) |  |
-    /// | 11 | [`CyclicSynchronousTorqueWithAngle`](Self::CyclicSynchronousTorqueWithAngle) | With the commutation angle from the controller. |
+    /// | 11 | [`CyclicSynchronousTorqueWithAngle`](Self::CyclicSynchronousTorqueWithAngle) | The controller supplies the commutation angle. |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum ModesOfOperation {
         /// 0: no mode.
@@ -289,7 +291,7 @@ pub mod types {
         CyclicSynchronousVelocity,
         /// 10: cyclic synchronous torque.
         CyclicSynchronousTorque,
-        /// 11: cyclic synchronous torque with angle. With the commutation angle from the controller.
+        /// 11: cyclic synchronous torque with angle. The controller supplies the commutation angle.
         CyclicSynchronousTorqueWithAngle,
         /// Any other number.
         Unknown(i8),
@@ -341,6 +343,8 @@ pub mod types {
     }
     /// Controlword.
     ///
+    /// From CiA 402, 10.3.1.
+    ///
     /// Values of [`CONTROLWORD`](super::objects::CONTROLWORD).
     ///
     /// Bits 0x400 are written as 0.
@@ -349,19 +353,19 @@ pub mod types {
     /// |---|---|---|
     /// | 0 | [`switch_on`](Self::switch_on) |  |
     /// | 1 | [`enable_voltage`](Self::enable_voltage) |  |
-    /// | 2 | [`quick_stop`](Self::quick_stop) | 0 asks for a quick stop. Holds while the bit is 0. |
+    /// | 2 | [`quick_stop`](Self::quick_stop) | 0 requests a quick stop. Holds while the bit is 0. |
     /// | 3 | [`enable_operation`](Self::enable_operation) |  |
-    /// | 4 | [`in_profile_position().new_set_point()`](ControlwordInProfilePosition::new_set_point) | Takes the target position. Acts on the change from 0 to 1. |
+    /// | 4 | [`in_profile_position().new_set_point()`](ControlwordInProfilePosition::new_set_point) | Accepts the target position. Acts on the change from 0 to 1. |
     /// | 4 | [`in_velocity().enable_ramp()`](ControlwordInVelocity::enable_ramp) |  |
-    /// | 4 | [`in_homing().homing_start()`](ControlwordInHoming::homing_start) | Starts homing, and interrupts it when 0. |
+    /// | 4 | [`in_homing().homing_start()`](ControlwordInHoming::homing_start) | 1 starts homing, 0 interrupts it. |
     /// | 4 | [`in_interpolated_position().enable_interpolation()`](ControlwordInInterpolatedPosition::enable_interpolation) |  |
-    /// | 5 | [`in_profile_position().change_set_immediately()`](ControlwordInProfilePosition::change_set_immediately) | The set-point replaces the one under way; otherwise it follows it. |
+    /// | 5 | [`in_profile_position().change_set_immediately()`](ControlwordInProfilePosition::change_set_immediately) | 1: the set-point replaces the active one; 0: it is executed after the active one. |
     /// | 5 | [`in_velocity().unlock_ramp()`](ControlwordInVelocity::unlock_ramp) |  |
-    /// | 6 | [`in_profile_position().relative()`](ControlwordInProfilePosition::relative) | The target position is a distance. |
+    /// | 6 | [`in_profile_position().relative()`](ControlwordInProfilePosition::relative) | 1: the target position is relative. |
     /// | 6 | [`in_velocity().reference_ramp()`](ControlwordInVelocity::reference_ramp) |  |
     /// | 7 | [`fault_reset`](Self::fault_reset) | Acts on the change from 0 to 1. |
-    /// | 8 | [`halt`](Self::halt) | Stops the axis as the halt option code says. |
-    /// | 9 | [`in_profile_position().change_on_set_point()`](ControlwordInProfilePosition::change_on_set_point) | The previous target is passed with its profile velocity. |
+    /// | 8 | [`halt`](Self::halt) | Stops the axis as selected by the halt option code (0x605D). |
+    /// | 9 | [`in_profile_position().change_on_set_point()`](ControlwordInProfilePosition::change_on_set_point) | The axis passes the previous target at its profile velocity. |
     /// | 10 | reserved | Written as 0. |
     /// | 11–15 | [`manufacturer_specific`](Self::manufacturer_specific) |  |
     #[derive(Clone, Copy, PartialEq)]
@@ -397,7 +401,7 @@ pub mod types {
         pub const fn with_enable_voltage(self, value: bool) -> Self {
             Self((self.0 & !0x2) | ((value as u16) << 1))
         }
-        /// Bit 2: quick stop. Holds while the bit is 0. 0 asks for a quick stop.
+        /// Bit 2: quick stop. Holds while the bit is 0. 0 requests a quick stop.
         pub const fn quick_stop(self) -> bool {
             self.0 & 0x4 == 0
         }
@@ -424,7 +428,7 @@ pub mod types {
         pub const fn with_fault_reset(self, value: bool) -> Self {
             Self((self.0 & !0x80) | ((value as u16) << 7))
         }
-        /// Bit 8: halt. Stops the axis as the halt option code says.
+        /// Bit 8: halt. Stops the axis as selected by the halt option code (0x605D).
         pub const fn halt(self) -> bool {
             self.0 & 0x100 != 0
         }
@@ -506,7 +510,7 @@ pub mod types {
         pub const fn controlword(self) -> Controlword {
             Controlword(self.0)
         }
-        /// Bit 4: new set-point. Acts on the change from 0 to 1. Takes the target position.
+        /// Bit 4: new set-point. Acts on the change from 0 to 1. Accepts the target position.
         pub const fn new_set_point(self) -> bool {
             self.0 & 0x10 != 0
         }
@@ -515,7 +519,7 @@ pub mod types {
         pub const fn with_new_set_point(self, value: bool) -> Self {
             Self((self.0 & !0x10) | ((value as u16) << 4))
         }
-        /// Bit 5: change set immediately. The set-point replaces the one under way; otherwise it follows it.
+        /// Bit 5: change set immediately. 1: the set-point replaces the active one; 0: it is executed after the active one.
         pub const fn change_set_immediately(self) -> bool {
             self.0 & 0x20 != 0
         }
@@ -524,7 +528,7 @@ pub mod types {
         pub const fn with_change_set_immediately(self, value: bool) -> Self {
             Self((self.0 & !0x20) | ((value as u16) << 5))
         }
-        /// Bit 6: relative. The target position is a distance.
+        /// Bit 6: relative. 1: the target position is relative.
         pub const fn relative(self) -> bool {
             self.0 & 0x40 != 0
         }
@@ -533,7 +537,7 @@ pub mod types {
         pub const fn with_relative(self, value: bool) -> Self {
             Self((self.0 & !0x40) | ((value as u16) << 6))
         }
-        /// Bit 9: change on set-point. The previous target is passed with its profile velocity.
+        /// Bit 9: change on set-point. The axis passes the previous target at its profile velocity.
         pub const fn change_on_set_point(self) -> bool {
             self.0 & 0x200 != 0
         }
@@ -587,7 +591,7 @@ pub mod types {
         pub const fn controlword(self) -> Controlword {
             Controlword(self.0)
         }
-        /// Bit 4: homing start. Starts homing, and interrupts it when 0.
+        /// Bit 4: homing start. 1 starts homing, 0 interrupts it.
         pub const fn homing_start(self) -> bool {
             self.0 & 0x10 != 0
         }
@@ -617,6 +621,8 @@ pub mod types {
     }
     /// Statusword.
     ///
+    /// From CiA 402, 10.3.2.
+    ///
     /// Values of [`STATUSWORD`](super::objects::STATUSWORD).
     ///
     /// | Bits | Name | Meaning |
@@ -626,13 +632,13 @@ pub mod types {
     /// | 2 | [`operation_enabled`](Self::operation_enabled) |  |
     /// | 3 | [`fault`](Self::fault) |  |
     /// | 4 | [`voltage_enabled`](Self::voltage_enabled) | The power stage is supplied. |
-    /// | 5 | [`quick_stop`](Self::quick_stop) | 0 while a quick stop is asked for. Holds while the bit is 0. |
+    /// | 5 | [`quick_stop`](Self::quick_stop) | 0 while a quick stop is requested. Holds while the bit is 0. |
     /// | 6 | [`switch_on_disabled`](Self::switch_on_disabled) |  |
     /// | 7 | [`warning`](Self::warning) |  |
     /// | 8 | [`manufacturer_specific_8`](Self::manufacturer_specific_8) | manufacturer specific. |
-    /// | 9 | [`remote`](Self::remote) | The drive obeys the control word. |
-    /// | 10 | [`target_reached`](Self::target_reached) | In the cyclic modes the bit means nothing, or toggles with each cycle. |
-    /// | 11 | [`internal_limit_active`](Self::internal_limit_active) | A limit keeps the drive from doing what the set-point asks for. |
+    /// | 9 | [`remote`](Self::remote) | The drive follows the control word. |
+    /// | 10 | [`target_reached`](Self::target_reached) | In the cyclic modes the bit is reserved or toggles in each cycle. |
+    /// | 11 | [`internal_limit_active`](Self::internal_limit_active) | A limit prevents the drive from following the set-point. |
     /// | 12 | [`in_0x6061_1().set_point_acknowledge()`](StatuswordIn0x6061_1::set_point_acknowledge) |  |
     /// | 12 | [`in_0x6061_3().speed_zero()`](StatuswordIn0x6061_3::speed_zero) |  |
     /// | 12 | [`in_0x6061_6().homing_attained()`](StatuswordIn0x6061_6::homing_attained) |  |
@@ -705,7 +711,7 @@ pub mod types {
         pub const fn with_voltage_enabled(self, value: bool) -> Self {
             Self((self.0 & !0x10) | ((value as u16) << 4))
         }
-        /// Bit 5: quick stop. Holds while the bit is 0. 0 while a quick stop is asked for.
+        /// Bit 5: quick stop. Holds while the bit is 0. 0 while a quick stop is requested.
         pub const fn quick_stop(self) -> bool {
             self.0 & 0x20 == 0
         }
@@ -741,7 +747,7 @@ pub mod types {
         pub const fn with_manufacturer_specific_8(self, value: bool) -> Self {
             Self((self.0 & !0x100) | ((value as u16) << 8))
         }
-        /// Bit 9: remote. The drive obeys the control word.
+        /// Bit 9: remote. The drive follows the control word.
         pub const fn remote(self) -> bool {
             self.0 & 0x200 != 0
         }
@@ -750,7 +756,7 @@ pub mod types {
         pub const fn with_remote(self, value: bool) -> Self {
             Self((self.0 & !0x200) | ((value as u16) << 9))
         }
-        /// Bit 10: target reached. In the cyclic modes the bit means nothing, or toggles with each cycle.
+        /// Bit 10: target reached. In the cyclic modes the bit is reserved or toggles in each cycle.
         pub const fn target_reached(self) -> bool {
             self.0 & 0x400 != 0
         }
@@ -759,7 +765,7 @@ pub mod types {
         pub const fn with_target_reached(self, value: bool) -> Self {
             Self((self.0 & !0x400) | ((value as u16) << 10))
         }
-        /// Bit 11: internal limit active. A limit keeps the drive from doing what the set-point asks for.
+        /// Bit 11: internal limit active. A limit prevents the drive from following the set-point.
         pub const fn internal_limit_active(self) -> bool {
             self.0 & 0x800 != 0
         }
@@ -1013,33 +1019,35 @@ pub mod types {
     }
     /// States of drive, as [Statusword](super::objects::STATUSWORD) tells them.
     ///
-    /// | State | Mask | Value |
-    /// |---|---|---|
-    /// | [`NotReadyToSwitchOn`](Self::NotReadyToSwitchOn) | 0x4F | 0 |
-    /// | [`SwitchOnDisabled`](Self::SwitchOnDisabled) | 0x4F | 0x40 |
-    /// | [`ReadyToSwitchOn`](Self::ReadyToSwitchOn) | 0x6F | 0x21 |
-    /// | [`SwitchedOn`](Self::SwitchedOn) | 0x6F | 0x23 |
-    /// | [`OperationEnabled`](Self::OperationEnabled) | 0x6F | 0x27 |
-    /// | [`QuickStopActive`](Self::QuickStopActive) | 0x6F | 0x7 |
-    /// | [`FaultReactionActive`](Self::FaultReactionActive) | 0x4F | 0xF |
-    /// | [`Fault`](Self::Fault) | 0x4F | 0x8 |
+    /// From CiA 402, 10.1.1.
+    ///
+    /// | State | Bits |
+    /// |---|---|
+    /// | [`NotReadyToSwitchOn`](Self::NotReadyToSwitchOn) | `xxxx xxxx x0xx 0000` |
+    /// | [`SwitchOnDisabled`](Self::SwitchOnDisabled) | `xxxx xxxx x1xx 0000` |
+    /// | [`ReadyToSwitchOn`](Self::ReadyToSwitchOn) | `xxxx xxxx x01x 0001` |
+    /// | [`SwitchedOn`](Self::SwitchedOn) | `xxxx xxxx x01x 0011` |
+    /// | [`OperationEnabled`](Self::OperationEnabled) | `xxxx xxxx x01x 0111` |
+    /// | [`QuickStopActive`](Self::QuickStopActive) | `xxxx xxxx x00x 0111` |
+    /// | [`FaultReactionActive`](Self::FaultReactionActive) | `xxxx xxxx x0xx 1111` |
+    /// | [`Fault`](Self::Fault) | `xxxx xxxx x0xx 1000` |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum State {
-        /// not ready to switch on: 0 of the bits 0x4F.
+        /// not ready to switch on: `xxxx xxxx x0xx 0000`.
         NotReadyToSwitchOn,
-        /// switch on disabled: 0x40 of the bits 0x4F.
+        /// switch on disabled: `xxxx xxxx x1xx 0000`.
         SwitchOnDisabled,
-        /// ready to switch on: 0x21 of the bits 0x6F.
+        /// ready to switch on: `xxxx xxxx x01x 0001`.
         ReadyToSwitchOn,
-        /// switched on: 0x23 of the bits 0x6F.
+        /// switched on: `xxxx xxxx x01x 0011`.
         SwitchedOn,
-        /// operation enabled: 0x27 of the bits 0x6F.
+        /// operation enabled: `xxxx xxxx x01x 0111`.
         OperationEnabled,
-        /// quick stop active: 0x7 of the bits 0x6F.
+        /// quick stop active: `xxxx xxxx x00x 0111`.
         QuickStopActive,
-        /// fault reaction active: 0xF of the bits 0x4F.
+        /// fault reaction active: `xxxx xxxx x0xx 1111`.
         FaultReactionActive,
-        /// fault: 0x8 of the bits 0x4F.
+        /// fault: `xxxx xxxx x0xx 1000`.
         Fault,
     }
     impl State {
@@ -1163,15 +1171,17 @@ pub mod types {
     }
     /// Commands of drive, as [Controlword](super::objects::CONTROLWORD) takes them.
     ///
-    /// | Command | Mask | Value |
-    /// |---|---|---|
-    /// | [`Shutdown`](Self::Shutdown) | 0x87 | 0x6 |
-    /// | [`SwitchOn`](Self::SwitchOn) | 0x8F | 0x7 |
-    /// | [`EnableOperation`](Self::EnableOperation) | 0x8F | 0xF |
-    /// | [`DisableVoltage`](Self::DisableVoltage) | 0x82 | 0 |
-    /// | [`QuickStop`](Self::QuickStop) | 0x86 | 0x2 |
-    /// | [`DisableOperation`](Self::DisableOperation) | 0x8F | 0x7 |
-    /// | [`FaultReset`](Self::FaultReset) | 0x80 | 0x80 |
+    /// From CiA 402, 10.1.1.
+    ///
+    /// | Command | Bits |
+    /// |---|---|
+    /// | [`Shutdown`](Self::Shutdown) | `xxxx xxxx 0xxx x110` |
+    /// | [`SwitchOn`](Self::SwitchOn) | `xxxx xxxx 0xxx 0111` |
+    /// | [`EnableOperation`](Self::EnableOperation) | `xxxx xxxx 0xxx 1111` |
+    /// | [`DisableVoltage`](Self::DisableVoltage) | `xxxx xxxx 0xxx xx0x` |
+    /// | [`QuickStop`](Self::QuickStop) | `xxxx xxxx 0xxx x01x` |
+    /// | [`DisableOperation`](Self::DisableOperation) | `xxxx xxxx 0xxx 0111` |
+    /// | [`FaultReset`](Self::FaultReset) | `xxxx xxxx 1xxx xxxx` |
     ///
     /// Transitions:
     ///
@@ -1195,19 +1205,19 @@ pub mod types {
     /// | 13 | any state | [`FaultReactionActive`](State::FaultReactionActive) | itself | After a fault. |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum Command {
-        /// shutdown: 0x6 of the bits 0x87.
+        /// shutdown: `xxxx xxxx 0xxx x110`.
         Shutdown,
-        /// switch on: 0x7 of the bits 0x8F.
+        /// switch on: `xxxx xxxx 0xxx 0111`.
         SwitchOn,
-        /// enable operation: 0xF of the bits 0x8F.
+        /// enable operation: `xxxx xxxx 0xxx 1111`.
         EnableOperation,
-        /// disable voltage: 0 of the bits 0x82.
+        /// disable voltage: `xxxx xxxx 0xxx xx0x`.
         DisableVoltage,
-        /// quick stop: 0x2 of the bits 0x86.
+        /// quick stop: `xxxx xxxx 0xxx x01x`.
         QuickStop,
-        /// disable operation: 0x7 of the bits 0x8F.
+        /// disable operation: `xxxx xxxx 0xxx 0111`.
         DisableOperation,
-        /// fault reset: 0x80 of the bits 0x80.
+        /// fault reset: `xxxx xxxx 1xxx xxxx`.
         FaultReset,
     }
     impl Command {
@@ -1248,6 +1258,8 @@ pub mod types {
 pub mod codes {
     use ::lexibus as rt;
     /// drive errors.
+    ///
+    /// From CiA 402, 6.2.
     ///
     /// As a type: [`DriveErrors`].
     pub static DRIVE_ERRORS: &[rt::codes::Code] = &[
@@ -1477,9 +1489,11 @@ pub mod codes {
     }
     /// emergency.
     ///
+    /// From CiA 301, 7.2.7.1.
+    ///
     /// As a type: [`Emergency`].
     pub static EMERGENCY: &[rt::codes::Code] = &[
-        rt::codes::Code::new(0, 0, "no error", "Or an error is gone.", &[]),
+        rt::codes::Code::new(0, 0, "no error", "Or an error was reset", &[]),
         rt::codes::Code::new(0x1000, 0x10FF, "generic error", "", &[]),
         rt::codes::Code::new(0x2000, 0x20FF, "current", "", &[]),
         rt::codes::Code::new(0x2100, 0x21FF, "current on the input side", "", &[]),
@@ -1500,7 +1514,7 @@ pub mod codes {
         rt::codes::Code::new(0x7000, 0x70FF, "additional modules", "", &[]),
         rt::codes::Code::new(0x8000, 0x80FF, "monitoring", "", &[]),
         rt::codes::Code::new(0x8100, 0x8100, "communication", "", &[]),
-        rt::codes::Code::new(0x8110, 0x8110, "CAN overrun", "Objects were lost.", &[]),
+        rt::codes::Code::new(0x8110, 0x8110, "CAN overrun", "Messages were lost", &[]),
         rt::codes::Code::new(0x8120, 0x8120, "CAN error passive", "", &[]),
         rt::codes::Code::new(0x8130, 0x8130, "life guarding or heartbeat", "", &[]),
         rt::codes::Code::new(0x8140, 0x8140, "recovered from bus off", "", &[]),
@@ -1510,14 +1524,14 @@ pub mod codes {
             0x8210,
             0x8210,
             "PDO too short",
-            "It wasn't processed.",
+            "The PDO was not processed",
             &[],
         ),
         rt::codes::Code::new(
             0x8220,
             0x8220,
             "PDO too long",
-            "More was received than is mapped.",
+            "The PDO is longer than its mapping",
             &[],
         ),
         rt::codes::Code::new(
@@ -1537,7 +1551,7 @@ pub mod codes {
     ///
     /// | Code | Name | Meaning |
     /// |---|---|---|
-    /// | 0 | [`NoError`](Self::NoError) | Or an error is gone. |
+    /// | 0x0000 | [`NoError`](Self::NoError) | Or an error was reset. |
     /// | 0x1000 to 0x10FF | [`GenericError`](Self::GenericError) |  |
     /// | 0x2000 to 0x20FF | [`Current`](Self::Current) |  |
     /// | 0x2100 to 0x21FF | [`CurrentOnTheInputSide`](Self::CurrentOnTheInputSide) |  |
@@ -1558,14 +1572,14 @@ pub mod codes {
     /// | 0x7000 to 0x70FF | [`AdditionalModules`](Self::AdditionalModules) |  |
     /// | 0x8000 to 0x80FF | [`Monitoring`](Self::Monitoring) |  |
     /// | 0x8100 | [`Communication`](Self::Communication) |  |
-    /// | 0x8110 | [`CanOverrun`](Self::CanOverrun) | Objects were lost. |
+    /// | 0x8110 | [`CanOverrun`](Self::CanOverrun) | Messages were lost. |
     /// | 0x8120 | [`CanErrorPassive`](Self::CanErrorPassive) |  |
     /// | 0x8130 | [`LifeGuardingOrHeartbeat`](Self::LifeGuardingOrHeartbeat) |  |
     /// | 0x8140 | [`RecoveredFromBusOff`](Self::RecoveredFromBusOff) |  |
     /// | 0x8150 | [`TwoNodesWithOneIdentifier`](Self::TwoNodesWithOneIdentifier) |  |
     /// | 0x8200 | [`Protocol`](Self::Protocol) |  |
-    /// | 0x8210 | [`PdoTooShort`](Self::PdoTooShort) | It wasn't processed. |
-    /// | 0x8220 | [`PdoTooLong`](Self::PdoTooLong) | More was received than is mapped. |
+    /// | 0x8210 | [`PdoTooShort`](Self::PdoTooShort) | The PDO was not processed. |
+    /// | 0x8220 | [`PdoTooLong`](Self::PdoTooLong) | The PDO is longer than its mapping. |
     /// | 0x8230 | [`DestinationOfAMultiplexedPdoDoesnTExist`](Self::DestinationOfAMultiplexedPdoDoesnTExist) | destination of a multiplexed PDO doesn't exist. |
     /// | 0x8240 | [`SyncOfAnotherLength`](Self::SyncOfAnotherLength) |  |
     /// | 0x8250 | [`RpdoTimeout`](Self::RpdoTimeout) |  |
@@ -1574,7 +1588,7 @@ pub mod codes {
     /// | 0xFF00 to 0xFFFF | [`DeviceSpecific`](Self::DeviceSpecific) |  |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum Emergency {
-        /// 0: no error. Or an error is gone.
+        /// 0x0000: no error. Or an error was reset.
         NoError,
         /// 0x1000 to 0x10FF: generic error.
         GenericError(u16),
@@ -1616,7 +1630,7 @@ pub mod codes {
         Monitoring(u16),
         /// 0x8100: communication.
         Communication,
-        /// 0x8110: CAN overrun. Objects were lost.
+        /// 0x8110: CAN overrun. Messages were lost.
         CanOverrun,
         /// 0x8120: CAN error passive.
         CanErrorPassive,
@@ -1628,9 +1642,9 @@ pub mod codes {
         TwoNodesWithOneIdentifier,
         /// 0x8200: protocol.
         Protocol,
-        /// 0x8210: PDO too short. It wasn't processed.
+        /// 0x8210: PDO too short. The PDO was not processed.
         PdoTooShort,
-        /// 0x8220: PDO too long. More was received than is mapped.
+        /// 0x8220: PDO too long. The PDO is longer than its mapping.
         PdoTooLong,
         /// 0x8230: destination of a multiplexed PDO doesn't exist.
         DestinationOfAMultiplexedPdoDoesnTExist,
@@ -1941,7 +1955,11 @@ pub mod objects {
     /// 0x6040:00, UNSIGNED16, rw, mappable into RPDOs.
     /// Accessor: [`controlword`](super::Ax1::controlword). Values: [`Controlword`](super::types::Controlword). Carried by [`SetPoints`](super::pdo::SetPoints).
     ///
-    /// Commands of the state machine, and of the mode of operation.
+    /// Control word: commands of the state machine and of the mode of operation.
+    ///
+    /// Bits from CiA 402, 10.3.1.
+    ///
+    /// Description from CiA 402, 10.3.1.
     pub const CONTROLWORD: ReadWrite<super::types::Controlword> = ReadWriteNamedControlword::flagged_coe_object(
         0x6040,
         0x00,
@@ -1953,7 +1971,11 @@ pub mod objects {
     /// 0x6041:00, UNSIGNED16, ro, mappable into TPDOs.
     /// Accessor: [`statusword`](super::Ax1::statusword). Values: [`Statusword`](super::types::Statusword). Carried by [`ActualValues`](super::pdo::ActualValues), [`DriveStatus`](super::pdo::DriveStatus).
     ///
-    /// The state, and what the mode of operation has to tell.
+    /// Status word: the state of the drive and the status of the mode of operation.
+    ///
+    /// Bits from CiA 402, 10.3.2.
+    ///
+    /// Description from CiA 402, 10.3.2.
     pub const STATUSWORD: ReadOnly<super::types::Statusword> = ReadOnlyNamedStatusword::flagged_coe_object(
         0x6041,
         0x00,
@@ -1965,7 +1987,11 @@ pub mod objects {
     /// 0x6060:00, INTEGER8, rw, mappable into RPDOs.
     /// Accessor: [`modes_of_operation`](super::Ax1::modes_of_operation). Values: [`ModesOfOperation`](super::types::ModesOfOperation). Carried by [`SetPoints`](super::pdo::SetPoints).
     ///
-    /// The mode wanted. The mode in force is in 0x6061.
+    /// Requested mode of operation; the active mode is in 0x6061.
+    ///
+    /// Values from CiA 402, 10.3.8.
+    ///
+    /// Description from CiA 402, 10.3.8.
     pub const MODES_OF_OPERATION: ReadWrite<super::types::ModesOfOperation> = ReadWriteNamedModesOfOperation::flagged_coe_object(
         0x6060,
         0x00,
@@ -1997,7 +2023,11 @@ pub mod objects {
     /// 0x6077:00, INTEGER16, ro, mappable into TPDOs, in 0.1 %.
     /// Accessor: [`torque`](super::Ax1::torque). Carried by [`DriveStatus`](super::pdo::DriveStatus).
     ///
-    /// Torque, of the rated torque.
+    /// Actual torque, relative to the rated torque.
+    ///
+    /// Unit from CiA 402, 17.3.7.
+    ///
+    /// Description from CiA 402, 17.3.7.
     pub const TORQUE: ReadOnly<rt::Scaled<i16, 1, 10>> = ReadOnlyI16Times1Per10::new(
         rt::OnCoE::coe(0x6077, 0x00),
         "Torque",
@@ -2021,7 +2051,11 @@ pub mod objects {
     /// 0x60B2:00, INTEGER16, rw, mappable into RPDOs, in 0.1 %.
     /// Accessor: [`torque_offset`](super::Ax1::torque_offset). Carried by [`SetPoints`](super::pdo::SetPoints).
     ///
-    /// Added to the torque wanted, of the rated torque.
+    /// Torque offset: added to the target torque, relative to the rated torque.
+    ///
+    /// Unit from CiA 402, object 60B2h of CiA 402-2.
+    ///
+    /// Description from CiA 402, object 60B2h of CiA 402-2.
     pub const TORQUE_OFFSET: ReadWrite<rt::Scaled<i16, 1, 10>> = ReadWriteI16Times1Per10::new(
         rt::OnCoE::coe(0x60B2, 0x00),
         "Torque offset",

@@ -22,7 +22,7 @@ async function order(window) {
   const rows = await page.locator("main .items th a").allTextContents();
   const wanted = ["To the content", "All devices", "search", "language", "theme", ...links, ...rows];
   const seen = [];
-  for (let at = 0; at < wanted.length + 20 && !seen.includes(rows[rows.length - 1]); at++) {
+  for (let at = 0; at < 3 * wanted.length && !seen.includes(rows[rows.length - 1]); at++) {
     await page.keyboard.press("Tab");
     const own = await page.evaluate(() => {
       const element = document.activeElement, { outlineStyle, outlineWidth } = getComputedStyle(element), place = element.getBoundingClientRect();

@@ -13,13 +13,17 @@ const FOUND = [
   ["hsd-sm137-sm140/index.html", "0x0105", /^parameter 0x0105 KP_VEL/, "hsd-sm137-sm140/parameters.html#KP_VEL"],
   ["hsd-sm137-sm140/index.html", "261", /^parameter 0x0105 KP_VEL/, "hsd-sm137-sm140/parameters.html#KP_VEL"],
   ["hsd-sm137-sm140/parameters.html", "velocita e della coppia", /^message Poll theoretical position Richiesta/, "hsd-sm137-sm140/messages.html#Poll_theoretical_position"],
-  ["hsd-sm137-sm140/index.html", "greatest current controller V", /^low_level 0x0005 KIQDLIMAX V · HSD Motor$/, "hsd-sm137-sm140/low-level-parameters.html#KIQDLIMAX"],
-  ["hsd-sm137-sm140/index.html", "overheated", /^1 overheated ALOVERHEATED/, "hsd-sm137-sm140/codes.html#alarm-1"],
-  ["eco/index.html", "32848", /^register 32848 mechatronic_80/, "eco/registers.html#mechatronic_80"],
-  ["eco/index.html", "0x8050", /^register 32848 mechatronic_80/, "eco/registers.html#mechatronic_80"],
+  ["hsd-sm137-sm140/index.html", "low_level maximum current V", /^low_level 0x0005 KIQDLIMAX V · HSD Motor$/, "hsd-sm137-sm140/low-level-parameters.html#KIQDLIMAX"],
+  ["hsd-sm137-sm140/index.html", "overheated", /^0x0001 overheated ALOVERHEATED/, "hsd-sm137-sm140/codes.html#alarm-0x0001"],
+  // Codes in the notation of the manual, the one of a cell too, and the numbers that a manual prints next to an index.
+  ["kollmorgen-akd/index.html", "F125", /^F125 synchronisation lost/, "kollmorgen-akd/codes.html#faults-F125"],
+  ["eco/index.html", "0x8700 synchronisation", /^34 synchronisation timed out/, "eco/codes.html#ethercat_alarms-34"],
+  ["aec-vector-step/index.html", "register 63", /^register 63–64 Rvel/, "aec-vector-step/motion-parameters.html#Rvel"],
+  ["eco/index.html", "32848", /^register 80 \(wire 32848\) mechatronic_80/, "eco/registers.html#mechatronic_80"],
+  ["eco/index.html", "0x8050", /^register 80 \(wire 32848\) mechatronic_80/, "eco/registers.html#mechatronic_80"],
   ["kollmorgen-akd/index.html", "valore di comando di velocità", /^0x60FF Velocity command value/, "kollmorgen-akd/profile-objects.html#0x60FF"],
   // A code between the ends of a range.
-  ["kollmorgen-akd/index.html", "0x6142", /^0x6100 to 0x61FF internal software/, "kollmorgen-akd/codes.html#emergency-0x6100"],
+  ["eco/index.html", "0x8642", /^0x8000 to 0x8FFF monitoring/, "eco/codes.html#emergency-0x8000_to_0x8FFF"],
   // Of all devices, from the first page; the device is a word like others.
   ["index.html", "akd 60ff", /^0x60FF Velocity command value .*AKD$/, "kollmorgen-akd/profile-objects.html#0x60FF"],
   ["index.html", "KP_VEL", /^parameter 0x0105 KP_VEL .*HSD Motor$/, "hsd-sm137-sm140/parameters.html#KP_VEL"],

@@ -1,8 +1,11 @@
 //! Sentences about elements of the IR, for documentation of any kind.
 
+use crate::facts::cob_id;
+use crate::facts::physical::{self, depends_on_node, Physical};
 use crate::ir::{
-    Availability, Behaviour, CompactString, Condition, Device, Direction, Documentation, Doubt, ItemVariant, Limits,
-    LocalText, Quantity, Scale, Step, Storage, Value,
+    Availability, Behaviour, CiteUnit, CompactString, Condition, Device, Direction, Documentation, Doubt, Item,
+    ItemVariant, Limits, LocalText, Manual, Quantity, Scale, Severity, Shape, Step, Storage, TypeDef, Value,
+    PRINTED_NAME,
 };
 
 /// Makes sentences. Every text of a source goes through `escape` on its way into one.
@@ -25,23 +28,44 @@ pub(crate) fn one_line(text: &str) -> String {
     text.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
-/// What is known of the manual that a description was taken from.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct Manual {
-    /// Its language, where it isn't the one of the description.
-    pub language: String,
-    /// What places in it are: `line` or `page`.
-    cites: String,
+/// The manual that a description was transcribed from.
+pub(crate) fn manual(device: &Device) -> Manual {
+    device.manual.as_deref().cloned().unwrap_or_default()
 }
 
-impl Manual {
-    pub(super) fn of(device: &Device) -> Self {
-        let fact = |key: &str| {
-            let own = device.extensions.iter().find(|extension| extension.key == key);
-            own.map(|own| own.value.to_string()).unwrap_or_default()
-        };
-        Manual { language: fact("manual/language"), cites: fact("manual/cites") }
+/// At most so many sections are named in one citation.
+const SECTIONS_NAMED: usize = 3;
+
+/// `PARAMETRI MOVIMENTO, Rvel (line 2178)`: section, row and page or line of a manual. Without sections, `line 2178`.
+fn citation(manual: &Manual, row: &str, cite: &str) -> String {
+    let numbers = cite.split(',').filter_map(|part| part.split('-').next()?.trim().parse().ok());
+    let mut sections: Vec<&str> = Vec::new();
+    for section in numbers.filter_map(|number| manual.section(number)) {
+        if !sections.contains(&section.title.as_str()) {
+            sections.push(&section.title);
+        }
     }
+    let number = match manual.counts {
+        Some(_) if !cite.starts_with(|letter: char| letter.is_ascii_digit()) => cite.to_owned(),
+        Some(unit) => {
+            let plural = if cite.contains([',', '-']) { "s" } else { "" };
+            format!("{}{plural} {cite}", if unit == CiteUnit::Page { "page" } else { "line" })
+        }
+        None => cite.to_owned(),
+    };
+    if sections.is_empty() {
+        return number;
+    }
+    let more = sections.len().saturating_sub(SECTIONS_NAMED);
+    let mut place = sections[..sections.len() - more].join("; ");
+    if more > 0 {
+        place += &format!("; {more} more sections");
+    }
+    if !row.is_empty() && !sections.contains(&row) {
+        place += ", ";
+        place += row;
+    }
+    format!("{place} ({number})")
 }
 
 /// `text` with a full stop, where it has none.
@@ -82,6 +106,11 @@ impl Words<'_> {
     pub fn description(&self, documentation: Option<&Documentation>) -> Vec<String> {
         let lines = documentation.into_iter().flat_map(|documentation| documentation.text.lines());
         lines.map(|line| self.escaped(line)).filter(|line| !line.is_empty()).map(|line| sentence(&line)).collect()
+    }
+
+    /// Whether the access rights are an assumption.
+    pub fn access(&self, item: &Item) -> Option<String> {
+        item.is_access_assumed.then(|| "The manual states no access rights; read-write is assumed.".to_owned())
     }
 
     /// What is known of storage, side effects and conditions of writing.
@@ -160,29 +189,56 @@ impl Words<'_> {
         }
     }
 
-    /// `range 0 to 5`, `one of 1, 3 to 7`; `None` where there are no limits.
-    pub fn limits(&self, limits: &Limits) -> Option<String> {
-        let depends = [&limits.low, &limits.high].into_iter().any(|limit| matches!(limit, Some(Value::NodeId(_))));
-        if !limits.allowed.is_empty() {
-            const SHOWN: usize = 16;
-            let one = |(first, last): &(Value, Value)| match first == last {
-                true => self.value(first),
-                false => format!("{} to {}", self.value(first), self.value(last)),
-            };
-            let mut list: Vec<String> = limits.allowed.iter().take(SHOWN).map(one).collect();
-            if limits.allowed.len() > SHOWN {
-                list.push("…".to_owned());
-            }
-            return Some(format!("one of {}", list.join(", ")));
+    /// A value of an item: its physical value first, the flags of a COB-ID by name, or what `raw` writes.
+    pub fn of_item(&self, item: &Item, value: &Value, raw: &dyn Fn(&Value) -> String) -> String {
+        let cob_id = cob_id::kind(item).and_then(|kind| cob_id::text(value, kind));
+        match (cob_id, Physical::of(item.quantity.as_deref())) {
+            (Some(text), _) => self.escaped(&text),
+            (None, Some(physical)) => physical.value(value, raw, &|unit| self.escaped(unit)),
+            (None, None) => raw(value),
         }
-        let text = match (&limits.low, &limits.high) {
-            (Some(low), Some(high)) => Some(format!("range {} to {}", self.value(low), self.value(high))),
-            (Some(low), None) => Some(format!("at least {}", self.value(low))),
-            (None, Some(high)) => Some(format!("at most {}", self.value(high))),
-            (None, None) => None,
+    }
+
+    /// `range 0 to 5`, `one of 1, 3 to 7`, `range -20.0 … 200.0 °C (raw -200 … 2000)`; `None` without limits.
+    pub fn limits(&self, limits: &Limits, physical: Option<&Physical<'_>>) -> Option<String> {
+        if !limits.allowed.is_empty() {
+            return Some(format!("one of {}", self.allowed(limits, physical, &|value| self.value(value))));
+        }
+        let text = match (physical, &limits.low, &limits.high) {
+            (_, None, None) => return None,
+            (Some(_), ..) => format!("range {}", self.range(limits, physical, &|value| self.value(value))),
+            (None, Some(low), Some(high)) => format!("range {} to {}", self.value(low), self.value(high)),
+            (None, Some(low), None) => format!("at least {}", self.value(low)),
+            (None, None, Some(high)) => format!("at most {}", self.value(high)),
         };
         // What depends on the node-ID is known only at run time.
-        text.map(|text| if depends { text + " (not checked)" } else { text })
+        Some(if depends_on_node(limits) { text + " (not checked)" } else { text })
+    }
+
+    /// `0 … 5`, `-20.0 … 200.0 °C (raw -200 … 2000)`; empty without limits. `raw` writes a raw value.
+    pub fn range(&self, limits: &Limits, physical: Option<&Physical<'_>>, raw: &dyn Fn(&Value) -> String) -> String {
+        let (low, high) = (limits.low.as_ref(), limits.high.as_ref());
+        match physical.filter(|_| low.is_some() || high.is_some()) {
+            Some(physical) => physical.range((low, high), raw, &|unit| self.escaped(unit)),
+            None => physical::span((low.map(raw), high.map(raw))),
+        }
+    }
+
+    /// The only values and ranges of values, `1, 3 to 7`; of many, the first.
+    pub fn allowed(&self, limits: &Limits, physical: Option<&Physical<'_>>, raw: &dyn Fn(&Value) -> String) -> String {
+        const SHOWN: usize = 16;
+        let unit = |unit: &str| self.escaped(unit);
+        let one = |(first, last): &(Value, Value)| match (physical, first == last) {
+            (None, true) => raw(first),
+            (None, false) => format!("{} to {}", raw(first), raw(last)),
+            (Some(physical), true) => physical.value(first, raw, &unit),
+            (Some(physical), false) => physical.range((Some(first), Some(last)), raw, &unit),
+        };
+        let mut list: Vec<String> = limits.allowed.iter().take(SHOWN).map(one).collect();
+        if limits.allowed.len() > SHOWN {
+            list.push("…".to_owned());
+        }
+        list.join(", ")
     }
 
     /// Models, firmware, buses and options that have an element; empty where all do.
@@ -212,29 +268,62 @@ impl Words<'_> {
         sentences.join(" ")
     }
 
-    /// `Note: … Chosen: … (why).`
-    pub fn doubt(&self, doubt: &Doubt) -> String {
+    /// `Note: … Chosen: … (why). Manual: ….`
+    pub fn doubt(&self, manual: &Manual, doubt: &Doubt) -> String {
         let part = |text: &str| self.escaped(text.trim_end_matches('.'));
         let why = if doubt.why.is_empty() { String::new() } else { format!(" ({})", part(&doubt.why)) };
-        format!("Note: {}. Chosen: {}{why}.", part(&doubt.says), part(&doubt.chosen))
+        let place = doubt.cite.as_deref().map(|cite| format!(" {}.", self.citation(manual, "", cite)));
+        let hazard = if doubt.severity == Severity::Hazard { "Hazard" } else { "Note" };
+        let place = place.unwrap_or_default();
+        format!("{hazard}: {}. Chosen: {}{why}.{place}", part(&doubt.says), part(&doubt.chosen))
     }
 
-    /// The place in the manual and its own words for an element: `Manual, line 12: Posizione.`
-    pub fn place(&self, manual: &Manual, documentation: Option<&Documentation>, names: &[LocalText]) -> Option<String> {
+    /// `Manual: PARAMETRI MOVIMENTO, Rvel (line 2178)`, or `Manual, line 2178` where no section is known.
+    pub fn citation(&self, manual: &Manual, row: &str, cite: &str) -> String {
+        let behind = if manual.sections.is_empty() { "," } else { ":" };
+        format!("Manual{behind} {}", self.escaped(&citation(manual, row, cite)))
+    }
+
+    /// The place in the manual and its own words for an element: `Manual: PARAMETRI MOVIMENTO, Rvel (line 12): Posizione.`
+    pub fn place(
+        &self,
+        manual: &Manual,
+        row: &str,
+        documentation: Option<&Documentation>,
+        names: &[LocalText],
+    ) -> Option<String> {
         let cite = documentation.and_then(|documentation| documentation.cite.as_deref());
+        let from = documentation.and_then(|documentation| self.text_from(documentation));
         let is_original = |text: &&LocalText| !manual.language.is_empty() && text.language == manual.language;
         let original = names.iter().find(is_original).map(|text| self.escaped(&text.text));
-        let place = cite.map(|cite| match manual.cites.as_str() {
-            "" => format!("Manual, {}", self.escaped(cite)),
-            kind => format!("Manual, {} {}", self.escaped(kind), self.escaped(cite)),
-        });
-        match (place, original) {
+        let place = cite.map(|cite| self.citation(manual, row, cite));
+        let place = match (place, original) {
             (None, None) => None,
             (Some(place), None) => Some(format!("{place}.")),
             (place, Some(original)) => {
                 let place = place.unwrap_or_else(|| "Manual".to_owned());
                 Some(format!("{place}: {}", sentence(&original)))
             }
+        };
+        let sentences: Vec<String> = from.into_iter().chain(place).collect();
+        (!sentences.is_empty()).then(|| sentences.join(" "))
+    }
+
+    /// `Bits from CiA 402, 10.3.1.`: whose bits or values a type has, where they aren't the description's own.
+    pub fn meaning_from(&self, definition: Option<&TypeDef>) -> Option<String> {
+        let definition = definition?;
+        let standard = &definition.documentation.as_deref()?.text_from;
+        let what = if matches!(definition.shape, Shape::BitField { .. }) { "Bits" } else { "Values" };
+        (!standard.is_empty()).then(|| format!("{what} from {}.", self.escaped(standard)))
+    }
+
+    /// `Description from CiA 402, 17.3.7.`
+    fn text_from(&self, documentation: &Documentation) -> Option<String> {
+        match documentation.text_from.as_str() {
+            "" => None,
+            PRINTED_NAME => Some("Description spelled out from the printed name.".to_owned()),
+            standard if documentation.text.is_empty() => Some(format!("From {}.", self.escaped(standard))),
+            standard => Some(format!("Description from {}.", self.escaped(standard))),
         }
     }
 
@@ -283,14 +372,32 @@ impl Words<'_> {
             .map(|(value, name)| format!("{} means: {}", self.value(value), sentence(&self.escaped(name))))
             .collect();
         if let Some(step) = &quantity.step {
-            notes.push(format!("The device rounds to steps of {}.", self.value(step)));
+            notes.push(format!("The device rounds to {}.", self.step_of(step, Physical::of(Some(quantity)))));
+        }
+        if !quantity.standard.is_empty() {
+            notes.push(format!("Unit from {}.", self.escaped(&quantity.standard)));
         }
         notes
     }
 
-    /// What of an item differs on some models or buses, whose unit is `unit`.
-    pub fn variant(&self, variant: &ItemVariant, unit: &str) -> String {
-        let unit = self.escaped(unit);
+    /// `steps of 0.5 K (raw 5)`.
+    fn step_of(&self, step: &Value, physical: Option<Physical<'_>>) -> String {
+        let raw = |value: &Value| self.value(value);
+        let step = physical.map_or_else(|| raw(step), |own| own.step(step, &raw, &|unit| self.escaped(unit)));
+        format!("steps of {step}")
+    }
+
+    /// What of an item differs on some models or buses.
+    pub fn variant(&self, variant: &ItemVariant, item: &Item) -> String {
+        let own_unit = item.quantity.as_ref().map_or("", |quantity| quantity.unit.as_str());
+        let own = variant.scale.as_ref().map(|scale| Physical::scaled(scale, own_unit));
+        let physical = || own.unwrap_or_else(|| Physical::of(item.quantity.as_deref()));
+        let raw = |value: &Value| self.value(value);
+        let shown = |value: &Value| match physical() {
+            Some(own) => own.value(value, &raw, &|unit| self.escaped(unit)),
+            None => raw(value),
+        };
+        let unit = self.escaped(own_unit);
         let behind = if unit.is_empty() { unit } else { format!(" {unit}") };
         let who = match (variant.models.is_empty(), variant.buses.is_empty()) {
             (false, true) => format!("Of {}", self.list(&variant.models)),
@@ -300,9 +407,9 @@ impl Words<'_> {
         let mut facts = Vec::new();
         facts.extend(variant.ty.map(|ty| ty.to_string()));
         facts.extend(variant.access.map(|access| access.name().to_owned()));
-        facts.extend(variant.default.as_ref().map(|value| format!("default {}", self.value(value))));
-        facts.extend(self.limits(&variant.limits));
-        facts.extend(variant.step.as_ref().map(|step| format!("rounded to steps of {}", self.value(step))));
+        facts.extend(variant.default.as_ref().map(|value| format!("default {}", shown(value))));
+        facts.extend(self.limits(&variant.limits, physical().as_ref()));
+        facts.extend(variant.step.as_ref().map(|step| format!("rounded to {}", self.step_of(step, physical()))));
         facts.extend(
             variant.scale.as_ref().map(|scale| self.scaled(scale, &behind).trim_start_matches(", ").to_owned()),
         );

@@ -3,7 +3,9 @@
 use std::collections::{BTreeMap, HashMap, HashSet, VecDeque};
 
 use super::{renamed, types, Changes, Judgement, Scope};
-use crate::ir::{Access, Binding, Group, Item, Limits, Quantity, Scale, Type, Value};
+use crate::backend::words::PLAIN;
+use crate::facts::physical::Physical;
+use crate::ir::{Access, Behaviour, Binding, Group, Item, Limits, ObjectBuses, Quantity, Scale, Storage, Type, Value};
 
 /// An item with the group that has it.
 type Placed<'a> = (&'a Group, &'a Item);
@@ -75,24 +77,25 @@ fn address(binding: &Binding) -> String {
     }
 }
 
-/// The buses on which an item is, each in the way in which its handle says so.
+/// The buses of an address, each in the way in which the handle says so.
+fn buses_of(binding: &Binding) -> Vec<&'static str> {
+    vec![match binding {
+        Binding::Object { buses: ObjectBuses { canopen: true, coe: true }, .. } => return vec!["CANopen", "EtherCAT"],
+        Binding::Object { buses: ObjectBuses { coe: true, .. }, .. } => "EtherCAT",
+        Binding::Object { .. } => "CANopen",
+        Binding::Register(_) => "Modbus",
+        Binding::Record { .. } => "PROFINET",
+        Binding::Image(_) => "a process image",
+        Binding::Parameter { .. } => "a serial line",
+        Binding::Ascii(_) => "lines of text",
+        Binding::EscMemory { .. } => "the controller's memory",
+        Binding::Indirect(_) => "a window",
+    }]
+}
+
+/// The buses on which an item is.
 fn buses(item: &Item) -> Vec<&'static str> {
-    let mut all = Vec::new();
-    for binding in &item.bindings {
-        match binding {
-            Binding::Object { buses, .. } => {
-                all.extend(buses.canopen.then_some("CANopen"));
-                all.extend(buses.coe.then_some("EtherCAT"));
-            }
-            Binding::Register(_) => all.push("Modbus"),
-            Binding::Record { .. } => all.push("PROFINET"),
-            Binding::Image(_) => all.push("a process image"),
-            Binding::Parameter { .. } => all.push("a serial line"),
-            Binding::Ascii(_) => all.push("lines of text"),
-            Binding::EscMemory { .. } => all.push("the controller's memory"),
-            Binding::Indirect(_) => all.push("a window"),
-        }
-    }
+    let mut all: Vec<_> = item.bindings.iter().flat_map(buses_of).collect();
     all.sort_unstable();
     all.dedup();
     all
@@ -131,10 +134,12 @@ fn item(
     let lost = on.iter().any(|bus| !now_on.contains(bus));
     let judged = |breaks: bool| if breaks { Judgement::Breaking } else { Judgement::Compatible };
     changes.fact(&element, "buses", (on.join(", "), now_on.join(", ")), judged(lost));
-    let further = |item: &Item| item.bindings.iter().skip(1).map(address).collect::<Vec<_>>().join(", ");
-    if on == now_on {
-        changes.fact(&element, "further addresses", (further(was), further(is)), Judgement::Compatible);
-    }
+    let is_on_both = |bus: &&str| on.contains(bus) && now_on.contains(bus);
+    let further = |item: &Item| {
+        let on_both = |binding: &&Binding| buses_of(binding).iter().any(is_on_both);
+        item.bindings.iter().skip(1).filter(on_both).map(address).collect::<Vec<_>>().join(", ")
+    };
+    changes.fact(&element, "further addresses", (further(was), further(is)), Judgement::Compatible);
     let narrower = !is.access.readable() && was.access.readable() || !is.access.writable() && was.access.writable();
     let access = |own: Access| own.name().to_owned();
     changes.fact(&element, "access", (access(was.access), access(is.access)), judged(narrower));
@@ -146,14 +151,17 @@ fn item(
     };
     let lost = was.mappable.rpdo && !is.mappable.rpdo || was.mappable.tpdo && !is.mappable.tpdo;
     changes.fact(&element, "mappable into", (mappable(was), mappable(is)), judged(lost));
-    changes.fact(
-        &element,
-        "range",
-        (range(&was.limits), range(&is.limits)),
-        judged(is_narrower(&was.limits, &is.limits)),
-    );
-    let value = |own: &Option<Value>| own.as_ref().map(ToString::to_string).unwrap_or_default();
-    changes.fact(&element, "default", (value(&was.default), value(&is.default)), Judgement::Compatible);
+    changes.fact(&element, "range", (range(was), range(is)), judged(is_narrower(&was.limits, &is.limits)));
+    let default = |item: &Item| {
+        item.default.as_ref().map(|value| PLAIN.of_item(item, value, &Value::to_string)).unwrap_or_default()
+    };
+    changes.fact(&element, "default", (default(was), default(is)), Judgement::Compatible);
+    let (orders_before, orders_now) = (orders(was), orders(is));
+    if !orders_before.1.is_empty() && !orders_now.1.is_empty() {
+        changes.fact(&element, "word order", (orders_before.0, orders_now.0), Judgement::Breaking);
+        changes.fact(&element, "byte order", (orders_before.1, orders_now.1), Judgement::Breaking);
+    }
+    behaviour((was, is), &element, changes);
     let quantity = |item: &Item| item.quantity.as_deref().cloned().unwrap_or_default();
     let (was, is) = (quantity(was), quantity(is));
     changes.fact(&element, "unit", (was.unit.to_string(), is.unit.to_string()), Judgement::Breaking);
@@ -163,20 +171,57 @@ fn item(
     changes.fact(&element, "no number", (sentinels(&was), sentinels(&is)), Judgement::Breaking);
 }
 
-fn range(limits: &Limits) -> String {
-    if !limits.allowed.is_empty() {
-        let one = |(first, last): &(Value, Value)| match first == last {
-            true => first.to_string(),
-            false => format!("{first} to {last}"),
-        };
-        return limits.allowed.iter().map(one).collect::<Vec<_>>().join(", ");
+fn range(item: &Item) -> String {
+    let physical = Physical::of(item.quantity.as_deref());
+    match item.limits.allowed.is_empty() {
+        true => PLAIN.range(&item.limits, physical.as_ref(), &Value::to_string),
+        false => PLAIN.allowed(&item.limits, physical.as_ref(), &Value::to_string),
     }
-    match (&limits.low, &limits.high) {
-        (Some(low), Some(high)) => format!("{low} to {high}"),
-        (Some(low), None) => format!("from {low}"),
-        (None, Some(high)) => format!("to {high}"),
-        (None, None) => String::new(),
+}
+
+/// The order of the words of a longer value on Modbus, and of the bytes of a word.
+fn orders(item: &Item) -> (String, String) {
+    let register = item.bindings.iter().find_map(|binding| match binding {
+        Binding::Register(own) => Some(own),
+        _ => None,
+    });
+    let Some(own) = register else { return Default::default() };
+    let words = match (own.count, own.low_word_first) {
+        (..=1, _) => "",
+        (_, true) => "low word first",
+        (_, false) => "high word first",
+    };
+    (words.to_owned(), if own.bytes_swapped { "swapped" } else { "high byte first" }.to_owned())
+}
+
+/// Storage, side effects and conditions of writing.
+fn behaviour((old, new): (&Item, &Item), element: &str, changes: &mut Changes) {
+    let own = |item: &Item| item.behaviour.as_deref().cloned().unwrap_or_default();
+    let (was, is) = (own(old), own(new));
+    let stored = |own: &Behaviour| match &own.storage {
+        Storage::Unknown => String::new(),
+        Storage::Volatile => "volatile".to_owned(),
+        Storage::Immediate => "at once".to_owned(),
+        Storage::OnCommand(command) => format!("on command {command}"),
+    };
+    changes.fact(element, "non-volatile storage", (stored(&was), stored(&is)), Judgement::Compatible);
+    let effective = |own: &Behaviour| own.effective.as_deref().unwrap_or_default().to_owned();
+    changes.fact(element, "takes effect", (effective(&was), effective(&is)), Judgement::Compatible);
+    let when = |own: &Behaviour| own.write_when.iter().map(|own| PLAIN.holds(own)).collect::<Vec<_>>().join(" and ");
+    // A write that the device accepted may be refused.
+    let judgement = if is.write_when.is_empty() { Judgement::Compatible } else { Judgement::Breaking };
+    changes.fact(element, "writable while", (when(&was), when(&is)), judgement);
+    let values = |own: &Behaviour| own.writable_values.iter().map(Value::to_string).collect::<Vec<_>>().join(", ");
+    let judgement = if is.writable_values.is_empty() { Judgement::Compatible } else { Judgement::Breaking };
+    changes.fact(element, "writable values", (values(&was), values(&is)), judgement);
+    for (fact, was, is) in [
+        ("cleared by the device", was.self_clearing, is.self_clearing),
+        ("writable only once", was.write_once, is.write_once),
+    ] {
+        changes.fact(element, fact, (was.to_string(), is.to_string()), Judgement::Compatible);
     }
+    let effects = |own: &Behaviour| own.side_effects.join("; ");
+    changes.fact(element, "side effects", (effects(&was), effects(&is)), Judgement::Compatible);
 }
 
 /// Whether some value was allowed that isn't any more.

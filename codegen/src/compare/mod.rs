@@ -26,7 +26,8 @@ use std::fmt;
 
 use serde::Serialize;
 
-use crate::ir::{Catalog, Device, Group, Module, Pdo, ProcessImage, TypeDef};
+use crate::facts;
+use crate::ir::{Catalog, Device, Group, ModbusTable, Module, ObjectBuses, Pdo, ProcessImage, TypeDef};
 use crate::passes::names_unique::{self, Case, Wish};
 use crate::text::printable;
 
@@ -154,6 +155,8 @@ struct Scope<'a> {
     types: &'a [TypeDef],
     pdos: &'a [Pdo],
     images: Vec<&'a ProcessImage>,
+    /// The buses that objects are on.
+    buses: ObjectBuses,
 }
 
 impl<'a> Scope<'a> {
@@ -163,6 +166,7 @@ impl<'a> Scope<'a> {
             types: &own.types,
             pdos: &own.process_data.pdos,
             images: own.process_data.images.iter().collect(),
+            buses: facts::pdo::buses(own),
         }
     }
 
@@ -172,12 +176,19 @@ impl<'a> Scope<'a> {
             types: &own.types,
             pdos: &own.process_data.pdos,
             images: own.process_data.images.iter().collect(),
+            buses: ObjectBuses::COE,
         }
     }
 
     fn of_submodule(catalog: &'a Catalog, own: &'a crate::ir::Submodule) -> Self {
         let images = own.input.iter().chain(&own.output).map(|data| &data.image).collect();
-        Scope { groups: own.records.iter().collect(), types: &catalog.types, pdos: &[], images }
+        Scope {
+            groups: own.records.iter().collect(),
+            types: &catalog.types,
+            pdos: &[],
+            images,
+            buses: ObjectBuses::COE,
+        }
     }
 
     fn compare(&self, new: &Scope<'_>, changes: &mut Changes) {
@@ -197,10 +208,29 @@ fn device(old: &Device, new: &Device, changes: &mut Changes) {
         changes.fact("the device", fact, (number(old), number(new)), Judgement::Compatible);
     }
     changes.fact("the device", "name", (title(old), title(new)), renamed(&title(old), &title(new)));
+    requests(old, new, changes);
     Scope::of_device(old).compare(&Scope::of_device(new), changes);
     messages::compare(old, new, changes);
     machines::compare(old, new, changes);
     types::codes(&old.code_tables, &new.code_tables, changes);
+}
+
+/// The requests that the tables of Modbus take.
+fn requests(old: &Device, new: &Device, changes: &mut Changes) {
+    let list = |functions: &[u8]| functions.iter().map(u8::to_string).collect::<Vec<_>>().join(", ");
+    let number = |own: Option<u16>| own.map(|own| own.to_string()).unwrap_or_default();
+    for (was, is) in pairs(&old.modbus, &new.modbus, |own| own.space.title(), false) {
+        let Some(own) = was.or(is) else { continue };
+        let element = format!("Modbus table {}", own.space.title());
+        let of = |own: Option<&ModbusTable>| own.map(|own| list(&own.functions)).unwrap_or_default();
+        changes.fact(&element, "function codes", (of(was), of(is)), Judgement::Breaking);
+        let of = |own: Option<&ModbusTable>| number(own.and_then(|own| own.max_read));
+        changes.fact(&element, "longest read", (of(was), of(is)), Judgement::Compatible);
+        let of = |own: Option<&ModbusTable>| number(own.and_then(|own| own.max_write));
+        changes.fact(&element, "longest write", (of(was), of(is)), Judgement::Compatible);
+        let of = |own: Option<&ModbusTable>| own.is_some_and(|own| own.split).to_string();
+        changes.fact(&element, "longer values in several requests", (of(was), of(is)), Judgement::Compatible);
+    }
 }
 
 fn title(device: &Device) -> String {

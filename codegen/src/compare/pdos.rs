@@ -2,14 +2,15 @@
 
 use super::{pairs, types, Changes, Judgement, Scope};
 use crate::backend::words::PLAIN;
+use crate::facts::{self, cob_id};
 use crate::ir::{Direction, Pdo, PdoEntry, PdoEntryKind, ProcessImage, TypeDef};
 
 pub(super) fn compare(old: &Scope<'_>, new: &Scope<'_>, changes: &mut Changes) {
     let key = |own: &Pdo| (own.mapping_index, own.buses.map(|buses| (buses.canopen, buses.coe)));
     for (was, is) in pairs(old.pdos, new.pdos, key, false) {
         let Some(own) = was.or(is) else { continue };
-        let kind = if own.direction == Direction::Receive { "RPDO" } else { "TPDO" };
-        let element = format!("{kind} 0x{:04X} {}", own.mapping_index, own.name).trim().to_owned();
+        let buses = if is.is_some() { new.buses } else { old.buses };
+        let element = format!("{} {}", facts::pdo::title(own, buses), own.name).trim().to_owned();
         let (Some(was), Some(is)) = (was, is) else {
             changes.existence(&element, was.is_some(), is.is_some());
             continue;
@@ -26,7 +27,7 @@ pub(super) fn compare(old: &Scope<'_>, new: &Scope<'_>, changes: &mut Changes) {
         changes.fact(&element, "mapping", (fixed(was), fixed(is)), judgement);
         let cob_id = |own: &Pdo| {
             let id = own.communication.as_ref().and_then(|own| own.cob_id.as_ref());
-            id.map(|id| PLAIN.value(id)).unwrap_or_default()
+            id.map(|id| cob_id::text(id, cob_id::Kind::Pdo).unwrap_or_else(|| PLAIN.value(id))).unwrap_or_default()
         };
         changes.fact(&element, "COB-ID", (cob_id(was), cob_id(is)), Judgement::Compatible);
         let manager = |own: &Pdo| own.sync_manager.map(|own| own.to_string()).unwrap_or_default();

@@ -117,7 +117,7 @@ pub(super) fn named(
 
 /// Tables of codes, which are enumerations in Rust.
 pub(super) fn codes(old: &[CodeTable], new: &[CodeTable], changes: &mut Changes) {
-    let key = |row: &crate::ir::CodeRow| (format!("code {:#X}", row.code), row.name.to_string());
+    let key = |row: &crate::ir::CodeRow| (format!("code {}", crate::facts::code::text(row)), row.name.to_string());
     by_name(
         "codes",
         (old, new),

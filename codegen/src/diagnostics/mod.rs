@@ -10,9 +10,12 @@ pub mod render;
 pub use codes::{Class, Code};
 pub use levels::{Level, Levels, UnknownCode};
 
+use std::collections::{BTreeMap, HashMap};
+
 use serde::{Deserialize, Serialize};
 
-use crate::source::Span;
+use crate::limits::MAX_SAME_DIAGNOSTICS;
+use crate::source::{FileId, Span};
 
 /// How bad a finding is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
@@ -122,23 +125,54 @@ pub struct Diagnostics {
     levels: Levels,
     /// Findings that the source itself explains, by the place that they are in.
     allowed: Vec<(Span, &'static Code)>,
+    /// How many diagnostics of each code and file are in the list.
+    kept: HashMap<(FileId, &'static str), usize>,
+    /// How many more of them there were.
+    beyond: BTreeMap<(FileId, &'static str), Beyond>,
+    /// Whether the list ends with a diagnostic for each of these.
+    is_closed: bool,
+}
+
+/// Diagnostics of one code in one file that are only counted.
+#[derive(Clone, Debug)]
+struct Beyond {
+    code: &'static Code,
+    severity: Severity,
+    count: usize,
 }
 
 impl Diagnostics {
     /// An empty list under `levels`.
     pub fn new(levels: Levels) -> Self {
-        Diagnostics { list: Vec::new(), levels, allowed: Vec::new() }
+        Diagnostics { levels, ..Diagnostics::default() }
     }
 
-    /// Files a finding; one whose level is `allow` is forgotten.
+    /// Files a finding; one whose level is `allow` is forgotten. Of one code in one file, [`MAX_SAME_DIAGNOSTICS`] are kept, and
+    /// the others counted.
     pub fn push(&mut self, mut diagnostic: Diagnostic) {
         let is_allowed = |own: &(Span, &'static Code)| contains(own.0, diagnostic.span) && own.1 == diagnostic.code;
         if self.allowed.iter().any(is_allowed) {
             return;
         }
         if let Some(severity) = self.levels.severity(diagnostic.code) {
+            let key = (diagnostic.span.file, diagnostic.code.id);
+            let kept = self.kept.entry(key).or_default();
+            if *kept == MAX_SAME_DIAGNOSTICS {
+                let none = Beyond { code: diagnostic.code, severity, count: 0 };
+                self.beyond.entry(key).or_insert(none).count += 1;
+                return;
+            }
+            *kept += 1;
             diagnostic.severity = severity;
             self.list.push(diagnostic);
+        }
+    }
+
+    /// Counts the list again after some of it was forgotten.
+    fn recount(&mut self) {
+        self.kept.clear();
+        for own in &self.list {
+            *self.kept.entry((own.span.file, own.code.id)).or_default() += 1;
         }
     }
 
@@ -148,6 +182,7 @@ impl Diagnostics {
         if code.class != Class::Error {
             self.list.retain(|own| own.code != code || !contains(span, own.span));
             self.allowed.push((span, code));
+            self.recount();
         }
     }
 
@@ -157,6 +192,7 @@ impl Diagnostics {
         let tail = self.list.split_off(first.min(self.list.len()));
         let is_new = |own: &Diagnostic| seen.insert((own.code, own.span, own.message.clone()));
         self.list.extend(tail.into_iter().filter(is_new));
+        self.recount();
     }
 
     /// Whether any finding within `span` is an error.
@@ -179,8 +215,12 @@ impl Diagnostics {
         &self.list
     }
 
-    /// Sorts by place, so that a reader walks through the file from top to bottom.
+    /// Sorts by place, so that a reader walks through the file from top to bottom. Behind the diagnostics of a file, one for each
+    /// code says how many more there were.
     pub fn sort(&mut self) {
+        if !std::mem::replace(&mut self.is_closed, true) {
+            self.list.extend(self.beyond.iter().map(|((file, _), own)| own.diagnostic(*file)));
+        }
         self.list.sort_by_key(|d| (d.span.file, d.span.start, d.span.end));
     }
 
@@ -189,8 +229,48 @@ impl Diagnostics {
         self.list.iter().any(|d| d.severity == Severity::Error)
     }
 
-    /// How many findings have this severity.
+    /// How many findings have this severity, those that are only counted included.
     pub fn count(&self, severity: Severity) -> usize {
-        self.list.iter().filter(|d| d.severity == severity).count()
+        let beyond = || self.beyond.values().filter(|own| own.severity == severity);
+        let closing = if self.is_closed { beyond().count() } else { 0 };
+        let kept = self.list.iter().filter(|d| d.severity == severity).count();
+        kept - closing + beyond().map(|own| own.count).sum::<usize>()
+    }
+}
+
+impl Beyond {
+    fn diagnostic(&self, file: FileId) -> Diagnostic {
+        let (count, id) = (self.count, self.code.id);
+        let plural = if count == 1 { "diagnostic" } else { "diagnostics" };
+        // Behind all places of the file.
+        let span = Span::new(file, u32::MAX, u32::MAX);
+        let message = format!("{count} more {plural} of {id} in this file");
+        let found = Diagnostic::new(self.code, span, message);
+        let help = format!("correct the first {MAX_SAME_DIAGNOSTICS}, or allow {id}");
+        Diagnostic { severity: self.severity, ..found.label("only counted").help(help) }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn one_code_in_one_file_is_bounded_and_counted() {
+        let mut diagnostics = Diagnostics::default();
+        for at in 0..MAX_SAME_DIAGNOSTICS as u32 + 3 {
+            diagnostics.push(Diagnostic::new(&codes::JUNK_LINE, Span::new(FileId(0), at, at + 1), "junk"));
+        }
+        diagnostics.push(Diagnostic::new(&codes::JUNK_LINE, Span::new(FileId(1), 0, 1), "junk"));
+        diagnostics.push(Diagnostic::new(&codes::OCTAL_NUMBER, Span::new(FileId(0), 0, 1), "octal"));
+        let total = MAX_SAME_DIAGNOSTICS + 5;
+        let (severity, kept) = (diagnostics.list()[0].severity, diagnostics.list().len());
+        assert_eq!((kept, diagnostics.count(severity)), (total - 3, total));
+        diagnostics.sort();
+        diagnostics.sort();
+        assert_eq!((diagnostics.list().len(), diagnostics.count(severity)), (total - 2, total));
+        let of_first: Vec<_> = diagnostics.list().iter().filter(|own| own.span.file == FileId(0)).collect();
+        let last = of_first.last().expect("a diagnostic");
+        assert_eq!(last.message, "3 more diagnostics of EDS003 in this file");
     }
 }

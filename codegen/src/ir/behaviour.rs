@@ -172,6 +172,9 @@ pub struct RegisterBinding {
     pub space: RegisterSpace,
     /// Address on the wire, counted from 0.
     pub address: u16,
+    /// The first number that the source prints.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub printed: Option<u32>,
     /// Number of registers (of bits in a coil or input table).
     pub count: u16,
     /// Whether the less significant word comes first.
@@ -291,6 +294,9 @@ pub struct Quantity {
     /// Numbers that the source converts as examples.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub conversions: Vec<Conversion>,
+    /// The standard and its clause that say this, where the description doesn't: `CiA 402, 17.3.7`.
+    #[serde(default, skip_serializing_if = "CompactString::is_empty")]
+    pub standard: CompactString,
 }
 
 /// A number that a source converts as an example.

@@ -128,7 +128,81 @@ pub struct Doubt {
     pub origin: Origin,
     /// Page, line or clause of a manual.
     pub cite: Option<CompactString>,
+    /// What a wrong choice leads to.
+    #[serde(default)]
+    pub severity: Severity,
 }
+
+/// What a wrong choice in an ambiguity of the source leads to, the worst first.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Severity {
+    /// A motor moves or wiring is damaged.
+    Hazard,
+    /// A value is wrong: a unit, a limit, a default, an address.
+    #[default]
+    Value,
+    /// Nothing: the source has a misprint that the rest of it corrects.
+    Print,
+}
+
+impl Severity {
+    /// The word of register tables.
+    pub fn name(self) -> &'static str {
+        match self {
+            Severity::Hazard => "hazard",
+            Severity::Value => "value",
+            Severity::Print => "print",
+        }
+    }
+}
+
+/// The manual that a description was transcribed from.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Manual {
+    /// Its title.
+    pub title: CompactString,
+    /// Its edition.
+    pub edition: CompactString,
+    /// Its language (BCP 47), where it isn't the one of the description.
+    pub language: CompactString,
+    /// What the numbers of citations count.
+    pub counts: Option<CiteUnit>,
+    /// What it is, and what of it was left out.
+    pub documentation: String,
+    /// Its sections and tables, by the number of their first page or line, ascending.
+    pub sections: Vec<ManualSection>,
+}
+
+/// What the numbers of citations count.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum CiteUnit {
+    /// Pages.
+    Page,
+    /// Lines of the manual as text.
+    Line,
+}
+
+/// A section or table of a manual.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct ManualSection {
+    /// The page or line of its title.
+    pub start: u32,
+    /// The title as printed.
+    pub title: CompactString,
+}
+
+impl Manual {
+    /// The section that a page or line is in: the last one that begins at or before it.
+    pub fn section(&self, number: u32) -> Option<&ManualSection> {
+        let behind = self.sections.partition_point(|section| section.start <= number);
+        self.sections.get(behind.checked_sub(1)?)
+    }
+}
+
+/// [`Documentation::text_from`] of a text that only spells out the name of the element.
+pub const PRINTED_NAME: &str = "name";
 
 /// What a source or a manual says about an element in words.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -139,4 +213,8 @@ pub struct Documentation {
     pub translations: Texts,
     /// Page, line or clause of the manual that the element was taken from.
     pub cite: Option<CompactString>,
+    /// Where the text comes from, unless from the source itself: a standard with its clause (`CiA 402, 17.3.7`), or
+    /// [`PRINTED_NAME`].
+    #[serde(default, skip_serializing_if = "CompactString::is_empty")]
+    pub text_from: CompactString,
 }

@@ -79,6 +79,9 @@ pub struct Device {
     pub axes: Option<AxisRule>,
     /// What the source says about it.
     pub documentation: Option<Box<Documentation>>,
+    /// The manual that the description was transcribed from.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub manual: Option<Box<super::Manual>>,
     /// Contradictions of the source.
     pub doubts: Doubts,
     /// What the source says beyond that.

@@ -21,8 +21,14 @@ pub struct Item {
     pub bindings: SmallVec<[Binding; 1]>,
     /// Its type.
     pub ty: Type,
-    /// Who may do what with it.
+    /// Whether the source states that it names no bits and no values, so that no profile adds any.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub is_meaning_absent: bool,
+    /// Access rights.
     pub access: Access,
+    /// Whether the source says nothing of the access rights, so that `access` is an assumption.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub is_access_assumed: bool,
     /// Into which PDOs it may be mapped.
     pub mappable: Mappable,
     /// Its value before anybody wrote it.
@@ -64,7 +70,9 @@ impl Item {
             names: Texts::default(),
             bindings: SmallVec::from_buf([binding]),
             ty: Type::Opaque(None),
+            is_meaning_absent: false,
             access: Access::ReadOnly,
+            is_access_assumed: false,
             mappable: Mappable::default(),
             default: None,
             limits: Limits::default(),
@@ -89,6 +97,14 @@ impl Item {
             Binding::Object { index, sub_index, .. } => Some((*index, *sub_index)),
             _ => None,
         })
+    }
+
+    /// The access rights as documentation shows them: `rw?` where they are an assumption.
+    pub fn access_name(&self) -> &'static str {
+        match self.is_access_assumed {
+            true => "rw?",
+            false => self.access.name(),
+        }
     }
 
     /// What differs on a bus, by its name in register tables, whatever the model.

@@ -252,6 +252,12 @@ pub struct CodeTable {
 /// One code.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct CodeRow {
+    /// The code, or codes, in the notation of the source (`0x8700`, `F125`, `0xFF13 to 0xFF15`); empty if that is decimal.
+    #[serde(default, skip_serializing_if = "CompactString::is_empty")]
+    pub printed: CompactString,
+    /// The cells in the notation of the source; empty for all that it doesn't write as hexadecimal numbers.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub printed_cells: Vec<CompactString>,
     /// The code; the first of a range.
     pub code: i128,
     /// The last code of a range.

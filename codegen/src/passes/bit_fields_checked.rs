@@ -177,10 +177,10 @@ mod tests {
 
     #[test]
     fn a_field_is_told_once_however_many_share_its_bits() {
-        let fields = (0..5_000).map(|number| field(&number.to_string(), 0, 8)).collect();
+        let fields = (0..900).map(|number| field(&number.to_string(), 0, 8)).collect();
         let found = found(fields);
-        assert_eq!(found.len(), 4_999);
-        assert_eq!(found[4_998], "bits 7-0 (`0`) and bits 7-0 (`4999`) of `Status` share bits");
+        assert_eq!(found.len(), 899);
+        assert_eq!(found[898], "bits 7-0 (`0`) and bits 7-0 (`899`) of `Status` share bits");
     }
 
     #[test]

@@ -5,7 +5,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::ir::{Access, Binding, Device, Direction, Group, GroupKind, Item, Module, ObjectCode, Pdo, PdoEntryKind};
+use crate::ir::{Access, Binding, Device, Direction, Group, Item, Module, ObjectCode, Pdo, PdoEntryKind};
 use crate::source::Origin;
 
 /// Of a device. Entries whose index grows with the slot map objects of a module.
@@ -66,9 +66,6 @@ fn add(groups: &mut Vec<Group>, objects: BTreeMap<u16, Implied>) {
         if let Some(group) = position.and_then(|position| known.get_mut(position)) {
             group.items.extend(object.items.into_values());
             group.items.sort_by_key(|item| item.object().map(|(_, sub)| sub));
-            if group.object_code() == Some(ObjectCode::Var) && group.items.len() > 1 {
-                group.kind = GroupKind::Object { index, code: ObjectCode::Record, category: None };
-            }
             continue;
         }
         let is_var = object.items.keys().eq([&0]);

@@ -25,10 +25,14 @@ function lexibusIndex(list, ownNumbers, ownTexts, ownAnchors, entries) {
   search();
 }
 
-// `0x6040:01`, `register 12–13`, `0x6100 to 0x61FF`: what is written, and the first and last number.
+// `0x6040:01`, `register 12–13 (wire 11–12)`, `0x6100 to 0x61FF`: what is written, and the first and last number of each range.
 function numberFrom(text) {
-  const [, first, last] = plain(text).match(/^(?:[a-z_ ]+ )?(0x[0-9a-f]+|[0-9]+)(?:(?: to |–)(0x[0-9a-f]+|[0-9]+))?/) || [];
-  return { text, plain: plain(text), first: Number(first), last: Number(last ?? first) };
+  const range = (pattern) => {
+    const [, first, last] = plain(text).match(pattern) || [];
+    return { first: Number(first), last: Number(last ?? first) };
+  };
+  const printed = range(/^(?:[a-z_ ]+ )?(0x[0-9a-f]+|[0-9]+)(?:(?: to |–)(0x[0-9a-f]+|[0-9]+))?/);
+  return { text, plain: plain(text), ranges: [printed, range(/\(wire ([0-9]+)(?:–([0-9]+))?\)/)] };
 }
 
 // The folder of the index, where that isn't the page's.
@@ -53,9 +57,9 @@ function values(word) {
 // Points of a number, of a text and of a title for a word; 0 where it isn't there.
 function numberPoints(own, { word, hex, values }) {
   if (own.plain === word || own.plain === hex) return 150;
-  for (const value of values) {
-    if (own.first === value) return own.plain.includes(":") ? 90 : 100;
-    if (own.first < value && value <= own.last) return 60;
+  for (const { first, last } of own.ranges) {
+    if (values.includes(first)) return own.plain.includes(":") ? 90 : 100;
+    if (values.some((value) => first < value && value <= last)) return 60;
   }
   return own.plain.includes(word) ? 20 : 0;
 }
@@ -131,7 +135,9 @@ said.setAttribute("role", "status");
 found.after(said);
 
 function search() {
-  const list = matches(input.value);
+  // A row has an entry for each of its addresses; the best one is shown.
+  const links = new Set();
+  const list = matches(input.value).filter((entry) => !links.has(linkOf(entry)) && links.add(linkOf(entry)));
   found.replaceChildren(...list.map((entry, at) => {
     const [name, names, unit] = texts[textOf[entry]].fields, page = pages[pageOf[entry]];
     const item = document.createElement("li"), link = document.createElement("a"), more = document.createElement("small");

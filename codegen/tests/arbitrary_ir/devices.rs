@@ -74,6 +74,7 @@ fn device(b: &mut Bytes<'_>, format: Format, modules: usize) -> Device {
         framing: if is_table { b.maybe(3, |b| Box::new(messages::framing(b, &messages))) } else { None },
         given,
         code_tables: b.few(3, 2, machines::code_table),
+        manual: b.maybe(4, names::manual).map(Box::new),
         documentation: names::documentation(b),
         doubts: names::doubts(b),
         extensions: names::extensions(b),

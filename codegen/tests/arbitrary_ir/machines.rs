@@ -97,6 +97,8 @@ pub fn code_table(b: &mut Bytes<'_>) -> CodeTable {
     let rows = b.list(7, |b| {
         let code = values::number(b);
         CodeRow {
+            printed: b.maybe(3, names::text).unwrap_or_default(),
+            printed_cells: b.few(4, 3, names::text),
             code,
             last: b.maybe(5, |b| code + b.within(0..=0x200)),
             name: names::name(b),

@@ -1,6 +1,9 @@
 //! Names and texts: ordinary ones, and those that clash with Rust, with generated code or with one another.
 
-use lexibus_codegen::ir::{CompactString, Documentation, Doubt, Doubts, Extension, Extensions, LocalText, Texts};
+use lexibus_codegen::ir::{
+    CiteUnit, CompactString, Documentation, Doubt, Doubts, Extension, Extensions, LocalText, Manual, ManualSection,
+    Severity, Texts,
+};
 use lexibus_codegen::source::Origin;
 
 use super::bytes::Bytes;
@@ -250,16 +253,35 @@ pub fn texts(b: &mut Bytes<'_>) -> Texts {
 pub fn documentation(b: &mut Bytes<'_>) -> Option<Box<Documentation>> {
     b.maybe(4, |b| {
         let cite = b.maybe(2, text);
-        Box::new(Documentation { text: text(b).into(), translations: texts(b), cite })
+        Box::new(Documentation {
+            text: text(b).into(),
+            translations: texts(b),
+            cite,
+            text_from: b.maybe(6, text).unwrap_or_default(),
+        })
     })
 }
 
 pub fn doubts(b: &mut Bytes<'_>) -> Doubts {
     b.few(12, 2, |b| {
         let [says, chosen, why] = [text(b), text(b), text(b)].map(String::from);
-        Doubt { says, chosen, why, origin: Origin::default(), cite: b.maybe(2, text) }
+        let severity = b.pick(&[Severity::Hazard, Severity::Value, Severity::Print]);
+        Doubt { says, chosen, why, origin: Origin::default(), cite: b.maybe(2, text), severity }
     })
     .into()
+}
+
+pub fn manual(b: &mut Bytes<'_>) -> Manual {
+    let mut sections = b.few(2, 3, |b| ManualSection { start: b.within(0..=60), title: text(b) });
+    sections.sort_by_key(|section| section.start);
+    Manual {
+        title: text(b),
+        edition: text(b),
+        language: b.pick(&LANGUAGES).into(),
+        counts: b.pick(&[None, Some(CiteUnit::Page), Some(CiteUnit::Line)]),
+        documentation: text(b).into(),
+        sections,
+    }
 }
 
 pub fn extensions(b: &mut Bytes<'_>) -> Extensions {

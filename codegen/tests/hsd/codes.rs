@@ -138,14 +138,14 @@ fn levels_of_inputs_are_the_printed_ones() {
     assert_eq!(rows.len(), 4);
     let definition = device.types.iter().find(|own| own.name == "InvertedInputs").expect("bits");
     let doc = definition.documentation.as_ref().expect("a text");
-    assert!(doc.text.contains("A bit that is 1 inverts its input: 0 V is high then, 24 V low"));
+    assert!(doc.text.contains("1 inverts the input: 0 V is high and 24 V is low"));
     assert_eq!(doc.cite.as_deref(), Some("2225-2262"));
     for (at, cells) in rows {
         let is_inverted = number(&cells[0]) == Some(1);
         // 1 V is printed once, and is a doubt.
         let is_odd = cells[1] == "1";
         assert_eq!(is_odd, at == 2237, "L{at}");
-        assert!(!is_odd || doubts(device).iter().any(|own| own.contains("a voltage of 1 is low (L2237)")));
+        assert!(!is_odd || doubts(device).iter().any(|own| own.contains("an input voltage of 1 is low")));
         let has_voltage = number(&cells[1]) == Some(24);
         assert_eq!(cells[2], if has_voltage != is_inverted { "Alto" } else { "Basso" }, "L{at}");
     }

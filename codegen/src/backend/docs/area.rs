@@ -126,12 +126,14 @@ fn pages(part: &Part<'_>, types: &[TypeDef], known: Known<'_>, files: &mut Names
             _ => format!("{} ({} of {several})", part.title, at + 1),
         };
         let mut facts = about.map(|group| PLAIN.description(group.documentation.as_deref())).unwrap_or_default();
-        facts.extend(about.and_then(|group| PLAIN.place(known.manual, group.documentation.as_deref(), &group.names)));
+        facts.extend(
+            about.and_then(|group| PLAIN.place(known.manual, "", group.documentation.as_deref(), &group.names)),
+        );
         Area {
             file: files.file(&format!("{prefix}{}", part.title)),
             title,
             facts,
-            doubts: about.map(|group| entry::doubts(&group.doubts)).unwrap_or_default(),
+            doubts: about.map(|group| entry::doubts(&group.doubts, known.manual)).unwrap_or_default(),
             sections,
         }
     };
@@ -140,7 +142,9 @@ fn pages(part: &Part<'_>, types: &[TypeDef], known: Known<'_>, files: &mut Names
 
 fn section(group: &Group, items: &[Item], rows: &mut Rows<'_>) -> Section {
     let GroupKind::Object { index, code, .. } = group.kind else {
-        let number = |item: &Item| words::addresses(item).first().map_or_else(String::new, |own| own.place.clone());
+        let modbus = rows.known.modbus;
+        let number =
+            |item: &Item| words::addresses(item, modbus).first().map_or_else(String::new, |own| own.number.clone());
         let rows = items.iter().map(|item| rows.row(item, number(item), true)).collect();
         return Section::plain(rows);
     };
@@ -153,7 +157,7 @@ fn section(group: &Group, items: &[Item], rows: &mut Rows<'_>) -> Section {
         return Section::plain(vec![row]);
     }
     let mut facts = PLAIN.description(group.documentation.as_deref());
-    facts.extend(PLAIN.place(rows.known.manual, group.documentation.as_deref(), &group.names));
+    facts.extend(PLAIN.place(rows.known.manual, &group.name, group.documentation.as_deref(), &group.names));
     let anchor = rows.names.anchor(&number);
     let sub = |item: &Item| item.object().map_or_else(String::new, |(index, sub)| format!("0x{index:04X}:{sub:02X}"));
     Section {
@@ -162,7 +166,7 @@ fn section(group: &Group, items: &[Item], rows: &mut Rows<'_>) -> Section {
         name: format!("{} ({})", group.name, code.name()),
         names: words::names(&group.names),
         facts,
-        doubts: entry::doubts(&group.doubts),
+        doubts: entry::doubts(&group.doubts, rows.known.manual),
         findings: rows.known.findings.of_group(group),
         rows: items.iter().map(|item| rows.row(item, sub(item), false)).collect(),
     }

@@ -2,8 +2,8 @@
 
 use super::anchor::Names;
 use super::words::{self, PLAIN};
-use crate::backend::words::Manual;
-use crate::ir::{CodeTable, Value};
+use crate::facts::code;
+use crate::ir::{CodeTable, Manual};
 
 /// A table.
 #[derive(Debug)]
@@ -39,37 +39,22 @@ fn table(table: &CodeTable, manual: &Manual, names: &mut Names) -> Codes {
         let buses: Vec<&str> = table.buses.iter().map(|bus| crate::backend::words::bus_name(bus)).collect();
         facts.push(format!("On {}.", buses.join(", ")));
     }
-    facts.extend(PLAIN.place(manual, table.documentation.as_deref(), &[]));
+    facts.extend(PLAIN.place(manual, "", table.documentation.as_deref(), &[]));
     let rows = table.rows.iter().map(|row| {
         let mut facts = PLAIN.description(row.documentation.as_deref());
         facts.extend(row.availability.as_ref().map(|own| PLAIN.availability(own)));
-        facts.extend(PLAIN.place(manual, row.documentation.as_deref(), &row.names));
-        let last = row.last.filter(|last| *last != row.code).map(|last| format!(" to {}", code(last)));
-        let number = code(row.code) + &last.unwrap_or_default();
+        facts.extend(PLAIN.place(manual, "", row.documentation.as_deref(), &row.names));
+        let number = code::text(row);
         Code {
-            anchor: names.anchor(&format!("{}-{}", table.name, code(row.code))),
+            anchor: names.anchor(&format!("{}-{number}", table.name)),
             number,
             name: row.name.to_string(),
             names: words::names(&row.names),
             facts: facts.join(" "),
-            cells: (0..table.columns.len()).map(|at| row.cells.get(at).map(cell).unwrap_or_default()).collect(),
+            cells: (0..table.columns.len()).map(|at| code::cell(row, at)).collect(),
         }
     });
     let rows = rows.collect();
     let columns = table.columns.iter().map(ToString::to_string).collect();
     Codes { anchor, title: table.name.to_string(), facts, columns, rows }
-}
-
-fn cell(value: &Value) -> String {
-    match value {
-        Value::Text(text) => text.to_string(),
-        other => PLAIN.value(other),
-    }
-}
-
-fn code(code: i128) -> String {
-    match code {
-        10.. => format!("0x{code:04X}"),
-        _ => code.to_string(),
-    }
 }

@@ -6,8 +6,9 @@ use super::anchor::Names;
 use super::bits::{self, Bits, Label};
 use super::findings::{Finding, Findings};
 use super::words::{self, PLAIN};
-use crate::backend::words::{sentence, Manual};
-use crate::ir::{Item, Type, TypeDef};
+use crate::backend::words::sentence;
+use crate::facts::physical::Physical;
+use crate::ir::{Item, Manual, ModbusTable, Severity, Type, TypeDef, Value};
 
 /// An item, ready to be written.
 #[derive(Debug)]
@@ -15,6 +16,8 @@ pub(super) struct Row {
     pub anchor: String,
     /// By what it is looked up: `0x6040:00`, `register 12`.
     pub number: String,
+    /// All addresses, as a search finds them.
+    pub addresses: Vec<String>,
     pub name: String,
     pub names: Vec<(String, String)>,
     pub ty: String,
@@ -30,8 +33,8 @@ pub(super) struct Row {
     pub elsewhere: Vec<String>,
     pub doubts: Vec<Doubt>,
     pub findings: Vec<Finding>,
-    /// How a program reaches it.
-    pub rust: String,
+    /// The lines of a program that read and write it.
+    pub rust: Vec<String>,
     pub bits: Option<Bits>,
     pub labels: Vec<Label>,
     /// The address of the row that has the bits or values, where another one on the page has the same type.
@@ -41,6 +44,7 @@ pub(super) struct Row {
 /// A contradiction of the source.
 #[derive(Debug)]
 pub(super) struct Doubt {
+    pub severity: Severity,
     pub says: String,
     pub chosen: String,
     pub why: String,
@@ -48,6 +52,14 @@ pub(super) struct Doubt {
 }
 
 impl Row {
+    /// By what a search finds it: each address once, that of the row in the words of the row unless it has more.
+    pub fn lookups(&self) -> Vec<&str> {
+        let (own, others): (Vec<&str>, Vec<&str>) =
+            self.addresses.iter().map(String::as_str).partition(|address| address.starts_with(&self.number));
+        let first = own.first().filter(|address| address.contains(" (")).copied().unwrap_or(&self.number);
+        std::iter::once(first).chain(others).collect()
+    }
+
     /// Whether anything stands below the row.
     pub fn has_more(&self) -> bool {
         !self.facts.is_empty()
@@ -62,21 +74,15 @@ impl Row {
     }
 }
 
-/// The methods that give items, by where these are.
-pub(super) type Calls = HashMap<*const Item, String>;
-
-/// A line of a program that reads the item, or writes it where it can't be read.
-fn call_of(item: &Item, call: &str) -> String {
-    match item.access.readable() {
-        true => format!("device.{call}.read()?"),
-        false => format!("device.{call}.write(value)?"),
-    }
-}
+/// The lines of a program that read and write items, by where these are.
+pub(super) type Calls = HashMap<*const Item, Vec<String>>;
 
 /// What is known of a description beside its items.
 #[derive(Clone, Copy)]
 pub(super) struct Known<'d> {
     pub manual: &'d Manual,
+    /// The requests that its tables of Modbus take.
+    pub modbus: &'d [ModbusTable],
     /// How programs reach items.
     pub calls: &'d Calls,
     pub findings: &'d Findings,
@@ -107,24 +113,29 @@ impl Rows<'_> {
                 }
             }
         }
-        let addresses = words::addresses(item).into_iter().filter(|own| own.place != number);
-        let elsewhere = addresses.map(|own| format!("{}: {}", own.bus, own.place)).collect();
+        let addresses = words::addresses(item, self.known.modbus);
+        let lookups: Vec<String> =
+            addresses.iter().map(|own| own.lookup.clone()).filter(|own| !own.is_empty()).collect();
+        let addresses = addresses.into_iter().filter(|own| own.text != number);
+        let elsewhere = addresses.map(|own| format!("{}: {}", own.bus, own.text)).collect();
+        let shown = |value: &Value| PLAIN.of_item(item, value, &|value| words::value(value, basic));
         Row {
             anchor,
             number,
+            addresses: lookups,
             name: item.name.to_string(),
             names: words::names(&item.names),
             ty: words::type_name(self.types, item.ty),
-            access: item.access.name(),
-            default: item.default.as_ref().map(|own| words::value(own, basic)).unwrap_or_default(),
+            access: item.access_name(),
+            default: item.default.as_ref().map(shown).unwrap_or_default(),
             range: range(item, basic),
             unit: unit(item),
             facts: self.facts(item),
             translations: words::translations(item.documentation.as_deref()),
             elsewhere,
-            doubts: doubts(&item.doubts),
+            doubts: doubts(&item.doubts, self.known.manual),
             findings: self.known.findings.of_item(item),
-            rust: self.known.calls.get(&std::ptr::from_ref(item)).map(|call| call_of(item, call)).unwrap_or_default(),
+            rust: self.known.calls.get(&std::ptr::from_ref(item)).cloned().unwrap_or_default(),
             bits: drawn,
             labels,
             same_as,
@@ -133,12 +144,14 @@ impl Rows<'_> {
 
     fn facts(&self, item: &Item) -> Vec<String> {
         let mut facts = PLAIN.description(item.documentation.as_deref());
+        facts.extend(PLAIN.access(item));
         facts.extend(match (item.mappable.rpdo, item.mappable.tpdo) {
             (true, true) => Some("Mappable into any PDO.".to_owned()),
             (true, false) => Some("Mappable into RPDOs.".to_owned()),
             (false, true) => Some("Mappable into TPDOs.".to_owned()),
             (false, false) => None,
         });
+        facts.extend(PLAIN.meaning_from(words::definition(self.types, item.ty)));
         if let Some(quantity) = &item.quantity {
             let scale = quantity.scale.as_ref().map(|_| PLAIN.quantity(quantity));
             facts.extend(scale.map(|own| match own.trim_start_matches([',', ' ']) {
@@ -150,39 +163,39 @@ impl Rows<'_> {
         if let Some(behaviour) = &item.behaviour {
             facts.extend(PLAIN.behaviour(behaviour));
         }
-        let unit = item.quantity.as_ref().map_or("", |own| own.unit.as_str());
-        facts.extend(item.variants.iter().map(|own| PLAIN.variant(own, unit)));
+        facts.extend(item.variants.iter().map(|own| PLAIN.variant(own, item)));
         facts.extend(item.availability.as_ref().map(|own| PLAIN.availability(own)));
-        facts.extend(PLAIN.place(self.known.manual, item.documentation.as_deref(), &item.names));
+        facts.extend(PLAIN.place(self.known.manual, &item.name, item.documentation.as_deref(), &item.names));
         let configured = item.configured.as_ref().and_then(|own| own.value.as_ref());
-        facts.extend(configured.map(|value| format!("Configured to {}.", PLAIN.value(value))));
+        facts.extend(
+            configured
+                .map(|value| format!("Configured to {}.", PLAIN.of_item(item, value, &|value| PLAIN.value(value)))),
+        );
         facts.retain(|fact| !fact.is_empty());
         facts
     }
 }
 
 /// Doubts, ready to be written.
-pub(super) fn doubts(doubts: &[crate::ir::Doubt]) -> Vec<Doubt> {
+pub(super) fn doubts(doubts: &[crate::ir::Doubt], manual: &Manual) -> Vec<Doubt> {
     let doubt = |own: &crate::ir::Doubt| Doubt {
         says: sentence(&own.says),
         chosen: sentence(&own.chosen),
         why: if own.why.is_empty() { String::new() } else { sentence(&own.why) },
-        cite: own.cite.as_ref().map(ToString::to_string).unwrap_or_default(),
+        cite: own.cite.as_ref().map(|cite| PLAIN.citation(manual, "", cite)).unwrap_or_default(),
+        severity: own.severity,
     };
-    doubts.iter().map(doubt).collect()
+    let mut ready: Vec<Doubt> = doubts.iter().map(doubt).collect();
+    ready.sort_by_key(|own| own.severity);
+    ready
 }
 
 fn range(item: &Item, ty: Type) -> String {
-    let limits = &item.limits;
-    if !limits.allowed.is_empty() {
-        return PLAIN.limits(limits).unwrap_or_default().trim_start_matches("one of ").to_owned();
-    }
-    let show = |own: &Option<crate::ir::Value>| own.as_ref().map(|own| words::value(own, ty));
-    match (show(&limits.low), show(&limits.high)) {
-        (Some(low), Some(high)) => format!("{low} … {high}"),
-        (Some(low), None) => format!("≥ {low}"),
-        (None, Some(high)) => format!("≤ {high}"),
-        (None, None) => String::new(),
+    let physical = Physical::of(item.quantity.as_deref());
+    let raw = |value: &Value| words::value(value, ty);
+    match item.limits.allowed.is_empty() {
+        true => PLAIN.range(&item.limits, physical.as_ref(), &raw),
+        false => PLAIN.allowed(&item.limits, physical.as_ref(), &raw),
     }
 }
 

@@ -5,6 +5,7 @@ use std::rc::Rc;
 
 use super::anchor::Names;
 use super::area::{self, Area};
+use super::assumptions::{Places, Ranked};
 use super::codes::{self, Codes};
 use super::entry::{Known, Row};
 use super::findings::Findings;
@@ -12,14 +13,15 @@ use super::format::{Around, Catalogue, Frameset, List, Listed, Pages};
 use super::links::Links;
 use super::machines;
 use super::modules::{self, ModuleModel};
-use super::overview::{self, Contents};
-use super::process::{self, Frame};
+use super::overview::{self, Contents, Overview};
+use super::process::{self, About, Frame};
 use super::protocol::{self, Protocol};
 use super::search::{Entry, Index};
 use super::Page;
 use crate::backend::rust;
-use crate::backend::words::Manual;
-use crate::ir::{Catalog, Device, Documentation, Group, Texts};
+use crate::backend::words;
+use crate::facts::pdo;
+use crate::ir::{Catalog, Device, Documentation, Group, Manual, Texts};
 
 /// The name of the first page of a folder, without ending.
 pub(super) const FIRST: &str = "index";
@@ -40,12 +42,27 @@ pub(super) struct Folder {
 
 /// What a device has beside items, and the files that it goes to.
 struct Parts {
+    overview: Overview,
     areas: Vec<Area>,
     frames: Vec<Frame>,
     process: Option<String>,
     protocol: Option<(String, Protocol)>,
     machines: Option<String>,
     codes: Option<(String, Vec<Codes>)>,
+    assumptions: Option<String>,
+}
+
+impl Parts {
+    /// The ambiguities of a device whose first page is `first`, the most severe first.
+    fn assumptions<'p>(&'p self, first: &'p str) -> Vec<Ranked<'p>> {
+        let places = Places {
+            overview: (first, &self.overview.doubts),
+            areas: &self.areas,
+            process: self.process.as_deref().map(|file| (file, self.frames.as_slice())),
+            protocol: self.protocol.as_ref().map(|(file, own)| (file.as_str(), own)),
+        };
+        places.ranked()
+    }
 }
 
 impl Folder {
@@ -106,15 +123,18 @@ impl Folder {
         let own = if is_alone { FIRST.to_owned() } else { self.files.file(&title) };
         let first = own.clone() + format.ending();
         let prefix = if is_alone { String::new() } else { format!("{own}-") };
-        let manual = Manual::of(device);
-        let (parts, pages) = self.parts(device, &manual, &prefix);
+        let manual = words::manual(device);
+        let overview = overview::overview(device, catalog.files.first(), &manual);
+        let (parts, pages) = self.parts(device, overview, &manual, &prefix);
         let mut links = vec![(first.clone(), "Overview".to_owned())];
         links.extend(pages.iter().cloned());
         self.last = Rc::new(Links::new(links, 1..1 + parts.areas.len()));
         let languages = languages(std::slice::from_ref(device), spoken);
         let set = Frameset { title: title.clone(), own: self.last.clone(), shared: self.shared.clone(), languages };
-        let own = overview::overview(device, catalog.files.first(), &manual);
-        let text = format.overview(Around { set: &set, file: &first }, &own, &contents(device, &parts));
+        let text = format.overview(Around { set: &set, file: &first }, &parts.overview, &contents(device, &parts));
+        if let Some(file) = &parts.assumptions {
+            self.page(file, format.assumptions(Around { set: &set, file }, &parts.assumptions(&first)));
+        }
         self.page(&first, text);
         self.index.page(&first, &title);
         for own in &parts.areas {
@@ -127,9 +147,15 @@ impl Folder {
     }
 
     /// What there is to write of a device, and the further pages that it gives.
-    fn parts(&mut self, device: &Device, manual: &Manual, prefix: &str) -> (Parts, Vec<(String, String)>) {
-        let calls = rust::calls(device).into_iter().map(|(item, call)| (std::ptr::from_ref(item), call)).collect();
-        let known = Known { manual, calls: &calls, findings: &self.findings };
+    fn parts(
+        &mut self,
+        device: &Device,
+        overview: Overview,
+        manual: &Manual,
+        prefix: &str,
+    ) -> (Parts, Vec<(String, String)>) {
+        let calls = rust::calls(device).into_iter().map(|(item, lines)| (std::ptr::from_ref(item), lines)).collect();
+        let known = Known { manual, modbus: &device.modbus, calls: &calls, findings: &self.findings };
         let mut areas = area::areas(&device.groups, &device.types, known, &mut self.files, prefix);
         for own in &mut areas {
             own.file += self.format.ending();
@@ -140,17 +166,22 @@ impl Folder {
             pages.extend(file.clone().map(|file| (file, title.to_owned())));
             file
         };
-        let frames = process::frames(&device.process_data, &device.types);
+        let frames = process::frames(&device.process_data, &device.types, About { buses: pdo::buses(device), manual });
         let protocol = protocol::protocol(device, manual);
         let tables = codes::tables(&device.code_tables, manual);
-        let parts = Parts {
+        let mut parts = Parts {
+            overview,
             process: further(!frames.is_empty() || !device.process_data.sync_managers.is_empty(), "Process data"),
             protocol: further(protocol.is_some(), "Messages").zip(protocol),
             machines: further(!device.machines.is_empty() || !device.procedures.is_empty(), "States and procedures"),
             codes: further(!tables.is_empty(), "Codes").map(|file| (file, tables)),
             areas,
             frames,
+            assumptions: None,
         };
+        if !parts.assumptions("").is_empty() {
+            parts.assumptions = further(true, "Assumptions");
+        }
         (parts, pages)
     }
 
@@ -174,7 +205,7 @@ impl Folder {
             }
         }
         if let Some(file) = &parts.machines {
-            let machines: Vec<_> = device.machines.iter().map(|own| machines::machine(own, manual)).collect();
+            let machines: Vec<_> = device.machines.iter().map(|own| machines::machine(own, device, manual)).collect();
             let sequences: Vec<_> = device.procedures.iter().map(|own| machines::sequence(own, manual)).collect();
             self.page(file, format.machines(Around { set, file }, &machines, &sequences));
         }
@@ -183,7 +214,8 @@ impl Folder {
             self.index.page(file, &set.title);
             for own in tables.iter().flat_map(|table| &table.rows) {
                 let entry = found(&own.anchor, &own.number, &own.name);
-                self.index.entry(&Entry { names: &own.names, words: &own.facts, ..entry });
+                let words = format!("{} {}", own.cells.join(" "), own.facts);
+                self.index.entry(&Entry { names: &own.names, words: &words, ..entry });
             }
         }
     }
@@ -267,8 +299,10 @@ fn index_area(index: &mut Index, own: &Area) {
 fn index_rows(index: &mut Index, rows: &[Row]) {
     for row in rows {
         let words = row.facts.first().map_or("", String::as_str);
-        let entry = found(&row.anchor, &row.number, &row.name);
-        index.entry(&Entry { names: &row.names, unit: &row.unit, words, ..entry });
+        for number in row.lookups() {
+            let entry = found(&row.anchor, number, &row.name);
+            index.entry(&Entry { names: &row.names, unit: &row.unit, words, ..entry });
+        }
     }
 }
 

@@ -3,6 +3,7 @@
 use std::rc::Rc;
 
 use super::area::Area;
+use super::assumptions::Ranked;
 use super::codes::Codes;
 use super::findings::Finding;
 use super::html::Html;
@@ -125,6 +126,7 @@ pub(super) trait Pages {
     fn codes(&self, around: Around<'_>, tables: &[Codes]) -> String;
     fn machines(&self, around: Around<'_>, machines: &[Machine], sequences: &[Sequence]) -> String;
     fn modules(&self, around: Around<'_>, modules: &[ModuleModel]) -> String;
+    fn assumptions(&self, around: Around<'_>, ranked: &[Ranked<'_>]) -> String;
     fn findings(&self, around: Around<'_>, findings: &[Finding]) -> String;
     fn list(&self, around: Around<'_>, list: List<'_>) -> String;
 

@@ -3,6 +3,7 @@
 use askama::Template;
 
 use super::area::Area;
+use super::assumptions::Ranked;
 use super::bits::{self, Grids};
 use super::codes::Codes;
 use super::findings::Finding;
@@ -83,6 +84,14 @@ struct ModulesPage<'p> {
 }
 
 #[derive(Template)]
+#[template(path = "docs/assumptions.html")]
+struct AssumptionsPage<'p> {
+    around: &'p Frameset,
+    file: &'p str,
+    ranked: &'p [Ranked<'p>],
+}
+
+#[derive(Template)]
 #[template(path = "docs/findings.html")]
 struct FindingsPage<'p> {
     around: &'p Frameset,
@@ -159,6 +168,10 @@ impl Pages for Html {
         let rows = modules.iter().flat_map(|own| &own.sections).flat_map(|(_, section)| &section.rows);
         let grids = &bits::grids(rows.filter_map(|row| row.bits.as_ref()));
         written(&ModulesPage { around, file, modules, grids })
+    }
+
+    fn assumptions(&self, Around { set: around, file }: Around<'_>, ranked: &[Ranked<'_>]) -> String {
+        written(&AssumptionsPage { around, file, ranked })
     }
 
     fn findings(&self, Around { set: around, file }: Around<'_>, findings: &[Finding]) -> String {

@@ -4,8 +4,8 @@ use std::cmp::Ordering;
 use std::collections::{HashMap, VecDeque};
 
 use super::words::{self, PLAIN};
-use crate::backend::words::Manual;
-use crate::ir::{Outcome, Pattern, Procedure, StateMachine, Transition};
+use crate::facts::pattern;
+use crate::ir::{Device, Manual, Outcome, Pattern, Procedure, StateMachine, Transition};
 
 /// Size of a state in the diagram, and the room between two.
 const WIDTH: u32 = 170;
@@ -18,6 +18,9 @@ const SIDE: u32 = 90;
 
 /// The letters of a name that a state has room for.
 const LETTERS: usize = 22;
+
+/// Where transitions start that name no state.
+pub(super) const ANY_STATE: &str = "any state";
 
 /// A state machine, ready to be written.
 #[derive(Debug)]
@@ -38,7 +41,7 @@ pub(super) struct Machine {
 pub(super) struct Named {
     pub name: String,
     pub names: Vec<(String, String)>,
-    /// `0x27 of the bits 0x6F`; empty where a value tells it.
+    /// `xxxx xxxx x01x 0111`; empty if the state is a value.
     pub bits: String,
     pub facts: String,
 }
@@ -96,26 +99,30 @@ pub(super) struct Sequence {
     pub steps: Vec<String>,
 }
 
-pub(super) fn machine(own: &StateMachine, manual: &Manual) -> Machine {
+pub(super) fn machine(own: &StateMachine, device: &Device, manual: &Manual) -> Machine {
+    let width = |name: &str| {
+        let item = device.groups.iter().flat_map(|group| &group.items).find(|item| item.name == name);
+        item.and_then(|item| words::basic(&device.types, item.ty).bits()).unwrap_or(0)
+    };
     let mut facts = PLAIN.description(own.documentation.as_deref());
     facts.extend((!own.status_item.is_empty()).then(|| format!("{} tells the state.", own.status_item)));
     facts.extend((!own.control_item.is_empty()).then(|| format!("{} takes the commands.", own.control_item)));
     facts.extend(own.initial.as_ref().map(|state| format!("After power-on: {state}.")));
-    facts.extend(PLAIN.place(manual, own.documentation.as_deref(), &[]));
+    facts.extend(PLAIN.place(manual, "", own.documentation.as_deref(), &[]));
     Machine {
         title: own.name.to_string(),
         facts,
         diagram: diagram(own),
         initial: own.initial.as_ref().map(ToString::to_string),
-        states: own.states.iter().map(named).collect(),
-        commands: own.commands.iter().map(named).collect(),
+        states: own.states.iter().map(|state| named(state, width(&own.status_item))).collect(),
+        commands: own.commands.iter().map(|command| named(command, width(&own.control_item))).collect(),
         transitions: own.transitions.iter().enumerate().map(way).collect(),
         matrix: matrix(own),
     }
 }
 
-fn named(own: &Pattern) -> Named {
-    let bits = if own.mask == 0 { String::new() } else { format!("0x{:X} of the bits 0x{:X}", own.value, own.mask) };
+fn named(own: &Pattern, width: u32) -> Named {
+    let bits = if own.mask == 0 { String::new() } else { pattern::text(own.mask, own.value, width) };
     Named {
         name: own.name.to_string(),
         names: words::names(&own.names),
@@ -132,7 +139,7 @@ fn number((at, own): (usize, &Transition)) -> String {
 fn way((at, own): (usize, &Transition)) -> Way {
     Way {
         number: number((at, own)),
-        from: own.from.as_ref().map_or_else(|| "any state".to_owned(), ToString::to_string),
+        from: own.from.as_ref().map_or_else(|| ANY_STATE.to_owned(), ToString::to_string),
         to: own.to.to_string(),
         command: own.command.as_ref().map_or_else(|| "by itself".to_owned(), ToString::to_string),
         facts: PLAIN.description(own.documentation.as_deref()).join(" "),
@@ -174,20 +181,27 @@ fn outcome(own: &Outcome) -> String {
     }
 }
 
-/// The diagram; `None` where no transition has a state that it leaves.
+/// The diagram; `None` without a transition between states.
 fn diagram(own: &StateMachine) -> Option<Diagram> {
     let place = |name: &str| own.states.iter().position(|state| state.name == name);
+    // Transitions from any state leave a box of their own, behind the states.
+    let any = own.states.len();
+    let from = |way: &Transition| way.from.as_ref().map_or(Some(any), |name| place(name));
     let ways: Vec<(usize, usize, String)> = own
         .transitions
         .iter()
         .enumerate()
-        .filter_map(|(at, way)| Some((place(way.from.as_ref()?)?, place(&way.to)?, number((at, way)))))
+        .filter_map(|(at, way)| Some((from(way)?, place(&way.to)?, number((at, way)))))
         .collect();
     if ways.is_empty() {
         return None;
     }
     let first = own.initial.as_ref().and_then(|name| place(name)).unwrap_or(ways.first()?.0);
-    let ranks = ranks(own.states.len(), first, &ways);
+    let mut ranks = ranks(any + 1, first, &ways);
+    // That box is above the first state that it leads to.
+    if let Some(to) = ways.iter().filter(|(from, ..)| *from == any).map(|(_, to, _)| ranks[*to]).min() {
+        ranks[any] = to.saturating_sub(1);
+    }
     let used = |at: usize| ways.iter().any(|(from, to, _)| *from == at || *to == at);
     let mut rows: Vec<Vec<usize>> = Vec::new();
     for (at, rank) in ranks.iter().enumerate().filter(|(at, _)| used(*at)) {
@@ -198,7 +212,7 @@ fn diagram(own: &StateMachine) -> Option<Diagram> {
     }
     let widest = rows.iter().map(Vec::len).max().unwrap_or(1) as u32;
     let width = widest * (WIDTH + GAP) + 2 * SIDE;
-    let mut boxes = vec![None; own.states.len()];
+    let mut boxes = vec![None; any + 1];
     for (rank, row) in rows.iter().enumerate() {
         let taken = row.len() as u32 * (WIDTH + GAP);
         let start = SIDE + (width.saturating_sub(2 * SIDE).saturating_sub(taken)) / 2;
@@ -213,7 +227,7 @@ fn diagram(own: &StateMachine) -> Option<Diagram> {
     let arrows = arrows.collect();
     let state_box = |(at, place): (usize, &Option<(u32, u32)>)| {
         let (left, top) = (*place)?;
-        let label = words::cut(&own.states.get(at)?.name, LETTERS);
+        let label = own.states.get(at).map_or_else(|| ANY_STATE.to_owned(), |state| words::cut(&state.name, LETTERS));
         Some(StateBox { left, top, middle: left + WIDTH / 2, base: top + 23, label, is_initial: at == first })
     };
     let height = rows.len() as u32 * (HEIGHT + RISE) - RISE + 40;
@@ -279,6 +293,6 @@ pub(super) fn sequence(own: &Procedure, manual: &Manual) -> Sequence {
         let arguments: Vec<&str> = own.arguments.iter().map(|own| own.as_str()).collect();
         facts.push(format!("Given: {}.", arguments.join(", ")));
     }
-    facts.extend(PLAIN.place(manual, own.documentation.as_deref(), &own.names));
+    facts.extend(PLAIN.place(manual, "", own.documentation.as_deref(), &own.names));
     Sequence { name: own.name.to_string(), facts, steps: own.steps.iter().map(|own| PLAIN.step(own)).collect() }
 }

@@ -6,11 +6,12 @@ use std::fmt::{self, Write};
 use askama::Template;
 
 use super::area::Area;
+use super::assumptions::Ranked;
 use super::codes::Codes;
 use super::findings::Finding;
 use super::folder::FIRST;
 use super::format::{Around, Catalogue, List, Listed, Pages};
-use super::machines::{Machine, Sequence};
+use super::machines::{Machine, Sequence, ANY_STATE};
 use super::modules::ModuleModel;
 use super::overview::{Contents, Overview};
 use super::process::{Frame, SyncManager};
@@ -80,6 +81,12 @@ struct MachinesPage<'p> {
 #[template(path = "docs/markdown/modules.md")]
 struct ModulesPage<'p> {
     modules: &'p [ModuleModel],
+}
+
+#[derive(Template)]
+#[template(path = "docs/markdown/assumptions.md")]
+struct AssumptionsPage<'p> {
+    ranked: &'p [Ranked<'p>],
 }
 
 #[derive(Template)]
@@ -165,6 +172,10 @@ impl Pages for Markdown {
         written(&ModulesPage { modules })
     }
 
+    fn assumptions(&self, _: Around<'_>, ranked: &[Ranked<'_>]) -> String {
+        written(&AssumptionsPage { ranked })
+    }
+
     fn findings(&self, _: Around<'_>, findings: &[Finding]) -> String {
         written(&FindingsPage { findings })
     }
@@ -205,9 +216,14 @@ impl Machine {
             lines.push(format!("state \"{}\" as s{at}", label(&state.name)));
         }
         lines.extend(self.initial.as_deref().and_then(place).map(|at| format!("[*] --> s{at}")));
+        let any = self.states.len();
+        if self.transitions.iter().any(|way| way.from == ANY_STATE) {
+            lines.push(format!("state \"{ANY_STATE}\" as s{any}"));
+        }
         for way in &self.transitions {
-            let Some((from, to)) = place(&way.from).zip(place(&way.to)) else { continue };
-            lines.push(format!("s{from} --> s{to}: {}", label(&way.command)));
+            let from = if way.from == ANY_STATE { Some(any) } else { place(&way.from) };
+            let Some((from, to)) = from.zip(place(&way.to)) else { continue };
+            lines.push(format!("s{from} --> s{to}: {} {}", label(&way.number), label(&way.command)));
         }
         lines
     }

@@ -20,6 +20,7 @@
 
 mod anchor;
 mod area;
+mod assumptions;
 mod bits;
 mod cell;
 mod codes;

@@ -4,10 +4,9 @@ use super::anchor::Names;
 use super::area::Section;
 use super::entry::{Calls, Known, Rows};
 use super::findings::Findings;
-use super::process::{self, Frame};
+use super::process::{self, About, Frame};
 use super::words::{self, PLAIN};
-use crate::backend::words::Manual;
-use crate::ir::{Catalog, Device, Fit, Group, GroupKind, IoData, Module, Submodule, TypeDef};
+use crate::ir::{Catalog, Device, Fit, Group, GroupKind, IoData, Manual, Module, ObjectBuses, Submodule, TypeDef};
 
 /// So many modules are on a page.
 pub(super) const PAGE: usize = 100;
@@ -62,7 +61,7 @@ fn sections<'g>(
     findings: &Findings,
 ) -> Vec<(String, Section)> {
     let (manual, calls, mut names) = (Manual::default(), Calls::default(), Names::within(anchor));
-    let known = Known { manual: &manual, calls: &calls, findings };
+    let known = Known { manual: &manual, modbus: &[], calls: &calls, findings };
     let mut rows = Rows { types, known, names: &mut names, shown: Vec::new() };
     groups.map(|group| section(group, &mut rows)).collect()
 }
@@ -77,7 +76,11 @@ fn module(own: &Module, anchor: String, parts: Vec<(String, String)>, findings: 
         names: words::names(&own.names),
         facts,
         translations: words::translations(own.documentation.as_deref()),
-        frames: process::frames(&own.process_data, &own.types),
+        frames: process::frames(
+            &own.process_data,
+            &own.types,
+            About { buses: ObjectBuses::COE, manual: &Manual::default() },
+        ),
         sections: sections(own.fixed_objects.iter().chain(&own.groups), &own.types, &anchor, findings),
         parts,
         anchor,
@@ -113,7 +116,7 @@ fn section(group: &Group, rows: &mut Rows<'_>) -> (String, Section) {
     let parts = [place.as_str(), group.name.as_str()].into_iter().filter(|part| !part.is_empty());
     let title = parts.collect::<Vec<_>>().join(": ");
     let number =
-        |item: &crate::ir::Item| words::addresses(item).first().map_or_else(String::new, |own| own.place.clone());
+        |item: &crate::ir::Item| words::addresses(item, &[]).first().map_or_else(String::new, |own| own.number.clone());
     let items = group.items.iter().map(|item| rows.row(item, number(item), false)).collect();
     (title, Section::plain(items))
 }

@@ -3,7 +3,7 @@
 use super::entry::{self, Doubt};
 use super::modules::Slot;
 use super::words::{self, PLAIN};
-use crate::backend::words::Manual;
+use crate::ir::Manual;
 use crate::ir::{Device, DistributedClocks, EtherCatSettings, FileInfo, ProfinetSettings};
 
 /// The first page of a device.
@@ -39,7 +39,7 @@ pub(super) struct Model {
 
 pub(super) fn overview(device: &Device, file: Option<&FileInfo>, manual: &Manual) -> Overview {
     let mut facts = PLAIN.description(device.documentation.as_deref());
-    facts.extend(PLAIN.place(manual, device.documentation.as_deref(), &device.names));
+    facts.extend(PLAIN.place(manual, "", device.documentation.as_deref(), &device.names));
     let mut identity = identity(device);
     identity.extend(settings(device));
     if let Some(file) = file {
@@ -52,7 +52,14 @@ pub(super) fn overview(device: &Device, file: Option<&FileInfo>, manual: &Manual
         constants: own.constants.iter().map(|(name, value)| (name.to_string(), PLAIN.value(value))).collect(),
     });
     let translations = words::translations(device.documentation.as_deref());
-    Overview { facts, translations, identity, models: models.collect(), doubts: entry::doubts(&device.doubts) }
+    Overview { facts, translations, identity, models: models.collect(), doubts: entry::doubts(&doubts(device), manual) }
+}
+
+/// The ambiguities of a device that no other page shows: its own, those of numbers of the machine, and those of chapters without items.
+fn doubts(device: &Device) -> Vec<crate::ir::Doubt> {
+    let given = device.given.iter().flat_map(|own| &own.doubts);
+    let empty = device.groups.iter().filter(|group| group.index().is_none() && group.items.is_empty());
+    device.doubts.iter().chain(given).chain(empty.flat_map(|group| &group.doubts)).cloned().collect()
 }
 
 fn identity(device: &Device) -> Vec<(&'static str, String)> {

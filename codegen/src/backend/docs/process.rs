@@ -3,7 +3,8 @@
 use super::anchor::Names;
 use super::cell::Cell;
 use super::words;
-use crate::ir::{Direction, Pdo, PdoEntry, PdoEntryKind, ProcessData, ProcessImage, TypeDef};
+use crate::facts::{cob_id, pdo};
+use crate::ir::{Direction, Manual, ObjectBuses, Pdo, PdoEntry, PdoEntryKind, ProcessData, ProcessImage, TypeDef};
 
 /// Bytes in a row of a drawing, and the width of one.
 const ROW: u32 = 8;
@@ -58,9 +59,17 @@ pub(super) struct SyncManager {
     pub size: String,
 }
 
+/// What PDOs of a device or module have in common.
+#[derive(Clone, Copy)]
+pub(super) struct About<'d> {
+    /// The buses that the objects are on.
+    pub buses: ObjectBuses,
+    pub manual: &'d Manual,
+}
+
 /// All cyclic data of a device or module.
-pub(super) fn frames(data: &ProcessData, types: &[TypeDef]) -> Vec<Frame> {
-    let pdos = data.pdos.iter().map(|own| pdo(own, types));
+pub(super) fn frames(data: &ProcessData, types: &[TypeDef], about: About<'_>) -> Vec<Frame> {
+    let pdos = data.pdos.iter().map(|own| pdo(own, types, about));
     let images = data.images.iter().enumerate().map(|(at, own)| image(own, types, &format!("image-{at}"), ""));
     // PDOs of two buses may have one index.
     let mut names = Names::default();
@@ -78,16 +87,16 @@ pub(super) fn sync_managers(data: &ProcessData) -> Vec<SyncManager> {
     data.sync_managers.iter().map(one).collect()
 }
 
-fn pdo(own: &Pdo, types: &[TypeDef]) -> Frame {
-    let kind = match own.direction {
-        Direction::Receive => "RPDO",
-        Direction::Transmit => "TPDO",
-    };
+fn pdo(own: &Pdo, types: &[TypeDef], about: About<'_>) -> Frame {
     let name = if own.name.is_empty() { String::new() } else { format!(": {}", own.name) };
     let mut facts = words::PLAIN.description(own.documentation.as_deref());
-    facts.push(format!("{} bytes, mapped by 0x{:04X}.", own.bytes(), own.mapping_index));
+    let mapping =
+        if own.mapping_index == 0 { String::new() } else { format!(", mapped by 0x{:04X}", own.mapping_index) };
+    let bytes = own.bytes();
+    facts.push(format!("{bytes} {}{mapping}.", if bytes == 1 { "byte" } else { "bytes" }));
     if let Some(communication) = &own.communication {
-        facts.extend(communication.cob_id.as_ref().map(|id| format!("COB-ID {}.", words::PLAIN.value(id))));
+        let cob_id = |id| cob_id::text(id, cob_id::Kind::Pdo).unwrap_or_else(|| words::PLAIN.value(id));
+        facts.extend(communication.cob_id.as_ref().map(|id| format!("COB-ID {}.", cob_id(id))));
         facts.extend(communication.transmission_type.map(|own| format!("Transmission type {own}.")));
         facts.extend(communication.inhibit_time.map(|own| format!("Inhibit time {own} × 100 µs.")));
         facts.extend(communication.event_timer.map(|own| format!("Event timer {own} ms.")));
@@ -101,9 +110,9 @@ fn pdo(own: &Pdo, types: &[TypeDef]) -> Frame {
     }
     Frame {
         anchor: format!("0x{:04X}", own.mapping_index),
-        title: format!("{kind} {}{name}", own.number),
+        title: pdo::title(own, about.buses) + &name,
         facts,
-        doubts: super::entry::doubts(&own.doubts),
+        doubts: super::entry::doubts(&own.doubts, about.manual),
         ..drawn(&own.entries, own.bits(), types)
     }
 }

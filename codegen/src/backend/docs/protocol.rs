@@ -4,7 +4,8 @@ use super::anchor::Names;
 use super::bits::{self, Bits, Label};
 use super::entry::{self, Doubt};
 use super::words::{self, PLAIN};
-use crate::backend::words::Manual;
+use crate::facts::physical::Physical;
+use crate::ir::Manual;
 use crate::ir::{Completion, Device, Framing, Message, MessageField, MessageValue, TypeDef};
 
 /// The protocol of a device.
@@ -107,9 +108,9 @@ fn message(own: &Message, device: &Device, manual: &Manual, names: &mut Names) -
         own.error.as_ref().map(|other| format!("Where the device refuses, {other} comes instead of the reply.")),
     );
     facts.extend(own.availability.as_ref().map(|own| PLAIN.availability(own)));
-    facts.extend(PLAIN.place(manual, own.documentation.as_deref(), &own.names));
+    facts.extend(PLAIN.place(manual, "", own.documentation.as_deref(), &own.names));
     facts.retain(|fact| !fact.is_empty());
-    let mut parts = Parts { types: &device.types, all: Vec::new() };
+    let mut parts = Parts { types: &device.types, all: Vec::new(), doubts: own.doubts.to_vec() };
     parts.fields(&own.request, 0);
     let request = std::mem::take(&mut parts.all);
     parts.fields(&own.reply, 0);
@@ -118,7 +119,7 @@ fn message(own: &Message, device: &Device, manual: &Manual, names: &mut Names) -
         name: own.name.to_string(),
         names: words::names(&own.names),
         facts,
-        doubts: entry::doubts(&own.doubts),
+        doubts: entry::doubts(&parts.doubts, manual),
         request,
         reply: parts.all,
         examples: own
@@ -141,6 +142,8 @@ fn hexadecimal(bytes: &[u8]) -> String {
 struct Parts<'d> {
     types: &'d [TypeDef],
     all: Vec<Part>,
+    /// The ambiguities of the message and of its fields.
+    doubts: Vec<crate::ir::Doubt>,
 }
 
 impl Parts<'_> {
@@ -191,12 +194,15 @@ impl Parts<'_> {
         }
     }
 
-    fn value(&self, own: &MessageValue, depth: usize) -> Part {
+    fn value(&mut self, own: &MessageValue, depth: usize) -> Part {
         let item = &own.item;
+        self.doubts.extend(item.doubts.iter().cloned());
         let basic = words::basic(self.types, item.ty);
         let (bits, labels) = bits::of_type(self.types, item.ty);
         let mut facts = vec![format!("{}.", words::type_name(self.types, item.ty))];
-        facts.extend(PLAIN.limits(&item.limits).map(|own| format!("{own}.")));
+        facts.extend(
+            PLAIN.limits(&item.limits, Physical::of(item.quantity.as_deref()).as_ref()).map(|own| format!("{own}.")),
+        );
         if let Some(quantity) = &item.quantity {
             let unit = PLAIN.quantity(quantity);
             facts.extend((!unit.is_empty()).then(|| format!("{}.", unit.trim_start_matches([',', ' ']))));

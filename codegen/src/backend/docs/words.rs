@@ -1,7 +1,11 @@
 //! Words of documentation pages. Templates escape them.
 
 pub(super) use crate::backend::words::{one_line, PLAIN};
-use crate::ir::{Binding, Documentation, Item, ObjectBuses, RegisterSpace, Texts, Type, TypeDef, Value};
+use crate::facts::register;
+use crate::ir::{
+    Binding, Documentation, Item, ModbusTable, ObjectBuses, RegisterBinding, RegisterSpace, Texts, Type, TypeDef,
+    TypeId, Value,
+};
 use crate::passes::owner::Owner;
 
 /// The basic type below; of arrays and records, nothing is known.
@@ -15,6 +19,14 @@ pub(super) fn basic(types: &[TypeDef], ty: Type) -> Type {
 /// A type as a table shows it: its length where it is a text, and what the source calls it where that says more.
 pub(super) fn type_name(types: &[TypeDef], ty: Type) -> String {
     basic(types, ty).with_length()
+}
+
+/// The definition of a named type.
+pub(super) fn definition(types: &[TypeDef], ty: Type) -> Option<&TypeDef> {
+    match ty {
+        Type::Named(TypeId(id)) => types.get(id as usize),
+        _ => None,
+    }
 }
 
 /// A name in other languages.
@@ -52,32 +64,27 @@ pub(super) fn value(value: &Value, ty: Type) -> String {
     }
 }
 
-/// An address of an item: the bus, and what stands there.
+/// An address of an item.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Address {
     pub bus: &'static str,
-    pub place: String,
+    /// The address in a few characters, as the source prints it.
+    pub number: String,
+    /// By what a search finds it: printed and wire address; empty if it only repeats another address.
+    pub lookup: String,
+    /// All that is known of the address.
+    pub text: String,
 }
 
-/// Where an item is found, the bus that it is named by first.
-pub(super) fn addresses(item: &Item) -> Vec<Address> {
-    item.bindings.iter().map(address).collect()
+/// The addresses of an item, the one that it is named by first. `tables` are the requests that the device takes on Modbus.
+pub(super) fn addresses(item: &Item, tables: &[ModbusTable]) -> Vec<Address> {
+    item.bindings.iter().map(|binding| address(binding, item, tables)).collect()
 }
 
-fn address(binding: &Binding) -> Address {
-    let (bus, place) = match binding {
+fn address(binding: &Binding, item: &Item, tables: &[ModbusTable]) -> Address {
+    let (bus, text) = match binding {
+        Binding::Register(own) => return register_address(own, item, tables),
         Binding::Object { buses, index, sub_index } => (object_bus(*buses), format!("0x{index:04X}:{sub_index:02X}")),
-        Binding::Register(own) => {
-            let table = match own.space {
-                RegisterSpace::Coil => "coil",
-                RegisterSpace::DiscreteInput => "discrete input",
-                RegisterSpace::Input => "input register",
-                RegisterSpace::Holding => "register",
-            };
-            let bit = own.bit_offset.map(|bit| format!(" from bit {bit}")).unwrap_or_default();
-            let last = if own.last() > own.address { format!("–{}", own.last()) } else { String::new() };
-            ("Modbus", format!("{table} {}{last}{bit}", own.address))
-        }
         Binding::Record { index, bit_offset, bits } => {
             ("PROFINET", format!("record 0x{index:04X}, {}", span(*bit_offset, *bits)))
         }
@@ -90,7 +97,23 @@ fn address(binding: &Binding) -> Address {
             ("Window", format!("{} 0x{:04X} on {}", own.space, own.number, buses.join(", ")))
         }
     };
-    Address { bus, place }
+    // A window takes the number of a register or parameter, which is found anyway.
+    let lookup = if bus == "Window" { String::new() } else { text.clone() };
+    Address { bus, number: text.clone(), lookup, text }
+}
+
+fn register_address(own: &RegisterBinding, item: &Item, tables: &[ModbusTable]) -> Address {
+    let table = match own.space {
+        RegisterSpace::Coil => "coil",
+        RegisterSpace::DiscreteInput => "discrete input",
+        RegisterSpace::Input => "input register",
+        RegisterSpace::Holding => "register",
+    };
+    let number = format!("{table} {}", register::printed(own));
+    let is_wire = own.printed.is_none_or(|printed| printed == u32::from(own.address));
+    let wire = if is_wire { String::new() } else { format!(" (wire {})", register::wire(own)) };
+    let text = register::text(own, item.access_on("modbus"), tables);
+    Address { bus: "Modbus", lookup: format!("{number}{wire}"), number, text }
 }
 
 fn object_bus(buses: ObjectBuses) -> &'static str {

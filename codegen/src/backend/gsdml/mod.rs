@@ -207,7 +207,7 @@ fn identity(xml: &mut Xml, context: &mut Context<'_>) {
         Some(LocalText { language: language.into(), text: extension.value.clone() })
     };
     let translations = catalog.extensions.iter().filter_map(language).collect();
-    context.texts.documentation(xml, "InfoText", &Documentation { text, translations, cite: None });
+    context.texts.documentation(xml, "InfoText", &Documentation { text, translations, ..Documentation::default() });
     xml.open("VendorName");
     let name = context.wanted(options.vendor_name(), name, "vendor-name");
     xml.attribute("Value", name);
@@ -258,7 +258,7 @@ fn category(xml: &mut Xml, context: &mut Context<'_>, family: &crate::ir::Family
     xml.attribute("TextId", context.texts.id(&family.name, &family.names));
     if let Some((first, others)) = family.descriptions.split_first() {
         let translations = others.iter().cloned().collect();
-        let own = Documentation { text: first.text.to_string(), translations, cite: None };
+        let own = Documentation { text: first.text.to_string(), translations, ..Documentation::default() };
         context.texts.documentation(xml, "InfoText", &own);
     }
     xml.close();

@@ -45,7 +45,11 @@ impl Info<'_> {
             None if context.is_gsdml => {}
             // The schema wants a text there.
             None => {
-                let own = Documentation { text: self.name.into(), translations: self.names.clone(), cite: None };
+                let own = Documentation {
+                    text: self.name.into(),
+                    translations: self.names.clone(),
+                    ..Documentation::default()
+                };
                 context.texts.documentation(xml, "InfoText", &own);
                 context.notes.add(NoteKind::MissingText, Place::Named(self.name));
             }

@@ -4,10 +4,10 @@ use std::collections::HashSet;
 
 use super::doc_table;
 use super::docs;
+use super::docs::WORDS;
 use super::enumeration::EnumerationModel;
 use super::links::{self, Here};
 use super::literal;
-use super::manual;
 use super::method_names::{beside, method_allow};
 use super::options::{Presence, RustOptions};
 use super::scope::Scope;
@@ -510,9 +510,9 @@ impl Context<'_, '_> {
             sentences.push(format!("Access {}.", access.name()));
         }
         if let Some(availability) = &entry.availability {
-            sentences.push(manual::availability(availability));
+            sentences.push(WORDS.availability(availability));
         }
-        sentences.extend(self.scope.manual.place(entry.documentation.as_deref(), &entry.names));
+        sentences.extend(WORDS.place(&self.scope.manual, "", entry.documentation.as_deref(), &entry.names));
         sentences.join(" ")
     }
 }

@@ -3,11 +3,11 @@
 use super::bus_facts;
 use super::code_type::{self, CodeTypeModel};
 use super::docs;
+use super::docs::WORDS;
 use super::links::is_derive;
 use super::literal;
-use super::manual::{self, Manual};
 use super::options::RustOptions;
-use crate::ir::{CodeRow, CodeTable, Value};
+use crate::ir::{CodeRow, CodeTable, Manual, Value};
 use crate::passes::names_unique::{self, Case};
 
 /// A table, ready to be written.
@@ -38,7 +38,9 @@ fn model(table: &CodeTable, (name, ty): (String, String), manual: &Manual, optio
     if !text.is_empty() {
         docs.extend([String::new(), docs::sentence(&docs::escape(text))]);
     }
-    docs.extend(manual.place(table.documentation.as_deref(), &[]).into_iter().flat_map(|own| [String::new(), own]));
+    docs.extend(
+        WORDS.place(manual, "", table.documentation.as_deref(), &[]).into_iter().flat_map(|own| [String::new(), own]),
+    );
     if !table.buses.is_empty() {
         docs.extend([String::new(), format!("On {}.", docs::escape(&table.buses.join(", ")))]);
     }
@@ -67,7 +69,7 @@ fn row(row: &CodeRow, columns: usize) -> Option<String> {
     let mut text = row.documentation.as_ref().map_or_else(String::new, |documentation| documentation.text.clone());
     if let Some(availability) = &row.availability {
         let whole = if text.is_empty() { String::new() } else { docs::sentence(&text) + " " };
-        text = whole + &manual::availability(availability);
+        text = whole + &WORDS.availability(availability);
     }
     let mut cells: Vec<String> = row.cells.iter().take(columns.max(row.cells.len())).map(cell).collect();
     cells.resize(columns.max(cells.len()), "rt::codes::Cell::Empty".to_owned());

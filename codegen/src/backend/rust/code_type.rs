@@ -4,9 +4,10 @@ use std::collections::{BTreeMap, HashSet};
 
 use super::doc_table;
 use super::docs;
-use super::manual::{self, Manual};
+use super::docs::WORDS;
 use super::options::RustOptions;
-use crate::ir::{CodeRow, CodeTable};
+use crate::facts::code;
+use crate::ir::{CodeRow, CodeTable, Manual};
 use crate::passes::names_unique::{self, Case, Wish};
 
 /// A type, ready to be written.
@@ -68,9 +69,9 @@ pub(super) fn model<'a>(table: &'a CodeTable, manual: &Manual, options: &RustOpt
     let arms = pieces.iter().map(arm).collect();
     let variants = rows.iter().zip(&names).map(|((span, row), name)| variant(*span, row, name, manual)).collect();
     let complete = covered == i128::from(last) - i128::from(first) + 1;
-    let row = |((span, row), name): (&(Span, &CodeRow), &String)| {
+    let row = |((_, row), name): (&(Span, &CodeRow), &String)| {
         let meaning = doc_table::meaning(&row.name, name, row.documentation.as_deref());
-        [codes(*span), format!("[`{name}`](Self::{name})"), meaning]
+        [docs::escape(&code::text(row)), format!("[`{name}`](Self::{name})"), meaning]
     };
     let listed: Vec<[String; 3]> = rows.iter().zip(&names).take(doc_table::MAX_ROWS + 1).map(row).collect();
     let table = doc_table::table(["Code", "Name", "Meaning"], &listed);
@@ -131,23 +132,14 @@ pub(super) fn number(code: i64) -> String {
     }
 }
 
-/// `0x8110`, `0x8110 to 0x81FF`.
-fn codes(span: Span) -> String {
-    if span.0 == span.1 {
-        number(span.0)
-    } else {
-        format!("{} to {}", number(span.0), number(span.1))
-    }
-}
-
 fn variant(span: Span, row: &CodeRow, name: &str, manual: &Manual) -> CodeVariant {
-    let codes = codes(span);
+    let codes = docs::escape(&code::text(row));
     let title = docs::escape(&row.name);
     let mut text = if title.is_empty() { format!("{codes}.") } else { format!("{codes}: {}", docs::sentence(&title)) };
     let mut sentences = Vec::new();
     docs::words(row.documentation.as_deref(), &mut sentences);
-    sentences.extend(row.availability.as_ref().map(|own| manual::availability(own)));
-    sentences.extend(manual.place(row.documentation.as_deref(), &row.names));
+    sentences.extend(row.availability.as_ref().map(|own| WORDS.availability(own)));
+    sentences.extend(WORDS.place(manual, "", row.documentation.as_deref(), &row.names));
     for sentence in sentences {
         text.push(' ');
         text.push_str(&sentence);

@@ -70,8 +70,9 @@ fn own(scope: &Scope<'_>, item: &Item, object: &ObjectModel, model: &str) -> Opt
     let arguments = Arguments::of(&on_model, "", &ItemType::of(scope, item), "");
     let [range, initial] = arguments.of_model();
     let mut facts = Vec::new();
-    facts.extend(docs::limits(&on_model.limits));
-    facts.extend(on_model.default.as_ref().map(|value| format!("default {}", docs::value(value))));
+    facts.extend(docs::limits(&on_model));
+    let shown = |value: &Value| docs::WORDS.of_item(&on_model, value, &docs::value);
+    facts.extend(on_model.default.as_ref().map(|value| format!("default {}", shown(value))));
     Some(OwnItem {
         name: handle.constant.clone(),
         docs: format!(

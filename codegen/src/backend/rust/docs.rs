@@ -4,15 +4,14 @@ use std::fmt::Write;
 
 use super::links::Here;
 use super::literal;
-use super::manual::{self, Manual};
 use super::place::Place;
-use super::quantity;
 use super::scope::Scope;
 use super::value_type;
 use crate::backend::markdown;
 pub(super) use crate::backend::words::sentence;
 use crate::backend::words::{Words, NO_LINK};
-use crate::ir::{Binding, Condition, Documentation, Item, Limits, Type, Value};
+use crate::facts::physical::Physical;
+use crate::ir::{Binding, Condition, Documentation, Doubt, Item, Manual, Type, TypeId, Value};
 
 /// Sentences for doc comments.
 pub(super) const WORDS: Words<'static> = Words { escape, link: NO_LINK };
@@ -44,6 +43,10 @@ pub(super) fn item(item: &Item, name: &str, chapter: Option<&str>, scope: &Scope
     lines.extend(Some(beside).filter(|line| !line.is_empty()));
     documentation(item, &mut lines);
     let mut paragraphs = Vec::new();
+    paragraphs.extend(WORDS.access(item));
+    if let Type::Named(TypeId(id)) = item.ty {
+        paragraphs.extend(WORDS.meaning_from(scope.types.get(id as usize)));
+    }
     if let Some(quantity) = &item.quantity {
         paragraphs.extend(WORDS.notes(quantity));
     }
@@ -51,16 +54,17 @@ pub(super) fn item(item: &Item, name: &str, chapter: Option<&str>, scope: &Scope
         paragraphs.push(words.behaviour(behaviour).join(" "));
     }
     paragraphs.extend(item.bindings.iter().filter_map(elsewhere));
-    let unit = item.quantity.as_ref().map_or("", |quantity| quantity.unit.as_str());
-    paragraphs.extend(item.variants.iter().map(|own| words.variant(own, unit)));
+    paragraphs.extend(item.variants.iter().map(|own| words.variant(own, item)));
     if let Some(availability) = &item.availability {
         paragraphs.push(words.availability(availability));
     }
-    let place = scope.manual.place(item.documentation.as_deref(), &item.names);
+    let place = WORDS.place(&scope.manual, name, item.documentation.as_deref(), &item.names);
     let chapter = chapter.filter(|chapter| !chapter.trim().is_empty());
     let chapter = chapter.map(|chapter| format!("Chapter {}", sentence(&escape(chapter))));
     paragraphs.push(chapter.into_iter().chain(place).collect::<Vec<_>>().join(" "));
-    paragraphs.extend(item.doubts.iter().map(manual::doubt));
+    let mut doubts: Vec<&Doubt> = item.doubts.iter().collect();
+    doubts.sort_by_key(|own| own.severity);
+    paragraphs.extend(doubts.into_iter().map(|own| WORDS.doubt(&scope.manual, own)));
     for paragraph in paragraphs.into_iter().filter(|paragraph| !paragraph.is_empty()) {
         lines.extend([String::new(), paragraph]);
     }
@@ -103,7 +107,7 @@ pub(super) fn words(documentation: Option<&Documentation>, sentences: &mut Vec<S
 pub(super) fn described(documentation: Option<&Documentation>, manual: &Manual, lines: &mut Vec<String>) {
     let mut sentences = Vec::new();
     words(documentation, &mut sentences);
-    sentences.extend(manual.place(documentation, &[]));
+    sentences.extend(WORDS.place(manual, "", documentation, &[]));
     for sentence in sentences {
         lines.extend([String::new(), sentence]);
     }
@@ -124,31 +128,29 @@ pub(super) fn of_type(scope: &Scope<'_>, position: u32) -> Vec<String> {
 fn facts(item: &Item, scope: &Scope<'_>, words: &Words<'_>) -> String {
     let base = scope.base(item.ty);
     let mut line = String::with_capacity(64);
-    let place = Place::of(scope, item).facts();
+    let place = Place::of(scope, item).facts(scope, item);
     if !place.is_empty() {
         let _ = write!(line, "{}, ", capital(&place));
     }
-    let _ = write!(line, "{base}, {}", item.access.name());
+    let _ = write!(line, "{base}, {}", item.access_name());
     match (item.mappable.rpdo, item.mappable.tpdo) {
         (true, true) => line.push_str(", mappable into any PDO"),
         (true, false) => line.push_str(", mappable into RPDOs"),
         (false, true) => line.push_str(", mappable into TPDOs"),
         (false, false) => {}
     }
+    let shown = |value: &Value| WORDS.of_item(item, value, &|value| typed(value, base));
     if let Some(default) = &item.default {
-        let _ = write!(line, ", default {}", typed(default, base));
+        let _ = write!(line, ", default {}", shown(default));
     }
-    if let Some(range) = limits(&item.limits) {
+    if let Some(range) = limits(item) {
         let _ = write!(line, ", {range}");
-        if let Some(physical) = quantity::limits(item) {
-            let _ = write!(line, " ({physical})");
-        }
     }
     if let Some(quantity) = &item.quantity {
         line.push_str(&words.quantity(quantity));
     }
     if let Some(configured) = item.configured.as_ref().and_then(|configured| configured.value.as_ref()) {
-        let _ = write!(line, ", configured to {}", typed(configured, base));
+        let _ = write!(line, ", configured to {}", shown(configured));
     }
     line.push('.');
     line
@@ -166,8 +168,8 @@ pub(super) fn value(value: &Value) -> String {
     WORDS.value(value)
 }
 
-pub(super) fn limits(limits: &Limits) -> Option<String> {
-    WORDS.limits(limits)
+pub(super) fn limits(item: &Item) -> Option<String> {
+    WORDS.limits(&item.limits, Physical::of(item.quantity.as_deref()).as_ref())
 }
 
 fn documentation(item: &Item, lines: &mut Vec<String>) {

@@ -4,8 +4,8 @@ use std::collections::HashSet;
 
 use super::doc_table;
 use super::docs;
+use super::docs::WORDS;
 use super::links::Here;
-use super::manual;
 use super::options::RustOptions;
 use super::scope::Scope;
 use super::value_type::{self, ValueType};
@@ -125,8 +125,8 @@ fn about(value: &EnumValue, scope: &Scope<'_>) -> Vec<String> {
         sentences.push(format!("Only while {}.", docs::holds(condition, scope, Here::TYPES)));
     }
     if let Some(availability) = &value.availability {
-        sentences.push(manual::availability(availability));
+        sentences.push(WORDS.availability(availability));
     }
-    sentences.extend(scope.manual.place(value.documentation.as_deref(), &value.names));
+    sentences.extend(WORDS.place(&scope.manual, "", value.documentation.as_deref(), &value.names));
     sentences
 }

@@ -1,7 +1,7 @@
 //! Numbers that no device holds and only whoever builds the machine knows.
 
 use super::docs;
-use super::manual;
+use super::docs::WORDS;
 use super::options::RustOptions;
 use super::scope::Scope;
 use crate::ir::{Device, Item, MachineUnit};
@@ -43,8 +43,8 @@ pub(super) fn model(scope: &Scope<'_>, device: &Device, options: &RustOptions) -
         let mut lines = vec![format!("{}{}.", docs::escape(&own.name), in_unit(&own.unit))];
         let mut sentences = Vec::new();
         docs::words(own.documentation.as_deref(), &mut sentences);
-        sentences.extend(scope.manual.place(own.documentation.as_deref(), &[]));
-        sentences.extend(own.doubts.iter().map(manual::doubt));
+        sentences.extend(WORDS.place(&scope.manual, "", own.documentation.as_deref(), &[]));
+        sentences.extend(own.doubts.iter().map(|own| WORDS.doubt(&scope.manual, own)));
         lines.extend(sentences.into_iter().flat_map(|sentence| [String::new(), sentence]));
         NumberModel { name: names_unique::escaped(name), docs: lines }
     });

@@ -11,6 +11,7 @@ use super::links::Here;
 use super::options::RustOptions;
 use super::scope::Scope;
 use super::value_type;
+use crate::facts::pattern;
 use crate::ir::{Pattern, Shape, StateMachine, Transition, Type};
 use crate::passes::names_unique::{self, Case, Wish};
 
@@ -64,6 +65,8 @@ pub(super) struct PatternModel {
     pub docs: String,
     /// What it is, in a cell.
     meaning: String,
+    /// `xxxx xxxx x1xx 0000`.
+    pub bits: String,
     pub mask: String,
     pub value: String,
     /// Whether the bits are all those of the number.
@@ -154,11 +157,10 @@ fn documentation(
     };
     let mut lines = vec![format!("{what} of {}{item}.", docs::escape(&machine.name))];
     docs::described(machine.documentation.as_deref(), &scope.manual, &mut lines);
-    let row = |own: &PatternModel| {
-        [format!("[`{0}`](Self::{0})", own.name), own.mask.clone(), own.value.clone(), own.meaning.clone()]
-    };
-    let rows: Vec<[String; 4]> = own.patterns.iter().map(row).collect();
-    lines.extend(doc_table::table([what.trim_end_matches('s'), "Mask", "Value", "Meaning"], &rows));
+    let row =
+        |own: &PatternModel| [format!("[`{0}`](Self::{0})", own.name), format!("`{}`", own.bits), own.meaning.clone()];
+    let rows: Vec<[String; 3]> = own.patterns.iter().map(row).collect();
+    lines.extend(doc_table::table([what.trim_end_matches('s'), "Bits", "Meaning"], &rows));
     lines
 }
 
@@ -299,8 +301,9 @@ fn patterns(
         let text = if text.is_empty() { String::new() } else { format!(" {}", docs::sentence(&docs::escape(text))) };
         let original = own.name.to_string();
         let meaning = doc_table::meaning(&own.name, &name, own.documentation.as_deref());
-        let docs = format!("{title}: {value} of the bits {mask}.{text}");
-        PatternModel { docs, meaning, name, original, mask, value, is_whole: u64::from(own.mask) == most }
+        let bits = pattern::text(own.mask, own.value, u64::BITS - most.leading_zeros());
+        let docs = format!("{title}: `{bits}`.{text}");
+        PatternModel { docs, meaning, name, original, bits, mask, value, is_whole: u64::from(own.mask) == most }
     };
     Some(PatternsModel {
         patterns: list.iter().zip(names).map(pattern).collect(),

@@ -29,7 +29,6 @@ mod links;
 mod literal;
 mod locations;
 mod machine;
-mod manual;
 mod messages;
 mod method_names;
 mod model;
@@ -55,7 +54,7 @@ pub use options::{Presence, RustOptions};
 
 use askama::Template;
 
-use crate::ir::{Catalog, Device, FileInfo, Format, Item};
+use crate::ir::{Catalog, Device, FileInfo, Format, Item, Scale};
 use model::Model;
 use scope::Scope;
 
@@ -104,10 +103,29 @@ fn render(model: Model<'_>) -> String {
     text
 }
 
-/// How a program reaches each item of a device: by the methods of its type, as in `identity().vendor_id()`.
-pub(super) fn calls(device: &Device) -> Vec<(&Item, String)> {
+/// The lines of a program that read and write each item of a device, as in `device.identity().vendor_id().read()?`.
+pub(super) fn calls(device: &Device) -> Vec<(&Item, Vec<String>)> {
     let (scope, _) = Scope::of_device(device, &RustOptions::default(), "");
-    objects::calls(&scope)
+    let lines = |(item, path): (_, String)| (item, calls_of(&scope, item, &path));
+    objects::calls(&scope).into_iter().map(lines).collect()
+}
+
+/// Reads and writes in the item's unit first, then those of the raw value.
+fn calls_of(scope: &Scope<'_>, item: &Item, path: &str) -> Vec<String> {
+    let (suffix, other) = match item.quantity.as_ref().and_then(|own| own.scale.as_ref()) {
+        Some(Scale::ByItem { .. } | Scale::Fraction { .. } | Scale::Exponent { .. }) => ("_by", "other"),
+        _ => ("", ""),
+    };
+    let both = if other.is_empty() { "physical".to_owned() } else { format!("physical, {other}") };
+    let is_scaled = quantity::of(scope, item).is_some();
+    let calls = [
+        (is_scaled && item.access.readable(), format!("read_scaled{suffix}({other})")),
+        (is_scaled && item.access.writable(), format!("write_scaled{suffix}({both})")),
+        (item.access.readable(), "read()".to_owned()),
+        (item.access.writable(), "write(value)".to_owned()),
+    ];
+    let line = |(_, call)| format!("device.{path}.{call}?");
+    calls.into_iter().filter(|(exists, _)| *exists).map(line).collect()
 }
 
 /// The name of the device's type, and so of its file, where nobody chose another one.

@@ -4,11 +4,11 @@ use std::collections::{HashMap, HashSet};
 
 use super::doc_table;
 use super::docs;
+use super::docs::WORDS;
 use super::ethercat::depends_on;
 use super::field_type::{field_type, FieldType};
 use super::layout;
 use super::links::Here;
-use super::manual;
 use super::method_names::{beside, method_allow};
 use super::options::RustOptions;
 use super::reachable::addressable;
@@ -190,8 +190,8 @@ fn documentation(scope: &Scope<'_>, pdo: &Pdo, fields: &[FieldModel]) -> Vec<Str
     }
     let mut sentences = vec![docs::sentence(&facts.join(", "))];
     docs::words(pdo.documentation.as_deref(), &mut sentences);
-    sentences.extend(scope.manual.place(pdo.documentation.as_deref(), &[]));
-    sentences.extend(pdo.doubts.iter().map(manual::doubt));
+    sentences.extend(WORDS.place(&scope.manual, "", pdo.documentation.as_deref(), &[]));
+    sentences.extend(pdo.doubts.iter().map(|own| WORDS.doubt(&scope.manual, own)));
     for sentence in sentences {
         lines.extend([String::new(), sentence]);
     }
@@ -248,12 +248,11 @@ fn span(entry: &PdoEntry) -> String {
 
 /// What the PDO is called, as a sentence.
 pub(super) fn title(scope: &Scope<'_>, pdo: &Pdo) -> String {
-    let title = match (bus_of(scope, pdo), pdo.direction) {
-        (ObjectBus::CanOpen, Direction::Receive) => format!("RPDO {}", pdo.number),
-        (ObjectBus::CanOpen, Direction::Transmit) => format!("TPDO {}", pdo.number),
-        (ObjectBus::CoE, Direction::Receive) => format!("RxPDO 0x{:04X}", pdo.mapping_index),
-        (ObjectBus::CoE, Direction::Transmit) => format!("TxPDO 0x{:04X}", pdo.mapping_index),
+    let buses = match bus_of(scope, pdo) {
+        ObjectBus::CanOpen => ObjectBuses::CANOPEN,
+        ObjectBus::CoE => ObjectBuses::COE,
     };
+    let title = crate::facts::pdo::title(pdo, buses);
     let name = if pdo.name.is_empty() { String::new() } else { format!(": {}", docs::escape(&pdo.name)) };
     docs::sentence(&format!("{title}{name}"))
 }

@@ -2,6 +2,7 @@
 
 use super::doc_table;
 use super::docs;
+use super::docs::WORDS;
 use super::links::Here;
 use super::scope::{ObjectBus, Scope};
 use crate::ir::{Binding, Device, Item, Procedure, Step, Type, Value};
@@ -36,7 +37,7 @@ fn documentation(scope: &Scope<'_>, own: &Procedure) -> Vec<String> {
     if sentences.is_empty() {
         sentences.push(docs::sentence(&docs::escape(&own.name)));
     }
-    sentences.extend(scope.manual.place(own.documentation.as_deref(), &own.names));
+    sentences.extend(WORDS.place(&scope.manual, "", own.documentation.as_deref(), &own.names));
     let paragraphs = sentences.into_iter().flat_map(|sentence| [String::new(), sentence]);
     let rows: Vec<[String; 2]> = own.steps.iter().filter_map(|step| row(scope, step)).collect();
     paragraphs.skip(1).chain(doc_table::table(["Item", "Value"], &rows)).collect()

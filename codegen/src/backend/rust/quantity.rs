@@ -1,8 +1,7 @@
 //! Units and scales: the types of numbers that stand for physical ones, and what documentation says of them.
 
-use super::docs;
 use super::scope::Scope;
-use crate::ir::{Item, Quantity, Scale, Value};
+use crate::ir::{Item, Quantity, Scale};
 
 /// The type of a quantity.
 pub(super) struct QuantityType {
@@ -144,17 +143,6 @@ fn rational(real: f64) -> Option<(i64, i64)> {
             return None;
         }
     }
-}
-
-/// Limits of a scaled number in its unit.
-pub(super) fn limits(item: &Item) -> Option<String> {
-    let quantity = item.quantity.as_ref()?;
-    let Some(Scale::Linear { factor, offset }) = quantity.scale else { return None };
-    let (num, den, offset) = common(factor, offset)?;
-    let physical = |value: &Value| value.as_real().map(|raw| (raw * num as f64 + offset as f64) / den as f64);
-    let (low, high) = (physical(item.limits.low.as_ref()?)?, physical(item.limits.high.as_ref()?)?);
-    let unit = docs::escape(&quantity.unit);
-    Some(format!("{low} to {high} {unit}").trim_end().to_owned())
 }
 
 #[cfg(test)]

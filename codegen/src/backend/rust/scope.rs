@@ -4,14 +4,16 @@ use std::cell::OnceCell;
 use std::collections::HashMap;
 
 use super::links::Links;
-use super::manual::Manual;
 use super::named::{self, NamedType, Types};
 use super::objects::{self, Names};
 use super::options::RustOptions;
 use super::reachable;
 use super::value_type::ValueType;
 use super::window::{self, Window};
-use crate::ir::{Device, Group, Item, ItemNames, Module, Pdo, ProcessImage, Shape, StateMachine, Type, TypeDef};
+use crate::backend::words;
+use crate::ir::{
+    Device, Group, Item, ItemNames, Manual, Module, Pdo, ProcessImage, Shape, StateMachine, Type, TypeDef,
+};
 
 /// The bus on which objects are addressed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -51,7 +53,7 @@ impl<'a> Scope<'a> {
     pub fn of_device(device: &'a Device, options: &RustOptions, device_name: &str) -> (Self, Types) {
         let bus = if device.ethercat.is_some() || device.dictionary_only { ObjectBus::CoE } else { ObjectBus::CanOpen };
         let mut scope = Scope::new(bus, &device.groups, &device.types, &device.process_data.pdos);
-        scope.manual = Manual::of(device);
+        scope.manual = words::manual(device);
         scope.device = Some(device);
         scope.windows = window::windows(&scope, device);
         scope.with_types(&device.machines, options, device_name)

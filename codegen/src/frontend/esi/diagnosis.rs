@@ -37,6 +37,8 @@ pub(super) fn read<'a>(
             messages.rows.to_mut().extend(row);
         } else if let Some(list) = lists.iter_mut().find(|list| list.name == tag.name) {
             list.rows.to_mut().extend(enum_value(reader, &tag, extensions)?.map(|value| CodeRow {
+                printed: CompactString::default(),
+                printed_cells: Vec::new(),
                 code: value.value,
                 last: None,
                 name: value.name,
@@ -58,7 +60,11 @@ fn message<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, extensions: &mut E
     let mut cells: [CompactString; COLUMNS.len()] = Default::default();
     while let Some(tag) = reader.cursor.child(parent)? {
         match tag.name {
-            "TextId" => number = reader.number::<i128>(&tag, "number of a message", extensions)?,
+            "TextId" => {
+                let given = reader.leaf(&tag, extensions)?;
+                number =
+                    reader.int::<i128>(&given, "number of a message").map(|code| (code, printed(&given.text, code)));
+            }
             "MessageText" => reader.name(&tag, &mut names, extensions)?,
             "Description" => paragraph(reader, &tag, (&mut descriptions, 0), extensions)?,
             "Flags" => {
@@ -74,7 +80,7 @@ fn message<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, extensions: &mut E
             _ => reader.unknown(&tag, extensions)?,
         }
     }
-    let Some(code) = number else {
+    let Some((code, printed)) = number else {
         reader.report(&codes::ESI_VALUE, parent.span, "this message has no TextId", "left out");
         return Ok(None);
     };
@@ -83,7 +89,16 @@ fn message<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, extensions: &mut E
     let documentation = documentation(reader, &descriptions, parent.span);
     let cells = cells.into_iter().map(Value::Text).collect();
     let (name, names) = (names.name(), names.others());
-    Ok(Some(CodeRow { code, last: None, name, names, availability: None, documentation, cells }))
+    let (last, availability, printed_cells) = (None, None, Vec::new());
+    Ok(Some(CodeRow { printed, printed_cells, code, last, name, names, availability, documentation, cells }))
+}
+
+/// A hexadecimal code (`#x8000`) in the notation of all outputs; empty for a decimal one.
+fn printed(text: &str, code: i128) -> CompactString {
+    match text.trim_start().starts_with('#') {
+        true => format!("0x{code:04X}").into(),
+        false => CompactString::default(),
+    }
 }
 
 /// Behind how many other elements a text in another language still stands.
@@ -157,5 +172,5 @@ fn documentation(
         LocalText { language: language.clone(), text: join(&own.collect::<Vec<_>>()).into() }
     };
     let translations = languages.into_iter().filter(|_| affordable).map(in_language).collect();
-    (!text.is_empty()).then(|| Box::new(Documentation { text, translations, cite: None }))
+    (!text.is_empty()).then(|| Box::new(Documentation { text, translations, ..Documentation::default() }))
 }

@@ -141,7 +141,7 @@ impl<'a> Names<'a> {
     pub fn documentation(&self) -> Option<Box<Documentation>> {
         let main = self.given()?;
         let text = main.text.to_string();
-        Some(Box::new(Documentation { text, translations: self.others(), cite: None }))
+        Some(Box::new(Documentation { text, translations: self.others(), ..Documentation::default() }))
     }
 }
 

@@ -336,6 +336,8 @@ impl Code<'_> {
 
 fn empty_row(code: i128) -> CodeRow {
     CodeRow {
+        printed: CompactString::default(),
+        printed_cells: Vec::new(),
         code,
         last: None,
         name: CompactString::default(),

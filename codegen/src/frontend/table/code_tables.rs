@@ -7,7 +7,7 @@ use super::format::{CodeTableRow, CodesTable};
 use super::tree::{cited, Reader};
 use super::{place, value};
 use crate::diagnostics::{codes, Diagnostic};
-use crate::ir::{Availability, CodeRow, CodeTable, Device, Type, Value};
+use crate::ir::{Availability, CodeRow, CodeTable, CompactString, Device, Type, Value};
 use crate::text::brief;
 
 /// A table of codes.
@@ -33,8 +33,11 @@ pub(super) fn table(reader: &mut Reader<'_, '_>, name: &At<String>, table: &Code
             let found = Diagnostic::new(&codes::CELLS_TWICE, reader.span(key), message);
             reader.diagnostics.push(found.note_at(reader.span(other), "the first one"));
         }
-        let cell = |literal: &Literal| value::convert(literal, Type::Opaque(None), false).unwrap_or(Value::Bool(false));
+        let cell =
+            |own: &At<Literal>| value::convert(&own.value, Type::Opaque(None), false).unwrap_or(Value::Bool(false));
         rows.push(CodeRow {
+            printed: printed(&key.value, table.prefix.as_deref().unwrap_or_default()),
+            printed_cells: printed_cells(reader, &row.cells),
             code: first,
             last: (last > first).then_some(last),
             name: name.unwrap_or_default().into(),
@@ -57,6 +60,31 @@ pub(super) fn table(reader: &mut Reader<'_, '_>, name: &At<String>, table: &Code
     });
 }
 
+/// The code of a row as the table writes it: `0x8700`, `F125` with the prefix `F`; empty for decimal numbers.
+fn printed(key: &str, prefix: &str) -> CompactString {
+    let is_decimal = key.chars().all(|letter| letter.is_ascii_digit() || letter == '-');
+    match prefix {
+        "" if is_decimal => CompactString::default(),
+        prefix => {
+            let bounds: Vec<String> = key.split("..").map(|bound| format!("{prefix}{}", bound.trim())).collect();
+            bounds.join(" to ").into()
+        }
+    }
+}
+
+/// The cells that are written in hexadecimal; none if there is no such cell.
+fn printed_cells(reader: &Reader<'_, '_>, cells: &[At<Literal>]) -> Vec<CompactString> {
+    let is_pattern = |cell: &At<Literal>| matches!(cell.value, Literal::Int(_)) && reader.is_pattern(cell);
+    if !cells.iter().any(is_pattern) {
+        return Vec::new();
+    }
+    let text = |cell: &At<Literal>| match is_pattern(cell) {
+        true => CompactString::from(reader.source.slice(reader.span(cell)).replace('_', "")),
+        false => CompactString::default(),
+    };
+    cells.iter().map(text).collect()
+}
+
 /// The first code of all that have the same cells.
 #[derive(Default)]
 struct Distinct<'t>(HashMap<Vec<Cell<'t>>, &'t At<String>>);
@@ -64,7 +92,12 @@ struct Distinct<'t>(HashMap<Vec<Cell<'t>>, &'t At<String>>);
 impl<'t> Distinct<'t> {
     /// A code in front of `key` that has the cells of `row`, where it has any.
     fn before(&mut self, key: &'t At<String>, row: &'t CodeTableRow) -> Option<&'t At<String>> {
-        let cells = row.cells.iter().map(Cell::of).collect::<Option<Vec<_>>>().filter(|cells| !cells.is_empty())?;
+        let cells = row
+            .cells
+            .iter()
+            .map(|own| Cell::of(&own.value))
+            .collect::<Option<Vec<_>>>()
+            .filter(|cells| !cells.is_empty())?;
         match self.0.entry(cells) {
             Entry::Occupied(first) => Some(first.get()),
             Entry::Vacant(none) => {

@@ -81,6 +81,7 @@ const OWN: &[&str] = &[
     "optional",
     "orig",
     "doc",
+    "doc_from",
     "cite",
     "doubt",
     "doubts",

@@ -111,7 +111,7 @@ impl Definitions {
 
     fn about<'t>(
         &mut self,
-        reader: &Reader<'_, '_>,
+        reader: &mut Reader<'_, '_>,
         place: &At<String>,
         (doc, cite): (&'t Option<String>, &Option<OneOrMany<NumberOrText>>),
         doubts: [&Option<OneOrMany<super::format::DoubtTable>>; 2],

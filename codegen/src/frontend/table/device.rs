@@ -8,7 +8,8 @@ use super::tree::{cited, Reader};
 use super::{lints, value};
 use crate::diagnostics::{codes, Diagnostic};
 use crate::ir::{
-    AxisRange, AxisRule, AxisStep, CanOpenSettings, Device, EtherCatSettings, Extension, Identity, Type, Variant,
+    AxisRange, AxisRule, AxisStep, CanOpenSettings, CiteUnit, CompactString, Device, EtherCatSettings, Identity,
+    Manual, ManualSection, Type, Variant,
 };
 use crate::text::brief;
 
@@ -84,23 +85,40 @@ pub(super) fn buses(reader: &mut Reader<'_, '_>, list: &[At<String>]) -> Buses {
     buses
 }
 
-/// Keeps what is said of the manual.
-pub(super) fn manual(reader: &mut Reader<'_, '_>, table: &At<ManualTable>, device: &mut Device) {
+/// What is said of the manual.
+pub(super) fn manual(reader: &mut Reader<'_, '_>, table: &At<ManualTable>) -> Box<Manual> {
     let own = &table.value;
-    reader.language = own.language.as_deref().unwrap_or_default().into();
-    let facts = [
-        ("manual/title", &own.title),
-        ("manual/edition", &own.edition),
-        ("manual/language", &own.language),
-        ("manual/cites", &own.cites),
-        ("manual/doc", &own.doc),
-    ];
-    for (key, value) in facts {
-        if let Some(value) = value {
-            let span = reader.span(table);
-            device.extensions.push(Extension { key: key.into(), value: value.as_str().into(), span });
+    let text = |text: &Option<String>| CompactString::from(text.as_deref().unwrap_or_default());
+    reader.language = text(&own.language);
+    let units = [("page", CiteUnit::Page), ("line", CiteUnit::Line)];
+    let counts = own.cites.as_ref().and_then(|word| reader.word(word, "unit of citations", &units));
+    Box::new(Manual {
+        title: text(&own.title),
+        edition: text(&own.edition),
+        language: text(&own.language),
+        counts,
+        documentation: own.doc.clone().unwrap_or_default(),
+        sections: sections(reader, own),
+    })
+}
+
+/// The sections of a manual in their order. A key that is no number is reported.
+fn sections(reader: &mut Reader<'_, '_>, table: &ManualTable) -> Vec<ManualSection> {
+    let mut sections = Vec::new();
+    for (key, title) in table.sections.iter() {
+        match key.value.parse() {
+            Ok(start) => sections.push(ManualSection { start, title: title.value.as_str().into() }),
+            Err(_) => {
+                let message = format!("`{}` is no page or line", brief(&key.value));
+                let found = Diagnostic::new(&codes::TABLE_VALUE, reader.span(key), message);
+                reader
+                    .diagnostics
+                    .push(found.help("write the number of the first one: `2170 = \"Motion parameters\"`"));
+            }
         }
     }
+    sections.sort_by_key(|section| section.start);
+    sections
 }
 
 /// A model, or a version of the firmware.

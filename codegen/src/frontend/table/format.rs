@@ -134,6 +134,9 @@ tables! {
         pub why: String,
         /// Where it is printed.
         pub cite: Option<OneOrMany<NumberOrText>>,
+        /// What a wrong choice leads to.
+        #[cfg_attr(test, schemars(transform = schema::words(&["hazard", "value", "print"])))]
+        pub severity: Option<At<String>>,
     }
 
     /// What a master has to know of an EtherCAT slave beside its objects and PDOs.
@@ -314,7 +317,9 @@ tables! {
         pub language: Option<String>,
         /// What `cite` counts: `page` or `line`.
         #[cfg_attr(test, schemars(transform = schema::words(&["page", "line"])))]
-        pub cites: Option<String>,
+        pub cites: Option<At<String>>,
+        /// Titles of its sections and tables, by the first page or line of each.
+        pub sections: Entries<String>,
         /// What it is, in your own words.
         pub doc: Option<String>,
     }
@@ -573,7 +578,7 @@ tables! {
         #[cfg_attr(test, schemars(transform = schema::keys(schema::VALUES)))]
         pub values: Option<At<TextOr<ValueEntries>>>,
         /// `ro`, `rw`, `wo`, `const`, `rwr` or `rww`.
-        #[cfg_attr(test, schemars(transform = schema::words(&["ro", "rw", "wo", "const", "rwr", "rww"])))]
+        #[cfg_attr(test, schemars(transform = schema::words(&["ro", "rw", "wo", "const", "rwr", "rww", "?"])))]
         pub access: Option<At<String>>,
         /// `rx`, `tx`, `both` or `no`.
         #[cfg_attr(test, schemars(transform = schema::words(&["rx", "tx", "both", "no"])))]
@@ -661,6 +666,8 @@ tables! {
         pub orig: Option<String>,
         /// What it is, in your own words.
         pub doc: Option<String>,
+        /// Where `doc` comes from, unless from the manual: `CiA 402, 17.3.7`, or `name` if it spells out the printed name.
+        pub doc_from: Option<At<String>>,
         /// Page or line of the manual.
         pub cite: Option<OneOrMany<NumberOrText>>,
         /// A contradiction of the manual, and what was made of it.
@@ -1055,6 +1062,8 @@ tables! {
     pub struct CodesTable {
         /// Names of the columns beside code and meaning.
         pub columns: Vec<String>,
+        /// What the manual prints before each number: `F` for `F125`.
+        pub prefix: Option<String>,
         /// Whether no two codes have the same cells.
         pub distinct: bool,
         /// Findings that a doubt explains.
@@ -1076,7 +1085,7 @@ tables! {
         /// Its name.
         pub name: Option<String>,
         /// The other columns.
-        pub cells: Vec<Literal>,
+        pub cells: Vec<At<Literal>>,
         /// Models that have it; `*` stands for any letters.
         pub models: Option<Vec<At<String>>>,
         /// First firmware that has it.

@@ -156,8 +156,14 @@ pub fn read(
     chosen: &[(String, String)],
     diagnostics: &mut Diagnostics,
 ) -> Option<Catalog> {
-    let mut reader =
-        Reader { source, file, diagnostics, language: CompactString::default(), lists: Default::default() };
+    let mut reader = Reader {
+        source,
+        file,
+        diagnostics,
+        language: CompactString::default(),
+        standard: CompactString::default(),
+        lists: Default::default(),
+    };
     let mut table = Table::new(&mut reader, chosen)?;
     let Some(head) = table.take::<DeviceTable>(&mut reader, "device") else {
         let found = Diagnostic::new(&codes::TABLE_VALUE, Span::new(file, 0, 0), "the table has no `[device]`");
@@ -169,7 +175,7 @@ pub fn read(
     };
     let mut device = Device::default();
     if let Some(manual) = table.take(&mut reader, "manual") {
-        device::manual(&mut reader, &manual, &mut device);
+        device.manual = Some(device::manual(&mut reader, &manual));
     }
     let buses = device::head(&mut reader, &head, &mut device);
     for model in table.list(&mut reader, "models") {

@@ -101,7 +101,7 @@ fn head(
     }
     group.names = reader.original(complete.orig.as_deref());
     let cite = complete.cite.as_ref().map(cited);
-    group.documentation = reader.documentation(complete.doc.as_deref(), cite.clone());
+    group.documentation = super::rows::documentation(reader, complete);
     if matches!(code, Some(ObjectCode::Array | ObjectCode::Record)) {
         group.doubts =
             reader.doubts([complete.doubt.as_ref(), complete.doubts.as_ref()], group.origin, cite.as_deref());

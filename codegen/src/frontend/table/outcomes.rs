@@ -63,7 +63,7 @@ pub(super) fn read(
 }
 
 /// The doubts of the table and of its rows.
-pub(super) fn doubts(reader: &Reader<'_, '_>, table: &At<MatrixTable>) -> Doubts {
+pub(super) fn doubts(reader: &mut Reader<'_, '_>, table: &At<MatrixTable>) -> Doubts {
     let own = &table.value;
     let cite = own.cite.as_ref().map(cited);
     let mut found = reader.doubts([own.doubt.as_ref(), own.doubts.as_ref()], reader.origin(table), cite.as_deref());

@@ -14,8 +14,8 @@ use super::tree::{cited, Reader};
 use super::{given, place, scale, types, value};
 use crate::diagnostics::{codes, Code, Diagnostic};
 use crate::ir::{
-    Access, Availability, Behaviour, Conversion, Extension, Item, Mappable, ModbusTable, Quantity, Shape, Storage,
-    Type, TypeDef, TypeId,
+    Access, Availability, Behaviour, Conversion, Documentation, Extension, Item, Mappable, ModbusTable, Quantity,
+    Shape, Storage, Type, TypeDef, TypeId,
 };
 use crate::source::Span;
 use crate::text::brief;
@@ -228,6 +228,7 @@ impl Rows {
         }
         if let Some(bits) = &row.bits {
             return match &bits.value {
+                TextOr::Text(name) if name.is_empty() => None,
                 TextOr::Text(name) => {
                     let name = At { value: name.clone(), start: bits.start, end: bits.end };
                     self.definitions.named(reader, Kind::Bits, &name, base)
@@ -236,6 +237,7 @@ impl Rows {
             };
         }
         match &row.values.as_ref()?.value {
+            TextOr::Text(name) if name.is_empty() => None,
             TextOr::Text(name) => {
                 let at = row.values.as_ref()?;
                 let name = At { value: name.clone(), start: at.start, end: at.end };
@@ -298,6 +300,7 @@ impl Rows {
         (item.name, item.at.name) = (named.name.into(), reader.span(named.key));
         if let Some(ty) = ty {
             item.ty = ty;
+            item.is_meaning_absent = states_no_meaning(row);
             item.at.ty = row.ty.as_ref().map_or(item.at.ty, |ty| reader.span(ty));
         }
         self.access(reader, item, row);
@@ -330,8 +333,14 @@ impl Rows {
 
     fn access(&mut self, reader: &mut Reader<'_, '_>, item: &mut Item, row: &Row) {
         if let Some(access) = &row.access {
-            item.access = reader.word(access, "access", &ACCESSES).unwrap_or(item.access);
+            item.is_access_assumed = access.value == "?";
+            let known = ACCESSES.iter().copied().chain([("?", Access::ReadWrite)]).collect::<Vec<_>>();
+            item.access = reader.word(access, "access", &known).unwrap_or(item.access);
             item.at.access = reader.span(access);
+        }
+        // Nobody writes what means nothing.
+        if row.reserved == Some(true) && item.access.writable() {
+            (item.access, item.is_access_assumed) = (Access::ReadOnly, false);
         }
         if let Some(pdo) = &row.pdo {
             item.mappable = reader.word(pdo, "direction of PDOs", &DIRECTIONS).unwrap_or(item.mappable);
@@ -359,7 +368,7 @@ impl Rows {
             quantity.units = reader.original(own.as_ref().and_then(|table| table.orig.as_deref()));
             let machine = own.as_ref().and_then(|table| table.machine.as_ref());
             quantity.machine = machine.and_then(|machine| given::unit(reader, machine, &mut self.references));
-            if own.is_none() && !super::units::is_known(&unit.value) {
+            if own.is_none() && !unit.value.is_empty() && !super::units::is_known(&unit.value) {
                 let names = self.definitions.units.names().map(|name| name.value.as_str());
                 let names = names.take_while(|_| reader.helps());
                 let similar = super::tree::similar(&unit.value, names).or_else(|| super::units::usual(&unit.value));
@@ -368,7 +377,6 @@ impl Rows {
                 let diagnostic = Diagnostic::new(&codes::UNKNOWN_UNIT, reader.span(unit), message);
                 reader.diagnostics.push(match similar {
                     Some(name) => diagnostic.help(format!("did you mean `{name}`?")),
-                    None if unit.value.is_empty() => diagnostic.help("leave it out where there is none"),
                     None => diagnostic.label("kept as it is").help("define it in `[units]`"),
                 });
             }
@@ -490,7 +498,7 @@ impl Rows {
             item.at.documentation = item.origin.span;
         }
         if row.doc.is_some() || cite.is_some() {
-            item.documentation = reader.documentation(row.doc.as_deref(), cite.clone());
+            item.documentation = documentation(reader, row);
         }
         let doubts = [row.doubt.as_ref(), row.doubts.as_ref()];
         item.doubts.extend(reader.doubts(doubts, item.origin, cite.as_deref()));
@@ -503,6 +511,21 @@ impl Rows {
             item.extensions.push(extension("count", count, item.at.name));
         }
     }
+}
+
+/// What a row says of its element in words, and where the words come from.
+pub(super) fn documentation(reader: &Reader<'_, '_>, row: &Row) -> Option<Box<Documentation>> {
+    let mut documentation = reader.documentation(row.doc.as_deref(), row.cite.as_ref().map(cited));
+    if let (Some(from), Some(documentation)) = (&row.doc_from, &mut documentation) {
+        documentation.text_from = from.value.as_str().into();
+    }
+    documentation
+}
+
+/// Whether a row states that the manual names no bits and no values: `bits = ""` or `enum = ""`.
+fn states_no_meaning(row: &Row) -> bool {
+    matches!(&row.bits, Some(At { value: TextOr::Text(name), .. }) if name.is_empty())
+        || matches!(&row.values, Some(At { value: TextOr::Text(name), .. }) if name.is_empty())
 }
 
 fn extension(key: &str, value: &str, span: Span) -> Extension {

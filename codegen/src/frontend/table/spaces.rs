@@ -264,6 +264,7 @@ impl Space {
         Some(Binding::Register(Box::new(RegisterBinding {
             space: rule.space,
             address,
+            printed: Some(numbers.first),
             count: u16::try_from(bits.div_ceil(unit)).unwrap_or(u16::MAX).max(1),
             low_word_first: numbers.low_word_first.unwrap_or(rule.low_word_first),
             bytes_swapped: numbers.bytes_swapped.unwrap_or(rule.bytes_swapped),

@@ -12,10 +12,10 @@ use toml::de::{DeString, DeTable, DeValue, ValueDeserializer};
 use super::at::{At, Literal};
 use super::format::{DoubtTable, NumberOrText, OptionTable};
 use crate::diagnostics::{codes, Code, Diagnostic, Diagnostics};
-use crate::ir::{Documentation, Doubt, Doubts, LocalText, Texts};
+use crate::ir::{Documentation, Doubt, Doubts, LocalText, Severity, Texts};
 use crate::limits::MAX_UNKNOWN_KEYS;
 use crate::source::{FileId, Origin, Source, Span};
-use crate::text::{brief, edit_distance};
+use crate::text::{brief, edit_distance, standard_and_clause};
 
 /// A value of the file.
 pub(super) type Node<'a> = Spanned<DeValue<'a>>;
@@ -36,6 +36,8 @@ pub(super) struct Reader<'a, 'd> {
     pub diagnostics: &'d mut Diagnostics,
     /// The manual's language.
     pub language: CompactString,
+    /// The standard that the file restates; empty in a description of a device.
+    pub standard: CompactString,
     /// Where the elements of lists stand, by the places of the lists.
     pub lists: RefCell<HashMap<Place, Rc<[Place]>>>,
 }
@@ -238,7 +240,12 @@ impl<'a> Reader<'a, '_> {
             return None;
         }
         let text = doc.unwrap_or_default().to_owned();
-        Some(Box::new(Documentation { text, translations: Texts::default(), cite: cite.map(CompactString::from) }))
+        let (cite, text_from) = match self.standard.as_str() {
+            "" => (cite.map(CompactString::from), CompactString::default()),
+            // What has no clause of its own is within something that has one.
+            standard => (None, cite.map(|clause| standard_and_clause(standard, &clause).into()).unwrap_or_default()),
+        };
+        Some(Box::new(Documentation { text, cite, text_from, ..Documentation::default() }))
     }
 
     /// A name in the manual's language.
@@ -248,18 +255,20 @@ impl<'a> Reader<'a, '_> {
     }
 
     pub fn doubts(
-        &self,
+        &mut self,
         lists: [Option<&super::at::OneOrMany<DoubtTable>>; 2],
         origin: Origin,
         cite: Option<&str>,
     ) -> Doubts {
         let tables = lists.into_iter().flatten().flat_map(|list| &list.0);
+        let words = [Severity::Hazard, Severity::Value, Severity::Print].map(|own| (own.name(), own));
         let doubt = |table: &DoubtTable| Doubt {
             says: table.says.clone(),
             chosen: table.chose.clone(),
             why: table.why.clone(),
             origin,
             cite: table.cite.as_ref().map(cited).or(cite.map(str::to_owned)).map(CompactString::from),
+            severity: table.severity.as_ref().and_then(|word| self.word(word, "severity", &words)).unwrap_or_default(),
         };
         tables.map(doubt).collect()
     }

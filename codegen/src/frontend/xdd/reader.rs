@@ -53,7 +53,7 @@ impl Texts {
         let main = first(&self.descriptions)?;
         let others = self.descriptions.iter().filter(|other| !std::ptr::eq(*other, main));
         let (text, translations) = (main.text.to_string(), others.cloned().collect());
-        Some(Box::new(Documentation { text, translations, cite: None }))
+        Some(Box::new(Documentation { text, translations, ..Documentation::default() }))
     }
 }
 

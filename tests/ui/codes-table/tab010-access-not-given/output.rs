@@ -1,6 +1,6 @@
     /// speed.
     ///
-    /// Holding register 1, UNSIGNED16, ro.
+    /// Modbus 1 (holding; wire 1; FC 3), UNSIGNED16, ro.
     /// Accessor: [`speed`](super::Pump::speed).
     pub const SPEED: ReadOnly<u16> = ReadOnlyU16::register(
         rt::Register::holding(1),
@@ -9,7 +9,7 @@
     );
     /// pressure.
     ///
-    /// Holding register 2, UNSIGNED16, wo.
+    /// Modbus 2 (holding; wire 2; FC 6/16), UNSIGNED16, wo.
     /// Accessor: [`pressure`](super::Pump::pressure).
     pub const PRESSURE: WriteOnly<u16> = WriteOnlyU16::register(
         rt::Register::holding(2),

@@ -2,7 +2,7 @@
 
 use super::rules::Rules;
 use super::steps::number;
-use crate::backend::rust::docs;
+use crate::backend::rust::docs::{self, WORDS};
 use crate::backend::rust::field_type::{field_type, FieldType};
 use crate::backend::rust::links::Here;
 use crate::backend::rust::quantity;
@@ -191,18 +191,15 @@ fn documentation(scope: &Scope<'_>, item: &Item, base: Type) -> Vec<String> {
     let link = |name: &str| scope.link(name, Here::MESSAGES);
     let words = docs::linked(&link);
     let mut facts = format!("{base}");
-    if let Some(limits) = docs::limits(&item.limits) {
-        facts += &format!(", {limits}");
-        facts += &quantity::limits(item).map(|physical| format!(" ({physical})")).unwrap_or_default();
-    }
+    facts.extend(docs::limits(item).map(|limits| format!(", {limits}")));
     facts += &item.quantity.as_ref().map(|own| words.quantity(own)).unwrap_or_default();
     let name = docs::escape(&item.name);
     let mut lines = vec![format!("{}: {facts}.", name.trim_end_matches(['.', ':']))];
     let mut sentences = Vec::new();
     docs::words(item.documentation.as_deref(), &mut sentences);
     sentences.extend(item.quantity.iter().flat_map(|own| docs::WORDS.notes(own)).filter(|own| !own.is_empty()));
-    sentences.extend(scope.manual.place(item.documentation.as_deref(), &item.names));
-    sentences.extend(item.doubts.iter().map(crate::backend::rust::manual::doubt));
+    sentences.extend(WORDS.place(&scope.manual, "", item.documentation.as_deref(), &item.names));
+    sentences.extend(item.doubts.iter().map(|own| WORDS.doubt(&scope.manual, own)));
     for sentence in sentences {
         lines.extend([String::new(), sentence]);
     }

@@ -11,10 +11,9 @@ mod steps;
 
 use std::collections::{HashMap, HashSet};
 
-use super::docs;
+use super::docs::{self, WORDS};
 use super::layout;
 use super::links::{self, Here};
-use super::manual;
 use super::named::Types;
 use super::options::RustOptions;
 use super::scope::Scope;
@@ -344,8 +343,8 @@ impl Maker<'_, '_> {
             sentences.push("So it is after power-on, too.".to_owned());
         }
         sentences.extend(message.availability.as_ref().map(|own| docs::linked(&message_link).availability(own)));
-        sentences.extend(self.scope.manual.place(message.documentation.as_deref(), &message.names));
-        sentences.extend(message.doubts.iter().map(manual::doubt));
+        sentences.extend(WORDS.place(&self.scope.manual, "", message.documentation.as_deref(), &message.names));
+        sentences.extend(message.doubts.iter().map(|own| WORDS.doubt(&self.scope.manual, own)));
         for sentence in sentences.into_iter().filter(|sentence| !sentence.is_empty()) {
             lines.extend([String::new(), sentence]);
         }

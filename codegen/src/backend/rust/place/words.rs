@@ -3,11 +3,13 @@
 use super::{Field, Place};
 use crate::backend::rust::docs;
 use crate::backend::rust::route::{Net, Route};
-use crate::ir::{RegisterBinding, RegisterSpace};
+use crate::backend::rust::scope::Scope;
+use crate::facts::register;
+use crate::ir::{Item, RegisterSpace};
 
 impl Place<'_> {
-    /// What the documentation calls the places.
-    pub fn facts(&self) -> String {
+    /// What the documentation calls the places of an item.
+    pub fn facts(&self, scope: &Scope<'_>, item: &Item) -> String {
         let object = |(index, sub): (u16, u8)| format!("0x{index:04X}:{sub:02X}");
         let mut facts = Vec::new();
         match (self.canopen, self.coe) {
@@ -17,7 +19,9 @@ impl Place<'_> {
             }
             (canopen, coe) => facts.extend(canopen.or(coe).map(object)),
         }
-        facts.extend(self.modbus.map(register_facts));
+        let tables = scope.device.map_or(&[][..], |device| &device.modbus);
+        let access = item.access_on("modbus");
+        facts.extend(self.modbus.map(|own| format!("Modbus {}", register::text(own, access, tables))));
         facts.extend(self.serial.map(|code| format!("parameter 0x{code:04X}")));
         facts.extend(self.image.map(|field| field.facts()));
         facts.extend(self.numbers());
@@ -27,9 +31,9 @@ impl Place<'_> {
     /// The place in a few words.
     pub fn heading(&self) -> String {
         let object = self.canopen.or(self.coe).map(|(index, sub)| format!("0x{index:04X}:{sub:02X}"));
-        let register = self.modbus.map(|register| match register.bit_offset {
-            Some(bit) => format!("register {} from bit {bit}", register.address),
-            None => format!("register {}", register.address),
+        let register = self.modbus.map(|own| match own.bit_offset {
+            Some(bit) => format!("register {} from bit {bit}", register::printed(own)),
+            None => format!("register {}", register::printed(own)),
         });
         let serial = self.serial.map(|code| format!("parameter 0x{code:04X}"));
         let found: Vec<String> = object.into_iter().chain(register).chain(serial).collect();
@@ -93,32 +97,4 @@ impl Field<'_> {
         };
         format!("{place} of the image {}", docs::escape(self.image))
     }
-}
-
-fn register_facts(register: &RegisterBinding) -> String {
-    let table = match register.space {
-        RegisterSpace::Holding => "holding register",
-        RegisterSpace::Input => "input register",
-        RegisterSpace::Coil => "coil",
-        RegisterSpace::DiscreteInput => "discrete input",
-    };
-    let bits = match register.words_per_address {
-        0 | 1 => String::new(),
-        words => format!(" of {} bits", 16 * u16::from(words)),
-    };
-    let each = if bits.is_empty() { "" } else { " each" };
-    let mut facts = match register.last() {
-        last if last <= register.address => format!("{table} {}{bits}", register.address),
-        last => format!("{table}s {} to {last}{bits}{each}", register.address),
-    };
-    if let Some(bit) = register.bit_offset {
-        facts += &format!(" from bit {bit}");
-    }
-    if register.low_word_first && register.count > 1 {
-        facts += ", low word first";
-    }
-    if register.bytes_swapped {
-        facts += ", bytes swapped";
-    }
-    facts
 }

@@ -8,16 +8,17 @@ use std::collections::HashMap;
 use super::super::format::{ImageTable, Row};
 use super::super::rows::{Named, Rows};
 use super::super::spaces::Buses;
-use super::super::tree::Reader;
+use super::super::tree::{cited, Reader};
 use super::super::types;
 use super::super::{device, process};
 use super::{at_place, in_range, item_name, name_conditions, Patch, PatchRow, Profile, Target};
 use crate::diagnostics::Diagnostics;
 use crate::ir::{
-    Binding, CompactString, Device, Direction, Group, IoData, Item, Module, Pdo, PdoEntry, PdoEntryKind, Shape,
-    StateMachine, Submodule, Type, TypeDef, TypeId,
+    Binding, CodeTable, CompactString, Device, Direction, Documentation, Group, IoData, Item, Module, Pdo, PdoEntry,
+    PdoEntryKind, Quantity, Shape, StateMachine, Submodule, Type, TypeDef, TypeId,
 };
 use crate::source::{FileId, Origin};
+use crate::text::standard_and_clause;
 
 /// Indices of which each axis has its own.
 const AXIS: std::ops::RangeInclusive<u16> = 0x6000..=0x67FF;
@@ -60,19 +61,21 @@ impl<'p> Completion<'p> {
             file: FileId(0),
             diagnostics: &mut self.silent,
             language,
+            standard: self.profile.standard(),
             lists: Default::default(),
         };
         act(&mut reader, &mut self.rows)
     }
 
-    /// Completes a device.
-    pub(crate) fn device(&mut self, device: &mut Device) {
+    /// Completes a device; `is_table` tells register tables and overlays from other files.
+    pub(crate) fn device(&mut self, device: &mut Device, is_table: &dyn Fn(FileId) -> bool) {
         self.objects(&mut device.groups, &mut device.types, &mut device.process_data.pdos);
-        for (table, doubts) in &self.profile.codes {
-            if !device.code_tables.iter().any(|own| own.name == table.name) {
-                device.code_tables.push(table.clone());
-                device.doubts.extend(doubts.iter().cloned());
-            }
+        // The codes that a manual lists may contradict those of the profile. Diagnosis texts of an ESI are other codes.
+        let of_manual = |own: &CodeTable| is_table(own.origin.span.file) && !is_from_profile(own);
+        let has_own = device.code_tables.iter().any(of_manual);
+        for (table, doubts) in self.profile.codes.iter().filter(|_| !has_own) {
+            device.code_tables.push(table.clone());
+            device.doubts.extend(doubts.iter().cloned());
         }
         for (machine, doubts) in &self.profile.machines {
             let exists = |name: &CompactString| at_place(&device.groups, name).is_some();
@@ -150,10 +153,9 @@ impl<'p> Completion<'p> {
     ) {
         let is_head = subs.is_none() && group.object_code().is_some_and(crate::ir::ObjectCode::has_subs);
         if is_head {
-            if group.documentation.is_none() {
-                let doc = row.row.value.doc.as_deref();
-                group.documentation = self.with_reader(|reader, _| reader.documentation(doc, None));
-            }
+            let said = &row.row.value;
+            let (doc, cite) = (said.doc.as_deref(), said.cite.as_ref().map(cited));
+            describe(&mut group.documentation, self.with_reader(|reader, _| reader.documentation(doc, cite)));
             return;
         }
         let (first, last) = subs.unwrap_or((0, 0));
@@ -174,16 +176,24 @@ impl<'p> Completion<'p> {
         }
         let named = Named { name: &item.name, key: &row.key, number, end: row.row.end };
         let mut complete = Item { ty: own, ..Item::new(item.bindings.first()?.clone()) };
-        let plain = self.is_plain(old);
+        let plain = !item.is_meaning_absent && self.is_plain(old);
         let new = self.with_reader(|reader, rows| {
             rows.fill(reader, &mut complete, named, said, None);
             plain.then(|| rows.meaning(reader, named, said, own)).flatten()
         });
         item.ty = new.unwrap_or(old);
-        item.quantity = item.quantity.take().or(complete.quantity);
+        item.quantity = item.quantity.take().or_else(|| self.of_standard(complete.quantity.take(), row));
         item.behaviour = item.behaviour.take().or(complete.behaviour);
-        item.documentation = item.documentation.take().or(complete.documentation);
+        describe(&mut item.documentation, complete.documentation);
         (item.ty != old).then_some((old, item.ty))
+    }
+
+    /// A unit, with the clause that says it.
+    fn of_standard(&self, quantity: Option<Box<Quantity>>, row: &PatchRow) -> Option<Box<Quantity>> {
+        let mut quantity = quantity?;
+        let clause = row.row.value.cite.as_ref().map(cited).unwrap_or_default();
+        quantity.standard = standard_and_clause(&self.profile.standard(), &clause).into();
+        Some(quantity)
     }
 
     /// Whether a type says nothing of bits and values.
@@ -295,6 +305,22 @@ impl<'p> Completion<'p> {
         let ty = self.with_reader(|reader, rows| rows.meaning(reader, named, &row.row.value, own));
         field.ty = ty.unwrap_or(field.ty);
     }
+}
+
+/// Adds the words of a profile where a description has none; a citation that it has stays.
+fn describe(own: &mut Option<Box<Documentation>>, of_profile: Option<Box<Documentation>>) {
+    match (own, of_profile) {
+        (own @ None, of_profile) => *own = of_profile,
+        (Some(own), Some(of_profile)) if own.text.is_empty() => {
+            (own.text, own.text_from) = (of_profile.text, of_profile.text_from);
+        }
+        _ => {}
+    }
+}
+
+/// Whether a table of codes is a profile's.
+fn is_from_profile(table: &CodeTable) -> bool {
+    table.documentation.as_deref().is_some_and(|own| !own.text_from.is_empty())
 }
 
 fn is_signal(row: &PatchRow) -> bool {

@@ -240,6 +240,7 @@ impl Profile {
             file: FileId(0),
             diagnostics,
             language: CompactString::default(),
+            standard: CompactString::default(),
             lists: Default::default(),
         };
         let mut table = Table::new(&mut reader, &[])?;
@@ -258,10 +259,16 @@ impl Profile {
             }
             index
         });
+        reader.standard = head.value.name.as_deref().unwrap_or_default().into();
         let patch = Patch::read(&mut reader, &mut table, &PROFILE_KEYS);
         let (codes, machines) = patch.behaviour(&mut reader);
         drop(table);
         Some(Profile { head: head.value, when, patch, codes, machines, source })
+    }
+
+    /// The standard's name.
+    fn standard(&self) -> CompactString {
+        self.head.name.as_deref().unwrap_or_default().into()
     }
 
     /// Whether these objects are those of something that follows the profile. Without an object that would show it, they are.
@@ -345,7 +352,7 @@ mod tests {
         (item.name, item.ty) = ("Status".into(), ty);
         group.items.push(item);
         let mut device = Device { groups: vec![group], types, ..Device::default() };
-        Completion::new(&profile()).device(&mut device);
+        Completion::new(&profile()).device(&mut device, &|_| true);
         device
     }
 

@@ -1,0 +1,27 @@
+//! Names of PDOs: by number on CANopen, by index on EtherCAT.
+
+use crate::ir::{Device, Direction, ObjectBuses, Pdo};
+
+/// The buses whose objects a device has.
+pub(crate) fn buses(device: &Device) -> ObjectBuses {
+    let is_ethercat = device.ethercat.is_some() || device.dictionary_only;
+    ObjectBuses { canopen: device.canopen.is_some() || !is_ethercat, coe: is_ethercat }
+}
+
+/// `RPDO 1` on CANopen, `RxPDO 0x1701` on EtherCAT, `RPDO 1 / RxPDO 0x1600` on both. Numbers count from 1 (CiA 301, 7.5.2.35).
+pub(crate) fn title(pdo: &Pdo, buses: ObjectBuses) -> String {
+    let buses = pdo.buses.unwrap_or(buses);
+    let (canopen, coe) = match pdo.direction {
+        Direction::Receive => ("RPDO", "RxPDO"),
+        Direction::Transmit => ("TPDO", "TxPDO"),
+    };
+    let by_index = match pdo.mapping_index {
+        0 => coe.to_owned(),
+        index => format!("{coe} 0x{index:04X}"),
+    };
+    match (buses.canopen, buses.coe) {
+        (false, _) => by_index,
+        (true, false) => format!("{canopen} {}", pdo.number),
+        (true, true) => format!("{canopen} {} / {by_index}", pdo.number),
+    }
+}

@@ -1,0 +1,172 @@
+//! Physical values next to the raw ones.
+
+use crate::ir::{Limits, Quantity, Scale, Value};
+
+/// How raw values of an item become physical ones.
+#[derive(Clone, Copy)]
+pub(crate) struct Physical<'q> {
+    unit: &'q str,
+    scale: &'q Scale,
+}
+
+impl<'q> Physical<'q> {
+    /// `None` if the raw value is the physical one.
+    pub(crate) fn of(quantity: Option<&'q Quantity>) -> Option<Self> {
+        let quantity = quantity?;
+        Physical::scaled(quantity.scale.as_ref()?, &quantity.unit)
+    }
+
+    /// The same for a scale of its own.
+    pub(crate) fn scaled(scale: &'q Scale, unit: &'q str) -> Option<Self> {
+        let is_raw = matches!(scale, Scale::Linear { factor, offset } if *factor == 1.0 && *offset == 0.0);
+        (!is_raw).then_some(Physical { unit, scale })
+    }
+
+    /// `25.0` for the raw value 250 in 0.1; `None` if the scale depends on another item, a model or the machine.
+    fn number(&self, raw: &Value) -> Option<String> {
+        match *self.scale {
+            Scale::Linear { factor, offset } => linear(raw, factor, offset),
+            Scale::Reciprocal { numerator } => {
+                raw.as_real().filter(|raw| *raw != 0.0).map(|raw| short(numerator / raw))
+            }
+            _ => None,
+        }
+    }
+
+    /// `25.0 °C (raw 250)`; `raw 250` if the physical value is unknown. `raw` writes a raw value, `unit` the unit.
+    pub(crate) fn value(&self, value: &Value, raw: &dyn Fn(&Value) -> String, unit: &dyn Fn(&str) -> String) -> String {
+        match self.number(value) {
+            Some(number) => format!("{} (raw {})", self.with_unit(&number, unit), raw(value)),
+            None => format!("raw {}", raw(value)),
+        }
+    }
+
+    /// `-20.0 … 200.0 °C (raw -200 … 2000)`; a missing limit is left out, as in `≥ -20.0 °C (raw ≥ -200)`.
+    pub(crate) fn range(
+        &self,
+        (low, high): (Option<&Value>, Option<&Value>),
+        raw: &dyn Fn(&Value) -> String,
+        unit: &dyn Fn(&str) -> String,
+    ) -> String {
+        let raw = span((low.map(raw), high.map(raw)));
+        let numbers = (low.map(|low| self.number(low)), high.map(|high| self.number(high)));
+        let numbers = match numbers {
+            (Some(None), _) | (_, Some(None)) => return format!("raw {raw}"),
+            (low, high) => (low.flatten(), high.flatten()),
+        };
+        let physical = if self.is_falling() { span((numbers.1, numbers.0)) } else { span(numbers) };
+        format!("{} (raw {raw})", self.with_unit(&physical, unit))
+    }
+
+    /// Whether larger raw values are smaller physical ones.
+    fn is_falling(&self) -> bool {
+        match *self.scale {
+            Scale::Linear { factor, .. } => factor < 0.0,
+            Scale::Reciprocal { numerator } => numerator > 0.0,
+            _ => false,
+        }
+    }
+
+    /// `0.5 K (raw 5)`: a distance, to which no offset is added.
+    pub(crate) fn step(&self, step: &Value, raw: &dyn Fn(&Value) -> String, unit: &dyn Fn(&str) -> String) -> String {
+        match *self.scale {
+            Scale::Linear { factor, .. } => {
+                let scale = Scale::Linear { factor: factor.abs(), offset: 0.0 };
+                Physical { unit: self.unit, scale: &scale }.value(step, raw, unit)
+            }
+            _ => format!("raw {}", raw(step)),
+        }
+    }
+
+    fn with_unit(&self, number: &str, unit: &dyn Fn(&str) -> String) -> String {
+        match self.unit {
+            "" => number.to_owned(),
+            own => format!("{number} {}", unit(own)),
+        }
+    }
+}
+
+/// `1 … 5`, `≥ 1`, `≤ 5`.
+pub(crate) fn span(limits: (Option<String>, Option<String>)) -> String {
+    match limits {
+        (Some(low), Some(high)) => format!("{low} … {high}"),
+        (Some(low), None) => format!("≥ {low}"),
+        (None, Some(high)) => format!("≤ {high}"),
+        (None, None) => String::new(),
+    }
+}
+
+/// Whether a limit depends on the node-ID, which is known only at run time.
+pub(crate) fn depends_on_node(limits: &Limits) -> bool {
+    [&limits.low, &limits.high].into_iter().any(|limit| matches!(limit, Some(Value::NodeId(_))))
+}
+
+/// The physical value with as many decimals as the scale has: 250 in 0.1 is `25.0`.
+fn linear(raw: &Value, factor: f64, offset: f64) -> Option<String> {
+    let number = raw.as_real()? * factor + offset;
+    let exact = raw.as_int().and_then(|_| Some(decimals(factor)?.max(decimals(offset)?)));
+    Some(match exact {
+        Some(decimals) => format!("{number:.decimals$}"),
+        None => short(number),
+    })
+}
+
+/// How many decimals a number has; `None` for more than nine.
+fn decimals(number: f64) -> Option<usize> {
+    let text = number.to_string();
+    let decimals = text.split_once('.').map_or(0, |(_, decimals)| decimals.len());
+    (decimals <= 9).then_some(decimals)
+}
+
+/// A number with six significant digits at most.
+fn short(number: f64) -> String {
+    if number == 0.0 || !number.is_finite() {
+        return number.to_string();
+    }
+    let digits = 5 - number.abs().log10().floor() as i32;
+    let text = format!("{number:.*}", digits.clamp(0, 12) as usize);
+    match text.contains('.') {
+        true => text.trim_end_matches('0').trim_end_matches('.').to_owned(),
+        false => text,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn written(value: i128, factor: f64, offset: f64, unit: &str) -> String {
+        let quantity =
+            Quantity { unit: unit.into(), scale: Some(Scale::Linear { factor, offset }), ..Quantity::default() };
+        let physical = Physical::of(Some(&quantity)).expect("a scale");
+        physical.value(&Value::Int(value), &Value::to_string, &str::to_owned)
+    }
+
+    #[test]
+    fn the_physical_value_comes_first() {
+        assert_eq!(written(250, 0.1, 0.0, "°C"), "25.0 °C (raw 250)");
+        assert_eq!(written(-10_000, 0.01, 0.0, "rev/s"), "-100.00 rev/s (raw -10000)");
+        assert_eq!(written(3, 1.0 / 3.0, 0.0, ""), "1 (raw 3)");
+        assert_eq!(written(1000, 0.5, -273.15, "°C"), "226.85 °C (raw 1000)");
+        assert_eq!(written(1, 4.882_812_5e-4, 0.0, "V"), "0.000488281 V (raw 1)");
+        let unscaled = Quantity { unit: "ms".into(), ..Quantity::default() };
+        assert!(Physical::of(Some(&unscaled)).is_none() && Physical::of(None).is_none());
+    }
+
+    #[test]
+    fn ranges_go_from_the_lower_physical_value_to_the_upper_one() {
+        let range = |scale: Scale, low: Option<i128>, high: Option<i128>| {
+            let (low, high) = (low.map(Value::Int), high.map(Value::Int));
+            let physical = Physical { unit: "Hz", scale: &scale };
+            physical.range((low.as_ref(), high.as_ref()), &Value::to_string, &str::to_owned)
+        };
+        let linear = |factor| Scale::Linear { factor, offset: 0.0 };
+        assert_eq!(range(linear(0.1), Some(-200), Some(2000)), "-20.0 … 200.0 Hz (raw -200 … 2000)");
+        assert_eq!(range(linear(-0.5), Some(0), Some(3)), "-1.5 … 0.0 Hz (raw 0 … 3)");
+        assert_eq!(range(linear(0.1), Some(5), None), "≥ 0.5 Hz (raw ≥ 5)");
+        assert_eq!(range(Scale::Reciprocal { numerator: 25e6 }, Some(1), Some(4)), "6250000 … 25000000 Hz (raw 1 … 4)");
+        assert_eq!(range(Scale::Reciprocal { numerator: 1.0 }, Some(0), Some(4)), "raw 0 … 4", "1 / 0 is no number");
+        let by_item = Scale::ByItem { item: "Base".into(), factor: 1.0 };
+        assert_eq!(range(by_item, Some(0), Some(4)), "raw 0 … 4");
+    }
+}

@@ -1,0 +1,162 @@
+//! What holds for each of the four drives that are transcribed from their manuals.
+
+#[path = "table_support/doubts.rs"]
+mod doubts;
+#[path = "table_support/manual.rs"]
+mod manual_text;
+
+use std::collections::BTreeSet;
+
+use lexibus_codegen::backend::docs::Site;
+use lexibus_codegen::ir::{Binding, Catalog, Device, Item};
+
+/// Each dictionary with its manual.
+const DRIVES: [(&str, &str); 4] = [
+    ("aec-vector-step.toml", "aec-vector-step-canopen.it.txt"),
+    ("eco.toml", "eco-fieldbuses.it.txt"),
+    ("hsd-sm137-sm140.toml", "hsd-sm137-sm140-rs485.it.txt"),
+    ("kollmorgen-akd.toml", "kollmorgen-akd-ethercat.it.txt"),
+];
+
+fn device(catalog: &Catalog) -> &Device {
+    catalog.devices.first().expect("a device")
+}
+
+fn items(catalog: &Catalog) -> impl Iterator<Item = &Item> {
+    device(catalog).groups.iter().flat_map(|group| &group.items)
+}
+
+/// Lower case, with single blanks.
+fn normal(text: &str) -> String {
+    text.split_whitespace().collect::<Vec<_>>().join(" ").to_lowercase()
+}
+
+#[test]
+fn every_register_has_a_description() {
+    for (file, _) in DRIVES {
+        let catalog = doubts::catalog(file);
+        let is_described =
+            |item: &&Item| item.documentation.as_ref().is_some_and(|documentation| !documentation.text.is_empty());
+        let missing: Vec<_> =
+            items(&catalog).filter(|item| !is_described(item)).map(|item| item.name.clone()).collect();
+        assert!(missing.is_empty(), "{file}: {missing:?}");
+        assert!(items(&catalog).count() > 90, "{file}");
+    }
+}
+
+#[test]
+fn every_doubt_has_a_severity_and_a_citation() {
+    for (file, _) in DRIVES {
+        let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../dictionaries").join(file);
+        let text = std::fs::read_to_string(path).expect("the dictionary");
+        let count = |mark: &str| text.matches(mark).count();
+        assert_eq!(count("says = "), count("severity = "), "{file}");
+        let doubts = doubts::doubts(&doubts::catalog(file));
+        assert!(doubts.len() > 100, "{file}: {} doubts", doubts.len());
+        for doubt in doubts {
+            assert!(doubt.cite.is_some(), "{file}: {}", doubt.says);
+            let words = [&doubt.says, &doubt.chosen, &doubt.why];
+            let names_line = |text: &&String| {
+                let mut rest = text.match_indices("(L").map(|(at, _)| &text[at + 2..]);
+                rest.any(|rest| rest.starts_with(|letter: char| letter.is_ascii_digit()))
+            };
+            assert!(!words.iter().any(names_line), "{file} names a line in the words of: {}", doubt.says);
+        }
+    }
+}
+
+#[test]
+fn every_doubt_is_on_the_page_of_assumptions() {
+    for (file, _) in DRIVES {
+        let catalog = doubts::catalog(file);
+        let pages = Site::default().add("drive", &catalog);
+        let page = pages.iter().find(|page| page.path.ends_with("assumptions.html")).expect("the page");
+        let rows = page.text.matches("<tr><th scope=\"row\">").count();
+        assert_eq!(rows, doubts::doubts(&catalog).len(), "{file}");
+    }
+}
+
+#[test]
+fn sections_are_titles_of_the_manual() {
+    for (file, manual) in DRIVES {
+        let Some(text) = manual_text::text(manual) else { return };
+        let lines: Vec<String> = text.lines().map(normal).collect();
+        let catalog = doubts::catalog(file);
+        let manual = device(&catalog).manual.as_deref().expect("the manual");
+        assert!(manual.sections.len() > 50, "{file}: {} sections", manual.sections.len());
+        let is_there = |line: u32, title: &str| lines[line as usize - 1].contains(&normal(title));
+        let wrong = manual.sections.iter().filter(|section| !is_there(section.start, &section.title));
+        let wrong: Vec<_> = wrong.map(|section| (section.start, section.title.as_str())).collect();
+        assert!(wrong.is_empty(), "{file}: {wrong:?}");
+    }
+}
+
+#[test]
+fn citations_are_in_the_manual_and_in_a_section() {
+    for (file, manual) in DRIVES {
+        let Some(text) = manual_text::text(manual) else { return };
+        let last = text.lines().count();
+        let catalog = doubts::catalog(file);
+        let manual = device(&catalog).manual.as_deref().expect("the manual");
+        let of_items = items(&catalog).filter_map(|item| item.documentation.as_ref()?.cite.clone());
+        let of_doubts = doubts::doubts(&catalog).into_iter().filter_map(|doubt| doubt.cite);
+        let lines: BTreeSet<usize> = of_items.chain(of_doubts).flat_map(|cite| doubts::lines(&cite)).collect();
+        let beyond: Vec<_> = lines.iter().filter(|line| !(1..=last).contains(line)).collect();
+        assert!(beyond.is_empty(), "{file}: {beyond:?}");
+        let first = manual.sections.first().expect("a section").start as usize;
+        let outside = items(&catalog)
+            .filter_map(|item| item.documentation.as_ref()?.cite.as_deref())
+            .filter(|cite| doubts::lines(cite).iter().all(|line| *line < first));
+        assert_eq!(outside.count(), 0, "{file}: items cited before the first section");
+    }
+}
+
+#[test]
+fn rows_are_on_the_lines_that_they_cite() {
+    for (file, manual) in DRIVES {
+        let Some(text) = manual_text::text(manual) else { return };
+        let lines: Vec<String> = text.lines().map(normal).collect();
+        let catalog = doubts::catalog(file);
+        let cited = items(&catalog).filter_map(|item| Some((item, item.documentation.as_ref()?.cite.as_deref()?)));
+        let (mut count, mut missing) = (0, Vec::new());
+        for (item, cite) in cited {
+            count += 1;
+            // A cell may be broken over the lines before and behind.
+            let around: BTreeSet<usize> =
+                doubts::lines(cite).iter().flat_map(|line| line.saturating_sub(3)..=line + 2).collect();
+            let near: Vec<&str> = around.iter().filter_map(|line| lines.get(*line)).map(String::as_str).collect();
+            let near = format!(" {} ", near.join(" "));
+            // One row stands for all entries of a mapping, and the manual writes the first two.
+            let is_assumed = file.starts_with("kollmorgen") && matches!(item.name.as_str(), "Entry 3" | "Entry 4");
+            if !is_assumed && !printed(item).iter().any(|form| near.contains(form)) {
+                missing.push(item.name.as_str());
+            }
+        }
+        assert!(count > 90, "{file}: {count} citations");
+        assert!(missing.is_empty(), "{file}: {missing:?}");
+    }
+}
+
+/// What a manual prints of an item: its names, its index, the number of its sub-index, its register.
+fn printed(item: &Item) -> Vec<String> {
+    let mut forms: Vec<String> = item.names.iter().map(|own| normal(&own.text)).collect();
+    forms.extend([normal(&item.name), normal(&item.name).replace('_', " ")]);
+    for binding in &item.bindings {
+        match binding {
+            Binding::Object { index, sub_index: 0, .. } => {
+                forms.extend([format!("{index:04x}"), " sub 0 ".to_owned(), "numofentries".to_owned()]);
+            }
+            Binding::Object { index, sub_index, .. } => {
+                forms.extend([format!("{index:04x}"), format!(" {sub_index} "), format!("{sub_index:02x}")]);
+            }
+            Binding::Ascii(name) => forms.push(normal(name)),
+            Binding::Register(own) => {
+                let number = own.printed.unwrap_or_default();
+                forms.extend([format!(" {number}"), format!("0x{number:x}")]);
+            }
+            _ => {}
+        }
+    }
+    forms.retain(|form| !form.trim().is_empty());
+    forms
+}

@@ -1,0 +1,52 @@
+//! The shipped dictionaries, and the doubts in them.
+
+use std::collections::BTreeSet;
+use std::path::Path;
+
+use lexibus_codegen::compile::{check, Options};
+use lexibus_codegen::ir::{Catalog, Doubt};
+use lexibus_codegen::source::Source;
+use serde_json::Value;
+
+/// A shipped dictionary, by the name of its file.
+pub fn catalog(file: &str) -> Catalog {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../dictionaries").join(file);
+    let bytes = std::fs::read(path).expect("the dictionary");
+    check(Source::new(file, bytes), &Options::default()).catalog.expect("a catalog")
+}
+
+/// All doubts, wherever the intermediate representation has them.
+pub fn doubts(catalog: &Catalog) -> Vec<Doubt> {
+    let mut found = Vec::new();
+    collect(&serde_json::to_value(catalog).expect("JSON"), &mut found);
+    found
+}
+
+fn collect(value: &Value, found: &mut Vec<Doubt>) {
+    match value {
+        Value::Object(fields) => {
+            for (key, field) in fields {
+                if key == "doubts" {
+                    let own: Vec<Doubt> = serde_json::from_value(field.clone()).expect("doubts");
+                    found.extend(own);
+                } else {
+                    collect(field, found);
+                }
+            }
+        }
+        Value::Array(list) => list.iter().for_each(|element| collect(element, found)),
+        _ => {}
+    }
+}
+
+/// The lines of a citation: `12, 40-44`.
+pub fn lines(cite: &str) -> BTreeSet<usize> {
+    let mut lines = BTreeSet::new();
+    for part in cite.split(',') {
+        let mut ends = part.split('-').map(|number| number.trim().parse::<usize>().ok());
+        if let Some(Some(first)) = ends.next() {
+            lines.extend(first..=ends.next().flatten().unwrap_or(first));
+        }
+    }
+    lines
+}

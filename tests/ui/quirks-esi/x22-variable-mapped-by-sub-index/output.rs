@@ -1,0 +1,20 @@
+        /// Temperature.
+        ///
+        /// 0x2000:00, UNSIGNED32, ro, mappable into TPDOs.
+        /// Accessor: [`Accessors::temperature`]. Carried by [`Values`](super::super::pdo::Values).
+        pub const TEMPERATURE: super::ReadOnly<u32> = super::ReadOnlyU32::flagged_coe_object(
+            0x2000,
+            0x00,
+            "Temperature",
+            rt::Flags::TPDO,
+        );
+        /// Peak.
+        ///
+        /// 0x2000:01, UNSIGNED16, ro, mappable into TPDOs.
+        /// Accessor: [`Accessors::peak`]. Carried by [`Values`](super::super::pdo::Values).
+        pub const PEAK: super::ReadOnly<u16> = super::ReadOnlyU16::flagged_coe_object(
+            0x2000,
+            0x01,
+            "Peak",
+            rt::Flags::TPDO,
+        );

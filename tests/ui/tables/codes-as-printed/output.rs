@@ -1,0 +1,30 @@
+    /// A code of [`ALARMS`].
+    ///
+    /// | Code | Name |
+    /// |---|---|
+    /// | 34 | [`Bus`](Self::Bus) |
+    /// | 35 | [`Sensor`](Self::Sensor) |
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub enum Alarms {
+        /// 34: bus.
+        Bus,
+        /// 35: sensor.
+        Sensor,
+        /// Any other number.
+        Unknown(u16),
+    }
+    /// A code of [`FAULTS`].
+    ///
+    /// | Code | Name |
+    /// |---|---|
+    /// | F125 | [`SynchronizationLost`](Self::SynchronizationLost) |
+    /// | F130 to F132 | [`Encoder`](Self::Encoder) |
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub enum Faults {
+        /// F125: synchronization lost.
+        SynchronizationLost,
+        /// F130 to F132: encoder.
+        Encoder(u16),
+        /// Any other number.
+        Unknown(u16),
+    }

@@ -1,0 +1,26 @@
+        /// Torque.
+        ///
+        /// 0x2000:01, INTEGER16, ro.
+        /// Accessor: [`Accessors::torque`].
+        ///
+        /// Actual torque.
+        ///
+        /// Description from CiA 402, 17.3.7. Manual, page 7.
+        pub const TORQUE: super::ReadOnly<i16> = super::ReadOnlyI16::object(
+            0x2000,
+            0x01,
+            "Torque",
+        );
+        /// Reserve 2.
+        ///
+        /// 0x2000:02, INTEGER16, ro.
+        /// Accessor: [`Accessors::reserve_2`].
+        ///
+        /// Second reserve.
+        ///
+        /// Description spelled out from the printed name. Manual, page 8.
+        pub const RESERVE_2: super::ReadOnly<i16> = super::ReadOnlyI16::object(
+            0x2000,
+            0x02,
+            "Reserve 2",
+        );

@@ -1,0 +1,60 @@
+    /// Speed.
+    ///
+    /// Modbus 40101 (holding; wire 100; FC 3/16), UNSIGNED16, rw.
+    /// Accessor: [`speed`](super::Press::speed).
+    ///
+    /// Chapter Holding.
+    pub const SPEED: ReadWrite<u16> = ReadWriteU16::register(
+        rt::Register::holding(100),
+        "Speed",
+        rt::Flags::NONE,
+    );
+    /// Speed: register 40101.
+    /// Constant: [`objects::SPEED`].
+    pub fn speed(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
+        objects::SPEED.at(&mut self.client)
+    }
+    /// Position.
+    ///
+    /// Modbus 40102–40103 (holding; wire 101–102; FC 3/16; low word first), INTEGER32, rw.
+    /// Accessor: [`position`](super::Press::position).
+    ///
+    /// Chapter Holding.
+    pub const POSITION: ReadWrite<i32> = ReadWriteI32::register(
+        rt::Register::low_first(101, 2),
+        "Position",
+        rt::Flags::NONE,
+    );
+    /// Input.
+    ///
+    /// Modbus 30005–30006 (input; wire 4–5; FC 4; high word first; bytes swapped), UNSIGNED32, ro.
+    /// Accessor: [`input`](super::Press::input).
+    ///
+    /// Chapter Others.
+    pub const INPUT: ReadOnly<u32> = ReadOnlyU32::register(
+        rt::Register::new(rt::RegisterTable::Input, 4, 2).swapped(),
+        "Input",
+        rt::Flags::NONE,
+    );
+    /// Lamp.
+    ///
+    /// Modbus 7 (coil; wire 6; FC 1/5/15), BOOLEAN, rw.
+    /// Accessor: [`lamp`](super::Press::lamp).
+    ///
+    /// Chapter Coils.
+    pub const LAMP: ReadWrite<bool> = ReadWriteBool::register(
+        rt::Register::new(rt::RegisterTable::Coil, 6, 1),
+        "Lamp",
+        rt::Flags::NONE,
+    );
+    /// Flags.
+    ///
+    /// Modbus 40104 (holding; wire 103; FC 3; from bit 3), BOOLEAN, ro.
+    /// Accessor: [`flags`](super::Press::flags).
+    ///
+    /// Chapter Holding.
+    pub const FLAGS: ReadOnly<bool> = ReadOnlyBool::register(
+        rt::Register::holding(103).part(3, 1),
+        "Flags",
+        rt::Flags::NONE,
+    );

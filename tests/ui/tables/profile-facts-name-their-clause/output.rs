@@ -1,0 +1,48 @@
+    /// Torque actual value.
+    ///
+    /// 0x6077:00, INTEGER16, ro, in 0.1 %.
+    /// Accessor: [`torque_actual_value`](super::Axis::torque_actual_value).
+    ///
+    /// Actual torque, relative to the rated torque.
+    ///
+    /// Unit from CiA 402, 17.3.7.
+    ///
+    /// Description from CiA 402, 17.3.7. Manual, page 7.
+    pub const TORQUE_ACTUAL_VALUE: ReadOnly<rt::Scaled<i16, 1, 10>> = ReadOnlyI16Times1Per10::new(
+        rt::OnCanOpen::canopen(0x6077, 0x00),
+        "Torque actual value",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "%",
+        rt::Flags::NONE,
+    );
+    /// Digital inputs.
+    ///
+    /// 0x60FD:00, UNSIGNED32, ro.
+    /// Accessor: [`digital_inputs`](super::Axis::digital_inputs). Values: [`DigitalInputs`](super::types::DigitalInputs).
+    ///
+    /// Digital inputs: limit switches, home switch, and inputs of the manufacturer.
+    ///
+    /// Bits from CiA 402, 9.3.15.
+    ///
+    /// Description from CiA 402, 9.3.15. Manual, page 8.
+    pub const DIGITAL_INPUTS: ReadOnly<super::types::DigitalInputs> = ReadOnlyNamedDigitalInputs::object(
+        0x60FD,
+        0x00,
+        "Digital inputs",
+    );
+    /// DigitalInputs.
+    ///
+    /// From CiA 402, 9.3.15.
+    ///
+    /// Values of [`DIGITAL_INPUTS`](super::objects::DIGITAL_INPUTS).
+    ///
+    /// | Bits | Name |
+    /// |---|---|
+    /// | 0 | [`negative_limit_switch`](Self::negative_limit_switch) |
+    /// | 1 | [`positive_limit_switch`](Self::positive_limit_switch) |
+    /// | 2 | [`home_switch`](Self::home_switch) |
+    /// | 3 | [`interlock`](Self::interlock) |
+    /// | 16–31 | [`manufacturer_specific`](Self::manufacturer_specific) |
+    #[derive(Clone, Copy, PartialEq)]
+    pub struct DigitalInputs(u32);

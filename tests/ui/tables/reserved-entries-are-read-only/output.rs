@@ -1,0 +1,9 @@
+        /// Reserved.
+        ///
+        /// 0x1800:04, UNSIGNED8, ro.
+        /// Accessor: [`Accessors::reserved`].
+        pub const RESERVED: super::ReadOnly<u8> = super::ReadOnlyU8::object(
+            0x1800,
+            0x04,
+            "Reserved",
+        );
