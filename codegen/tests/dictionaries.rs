@@ -151,8 +151,8 @@ fn printed(item: &Item) -> Vec<String> {
             }
             Binding::Ascii(name) => forms.push(normal(name)),
             Binding::Register(own) => {
-                let number = own.printed.unwrap_or_default();
-                forms.extend([format!(" {number}"), format!("0x{number:x}")]);
+                let (first, _) = own.printed.split_once('–').unwrap_or((&own.printed, ""));
+                forms.extend([format!(" {}", first.to_lowercase()), format!("0x{:x}", own.address)]);
             }
             _ => {}
         }

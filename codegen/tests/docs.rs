@@ -125,3 +125,27 @@ fn languages_of_modules_can_be_chosen() {
     assert!(modules.contains("<i lang=\"de\">"), "names");
     assert!(modules.contains("<p lang=\"de\">"), "descriptions");
 }
+
+#[test]
+fn each_transition_of_cia_402_has_an_arrow() {
+    let pages = files(Format::Html, &["dictionaries/demo-drive.eds"]);
+    let page = pages.iter().find(|page| page.path.ends_with("states-and-procedures.html")).expect("the state machine");
+    let start = page.text.find("<svg class=\"states\"").expect("the diagram");
+    let diagram = &page.text[start..start + page.text[start..].find("</svg>").expect("its end")];
+    // Transition 13 leaves any state.
+    assert!(diagram.contains(">any state<"), "{diagram}");
+    assert_eq!(diagram.matches("marker-end").count(), 16);
+    for number in 1..=16 {
+        assert!(diagram.contains(&format!(">{number}</text>")), "transition {number}");
+    }
+    assert!(page.text.contains("<td>xxxx xxxx x1xx 0000<td>"), "states are bit patterns");
+}
+
+#[test]
+fn the_search_has_printed_and_wire_addresses() {
+    let pages = files(Format::Html, &["tests/ui/tables/printed-and-wire-addresses/input.toml"]);
+    let index = pages.iter().find(|page| page.path == "input/search.js").expect("the index");
+    for number in ["register 40101 (wire 100)", "register 40102–40103 (wire 101–102)", "coil 7 (wire 6)"] {
+        assert!(index.text.contains(number), "{number}: {}", index.text);
+    }
+}

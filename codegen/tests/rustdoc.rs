@@ -90,7 +90,7 @@ fn references_are_links() {
                 "    /// [`Control`] while [mode](super::objects::MODE) is press (1).",
                 "    /// States of ram, as [status](super::objects::STATUS) tells them.",
                 "    /// | [`Ready`](Self::Ready) | `xxxx xxxx xxxx x001` |",
-                "    /// 0x200C:01, Modbus 12 (holding; wire 12; FC 3), INTEGER16, ro, stands for raw × 0.5 / [gain](GAIN) N.",
+                "    /// 0x200C:01, Modbus 12 (holding; wire 12; FC 3), INTEGER16, ro, physical value = raw × 0.5 / [gain](GAIN) N.",
                 "    /// Before firmware 2\\.0. Replaced by [position](POSITION_8).",
             ][..],
         ),

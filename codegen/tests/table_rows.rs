@@ -73,7 +73,7 @@ fn models_and_buses_differ() {
     assert_eq!(variants[1].scale, Some(Scale::Linear { factor: 0.1, offset: 0.0 }));
     let rust = rust(&text);
     assert!(rust.contains("Of SM140: default 2, at most 20."), "{rust}");
-    assert!(rust.contains("On modbus: in 0.1."), "{rust}");
+    assert!(rust.contains("On modbus: 1 LSB = 0.1."), "{rust}");
     is_wrong(", variants = [{ default = 2 }]", "neither `models` nor `buses`");
     is_wrong(", variants = [{ models = [\"SM140\"] }]", "nothing that differs");
     is_wrong(", variants = [{ models = [\"SM150\"], default = 2 }]", "no model called `SM150`");
@@ -96,8 +96,8 @@ fn scales() {
     let mantissa = Scale::Exponent { exponent: "b".into(), base: 2, fraction: 15 };
     assert_eq!(of("{ exponent = \"b\", base = 2, fraction = 15 }"), Some(mantissa));
     assert!(rust(&a(", scale = { exponent = \"b\", base = 2, fraction = 15 }"))
-        .contains("stands for raw / 2^15 × 2^[b](B)"));
-    assert!(rust(&a(", scale = { times = \"b\" }")).contains("stands for raw × [b](B)"));
+        .contains("physical value = raw / 2^15 × 2^[b](B)"));
+    assert!(rust(&a(", scale = { times = \"b\" }")).contains("physical value = raw × [b](B)"));
     for (scale, words) in [
         ("0", "the scale is 0"),
         ("nan", "the scale is NaN"),
@@ -192,7 +192,7 @@ fn conditions_on_bits() {
     };
     assert_eq!(said(&meanings("{ mask = 6, value = 2 }")), [""; 0]);
     assert!(said(&meanings("{ mask = 2, value = 2 }"))[0].contains("share bits"));
-    assert!(rust(&meanings("{ mask = 6, value = 2 }")).contains("while [b](super::objects::B) \\& 0x4 is 4"));
+    assert!(rust(&meanings("{ mask = 6, value = 2 }")).contains("while [b](super::objects::B) \\& 0x4 is 0x4"));
     let bits = a(", bits = \"B\"")
         + "[bits.B.at]\n0 = { name = \"kept\", reserved = 1 }\n1 = { name = \"x\", access = \"ro\", replaced_by = \"bit 2\" }\n";
     assert_eq!(said(&bits), [""; 0]);
@@ -488,8 +488,8 @@ fn registers_of_32_bits_have_an_address_each() {
         "rt::Register::high_first(32769, 2).words_per_address(2)",
         "rt::Register::holding(32770).words_per_address(2)",
         "rt::Register::high_first(32771, 4).words_per_address(2)",
-        "Modbus 1 (holding; wire 32769; FC 3; 32 bits an address; high word first), INTEGER32",
-        "Modbus 3–4 (holding; wire 32771–32772; FC 3; 32 bits an address; high word first)",
+        "Modbus 1 (holding; wire 0x8001; FC 3; 32 bits an address; high word first), INTEGER32",
+        "Modbus 3–4 (holding; wire 0x8003–0x8004; FC 3; 32 bits an address; high word first)",
         "readable: &[rt::modbus::Span::new(32768, 32772).words_per_address(2)],",
     ] {
         assert!(text.contains(part), "{part}\n{text}");

@@ -2020,7 +2020,7 @@ pub mod objects {
     );
     /// Torque.
     ///
-    /// 0x6077:00, INTEGER16, ro, mappable into TPDOs, in 0.1 %.
+    /// 0x6077:00, INTEGER16, ro, mappable into TPDOs, 1 LSB = 0.1 %.
     /// Accessor: [`torque`](super::Ax1::torque). Carried by [`DriveStatus`](super::pdo::DriveStatus).
     ///
     /// Actual torque, relative to the rated torque.
@@ -2048,7 +2048,7 @@ pub mod objects {
     );
     /// Torque offset.
     ///
-    /// 0x60B2:00, INTEGER16, rw, mappable into RPDOs, in 0.1 %.
+    /// 0x60B2:00, INTEGER16, rw, mappable into RPDOs, 1 LSB = 0.1 %.
     /// Accessor: [`torque_offset`](super::Ax1::torque_offset). Carried by [`SetPoints`](super::pdo::SetPoints).
     ///
     /// Torque offset: added to the target torque, relative to the rated torque.

@@ -1,10 +1,10 @@
 //! Sentences about elements of the IR, for documentation of any kind.
 
 use crate::facts::cob_id;
-use crate::facts::physical::{self, depends_on_node, Physical};
+use crate::facts::physical::{self, depends_on_node, shown_unit, Physical};
 use crate::ir::{
-    Availability, Behaviour, CiteUnit, CompactString, Condition, Device, Direction, Documentation, Doubt, Item,
-    ItemVariant, Limits, LocalText, Manual, Quantity, Scale, Severity, Shape, Step, Storage, TypeDef, Value,
+    Availability, Behaviour, Binding, CiteUnit, CompactString, Condition, Device, Direction, Documentation, Doubt,
+    Item, ItemVariant, Limits, LocalText, Manual, Quantity, Scale, Severity, Shape, Step, Storage, TypeDef, Value,
     PRINTED_NAME,
 };
 
@@ -33,6 +33,17 @@ pub(crate) fn manual(device: &Device) -> Manual {
     device.manual.as_deref().cloned().unwrap_or_default()
 }
 
+/// What the manual calls the row of an item: its name in an ASCII protocol, or that of a register or parameter. Objects have names that
+/// a manual may not print.
+pub(crate) fn row_of(item: &Item) -> &str {
+    let ascii = item.bindings.iter().find_map(|binding| match binding {
+        Binding::Ascii(name) => Some(name.as_str()),
+        _ => None,
+    });
+    let is_row = |binding: &Binding| matches!(binding, Binding::Register(_) | Binding::Parameter { .. });
+    ascii.or_else(|| item.bindings.iter().any(is_row).then_some(item.name.as_str())).unwrap_or_default()
+}
+
 /// At most so many sections are named in one citation.
 const SECTIONS_NAMED: usize = 3;
 
@@ -59,7 +70,7 @@ fn citation(manual: &Manual, row: &str, cite: &str) -> String {
     let more = sections.len().saturating_sub(SECTIONS_NAMED);
     let mut place = sections[..sections.len() - more].join("; ");
     if more > 0 {
-        place += &format!("; {more} more sections");
+        place += &format!("; {more} more {}", if more == 1 { "section" } else { "sections" });
     }
     if !row.is_empty() && !sections.contains(&row) {
         place += ", ";
@@ -76,6 +87,12 @@ pub(super) fn sentence(text: &str) -> String {
     }
 }
 
+/// `text` as the start of a sentence.
+pub(super) fn capital(text: &str) -> String {
+    let mut letters = text.chars();
+    letters.next().into_iter().flat_map(char::to_uppercase).chain(letters).collect()
+}
+
 /// A bus as people write it.
 pub(super) fn bus_name(key: &str) -> &str {
     match key {
@@ -86,6 +103,18 @@ pub(super) fn bus_name(key: &str) -> &str {
         "serial" => "a serial line",
         other => other,
     }
+}
+
+/// What a raw value means that is no number.
+fn sentinel<'i>(item: &'i Item, value: &Value) -> Option<&'i str> {
+    let quantity = item.quantity.as_deref()?;
+    quantity.sentinels.iter().find(|(own, _)| own == value).map(|(_, meaning)| meaning.as_str())
+}
+
+/// Whether the values of an item are indices or mappings of objects: mapping parameters and assignments of PDOs.
+fn is_object_reference(item: &Item) -> bool {
+    let is_mapping = |index| matches!(index, 0x1600..=0x17FF | 0x1A00..=0x1BFF | 0x1C10..=0x1C2F);
+    item.object().is_some_and(|(index, sub)| sub > 0 && is_mapping(index))
 }
 
 impl Words<'_> {
@@ -110,7 +139,8 @@ impl Words<'_> {
 
     /// Whether the access rights are an assumption.
     pub fn access(&self, item: &Item) -> Option<String> {
-        item.is_access_assumed.then(|| "The manual states no access rights; read-write is assumed.".to_owned())
+        let assumed = if item.access.writable() { "read-write" } else { "read-only" };
+        item.is_access_assumed.then(|| format!("The manual states no access rights; {assumed} is assumed."))
     }
 
     /// What is known of storage, side effects and conditions of writing.
@@ -118,14 +148,14 @@ impl Words<'_> {
         let mut sentences = Vec::new();
         match &behaviour.storage {
             Storage::Unknown => {}
-            Storage::Volatile => sentences.push("Lost at power-off.".to_owned()),
-            Storage::Immediate => sentences.push("Kept over power-off.".to_owned()),
+            Storage::Volatile => sentences.push("Volatile.".to_owned()),
+            Storage::Immediate => sentences.push("Non-volatile.".to_owned()),
             Storage::OnCommand(command) => {
-                sentences.push(format!("Kept over power-off once {} was given.", self.name(command)));
+                sentences.push(format!("Non-volatile: stored by {}.", self.name(command)));
             }
         }
         if let Some(access) = behaviour.pdi_access {
-            sentences.push(format!("The device's own side has it {}.", access.name()));
+            sentences.push(format!("Access rights of the device's own processor: {}.", access.name()));
         }
         if let Some(effective) = &behaviour.effective {
             sentences.push(format!("Takes effect at: {}", sentence(&self.escaped(effective))));
@@ -146,11 +176,34 @@ impl Words<'_> {
         sentences
     }
 
-    /// `Mode is 1 or 2`, `Status & 0x4 is 0`.
+    /// `Mode is 1 or 2`, `Status & 0x6F is 0x21`: hexadecimal where bits are compared.
     pub fn holds(&self, condition: &Condition) -> String {
-        let mask = condition.mask.map(|mask| self.escaped(&format!("& {mask:#X}")).replacen("0X", "0x", 1));
-        let mask = mask.map(|mask| format!(" {mask}")).unwrap_or_default();
-        format!("{}{mask} is {}", self.name(&condition.item), self.values(&condition.values))
+        let name = self.name(&condition.item);
+        match condition.mask {
+            None => format!("{name} is {}", self.values(&condition.values)),
+            Some(mask) => {
+                let mask = self.escaped(&format!("& 0x{mask:X}"));
+                let values: Vec<String> = condition.values.iter().map(|value| self.bits(value)).collect();
+                format!("{name} {mask} is {}", values.join(" or "))
+            }
+        }
+    }
+
+    /// A value as bits: hexadecimal.
+    fn bits(&self, value: &Value) -> String {
+        match value.as_int().and_then(|number| u64::try_from(number).ok()) {
+            Some(0) => "0".to_owned(),
+            Some(number) => format!("0x{number:X}"),
+            None => self.value(value),
+        }
+    }
+
+    /// A value in a step: large ones are codes, indices and mappings more often than amounts.
+    fn step_value(&self, value: &Value) -> String {
+        match value.as_int() {
+            Some(0x100..) => self.bits(value),
+            _ => self.value(value),
+        }
     }
 
     fn values(&self, values: &[Value]) -> String {
@@ -159,17 +212,22 @@ impl Words<'_> {
 
     /// What a step of a procedure does.
     pub fn step(&self, own: &Step) -> String {
-        let value = |value| self.value(value);
+        let value = |value| self.step_value(value);
         let name = |name: &str| self.escaped(name);
         match own {
             Step::Write(item, to) => format!("Write {} to {}.", value(to), name(item)),
-            Step::WriteBits(item, mask, to) => format!("Write {} to the bits 0x{mask:X} of {}.", value(to), name(item)),
+            Step::WriteBits(item, mask, to) => {
+                format!("Write {} to the bits 0x{mask:X} of {}.", self.bits(to), name(item))
+            }
             Step::WriteArgument(item, argument) => format!("Write {} to {}.", name(argument), name(item)),
             Step::Read(item) => format!("Read {}.", name(item)),
             Step::WaitFor(item, mask, to, limit) => {
-                let bits = if *mask == u64::MAX { String::new() } else { self.escaped(&format!(" & 0x{mask:X}")) };
                 let limit = limit.map(|limit| format!(", at most {limit} ms")).unwrap_or_default();
-                format!("Wait until {}{bits} is {}{limit}.", name(item), value(to))
+                let what = match *mask {
+                    u64::MAX => format!("{} is {}", name(item), value(to)),
+                    mask => format!("{} {} is {}", name(item), self.escaped(&format!("& 0x{mask:X}")), self.bits(to)),
+                };
+                format!("Wait until {what}{limit}.")
             }
             Step::Delay(milliseconds) => format!("Wait {milliseconds} ms."),
             Step::Send(message) => format!("Send {}.", name(message)),
@@ -191,11 +249,24 @@ impl Words<'_> {
 
     /// A value of an item: its physical value first, the flags of a COB-ID by name, or what `raw` writes.
     pub fn of_item(&self, item: &Item, value: &Value, raw: &dyn Fn(&Value) -> String) -> String {
-        let cob_id = cob_id::kind(item).and_then(|kind| cob_id::text(value, kind));
+        let cob_id = cob_id::of(item).and_then(|kind| cob_id::text(value, kind));
         match (cob_id, Physical::of(item.quantity.as_deref())) {
             (Some(text), _) => self.escaped(&text),
+            (None, Some(_)) if sentinel(item, value).is_some() => {
+                let meaning = sentinel(item, value).unwrap_or_default();
+                format!("{} (raw {})", self.escaped(meaning), raw(value))
+            }
+            (None, None) if is_object_reference(item) => self.reference(value, raw),
             (None, Some(physical)) => physical.value(value, raw, &|unit| self.escaped(unit)),
             (None, None) => raw(value),
+        }
+    }
+
+    /// A value that names an object, a PDO or a mapping: `0x1701`, `0x60410010`.
+    fn reference(&self, value: &Value, raw: &dyn Fn(&Value) -> String) -> String {
+        match value.as_int() {
+            Some(number @ 0x1000..=0xFFFF_FFFF) => format!("0x{number:04X}"),
+            _ => raw(value),
         }
     }
 
@@ -275,7 +346,9 @@ impl Words<'_> {
         let place = doubt.cite.as_deref().map(|cite| format!(" {}.", self.citation(manual, "", cite)));
         let hazard = if doubt.severity == Severity::Hazard { "Hazard" } else { "Note" };
         let place = place.unwrap_or_default();
-        format!("{hazard}: {}. Chosen: {}{why}.{place}", part(&doubt.says), part(&doubt.chosen))
+        let element = doubt.subject.as_deref().map(|subject| subject.element.as_str()).unwrap_or_default();
+        let element = if element.is_empty() { String::new() } else { format!("{}: ", self.escaped(element)) };
+        format!("{hazard}: {element}{}. Chosen: {}{why}.{place}", part(&doubt.says), part(&doubt.chosen))
     }
 
     /// `Manual: PARAMETRI MOVIMENTO, Rvel (line 2178)`, or `Manual, line 2178` where no section is known.
@@ -295,7 +368,11 @@ impl Words<'_> {
         let cite = documentation.and_then(|documentation| documentation.cite.as_deref());
         let from = documentation.and_then(|documentation| self.text_from(documentation));
         let is_original = |text: &&LocalText| !manual.language.is_empty() && text.language == manual.language;
-        let original = names.iter().find(is_original).map(|text| self.escaped(&text.text));
+        let is_new = |text: &&LocalText| {
+            let is_same = |other: &str| other.to_lowercase() == text.text.to_lowercase();
+            !is_same(row) && !manual.sections.iter().any(|section| is_same(&section.title))
+        };
+        let original = names.iter().find(is_original).filter(is_new).map(|text| self.escaped(&text.text));
         let place = cite.map(|cite| self.citation(manual, row, cite));
         let place = match (place, original) {
             (None, None) => None,
@@ -329,7 +406,7 @@ impl Words<'_> {
 
     /// `, in 0.01 rev/s`: unit and scale as a part of a sentence.
     pub fn quantity(&self, quantity: &Quantity) -> String {
-        let unit = self.escaped(&quantity.unit);
+        let unit = self.escaped(shown_unit(quantity));
         let behind = if unit.is_empty() { String::new() } else { format!(" {unit}") };
         match &quantity.scale {
             None if unit.is_empty() => String::new(),
@@ -341,26 +418,26 @@ impl Words<'_> {
     /// The same for a scale, with the unit behind it.
     fn scaled(&self, scale: &Scale, behind: &str) -> String {
         match scale {
-            Scale::Linear { factor, offset } if *offset == 0.0 => format!(", in {factor}{behind}"),
+            Scale::Linear { factor, offset } if *offset == 0.0 => format!(", 1 LSB = {factor}{behind}"),
             Scale::Linear { factor, offset } => {
                 let sign = if *offset < 0.0 { '−' } else { '+' };
-                format!(", stands for raw × {factor} {sign} {}{behind}", offset.abs())
+                format!(", physical value = raw × {factor} {sign} {}{behind}", offset.abs())
             }
-            Scale::Reciprocal { numerator } => format!(", stands for {numerator} / raw{behind}"),
+            Scale::Reciprocal { numerator } => format!(", physical value = {numerator} / raw{behind}"),
             Scale::Fraction { bits, base } => {
-                format!(", stands for raw / 2^{bits} × {}{behind}", self.escaped(base))
+                format!(", physical value = raw / 2^{bits} × {}{behind}", self.escaped(base))
             }
             Scale::Exponent { exponent, base, fraction } => {
                 let part = if *fraction == 0 { String::new() } else { format!(" / 2^{fraction}") };
-                format!(", stands for raw{part} × {base}^{}{behind}", self.name(exponent))
+                format!(", physical value = raw{part} × {base}^{}{behind}", self.name(exponent))
             }
             Scale::ByItem { item, factor } => {
                 let factor = if *factor == 1.0 { String::new() } else { format!(" × {factor}") };
-                format!(", stands for raw{factor} / {}{behind}", self.name(item))
+                format!(", physical value = raw{factor} / {}{behind}", self.name(item))
             }
             Scale::TimesItem { item, factor } => {
                 let factor = if *factor == 1.0 { String::new() } else { format!(" × {factor}") };
-                format!(", stands for raw{factor} × {}{behind}", self.name(item))
+                format!(", physical value = raw{factor} × {}{behind}", self.name(item))
             }
         }
     }
@@ -387,8 +464,15 @@ impl Words<'_> {
         format!("steps of {step}")
     }
 
+    /// What differs on some models or buses, and that the row of the item is about the others.
+    pub fn variants(&self, item: &Item) -> Vec<String> {
+        let is_by_model = item.variants.iter().any(|own| !own.models.is_empty());
+        let others = is_by_model.then(|| "Default and range of the row apply to the other models.".to_owned());
+        others.into_iter().chain(item.variants.iter().map(|own| self.variant(own, item))).collect()
+    }
+
     /// What of an item differs on some models or buses.
-    pub fn variant(&self, variant: &ItemVariant, item: &Item) -> String {
+    fn variant(&self, variant: &ItemVariant, item: &Item) -> String {
         let own_unit = item.quantity.as_ref().map_or("", |quantity| quantity.unit.as_str());
         let own = variant.scale.as_ref().map(|scale| Physical::scaled(scale, own_unit));
         let physical = || own.unwrap_or_else(|| Physical::of(item.quantity.as_deref()));

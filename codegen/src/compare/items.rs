@@ -151,14 +151,21 @@ fn item(
     };
     let lost = was.mappable.rpdo && !is.mappable.rpdo || was.mappable.tpdo && !is.mappable.tpdo;
     changes.fact(&element, "mappable into", (mappable(was), mappable(is)), judged(lost));
-    changes.fact(&element, "range", (range(was), range(is)), judged(is_narrower(&was.limits, &is.limits)));
+    if was.limits != is.limits {
+        let narrower = judged(is_narrower(&was.limits, &is.limits));
+        changes.push(&element, "range", (range(was), range(is)), narrower);
+    }
     let default = |item: &Item| {
         item.default.as_ref().map(|value| PLAIN.of_item(item, value, &Value::to_string)).unwrap_or_default()
     };
-    changes.fact(&element, "default", (default(was), default(is)), Judgement::Compatible);
+    if was.default != is.default {
+        changes.push(&element, "default", (default(was), default(is)), Judgement::Compatible);
+    }
     let (orders_before, orders_now) = (orders(was), orders(is));
-    if !orders_before.1.is_empty() && !orders_now.1.is_empty() {
+    if !orders_before.0.is_empty() && !orders_now.0.is_empty() {
         changes.fact(&element, "word order", (orders_before.0, orders_now.0), Judgement::Breaking);
+    }
+    if !orders_before.1.is_empty() && !orders_now.1.is_empty() {
         changes.fact(&element, "byte order", (orders_before.1, orders_now.1), Judgement::Breaking);
     }
     behaviour((was, is), &element, changes);

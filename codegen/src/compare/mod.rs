@@ -215,6 +215,14 @@ fn device(old: &Device, new: &Device, changes: &mut Changes) {
     types::codes(&old.code_tables, &new.code_tables, changes);
 }
 
+fn judged(breaks: bool) -> Judgement {
+    if breaks {
+        Judgement::Breaking
+    } else {
+        Judgement::Compatible
+    }
+}
+
 /// The requests that the tables of Modbus take.
 fn requests(old: &Device, new: &Device, changes: &mut Changes) {
     let list = |functions: &[u8]| functions.iter().map(u8::to_string).collect::<Vec<_>>().join(", ");
@@ -222,14 +230,23 @@ fn requests(old: &Device, new: &Device, changes: &mut Changes) {
     for (was, is) in pairs(&old.modbus, &new.modbus, |own| own.space.title(), false) {
         let Some(own) = was.or(is) else { continue };
         let element = format!("Modbus table {}", own.space.title());
-        let of = |own: Option<&ModbusTable>| own.map(|own| list(&own.functions)).unwrap_or_default();
-        changes.fact(&element, "function codes", (of(was), of(is)), Judgement::Breaking);
-        let of = |own: Option<&ModbusTable>| number(own.and_then(|own| own.max_read));
-        changes.fact(&element, "longest read", (of(was), of(is)), Judgement::Compatible);
-        let of = |own: Option<&ModbusTable>| number(own.and_then(|own| own.max_write));
-        changes.fact(&element, "longest write", (of(was), of(is)), Judgement::Compatible);
-        let of = |own: Option<&ModbusTable>| own.is_some_and(|own| own.split).to_string();
-        changes.fact(&element, "longer values in several requests", (of(was), of(is)), Judgement::Compatible);
+        let functions = |own: Option<&ModbusTable>| own.map(|own| own.functions.clone()).unwrap_or_default();
+        let (before, now) = (functions(was), functions(is));
+        // Without a list, all functions are accepted.
+        let is_lost = !now.is_empty() && (before.is_empty() || before.iter().any(|own| !now.contains(own)));
+        changes.fact(&element, "function codes", (list(&before), list(&now)), judged(is_lost));
+        for (fact, most) in [
+            ("longest read", (|own: &ModbusTable| own.max_read) as fn(&ModbusTable) -> Option<u16>),
+            ("longest write", |own: &ModbusTable| own.max_write),
+        ] {
+            let (before, now) = (was.and_then(most), is.and_then(most));
+            let is_shorter = now.is_some_and(|now| before.is_none_or(|before| now < before));
+            changes.fact(&element, fact, (number(before), number(now)), judged(is_shorter));
+        }
+        let split = |own: Option<&ModbusTable>| own.is_some_and(|own| own.split);
+        let (before, now) = (split(was), split(is));
+        let texts = (before.to_string(), now.to_string());
+        changes.fact(&element, "longer values in several requests", texts, judged(before && !now));
     }
 }
 

@@ -2,7 +2,8 @@
 
 use super::{pairs, types, Changes, Judgement, Scope};
 use crate::backend::words::PLAIN;
-use crate::facts::{self, cob_id};
+use crate::facts;
+use crate::facts::cob_id::{self, CobId};
 use crate::ir::{Direction, Pdo, PdoEntry, PdoEntryKind, ProcessImage, TypeDef};
 
 pub(super) fn compare(old: &Scope<'_>, new: &Scope<'_>, changes: &mut Changes) {
@@ -27,7 +28,8 @@ pub(super) fn compare(old: &Scope<'_>, new: &Scope<'_>, changes: &mut Changes) {
         changes.fact(&element, "mapping", (fixed(was), fixed(is)), judgement);
         let cob_id = |own: &Pdo| {
             let id = own.communication.as_ref().and_then(|own| own.cob_id.as_ref());
-            id.map(|id| cob_id::text(id, cob_id::Kind::Pdo).unwrap_or_else(|| PLAIN.value(id))).unwrap_or_default()
+            id.map(|id| cob_id::text(id, CobId::of_pdo(own.direction)).unwrap_or_else(|| PLAIN.value(id)))
+                .unwrap_or_default()
         };
         changes.fact(&element, "COB-ID", (cob_id(was), cob_id(is)), Judgement::Compatible);
         let manager = |own: &Pdo| own.sync_manager.map(|own| own.to_string()).unwrap_or_default();

@@ -1,10 +1,11 @@
 //! Types with names for bits and values, and tables of codes.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashMap};
 
 use super::{by_name, renamed, Changes, Judgement};
 use crate::backend::words::PLAIN;
-use crate::ir::{BitMeaning, CodeTable, EnumValue, Shape, Type, TypeDef};
+use crate::facts::code;
+use crate::ir::{BitMeaning, CodeRow, CodeTable, EnumValue, Shape, Type, TypeDef};
 use crate::passes::owner::Owner;
 
 /// The type that generated code has: of what has names, whose names they are.
@@ -117,13 +118,19 @@ pub(super) fn named(
 
 /// Tables of codes, which are enumerations in Rust.
 pub(super) fn codes(old: &[CodeTable], new: &[CodeTable], changes: &mut Changes) {
-    let key = |row: &crate::ir::CodeRow| (format!("code {}", crate::facts::code::text(row)), row.name.to_string());
     by_name(
         "codes",
         (old, new),
         |own| &own.name,
         changes,
         |(was, is), element, changes| {
+            // The number identifies a code; its notation is the one of the new table.
+            let rows = was.rows.iter().chain(is.rows.iter());
+            let texts: HashMap<i128, String> = rows.map(|row| (row.code, code::text(row))).collect();
+            let key = |row: &CodeRow| {
+                let last = row.last.map(|last| format!(" (to {last:#X})")).unwrap_or_default();
+                (format!("code {}", texts[&row.code]), format!("{}{last}", row.name))
+            };
             named(was.rows.iter().map(key), is.rows.iter().map(key), element, Judgement::Breaking, changes);
         },
     );

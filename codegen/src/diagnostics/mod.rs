@@ -11,6 +11,7 @@ pub use codes::{Class, Code};
 pub use levels::{Level, Levels, UnknownCode};
 
 use std::collections::{BTreeMap, HashMap};
+use std::hash::{Hash, Hasher};
 
 use serde::{Deserialize, Serialize};
 
@@ -127,18 +128,19 @@ pub struct Diagnostics {
     allowed: Vec<(Span, &'static Code)>,
     /// How many diagnostics of each code and file are in the list.
     kept: HashMap<(FileId, &'static str), usize>,
-    /// How many more of them there were.
-    beyond: BTreeMap<(FileId, &'static str), Beyond>,
-    /// Whether the list ends with a diagnostic for each of these.
+    /// Those that are only counted.
+    beyond: Vec<Beyond>,
+    /// Whether the list ends with a diagnostic for each code and file that has any of these.
     is_closed: bool,
 }
 
-/// Diagnostics of one code in one file that are only counted.
+/// A diagnostic that is only counted.
 #[derive(Clone, Debug)]
 struct Beyond {
     code: &'static Code,
-    severity: Severity,
-    count: usize,
+    span: Span,
+    /// The hash of its message.
+    message: u64,
 }
 
 impl Diagnostics {
@@ -158,8 +160,8 @@ impl Diagnostics {
             let key = (diagnostic.span.file, diagnostic.code.id);
             let kept = self.kept.entry(key).or_default();
             if *kept == MAX_SAME_DIAGNOSTICS {
-                let none = Beyond { code: diagnostic.code, severity, count: 0 };
-                self.beyond.entry(key).or_insert(none).count += 1;
+                let message = hash(&diagnostic.message);
+                self.beyond.push(Beyond { code: diagnostic.code, span: diagnostic.span, message });
                 return;
             }
             *kept += 1;
@@ -168,21 +170,16 @@ impl Diagnostics {
         }
     }
 
-    /// Counts the list again after some of it was forgotten.
-    fn recount(&mut self) {
-        self.kept.clear();
-        for own in &self.list {
-            *self.kept.entry((own.span.file, own.code.id)).or_default() += 1;
-        }
-    }
-
     /// Forgets findings of this kind within `span`, those so far and those to come: the source explains them itself.
     /// Errors stay.
     pub fn allow(&mut self, span: Span, code: &'static Code) {
         if code.class != Class::Error {
-            self.list.retain(|own| own.code != code || !contains(span, own.span));
             self.allowed.push((span, code));
-            self.recount();
+            let Some(kept) = self.kept.get_mut(&(span.file, code.id)).filter(|kept| **kept > 0) else { return };
+            let before = self.list.len();
+            self.list.retain(|own| own.code != code || !contains(span, own.span));
+            *kept -= before - self.list.len();
+            self.beyond.retain(|own| own.code != code || !contains(span, own.span));
         }
     }
 
@@ -190,14 +187,20 @@ impl Diagnostics {
     pub(crate) fn forget_repeated(&mut self, first: usize) {
         let mut seen = std::collections::HashSet::new();
         let tail = self.list.split_off(first.min(self.list.len()));
-        let is_new = |own: &Diagnostic| seen.insert((own.code, own.span, own.message.clone()));
+        let is_new = |own: &Diagnostic| seen.insert((own.code, own.span, hash(&own.message)));
         self.list.extend(tail.into_iter().filter(is_new));
-        self.recount();
+        self.beyond.retain(|own| seen.insert((own.code, own.span, own.message)));
+        self.kept.clear();
+        for own in &self.list {
+            *self.kept.entry((own.span.file, own.code.id)).or_default() += 1;
+        }
     }
 
     /// Whether any finding within `span` is an error.
     pub(crate) fn has_error_in(&self, span: Span) -> bool {
+        let is_error = |own: &Beyond| self.levels.severity(own.code) == Some(Severity::Error);
         self.list.iter().any(|own| own.severity == Severity::Error && contains(span, own.span))
+            || self.beyond.iter().any(|own| contains(span, own.span) && is_error(own))
     }
 
     /// Whether findings of this kind are wanted: lets a stage skip the work of phrasing one that isn't.
@@ -210,6 +213,11 @@ impl Diagnostics {
         self.levels.asks_for(code)
     }
 
+    /// How many diagnostics there are, those that are only counted included.
+    pub(crate) fn total(&self) -> usize {
+        self.list.len() + self.beyond.len()
+    }
+
     /// All findings, in the order in which they were made.
     pub fn list(&self) -> &[Diagnostic] {
         &self.list
@@ -219,7 +227,14 @@ impl Diagnostics {
     /// code says how many more there were.
     pub fn sort(&mut self) {
         if !std::mem::replace(&mut self.is_closed, true) {
-            self.list.extend(self.beyond.iter().map(|((file, _), own)| own.diagnostic(*file)));
+            let mut counts: BTreeMap<(FileId, &'static str), (&'static Code, usize)> = BTreeMap::new();
+            for own in &self.beyond {
+                counts.entry((own.span.file, own.code.id)).or_insert((own.code, 0)).1 += 1;
+            }
+            for ((file, _), (code, count)) in counts {
+                let severity = self.levels.severity(code).unwrap_or(Severity::Warning);
+                self.list.push(Diagnostic { severity, ..closing(file, code, count) });
+            }
         }
         self.list.sort_by_key(|d| (d.span.file, d.span.start, d.span.end));
     }
@@ -231,24 +246,31 @@ impl Diagnostics {
 
     /// How many findings have this severity, those that are only counted included.
     pub fn count(&self, severity: Severity) -> usize {
-        let beyond = || self.beyond.values().filter(|own| own.severity == severity);
-        let closing = if self.is_closed { beyond().count() } else { 0 };
-        let kept = self.list.iter().filter(|d| d.severity == severity).count();
-        kept - closing + beyond().map(|own| own.count).sum::<usize>()
+        let kept = self.list.iter().filter(|own| own.severity == severity && !is_closing(own)).count();
+        kept + self.beyond.iter().filter(|own| self.levels.severity(own.code) == Some(severity)).count()
     }
 }
 
-impl Beyond {
-    fn diagnostic(&self, file: FileId) -> Diagnostic {
-        let (count, id) = (self.count, self.code.id);
-        let plural = if count == 1 { "diagnostic" } else { "diagnostics" };
-        // Behind all places of the file.
-        let span = Span::new(file, u32::MAX, u32::MAX);
-        let message = format!("{count} more {plural} of {id} in this file");
-        let found = Diagnostic::new(self.code, span, message);
-        let help = format!("correct the first {MAX_SAME_DIAGNOSTICS}, or allow {id}");
-        Diagnostic { severity: self.severity, ..found.label("only counted").help(help) }
-    }
+/// Behind all places of a file.
+const END: u32 = u32::MAX;
+
+fn is_closing(own: &Diagnostic) -> bool {
+    own.span.start == END
+}
+
+/// Says how many more diagnostics of a code a file has.
+fn closing(file: FileId, code: &'static Code, count: usize) -> Diagnostic {
+    let plural = if count == 1 { "diagnostic" } else { "diagnostics" };
+    let message = format!("{count} more {plural} of {} in this file", code.id);
+    let allow = if code.class == Class::Error { String::new() } else { format!(", or allow {}", code.id) };
+    Diagnostic::new(code, Span::new(file, END, END), message)
+        .help(format!("correct the first {MAX_SAME_DIAGNOSTICS}{allow}"))
+}
+
+fn hash(text: &str) -> u64 {
+    let mut hasher = std::collections::hash_map::DefaultHasher::new();
+    text.hash(&mut hasher);
+    hasher.finish()
 }
 
 #[cfg(test)]
@@ -272,5 +294,23 @@ mod tests {
         let of_first: Vec<_> = diagnostics.list().iter().filter(|own| own.span.file == FileId(0)).collect();
         let last = of_first.last().expect("a diagnostic");
         assert_eq!(last.message, "3 more diagnostics of EDS003 in this file");
+    }
+
+    #[test]
+    fn repeated_and_allowed_ones_are_not_counted() {
+        let many = MAX_SAME_DIAGNOSTICS as u32 + 3;
+        let mut diagnostics = Diagnostics::default();
+        for _ in 0..many {
+            diagnostics.push(Diagnostic::new(&codes::JUNK_LINE, Span::new(FileId(0), 5, 6), "junk"));
+        }
+        diagnostics.forget_repeated(0);
+        assert_eq!((diagnostics.list().len(), diagnostics.total()), (1, 1));
+        let mut diagnostics = Diagnostics::default();
+        for at in 0..many {
+            diagnostics.push(Diagnostic::new(&codes::OCTAL_NUMBER, Span::new(FileId(0), at, at + 1), "octal"));
+        }
+        diagnostics.allow(Span::new(FileId(0), 0, many), &codes::OCTAL_NUMBER);
+        diagnostics.sort();
+        assert_eq!((diagnostics.list().len(), diagnostics.total()), (0, 0));
     }
 }

@@ -13,7 +13,7 @@ impl<'q> Physical<'q> {
     /// `None` if the raw value is the physical one.
     pub(crate) fn of(quantity: Option<&'q Quantity>) -> Option<Self> {
         let quantity = quantity?;
-        Physical::scaled(quantity.scale.as_ref()?, &quantity.unit)
+        Physical::scaled(quantity.scale.as_ref()?, shown_unit(quantity))
     }
 
     /// The same for a scale of its own.
@@ -52,10 +52,18 @@ impl<'q> Physical<'q> {
         let numbers = (low.map(|low| self.number(low)), high.map(|high| self.number(high)));
         let numbers = match numbers {
             (Some(None), _) | (_, Some(None)) => return format!("raw {raw}"),
+            _ if self.has_pole_in(low, high) => return format!("raw {raw}"),
             (low, high) => (low.flatten(), high.flatten()),
         };
         let physical = if self.is_falling() { span((numbers.1, numbers.0)) } else { span(numbers) };
         format!("{} (raw {raw})", self.with_unit(&physical, unit))
+    }
+
+    /// Whether the physical value jumps somewhere between two raw values.
+    fn has_pole_in(&self, low: Option<&Value>, high: Option<&Value>) -> bool {
+        let is_above = |value: Option<&Value>| value.and_then(Value::as_real).is_some_and(|value| value > 0.0);
+        let is_below = |value: Option<&Value>| value.and_then(Value::as_real).is_some_and(|value| value < 0.0);
+        matches!(self.scale, Scale::Reciprocal { .. }) && !is_above(low) && !is_below(high)
     }
 
     /// Whether larger raw values are smaller physical ones.
@@ -86,6 +94,15 @@ impl<'q> Physical<'q> {
     }
 }
 
+/// The unit as outputs show it: a ratio has none.
+pub(crate) fn shown_unit(quantity: &Quantity) -> &str {
+    if quantity.unit == "1" {
+        ""
+    } else {
+        &quantity.unit
+    }
+}
+
 /// `1 … 5`, `≥ 1`, `≤ 5`.
 pub(crate) fn span(limits: (Option<String>, Option<String>)) -> String {
     match limits {
@@ -101,30 +118,61 @@ pub(crate) fn depends_on_node(limits: &Limits) -> bool {
     [&limits.low, &limits.high].into_iter().any(|limit| matches!(limit, Some(Value::NodeId(_))))
 }
 
-/// The physical value with as many decimals as the scale has: 250 in 0.1 is `25.0`.
+/// The physical value with as many decimals as the scale has: 250 in 0.1 is `25.0`. Exact if both are decimal numbers.
 fn linear(raw: &Value, factor: f64, offset: f64) -> Option<String> {
-    let number = raw.as_real()? * factor + offset;
-    let exact = raw.as_int().and_then(|_| Some(decimals(factor)?.max(decimals(offset)?)));
-    Some(match exact {
-        Some(decimals) => format!("{number:.decimals$}"),
-        None => short(number),
-    })
+    let exact = || {
+        let (factor, offset) = (Decimal::of(factor)?, Decimal::of(offset)?);
+        let places = factor.places.max(offset.places);
+        let number = raw.as_int()?.checked_mul(factor.scaled(places)?)?.checked_add(offset.scaled(places)?)?;
+        Some(Decimal { number, places }.text())
+    };
+    match exact() {
+        Some(text) => Some(text),
+        None => raw.as_real().map(|raw| short(raw * factor + offset)),
+    }
 }
 
-/// How many decimals a number has; `None` for more than nine.
-fn decimals(number: f64) -> Option<usize> {
-    let text = number.to_string();
-    let decimals = text.split_once('.').map_or(0, |(_, decimals)| decimals.len());
-    (decimals <= 9).then_some(decimals)
+/// A decimal number: `number` / 10^`places`.
+struct Decimal {
+    number: i128,
+    places: u32,
 }
 
-/// A number with six significant digits at most.
+impl Decimal {
+    /// `None` for more than nine decimals.
+    fn of(number: f64) -> Option<Self> {
+        let text = number.to_string();
+        let (whole, decimals) = text.split_once('.').unwrap_or((&text, ""));
+        let places = u32::try_from(decimals.len()).ok().filter(|places| *places <= 9)?;
+        Some(Decimal { number: format!("{whole}{decimals}").parse().ok()?, places })
+    }
+
+    /// The number in units of 10^-`places`.
+    fn scaled(&self, places: u32) -> Option<i128> {
+        self.number.checked_mul(10_i128.checked_pow(places.checked_sub(self.places)?)?)
+    }
+
+    fn text(&self) -> String {
+        let sign = if self.number < 0 { "-" } else { "" };
+        let digits = format!("{:0>width$}", self.number.unsigned_abs(), width = self.places as usize + 1);
+        let (whole, decimals) = digits.split_at(digits.len() - self.places as usize);
+        let point = if decimals.is_empty() { "" } else { "." };
+        format!("{sign}{whole}{point}{decimals}")
+    }
+}
+
+/// A number with six significant digits at most, in scientific notation if it is very small or large.
 fn short(number: f64) -> String {
     if number == 0.0 || !number.is_finite() {
-        return number.to_string();
+        return (number + 0.0).to_string();
     }
-    let digits = 5 - number.abs().log10().floor() as i32;
-    let text = format!("{number:.*}", digits.clamp(0, 12) as usize);
+    let exponent = number.abs().log10().floor() as i32;
+    if !(-6..15).contains(&exponent) {
+        let text = format!("{number:.5e}");
+        let (mantissa, exponent) = text.split_once('e').unwrap_or((&text, "0"));
+        return format!("{}e{exponent}", mantissa.trim_end_matches('0').trim_end_matches('.'));
+    }
+    let text = format!("{number:.*}", (5 - exponent).max(0) as usize);
     match text.contains('.') {
         true => text.trim_end_matches('0').trim_end_matches('.').to_owned(),
         false => text,
@@ -149,6 +197,11 @@ mod tests {
         assert_eq!(written(3, 1.0 / 3.0, 0.0, ""), "1 (raw 3)");
         assert_eq!(written(1000, 0.5, -273.15, "°C"), "226.85 °C (raw 1000)");
         assert_eq!(written(1, 4.882_812_5e-4, 0.0, "V"), "0.000488281 V (raw 1)");
+        assert_eq!(written(3, 1e-14, 0.0, "m"), "3e-14 m (raw 3)");
+        assert_eq!(written(-5, 0.1, 0.0, ""), "-0.5 (raw -5)");
+        let (most, digits) = (i128::from(u64::MAX), "1844674407370955161.5 (raw 18446744073709551615)");
+        assert_eq!(written(most, 0.1, 0.0, ""), digits, "no number of 53 bits");
+        assert_eq!(written(most, 1.0, -1.0, ""), "18446744073709551614 (raw 18446744073709551615)");
         let unscaled = Quantity { unit: "ms".into(), ..Quantity::default() };
         assert!(Physical::of(Some(&unscaled)).is_none() && Physical::of(None).is_none());
     }
@@ -165,6 +218,11 @@ mod tests {
         assert_eq!(range(linear(-0.5), Some(0), Some(3)), "-1.5 … 0.0 Hz (raw 0 … 3)");
         assert_eq!(range(linear(0.1), Some(5), None), "≥ 0.5 Hz (raw ≥ 5)");
         assert_eq!(range(Scale::Reciprocal { numerator: 25e6 }, Some(1), Some(4)), "6250000 … 25000000 Hz (raw 1 … 4)");
+        assert_eq!(
+            range(Scale::Reciprocal { numerator: 1.0 }, Some(-5), Some(5)),
+            "raw -5 … 5",
+            "it has no value at 0"
+        );
         assert_eq!(range(Scale::Reciprocal { numerator: 1.0 }, Some(0), Some(4)), "raw 0 … 4", "1 / 0 is no number");
         let by_item = Scale::ByItem { item: "Base".into(), factor: 1.0 };
         assert_eq!(range(by_item, Some(0), Some(4)), "raw 0 … 4");

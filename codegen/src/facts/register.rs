@@ -24,21 +24,20 @@ impl RegisterSpace {
     }
 }
 
-/// `40102–40103`: the printed numbers, or the wire addresses if the source prints no other numbers.
+/// `40102–40103`, `R01`: the printed numbers, or the wire addresses if the source prints no other numbers.
 pub(crate) fn printed(register: &RegisterBinding) -> String {
-    let further = u32::from(register.last() - register.address);
-    span(register.printed.unwrap_or_else(|| register.address.into()), further)
+    match register.printed.as_str() {
+        "" => wire(register),
+        printed => printed.to_owned(),
+    }
 }
 
-/// `101–102`: the addresses on the wire, counted from 0.
+/// `101–102`, `0x8001`: the addresses on the wire, counted from 0; hexadecimal if they have more than four digits.
 pub(crate) fn wire(register: &RegisterBinding) -> String {
-    span(register.address.into(), u32::from(register.last() - register.address))
-}
-
-fn span(first: u32, further: u32) -> String {
-    match further {
-        0 => first.to_string(),
-        further => format!("{first}–{}", first.saturating_add(further)),
+    let text = |address: u16| if address > 9999 { format!("0x{address:04X}") } else { address.to_string() };
+    match register.last() {
+        last if last == register.address => text(last),
+        last => format!("{}–{}", text(register.address), text(last)),
     }
 }
 
@@ -55,7 +54,8 @@ pub(crate) fn text(register: &RegisterBinding, access: Access, tables: &[ModbusT
     }
     let is_word = matches!(register.space, RegisterSpace::Holding | RegisterSpace::Input);
     if is_word && register.count > 1 {
-        facts.push(if register.low_word_first { "low word first" } else { "high word first" }.to_owned());
+        let order = if register.low_word_first { "low word first" } else { "high word first" };
+        facts.push(format!("{order}{}", if register.is_order_assumed { " (assumed)" } else { "" }));
     }
     if register.bytes_swapped {
         facts.push("bytes swapped".to_owned());
@@ -66,10 +66,12 @@ pub(crate) fn text(register: &RegisterBinding, access: Access, tables: &[ModbusT
 /// The function codes that reach a register with these access rights.
 fn functions(register: &RegisterBinding, access: Access, tables: &[ModbusTable]) -> Vec<String> {
     let (reads, one, several) = register.space.functions();
-    let writes = if register.count > 1 { several } else { one };
+    let accepted = tables.iter().find(|table| table.space == register.space).map_or(&[][..], |table| &table.functions);
+    // A device with one address for a longer register may take it in a function for one register.
+    let is_one = register.count == 1 || register.words_per_address > 1 && !accepted.is_empty();
+    let writes = if is_one { one } else { several };
     let reads = reads.iter().filter(|_| access.readable());
     let writes = writes.iter().filter(|_| access.writable());
-    let accepted = tables.iter().find(|table| table.space == register.space).map_or(&[][..], |table| &table.functions);
     let is_accepted = |function: &&u8| accepted.is_empty() || accepted.contains(function);
     reads.chain(writes).filter(is_accepted).map(u8::to_string).collect()
 }
@@ -82,7 +84,8 @@ mod tests {
         RegisterBinding {
             space: RegisterSpace::Holding,
             address: 101,
-            printed: Some(40102),
+            printed: if count > 1 { "40102–40103" } else { "40102" }.into(),
+            is_order_assumed: false,
             count,
             low_word_first: true,
             bytes_swapped: false,
@@ -101,9 +104,11 @@ mod tests {
         );
         assert_eq!(text(&register(1), Access::ReadWrite), "40102 (holding; wire 101; FC 3/6/16)");
         assert_eq!(text(&register(1), Access::ReadOnly), "40102 (holding; wire 101; FC 3)");
-        let own = RegisterBinding { space: RegisterSpace::Coil, bytes_swapped: true, printed: None, ..register(1) };
+        let own =
+            RegisterBinding { space: RegisterSpace::Coil, bytes_swapped: true, printed: "".into(), ..register(1) };
         assert_eq!(text(&own, Access::WriteOnly), "101 (coil; wire 101; FC 5/15; bytes swapped)");
-        let own = RegisterBinding { words_per_address: 2, low_word_first: false, ..register(2) };
+        let own =
+            RegisterBinding { words_per_address: 2, low_word_first: false, printed: "40102".into(), ..register(2) };
         assert_eq!(
             text(&own, Access::ReadOnly),
             "40102 (holding; wire 101; FC 3; 32 bits an address; high word first)"

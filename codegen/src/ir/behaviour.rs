@@ -172,9 +172,12 @@ pub struct RegisterBinding {
     pub space: RegisterSpace,
     /// Address on the wire, counted from 0.
     pub address: u16,
-    /// The first number that the source prints.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub printed: Option<u32>,
+    /// The number, or numbers, as the source prints them: `40102–40103`, `R01`; empty if it prints the address on the wire.
+    #[serde(default, skip_serializing_if = "CompactString::is_empty")]
+    pub printed: CompactString,
+    /// Whether the order of words is an assumption.
+    #[serde(default, skip_serializing_if = "is_false")]
+    pub is_order_assumed: bool,
     /// Number of registers (of bits in a coil or input table).
     pub count: u16,
     /// Whether the less significant word comes first.

@@ -131,6 +131,49 @@ pub struct Doubt {
     /// What a wrong choice leads to.
     #[serde(default)]
     pub severity: Severity,
+    /// What it is about, if that has no list of doubts of its own.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub subject: Option<Box<Subject>>,
+}
+
+/// What a doubt of a device is about.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Subject {
+    /// Its kind.
+    pub kind: SubjectKind,
+    /// Its name.
+    pub name: CompactString,
+    /// The row, bit, value or code within it; empty if the whole is meant.
+    pub element: CompactString,
+}
+
+/// The kinds of elements that a doubt of a device is about.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum SubjectKind {
+    /// Bits or values: a definition of a type.
+    Type,
+    /// A table of codes.
+    Codes,
+    /// A state machine, its commands or their outcomes.
+    Machine,
+    /// A sequence of steps.
+    Procedure,
+    /// A process image.
+    Image,
+    /// A number that is split over several items.
+    Composite,
+    /// A model of the family.
+    Model,
+    /// A choice that the manual leaves open.
+    Option,
+}
+
+impl Doubt {
+    /// Whether the doubt is about the element of this kind and name.
+    pub fn is_about(&self, kind: SubjectKind, name: &str) -> bool {
+        self.subject.as_ref().is_some_and(|subject| subject.kind == kind && subject.name == name)
+    }
 }
 
 /// What a wrong choice in an ambiguity of the source leads to, the worst first.

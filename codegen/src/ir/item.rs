@@ -102,6 +102,7 @@ impl Item {
     /// The access rights as documentation shows them: `rw?` where they are an assumption.
     pub fn access_name(&self) -> &'static str {
         match self.is_access_assumed {
+            true if self.access == Access::ReadOnly => "ro?",
             true => "rw?",
             false => self.access.name(),
         }

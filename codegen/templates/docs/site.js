@@ -32,7 +32,7 @@ function numberFrom(text) {
     return { first: Number(first), last: Number(last ?? first) };
   };
   const printed = range(/^(?:[a-z_ ]+ )?(0x[0-9a-f]+|[0-9]+)(?:(?: to |–)(0x[0-9a-f]+|[0-9]+))?/);
-  return { text, plain: plain(text), ranges: [printed, range(/\(wire ([0-9]+)(?:–([0-9]+))?\)/)] };
+  return { text, plain: plain(text), ranges: [printed, range(/\(wire (0x[0-9a-f]+|[0-9]+)(?:–(0x[0-9a-f]+|[0-9]+))?\)/)] };
 }
 
 // The folder of the index, where that isn't the page's.
@@ -115,15 +115,17 @@ function matches(query) {
   for (let entry = 0, least = 0; entry < sums.length; entry++) {
     if (sums[entry] > least) least = insert(best, { points: sums[entry], entry });
   }
-  return best.map(({ entry }) => entry);
+  // A row has an entry for each of its addresses; the best one is shown.
+  const links = new Set();
+  return best.map(({ entry }) => entry).filter((entry) => !links.has(linkOf(entry)) && links.add(linkOf(entry))).slice(0, MOST);
 }
 
 // Gives the points that a further entry has to surpass.
 function insert(best, own) {
   const place = best.findIndex((other) => other.points < own.points);
   best.splice(place < 0 ? best.length : place, 0, own);
-  if (best.length > MOST) best.pop();
-  return best.length === MOST ? best[MOST - 1].points : 0;
+  if (best.length > 4 * MOST) best.pop();
+  return best.length === 4 * MOST ? best[best.length - 1].points : 0;
 }
 
 const anchorOf = (entry) => anchors[entry] || numbers[numberOf[entry]].text;
@@ -135,9 +137,7 @@ said.setAttribute("role", "status");
 found.after(said);
 
 function search() {
-  // A row has an entry for each of its addresses; the best one is shown.
-  const links = new Set();
-  const list = matches(input.value).filter((entry) => !links.has(linkOf(entry)) && links.add(linkOf(entry)));
+  const list = matches(input.value);
   found.replaceChildren(...list.map((entry, at) => {
     const [name, names, unit] = texts[textOf[entry]].fields, page = pages[pageOf[entry]];
     const item = document.createElement("li"), link = document.createElement("a"), more = document.createElement("small");

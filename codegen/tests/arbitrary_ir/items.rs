@@ -216,7 +216,8 @@ fn register(b: &mut Bytes<'_>) -> RegisterBinding {
     RegisterBinding {
         space: b.pick(&TABLES),
         address: if b.one_in(4) { b.any() } else { b.within(0..=20) },
-        printed: b.maybe(2, |b| b.any()),
+        printed: b.maybe(2, names::text).unwrap_or_default(),
+        is_order_assumed: b.one_in(5),
         count: b.within(1..=4),
         low_word_first: b.any(),
         bytes_swapped: b.one_in(4),

@@ -157,7 +157,7 @@ fn section(group: &Group, items: &[Item], rows: &mut Rows<'_>) -> Section {
         return Section::plain(vec![row]);
     }
     let mut facts = PLAIN.description(group.documentation.as_deref());
-    facts.extend(PLAIN.place(rows.known.manual, &group.name, group.documentation.as_deref(), &group.names));
+    facts.extend(PLAIN.place(rows.known.manual, "", group.documentation.as_deref(), &group.names));
     let anchor = rows.names.anchor(&number);
     let sub = |item: &Item| item.object().map_or_else(String::new, |(index, sub)| format!("0x{index:04X}:{sub:02X}"));
     Section {

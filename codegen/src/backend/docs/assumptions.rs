@@ -58,9 +58,10 @@ impl<'d> Places<'d> {
 
     fn all(&self) -> Vec<Assumption<'d>> {
         let mut all = Vec::new();
+        // Those with a subject are in the list of the device, and are shown a second time where that is.
         let mut add = |link: String, about: String, doubts: &'d [Doubt]| {
             let assumption = |doubt| Assumption { link: link.clone(), about: about.clone(), doubt };
-            all.extend(doubts.iter().map(assumption));
+            all.extend(doubts.iter().filter(|doubt| doubt.subject.is_empty()).map(assumption));
         };
         let (file, doubts) = self.overview;
         add(file.to_owned(), "Device".to_owned(), doubts);
@@ -81,6 +82,9 @@ impl<'d> Places<'d> {
             let messages = &protocol.messages;
             messages.iter().for_each(|own| add(format!("{file}#{}", own.anchor), own.name.clone(), &own.doubts));
         }
+        let with_subject = doubts.iter().filter(|doubt| !doubt.subject.is_empty());
+        let assumption = |doubt: &'d Doubt| Assumption { link: file.to_owned(), about: doubt.subject.clone(), doubt };
+        all.extend(with_subject.map(assumption));
         all
     }
 }

@@ -105,7 +105,7 @@ fn field(types: &[TypeDef], own: &BitFieldEntry) -> Field {
     let mut values = Vec::new();
     match &own.meaning {
         BitMeaning::Flag { inverted: true } => facts.push("Set while 0.".to_owned()),
-        BitMeaning::Reserved { write: Some(bit) } => facts.push(format!("Reserved: write {}.", u8::from(*bit))),
+        BitMeaning::Reserved { write: Some(bit) } => facts.push(format!("Reserved, {}.", u8::from(*bit))),
         BitMeaning::Reserved { write: None } => facts.push("Reserved.".to_owned()),
         BitMeaning::Enumeration(id) => {
             let own = Owner::of_types(types).enumeration(Type::Named(*id));

@@ -1,9 +1,10 @@
 //! Tables of codes: alarms, emergency codes, abort codes, with causes and remedies.
 
 use super::anchor::Names;
+use super::entry::{self, Doubt};
 use super::words::{self, PLAIN};
 use crate::facts::code;
-use crate::ir::{CodeTable, Manual};
+use crate::ir::{CodeTable, Device, Manual, SubjectKind};
 
 /// A table.
 #[derive(Debug)]
@@ -11,6 +12,7 @@ pub(super) struct Codes {
     pub anchor: String,
     pub title: String,
     pub facts: Vec<String>,
+    pub doubts: Vec<Doubt>,
     pub columns: Vec<String>,
     pub rows: Vec<Code>,
 }
@@ -26,13 +28,13 @@ pub(super) struct Code {
     pub cells: Vec<String>,
 }
 
-pub(super) fn tables(tables: &[CodeTable], manual: &Manual) -> Vec<Codes> {
+pub(super) fn tables(device: &Device, manual: &Manual) -> Vec<Codes> {
     let mut names = Names::default();
-    let with = tables.iter().filter(|table| !table.rows.is_empty());
-    with.map(|table| self::table(table, manual, &mut names)).collect()
+    let with = device.code_tables.iter().filter(|table| !table.rows.is_empty());
+    with.map(|table| self::table(table, device, manual, &mut names)).collect()
 }
 
-fn table(table: &CodeTable, manual: &Manual, names: &mut Names) -> Codes {
+fn table(table: &CodeTable, device: &Device, manual: &Manual, names: &mut Names) -> Codes {
     let anchor = names.anchor(&table.name);
     let mut facts = PLAIN.description(table.documentation.as_deref());
     if !table.buses.is_empty() {
@@ -56,5 +58,6 @@ fn table(table: &CodeTable, manual: &Manual, names: &mut Names) -> Codes {
     });
     let rows = rows.collect();
     let columns = table.columns.iter().map(ToString::to_string).collect();
-    Codes { anchor, title: table.name.to_string(), facts, columns, rows }
+    let doubts = entry::about(&device.doubts, SubjectKind::Codes, &table.name, manual);
+    Codes { anchor, title: table.name.to_string(), facts, doubts, columns, rows }
 }

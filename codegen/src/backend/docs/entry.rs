@@ -6,9 +6,9 @@ use super::anchor::Names;
 use super::bits::{self, Bits, Label};
 use super::findings::{Finding, Findings};
 use super::words::{self, PLAIN};
-use crate::backend::words::sentence;
-use crate::facts::physical::Physical;
-use crate::ir::{Item, Manual, ModbusTable, Severity, Type, TypeDef, Value};
+use crate::backend::words::{capital, row_of, sentence};
+use crate::facts::physical::{shown_unit, Physical};
+use crate::ir::{Item, Manual, ModbusTable, Quantity, Scale, Severity, Subject, SubjectKind, Type, TypeDef, Value};
 
 /// An item, ready to be written.
 #[derive(Debug)]
@@ -25,6 +25,8 @@ pub(super) struct Row {
     pub default: String,
     pub range: String,
     pub unit: String,
+    /// The first sentence of its description.
+    pub description: String,
     /// Sentences.
     pub facts: Vec<String>,
     /// The description in other languages.
@@ -32,6 +34,8 @@ pub(super) struct Row {
     /// Further addresses, with their bus.
     pub elsewhere: Vec<String>,
     pub doubts: Vec<Doubt>,
+    /// Ambiguities of its bits or values.
+    pub doubts_of_type: Vec<Doubt>,
     pub findings: Vec<Finding>,
     /// The lines of a program that read and write it.
     pub rust: Vec<String>,
@@ -44,6 +48,8 @@ pub(super) struct Row {
 /// A contradiction of the source.
 #[derive(Debug)]
 pub(super) struct Doubt {
+    /// What it is about within the device: `HomingMethod, 33`; empty if the page shows it there.
+    pub subject: String,
     pub severity: Severity,
     pub says: String,
     pub chosen: String,
@@ -66,6 +72,7 @@ impl Row {
             || !self.translations.is_empty()
             || !self.elsewhere.is_empty()
             || !self.doubts.is_empty()
+            || !self.doubts_of_type.is_empty()
             || !self.findings.is_empty()
             || !self.rust.is_empty()
             || self.bits.is_some()
@@ -81,11 +88,26 @@ pub(super) type Calls = HashMap<*const Item, Vec<String>>;
 #[derive(Clone, Copy)]
 pub(super) struct Known<'d> {
     pub manual: &'d Manual,
+    /// The ambiguities of the device.
+    pub doubts: &'d [crate::ir::Doubt],
     /// The requests that its tables of Modbus take.
     pub modbus: &'d [ModbusTable],
     /// How programs reach items.
     pub calls: &'d Calls,
     pub findings: &'d Findings,
+}
+
+impl Known<'_> {
+    /// The ambiguities about an element of the device that has no list of its own.
+    fn about(&self, kind: SubjectKind, name: &str) -> Vec<Doubt> {
+        about(self.doubts, kind, name, self.manual)
+    }
+}
+
+/// The ambiguities of a device about an element of this kind and name, ready to be written.
+pub(super) fn about(all: &[crate::ir::Doubt], kind: SubjectKind, name: &str, manual: &Manual) -> Vec<Doubt> {
+    let own: Vec<_> = all.iter().filter(|doubt| doubt.is_about(kind, name)).cloned().collect();
+    doubts(&own, manual)
 }
 
 /// What rows of one page have in common.
@@ -102,6 +124,9 @@ impl Rows<'_> {
     pub fn row(&mut self, item: &Item, number: String, by_name: bool) -> Row {
         let anchor = self.names.anchor(if by_name && !item.name.is_empty() { &item.name } else { &number });
         let basic = words::basic(self.types, item.ty);
+        // The first row with a type shows all that is known of it.
+        let is_first = !self.shown.iter().any(|(ty, ..)| *ty == item.ty);
+        let definition = words::definition(self.types, item.ty).filter(|_| is_first);
         let (mut drawn, mut labels, mut same_as) = (None, Vec::new(), None);
         match self.shown.iter().find(|(ty, ..)| *ty == item.ty) {
             Some((_, anchor, name)) => same_as = Some((anchor.clone(), name.clone())),
@@ -118,7 +143,7 @@ impl Rows<'_> {
             addresses.iter().map(|own| own.lookup.clone()).filter(|own| !own.is_empty()).collect();
         let addresses = addresses.into_iter().filter(|own| own.text != number);
         let elsewhere = addresses.map(|own| format!("{}: {}", own.bus, own.text)).collect();
-        let shown = |value: &Value| PLAIN.of_item(item, value, &|value| words::value(value, basic));
+        let shown = |value: &Value| PLAIN.of_item(item, value, &|value| raw(item, value, basic));
         Row {
             anchor,
             number,
@@ -130,10 +155,12 @@ impl Rows<'_> {
             default: item.default.as_ref().map(shown).unwrap_or_default(),
             range: range(item, basic),
             unit: unit(item),
-            facts: self.facts(item),
+            description: PLAIN.description(item.documentation.as_deref()).into_iter().next().unwrap_or_default(),
+            facts: self.facts(item, definition),
             translations: words::translations(item.documentation.as_deref()),
             elsewhere,
             doubts: doubts(&item.doubts, self.known.manual),
+            doubts_of_type: definition.map(|own| self.known.about(SubjectKind::Type, &own.name)).unwrap_or_default(),
             findings: self.known.findings.of_item(item),
             rust: self.known.calls.get(&std::ptr::from_ref(item)).cloned().unwrap_or_default(),
             bits: drawn,
@@ -142,8 +169,10 @@ impl Rows<'_> {
         }
     }
 
-    fn facts(&self, item: &Item) -> Vec<String> {
+    fn facts(&self, item: &Item, definition: Option<&TypeDef>) -> Vec<String> {
         let mut facts = PLAIN.description(item.documentation.as_deref());
+        let of_type = PLAIN.description(definition.and_then(|own| own.documentation.as_deref()));
+        facts.extend(of_type.into_iter().filter(|own| !facts.contains(own)).collect::<Vec<_>>());
         facts.extend(PLAIN.access(item));
         facts.extend(match (item.mappable.rpdo, item.mappable.tpdo) {
             (true, true) => Some("Mappable into any PDO.".to_owned()),
@@ -154,18 +183,15 @@ impl Rows<'_> {
         facts.extend(PLAIN.meaning_from(words::definition(self.types, item.ty)));
         if let Some(quantity) = &item.quantity {
             let scale = quantity.scale.as_ref().map(|_| PLAIN.quantity(quantity));
-            facts.extend(scale.map(|own| match own.trim_start_matches([',', ' ']) {
-                own if own.starts_with("in ") => format!("Counts {own}."),
-                own => format!("The number {own}."),
-            }));
+            facts.extend(scale.map(|own| sentence(&capital(own.trim_start_matches([',', ' '])))));
             facts.extend(PLAIN.notes(quantity));
         }
         if let Some(behaviour) = &item.behaviour {
             facts.extend(PLAIN.behaviour(behaviour));
         }
-        facts.extend(item.variants.iter().map(|own| PLAIN.variant(own, item)));
+        facts.extend(PLAIN.variants(item));
         facts.extend(item.availability.as_ref().map(|own| PLAIN.availability(own)));
-        facts.extend(PLAIN.place(self.known.manual, &item.name, item.documentation.as_deref(), &item.names));
+        facts.extend(PLAIN.place(self.known.manual, row_of(item), item.documentation.as_deref(), &item.names));
         let configured = item.configured.as_ref().and_then(|own| own.value.as_ref());
         facts.extend(
             configured
@@ -176,9 +202,18 @@ impl Rows<'_> {
     }
 }
 
+/// `HomingMethod, 33`.
+fn subject(own: &Subject) -> String {
+    match own.element.as_str() {
+        "" => own.name.to_string(),
+        element => format!("{}, {element}", own.name),
+    }
+}
+
 /// Doubts, ready to be written.
 pub(super) fn doubts(doubts: &[crate::ir::Doubt], manual: &Manual) -> Vec<Doubt> {
     let doubt = |own: &crate::ir::Doubt| Doubt {
+        subject: own.subject.as_deref().map(subject).unwrap_or_default(),
         says: sentence(&own.says),
         chosen: sentence(&own.chosen),
         why: if own.why.is_empty() { String::new() } else { sentence(&own.why) },
@@ -190,15 +225,27 @@ pub(super) fn doubts(doubts: &[crate::ir::Doubt], manual: &Manual) -> Vec<Doubt>
     ready
 }
 
+/// A raw value: decimal if it has a unit or a scale.
+fn raw(item: &Item, value: &Value, ty: Type) -> String {
+    match item.quantity {
+        Some(_) => PLAIN.value(value),
+        None => words::value(value, ty),
+    }
+}
+
 fn range(item: &Item, ty: Type) -> String {
     let physical = Physical::of(item.quantity.as_deref());
-    let raw = |value: &Value| words::value(value, ty);
+    let raw = |value: &Value| raw(item, value, ty);
     match item.limits.allowed.is_empty() {
         true => PLAIN.range(&item.limits, physical.as_ref(), &raw),
         false => PLAIN.allowed(&item.limits, physical.as_ref(), &raw),
     }
 }
 
+/// The unit of the physical value; empty if the raw value of the row isn't that and no physical one is shown.
 fn unit(item: &Item) -> String {
-    item.quantity.as_ref().map(|own| own.unit.to_string()).unwrap_or_default()
+    match item.quantity.as_deref() {
+        Some(Quantity { scale: Some(Scale::Exponent { .. }), .. }) | None => String::new(),
+        Some(own) => shown_unit(own).to_owned(),
+    }
 }

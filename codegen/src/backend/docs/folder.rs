@@ -155,7 +155,8 @@ impl Folder {
         prefix: &str,
     ) -> (Parts, Vec<(String, String)>) {
         let calls = rust::calls(device).into_iter().map(|(item, lines)| (std::ptr::from_ref(item), lines)).collect();
-        let known = Known { manual, modbus: &device.modbus, calls: &calls, findings: &self.findings };
+        let known =
+            Known { manual, doubts: &device.doubts, modbus: &device.modbus, calls: &calls, findings: &self.findings };
         let mut areas = area::areas(&device.groups, &device.types, known, &mut self.files, prefix);
         for own in &mut areas {
             own.file += self.format.ending();
@@ -166,9 +167,13 @@ impl Folder {
             pages.extend(file.clone().map(|file| (file, title.to_owned())));
             file
         };
-        let frames = process::frames(&device.process_data, &device.types, About { buses: pdo::buses(device), manual });
+        let frames = process::frames(
+            &device.process_data,
+            &device.types,
+            About { buses: pdo::buses(device), manual, doubts: &device.doubts },
+        );
         let protocol = protocol::protocol(device, manual);
-        let tables = codes::tables(&device.code_tables, manual);
+        let tables = codes::tables(device, manual);
         let mut parts = Parts {
             overview,
             process: further(!frames.is_empty() || !device.process_data.sync_managers.is_empty(), "Process data"),
@@ -206,7 +211,8 @@ impl Folder {
         }
         if let Some(file) = &parts.machines {
             let machines: Vec<_> = device.machines.iter().map(|own| machines::machine(own, device, manual)).collect();
-            let sequences: Vec<_> = device.procedures.iter().map(|own| machines::sequence(own, manual)).collect();
+            let sequences: Vec<_> =
+                device.procedures.iter().map(|own| machines::sequence(own, device, manual)).collect();
             self.page(file, format.machines(Around { set, file }, &machines, &sequences));
         }
         if let Some((file, tables)) = &parts.codes {
@@ -298,7 +304,7 @@ fn index_area(index: &mut Index, own: &Area) {
 
 fn index_rows(index: &mut Index, rows: &[Row]) {
     for row in rows {
-        let words = row.facts.first().map_or("", String::as_str);
+        let words = row.description.as_str();
         for number in row.lookups() {
             let entry = found(&row.anchor, number, &row.name);
             index.entry(&Entry { names: &row.names, unit: &row.unit, words, ..entry });

@@ -3,9 +3,10 @@
 use std::cmp::Ordering;
 use std::collections::{HashMap, VecDeque};
 
+use super::entry::{self, Doubt};
 use super::words::{self, PLAIN};
 use crate::facts::pattern;
-use crate::ir::{Device, Manual, Outcome, Pattern, Procedure, StateMachine, Transition};
+use crate::ir::{Device, Manual, Outcome, Pattern, Procedure, StateMachine, SubjectKind, Transition};
 
 /// Size of a state in the diagram, and the room between two.
 const WIDTH: u32 = 170;
@@ -27,6 +28,7 @@ pub(super) const ANY_STATE: &str = "any state";
 pub(super) struct Machine {
     pub title: String,
     pub facts: Vec<String>,
+    pub doubts: Vec<Doubt>,
     pub diagram: Option<Diagram>,
     /// The state after power-on.
     pub initial: Option<String>,
@@ -50,10 +52,18 @@ pub(super) struct Named {
 #[derive(Debug)]
 pub(super) struct Way {
     pub number: String,
-    pub from: String,
+    /// `None` for any state.
+    pub from: Option<String>,
     pub to: String,
     pub command: String,
     pub facts: String,
+}
+
+impl Way {
+    /// The state that it leaves, in words.
+    pub fn source(&self) -> &str {
+        self.from.as_deref().unwrap_or(ANY_STATE)
+    }
 }
 
 /// What commands do in each state.
@@ -96,6 +106,7 @@ pub(super) struct Arrow {
 pub(super) struct Sequence {
     pub name: String,
     pub facts: Vec<String>,
+    pub doubts: Vec<Doubt>,
     pub steps: Vec<String>,
 }
 
@@ -104,6 +115,7 @@ pub(super) fn machine(own: &StateMachine, device: &Device, manual: &Manual) -> M
         let item = device.groups.iter().flat_map(|group| &group.items).find(|item| item.name == name);
         item.and_then(|item| words::basic(&device.types, item.ty).bits()).unwrap_or(0)
     };
+    let (of_status, of_control) = (width(&own.status_item), width(&own.control_item));
     let mut facts = PLAIN.description(own.documentation.as_deref());
     facts.extend((!own.status_item.is_empty()).then(|| format!("{} tells the state.", own.status_item)));
     facts.extend((!own.control_item.is_empty()).then(|| format!("{} takes the commands.", own.control_item)));
@@ -112,10 +124,11 @@ pub(super) fn machine(own: &StateMachine, device: &Device, manual: &Manual) -> M
     Machine {
         title: own.name.to_string(),
         facts,
+        doubts: entry::about(&device.doubts, SubjectKind::Machine, &own.name, manual),
         diagram: diagram(own),
         initial: own.initial.as_ref().map(ToString::to_string),
-        states: own.states.iter().map(|state| named(state, width(&own.status_item))).collect(),
-        commands: own.commands.iter().map(|command| named(command, width(&own.control_item))).collect(),
+        states: own.states.iter().map(|state| named(state, of_status)).collect(),
+        commands: own.commands.iter().map(|command| named(command, of_control)).collect(),
         transitions: own.transitions.iter().enumerate().map(way).collect(),
         matrix: matrix(own),
     }
@@ -139,7 +152,7 @@ fn number((at, own): (usize, &Transition)) -> String {
 fn way((at, own): (usize, &Transition)) -> Way {
     Way {
         number: number((at, own)),
-        from: own.from.as_ref().map_or_else(|| ANY_STATE.to_owned(), ToString::to_string),
+        from: own.from.as_ref().map(ToString::to_string),
         to: own.to.to_string(),
         command: own.command.as_ref().map_or_else(|| "by itself".to_owned(), ToString::to_string),
         facts: PLAIN.description(own.documentation.as_deref()).join(" "),
@@ -228,7 +241,14 @@ fn diagram(own: &StateMachine) -> Option<Diagram> {
     let state_box = |(at, place): (usize, &Option<(u32, u32)>)| {
         let (left, top) = (*place)?;
         let label = own.states.get(at).map_or_else(|| ANY_STATE.to_owned(), |state| words::cut(&state.name, LETTERS));
-        Some(StateBox { left, top, middle: left + WIDTH / 2, base: top + 23, label, is_initial: at == first })
+        Some(StateBox {
+            left,
+            top,
+            middle: left + WIDTH / 2,
+            base: top + 23,
+            label,
+            is_initial: at == first && at < any,
+        })
     };
     let height = rows.len() as u32 * (HEIGHT + RISE) - RISE + 40;
     Some(Diagram { width, height, boxes: boxes.iter().enumerate().filter_map(state_box).collect(), arrows })
@@ -287,12 +307,14 @@ fn arrow((x, y): (u32, u32), (to_x, to_y): (u32, u32), number: u32, label: &str)
     Arrow { path, x, y, label: label.to_owned() }
 }
 
-pub(super) fn sequence(own: &Procedure, manual: &Manual) -> Sequence {
+pub(super) fn sequence(own: &Procedure, device: &Device, manual: &Manual) -> Sequence {
     let mut facts = PLAIN.description(own.documentation.as_deref());
     if !own.arguments.is_empty() {
         let arguments: Vec<&str> = own.arguments.iter().map(|own| own.as_str()).collect();
         facts.push(format!("Given: {}.", arguments.join(", ")));
     }
     facts.extend(PLAIN.place(manual, "", own.documentation.as_deref(), &own.names));
-    Sequence { name: own.name.to_string(), facts, steps: own.steps.iter().map(|own| PLAIN.step(own)).collect() }
+    let doubts = entry::about(&device.doubts, SubjectKind::Procedure, &own.name, manual);
+    let steps = own.steps.iter().map(|own| PLAIN.step(own)).collect();
+    Sequence { name: own.name.to_string(), facts, doubts, steps }
 }

@@ -217,11 +217,11 @@ impl Machine {
         }
         lines.extend(self.initial.as_deref().and_then(place).map(|at| format!("[*] --> s{at}")));
         let any = self.states.len();
-        if self.transitions.iter().any(|way| way.from == ANY_STATE) {
+        if self.transitions.iter().any(|way| way.from.is_none()) {
             lines.push(format!("state \"{ANY_STATE}\" as s{any}"));
         }
         for way in &self.transitions {
-            let from = if way.from == ANY_STATE { Some(any) } else { place(&way.from) };
+            let from = way.from.as_deref().map_or(Some(any), place);
             let Some((from, to)) = from.zip(place(&way.to)) else { continue };
             lines.push(format!("s{from} --> s{to}: {} {}", label(&way.number), label(&way.command)));
         }

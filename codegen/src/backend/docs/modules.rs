@@ -61,7 +61,7 @@ fn sections<'g>(
     findings: &Findings,
 ) -> Vec<(String, Section)> {
     let (manual, calls, mut names) = (Manual::default(), Calls::default(), Names::within(anchor));
-    let known = Known { manual: &manual, modbus: &[], calls: &calls, findings };
+    let known = Known { manual: &manual, doubts: &[], modbus: &[], calls: &calls, findings };
     let mut rows = Rows { types, known, names: &mut names, shown: Vec::new() };
     groups.map(|group| section(group, &mut rows)).collect()
 }
@@ -79,7 +79,7 @@ fn module(own: &Module, anchor: String, parts: Vec<(String, String)>, findings: 
         frames: process::frames(
             &own.process_data,
             &own.types,
-            About { buses: ObjectBuses::COE, manual: &Manual::default() },
+            About { buses: ObjectBuses::COE, manual: &Manual::default(), doubts: &[] },
         ),
         sections: sections(own.fixed_objects.iter().chain(&own.groups), &own.types, &anchor, findings),
         parts,

@@ -42,6 +42,9 @@ pub(super) fn overview(device: &Device, file: Option<&FileInfo>, manual: &Manual
     facts.extend(PLAIN.place(manual, "", device.documentation.as_deref(), &device.names));
     let mut identity = identity(device);
     identity.extend(settings(device));
+    let title = [manual.title.as_str(), manual.edition.as_str()].into_iter().filter(|text| !text.is_empty());
+    let title = title.collect::<Vec<_>>().join(", ");
+    identity.extend((!title.is_empty()).then_some(("Manual", title)));
     if let Some(file) = file {
         let name = file.name.rsplit(['/', '\\']).next().unwrap_or_default();
         identity.push(("Read from", format!("{name} ({}), SHA-256 {}", file.format.name(), file.sha256)));

@@ -3,8 +3,11 @@
 use super::anchor::Names;
 use super::cell::Cell;
 use super::words;
-use crate::facts::{cob_id, pdo};
-use crate::ir::{Direction, Manual, ObjectBuses, Pdo, PdoEntry, PdoEntryKind, ProcessData, ProcessImage, TypeDef};
+use crate::facts::cob_id::{self, CobId};
+use crate::facts::pdo;
+use crate::ir::{
+    Direction, Manual, ObjectBuses, Pdo, PdoEntry, PdoEntryKind, ProcessData, ProcessImage, SubjectKind, TypeDef,
+};
 
 /// Bytes in a row of a drawing, and the width of one.
 const ROW: u32 = 8;
@@ -65,12 +68,17 @@ pub(super) struct About<'d> {
     /// The buses that the objects are on.
     pub buses: ObjectBuses,
     pub manual: &'d Manual,
+    /// The ambiguities of the device.
+    pub doubts: &'d [crate::ir::Doubt],
 }
 
 /// All cyclic data of a device or module.
 pub(super) fn frames(data: &ProcessData, types: &[TypeDef], about: About<'_>) -> Vec<Frame> {
     let pdos = data.pdos.iter().map(|own| pdo(own, types, about));
-    let images = data.images.iter().enumerate().map(|(at, own)| image(own, types, &format!("image-{at}"), ""));
+    let images = data.images.iter().enumerate().map(|(at, own)| Frame {
+        doubts: super::entry::about(about.doubts, SubjectKind::Image, &own.name, about.manual),
+        ..image(own, types, &format!("image-{at}"), "")
+    });
     // PDOs of two buses may have one index.
     let mut names = Names::default();
     let once = |own: Frame| Frame { anchor: names.anchor(&own.anchor), ..own };
@@ -95,7 +103,7 @@ fn pdo(own: &Pdo, types: &[TypeDef], about: About<'_>) -> Frame {
     let bytes = own.bytes();
     facts.push(format!("{bytes} {}{mapping}.", if bytes == 1 { "byte" } else { "bytes" }));
     if let Some(communication) = &own.communication {
-        let cob_id = |id| cob_id::text(id, cob_id::Kind::Pdo).unwrap_or_else(|| words::PLAIN.value(id));
+        let cob_id = |id| cob_id::text(id, CobId::of_pdo(own.direction)).unwrap_or_else(|| words::PLAIN.value(id));
         facts.extend(communication.cob_id.as_ref().map(|id| format!("COB-ID {}.", cob_id(id))));
         facts.extend(communication.transmission_type.map(|own| format!("Transmission type {own}.")));
         facts.extend(communication.inhibit_time.map(|own| format!("Inhibit time {own} × 100 µs.")));

@@ -110,7 +110,7 @@ fn register_address(own: &RegisterBinding, item: &Item, tables: &[ModbusTable]) 
         RegisterSpace::Holding => "register",
     };
     let number = format!("{table} {}", register::printed(own));
-    let is_wire = own.printed.is_none_or(|printed| printed == u32::from(own.address));
+    let is_wire = register::printed(own) == register::wire(own);
     let wire = if is_wire { String::new() } else { format!(" (wire {})", register::wire(own)) };
     let text = register::text(own, item.access_on("modbus"), tables);
     Address { bus: "Modbus", lookup: format!("{number}{wire}"), number, text }

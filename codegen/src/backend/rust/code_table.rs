@@ -7,7 +7,8 @@ use super::docs::WORDS;
 use super::links::is_derive;
 use super::literal;
 use super::options::RustOptions;
-use crate::ir::{CodeRow, CodeTable, Manual, Value};
+use crate::backend::words;
+use crate::ir::{CodeRow, CodeTable, Device, SubjectKind, Value};
 use crate::passes::names_unique::{self, Case};
 
 /// A table, ready to be written.
@@ -23,16 +24,17 @@ pub(super) struct CodeTableModel {
     pub ty: Option<CodeTypeModel>,
 }
 
-pub(super) fn models(tables: &[CodeTable], manual: &Manual, options: &RustOptions) -> Vec<CodeTableModel> {
-    let tables: Vec<&CodeTable> = tables.iter().filter(|table| !table.rows.is_empty()).collect();
+pub(super) fn models(device: &Device, options: &RustOptions) -> Vec<CodeTableModel> {
+    let tables: Vec<&CodeTable> = device.code_tables.iter().filter(|table| !table.rows.is_empty()).collect();
     let wishes = names_unique::numbered(tables.iter().map(|table| table.name.as_str()), "codes");
     let names = names_unique::unique(&wishes, &bus_facts::RESERVED, Case::Snake);
     let types = names_unique::unique(&wishes, &["Self"], Case::Pascal);
     let named = tables.iter().zip(names.iter().zip(types));
-    named.map(|(table, (name, ty))| model(table, (name.to_ascii_uppercase(), ty), manual, options)).collect()
+    named.map(|(table, (name, ty))| model(table, (name.to_ascii_uppercase(), ty), device, options)).collect()
 }
 
-fn model(table: &CodeTable, (name, ty): (String, String), manual: &Manual, options: &RustOptions) -> CodeTableModel {
+fn model(table: &CodeTable, (name, ty): (String, String), device: &Device, options: &RustOptions) -> CodeTableModel {
+    let manual = &words::manual(device);
     let mut docs = vec![docs::sentence(&docs::escape(&table.name))];
     let text = table.documentation.as_ref().map_or("", |own| own.text.as_str());
     if !text.is_empty() {
@@ -41,6 +43,7 @@ fn model(table: &CodeTable, (name, ty): (String, String), manual: &Manual, optio
     docs.extend(
         WORDS.place(manual, "", table.documentation.as_deref(), &[]).into_iter().flat_map(|own| [String::new(), own]),
     );
+    docs::doubts_about(Some(device), SubjectKind::Codes, &table.name, &mut docs);
     if !table.buses.is_empty() {
         docs.extend([String::new(), format!("On {}.", docs::escape(&table.buses.join(", ")))]);
     }

@@ -76,7 +76,7 @@ fn own(scope: &Scope<'_>, item: &Item, object: &ObjectModel, model: &str) -> Opt
     Some(OwnItem {
         name: handle.constant.clone(),
         docs: format!(
-            "{}: {}. As all models have it: [`objects::{}`].",
+            "{}: {}. Handle for all models: [`objects::{}`].",
             docs::escape(&item.name),
             facts.join(", "),
             handle.constant

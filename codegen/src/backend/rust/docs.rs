@@ -7,11 +7,13 @@ use super::literal;
 use super::place::Place;
 use super::scope::Scope;
 use super::value_type;
+use super::variant;
 use crate::backend::markdown;
 pub(super) use crate::backend::words::sentence;
+use crate::backend::words::{capital, row_of};
 use crate::backend::words::{Words, NO_LINK};
 use crate::facts::physical::Physical;
-use crate::ir::{Binding, Condition, Documentation, Doubt, Item, Manual, Type, TypeId, Value};
+use crate::ir::{Binding, Condition, Device, Documentation, Doubt, Item, Manual, SubjectKind, Type, TypeId, Value};
 
 /// Sentences for doc comments.
 pub(super) const WORDS: Words<'static> = Words { escape, link: NO_LINK };
@@ -54,11 +56,17 @@ pub(super) fn item(item: &Item, name: &str, chapter: Option<&str>, scope: &Scope
         paragraphs.push(words.behaviour(behaviour).join(" "));
     }
     paragraphs.extend(item.bindings.iter().filter_map(elsewhere));
-    paragraphs.extend(item.variants.iter().map(|own| words.variant(own, item)));
+    paragraphs.extend(words.variants(item));
+    let widest = variant::widest(item);
+    if (&widest.low, &widest.high) != (&item.limits.low, &item.limits.high) {
+        let physical = Physical::of(item.quantity.as_deref());
+        let range = words.range(&widest, physical.as_ref(), &value);
+        paragraphs.push(format!("Writes are checked against the range of all models and buses: {range}."));
+    }
     if let Some(availability) = &item.availability {
         paragraphs.push(words.availability(availability));
     }
-    let place = WORDS.place(&scope.manual, name, item.documentation.as_deref(), &item.names);
+    let place = WORDS.place(&scope.manual, row_of(item), item.documentation.as_deref(), &item.names);
     let chapter = chapter.filter(|chapter| !chapter.trim().is_empty());
     let chapter = chapter.map(|chapter| format!("Chapter {}", sentence(&escape(chapter))));
     paragraphs.push(chapter.into_iter().chain(place).collect::<Vec<_>>().join(" "));
@@ -113,11 +121,23 @@ pub(super) fn described(documentation: Option<&Documentation>, manual: &Manual, 
     }
 }
 
+/// The ambiguities about an element of the device that has no list of its own, the most severe first, in paragraphs of their own.
+pub(super) fn doubts_about(device: Option<&Device>, kind: SubjectKind, name: &str, lines: &mut Vec<String>) {
+    let Some(device) = device else { return };
+    let mut doubts: Vec<&Doubt> = device.doubts.iter().filter(|doubt| doubt.is_about(kind, name)).collect();
+    doubts.sort_by_key(|doubt| doubt.severity);
+    let manual = crate::backend::words::manual(device);
+    for doubt in doubts {
+        lines.extend([String::new(), WORDS.doubt(&manual, doubt)]);
+    }
+}
+
 /// The first lines about the type at this position: its name, what the source says of it, and whose values are of it.
 pub(super) fn of_type(scope: &Scope<'_>, position: u32) -> Vec<String> {
     let Some(definition) = scope.types.get(position as usize) else { return Vec::new() };
     let mut lines = vec![sentence(&escape(&definition.name))];
     described(definition.documentation.as_deref(), &scope.manual, &mut lines);
+    doubts_about(scope.device, SubjectKind::Type, &definition.name, &mut lines);
     let users = scope.links.users(position, Here::TYPES);
     if !users.is_empty() {
         lines.extend([String::new(), users]);
@@ -139,7 +159,8 @@ fn facts(item: &Item, scope: &Scope<'_>, words: &Words<'_>) -> String {
         (false, true) => line.push_str(", mappable into TPDOs"),
         (false, false) => {}
     }
-    let shown = |value: &Value| WORDS.of_item(item, value, &|value| typed(value, base));
+    let raw = |own: &Value| if item.quantity.is_some() { value(own) } else { typed(own, base) };
+    let shown = |value: &Value| WORDS.of_item(item, value, &raw);
     if let Some(default) = &item.default {
         let _ = write!(line, ", default {}", shown(default));
     }
@@ -183,12 +204,6 @@ fn documentation(item: &Item, lines: &mut Vec<String>) {
         lines.push(String::new());
         lines.push(sentence(&escape(paragraph)));
     }
-}
-
-/// `text` as the start of a sentence.
-fn capital(text: &str) -> String {
-    let mut letters = text.chars();
-    letters.next().into_iter().flat_map(char::to_uppercase).chain(letters).collect()
 }
 
 #[cfg(test)]

@@ -35,12 +35,13 @@ pub(super) fn bytes(bytes: &[u8]) -> String {
     literal
 }
 
-/// Letters and digits of any script, and the signs of units.
+/// Signs of units, of arithmetic and of punctuation: without them a text says something else. None of them is a marker of the
+/// templates, and none changes how others are shown.
+const SIGNS: &str = "°µ±·€−×÷≤≥≠≈√∞Σ→←↑↓↔–—…‘’“”„‰•";
+
+/// Letters and digits of any script, and [`SIGNS`].
 pub(super) fn is_harmless(letter: char) -> bool {
-    letter.is_ascii_graphic()
-        || letter == ' '
-        || letter.is_alphanumeric()
-        || matches!(letter, '°' | 'µ' | '±' | '·' | '€')
+    letter.is_ascii_graphic() || letter == ' ' || letter.is_alphanumeric() || SIGNS.contains(letter)
 }
 
 /// A REAL32 or REAL64 literal; `None` for a number that the type doesn't have.

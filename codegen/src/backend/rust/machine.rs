@@ -12,7 +12,7 @@ use super::options::RustOptions;
 use super::scope::Scope;
 use super::value_type;
 use crate::facts::pattern;
-use crate::ir::{Pattern, Shape, StateMachine, Transition, Type};
+use crate::ir::{Pattern, Shape, StateMachine, SubjectKind, Transition, Type};
 use crate::passes::names_unique::{self, Case, Wish};
 
 /// A state machine, ready to be written.
@@ -157,6 +157,7 @@ fn documentation(
     };
     let mut lines = vec![format!("{what} of {}{item}.", docs::escape(&machine.name))];
     docs::described(machine.documentation.as_deref(), &scope.manual, &mut lines);
+    docs::doubts_about(scope.device, SubjectKind::Machine, &machine.name, &mut lines);
     let row =
         |own: &PatternModel| [format!("[`{0}`](Self::{0})", own.name), format!("`{}`", own.bits), own.meaning.clone()];
     let rows: Vec<[String; 3]> = own.patterns.iter().map(row).collect();

@@ -5,7 +5,7 @@ use super::docs;
 use super::docs::WORDS;
 use super::links::Here;
 use super::scope::{ObjectBus, Scope};
-use crate::ir::{Binding, Device, Item, Procedure, Step, Type, Value};
+use crate::ir::{Binding, Device, Item, Procedure, Step, SubjectKind, Type, Value};
 use crate::passes::names_unique::{self, Case};
 
 /// A procedure, ready to be written.
@@ -38,9 +38,10 @@ fn documentation(scope: &Scope<'_>, own: &Procedure) -> Vec<String> {
         sentences.push(docs::sentence(&docs::escape(&own.name)));
     }
     sentences.extend(WORDS.place(&scope.manual, "", own.documentation.as_deref(), &own.names));
-    let paragraphs = sentences.into_iter().flat_map(|sentence| [String::new(), sentence]);
+    let mut lines: Vec<String> = sentences.into_iter().flat_map(|sentence| [String::new(), sentence]).collect();
+    docs::doubts_about(scope.device, SubjectKind::Procedure, &own.name, &mut lines);
     let rows: Vec<[String; 2]> = own.steps.iter().filter_map(|step| row(scope, step)).collect();
-    paragraphs.skip(1).chain(doc_table::table(["Item", "Value"], &rows)).collect()
+    lines.into_iter().skip(1).chain(doc_table::table(["Item", "Value"], &rows)).collect()
 }
 
 /// The item and the value of a write.

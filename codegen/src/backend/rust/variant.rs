@@ -22,6 +22,9 @@ pub(super) fn on_model(item: &Item, model: &str) -> Option<Item> {
     let mut own = Item { variants: ThinVec::new(), ..item.clone() };
     for variant in variants.filter(|own| own.models.iter().any(|name| glob(name, model))) {
         own.default = variant.default.clone().or(own.default);
+        if let (Some(quantity), Some(scale)) = (&mut own.quantity, &variant.scale) {
+            quantity.scale = Some(scale.clone());
+        }
         own.limits.low = variant.limits.low.clone().or(own.limits.low);
         own.limits.high = variant.limits.high.clone().or(own.limits.high);
         if !variant.limits.allowed.is_empty() {

@@ -4,14 +4,15 @@ use std::collections::hash_map::{Entry, HashMap};
 
 use super::at::{At, Literal, TextOr};
 use super::format::{CodeTableRow, CodesTable};
-use super::tree::{cited, Reader};
+use super::tree::{about, cited, Reader};
 use super::{place, value};
 use crate::diagnostics::{codes, Diagnostic};
-use crate::ir::{Availability, CodeRow, CodeTable, CompactString, Device, Type, Value};
+use crate::ir::{Availability, CodeRow, CodeTable, CompactString, Device, SubjectKind, Type, Value};
 use crate::text::brief;
 
 /// A table of codes.
 pub(super) fn table(reader: &mut Reader<'_, '_>, name: &At<String>, table: &CodesTable, device: &mut Device) {
+    let owner = name.value.as_str();
     let mut rows = Vec::with_capacity(table.rows.0.len());
     let plain = CodeTableRow::default();
     let mut distinct = table.distinct.then(Distinct::default);
@@ -26,7 +27,12 @@ pub(super) fn table(reader: &mut Reader<'_, '_>, name: &At<String>, table: &Code
             TextOr::Table(row) => (row.name.as_deref(), &**row),
         };
         let (origin, cite) = (reader.origin(key), row.cite.as_ref().map(cited));
-        device.doubts.extend(reader.doubts([row.doubt.as_ref(), row.doubts.as_ref()], origin, cite.as_deref()));
+        device.doubts.extend(about(
+            reader.doubts([row.doubt.as_ref(), row.doubts.as_ref()], origin, cite.as_deref()),
+            SubjectKind::Codes,
+            owner,
+            &key.value,
+        ));
         let as_before = distinct.as_mut().and_then(|distinct| distinct.before(key, row));
         if let Some(other) = as_before {
             let message = format!("the codes {} and {} have the same cells", brief(&other.value), brief(&key.value));

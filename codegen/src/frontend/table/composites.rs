@@ -3,9 +3,9 @@
 use super::at::At;
 use super::format::CompositeTable;
 use super::references::{References, ITEM};
-use super::tree::{cited, Reader};
+use super::tree::{about, cited, Reader};
 use crate::diagnostics::codes;
-use crate::ir::{Composite, Device};
+use crate::ir::{Composite, Device, SubjectKind};
 
 /// Adds one.
 pub(super) fn composite(
@@ -16,7 +16,12 @@ pub(super) fn composite(
     references: &mut References,
 ) {
     let (origin, cite) = (reader.origin(name), table.cite.as_ref().map(cited));
-    device.doubts.extend(reader.doubts([table.doubt.as_ref(), table.doubts.as_ref()], origin, cite.as_deref()));
+    device.doubts.extend(about(
+        reader.doubts([table.doubt.as_ref(), table.doubts.as_ref()], origin, cite.as_deref()),
+        SubjectKind::Composite,
+        &name.value,
+        "",
+    ));
     references.extend(table.parts.iter().map(|part| (part.clone(), ITEM)));
     references.extend(table.sign.iter().map(|sign| (sign.clone(), ITEM)));
     let message = match (table.parts.len(), table.base, table.sign.is_some(), table.negative.is_some()) {

@@ -13,7 +13,9 @@ use super::rows::ACCESSES;
 use super::tree::{cited, Reader};
 use super::{lints, place, types, value};
 use crate::diagnostics::{codes, Diagnostic};
-use crate::ir::{BitFieldEntry, BitMeaning, Doubts, EnumValue, Mark, Shape, Trigger, Type, TypeDef, TypeId, Zone};
+use crate::ir::{
+    BitFieldEntry, BitMeaning, Doubts, EnumValue, Mark, Shape, SubjectKind, Trigger, Type, TypeDef, TypeId, Zone,
+};
 use crate::source::Origin;
 use crate::text::brief;
 
@@ -117,7 +119,12 @@ impl Definitions {
         doubts: [&Option<OneOrMany<super::format::DoubtTable>>; 2],
     ) -> About<'t> {
         let (origin, cite) = (reader.origin(place), cite.as_ref().map(cited));
-        self.doubts.extend(reader.doubts(doubts.map(Option::as_ref), origin, cite.as_deref()));
+        self.doubts.extend(super::tree::about(
+            reader.doubts(doubts.map(Option::as_ref), origin, cite.as_deref()),
+            SubjectKind::Type,
+            &place.value,
+            "",
+        ));
         About { name: place.value.as_str().into(), doc: doc.as_deref(), cite, origin }
     }
 
@@ -186,7 +193,12 @@ impl Definitions {
             let zone = more.zone.as_ref().and_then(|zone| reader.word(zone, "zone", &zones));
             let cite = more.cite.as_ref().map(cited);
             let origin = reader.origin(key);
-            self.doubts.extend(reader.doubts([more.doubt.as_ref(), more.doubts.as_ref()], origin, cite.as_deref()));
+            self.doubts.extend(super::tree::about(
+                reader.doubts([more.doubt.as_ref(), more.doubts.as_ref()], origin, cite.as_deref()),
+                SubjectKind::Type,
+                &about.name,
+                &key.value,
+            ));
             unfilled(reader, key, name);
             let name = name.filter(|name| !nameless(reader, name, key, &about.name, "value"));
             let unnamed = || zone.map_or_else(|| format_compact!("value {first}"), |zone| zone_name(zone).into());
@@ -246,7 +258,12 @@ impl Definitions {
     ) -> BitFieldEntry {
         let (origin, cite) = (reader.origin(key), table.cite.as_ref().map(cited));
         unfilled(reader, key, name);
-        self.doubts.extend(reader.doubts([table.doubt.as_ref(), table.doubts.as_ref()], origin, cite.as_deref()));
+        self.doubts.extend(super::tree::about(
+            reader.doubts([table.doubt.as_ref(), table.doubts.as_ref()], origin, cite.as_deref()),
+            SubjectKind::Type,
+            owner,
+            &key.value,
+        ));
         let name = name.filter(|name| table.reserved.is_some() || !nameless(reader, name, key, owner, "bit"));
         let is_named = name.is_some();
         let name = name.map_or_else(|| format_compact!("bit {}", key.value), CompactString::from);

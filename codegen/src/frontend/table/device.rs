@@ -4,12 +4,12 @@ use super::at::At;
 use super::format::{AxesTable, DeviceTable, ManualTable, ModelTable, NumberOrText};
 use super::place;
 use super::spaces::Buses;
-use super::tree::{cited, Reader};
+use super::tree::{about, cited, Reader};
 use super::{lints, value};
 use crate::diagnostics::{codes, Diagnostic};
 use crate::ir::{
     AxisRange, AxisRule, AxisStep, CanOpenSettings, CiteUnit, CompactString, Device, EtherCatSettings, Identity,
-    Manual, ManualSection, Type, Variant,
+    Manual, ManualSection, SubjectKind, Type, Variant,
 };
 use crate::text::brief;
 
@@ -130,7 +130,12 @@ pub(super) fn model(reader: &mut Reader<'_, '_>, table: &At<ModelTable>, device:
     };
     let origin = reader.origin(name);
     let cite = own.cite.as_ref().map(cited);
-    device.doubts.extend(reader.doubts([own.doubt.as_ref(), own.doubts.as_ref()], origin, cite.as_deref()));
+    device.doubts.extend(about(
+        reader.doubts([own.doubt.as_ref(), own.doubts.as_ref()], origin, cite.as_deref()),
+        SubjectKind::Model,
+        &name.value,
+        "",
+    ));
     let constant = |literal: &super::at::Literal| value::convert(literal, Type::Opaque(None), false);
     device.variants.push(Variant {
         name: name.value.as_str().into(),

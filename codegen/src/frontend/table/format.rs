@@ -453,6 +453,12 @@ tables! {
         /// `high_first` or `low_first`: which word of a longer value comes first.
         #[cfg_attr(test, schemars(transform = schema::words(&["high_first", "low_first"])))]
         pub order: Option<At<String>>,
+        /// Whether `order` is an assumption, because the manual gives no order for rows without one.
+        pub order_assumed: bool,
+        /// What the manual prints before each number: `R` for `R01`.
+        pub prefix: Option<String>,
+        /// The least number of digits that the manual prints: 2 for `R01`.
+        pub digits: Option<u8>,
         /// Whether the bytes of a word are swapped.
         pub swap: bool,
         /// Numbers of the functions that the device takes (`[3, 6, 16]`).
@@ -577,7 +583,7 @@ tables! {
         #[serde(rename = "enum")]
         #[cfg_attr(test, schemars(transform = schema::keys(schema::VALUES)))]
         pub values: Option<At<TextOr<ValueEntries>>>,
-        /// `ro`, `rw`, `wo`, `const`, `rwr` or `rww`.
+        /// `ro`, `rw`, `wo`, `const`, `rwr` or `rww`; `?` if the manual does not state it.
         #[cfg_attr(test, schemars(transform = schema::words(&["ro", "rw", "wo", "const", "rwr", "rww", "?"])))]
         pub access: Option<At<String>>,
         /// `rx`, `tx`, `both` or `no`.

@@ -5,12 +5,12 @@ use std::collections::{BTreeMap, HashMap};
 use super::at::At;
 use super::format::{field_row, ImageField, ImageTable, Row};
 use super::rows::{Named, Rows};
-use super::tree::{cited, Reader};
+use super::tree::{about, cited, Reader};
 use super::{process, types};
 use crate::diagnostics::{codes, Diagnostic};
 use crate::ir::{
     Access, Binding, CompactString, Device, Direction, Group, GroupKind, ImageBinding, Item, ObjectCode, PdoEntry,
-    PdoEntryKind, ProcessImage, Type, TypeDef,
+    PdoEntryKind, ProcessImage, SubjectKind, Type, TypeDef,
 };
 use crate::text::brief;
 
@@ -87,7 +87,12 @@ pub(super) fn image(
         return;
     };
     let (origin, cite) = (reader.origin(table), own.cite.as_ref().map(cited));
-    device.doubts.extend(reader.doubts([own.doubt.as_ref(), own.doubts.as_ref()], origin, cite.as_deref()));
+    device.doubts.extend(about(
+        reader.doubts([own.doubt.as_ref(), own.doubts.as_ref()], origin, cite.as_deref()),
+        SubjectKind::Image,
+        &name,
+        "",
+    ));
     let order = own.order.as_ref().and_then(|word| reader.word(word, "order", &[("big", true), ("little", false)]));
     let mut group = Group::object(0, ObjectCode::Record);
     group.kind = GroupKind::Image { length };

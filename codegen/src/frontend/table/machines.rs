@@ -5,12 +5,12 @@ use super::format::{MachineTable, PatternTable, ProcedureTable, StepTable, Trans
 use super::machine_budget::MachineBudget;
 use super::outcomes::Names;
 use super::references::References;
-use super::tree::{cited, Reader};
+use super::tree::{about, cited, Reader};
 use super::{lints, outcomes, process, value};
 use crate::diagnostics::codes;
 use crate::ir::{
-    CompactString, Device, EnumValue, MessageField, Pattern, Procedure, Shape, StateMachine, Step, Transition, Type,
-    Value,
+    CompactString, Device, EnumValue, MessageField, Pattern, Procedure, Shape, StateMachine, Step, SubjectKind,
+    Transition, Type, Value,
 };
 use crate::text::brief;
 
@@ -32,7 +32,12 @@ pub(super) fn machine(
     }
     lints::machine(reader, table);
     let (origin, cite) = (reader.origin(name), table.cite.as_ref().map(cited));
-    device.doubts.extend(reader.doubts([table.doubt.as_ref(), table.doubts.as_ref()], origin, cite.as_deref()));
+    device.doubts.extend(about(
+        reader.doubts([table.doubt.as_ref(), table.doubts.as_ref()], origin, cite.as_deref()),
+        SubjectKind::Machine,
+        &name.value,
+        "",
+    ));
     let (state_type, states) = states(reader, table, device);
     let commands = patterns(reader, &table.commands);
     let names = Names::new(&states, &commands, device);
@@ -49,7 +54,7 @@ pub(super) fn machine(
     let mut rows = Vec::new();
     if let Some(matrix) = &table.matrix {
         rows = outcomes::read(reader, &matrix.value, &names, references);
-        device.doubts.extend(outcomes::doubts(reader, matrix));
+        device.doubts.extend(outcomes::doubts(reader, matrix, &name.value));
     }
     device.machines.push(StateMachine {
         name: text(name),
@@ -168,7 +173,12 @@ pub(super) fn procedure(
     references: &mut References,
 ) {
     let (origin, cite) = (reader.origin(name), table.cite.as_ref().map(cited));
-    device.doubts.extend(reader.doubts([table.doubt.as_ref(), table.doubts.as_ref()], origin, cite.as_deref()));
+    device.doubts.extend(about(
+        reader.doubts([table.doubt.as_ref(), table.doubts.as_ref()], origin, cite.as_deref()),
+        SubjectKind::Procedure,
+        &name.value,
+        "",
+    ));
     for own in table.steps.iter().filter_map(|step| step.value.argument.as_ref()) {
         if !table.arguments.iter().any(|known| known.value == own.value) {
             let known = table.arguments.iter().map(|known| known.value.as_str());

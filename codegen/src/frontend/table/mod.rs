@@ -389,7 +389,8 @@ impl<'a> Table<'a> {
         for (name, option) in &self.options {
             let (origin, cite) = (reader.origin(name), option.cite.as_ref().map(tree::cited));
             let doubts = [option.doubt.as_ref(), option.doubts.as_ref()];
-            device.doubts.extend(reader.doubts(doubts, origin, cite.as_deref()));
+            let own = reader.doubts(doubts, origin, cite.as_deref());
+            device.doubts.extend(tree::about(own, crate::ir::SubjectKind::Option, &name.value, ""));
         }
         for doubt in self.list::<format::DoubtTable>(reader, "doubts") {
             let origin = reader.origin(&doubt);

@@ -5,10 +5,11 @@ use std::collections::HashSet;
 use super::at::{At, TextOr};
 use super::format::{MatrixCell, MatrixRow, MatrixTable};
 use super::references::References;
-use super::tree::{cited, number_or_text, Reader};
+use super::tree::{about, cited, number_or_text, Reader};
 use crate::diagnostics::{codes, Diagnostic};
 use crate::ir::{
     Availability, CommandOutcomes, CompactString, Device, Documentation, Doubts, Outcome, Pattern, StateOutcome,
+    SubjectKind,
 };
 use crate::source::Span;
 use crate::text::brief;
@@ -62,15 +63,17 @@ pub(super) fn read(
     rows
 }
 
-/// The doubts of the table and of its rows.
-pub(super) fn doubts(reader: &mut Reader<'_, '_>, table: &At<MatrixTable>) -> Doubts {
+/// The doubts of the table and of its rows, which belong to this machine.
+pub(super) fn doubts(reader: &mut Reader<'_, '_>, table: &At<MatrixTable>, machine: &str) -> Doubts {
     let own = &table.value;
     let cite = own.cite.as_ref().map(cited);
-    let mut found = reader.doubts([own.doubt.as_ref(), own.doubts.as_ref()], reader.origin(table), cite.as_deref());
+    let of_table = reader.doubts([own.doubt.as_ref(), own.doubts.as_ref()], reader.origin(table), cite.as_deref());
+    let mut found = about(of_table, SubjectKind::Machine, machine, "");
     for (name, row) in own.rows.iter() {
         let (row, origin) = (&row.value, reader.origin(name));
         let cite = row.cite.as_ref().map(cited);
-        found.extend(reader.doubts([row.doubt.as_ref(), row.doubts.as_ref()], origin, cite.as_deref()));
+        let of_row = reader.doubts([row.doubt.as_ref(), row.doubts.as_ref()], origin, cite.as_deref());
+        found.extend(about(of_row, SubjectKind::Machine, machine, &name.value));
     }
     found
 }

@@ -14,8 +14,8 @@ use super::tree::{cited, Reader};
 use super::{given, place, scale, types, value};
 use crate::diagnostics::{codes, Code, Diagnostic};
 use crate::ir::{
-    Access, Availability, Behaviour, Conversion, Documentation, Extension, Item, Mappable, ModbusTable, Quantity,
-    Shape, Storage, Type, TypeDef, TypeId,
+    Access, Availability, Behaviour, Binding, Conversion, Documentation, Extension, Item, Mappable, ModbusTable,
+    Quantity, RegisterSpace, Shape, Storage, Type, TypeDef, TypeId,
 };
 use crate::source::Span;
 use crate::text::brief;
@@ -111,11 +111,11 @@ impl Rows {
             }
             let named = Named { name: &name, key, number, end: row.end };
             let ty = self.ty(reader, named, &complete);
-            let before = reader.diagnostics.list().len();
+            let before = reader.diagnostics.total();
             let bindings = self.bindings(reader, space, named, &complete, (repeat, ty));
             if bindings.is_empty() {
                 // What is wrong with the address that it has was told.
-                if reader.diagnostics.list().len() > before {
+                if reader.diagnostics.total() > before {
                     break;
                 }
                 self.no_address(reader, space, named, &complete);
@@ -300,8 +300,10 @@ impl Rows {
         (item.name, item.at.name) = (named.name.into(), reader.span(named.key));
         if let Some(ty) = ty {
             item.ty = ty;
-            item.is_meaning_absent = states_no_meaning(row);
             item.at.ty = row.ty.as_ref().map_or(item.at.ty, |ty| reader.span(ty));
+        }
+        if row.bits.is_some() || row.values.is_some() {
+            item.is_meaning_absent = states_no_meaning(row);
         }
         self.access(reader, item, row);
         self.values(reader, item, named, row);
@@ -338,9 +340,18 @@ impl Rows {
             item.access = reader.word(access, "access", &known).unwrap_or(item.access);
             item.at.access = reader.span(access);
         }
-        // Nobody writes what means nothing.
-        if row.reserved == Some(true) && item.access.writable() {
+        // A reserved sub-index has no value to write, whatever access rights its row inherits.
+        let is_object = item.object().is_some_and(|(_, sub)| sub > 0);
+        if row.reserved == Some(true) && is_object && item.access.readable() && item.access.writable() {
             (item.access, item.is_access_assumed) = (Access::ReadOnly, false);
+        }
+        // Inputs of Modbus have no function that writes.
+        let is_input = |binding: &Binding| match binding {
+            Binding::Register(own) => matches!(own.space, RegisterSpace::Input | RegisterSpace::DiscreteInput),
+            _ => false,
+        };
+        if item.is_access_assumed && item.bindings.iter().all(is_input) {
+            item.access = Access::ReadOnly;
         }
         if let Some(pdo) = &row.pdo {
             item.mappable = reader.word(pdo, "direction of PDOs", &DIRECTIONS).unwrap_or(item.mappable);

@@ -1,5 +1,7 @@
 //! What the number of a register means on each bus.
 
+use compact_str::{format_compact, CompactString};
+
 use super::at::{At, Entries, FlagOr};
 use super::format::{ModbusRule, ObjectRule, SpaceTable};
 use super::tree::Reader;
@@ -25,6 +27,11 @@ pub(super) struct Space {
     /// Whether a shorter value fills all bits of its numbers.
     extend: bool,
     windows: Vec<Window>,
+    /// What the manual prints before each number on Modbus, and the least number of digits.
+    pub prefix: CompactString,
+    pub digits: u8,
+    /// Whether the order of words is an assumption.
+    pub is_order_assumed: bool,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -108,7 +115,8 @@ pub(super) fn read(reader: &mut Reader<'_, '_>, tables: &Entries<SpaceTable>) ->
 }
 
 fn space(reader: &mut Reader<'_, '_>, name: &At<String>, table: &SpaceTable) -> Space {
-    let modbus = table.modbus.as_ref().map(|rule| modbus(reader, rule));
+    let rule = table.modbus.as_ref();
+    let modbus = rule.map(|rule| modbus(reader, rule));
     // A number of a table of bits is one bit.
     let is_bit = modbus.is_some_and(|own| matches!(own.space, RegisterSpace::Coil | RegisterSpace::DiscreteInput));
     if table.extend && modbus.is_none_or(|_| is_bit) {
@@ -119,6 +127,9 @@ fn space(reader: &mut Reader<'_, '_>, name: &At<String>, table: &SpaceTable) -> 
         name: name.value.clone(),
         bits: table.bits.filter(|&bits| bits > 0).unwrap_or(if is_bit { 1 } else { REGISTER_BITS }),
         modbus,
+        prefix: rule.and_then(|rule| rule.prefix.as_deref()).unwrap_or_default().into(),
+        digits: rule.and_then(|rule| rule.digits).unwrap_or(1).min(9),
+        is_order_assumed: rule.is_some_and(|rule| rule.order_assumed),
         canopen: table.canopen.as_ref().map(objects),
         ethercat: table.ethercat.as_ref().map(objects),
         parameter: table.parameter.as_ref().is_some_and(|rule| !matches!(rule, FlagOr::Flag(false))),
@@ -261,10 +272,11 @@ impl Space {
         // A part of a number is written into all of it, and fills nothing.
         let extended = self.extend && unit > 1 && numbers.bit_offset.is_none();
         let bits = if extended { bits.next_multiple_of(self.bits.into()) } else { bits };
-        Some(Binding::Register(Box::new(RegisterBinding {
+        let mut register = RegisterBinding {
             space: rule.space,
             address,
-            printed: Some(numbers.first),
+            printed: CompactString::default(),
+            is_order_assumed: self.is_order_assumed && numbers.low_word_first.is_none(),
             count: u16::try_from(bits.div_ceil(unit)).unwrap_or(u16::MAX).max(1),
             low_word_first: numbers.low_word_first.unwrap_or(rule.low_word_first),
             bytes_swapped: numbers.bytes_swapped.unwrap_or(rule.bytes_swapped),
@@ -272,7 +284,18 @@ impl Space {
             // A number of 32 bits is one address, and two registers.
             words_per_address: if unit == 16 { (self.bits / 16).max(1) } else { 1 },
             extended,
-        })))
+        };
+        register.printed = self.printed(numbers.first, &register);
+        Some(Binding::Register(Box::new(register)))
+    }
+
+    /// The numbers as the manual prints them.
+    fn printed(&self, first: u32, register: &RegisterBinding) -> CompactString {
+        let (prefix, digits) = (self.prefix.as_str(), usize::from(self.digits));
+        match u32::from(register.last() - register.address) {
+            0 => format_compact!("{prefix}{first:0digits$}"),
+            further => format_compact!("{prefix}{first:0digits$}–{prefix}{:0digits$}", first.saturating_add(further)),
+        }
     }
 }
 

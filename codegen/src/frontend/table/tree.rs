@@ -12,7 +12,7 @@ use toml::de::{DeString, DeTable, DeValue, ValueDeserializer};
 use super::at::{At, Literal};
 use super::format::{DoubtTable, NumberOrText, OptionTable};
 use crate::diagnostics::{codes, Code, Diagnostic, Diagnostics};
-use crate::ir::{Documentation, Doubt, Doubts, LocalText, Severity, Texts};
+use crate::ir::{Documentation, Doubt, Doubts, LocalText, Severity, Subject, SubjectKind, Texts};
 use crate::limits::MAX_UNKNOWN_KEYS;
 use crate::source::{FileId, Origin, Source, Span};
 use crate::text::{brief, edit_distance, standard_and_clause};
@@ -268,10 +268,18 @@ impl<'a> Reader<'a, '_> {
             why: table.why.clone(),
             origin,
             cite: table.cite.as_ref().map(cited).or(cite.map(str::to_owned)).map(CompactString::from),
+            subject: None,
             severity: table.severity.as_ref().and_then(|word| self.word(word, "severity", &words)).unwrap_or_default(),
         };
         tables.map(doubt).collect()
     }
+}
+
+/// Doubts about an element of the device.
+pub(super) fn about(doubts: Doubts, kind: SubjectKind, name: &str, element: &str) -> Doubts {
+    let subject = Subject { kind, name: name.into(), element: element.into() };
+    let about = |doubt| Doubt { subject: Some(Box::new(subject.clone())), ..doubt };
+    doubts.into_iter().map(about).collect()
 }
 
 /// Pages or lines as one text.

@@ -1,6 +1,6 @@
     /// Torque.
     ///
-    /// Modbus 0 (holding; wire 0; FC 3/6/16), INTEGER16, rw, in 0.1 Nm.
+    /// Modbus 0 (holding; wire 0; FC 3/6/16), INTEGER16, rw, 1 LSB = 0.1 Nm.
     /// Accessor: [`torque`](super::Press::torque).
     ///
     /// Torque limit.

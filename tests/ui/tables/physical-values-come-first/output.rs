@@ -1,4 +1,4 @@
-            /// Temperature: range -20.0 … 100.0 °C (raw \-200 … 1000), default 30.0 °C (raw 300). As all models have it: [`objects::TEMPERATURE`].
+            /// Temperature: range -20.0 … 100.0 °C (raw \-200 … 1000), default 30.0 °C (raw 300). Handle for all models: [`objects::TEMPERATURE`].
             pub const TEMPERATURE: objects::ReadWrite<rt::Scaled<i16, 1, 10>> = rt::Item::of_model(
                 objects::TEMPERATURE,
                 rt::Range::Between(-200, 1000),
@@ -6,10 +6,12 @@
             );
     /// Temperature.
     ///
-    /// Modbus 0 (holding; wire 0; FC 3/6/16), INTEGER16, rw, default 25.0 °C (raw 250), range -20.0 … 200.0 °C (raw \-200 … 2000), in 0.1 °C.
+    /// Modbus 0 (holding; wire 0; FC 3/6/16), INTEGER16, rw, default 25.0 °C (raw 250), range -20.0 … 200.0 °C (raw \-200 … 2000), 1 LSB = 0.1 °C.
     /// Accessor: [`temperature`](super::Press::temperature).
     ///
     /// The device rounds to steps of 0.5 °C (raw 5).
+    ///
+    /// Default and range of the row apply to the other models.
     ///
     /// Of P2: default 30.0 °C (raw 300), range ≤ 100.0 °C (raw ≤ 1000).
     ///
@@ -24,7 +26,7 @@
     );
     /// Speed.
     ///
-    /// Modbus 1 (holding; wire 1; FC 3/6/16), INTEGER16, rw, range -100.00 … 100.00 rev/s (raw \-10000 … 10000), in -0.01 rev/s.
+    /// Modbus 1 (holding; wire 1; FC 3/6/16), INTEGER16, rw, range -100.00 … 100.00 rev/s (raw \-10000 … 10000), 1 LSB = -0.01 rev/s.
     /// Accessor: [`speed`](super::Press::speed).
     ///
     /// Chapter Values.
@@ -37,7 +39,7 @@
     );
     /// Frequency.
     ///
-    /// Modbus 2 (holding; wire 2; FC 3/6/16), UNSIGNED16, rw, default 500 Hz (raw 2), range 250 … 1000 Hz (raw 1 … 4), stands for 1000 / raw Hz.
+    /// Modbus 2 (holding; wire 2; FC 3/6/16), UNSIGNED16, rw, default 500 Hz (raw 2), range 250 … 1000 Hz (raw 1 … 4), physical value = 1000 / raw Hz.
     /// Accessor: [`frequency`](super::Press::frequency).
     ///
     /// Chapter Values.
@@ -65,7 +67,7 @@
     );
     /// Level.
     ///
-    /// Modbus 4 (holding; wire 4; FC 3/6/16), UNSIGNED16, rw, default raw 10, range raw ≤ 100, stands for raw × 0.1 / [Time](TIME) V.
+    /// Modbus 4 (holding; wire 4; FC 3/6/16), UNSIGNED16, rw, default raw 10, range raw ≤ 100, physical value = raw × 0.1 / [Time](TIME) V.
     /// Accessor: [`level`](super::Press::level).
     ///
     /// Chapter Values.
@@ -79,7 +81,7 @@
     );
     /// Steps.
     ///
-    /// Modbus 5 (holding; wire 5; FC 3/6/16), INTEGER16, rw, default -268.15 °C (raw 10), one of -273.15 °C (raw 0), -268.15 … -263.15 °C (raw 10 … 20), stands for raw × 0.5 − 273.15 °C.
+    /// Modbus 5 (holding; wire 5; FC 3/6/16), INTEGER16, rw, default -268.15 °C (raw 10), one of -273.15 °C (raw 0), -268.15 … -263.15 °C (raw 10 … 20), physical value = raw × 0.5 − 273.15 °C.
     /// Accessor: [`steps`](super::Press::steps).
     ///
     /// Chapter Values.

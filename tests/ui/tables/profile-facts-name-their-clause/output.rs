@@ -1,6 +1,6 @@
     /// Torque actual value.
     ///
-    /// 0x6077:00, INTEGER16, ro, in 0.1 %.
+    /// 0x6077:00, INTEGER16, ro, 1 LSB = 0.1 %.
     /// Accessor: [`torque_actual_value`](super::Axis::torque_actual_value).
     ///
     /// Actual torque, relative to the rated torque.

@@ -21,7 +21,7 @@ impl Place<'_> {
         }
         let tables = scope.device.map_or(&[][..], |device| &device.modbus);
         let access = item.access_on("modbus");
-        facts.extend(self.modbus.map(|own| format!("Modbus {}", register::text(own, access, tables))));
+        facts.extend(self.modbus.map(|own| format!("Modbus {}", docs::escape(&register::text(own, access, tables)))));
         facts.extend(self.serial.map(|code| format!("parameter 0x{code:04X}")));
         facts.extend(self.image.map(|field| field.facts()));
         facts.extend(self.numbers());
@@ -32,8 +32,8 @@ impl Place<'_> {
     pub fn heading(&self) -> String {
         let object = self.canopen.or(self.coe).map(|(index, sub)| format!("0x{index:04X}:{sub:02X}"));
         let register = self.modbus.map(|own| match own.bit_offset {
-            Some(bit) => format!("register {} from bit {bit}", register::printed(own)),
-            None => format!("register {}", register::printed(own)),
+            Some(bit) => format!("register {} from bit {bit}", docs::escape(&register::printed(own))),
+            None => format!("register {}", docs::escape(&register::printed(own))),
         });
         let serial = self.serial.map(|code| format!("parameter 0x{code:04X}"));
         let found: Vec<String> = object.into_iter().chain(register).chain(serial).collect();
