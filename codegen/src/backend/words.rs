@@ -298,6 +298,17 @@ impl Words<'_> {
     /// The only values and ranges of values, `1, 3 to 7`; of many, the first.
     pub fn allowed(&self, limits: &Limits, physical: Option<&Physical<'_>>, raw: &dyn Fn(&Value) -> String) -> String {
         const SHOWN: usize = 16;
+        self.first_allowed(limits, physical, raw, SHOWN)
+    }
+
+    /// The first so many of them.
+    pub fn first_allowed(
+        &self,
+        limits: &Limits,
+        physical: Option<&Physical<'_>>,
+        raw: &dyn Fn(&Value) -> String,
+        shown: usize,
+    ) -> String {
         let unit = |unit: &str| self.escaped(unit);
         let one = |(first, last): &(Value, Value)| match (physical, first == last) {
             (None, true) => raw(first),
@@ -305,8 +316,8 @@ impl Words<'_> {
             (Some(physical), true) => physical.value(first, raw, &unit),
             (Some(physical), false) => physical.range((Some(first), Some(last)), raw, &unit),
         };
-        let mut list: Vec<String> = limits.allowed.iter().take(SHOWN).map(one).collect();
-        if limits.allowed.len() > SHOWN {
+        let mut list: Vec<String> = limits.allowed.iter().take(shown).map(one).collect();
+        if limits.allowed.len() > shown {
             list.push("…".to_owned());
         }
         list.join(", ")

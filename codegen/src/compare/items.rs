@@ -182,7 +182,7 @@ fn range(item: &Item) -> String {
     let physical = Physical::of(item.quantity.as_deref());
     match item.limits.allowed.is_empty() {
         true => PLAIN.range(&item.limits, physical.as_ref(), &Value::to_string),
-        false => PLAIN.allowed(&item.limits, physical.as_ref(), &Value::to_string),
+        false => PLAIN.first_allowed(&item.limits, physical.as_ref(), &Value::to_string, usize::MAX),
     }
 }
 

@@ -1,0 +1,47 @@
+            /// Level: range -2.0 … 200.0 °C (raw \-20 … 2000), default 5.0 °C (raw 50). Handle for all models: [`objects::LEVEL`].
+            pub const LEVEL: objects::ReadWrite<i16> = rt::Item::of_model(
+                objects::LEVEL,
+                rt::Range::Between(-20, 2000),
+                rt::Initial::Value(50),
+            );
+            /// Level: range \-30 to 2000, default 7. Handle for all models: [`objects::LEVEL`].
+            pub const LEVEL: objects::ReadWrite<i16> = rt::Item::of_model(
+                objects::LEVEL,
+                rt::Range::Between(-30, 2000),
+                rt::Initial::Value(7),
+            );
+    /// Level.
+    ///
+    /// Modbus 0 (holding; wire 0; FC 3/6/16), INTEGER16, rw, default 5.0 °C (raw 50), range -2.0 … 200.0 °C (raw \-20 … 2000), 1 LSB = 0.1 °C.
+    /// Accessor: [`level`](super::Press::level).
+    ///
+    /// Default and range of the row apply to the other models.
+    ///
+    /// Of P2: default 7, at least \-30, 1 LSB = 1 °C.
+    ///
+    /// Writes are checked against the range of all models and buses: -3.0 … 200.0 °C (raw \-30 … 2000).
+    ///
+    /// Chapter Values.
+    pub const LEVEL: ReadWrite<i16> = ReadWriteI16::new(
+        rt::OnModbus::modbus(rt::Register::holding(0)),
+        "Level",
+        rt::Range::Between(-30, 2000),
+        rt::Initial::Value(50),
+        "°C",
+        rt::Flags::NONE,
+    );
+    /// P2.
+    #[allow(clippy::approx_constant)]
+    pub mod p2 {
+        /// Handles of items in whose values models differ.
+        pub mod objects {
+            use ::lexibus as rt;
+            use super::super::super::objects;
+            /// Level: range \-30 to 2000, default 7. Handle for all models: [`objects::LEVEL`].
+            pub const LEVEL: objects::ReadWrite<i16> = rt::Item::of_model(
+                objects::LEVEL,
+                rt::Range::Between(-30, 2000),
+                rt::Initial::Value(7),
+            );
+        }
+    }

@@ -1,0 +1,43 @@
+    /// Speed.
+    ///
+    /// Modbus R01 (holding; wire 0x8001; FC 3/6/16; 32 bits an address; high word first), INTEGER32, rw.
+    /// Accessor: [`speed`](super::Press::speed).
+    ///
+    /// Speed of the slide: −10 … 10, ×2, the drive’s.
+    ///
+    /// Chapter Registers.
+    pub const SPEED: ReadWrite<i32> = ReadWriteI32::register(
+        rt::Register::high_first(32769, 2).words_per_address(2),
+        "Speed",
+        rt::Flags::NONE,
+    );
+    /// Speed: register R01.
+    ///
+    /// Speed of the slide: −10 … 10, ×2, the drive’s.
+    ///
+    /// Constant: [`objects::SPEED`].
+    pub fn speed(&mut self) -> objects::ReadWriteAccess<'_, C, i32> {
+        objects::SPEED.at(&mut self.client)
+    }
+    /// Gain.
+    ///
+    /// Modbus 1 (holding; wire 1; FC 3/6/16), UNSIGNED16, rw.
+    /// Accessor: [`gain`](super::Press::gain).
+    ///
+    /// Chapter Parameters.
+    pub const GAIN: ReadWrite<u16> = ReadWriteU16::register(
+        rt::Register::holding(1),
+        "Gain",
+        rt::Flags::NONE,
+    );
+    /// Time.
+    ///
+    /// Modbus 2–3 (holding; wire 2–3; FC 3/16; low word first (assumed)), UNSIGNED32, rw.
+    /// Accessor: [`time`](super::Press::time).
+    ///
+    /// Chapter Parameters.
+    pub const TIME: ReadWrite<u32> = ReadWriteU32::register(
+        rt::Register::low_first(2, 2),
+        "Time",
+        rt::Flags::NONE,
+    );
