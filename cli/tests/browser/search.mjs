@@ -19,8 +19,8 @@ const FOUND = [
   ["kollmorgen-akd/index.html", "F125", /^F125 synchronisation lost/, "kollmorgen-akd/codes.html#faults-F125"],
   ["eco/index.html", "0x8700 synchronisation", /^34 synchronisation timed out/, "eco/codes.html#ethercat_alarms-34"],
   ["aec-vector-step/index.html", "register 63", /^register 63–64 Rvel/, "aec-vector-step/motion-parameters.html#Rvel"],
-  ["eco/index.html", "32848", /^register 80 \(wire 32848\) mechatronic_80/, "eco/registers.html#mechatronic_80"],
-  ["eco/index.html", "0x8050", /^register 80 \(wire 32848\) mechatronic_80/, "eco/registers.html#mechatronic_80"],
+  ["eco/index.html", "32848", /^register R80 \(wire 0x8050\) mechatronic_80/, "eco/registers.html#mechatronic_80"],
+  ["eco/index.html", "0x8050", /^register R80 \(wire 0x8050\) mechatronic_80/, "eco/registers.html#mechatronic_80"],
   ["kollmorgen-akd/index.html", "valore di comando di velocità", /^0x60FF Velocity command value/, "kollmorgen-akd/profile-objects.html#0x60FF"],
   // A code between the ends of a range.
   ["eco/index.html", "0x8642", /^0x8000 to 0x8FFF monitoring/, "eco/codes.html#emergency-0x8000_to_0x8FFF"],
