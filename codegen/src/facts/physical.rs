@@ -16,7 +16,7 @@ impl<'q> Physical<'q> {
         Physical::scaled(quantity.scale.as_ref()?, shown_unit(quantity))
     }
 
-    /// The same for a scale of its own.
+    /// The same for another scale.
     pub(crate) fn scaled(scale: &'q Scale, unit: &'q str) -> Option<Self> {
         let is_raw = matches!(scale, Scale::Linear { factor, offset } if *factor == 1.0 && *offset == 0.0);
         (!is_raw).then_some(Physical { unit, scale })

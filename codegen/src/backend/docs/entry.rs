@@ -58,7 +58,7 @@ pub(super) struct Doubt {
 }
 
 impl Row {
-    /// By what a search finds it: each address once, that of the row in the words of the row unless it has more.
+    /// The addresses for the search, each once. The address of the row is as the row shows it, unless more is known.
     pub fn lookups(&self) -> Vec<&str> {
         let (own, others): (Vec<&str>, Vec<&str>) =
             self.addresses.iter().map(String::as_str).partition(|address| address.starts_with(&self.number));
@@ -81,7 +81,7 @@ impl Row {
     }
 }
 
-/// The lines of a program that read and write items, by where these are.
+/// The lines of a program that read and write items, by the address of the item in memory.
 pub(super) type Calls = HashMap<*const Item, Vec<String>>;
 
 /// What is known of a description beside its items.
@@ -97,17 +97,9 @@ pub(super) struct Known<'d> {
     pub findings: &'d Findings,
 }
 
-impl Known<'_> {
-    /// The ambiguities about an element of the device that has no list of its own.
-    fn about(&self, kind: SubjectKind, name: &str) -> Vec<Doubt> {
-        about(self.doubts, kind, name, self.manual)
-    }
-}
-
 /// The ambiguities of a device about an element of this kind and name, ready to be written.
 pub(super) fn about(all: &[crate::ir::Doubt], kind: SubjectKind, name: &str, manual: &Manual) -> Vec<Doubt> {
-    let own: Vec<_> = all.iter().filter(|doubt| doubt.is_about(kind, name)).cloned().collect();
-    doubts(&own, manual)
+    doubts(all.iter().filter(|doubt| doubt.is_about(kind, name)), manual)
 }
 
 /// What rows of one page have in common.
@@ -124,9 +116,6 @@ impl Rows<'_> {
     pub fn row(&mut self, item: &Item, number: String, by_name: bool) -> Row {
         let anchor = self.names.anchor(if by_name && !item.name.is_empty() { &item.name } else { &number });
         let basic = words::basic(self.types, item.ty);
-        // The first row with a type shows all that is known of it.
-        let is_first = !self.shown.iter().any(|(ty, ..)| *ty == item.ty);
-        let definition = words::definition(self.types, item.ty).filter(|_| is_first);
         let (mut drawn, mut labels, mut same_as) = (None, Vec::new(), None);
         match self.shown.iter().find(|(ty, ..)| *ty == item.ty) {
             Some((_, anchor, name)) => same_as = Some((anchor.clone(), name.clone())),
@@ -138,6 +127,8 @@ impl Rows<'_> {
                 }
             }
         }
+        // The first row with a type shows the facts about it.
+        let definition = words::definition(self.types, item.ty).filter(|_| same_as.is_none());
         let addresses = words::addresses(item, self.known.modbus);
         let lookups: Vec<String> =
             addresses.iter().map(|own| own.lookup.clone()).filter(|own| !own.is_empty()).collect();
@@ -160,7 +151,9 @@ impl Rows<'_> {
             translations: words::translations(item.documentation.as_deref()),
             elsewhere,
             doubts: doubts(&item.doubts, self.known.manual),
-            doubts_of_type: definition.map(|own| self.known.about(SubjectKind::Type, &own.name)).unwrap_or_default(),
+            doubts_of_type: definition
+                .map(|own| about(self.known.doubts, SubjectKind::Type, &own.name, self.known.manual))
+                .unwrap_or_default(),
             findings: self.known.findings.of_item(item),
             rust: self.known.calls.get(&std::ptr::from_ref(item)).cloned().unwrap_or_default(),
             bits: drawn,
@@ -211,7 +204,7 @@ fn subject(own: &Subject) -> String {
 }
 
 /// Doubts, ready to be written.
-pub(super) fn doubts(doubts: &[crate::ir::Doubt], manual: &Manual) -> Vec<Doubt> {
+pub(super) fn doubts<'d>(doubts: impl IntoIterator<Item = &'d crate::ir::Doubt>, manual: &Manual) -> Vec<Doubt> {
     let doubt = |own: &crate::ir::Doubt| Doubt {
         subject: own.subject.as_deref().map(subject).unwrap_or_default(),
         says: sentence(&own.says),
@@ -220,7 +213,7 @@ pub(super) fn doubts(doubts: &[crate::ir::Doubt], manual: &Manual) -> Vec<Doubt>
         cite: own.cite.as_ref().map(|cite| PLAIN.citation(manual, "", cite)).unwrap_or_default(),
         severity: own.severity,
     };
-    let mut ready: Vec<Doubt> = doubts.iter().map(doubt).collect();
+    let mut ready: Vec<Doubt> = doubts.into_iter().map(doubt).collect();
     ready.sort_by_key(|own| own.severity);
     ready
 }

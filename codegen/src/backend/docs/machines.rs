@@ -197,7 +197,7 @@ fn outcome(own: &Outcome) -> String {
 /// The diagram; `None` without a transition between states.
 fn diagram(own: &StateMachine) -> Option<Diagram> {
     let place = |name: &str| own.states.iter().position(|state| state.name == name);
-    // Transitions from any state leave a box of their own, behind the states.
+    // Transitions from any state leave one more box, after those of the states.
     let any = own.states.len();
     let from = |way: &Transition| way.from.as_ref().map_or(Some(any), |name| place(name));
     let ways: Vec<(usize, usize, String)> = own

@@ -55,14 +55,14 @@ pub(super) fn overview(device: &Device, file: Option<&FileInfo>, manual: &Manual
         constants: own.constants.iter().map(|(name, value)| (name.to_string(), PLAIN.value(value))).collect(),
     });
     let translations = words::translations(device.documentation.as_deref());
-    Overview { facts, translations, identity, models: models.collect(), doubts: entry::doubts(&doubts(device), manual) }
+    Overview { facts, translations, identity, models: models.collect(), doubts: entry::doubts(doubts(device), manual) }
 }
 
 /// The ambiguities of a device that no other page shows: its own, those of numbers of the machine, and those of chapters without items.
-fn doubts(device: &Device) -> Vec<crate::ir::Doubt> {
+fn doubts(device: &Device) -> impl Iterator<Item = &crate::ir::Doubt> {
     let given = device.given.iter().flat_map(|own| &own.doubts);
     let empty = device.groups.iter().filter(|group| group.index().is_none() && group.items.is_empty());
-    device.doubts.iter().chain(given).chain(empty.flat_map(|group| &group.doubts)).cloned().collect()
+    device.doubts.iter().chain(given).chain(empty.flat_map(|group| &group.doubts))
 }
 
 fn identity(device: &Device) -> Vec<(&'static str, String)> {

@@ -72,7 +72,7 @@ pub(super) struct Address {
     pub number: String,
     /// By what a search finds it: printed and wire address; empty if it only repeats another address.
     pub lookup: String,
-    /// All that is known of the address.
+    /// The address with all its facts.
     pub text: String,
 }
 

@@ -7,7 +7,7 @@ use super::docs::WORDS;
 use super::links::is_derive;
 use super::literal;
 use super::options::RustOptions;
-use crate::backend::words;
+use super::scope::Scope;
 use crate::ir::{CodeRow, CodeTable, Device, SubjectKind, Value};
 use crate::passes::names_unique::{self, Case};
 
@@ -24,17 +24,17 @@ pub(super) struct CodeTableModel {
     pub ty: Option<CodeTypeModel>,
 }
 
-pub(super) fn models(device: &Device, options: &RustOptions) -> Vec<CodeTableModel> {
+pub(super) fn models(scope: &Scope<'_>, device: &Device, options: &RustOptions) -> Vec<CodeTableModel> {
     let tables: Vec<&CodeTable> = device.code_tables.iter().filter(|table| !table.rows.is_empty()).collect();
     let wishes = names_unique::numbered(tables.iter().map(|table| table.name.as_str()), "codes");
     let names = names_unique::unique(&wishes, &bus_facts::RESERVED, Case::Snake);
     let types = names_unique::unique(&wishes, &["Self"], Case::Pascal);
     let named = tables.iter().zip(names.iter().zip(types));
-    named.map(|(table, (name, ty))| model(table, (name.to_ascii_uppercase(), ty), device, options)).collect()
+    named.map(|(table, (name, ty))| model(table, (name.to_ascii_uppercase(), ty), scope, options)).collect()
 }
 
-fn model(table: &CodeTable, (name, ty): (String, String), device: &Device, options: &RustOptions) -> CodeTableModel {
-    let manual = &words::manual(device);
+fn model(table: &CodeTable, (name, ty): (String, String), scope: &Scope<'_>, options: &RustOptions) -> CodeTableModel {
+    let manual = &scope.manual;
     let mut docs = vec![docs::sentence(&docs::escape(&table.name))];
     let text = table.documentation.as_ref().map_or("", |own| own.text.as_str());
     if !text.is_empty() {
@@ -43,7 +43,7 @@ fn model(table: &CodeTable, (name, ty): (String, String), device: &Device, optio
     docs.extend(
         WORDS.place(manual, "", table.documentation.as_deref(), &[]).into_iter().flat_map(|own| [String::new(), own]),
     );
-    docs::doubts_about(Some(device), SubjectKind::Codes, &table.name, &mut docs);
+    docs::doubts_about(scope, SubjectKind::Codes, &table.name, &mut docs);
     if !table.buses.is_empty() {
         docs.extend([String::new(), format!("On {}.", docs::escape(&table.buses.join(", ")))]);
     }

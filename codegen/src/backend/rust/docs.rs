@@ -13,7 +13,7 @@ pub(super) use crate::backend::words::sentence;
 use crate::backend::words::{capital, row_of};
 use crate::backend::words::{Words, NO_LINK};
 use crate::facts::physical::Physical;
-use crate::ir::{Binding, Condition, Device, Documentation, Doubt, Item, Manual, SubjectKind, Type, TypeId, Value};
+use crate::ir::{Binding, Condition, Documentation, Doubt, Item, Manual, SubjectKind, Type, TypeId, Value};
 
 /// Sentences for doc comments.
 pub(super) const WORDS: Words<'static> = Words { escape, link: NO_LINK };
@@ -70,9 +70,7 @@ pub(super) fn item(item: &Item, name: &str, chapter: Option<&str>, scope: &Scope
     let chapter = chapter.filter(|chapter| !chapter.trim().is_empty());
     let chapter = chapter.map(|chapter| format!("Chapter {}", sentence(&escape(chapter))));
     paragraphs.push(chapter.into_iter().chain(place).collect::<Vec<_>>().join(" "));
-    let mut doubts: Vec<&Doubt> = item.doubts.iter().collect();
-    doubts.sort_by_key(|own| own.severity);
-    paragraphs.extend(doubts.into_iter().map(|own| WORDS.doubt(&scope.manual, own)));
+    paragraphs.extend(doubts(item.doubts.iter(), &scope.manual));
     for paragraph in paragraphs.into_iter().filter(|paragraph| !paragraph.is_empty()) {
         lines.extend([String::new(), paragraph]);
     }
@@ -121,14 +119,18 @@ pub(super) fn described(documentation: Option<&Documentation>, manual: &Manual, 
     }
 }
 
-/// The ambiguities about an element of the device that has no list of its own, the most severe first, in paragraphs of their own.
-pub(super) fn doubts_about(device: Option<&Device>, kind: SubjectKind, name: &str, lines: &mut Vec<String>) {
-    let Some(device) = device else { return };
-    let mut doubts: Vec<&Doubt> = device.doubts.iter().filter(|doubt| doubt.is_about(kind, name)).collect();
-    doubts.sort_by_key(|doubt| doubt.severity);
-    let manual = crate::backend::words::manual(device);
-    for doubt in doubts {
-        lines.extend([String::new(), WORDS.doubt(&manual, doubt)]);
+/// Ambiguities, the most severe first.
+fn doubts<'d>(list: impl Iterator<Item = &'d Doubt>, manual: &Manual) -> Vec<String> {
+    let mut list: Vec<&Doubt> = list.collect();
+    list.sort_by_key(|doubt| doubt.severity);
+    list.into_iter().map(|doubt| WORDS.doubt(manual, doubt)).collect()
+}
+
+/// The ambiguities of a device about an element, in paragraphs.
+pub(super) fn doubts_about(scope: &Scope<'_>, kind: SubjectKind, name: &str, lines: &mut Vec<String>) {
+    let all = scope.device.into_iter().flat_map(|device| &device.doubts);
+    for doubt in doubts(all.filter(|doubt| doubt.is_about(kind, name)), &scope.manual) {
+        lines.extend([String::new(), doubt]);
     }
 }
 
@@ -137,7 +139,7 @@ pub(super) fn of_type(scope: &Scope<'_>, position: u32) -> Vec<String> {
     let Some(definition) = scope.types.get(position as usize) else { return Vec::new() };
     let mut lines = vec![sentence(&escape(&definition.name))];
     described(definition.documentation.as_deref(), &scope.manual, &mut lines);
-    doubts_about(scope.device, SubjectKind::Type, &definition.name, &mut lines);
+    doubts_about(scope, SubjectKind::Type, &definition.name, &mut lines);
     let users = scope.links.users(position, Here::TYPES);
     if !users.is_empty() {
         lines.extend([String::new(), users]);

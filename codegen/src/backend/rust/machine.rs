@@ -157,7 +157,7 @@ fn documentation(
     };
     let mut lines = vec![format!("{what} of {}{item}.", docs::escape(&machine.name))];
     docs::described(machine.documentation.as_deref(), &scope.manual, &mut lines);
-    docs::doubts_about(scope.device, SubjectKind::Machine, &machine.name, &mut lines);
+    docs::doubts_about(scope, SubjectKind::Machine, &machine.name, &mut lines);
     let row =
         |own: &PatternModel| [format!("[`{0}`](Self::{0})", own.name), format!("`{}`", own.bits), own.meaning.clone()];
     let rows: Vec<[String; 3]> = own.patterns.iter().map(row).collect();

@@ -110,7 +110,7 @@ impl<'a> Model<'a> {
         model.models = device_models::models(&scope, device, &model.objects);
         model.given = given::model(&scope, device, options);
         model.ethercat = EtherCatModel::new(device, &model.pdos, &place.modules, place.nest);
-        model.code_tables = code_table::models(device, options);
+        model.code_tables = code_table::models(&scope, device, options);
         model.axes = axes::model(device, place.nest);
         model.bus_facts = bus_facts::models(device, place.nest);
         model.bus_facts.extend(composite::models(&scope, device, place.nest));

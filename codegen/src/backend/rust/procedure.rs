@@ -39,7 +39,7 @@ fn documentation(scope: &Scope<'_>, own: &Procedure) -> Vec<String> {
     }
     sentences.extend(WORDS.place(&scope.manual, "", own.documentation.as_deref(), &own.names));
     let mut lines: Vec<String> = sentences.into_iter().flat_map(|sentence| [String::new(), sentence]).collect();
-    docs::doubts_about(scope.device, SubjectKind::Procedure, &own.name, &mut lines);
+    docs::doubts_about(scope, SubjectKind::Procedure, &own.name, &mut lines);
     let rows: Vec<[String; 2]> = own.steps.iter().filter_map(|step| row(scope, step)).collect();
     lines.into_iter().skip(1).chain(doc_table::table(["Item", "Value"], &rows)).collect()
 }

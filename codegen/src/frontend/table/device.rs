@@ -85,7 +85,7 @@ pub(super) fn buses(reader: &mut Reader<'_, '_>, list: &[At<String>]) -> Buses {
     buses
 }
 
-/// What is said of the manual.
+/// The facts about the manual.
 pub(super) fn manual(reader: &mut Reader<'_, '_>, table: &At<ManualTable>) -> Box<Manual> {
     let own = &table.value;
     let text = |text: &Option<String>| CompactString::from(text.as_deref().unwrap_or_default());

@@ -68,7 +68,6 @@ mod windows;
 
 use std::collections::HashSet;
 
-use compact_str::CompactString;
 use serde::de::DeserializeOwned;
 use toml::de::DeValue;
 
@@ -156,14 +155,7 @@ pub fn read(
     chosen: &[(String, String)],
     diagnostics: &mut Diagnostics,
 ) -> Option<Catalog> {
-    let mut reader = Reader {
-        source,
-        file,
-        diagnostics,
-        language: CompactString::default(),
-        standard: CompactString::default(),
-        lists: Default::default(),
-    };
+    let mut reader = Reader::new(source, file, diagnostics);
     let mut table = Table::new(&mut reader, chosen)?;
     let Some(head) = table.take::<DeviceTable>(&mut reader, "device") else {
         let found = Diagnostic::new(&codes::TABLE_VALUE, Span::new(file, 0, 0), "the table has no `[device]`");

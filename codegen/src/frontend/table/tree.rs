@@ -42,6 +42,14 @@ pub(super) struct Reader<'a, 'd> {
     pub lists: RefCell<HashMap<Place, Rc<[Place]>>>,
 }
 
+impl<'a, 'd> Reader<'a, 'd> {
+    /// A reader of a file whose language and standard are not known yet.
+    pub fn new(source: &'a Source, file: FileId, diagnostics: &'d mut Diagnostics) -> Self {
+        let (language, standard, lists) = Default::default();
+        Reader { source, file, diagnostics, language, standard, lists }
+    }
+}
+
 impl<'a> Reader<'a, '_> {
     /// The tables of the file; `None` where it is no TOML.
     pub fn parse(&mut self) -> Option<DeTable<'a>> {

@@ -23,14 +23,7 @@ use crate::text::brief;
 /// Applies the overlay `source` to the devices or modules of `catalog` that it is for.
 pub fn apply(source: &Source, file: FileId, catalog: &mut Catalog, diagnostics: &mut Diagnostics) {
     let first = diagnostics.list().len();
-    let mut reader = Reader {
-        source,
-        file,
-        diagnostics,
-        language: CompactString::default(),
-        standard: CompactString::default(),
-        lists: Default::default(),
-    };
+    let mut reader = Reader::new(source, file, diagnostics);
     if let Some(overlay) = Overlay::read(&mut reader) {
         reader.language.clone_from(&overlay.patch.language);
         Applied::new(&overlay).run(&mut reader, catalog);

@@ -55,15 +55,9 @@ impl<'p> Completion<'p> {
     }
 
     fn with_reader<T>(&mut self, act: impl FnOnce(&mut Reader<'_, '_>, &mut Rows) -> T) -> T {
-        let language = self.profile.patch.language.clone();
-        let mut reader = Reader {
-            source: &self.profile.source,
-            file: FileId(0),
-            diagnostics: &mut self.silent,
-            language,
-            standard: self.profile.standard(),
-            lists: Default::default(),
-        };
+        let mut reader = Reader::new(&self.profile.source, FileId(0), &mut self.silent);
+        reader.language.clone_from(&self.profile.patch.language);
+        reader.standard = self.profile.standard();
         act(&mut reader, &mut self.rows)
     }
 

@@ -235,14 +235,7 @@ pub(crate) struct Profile {
 impl Profile {
     /// Reads a profile.
     pub(crate) fn read(source: Source, diagnostics: &mut Diagnostics) -> Option<Profile> {
-        let mut reader = Reader {
-            source: &source,
-            file: FileId(0),
-            diagnostics,
-            language: CompactString::default(),
-            standard: CompactString::default(),
-            lists: Default::default(),
-        };
+        let mut reader = Reader::new(&source, FileId(0), diagnostics);
         let mut table = Table::new(&mut reader, &[])?;
         let Some(head) = table.take::<ProfileTable>(&mut reader, "profile") else {
             let message = "the table has no `[profile]`";
