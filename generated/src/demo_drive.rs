@@ -2980,7 +2980,7 @@ pub mod objects {
         /// 0x1010:01, UNSIGNED32, rw, default 1.
         /// Accessor: [`Accessors::save_all_parameters`]. Values: [`StoreParameters`](super::super::types::StoreParameters).
         ///
-        /// Writing \`save\` stores the parameters in non-volatile memory; reading returns the storage capability.
+        /// Writing "save" stores the parameters in non-volatile memory; reading returns the storage capability.
         ///
         /// Values from CiA 301, 7.5.2.13.
         ///
@@ -3007,7 +3007,7 @@ pub mod objects {
             }
             /// Save all parameters: 0x1010:01.
             ///
-            /// Writing \`save\` stores the parameters in non-volatile memory; reading returns the storage capability.
+            /// Writing "save" stores the parameters in non-volatile memory; reading returns the storage capability.
             ///
             /// Constant: [`SAVE_ALL_PARAMETERS`]. Values: [`StoreParameters`](super::super::types::StoreParameters).
             pub fn save_all_parameters(

@@ -476,10 +476,17 @@ impl Words<'_> {
     }
 
     /// What differs on some models or buses, and that the row of the item is about the others.
-    pub fn variants(&self, item: &Item) -> Vec<String> {
+    pub fn variants(&self, item: &Item, manual: &Manual) -> Vec<String> {
         let is_by_model = item.variants.iter().any(|own| !own.models.is_empty());
         let others = is_by_model.then(|| "Default and range of the row apply to the other models.".to_owned());
-        others.into_iter().chain(item.variants.iter().map(|own| self.variant(own, item))).collect()
+        let cite = |own: Option<&Documentation>| own.and_then(|own| own.cite.clone());
+        let of_item = cite(item.documentation.as_deref());
+        let variant = |own: &ItemVariant| {
+            let documentation = own.documentation.as_deref().filter(|own| cite(Some(own)) != of_item);
+            let place = self.place(manual, "", documentation, &[]);
+            std::iter::once(self.variant(own, item)).chain(place).collect::<Vec<_>>().join(" ")
+        };
+        others.into_iter().chain(item.variants.iter().map(variant)).collect()
     }
 
     /// What of an item differs on some models or buses.

@@ -1,5 +1,19 @@
 //! Bits that have to be 0 or 1.
 
+use crate::ir::Pattern;
+
+/// How many bits patterns have: those of their item, or without an item the fewest of 8, 16 and 32 that hold all of them.
+pub(crate) fn width(of_item: Option<u32>, patterns: &[Pattern]) -> u32 {
+    of_item.unwrap_or_else(|| {
+        let used = patterns.iter().fold(0, |used, own| used | own.mask);
+        match used {
+            0..=0xFF => 8,
+            0x100..=0xFFFF => 16,
+            _ => 32,
+        }
+    })
+}
+
 /// `xxxx xxxx x1xx 0000`: the bits of `mask` as `value` has them, all others as `x`. `bits` is the width of the item.
 pub(crate) fn text(mask: u32, value: u32, bits: u32) -> String {
     let used = 32 - mask.leading_zeros();
@@ -21,6 +35,15 @@ pub(crate) fn text(mask: u32, value: u32, bits: u32) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn patterns_without_an_item_are_as_wide_as_they_need_to_be() {
+        let of = |mask| Pattern { mask, ..Pattern::default() };
+        assert_eq!(width(None, &[of(0x0F), of(0x80)]), 8);
+        assert_eq!(width(None, &[of(0x0F), of(0x100)]), 16);
+        assert_eq!(width(None, &[of(0x1_0000)]), 32);
+        assert_eq!(width(Some(16), &[of(0x0F)]), 16);
+    }
 
     #[test]
     fn other_bits_are_x() {

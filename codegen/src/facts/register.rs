@@ -1,6 +1,6 @@
 //! Addresses on Modbus: as the manual prints them, and on the wire.
 
-use crate::ir::{Access, ModbusTable, RegisterBinding, RegisterSpace};
+use crate::ir::{Item, ModbusTable, RegisterBinding, RegisterSpace};
 
 impl RegisterSpace {
     /// The table's name.
@@ -42,9 +42,9 @@ pub(crate) fn wire(register: &RegisterBinding) -> String {
 }
 
 /// `40102–40103 (holding; wire 101–102; FC 3/16; low word first)`. `tables` lists the function codes that the device accepts.
-pub(crate) fn text(register: &RegisterBinding, access: Access, tables: &[ModbusTable]) -> String {
+pub(crate) fn text(register: &RegisterBinding, item: &Item, tables: &[ModbusTable]) -> String {
     let mut facts = vec![register.space.title().to_owned(), format!("wire {}", wire(register))];
-    let functions = functions(register, access, tables);
+    let functions = functions(register, item, tables);
     facts.extend((!functions.is_empty()).then(|| format!("FC {}", functions.join("/"))));
     if register.words_per_address > 1 {
         facts.push(format!("{} bits an address", 16 * u16::from(register.words_per_address)));
@@ -53,7 +53,7 @@ pub(crate) fn text(register: &RegisterBinding, access: Access, tables: &[ModbusT
         facts.push(format!("from bit {bit}"));
     }
     let is_word = matches!(register.space, RegisterSpace::Holding | RegisterSpace::Input);
-    if is_word && register.count > 1 {
+    if is_word && register.count > 1 && !item.type_on("modbus").is_bytes() {
         let order = if register.low_word_first { "low word first" } else { "high word first" };
         facts.push(format!("{order}{}", if register.is_order_assumed { " (assumed)" } else { "" }));
     }
@@ -63,22 +63,33 @@ pub(crate) fn text(register: &RegisterBinding, access: Access, tables: &[ModbusT
     format!("{} ({})", printed(register), facts.join("; "))
 }
 
-/// The function codes that reach a register with these access rights.
-fn functions(register: &RegisterBinding, access: Access, tables: &[ModbusTable]) -> Vec<String> {
+/// The function codes that read and write an item at this register, of those that the device accepts.
+fn functions(register: &RegisterBinding, item: &Item, tables: &[ModbusTable]) -> Vec<String> {
+    /// Mask Write Register changes some bits of a register; a device has it only if its description lists it.
+    const MASK_WRITE: u8 = 22;
+    let table = tables.iter().find(|table| table.space == register.space);
+    let accepted = table.map_or(&[][..], |table| &table.functions);
+    let is_accepted = |function: &&u8| accepted.is_empty() || accepted.contains(function);
     let (reads, one, several) = register.space.functions();
-    let accepted = tables.iter().find(|table| table.space == register.space).map_or(&[][..], |table| &table.functions);
     // A device with one address for a longer register may take it in a function for one register.
     let is_one = register.count == 1 || register.words_per_address > 1 && !accepted.is_empty();
-    let writes = if is_one { one } else { several };
+    let is_split = table.is_some_and(|table| table.split);
+    let is_part = register.bit_offset.is_some() && register.count == 1;
+    let writes = match register.space {
+        RegisterSpace::Holding if is_part && accepted.contains(&MASK_WRITE) => &[MASK_WRITE],
+        _ if is_one || is_split => one,
+        _ => several,
+    };
+    let access = item.access_on("modbus");
     let reads = reads.iter().filter(|_| access.readable());
     let writes = writes.iter().filter(|_| access.writable());
-    let is_accepted = |function: &&u8| accepted.is_empty() || accepted.contains(function);
     reads.chain(writes).filter(is_accepted).map(u8::to_string).collect()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::ir::{Access, Binding, Type};
 
     fn register(count: u16) -> RegisterBinding {
         RegisterBinding {
@@ -95,30 +106,39 @@ mod tests {
         }
     }
 
+    #[track_caller]
+    fn is(own: &RegisterBinding, (ty, access): (Type, Access), tables: &[ModbusTable], expected: &str) {
+        let mut item = Item::new(Binding::Register(Box::new(own.clone())));
+        (item.ty, item.access) = (ty, access);
+        assert_eq!(text(own, &item, tables), expected);
+    }
+
+    const NUMBER: (Type, Access) = (Type::Integer(32), Access::ReadWrite);
+    const READ_ONLY: (Type, Access) = (Type::Integer(32), Access::ReadOnly);
+
     #[test]
     fn both_addresses_are_named() {
-        let text = |own: &RegisterBinding, access| super::text(own, access, &[]);
-        assert_eq!(
-            text(&register(2), Access::ReadWrite),
-            "40102–40103 (holding; wire 101–102; FC 3/16; low word first)"
-        );
-        assert_eq!(text(&register(1), Access::ReadWrite), "40102 (holding; wire 101; FC 3/6/16)");
-        assert_eq!(text(&register(1), Access::ReadOnly), "40102 (holding; wire 101; FC 3)");
+        is(&register(2), NUMBER, &[], "40102–40103 (holding; wire 101–102; FC 3/16; low word first)");
+        is(&register(1), NUMBER, &[], "40102 (holding; wire 101; FC 3/6/16)");
+        is(&register(1), READ_ONLY, &[], "40102 (holding; wire 101; FC 3)");
         let own =
             RegisterBinding { space: RegisterSpace::Coil, bytes_swapped: true, printed: "".into(), ..register(1) };
-        assert_eq!(text(&own, Access::WriteOnly), "101 (coil; wire 101; FC 5/15; bytes swapped)");
+        is(&own, (Type::Boolean, Access::WriteOnly), &[], "101 (coil; wire 101; FC 5/15; bytes swapped)");
         let own =
             RegisterBinding { words_per_address: 2, low_word_first: false, printed: "40102".into(), ..register(2) };
-        assert_eq!(
-            text(&own, Access::ReadOnly),
-            "40102 (holding; wire 101; FC 3; 32 bits an address; high word first)"
-        );
+        is(&own, READ_ONLY, &[], "40102 (holding; wire 101; FC 3; 32 bits an address; high word first)");
         let own = RegisterBinding { bit_offset: Some(8), ..register(1) };
-        assert_eq!(text(&own, Access::ReadOnly), "40102 (holding; wire 101; FC 3; from bit 8)");
+        is(&own, READ_ONLY, &[], "40102 (holding; wire 101; FC 3; from bit 8)");
     }
 
     #[test]
-    fn only_accepted_functions_are_named() {
+    fn a_text_has_no_order_of_words() {
+        let text = (Type::VisibleString(None), Access::ReadWrite);
+        is(&register(2), text, &[], "40102–40103 (holding; wire 101–102; FC 3/16)");
+    }
+
+    #[test]
+    fn only_functions_that_are_used_are_named() {
         let table = ModbusTable {
             space: RegisterSpace::Holding,
             functions: vec![3, 16],
@@ -126,6 +146,11 @@ mod tests {
             max_write: None,
             split: false,
         };
-        assert_eq!(text(&register(1), Access::ReadWrite, &[table]), "40102 (holding; wire 101; FC 3/16)");
+        is(&register(1), NUMBER, std::slice::from_ref(&table), "40102 (holding; wire 101; FC 3/16)");
+        let split = ModbusTable { functions: vec![3, 6], split: true, ..table.clone() };
+        is(&register(2), NUMBER, &[split], "40102–40103 (holding; wire 101–102; FC 3/6; low word first)");
+        let masked = ModbusTable { functions: vec![3, 6, 22], ..table };
+        let part = RegisterBinding { bit_offset: Some(8), ..register(1) };
+        is(&part, NUMBER, &[masked], "40102 (holding; wire 101; FC 3/22; from bit 8)");
     }
 }

@@ -177,7 +177,7 @@ impl Doubt {
 }
 
 /// What a wrong choice in an ambiguity of the source leads to, the worst first.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Severity {
     /// A motor moves or wiring is damaged.

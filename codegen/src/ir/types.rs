@@ -164,6 +164,12 @@ impl Type {
     pub fn is_signed(self) -> bool {
         matches!(self, Type::Integer(_))
     }
+
+    /// Whether the value is a sequence of bytes: text or raw data, for which a register has no order of words.
+    pub fn is_bytes(self) -> bool {
+        use Type::{Domain, OctetString, Opaque, UnicodeString, VisibleString};
+        matches!(self, VisibleString(_) | OctetString(_) | UnicodeString(_) | Domain | Opaque(_))
+    }
 }
 
 impl fmt::Display for Type {

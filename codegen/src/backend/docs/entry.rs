@@ -46,7 +46,7 @@ pub(super) struct Row {
 }
 
 /// A contradiction of the source.
-#[derive(Debug)]
+#[derive(Debug, PartialEq, Eq, Hash)]
 pub(super) struct Doubt {
     /// What it is about within the device: `HomingMethod, 33`; empty if the page shows it there.
     pub subject: String,
@@ -182,7 +182,7 @@ impl Rows<'_> {
         if let Some(behaviour) = &item.behaviour {
             facts.extend(PLAIN.behaviour(behaviour));
         }
-        facts.extend(PLAIN.variants(item));
+        facts.extend(PLAIN.variants(item, self.known.manual));
         facts.extend(item.availability.as_ref().map(|own| PLAIN.availability(own)));
         facts.extend(PLAIN.place(self.known.manual, row_of(item), item.documentation.as_deref(), &item.names));
         let configured = item.configured.as_ref().and_then(|own| own.value.as_ref());

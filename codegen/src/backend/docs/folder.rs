@@ -47,7 +47,7 @@ struct Parts {
     frames: Vec<Frame>,
     process: Option<String>,
     protocol: Option<(String, Protocol)>,
-    machines: Option<String>,
+    behaviour: Option<(String, machines::Behaviour)>,
     codes: Option<(String, Vec<Codes>)>,
     assumptions: Option<String>,
 }
@@ -60,6 +60,8 @@ impl Parts {
             areas: &self.areas,
             process: self.process.as_deref().map(|file| (file, self.frames.as_slice())),
             protocol: self.protocol.as_ref().map(|(file, own)| (file.as_str(), own)),
+            behaviour: self.behaviour.as_ref().map(|(file, own)| (file.as_str(), own)),
+            codes: self.codes.as_ref().map(|(file, own)| (file.as_str(), own.as_slice())),
         };
         places.ranked()
     }
@@ -142,7 +144,7 @@ impl Folder {
             self.index.page(&own.file, &title);
             index_area(&mut self.index, own);
         }
-        self.further(device, &parts, &set, &manual);
+        self.further(device, &parts, &set);
         self.listed.devices.push(Listed { title, vendor: device.identity.vendor_name.to_string(), path: first, pages });
     }
 
@@ -173,12 +175,13 @@ impl Folder {
             About { buses: pdo::buses(device), manual, doubts: &device.doubts },
         );
         let protocol = protocol::protocol(device, manual);
+        let behaviour = machines::behaviour(device, manual);
         let tables = codes::tables(device, manual);
         let mut parts = Parts {
             overview,
             process: further(!frames.is_empty() || !device.process_data.sync_managers.is_empty(), "Process data"),
             protocol: further(protocol.is_some(), "Messages").zip(protocol),
-            machines: further(!device.machines.is_empty() || !device.procedures.is_empty(), "States and procedures"),
+            behaviour: further(behaviour.is_some(), "States and procedures").zip(behaviour),
             codes: further(!tables.is_empty(), "Codes").map(|file| (file, tables)),
             areas,
             frames,
@@ -191,7 +194,7 @@ impl Folder {
     }
 
     /// The pages behind those of items.
-    fn further(&mut self, device: &Device, parts: &Parts, set: &Frameset, manual: &Manual) {
+    fn further(&mut self, device: &Device, parts: &Parts, set: &Frameset) {
         let format = self.format;
         if let Some(file) = &parts.process {
             let sync_managers = process::sync_managers(&device.process_data);
@@ -209,11 +212,8 @@ impl Folder {
                 self.index.entry(&Entry { names: &own.names, words, ..found(&own.anchor, "message", &own.name) });
             }
         }
-        if let Some(file) = &parts.machines {
-            let machines: Vec<_> = device.machines.iter().map(|own| machines::machine(own, device, manual)).collect();
-            let sequences: Vec<_> =
-                device.procedures.iter().map(|own| machines::sequence(own, device, manual)).collect();
-            self.page(file, format.machines(Around { set, file }, &machines, &sequences));
+        if let Some((file, own)) = &parts.behaviour {
+            self.page(file, format.machines(Around { set, file }, &own.machines, &own.sequences));
         }
         if let Some((file, tables)) = &parts.codes {
             self.page(file, format.codes(Around { set, file }, tables));

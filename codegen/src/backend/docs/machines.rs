@@ -110,12 +110,27 @@ pub(super) struct Sequence {
     pub steps: Vec<String>,
 }
 
-pub(super) fn machine(own: &StateMachine, device: &Device, manual: &Manual) -> Machine {
-    let width = |name: &str| {
+/// The state machines and procedures of a device.
+#[derive(Debug)]
+pub(super) struct Behaviour {
+    pub machines: Vec<Machine>,
+    pub sequences: Vec<Sequence>,
+}
+
+/// The state machines and procedures of a device, if it has any.
+pub(super) fn behaviour(device: &Device, manual: &Manual) -> Option<Behaviour> {
+    let machines: Vec<_> = device.machines.iter().map(|own| machine(own, device, manual)).collect();
+    let sequences: Vec<_> = device.procedures.iter().map(|own| sequence(own, device, manual)).collect();
+    (!machines.is_empty() || !sequences.is_empty()).then_some(Behaviour { machines, sequences })
+}
+
+fn machine(own: &StateMachine, device: &Device, manual: &Manual) -> Machine {
+    let width = |name: &str, patterns: &[Pattern]| {
         let item = device.groups.iter().flat_map(|group| &group.items).find(|item| item.name == name);
-        item.and_then(|item| words::basic(&device.types, item.ty).bits()).unwrap_or(0)
+        pattern::width(item.and_then(|item| words::basic(&device.types, item.ty).bits()), patterns)
     };
-    let (of_status, of_control) = (width(&own.status_item), width(&own.control_item));
+    let of_status = width(&own.status_item, &own.states);
+    let of_control = width(&own.control_item, &own.commands);
     let mut facts = PLAIN.description(own.documentation.as_deref());
     facts.extend((!own.status_item.is_empty()).then(|| format!("{} tells the state.", own.status_item)));
     facts.extend((!own.control_item.is_empty()).then(|| format!("{} takes the commands.", own.control_item)));
@@ -307,7 +322,7 @@ fn arrow((x, y): (u32, u32), (to_x, to_y): (u32, u32), number: u32, label: &str)
     Arrow { path, x, y, label: label.to_owned() }
 }
 
-pub(super) fn sequence(own: &Procedure, device: &Device, manual: &Manual) -> Sequence {
+fn sequence(own: &Procedure, device: &Device, manual: &Manual) -> Sequence {
     let mut facts = PLAIN.description(own.documentation.as_deref());
     if !own.arguments.is_empty() {
         let arguments: Vec<&str> = own.arguments.iter().map(|own| own.as_str()).collect();

@@ -112,7 +112,7 @@ fn register_address(own: &RegisterBinding, item: &Item, tables: &[ModbusTable]) 
     let number = format!("{table} {}", register::printed(own));
     let is_wire = register::printed(own) == register::wire(own);
     let wire = if is_wire { String::new() } else { format!(" (wire {})", register::wire(own)) };
-    let text = register::text(own, item.access_on("modbus"), tables);
+    let text = register::text(own, item, tables);
     Address { bus: "Modbus", lookup: format!("{number}{wire}"), number, text }
 }
 

@@ -56,7 +56,7 @@ pub(super) fn item(item: &Item, name: &str, chapter: Option<&str>, scope: &Scope
         paragraphs.push(words.behaviour(behaviour).join(" "));
     }
     paragraphs.extend(item.bindings.iter().filter_map(elsewhere));
-    paragraphs.extend(words.variants(item));
+    paragraphs.extend(words.variants(item, &scope.manual));
     let widest = variant::widest(item);
     if (&widest.low, &widest.high) != (&item.limits.low, &item.limits.high) {
         let physical = Physical::of(item.quantity.as_deref());

@@ -279,7 +279,12 @@ fn patterns(
         (Some(own), _) => own.native,
         (None, Some(Type::Unsigned(8) | Type::Integer(8))) => "u8",
         (None, Some(Type::Unsigned(16) | Type::Integer(16))) => "u16",
-        _ => "u32",
+        (None, Some(_)) => "u32",
+        (None, None) => match pattern::width(None, list) {
+            8 => "u8",
+            16 => "u16",
+            _ => "u32",
+        },
     };
     let most: u64 = match native {
         "u8" => u8::MAX.into(),

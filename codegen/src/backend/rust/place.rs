@@ -56,13 +56,9 @@ impl<'i> Place<'i> {
 
     /// No place yet, of a value of this type.
     fn of_value(base: Type) -> Self {
-        let is_bytes = matches!(
-            base,
-            Type::VisibleString(_) | Type::OctetString(_) | Type::UnicodeString(_) | Type::Domain | Type::Opaque(_)
-        );
         Place {
             bits: base.bits().unwrap_or(0),
-            is_bytes,
+            is_bytes: base.is_bytes(),
             is_wide: matches!(base, Type::UnicodeString(_)),
             is_signed: matches!(base, Type::Integer(_)),
             ..Place::default()

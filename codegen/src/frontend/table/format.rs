@@ -968,7 +968,7 @@ tables! {
         /// `rx` or `tx`, seen from the device.
         #[cfg_attr(test, schemars(transform = schema::words(&["rx", "tx"])))]
         pub direction: Option<At<String>>,
-        /// `"0x6040:0/16"`, `"item"`, `"pad/8"`, or `"? name/16"` where the manual gives no object.
+        /// `"0x6040:0/16"`, `"item"`, `"pad/8"`, or `"? name/16"` (`"? name/i16"`, if signed) where the manual gives no object.
         pub entries: Vec<At<String>>,
         /// Its length in bytes as the manual prints it; a list where several places do. It is compared with the entries.
         pub length: Option<At<OneOrMany<u32>>>,

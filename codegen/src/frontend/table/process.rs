@@ -4,6 +4,7 @@ use super::at::At;
 use super::format::{NumberOrText, PdoTable};
 use super::place;
 use super::tree::{cited, Reader};
+use super::types;
 use crate::diagnostics::{codes, Diagnostic};
 use crate::ir::{Device, Direction, Entries, Item, ItemNames, ObjectBuses, Pdo, PdoEntry, PdoEntryKind, Type};
 use crate::text::brief;
@@ -103,7 +104,7 @@ fn printed_lengths(reader: &mut Reader<'_, '_>, own: &PdoTable, pdo: &Pdo) {
     }
 }
 
-/// `0x6040:0/16`, `item`, `item/16`, `pad/8`, `? name/16`.
+/// `0x6040:0/16`, `item`, `item/16`, `pad/8`, `? name/16`, `? name/i16`.
 fn entry(reader: &mut Reader<'_, '_>, text: &At<String>, targets: &Targets<'_>) -> Option<PdoEntry> {
     let (what, bits) = match text.value.rsplit_once('/') {
         Some((what, bits)) => (what.trim(), place::integer(bits).and_then(|bits| u32::try_from(bits).ok())),
@@ -118,12 +119,15 @@ fn entry(reader: &mut Reader<'_, '_>, text: &At<String>, targets: &Targets<'_>) 
         return Some(PdoEntry { origin, kind: PdoEntryKind::Padding, ..PdoEntry::new(0, 0, bits?) });
     }
     if let Some(name) = what.strip_prefix('?').map(str::trim) {
-        let bits = bits.filter(|&bits| bits > 0 && !name.is_empty());
+        let typed =
+            text.value.rsplit_once('/').and_then(|(_, ty)| types::named(ty)).filter(|own| own.elements.is_none());
+        let ty = typed.map_or(Type::Opaque(None), |own| own.ty);
+        let bits = bits.or(ty.bits()).filter(|&bits| bits > 0 && !name.is_empty());
         if bits.is_none() {
-            let message = "what has no object has a name and a length: write `? torque limit/16`";
+            let message = "an entry without an object needs a name and a length or type: `? torque limit/16`, `? torque limit/i16`";
             reader.report(&codes::TABLE_PLACE, reader.span(text), message);
         }
-        let entry = PdoEntry::new(0, 0, bits?);
+        let entry = PdoEntry { ty, ..PdoEntry::new(0, 0, bits?) };
         return Some(PdoEntry { origin, kind: PdoEntryKind::Unnumbered, name: name.into(), ..entry });
     }
     let by_name = || targets.by_name(what);

@@ -508,7 +508,7 @@ impl Rows {
         if row.doc.is_some() {
             item.at.documentation = item.origin.span;
         }
-        if row.doc.is_some() || cite.is_some() {
+        if row.doc.is_some() || row.doc_from.is_some() || cite.is_some() {
             item.documentation = documentation(reader, row);
         }
         let doubts = [row.doubt.as_ref(), row.doubts.as_ref()];
@@ -525,7 +525,14 @@ impl Rows {
 }
 
 /// What a row says of its element in words, and where the words come from.
-pub(super) fn documentation(reader: &Reader<'_, '_>, row: &Row) -> Option<Box<Documentation>> {
+pub(super) fn documentation(reader: &mut Reader<'_, '_>, row: &Row) -> Option<Box<Documentation>> {
+    if let (Some(from), None) = (&row.doc_from, &row.doc) {
+        reader.report(
+            &codes::TABLE_VALUE,
+            reader.span(from),
+            "`doc_from` tells where `doc` comes from: write `doc` as well",
+        );
+    }
     let mut documentation = reader.documentation(row.doc.as_deref(), row.cite.as_ref().map(cited));
     if let (Some(from), Some(documentation)) = (&row.doc_from, &mut documentation) {
         documentation.text_from = from.value.as_str().into();

@@ -20,8 +20,7 @@ impl Place<'_> {
             (canopen, coe) => facts.extend(canopen.or(coe).map(object)),
         }
         let tables = scope.device.map_or(&[][..], |device| &device.modbus);
-        let access = item.access_on("modbus");
-        facts.extend(self.modbus.map(|own| format!("Modbus {}", docs::escape(&register::text(own, access, tables)))));
+        facts.extend(self.modbus.map(|own| format!("Modbus {}", docs::escape(&register::text(own, item, tables)))));
         facts.extend(self.serial.map(|code| format!("parameter 0x{code:04X}")));
         facts.extend(self.image.map(|field| field.facts()));
         facts.extend(self.numbers());
