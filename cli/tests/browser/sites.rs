@@ -59,8 +59,8 @@ pub fn large() -> PathBuf {
         "lexibus = 1\n[device]\nname = \"Large\"\nbuses = [\"modbus\"]\n[spaces.register]\nmodbus = {{ table = \"holding\" }}\n\
          [[chapters]]\ntitle = \"Registers\"\n[chapters.registers]\n{rows}"
     );
-    let site = folder("large");
-    let path = site.join("large.toml");
+    let (source, site) = (folder("large-source"), folder("large"));
+    let path = source.join("large.toml");
     std::fs::write(&path, table).expect("a temporary file");
     lexibus(|command| command.arg("docs").arg(&path).arg("--out").arg(&site), &[0]);
     site

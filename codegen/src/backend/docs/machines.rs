@@ -215,12 +215,16 @@ fn diagram(own: &StateMachine) -> Option<Diagram> {
     // Transitions from any state leave one more box, after those of the states.
     let any = own.states.len();
     let from = |way: &Transition| way.from.as_ref().map_or(Some(any), |name| place(name));
-    let ways: Vec<(usize, usize, String)> = own
-        .transitions
-        .iter()
-        .enumerate()
-        .filter_map(|(at, way)| Some((from(way)?, place(&way.to)?, number((at, way)))))
-        .collect();
+    // Several transitions from one state to another are one arrow.
+    let mut ways: Vec<(usize, usize, String)> = Vec::new();
+    for (at, way) in own.transitions.iter().enumerate() {
+        let (Some(from), Some(to)) = (from(way), place(&way.to)) else { continue };
+        match ways.iter_mut().find(|known| (known.0, known.1) == (from, to)) {
+            Some((.., label)) if label.split(", ").any(|known| *known == number((at, way))) => {}
+            Some((.., label)) => *label += &format!(", {}", number((at, way))),
+            None => ways.push((from, to, number((at, way)))),
+        }
+    }
     if ways.is_empty() {
         return None;
     }
@@ -269,24 +273,38 @@ fn diagram(own: &StateMachine) -> Option<Diagram> {
     Some(Diagram { width, height, boxes: boxes.iter().enumerate().filter_map(state_box).collect(), arrows })
 }
 
-/// How many transitions each state is from the first one; those that it doesn't lead to come behind.
+/// How many transitions each state is from the first one. States that it doesn't lead to come behind: first those that no other of
+/// them leads to.
 fn ranks(count: usize, first: usize, ways: &[(usize, usize, String)]) -> Vec<usize> {
     let mut ranks = vec![None; count];
-    let mut queue = VecDeque::from([first]);
-    if let Some(rank) = ranks.get_mut(first) {
-        *rank = Some(0);
+    let (mut sources, mut rank) = (vec![first], 0);
+    while !sources.is_empty() {
+        for at in sources {
+            ranks[at] = Some(rank);
+            follow(at, ways, &mut ranks);
+        }
+        rank = ranks.iter().flatten().max().map_or(0, |last| last + 1);
+        let is_open = |at: usize| ranks[at].is_none();
+        let open: Vec<usize> = (0..count).filter(|at| is_open(*at)).collect();
+        let leads = |at: usize| ways.iter().any(|(from, to, _)| *to == at && *from != at && is_open(*from));
+        let starts: Vec<usize> = open.iter().copied().filter(|at| !leads(*at)).collect();
+        sources = if starts.is_empty() { open.into_iter().take(1).collect() } else { starts };
     }
+    ranks.into_iter().flatten().collect()
+}
+
+/// Ranks the states that follow a state.
+fn follow(at: usize, ways: &[(usize, usize, String)], ranks: &mut [Option<usize>]) {
+    let mut queue = VecDeque::from([at]);
     while let Some(at) = queue.pop_front() {
-        let next = ranks[at].unwrap_or(0) + 1;
+        let next = ranks[at].map(|rank| rank + 1);
         for (_, to, _) in ways.iter().filter(|(from, ..)| *from == at) {
             if ranks[*to].is_none() {
-                ranks[*to] = Some(next);
+                ranks[*to] = next;
                 queue.push_back(*to);
             }
         }
     }
-    let behind = ranks.iter().flatten().max().map_or(0, |last| last + 1);
-    ranks.into_iter().map(|rank| rank.unwrap_or(behind)).collect()
 }
 
 /// A curve from one state to another, its number beside it. Those that lead down leave at the bottom, those that lead back at the
@@ -332,4 +350,23 @@ fn sequence(own: &Procedure, device: &Device, manual: &Manual) -> Sequence {
     let doubts = entry::about(&device.doubts, SubjectKind::Procedure, &own.name, manual);
     let steps = own.steps.iter().map(|own| PLAIN.step(own)).collect();
     Sequence { name: own.name.to_string(), facts, doubts, steps }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::ranks;
+
+    #[test]
+    fn states_come_below_those_that_lead_to_them() {
+        let ways = |pairs: &[(usize, usize)]| -> Vec<_> {
+            pairs.iter().map(|&(from, to)| (from, to, String::new())).collect()
+        };
+        assert_eq!(ranks(4, 0, &ways(&[(0, 1), (1, 2), (2, 0)])), [0, 1, 2, 3]);
+        assert_eq!(
+            ranks(5, 0, &ways(&[(1, 3), (2, 3), (3, 0), (4, 4)])),
+            [0, 1, 1, 2, 1],
+            "nothing leads to 1, 2 and 4"
+        );
+        assert_eq!(ranks(3, 0, &ways(&[(1, 2), (2, 1)])), [0, 1, 2], "a circle begins at its first state");
+    }
 }
