@@ -19,7 +19,7 @@ parts=(programs format clippy features outside rustdoc build sample bindings uni
 # Names of test programs, as arguments of cargo. Each program of the workspace is in one part; `rest` runs what no other part names.
 ui=(ui)
 corpus=(corpus_docs corpus_eds_export corpus_fixes corpus_esi corpus_esi_export corpus_gsdml corpus_gsdml_export corpus_lexer corpus_oracle corpus_values
-    eds_in_canopen eds_in_dcf_tools profinet_corpus rust_format)
+    eds_in_canopen eds_in_dcf_tools frozen profinet_corpus rust_format)
 generated=(generated_code rustdoc table_code)
 packing=(packing)
 differential=(differential)
