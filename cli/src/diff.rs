@@ -4,10 +4,10 @@ use std::io::Write;
 use std::path::Path;
 
 use askama::Template;
-use lexibus_codegen::compare::{compare, Change, Judgement};
 use lexibus_codegen::compile::{self, Compilation, Options};
 use lexibus_codegen::output::write_if_changed;
 use lexibus_codegen::source::Source;
+use lexibus_site::compare::{compare, Change, Judgement};
 
 use super::args::{Colour, Diff, DiffFormat, MessageFormat};
 use super::report::Reporter;

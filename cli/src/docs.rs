@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use lexibus_codegen::backend::docs::{Format, Page, Site};
 use lexibus_codegen::output::write_if_changed;
+use lexibus_site::{Format, Page, Site};
 
 use super::args::{Docs, DocsFormat};
 use super::output::difference;

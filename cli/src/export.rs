@@ -2,10 +2,10 @@
 
 use std::path::Path;
 
-use lexibus_codegen::backend::eds::{self, Flavour, Reals};
-use lexibus_codegen::backend::{esi, gsdml, Export as Exported, Refusal};
 use lexibus_codegen::compile::Compilation;
 use lexibus_codegen::ir::{Catalog, Device};
+use lexibus_export::eds::{self, Flavour, Reals};
+use lexibus_export::{esi, gsdml, Export as Exported, Refusal};
 
 use super::args::{Export, ExportFormat, MessageFormat, RealForm};
 use super::inputs;

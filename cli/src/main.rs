@@ -17,6 +17,7 @@
 mod args;
 mod diff;
 mod docs;
+mod explain;
 mod export;
 mod generate;
 mod import;
@@ -30,10 +31,10 @@ use std::io::Write;
 use std::process::ExitCode;
 
 use clap::CommandFactory;
-use lexibus_codegen::backend::json;
 use lexibus_codegen::compile::{self, Options};
-use lexibus_codegen::diagnostics::{codes, render};
+use lexibus_codegen::diagnostics::codes;
 use lexibus_codegen::text::printable;
+use lexibus_export::json;
 
 use args::{Arguments, Command, ExplainFormat, InfoFormat, Inputs};
 use report::Reporter;
@@ -150,11 +151,11 @@ fn dump_files(inputs: &Inputs) -> Result<bool, Failure> {
 
 fn explain(code: Option<&str>, format: ExplainFormat) -> Result<bool, Failure> {
     let text = match code {
-        None if format == ExplainFormat::Markdown => render::markdown::catalogue(),
-        None => render::catalogue(),
+        None if format == ExplainFormat::Markdown => explain::markdown::catalogue(),
+        None => explain::catalogue(),
         Some(name) => match codes::find(name) {
-            Some(code) if format == ExplainFormat::Markdown => render::markdown::explain(code),
-            Some(code) => render::explain(code),
+            Some(code) if format == ExplainFormat::Markdown => explain::markdown::explain(code),
+            Some(code) => explain::explain(code),
             None => {
                 let hint = codes::similar(name).map_or(String::new(), |similar| format!("; did you mean `{similar}`?"));
                 return Err(Failure::Usage(format!("there is no diagnostic code `{name}`{hint}")));

@@ -3,12 +3,13 @@
 use std::fmt::Write as _;
 use std::io::{IsTerminal, Write};
 
-use lexibus_codegen::backend::json::{DeviceInfo, Info, ModuleContent, ModuleInfo, PdoInfo, SubmoduleInfo};
-use lexibus_codegen::backend::Note;
 use lexibus_codegen::compile::Compilation;
 use lexibus_codegen::diagnostics::{render, Diagnostic, Severity};
 use lexibus_codegen::source::{FileId, Source, Span};
 use lexibus_codegen::text::printable;
+use lexibus_export::diagnostics::{json, sarif};
+use lexibus_export::json::{DeviceInfo, Info, ModuleContent, ModuleInfo, PdoInfo, SubmoduleInfo};
+use lexibus_export::Note;
 use serde::Serialize;
 
 use super::args::{Colour, Inputs, MessageFormat};
@@ -74,7 +75,7 @@ impl Reporter {
                 }
             }
             MessageFormat::Json => {
-                let lines = diagnostics.iter().map(|diagnostic| render::json::line(diagnostic, &compilation.sources));
+                let lines = diagnostics.iter().map(|diagnostic| json::line(diagnostic, &compilation.sources));
                 let text = lines.fold(String::new(), |text, line| text + &line + "\n");
                 self.print(&text)?;
             }
@@ -122,7 +123,7 @@ impl Reporter {
                 super::say(&format!("{files}: {}", render::summary(self.errors, self.warnings)));
             }
             MessageFormat::Sarif => {
-                let text = render::sarif::document(&self.kept, &self.sources, env!("CARGO_PKG_VERSION"));
+                let text = sarif::document(&self.kept, &self.sources, env!("CARGO_PKG_VERSION"));
                 self.print(&(text + "\n"))?;
             }
             _ => {}

@@ -164,7 +164,7 @@ fn dump_is_the_ir_as_json() {
     let text = out(&dump);
     let catalog: lexibus_codegen::ir::Catalog = serde_json::from_str(&text).expect("the IR");
     assert_eq!(catalog.devices[0].entry(0x607A, 0).expect("an entry").name, "Target position");
-    assert_eq!(lexibus_codegen::backend::json::dump(&catalog) + "\n", text, "the IR survives the way there and back");
+    assert_eq!(lexibus_export::json::dump(&catalog) + "\n", text, "the IR survives the way there and back");
 }
 
 #[test]

@@ -12,7 +12,7 @@
 //! Underneath is a pipeline in which data flows one way:
 //!
 //! ```text
-//! source -> syntax -> frontend/{eds, xdd, esi, gsdml, table} -> ir -> passes -> backend/{rust, docs, json, eds, esi, gsdml}
+//! source -> syntax -> frontend/{eds, xdd, esi, gsdml, table} -> ir -> passes -> facts -> backend/rust
 //! ```
 //!
 //! | for | see |
@@ -20,13 +20,14 @@
 //! | a build script | [`Builder`] |
 //! | a program that reads descriptions | [`compile`], [`selection`], and [`ir`] for what it gets |
 //! | what is wrong with a description | [`diagnostics`], and the catalogue of codes, [`diagnostics::codes`] |
-//! | Rust, documentation, JSON and other formats | [`backend`] |
-//! | what changed between two versions | [`compare`] |
+//! | what an output for people states | [`facts`] |
+//! | Rust | [`backend::rust`] |
 //! | what standards say of a device's objects | [`profiles`] |
 //! | texts within messages | [`text`] |
 //! | files that are complete or untouched | [`output`] |
 //!
-//! The crate `lexibus-cli` is the command `lexibus`, and `lexibus-import` turns lists of registers (CSV) into register tables.
+//! Further crates start from the same [`ir`]: `lexibus-site` makes documentation and compares versions, `lexibus-export` writes EDS, DCF, ESI,
+//! GSDML and JSON, `lexibus-import` turns lists of registers (CSV) into register tables, and `lexibus-cli` is the command `lexibus`.
 //! [The book](https://github.com/lexibus/lexibus/blob/main/docs/src/SUMMARY.md)
 //! has a chapter for each format, and one that writes a front end.
 //!
@@ -51,11 +52,10 @@
 
 pub mod backend;
 pub mod builder;
-pub mod compare;
 pub mod compile;
 pub mod diagnostics;
-mod etg;
-pub(crate) mod facts;
+pub mod etg;
+pub mod facts;
 pub mod frontend;
 pub mod ir;
 pub mod limits;
@@ -66,7 +66,7 @@ pub mod selection;
 pub mod source;
 pub mod syntax;
 pub mod text;
-mod unique;
+pub mod unique;
 
 pub use backend::rust::{Presence, RustOptions};
 pub use builder::{BuildError, Builder};

@@ -11,7 +11,7 @@ pub fn brief(text: &str) -> &str {
 }
 
 /// Whether a character may move a terminal's cursor, colour its text, end its line or turn its direction.
-pub(crate) fn steers(c: char) -> bool {
+pub fn steers(c: char) -> bool {
     matches!(c,
         '\0'..='\u{1f}' | '\u{7f}'..='\u{9f}' | '\u{61c}' | '\u{200e}' | '\u{200f}'
         | '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{2069}')

@@ -6,7 +6,7 @@ use crate::ir::CompactString;
 
 /// Names that were given, each once.
 #[derive(Debug, Default)]
-pub(crate) struct Unique {
+pub struct Unique {
     taken: HashSet<CompactString>,
     /// The number that the next one with a name gets, so that equal names aren't counted from the start each time.
     next: HashMap<CompactString, u32>,

@@ -1,9 +1,9 @@
 //! What changed between two versions of a description, and whether it breaks code that was written for the old one.
 
-use lexibus_codegen::compare::{compare, Change, Judgement};
 use lexibus_codegen::compile::{check, Options};
 use lexibus_codegen::ir::Catalog;
 use lexibus_codegen::source::Source;
+use lexibus_site::compare::{compare, Change, Judgement};
 
 fn read(name: &str, text: &str) -> Catalog {
     let compilation =

@@ -5,9 +5,9 @@ mod docs_support;
 
 use corpus_support::{all_files, lane, File};
 use docs_support::{html_links, markdown_links, values};
-use lexibus_codegen::backend::docs::{Format, Site};
 use lexibus_codegen::compile::{check, Options};
 use lexibus_codegen::source::Source;
+use lexibus_site::{Format, Site};
 
 /// Threads that share the work.
 const THREADS: usize = 2;

@@ -9,11 +9,11 @@ use std::collections::BTreeMap;
 
 use corpus_support::round_trip::{content, counts, difference, options, source};
 use corpus_support::{files, files_of, lane, File};
-use lexibus_codegen::backend::eds::{export, Export, Flavour};
 use lexibus_codegen::compile::{check as compile, read, Compilation};
 use lexibus_codegen::diagnostics::Severity;
 use lexibus_codegen::ir::{self, Catalog, Device, Type};
 use lexibus_codegen::source::Source;
+use lexibus_export::eds::{export, Export, Flavour};
 use serde_json::Value;
 
 /// Codes that an export may have and its original didn't, with the reason.

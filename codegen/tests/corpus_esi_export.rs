@@ -9,11 +9,11 @@ use std::sync::OnceLock;
 use corpus_support::round_trip::{content, difference, each_object, options, source, take_extensions};
 use corpus_support::xsd::Schema;
 use corpus_support::{files, files_of, lane};
-use lexibus_codegen::backend::esi::{export, NoteKind, Options, Refusal};
-use lexibus_codegen::backend::Export;
 use lexibus_codegen::compile::read;
 use lexibus_codegen::ir::{Catalog, Device, Item};
 use lexibus_codegen::source::Source;
+use lexibus_export::esi::{export, NoteKind, Options, Refusal};
+use lexibus_export::Export;
 use serde_json::Value;
 
 /// Takes out what isn't compared, each with its reason.

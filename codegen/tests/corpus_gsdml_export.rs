@@ -8,11 +8,11 @@ use std::collections::BTreeMap;
 use corpus_support::round_trip::{content, difference, each_object, options, source, take_extensions};
 use corpus_support::xsd::Schema;
 use corpus_support::{files_of, lane, File};
-use lexibus_codegen::backend::gsdml::{export, file_name, NoteKind, Options};
-use lexibus_codegen::backend::Export;
 use lexibus_codegen::compile::read;
 use lexibus_codegen::ir::Catalog;
 use lexibus_codegen::source::Source;
+use lexibus_export::gsdml::{export, file_name, NoteKind, Options};
+use lexibus_export::Export;
 use serde_json::Value;
 
 /// Takes out what isn't compared, each with its reason.

@@ -6,10 +6,10 @@ mod corpus_support;
 use std::collections::BTreeMap;
 
 use corpus_support::{files, folder, header, is_read, lane, lines, File};
-use lexibus_codegen::backend::json;
 use lexibus_codegen::compile::{check, Compilation, Options};
 use lexibus_codegen::diagnostics::{Diagnostic, Severity};
 use lexibus_codegen::source::{FileId, Source};
+use lexibus_export::json;
 use serde_json::Value;
 
 /// A file, what the lists say of it, and what the compiler does.

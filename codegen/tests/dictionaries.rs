@@ -7,8 +7,8 @@ mod manual_text;
 
 use std::collections::{BTreeSet, HashSet};
 
-use lexibus_codegen::backend::docs::Site;
 use lexibus_codegen::ir::{Binding, Catalog, Device, Doubt, Item};
+use lexibus_site::Site;
 
 /// Each dictionary with its manual.
 const DRIVES: [(&str, &str); 4] = [

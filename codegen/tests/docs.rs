@@ -1,8 +1,8 @@
 //! The site of `lexibus docs`: each link leads somewhere, nothing of a description is markup, and it is as small as it should be.
 
 use docs_support::{files, hostile, html_links, html_markup, site, values, ALL};
-use lexibus_codegen::backend::docs::Format;
 use lexibus_codegen::source::Source;
+use lexibus_site::Format;
 
 mod docs_support;
 

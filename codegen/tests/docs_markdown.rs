@@ -3,8 +3,8 @@
 use std::collections::BTreeSet;
 
 use docs_support::{files, hostile, markdown_links, markdown_markup, pages, site, ALL};
-use lexibus_codegen::backend::docs::Format;
 use lexibus_codegen::source::Source;
+use lexibus_site::Format;
 
 mod docs_support;
 

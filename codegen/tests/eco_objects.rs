@@ -5,10 +5,10 @@ mod eco_support;
 use std::collections::{BTreeMap, BTreeSet};
 
 use eco_support::*;
-use lexibus_codegen::backend::eds::{export, Flavour, NoteKind};
 use lexibus_codegen::compile::{check, Options};
 use lexibus_codegen::ir::{Access, Binding, Direction, ObjectBuses, PdoEntryKind, Step};
 use lexibus_codegen::source::Source;
+use lexibus_export::eds::{export, Flavour, NoteKind};
 
 /// An object, or one of its sub-entries, as its row says.
 struct Printed {

@@ -1,9 +1,9 @@
 //! What an exported EDS or DCF looks like, and what an export says that it leaves out.
 
-use lexibus_codegen::backend::eds::{export, Export, Flavour, NoteKind};
 use lexibus_codegen::compile::{check, read, Options};
 use lexibus_codegen::ir::{Catalog, Device};
 use lexibus_codegen::source::Source;
+use lexibus_export::eds::{export, Export, Flavour, NoteKind};
 
 /// A bit of everything that a real file has, and much that it shouldn't.
 const QUIRKY: &str = "\

@@ -10,11 +10,11 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use corpus_support::{files, files_of, python, File};
-use lexibus_codegen::backend::eds::{export, Flavour};
 use lexibus_codegen::compile::{check, read, Compilation, Options};
 use lexibus_codegen::diagnostics::Diagnostic;
 use lexibus_codegen::ir::{self, Device, Item, Type};
 use lexibus_codegen::source::{Source, Span};
+use lexibus_export::eds::{export, Flavour};
 use serde_json::Value;
 
 /// Files that it can't load after export either, and why.

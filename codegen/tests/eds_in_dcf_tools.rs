@@ -9,9 +9,9 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use corpus_support::{files_of, python};
-use lexibus_codegen::backend::eds::{self, export, Flavour, Reals};
 use lexibus_codegen::compile::{read, Options};
 use lexibus_codegen::source::Source;
+use lexibus_export::eds::{self, export, Flavour, Reals};
 use serde::Deserialize;
 
 /// Files that it accepts before export and not after, and why.

@@ -4,10 +4,10 @@ mod corpus_support;
 
 use corpus_support::round_trip::options;
 use corpus_support::xsd::Schema;
-use lexibus_codegen::backend::esi::{export, Area, Export, NoteKind, Options, Refusal};
 use lexibus_codegen::compile::{read, Options as Reading};
 use lexibus_codegen::ir::{Catalog, Device, Documentation, Value};
 use lexibus_codegen::source::Source;
+use lexibus_export::esi::{export, Area, Export, NoteKind, Options, Refusal};
 
 /// A slave with a bit of everything.
 const SLAVE: &str = include_str!("esi_export/slave.xml");
@@ -269,7 +269,7 @@ fn the_documentation_lists_every_note() {
 fn the_documentation_lists_every_option() {
     for (documentation, keys) in [
         (include_str!("../../docs/src/esi.md"), Options::KEYS),
-        (include_str!("../../docs/src/gsdml.md"), lexibus_codegen::backend::gsdml::Options::KEYS),
+        (include_str!("../../docs/src/gsdml.md"), lexibus_export::gsdml::Options::KEYS),
     ] {
         for (key, what) in keys {
             assert!(documentation.contains(&format!("| `{key}` | {} |", what.trim_end_matches('.'))), "{key}");

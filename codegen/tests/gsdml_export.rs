@@ -4,10 +4,10 @@ mod corpus_support;
 
 use corpus_support::round_trip::options as reading;
 use corpus_support::xsd::Schema;
-use lexibus_codegen::backend::gsdml::{export, file_name, Export, NoteKind, Options, Refusal};
 use lexibus_codegen::compile::{check, read};
 use lexibus_codegen::ir::{Catalog, Type};
 use lexibus_codegen::source::Source;
+use lexibus_export::gsdml::{export, file_name, Export, NoteKind, Options, Refusal};
 
 /// A drive with two process images, some fields of which share bytes.
 const TABLE: &str = r#"

@@ -5,10 +5,10 @@ mod lane;
 
 use std::path::Path;
 
-use lexibus_codegen::backend::{eds, esi, gsdml};
 use lexibus_codegen::compile::{check, Options};
 use lexibus_codegen::ir::{Catalog, Documentation, Group, Pdo};
 use lexibus_codegen::source::Source;
+use lexibus_export::{eds, esi, gsdml};
 
 /// Ends of lines, sections, keys, comments, elements, attributes and entities.
 const HOSTILE: [&str; 12] = [

@@ -2,11 +2,11 @@
 
 mod table_support;
 
-use lexibus_codegen::backend::json;
 use lexibus_codegen::compile::{check, Compilation, Options};
 use lexibus_codegen::diagnostics::{render, Severity};
 use lexibus_codegen::ir::{Access, Binding, Item, RegisterSpace, Scale, Type, Value};
 use lexibus_codegen::source::Source;
+use lexibus_export::json;
 use proptest::prelude::*;
 use proptest::sample::Index;
 use table_support::{examples, whole};

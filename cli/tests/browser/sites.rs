@@ -4,8 +4,8 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::OnceLock;
 
-use lexibus_codegen::backend::docs::{Page, Site};
 use lexibus_codegen::compile::{check, Options};
+use lexibus_site::{Page, Site};
 
 use crate::hostile as descriptions;
 

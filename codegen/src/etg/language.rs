@@ -3,7 +3,7 @@
 use compact_str::{format_compact, CompactString};
 
 /// The language of a text without LcId.
-pub(crate) const ENGLISH: u32 = 1033;
+pub const ENGLISH: u32 = 1033;
 
 /// Numbers and tags; of a language without a region, the first one is meant.
 const LANGUAGES: [(u32, &str); 23] = [
@@ -33,7 +33,7 @@ const LANGUAGES: [(u32, &str); 23] = [
 ];
 
 /// How well a text serves as the name: 1033, then one that says no language, then any.
-pub(crate) fn rank(lcid: Option<u32>) -> u8 {
+pub fn rank(lcid: Option<u32>) -> u8 {
     match lcid {
         Some(ENGLISH) => 0,
         None | Some(0 | 1) => 1,
@@ -42,7 +42,7 @@ pub(crate) fn rank(lcid: Option<u32>) -> u8 {
 }
 
 /// The tag of a language.
-pub(crate) fn tag(lcid: Option<u32>) -> CompactString {
+pub fn tag(lcid: Option<u32>) -> CompactString {
     let lcid = lcid.unwrap_or(ENGLISH);
     match LANGUAGES.iter().find(|(number, _)| *number == lcid) {
         Some((_, tag)) => CompactString::const_new(tag),
@@ -51,7 +51,7 @@ pub(crate) fn tag(lcid: Option<u32>) -> CompactString {
 }
 
 /// The number of the language with this tag, or of its first region.
-pub(crate) fn lcid(tag: &str) -> Option<u32> {
+pub fn lcid(tag: &str) -> Option<u32> {
     if let Some(number) = tag.strip_prefix("lcid:") {
         return number.parse().ok();
     }

@@ -4,7 +4,7 @@ use crate::ir::Type;
 
 /// What a name says about a type.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Basic {
+pub enum Basic {
     /// It is this type.
     Type(Type),
     /// So many single bits (BITARR8).
@@ -15,7 +15,7 @@ pub(crate) enum Basic {
 
 /// How a name departs from the tables of ETG.1000.6.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Spelling {
+pub enum Spelling {
     /// Not at all.
     Standard,
     /// It is another usual name of the type (UINT16).
@@ -25,7 +25,7 @@ pub(crate) enum Spelling {
 }
 
 /// The basic type with this name.
-pub(crate) fn basic(name: &str) -> Option<(Basic, Spelling)> {
+pub fn basic(name: &str) -> Option<(Basic, Spelling)> {
     if let Some(ty) = standard(name) {
         return Some((Basic::Type(ty), Spelling::Standard));
     }
@@ -135,7 +135,7 @@ fn alias(name: &str) -> Option<Type> {
 }
 
 /// The basic type with this number. Up to 0x1B the numbers are those of CiA 301; 0x20 and above are other types there.
-pub(crate) fn by_code(code: u32) -> Option<Basic> {
+pub fn by_code(code: u32) -> Option<Basic> {
     Some(match code {
         0x1D => Basic::Type(Type::OctetString(Some(16))),
         0x1E => Basic::Type(Type::Unsigned(8)),

@@ -3,7 +3,7 @@
 use compact_str::{format_compact, CompactString};
 
 /// The unit with this number, as far as its parts are known; `own` has those that the dictionary defines.
-pub(crate) fn text(number: u32, own: &[(u32, CompactString)]) -> Option<CompactString> {
+pub fn text(number: u32, own: &[(u32, CompactString)]) -> Option<CompactString> {
     let [exponent, numerator, denominator, rest] = number.to_be_bytes();
     if rest != 0 {
         return None;
@@ -26,7 +26,7 @@ pub(crate) fn text(number: u32, own: &[(u32, CompactString)]) -> Option<CompactS
 }
 
 /// The number whose [`text`] is this one.
-pub(crate) fn number(unit: &str) -> Option<u32> {
+pub fn number(unit: &str) -> Option<u32> {
     let units = || (1..=u8::MAX).filter(|notation| symbol(*notation).is_some());
     for exponent in -12i8..=9 {
         for numerator in units() {

@@ -11,7 +11,7 @@ const EXTENDED: u32 = 1 << 29;
 
 /// The object that a COB-ID belongs to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum CobId {
+pub enum CobId {
     /// 0x1400 to 0x15FF.
     Rpdo,
     /// 0x1800 to 0x19FF.
@@ -26,7 +26,7 @@ pub(crate) enum CobId {
 
 impl CobId {
     /// The COB-ID of a PDO of this direction.
-    pub(crate) fn of_pdo(direction: Direction) -> Self {
+    pub fn of_pdo(direction: Direction) -> Self {
         match direction {
             Direction::Receive => CobId::Rpdo,
             Direction::Transmit => CobId::Tpdo,
@@ -46,7 +46,7 @@ impl CobId {
 }
 
 /// The COB-ID that an item is; `None` if it is none.
-pub(crate) fn of(item: &Item) -> Option<CobId> {
+pub fn of(item: &Item) -> Option<CobId> {
     match item.object()? {
         (0x1400..=0x15FF, 1) => Some(CobId::Rpdo),
         (0x1800..=0x19FF, 1) => Some(CobId::Tpdo),
@@ -58,7 +58,7 @@ pub(crate) fn of(item: &Item) -> Option<CobId> {
 }
 
 /// `0x182, disabled`, `$NODEID+0x180, no RTR`: identifier and flags. `None` if the value is no COB-ID.
-pub(crate) fn text(value: &Value, kind: CobId) -> Option<String> {
+pub fn text(value: &Value, kind: CobId) -> Option<String> {
     let (number, is_of_node) = match value {
         Value::Int(number) => (*number, false),
         Value::NodeId(number) => (*number, true),

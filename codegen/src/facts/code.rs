@@ -3,7 +3,7 @@
 use crate::ir::{CodeRow, Value};
 
 /// `0x8110`, `F125`, `0xFF13 to 0xFF15`: the code of a row, or its codes. Decimal if the source has no other notation.
-pub(crate) fn text(row: &CodeRow) -> String {
+pub fn text(row: &CodeRow) -> String {
     match (row.printed.as_str(), row.last) {
         ("", None) => row.code.to_string(),
         ("", Some(last)) => format!("{} to {last}", row.code),
@@ -12,7 +12,7 @@ pub(crate) fn text(row: &CodeRow) -> String {
 }
 
 /// A cell next to the code; empty if the row has none in this column.
-pub(crate) fn cell(row: &CodeRow, column: usize) -> String {
+pub fn cell(row: &CodeRow, column: usize) -> String {
     match (row.printed_cells.get(column).filter(|printed| !printed.is_empty()), row.cells.get(column)) {
         (Some(printed), _) => printed.to_string(),
         (None, Some(Value::Text(text))) => text.to_string(),

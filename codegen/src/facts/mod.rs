@@ -4,14 +4,18 @@
 //! |---|---|
 //! | `cob_id` | the identifier of a CAN frame and its flags |
 //! | `code` | codes as their source prints them |
+//! | `markdown` | texts within Markdown |
 //! | `pattern` | bits that have to be 0 or 1 |
 //! | `pdo` | names of PDOs on CANopen and EtherCAT |
 //! | `physical` | physical values next to the raw ones |
 //! | `register` | printed and wire addresses on Modbus |
+//! | `words` | sentences about elements, for documentation of any kind |
 
-pub(crate) mod cob_id;
-pub(crate) mod code;
-pub(crate) mod pattern;
-pub(crate) mod pdo;
-pub(crate) mod physical;
-pub(crate) mod register;
+pub mod cob_id;
+pub mod code;
+pub mod markdown;
+pub mod pattern;
+pub mod pdo;
+pub mod physical;
+pub mod register;
+pub mod words;

@@ -3,7 +3,7 @@
 use crate::ir::Pattern;
 
 /// How many bits patterns have: those of their item, or without an item the fewest of 8, 16 and 32 that hold all of them.
-pub(crate) fn width(of_item: Option<u32>, patterns: &[Pattern]) -> u32 {
+pub fn width(of_item: Option<u32>, patterns: &[Pattern]) -> u32 {
     of_item.unwrap_or_else(|| {
         let used = patterns.iter().fold(0, |used, own| used | own.mask);
         match used {
@@ -15,7 +15,7 @@ pub(crate) fn width(of_item: Option<u32>, patterns: &[Pattern]) -> u32 {
 }
 
 /// `xxxx xxxx x1xx 0000`: the bits of `mask` as `value` has them, all others as `x`. `bits` is the width of the item.
-pub(crate) fn text(mask: u32, value: u32, bits: u32) -> String {
+pub fn text(mask: u32, value: u32, bits: u32) -> String {
     let used = 32 - mask.leading_zeros();
     let bits = bits.min(32).max(used);
     let mut text = String::new();

@@ -3,13 +3,13 @@
 use crate::ir::{Device, Direction, ObjectBuses, Pdo};
 
 /// The buses whose objects a device has.
-pub(crate) fn buses(device: &Device) -> ObjectBuses {
+pub fn buses(device: &Device) -> ObjectBuses {
     let is_ethercat = device.ethercat.is_some() || device.dictionary_only;
     ObjectBuses { canopen: device.canopen.is_some() || !is_ethercat, coe: is_ethercat }
 }
 
 /// `RPDO 1` on CANopen, `RxPDO 0x1701` on EtherCAT, `RPDO 1 / RxPDO 0x1600` on both. Numbers count from 1 (CiA 301, 7.5.2.35).
-pub(crate) fn title(pdo: &Pdo, buses: ObjectBuses) -> String {
+pub fn title(pdo: &Pdo, buses: ObjectBuses) -> String {
     let buses = pdo.buses.unwrap_or(buses);
     let (canopen, coe) = match pdo.direction {
         Direction::Receive => ("RPDO", "RxPDO"),

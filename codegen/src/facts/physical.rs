@@ -4,20 +4,20 @@ use crate::ir::{Limits, Quantity, Scale, Value};
 
 /// How raw values of an item become physical ones.
 #[derive(Clone, Copy)]
-pub(crate) struct Physical<'q> {
+pub struct Physical<'q> {
     unit: &'q str,
     scale: &'q Scale,
 }
 
 impl<'q> Physical<'q> {
     /// `None` if the raw value is the physical one.
-    pub(crate) fn of(quantity: Option<&'q Quantity>) -> Option<Self> {
+    pub fn of(quantity: Option<&'q Quantity>) -> Option<Self> {
         let quantity = quantity?;
         Physical::scaled(quantity.scale.as_ref()?, shown_unit(quantity))
     }
 
     /// The same for another scale.
-    pub(crate) fn scaled(scale: &'q Scale, unit: &'q str) -> Option<Self> {
+    pub fn scaled(scale: &'q Scale, unit: &'q str) -> Option<Self> {
         let is_raw = matches!(scale, Scale::Linear { factor, offset } if *factor == 1.0 && *offset == 0.0);
         (!is_raw).then_some(Physical { unit, scale })
     }
@@ -34,7 +34,7 @@ impl<'q> Physical<'q> {
     }
 
     /// `25.0 °C (raw 250)`; `raw 250` if the physical value is unknown. `raw` writes a raw value, `unit` the unit.
-    pub(crate) fn value(&self, value: &Value, raw: &dyn Fn(&Value) -> String, unit: &dyn Fn(&str) -> String) -> String {
+    pub fn value(&self, value: &Value, raw: &dyn Fn(&Value) -> String, unit: &dyn Fn(&str) -> String) -> String {
         match self.number(value) {
             Some(number) => format!("{} (raw {})", self.with_unit(&number, unit), raw(value)),
             None => format!("raw {}", raw(value)),
@@ -42,7 +42,7 @@ impl<'q> Physical<'q> {
     }
 
     /// `-20.0 … 200.0 °C (raw -200 … 2000)`; a missing limit is left out, as in `≥ -20.0 °C (raw ≥ -200)`.
-    pub(crate) fn range(
+    pub fn range(
         &self,
         (low, high): (Option<&Value>, Option<&Value>),
         raw: &dyn Fn(&Value) -> String,
@@ -76,7 +76,7 @@ impl<'q> Physical<'q> {
     }
 
     /// `0.5 K (raw 5)`: a distance, to which no offset is added.
-    pub(crate) fn step(&self, step: &Value, raw: &dyn Fn(&Value) -> String, unit: &dyn Fn(&str) -> String) -> String {
+    pub fn step(&self, step: &Value, raw: &dyn Fn(&Value) -> String, unit: &dyn Fn(&str) -> String) -> String {
         match *self.scale {
             Scale::Linear { factor, .. } => {
                 let scale = Scale::Linear { factor: factor.abs(), offset: 0.0 };
@@ -95,7 +95,7 @@ impl<'q> Physical<'q> {
 }
 
 /// The unit as outputs show it: a ratio has none.
-pub(crate) fn shown_unit(quantity: &Quantity) -> &str {
+pub fn shown_unit(quantity: &Quantity) -> &str {
     if quantity.unit == "1" {
         ""
     } else {
@@ -104,7 +104,7 @@ pub(crate) fn shown_unit(quantity: &Quantity) -> &str {
 }
 
 /// `1 … 5`, `≥ 1`, `≤ 5`.
-pub(crate) fn span(limits: (Option<String>, Option<String>)) -> String {
+pub fn span(limits: (Option<String>, Option<String>)) -> String {
     match limits {
         (Some(low), Some(high)) => format!("{low} … {high}"),
         (Some(low), None) => format!("≥ {low}"),
@@ -114,7 +114,7 @@ pub(crate) fn span(limits: (Option<String>, Option<String>)) -> String {
 }
 
 /// Whether a limit depends on the node-ID, which is known only at run time.
-pub(crate) fn depends_on_node(limits: &Limits) -> bool {
+pub fn depends_on_node(limits: &Limits) -> bool {
     [&limits.low, &limits.high].into_iter().any(|limit| matches!(limit, Some(Value::NodeId(_))))
 }
 

@@ -4,7 +4,7 @@ use crate::ir::{Item, ModbusTable, RegisterBinding, RegisterSpace};
 
 impl RegisterSpace {
     /// The table's name.
-    pub(crate) fn title(self) -> &'static str {
+    pub fn title(self) -> &'static str {
         match self {
             RegisterSpace::Holding => "holding",
             RegisterSpace::Input => "input",
@@ -25,7 +25,7 @@ impl RegisterSpace {
 }
 
 /// `40102–40103`, `R01`: the printed numbers, or the wire addresses if the source prints no other numbers.
-pub(crate) fn printed(register: &RegisterBinding) -> String {
+pub fn printed(register: &RegisterBinding) -> String {
     match register.printed.as_str() {
         "" => wire(register),
         printed => printed.to_owned(),
@@ -33,7 +33,7 @@ pub(crate) fn printed(register: &RegisterBinding) -> String {
 }
 
 /// `101–102`, `0x8001`: the addresses on the wire, counted from 0; hexadecimal if they have more than four digits.
-pub(crate) fn wire(register: &RegisterBinding) -> String {
+pub fn wire(register: &RegisterBinding) -> String {
     let text = |address: u16| if address > 9999 { format!("0x{address:04X}") } else { address.to_string() };
     match register.last() {
         last if last == register.address => text(last),
@@ -42,7 +42,7 @@ pub(crate) fn wire(register: &RegisterBinding) -> String {
 }
 
 /// `40102–40103 (holding; wire 101–102; FC 3/16; low word first)`. `tables` lists the function codes that the device accepts.
-pub(crate) fn text(register: &RegisterBinding, item: &Item, tables: &[ModbusTable]) -> String {
+pub fn text(register: &RegisterBinding, item: &Item, tables: &[ModbusTable]) -> String {
     let mut facts = vec![register.space.title().to_owned(), format!("wire {}", wire(register))];
     let functions = functions(register, item, tables);
     facts.extend((!functions.is_empty()).then(|| format!("FC {}", functions.join("/"))));

@@ -29,6 +29,7 @@ mod lookup;
 mod machine;
 mod message;
 mod module;
+pub mod owner;
 mod process_data;
 mod profinet;
 mod real;

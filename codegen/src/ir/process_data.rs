@@ -20,7 +20,7 @@ pub struct ProcessData {
 
 /// How many sub-indices an object has for the entries of a mapping, or the PDOs of an assignment, beside sub-index 0
 /// (ETG.1000.6 5.6.7.4).
-pub(crate) const MAX_PDO_SUBS: usize = 254;
+pub const MAX_PDO_SUBS: usize = 254;
 
 impl ProcessData {
     /// The PDOs that are assigned by default, each with its sync manager: outputs first, in the order of the source. Of

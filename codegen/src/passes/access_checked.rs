@@ -1,7 +1,7 @@
 //! After this pass the access of every item was held against what is said of its storage, its PDOs and its limits.
 
-use super::owner::Owner;
 use crate::diagnostics::{codes, Code, Diagnostic, Diagnostics};
+use crate::ir::owner::Owner;
 use crate::ir::{Item, Storage, Value};
 use crate::source::Span;
 use crate::text::brief;

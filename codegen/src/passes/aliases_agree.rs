@@ -3,8 +3,8 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::owner::{Index, Owner};
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
+use crate::ir::owner::{Index, Owner};
 use crate::ir::{BitFieldEntry, BitMeaning, Device, Extension, Item, Quantity, Scale, Shape};
 use crate::source::Span;
 use crate::text::brief;

@@ -1,8 +1,8 @@
 //! After this pass the fields of every bit field were held against the integer below and against each other.
 
 use super::firmware_comparable::apart;
-use super::owner::{reserved, Owner, Places};
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
+use crate::ir::owner::{reserved, Owner, Places};
 use crate::ir::{BitFieldEntry, BitMeaning, Condition, Shape, Type, TypeDef, TypeId, Value};
 use crate::text::brief;
 

@@ -3,8 +3,8 @@
 
 use std::collections::HashSet;
 
-use super::owner::{reserved, Index, Owner};
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
+use crate::ir::owner::{reserved, Index, Owner};
 use crate::ir::{Condition, Shape, Value};
 use crate::source::Span;
 use crate::text::brief;

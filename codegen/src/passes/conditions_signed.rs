@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use super::owner::{Index, Owner};
+use crate::ir::owner::{Index, Owner};
 use crate::ir::{CompactString, Condition, Device, Shape, TypeDef, Value};
 
 pub(super) fn run(device: &mut Device) {

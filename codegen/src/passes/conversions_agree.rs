@@ -1,9 +1,9 @@
 //! After this pass the numbers that a register table converts as the manual's examples were held against the scales: each is within
 //! a count of what the raw number stands for.
 
-use super::owner::Owner;
 use super::physical;
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
+use crate::ir::owner::Owner;
 use crate::ir::{Conversion, Device, Item, MachineUnit, Quantity, Scale};
 use crate::text::brief;
 

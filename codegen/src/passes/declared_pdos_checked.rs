@@ -5,8 +5,8 @@ use std::cell::OnceCell;
 use std::collections::HashSet;
 
 use super::mentioned_objects_exist;
-use super::owner::Owner;
 use crate::diagnostics::{codes, Code, Diagnostic, Diagnostics};
+use crate::ir::owner::Owner;
 use crate::ir::{Device, Direction, Entries, Group, Item, Mappable, PdoEntryKind, Value};
 use crate::source::Span;
 

@@ -3,8 +3,8 @@
 
 use std::cmp::Ordering;
 
-use super::owner::{Index, Owner};
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
+use crate::ir::owner::{Index, Owner};
 use crate::ir::{Availability, Device, Item, Shape};
 use crate::selection::glob;
 use crate::source::Span;

@@ -1,7 +1,7 @@
 //! After this pass the lengths that bindings, types and texts tell of an item were held against each other.
 
-use super::owner::Owner;
 use crate::diagnostics::{codes, Code, Diagnostic, Diagnostics};
+use crate::ir::owner::Owner;
 use crate::ir::{Binding, Item, RegisterSpace, Type, Value};
 use crate::source::Span;
 use crate::text::brief;

@@ -1,8 +1,8 @@
 //! After this pass every row of a register table whose only limit is that of its type was reported: it says nothing, and the
 //! cell of the other limit is empty.
 
-use super::owner::Owner;
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
+use crate::ir::owner::Owner;
 use crate::ir::Value;
 use crate::text::brief;
 

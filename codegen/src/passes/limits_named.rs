@@ -2,8 +2,8 @@
 //! have a meaning.
 
 use super::bit_fields_checked::{called, mask};
-use super::owner::{fixed, reserved, Owner};
 use crate::diagnostics::{codes, Code, Diagnostic, Diagnostics};
+use crate::ir::owner::{fixed, reserved, Owner};
 use crate::ir::{BitFieldEntry, BitMeaning, EnumValue, Item, Shape, Type, TypeDef, Value};
 use crate::source::Span;
 use crate::text::brief;

@@ -4,8 +4,8 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::declared_pdos_checked::{direction_of, Described, Mapped, CAN_BITS};
-use super::owner::{Index, Owner};
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
+use crate::ir::owner::{Index, Owner};
 use crate::ir::{Device, Item, Procedure, Step, Value};
 use crate::source::Span;
 use crate::text::brief;

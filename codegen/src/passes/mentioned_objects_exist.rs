@@ -3,9 +3,9 @@
 use std::collections::HashSet;
 use std::ops::RangeInclusive;
 
-use super::owner::{Index, Owner};
 use super::texts;
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
+use crate::ir::owner::{Index, Owner};
 use crate::ir::{AxisStep, Device};
 
 /// Indices that are told from other numbers by themselves: those of the first axis of a drive profile.

@@ -1,7 +1,7 @@
 //! After this pass the frames that a register table has as examples were held against the fields of their messages.
 
-use super::owner::{fixed, reserved, Owner};
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
+use crate::ir::owner::{fixed, reserved, Owner};
 use crate::ir::{BitMeaning, Device, Item, Message, MessageField, MessageValue, Shape, Type, Value};
 use crate::source::Span;
 use crate::text::brief;

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::owner::Owner;
+use crate::ir::owner::Owner;
 use crate::ir::{Binding, Device, Item, MessageField};
 
 /// A frame: its data, without start, check and end.

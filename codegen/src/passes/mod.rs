@@ -31,8 +31,7 @@ mod names_tell_apart;
 pub mod names_unique;
 mod numbers_count_on;
 mod objects_checked;
-pub(crate) mod owner;
-mod pdo_entries_resolved;
+pub(crate) mod pdo_entries_resolved;
 mod pdo_layout_checked;
 mod physical;
 mod procedures_possible;
@@ -49,9 +48,9 @@ mod windows_fit;
 mod windows_possible;
 
 use crate::diagnostics::Diagnostics;
+use crate::ir::owner::Owner;
 use crate::ir::{Catalog, CompactString, Device, Format, Module};
 pub(crate) use firmware_comparable::apart;
-use owner::Owner;
 use windows::Windows;
 
 /// Completes and checks every device of `catalog`.

@@ -1,8 +1,8 @@
 //! After this pass the Modbus frames that a register table has as examples were held against its registers, and against what the
 //! Modbus application protocol says of their lengths (6.1 to 6.12) and the serial line of their CRC.
 
-use super::owner::Owner;
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
+use crate::ir::owner::Owner;
 use crate::ir::{Binding, Device, RegisterBinding, RegisterSpace};
 use crate::source::Span;
 

@@ -4,8 +4,8 @@
 use std::collections::{HashMap, HashSet};
 
 use super::declared_pdos_checked;
-use super::owner::Owner;
 use crate::diagnostics::{codes, Code, Diagnostic, Diagnostics};
+use crate::ir::owner::Owner;
 use crate::ir::{
     Access, CanOpenSettings, Device, Direction, Entries, Group, Item, Module, ObjectBuses, Pdo, PdoCommunication,
     PdoEntry, PdoEntryKind, ProcessData, Type, Value,

@@ -3,8 +3,8 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::owner::{reserved, Index, Owner};
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
+use crate::ir::owner::{reserved, Index, Owner};
 use crate::ir::{Device, Item, Procedure, Step, Value};
 use crate::source::Span;
 use crate::text::brief;

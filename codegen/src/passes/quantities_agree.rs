@@ -3,9 +3,9 @@
 
 use std::convert::Infallible;
 
-use super::owner::{Index, Owner};
 use super::physical;
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
+use crate::ir::owner::{Index, Owner};
 use crate::ir::{CompactString, Device, Item, MachineUnit, Scale, Value, Variant};
 use crate::text::brief;
 

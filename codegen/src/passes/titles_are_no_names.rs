@@ -1,8 +1,8 @@
 //! After this pass the names within every bit field and enumeration of a register table were held against the titles of
 //! columns that slide into them.
 
-use super::owner::Owner;
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
+use crate::ir::owner::Owner;
 use crate::ir::{Shape, TypeDef};
 use crate::text::brief;
 

@@ -3,8 +3,8 @@
 use std::cmp::Ordering;
 use std::fmt;
 
-use super::owner::Owner;
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
+use crate::ir::owner::Owner;
 use crate::ir::{Group, Item, Limits, Type, TypeDef, Value};
 use crate::source::Span;
 

@@ -2,8 +2,8 @@
 //! integer below and against each other.
 
 use super::firmware_comparable::apart;
-use super::owner::{Owner, Places};
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
+use crate::ir::owner::{Owner, Places};
 use crate::ir::{CodeTable, EnumValue, Shape, Type, TypeDef, TypeId};
 use crate::source::Span;
 use crate::text::brief;

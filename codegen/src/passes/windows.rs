@@ -1,6 +1,6 @@
 //! What is behind the windows of a register table, and the items that they name.
 
-use super::owner::{Index, Owner};
+use crate::ir::owner::{Index, Owner};
 use crate::ir::{Binding, IndirectBinding, Item};
 
 /// A device with windows.

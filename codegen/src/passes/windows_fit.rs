@@ -3,9 +3,9 @@
 
 use std::collections::{BTreeMap, HashSet};
 
-use super::owner::Owner;
 use super::windows::{windows, Windows};
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
+use crate::ir::owner::Owner;
 use crate::ir::{Binding, CompactString, Item, Procedure, Step, Value, WindowSide};
 use crate::text::brief;
 

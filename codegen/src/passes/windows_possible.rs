@@ -2,9 +2,9 @@
 
 use std::collections::HashSet;
 
-use super::owner::Owner;
 use super::windows::{windows, Windows};
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
+use crate::ir::owner::Owner;
 use crate::ir::{Binding, Item, Type};
 use crate::text::brief;
 

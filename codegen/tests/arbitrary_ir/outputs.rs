@@ -1,9 +1,9 @@
 //! All that is made of a compilation beside Rust.
 
-use lexibus_codegen::backend::docs::{Format, Page, Site};
-use lexibus_codegen::backend::esi::{Export, Refusal};
-use lexibus_codegen::backend::{eds, esi, gsdml, json};
 use lexibus_codegen::compile::Compilation;
+use lexibus_export::esi::{Export, Refusal};
+use lexibus_export::{eds, esi, gsdml, json};
+use lexibus_site::{Format, Page, Site};
 
 /// What each back end makes.
 pub struct Outputs {

@@ -7,9 +7,9 @@ pub mod hostile;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
-use lexibus_codegen::backend::docs::{Format, Page, Site};
 use lexibus_codegen::compile::{check, Options};
 use lexibus_codegen::source::Source;
+use lexibus_site::{Format, Page, Site};
 use pulldown_cmark::{Event, Parser, Tag};
 
 fn root() -> PathBuf {

@@ -2,13 +2,15 @@
 //!
 //! Two crates have this module: the test of damaged files, and the fuzz targets.
 
-use lexibus_codegen::backend::docs::{Format, Site};
-use lexibus_codegen::backend::{eds, esi, gsdml, json, rust};
-use lexibus_codegen::compare::compare;
+use lexibus_codegen::backend::rust;
 use lexibus_codegen::compile::{check, Compilation, Options};
 use lexibus_codegen::diagnostics::{codes, render, Diagnostic, Level};
 use lexibus_codegen::ir::Catalog;
 use lexibus_codegen::source::Source;
+use lexibus_export::diagnostics::{json as report, sarif};
+use lexibus_export::{eds, esi, gsdml, json};
+use lexibus_site::compare::compare;
+use lexibus_site::{Format, Site};
 
 /// Takes an input as far as it goes: spans lie in their files, and what is emitted is Rust. Whether it is a description.
 pub fn exercise(name: &str, bytes: &[u8]) -> bool {
@@ -23,8 +25,7 @@ pub fn exercise_with(name: &str, bytes: &[u8], overlays: Vec<Source>) -> bool {
     for found in &some {
         told(&compilation, found);
     }
-    let log: Result<serde_json::Value, _> =
-        serde_json::from_str(&render::sarif::document(&some, &compilation.sources, "0"));
+    let log: Result<serde_json::Value, _> = serde_json::from_str(&sarif::document(&some, &compilation.sources, "0"));
     assert!(log.is_ok(), "{log:?}");
     serde_json::to_string(&json::info(&compilation)).expect("a summary");
     emitted(&compilation);
@@ -56,7 +57,7 @@ fn told(compilation: &Compilation, found: &Diagnostic) {
     let inside = source.is_some_and(|source| source.text().get(start..end).is_some());
     assert!(inside, "{}: {:?} isn't in the file", found.code.id, found.span);
     assert!(!render::terminal::render(found, &compilation.sources, true).is_empty());
-    assert!(!render::json::line(found, &compilation.sources).contains('\n'));
+    assert!(!report::line(found, &compilation.sources).contains('\n'));
     assert!(!compilation.one_line(found).contains('\n'));
 }
 

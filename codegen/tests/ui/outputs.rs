@@ -1,14 +1,14 @@
 //! What a case makes: the diagnostics as the terminal prints them, and the outputs that its settings ask for.
 
-use lexibus_codegen::backend::docs::{Format, Page, Site};
-use lexibus_codegen::backend::eds::{self, Flavour, Reals};
-use lexibus_codegen::backend::{esi, gsdml, json, Export, Refusal};
-use lexibus_codegen::compare::{compare, Judgement};
 use lexibus_codegen::compile::{check, Compilation, Options};
 use lexibus_codegen::diagnostics::{render, Severity};
 use lexibus_codegen::ir::Catalog;
 use lexibus_codegen::source::Source;
+use lexibus_export::eds::{self, Flavour, Reals};
+use lexibus_export::{esi, gsdml, json, Export, Refusal};
 use lexibus_import::import;
+use lexibus_site::compare::{compare, Judgement};
+use lexibus_site::{Format, Page, Site};
 
 use crate::case::{ending, put_diagnostics, Case, Outputs};
 use crate::part::{parts, Form};

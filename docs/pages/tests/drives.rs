@@ -4,9 +4,9 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use lexibus_codegen::backend::docs::{Format, Site};
 use lexibus_codegen::compile::{Options, check};
 use lexibus_codegen::source::Source;
+use lexibus_site::{Format, Site};
 use mdbook_driver::config::Config;
 use support::{attributes, build_into};
 

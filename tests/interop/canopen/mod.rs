@@ -12,9 +12,9 @@ use std::time::Duration;
 
 use lexibus::clients::canopen::{self, Buffered};
 use lexibus::NodeId;
-use lexibus_codegen::backend::eds::{export, Flavour};
 use lexibus_codegen::compile::{check, Options};
 use lexibus_codegen::source::Source;
+use lexibus_export::eds::{export, Flavour};
 use serde_json::{json, Value};
 use tokio_serial::SerialStream;
 

@@ -8,11 +8,11 @@ use super::place::Place;
 use super::scope::Scope;
 use super::value_type;
 use super::variant;
-use crate::backend::markdown;
-pub(super) use crate::backend::words::sentence;
-use crate::backend::words::{capital, row_of};
-use crate::backend::words::{Words, NO_LINK};
+use crate::facts::markdown;
 use crate::facts::physical::Physical;
+pub(super) use crate::facts::words::sentence;
+use crate::facts::words::{capital, row_of};
+use crate::facts::words::{Words, NO_LINK};
 use crate::ir::{Binding, Condition, Documentation, Doubt, Item, Manual, SubjectKind, Type, TypeId, Value};
 
 /// Sentences for doc comments.

@@ -104,7 +104,7 @@ fn render(model: Model<'_>) -> String {
 }
 
 /// The lines of a program that read and write each item of a device, as in `device.identity().vendor_id().read()?`.
-pub(super) fn calls(device: &Device) -> Vec<(&Item, Vec<String>)> {
+pub fn calls(device: &Device) -> Vec<(&Item, Vec<String>)> {
     let (scope, _) = Scope::of_device(device, &RustOptions::default(), "");
     let lines = |(item, path): (_, String)| (item, calls_of(&scope, item, &path));
     objects::calls(&scope).into_iter().map(lines).collect()

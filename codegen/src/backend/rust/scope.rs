@@ -10,7 +10,7 @@ use super::options::RustOptions;
 use super::reachable;
 use super::value_type::ValueType;
 use super::window::{self, Window};
-use crate::backend::words;
+use crate::facts::words;
 use crate::ir::{
     Device, Group, Item, ItemNames, Manual, Module, Pdo, ProcessImage, Shape, StateMachine, Type, TypeDef,
 };

@@ -1,22 +1,12 @@
-//! Findings as text: for a terminal, as JSON lines, as SARIF; and the catalogue of codes for people, and as Markdown.
+//! Diagnostics as text for a terminal.
 //!
 //! Every function here takes the [`Diagnostic`](super::Diagnostic)s as they are and the list of
 //! [`Source`](crate::source::Source)s that their spans index. None panics, whatever a span says: an offset outside of
 //! a file is moved to its end, one inside a character to the character's edge, and a file that isn't in the list makes
 //! a finding without a place.
 
-pub mod json;
-pub mod markdown;
-mod place;
-pub mod sarif;
+pub mod place;
 pub mod terminal;
-
-use super::codes::CODES;
-use super::{Class, Code, Level};
-use crate::text::steers;
-
-/// The width to which [`explain`] wraps.
-const COLUMNS: usize = 80;
 
 /// How many findings there were: `2 errors and 1 warning`, `no findings`.
 pub fn summary(errors: usize, warnings: usize) -> String {
@@ -29,87 +19,8 @@ pub fn summary(errors: usize, warnings: usize) -> String {
     }
 }
 
-/// What `lexibus explain` prints about a code, wrapped at 80 columns and ended by a line feed.
-pub fn explain(code: &Code) -> String {
-    let (class, strictness) = (code.class.name(), strictness(code.class));
-    let mut text = wrapped(&format!("{}: {}", code.id, code.summary));
-    text += &format!("\nname:   {}\nclass:  {class} ({strictness})\nlevel:  {}\n", code.name, level(code));
-    for paragraph in code.explanation.lines().filter(|line| !line.is_empty()) {
-        text.push('\n');
-        text += &wrapped(paragraph);
-    }
-    text
-}
-
-/// Every code on a line of its own: identifier, name, class, default level, summary.
-pub fn catalogue() -> String {
-    let width = |column: fn(&Code) -> &str| CODES.iter().map(|code| column(code).len()).max().unwrap_or(0);
-    let (ids, names) = (width(|code| code.id), width(|code| code.name));
-    let line = |code: &&Code| {
-        let (class, level) = (code.class.name(), level(code));
-        format!("{:ids$}  {:names$}  {class:6}  {level:5}  {}\n", code.id, code.name, code.summary)
-    };
-    CODES.iter().map(line).collect()
-}
-
-/// When findings of this class are errors.
-fn strictness(class: Class) -> &'static str {
-    match class {
-        Class::Error => "always an error",
-        Class::Repair => "an error in strict mode",
-        Class::Lint => "an error only where its level says so",
-    }
-}
-
-/// The default level as a user would set it.
-fn level(code: &Code) -> &'static str {
-    match code.default {
-        Level::Allow => "allow",
-        Level::Warn => "warn",
-        Level::Deny => "deny",
-    }
-}
-
-/// `text` in lines of at most [`COLUMNS`] characters, each ended by a line feed; a longer word stays whole.
-fn wrapped(text: &str) -> String {
-    let (mut lines, mut column) = (String::with_capacity(text.len() + 1), 0);
-    for word in text.split_whitespace() {
-        let width = word.chars().count();
-        if column > 0 && column + 1 + width > COLUMNS {
-            lines.push('\n');
-            column = 0;
-        } else if column > 0 {
-            lines.push(' ');
-            column += 1;
-        }
-        lines += word;
-        column += width;
-    }
-    lines.push('\n');
-    lines
-}
-
-/// JSON in which characters that steer a terminal, and that JSON allows in a string, are escaped too.
-///
-/// They can only stand inside of a string, where an escape is as good.
-fn escaped(json: String) -> String {
-    if !json.contains(steers) {
-        return json;
-    }
-    let mut text = String::with_capacity(json.len() + 16);
-    for c in json.chars() {
-        if steers(c) {
-            text += &format!("\\u{:04x}", u32::from(c));
-        } else {
-            text.push(c);
-        }
-    }
-    text
-}
-
 #[cfg(test)]
 mod tests {
-    use super::super::codes;
     use super::*;
 
     #[test]
@@ -118,34 +29,5 @@ mod tests {
         assert_eq!(summary(1, 0), "1 error");
         assert_eq!(summary(0, 3), "3 warnings");
         assert_eq!(summary(2, 1), "2 errors and 1 warning");
-    }
-
-    #[test]
-    fn a_code_is_explained_in_80_columns() {
-        insta::assert_snapshot!(explain(&codes::OCTAL_NUMBER), @r"
-        EDS020: a number starts with 0 and so is octal
-
-        name:   octal-number
-        class:  repair (an error in strict mode)
-        level:  warn
-
-        In CiA 306, as in C, `012` is the octal number 10. Few authors mean that. Write
-        the number in decimal or as `0x…`.
-        ");
-        for code in codes::CODES {
-            let text = explain(code);
-            assert!(text.lines().all(|line| line.chars().count() <= COLUMNS), "{text}");
-        }
-    }
-
-    #[test]
-    fn the_catalogue_has_a_line_a_code() {
-        let catalogue = catalogue();
-        assert_eq!(catalogue.lines().count(), codes::CODES.len());
-        let columns = |id: &str| {
-            let line = catalogue.lines().find(|line| line.starts_with(id)).unwrap();
-            line.split_whitespace().take(4).collect::<Vec<_>>().join(" ")
-        };
-        assert_eq!(columns("EDS020"), "EDS020 octal-number repair warn");
     }
 }

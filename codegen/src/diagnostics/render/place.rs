@@ -5,14 +5,15 @@ use std::ops::Range;
 use crate::source::{Position, Source, Span};
 
 /// Lines are shortened to this many characters.
-pub(super) const MAX_CHARS: usize = 200;
+pub const MAX_CHARS: usize = 200;
 
 /// How much of a shortened line is kept before the mark.
 const CHARS_BEFORE: usize = 60;
 
 /// A file, and the part of it that is meant.
 #[derive(Clone, Copy)]
-pub(super) struct Place<'a> {
+pub struct Place<'a> {
+    /// The file.
     pub source: &'a Source,
     /// `None` for the file as a whole.
     pub mark: Option<Mark>,
@@ -20,12 +21,14 @@ pub(super) struct Place<'a> {
 
 /// A part of a file.
 #[derive(Clone, Copy)]
-pub(super) struct Mark {
+pub struct Mark {
     /// First byte; in the file, on a character's edge.
     pub start: usize,
     /// One past the last byte; not before `start`, in the file, on a character's edge.
     pub end: usize,
+    /// The position of `start`.
     pub from: Position,
+    /// The position of `end`.
     pub to: Position,
 }
 
@@ -68,14 +71,14 @@ fn end_position(source: &Source, marked: Range<usize>, from: Position) -> Positi
 }
 
 /// The text of a line and the offset in the file at which it starts.
-pub(super) fn line(source: &Source, number: u32) -> (&str, usize) {
+pub fn line(source: &Source, number: u32) -> (&str, usize) {
     let line = source.line(number);
     // Both point into the same string: the difference is what a search for the line's start would find.
     (line, (line.as_ptr() as usize).saturating_sub(source.text().as_ptr() as usize))
 }
 
 /// The part of `line` to show so that `at`, a character's edge, is in it.
-pub(super) fn shown(line: &str, at: usize) -> Range<usize> {
+pub fn shown(line: &str, at: usize) -> Range<usize> {
     if line.chars().nth(MAX_CHARS).is_none() {
         return 0..line.len();
     }
@@ -85,7 +88,7 @@ pub(super) fn shown(line: &str, at: usize) -> Range<usize> {
 }
 
 /// The line on which `mark` starts, shortened around the mark where it is long.
-pub(super) fn quoted(source: &Source, mark: &Mark) -> String {
+pub fn quoted(source: &Source, mark: &Mark) -> String {
     let (line, offset) = line(source, mark.from.line);
     let shown = shown(line, mark.start.saturating_sub(offset).min(line.len()));
     let before = if shown.start > 0 { "…" } else { "" };

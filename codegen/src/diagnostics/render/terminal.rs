@@ -542,8 +542,6 @@ mod tests {
             let diagnostic = at(random(length), random(length)).note_at(span, "note").fix(fix);
             let sources = file(text);
             plain(&diagnostic, &sources);
-            super::super::json::line(&diagnostic, &sources);
-            super::super::sarif::document(&[diagnostic], &sources, "");
         }
     }
 }

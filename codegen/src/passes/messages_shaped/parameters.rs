@@ -5,8 +5,8 @@ use std::collections::BTreeMap;
 use super::step::Step;
 use super::{Problem, Shaped};
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
+use crate::ir::owner::Owner;
 use crate::ir::{Binding, CompactString, Device, Item, ParameterSpace, Type};
-use crate::passes::owner::Owner;
 use crate::text::brief;
 
 const OTHERS: Problem = "its request has fields beside the parameter, which a client couldn't fill in";

@@ -1,8 +1,8 @@
 //! Finds the steps of a request or of a reply.
 
-use super::super::owner::{fixed, Owner};
 use super::step::{are_aligned, push, tail, Step};
 use super::Problem;
+use crate::ir::owner::{fixed, Owner};
 use crate::ir::{Device, Message, MessageField, MessageValue, Type};
 
 pub(super) const UNRESOLVED: Problem = "a field names another that there isn't";

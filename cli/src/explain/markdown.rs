@@ -1,0 +1,111 @@
+//! The catalogue of codes as a page of Markdown.
+
+use lexibus_codegen::diagnostics::codes::CODES;
+use lexibus_codegen::diagnostics::Code;
+
+use super::{level, strictness};
+
+/// What the codes of each family are about, by the letters that they begin with.
+const FAMILIES: [(&str, &str); 11] = [
+    ("IO", "Files and the selection"),
+    ("EDS", "EDS and DCF"),
+    ("XML", "XML of any format"),
+    ("ESI", "ESI"),
+    ("XDD", "XDD and XDC"),
+    ("GSD", "GSDML"),
+    ("PDO", "PDOs"),
+    ("TAB", "Register tables, and what every description may have"),
+    ("MSG", "Messages of a command protocol"),
+    ("MOD", "Modules"),
+    ("CSV", "Lists of registers that become tables"),
+];
+
+/// Every code with its explanation: a chapter a family, a section a code, each with the code as its anchor.
+pub fn catalogue() -> String {
+    let mut text = String::from(
+        "# The catalogue of codes\n\nThis page is what `lexibus explain --format markdown` prints. What classes and levels \
+         are, and how a level is set,\nis in [the chapter on diagnostics](diagnostics.md).\n\n| codes | about |\n|---|---|\n",
+    );
+    for (family, about) in FAMILIES {
+        text += &format!("| [{family}](#{family}) | {about} |\n");
+    }
+    for (family, about) in FAMILIES {
+        text += &format!("\n<a id=\"{family}\"></a>\n\n## {about}\n");
+        for code in CODES.iter().filter(|code| self::family(code) == family) {
+            text.push('\n');
+            text += &explain(code);
+        }
+    }
+    text
+}
+
+/// A code as a section, with the code as its anchor.
+pub fn explain(code: &Code) -> String {
+    let (class, summary) = (code.class.name(), escaped(code.summary));
+    let mut text = format!("<a id=\"{}\"></a>\n\n### {}: {}\n\n", code.id, code.id, code.name);
+    text += &format!("**{summary}**\n\nClass: {class} ({}). Level: {}.\n", strictness(code.class), level(code));
+    for paragraph in code.explanation.lines().filter(|line| !line.is_empty()) {
+        text += &format!("\n{}\n", escaped(paragraph));
+    }
+    text
+}
+
+/// The letters that a code begins with.
+fn family(code: &Code) -> &'static str {
+    code.id.trim_end_matches(|letter: char| letter.is_ascii_digit())
+}
+
+/// Text in which nothing but code between backticks is markup.
+fn escaped(text: &str) -> String {
+    let mut escaped = String::with_capacity(text.len() + 8);
+    let is_paired = text.matches('`').count().is_multiple_of(2);
+    let mut in_code = false;
+    for letter in text.chars() {
+        match letter {
+            '`' if is_paired => in_code = !in_code,
+            '\\' | '`' | '*' | '_' | '[' | ']' | '<' | '>' | '|' | '#' | '&' | '~' if !in_code => escaped.push('\\'),
+            _ => {}
+        }
+        escaped.push(letter);
+    }
+    escaped
+}
+
+#[cfg(test)]
+mod tests {
+    use lexibus_codegen::diagnostics::codes;
+
+    use super::*;
+
+    #[test]
+    fn a_code_is_a_section() {
+        insta::assert_snapshot!(explain(&codes::OCTAL_NUMBER), @r#"
+        <a id="EDS020"></a>
+
+        ### EDS020: octal-number
+
+        **a number starts with 0 and so is octal**
+
+        Class: repair (an error in strict mode). Level: warn.
+
+        In CiA 306, as in C, `012` is the octal number 10. Few authors mean that. Write the number in decimal or as `0x…`.
+        "#);
+    }
+
+    #[test]
+    fn every_code_is_in_the_catalogue() {
+        let text = catalogue();
+        for code in CODES {
+            assert_eq!(text.matches(&format!("<a id=\"{}\"></a>", code.id)).count(), 1, "{}", code.id);
+        }
+        for (family, _) in FAMILIES {
+            assert!(CODES.iter().any(|code| self::family(code) == family), "{family} has no code");
+        }
+    }
+
+    #[test]
+    fn words_are_no_markup() {
+        assert_eq!(escaped("[1000] and `<index>sub<n>`"), "\\[1000\\] and `<index>sub<n>`");
+        assert_eq!(escaped("a ` alone"), "a \\` alone");
+    }
+}

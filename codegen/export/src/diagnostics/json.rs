@@ -1,0 +1,130 @@
+//! Findings for programs: JSON lines.
+
+use serde::Serialize;
+
+use lexibus_codegen::diagnostics::render::place::{self, Place};
+use lexibus_codegen::diagnostics::{Diagnostic, Note, Severity};
+use lexibus_codegen::source::Source;
+
+/// A finding; what there is none of is `null`, so that every line has every key.
+#[derive(Serialize)]
+struct Line<'a> {
+    code: &'a str,
+    name: &'a str,
+    severity: Severity,
+    message: &'a str,
+    file: Option<&'a str>,
+    line: Option<u32>,
+    column: Option<u32>,
+    end_line: Option<u32>,
+    end_column: Option<u32>,
+    start: Option<usize>,
+    end: Option<usize>,
+    source: Option<String>,
+    label: Option<&'a str>,
+    notes: Vec<NoteLine<'a>>,
+    help: Option<&'a str>,
+    fix: Option<&'a str>,
+}
+
+#[derive(Serialize)]
+struct NoteLine<'a> {
+    message: &'a str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    file: Option<&'a str>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    line: Option<u32>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    column: Option<u32>,
+}
+
+/// The finding as one JSON object without a line feed in or behind it.
+///
+/// Lines and columns count from 1, columns in characters; `end_column`, like `end`, is one past the last. `start` and
+/// `end` are bytes of the file's text as decoded to UTF-8, without a byte order mark. `source` is the line on which
+/// the marked text starts; one of over 200 characters is shortened around the mark, with `…` for what is left out.
+/// A finding about a file as a whole has a `file` and no place.
+pub fn line(diagnostic: &Diagnostic, sources: &[Source]) -> String {
+    let place = Place::of(diagnostic.span, sources);
+    let mark = place.and_then(|place| place.mark);
+    let line = Line {
+        code: diagnostic.code.id,
+        name: diagnostic.code.name,
+        severity: diagnostic.severity,
+        message: &diagnostic.message,
+        file: place.map(|place| place.source.name()),
+        line: mark.map(|mark| mark.from.line),
+        column: mark.map(|mark| mark.from.column),
+        end_line: mark.map(|mark| mark.to.line),
+        end_column: mark.map(|mark| mark.to.column),
+        start: mark.map(|mark| mark.start),
+        end: mark.map(|mark| mark.end),
+        source: place.and_then(|place| Some(place::quoted(place.source, &place.mark?))),
+        label: Some(diagnostic.label.as_str()).filter(|label| !label.is_empty()),
+        notes: notes(diagnostic, sources),
+        help: diagnostic.help.as_deref(),
+        fix: diagnostic.fix.as_deref(),
+    };
+    super::escaped(serde_json::to_string(&line).expect("strings and numbers serialise"))
+}
+
+fn notes<'a>(diagnostic: &'a Diagnostic, sources: &'a [Source]) -> Vec<NoteLine<'a>> {
+    let line = |note: &'a Note| {
+        let place = note.span.and_then(|span| Place::of(span, sources));
+        let from = place.and_then(|place| place.mark).map(|mark| mark.from);
+        NoteLine {
+            message: &note.message,
+            file: place.map(|place| place.source.name()),
+            line: from.map(|from| from.line),
+            column: from.map(|from| from.column),
+        }
+    };
+    diagnostic.notes.iter().map(line).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use lexibus_codegen::diagnostics::codes;
+    use lexibus_codegen::source::{FileId, Span};
+
+    #[test]
+    fn a_finding_has_all_of_its_parts() {
+        let sources = [Source::new("a/drive.eds", b"[1018]\r\nGer\xe4t=012\r\n".to_vec())];
+        let diagnostic = Diagnostic::new(&codes::OCTAL_NUMBER, Span::new(FileId(0), 15, 18), "`012` is octal")
+            .label("read as 10")
+            .note("a fact")
+            .note_at(Span::new(FileId(0), 1, 5), "a place")
+            .note_at(Span::default(), "a file")
+            .help("write it in decimal")
+            .fix("10");
+        insta::assert_snapshot!(line(&diagnostic, &sources), @r#"{"code":"EDS020","name":"octal-number","severity":"error","message":"`012` is octal","file":"a/drive.eds","line":2,"column":7,"end_line":2,"end_column":10,"start":15,"end":18,"source":"Gerät=012","label":"read as 10","notes":[{"message":"a fact"},{"message":"a place","file":"a/drive.eds","line":1,"column":2},{"message":"a file","file":"a/drive.eds"}],"help":"write it in decimal","fix":"10"}"#);
+    }
+
+    #[test]
+    fn what_there_is_none_of_is_null() {
+        let diagnostic = Diagnostic::new(&codes::NOT_AN_EDS, Span::default(), "no section\n\u{9b}2J\u{1b}");
+        insta::assert_snapshot!(line(&diagnostic, &[]), @r#"{"code":"EDS002","name":"not-an-eds","severity":"error","message":"no section\n\u009b2J\u001b","file":null,"line":null,"column":null,"end_line":null,"end_column":null,"start":null,"end":null,"source":null,"label":null,"notes":[],"help":null,"fix":null}"#);
+        let sources = [Source::new("x.eds", Vec::new())];
+        assert!(line(&diagnostic, &sources).contains(r#""file":"x.eds","line":null"#));
+    }
+
+    #[test]
+    fn any_span_is_a_place() {
+        let text = format!("{}€{}", "x".repeat(500), "y".repeat(500));
+        let sources = [Source::new("x.eds", text.into_bytes())];
+        for (start, end) in [(501, 502), (0, u32::MAX), (u32::MAX - 1, u32::MAX), (7, 3)] {
+            let diagnostic = Diagnostic::new(&codes::JUNK_LINE, Span::new(FileId(0), start, end), "");
+            let line: serde_json::Value = serde_json::from_str(&line(&diagnostic, &sources)).unwrap();
+            let source = line["source"].as_str().unwrap_or_default();
+            assert!(source.chars().count() <= place::MAX_CHARS + 2);
+        }
+        let diagnostic = Diagnostic::new(&codes::JUNK_LINE, Span::new(FileId(0), 501, 502), "");
+        let line: serde_json::Value = serde_json::from_str(&line(&diagnostic, &sources)).unwrap();
+        assert_eq!(
+            (line["start"].as_u64(), line["end"].as_u64(), line["column"].as_u64()),
+            (Some(500), Some(503), Some(501))
+        );
+        assert_eq!(line["source"], format!("…{}€{}…", "x".repeat(60), "y".repeat(139)));
+    }
+}

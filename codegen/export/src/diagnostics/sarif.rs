@@ -1,0 +1,461 @@
+//! Findings for code-scanning services and editors: SARIF 2.1.0.
+//!
+//! The names of the structures and fields are those of the OASIS standard; what Lexibus has no use for is left out.
+
+use std::collections::BTreeMap;
+
+use serde::Serialize;
+
+use lexibus_codegen::diagnostics::render::place::{Mark, Place};
+use lexibus_codegen::diagnostics::{Code, Diagnostic, Level, Note, Severity};
+use lexibus_codegen::source::Source;
+
+/// Marked text of more bytes isn't repeated in the log.
+const MAX_SNIPPET: usize = 1000;
+
+#[derive(Serialize)]
+struct Log<'a> {
+    #[serde(rename = "$schema")]
+    schema: &'static str,
+    version: &'static str,
+    runs: [Run<'a>; 1],
+}
+
+#[derive(Serialize)]
+#[serde(rename_all = "camelCase")]
+struct Run<'a> {
+    tool: Tool<'a>,
+    column_kind: &'static str,
+    newline_sequences: [&'static str; 3],
+    results: Vec<Outcome<'a>>,
+}
+
+#[derive(Serialize)]
+struct Tool<'a> {
+    driver: Driver<'a>,
+}
+
+#[derive(Serialize)]
+struct Driver<'a> {
+    name: &'static str,
+    version: &'a str,
+    rules: Vec<Rule>,
+}
+
+#[derive(Serialize)]
+#[serde(rename_all = "camelCase")]
+struct Rule {
+    id: &'static str,
+    name: String,
+    short_description: Message<'static>,
+    full_description: Message<'static>,
+    help: Message<'static>,
+    default_configuration: Configuration,
+}
+
+#[derive(Serialize)]
+struct Configuration {
+    enabled: bool,
+    level: &'static str,
+}
+
+#[derive(Serialize)]
+struct Message<'a> {
+    text: std::borrow::Cow<'a, str>,
+}
+
+/// A `result`.
+#[derive(Serialize)]
+#[serde(rename_all = "camelCase")]
+struct Outcome<'a> {
+    rule_id: &'static str,
+    rule_index: usize,
+    level: &'static str,
+    message: Message<'a>,
+    locations: Vec<Location<'a>>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    related_locations: Vec<Location<'a>>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    fixes: Vec<Fix<'a>>,
+}
+
+#[derive(Serialize)]
+#[serde(rename_all = "camelCase")]
+struct Location<'a> {
+    physical_location: PhysicalLocation<'a>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    message: Option<Message<'a>>,
+}
+
+#[derive(Serialize)]
+#[serde(rename_all = "camelCase")]
+struct PhysicalLocation<'a> {
+    artifact_location: ArtifactLocation,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    region: Option<Region<'a>>,
+}
+
+#[derive(Serialize)]
+struct ArtifactLocation {
+    uri: String,
+}
+
+#[derive(Serialize)]
+#[serde(rename_all = "camelCase")]
+struct Region<'a> {
+    start_line: u32,
+    start_column: u32,
+    end_line: u32,
+    end_column: u32,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    snippet: Option<Message<'a>>,
+}
+
+#[derive(Serialize)]
+#[serde(rename_all = "camelCase")]
+struct Fix<'a> {
+    description: Message<'a>,
+    artifact_changes: [ArtifactChange<'a>; 1],
+}
+
+#[derive(Serialize)]
+#[serde(rename_all = "camelCase")]
+struct ArtifactChange<'a> {
+    artifact_location: ArtifactLocation,
+    replacements: [Replacement<'a>; 1],
+}
+
+#[derive(Serialize)]
+#[serde(rename_all = "camelCase")]
+struct Replacement<'a> {
+    deleted_region: Region<'a>,
+    inserted_content: Message<'a>,
+}
+
+/// The findings as a SARIF 2.1.0 log of one run of `lexibus` version `tool_version`.
+///
+/// The rules are the codes that occur, in the order in which they first do. Facts without a place, and help without a
+/// fix, follow the message on lines of their own, as SARIF has no field for them. Names of files become URIs: relative
+/// ones stay relative to the working directory, absolute ones become `file:` URIs.
+pub fn document(diagnostics: &[Diagnostic], sources: &[Source], tool_version: &str) -> String {
+    let (mut rules, mut indices) = (Vec::new(), BTreeMap::new());
+    let mut results = Vec::with_capacity(diagnostics.len());
+    for diagnostic in diagnostics {
+        let rule_index = *indices.entry(diagnostic.code.id).or_insert_with(|| {
+            rules.push(rule(diagnostic.code));
+            rules.len() - 1
+        });
+        results.push(outcome(diagnostic, sources, rule_index));
+    }
+    let run = Run {
+        tool: Tool { driver: Driver { name: "lexibus", version: tool_version, rules } },
+        column_kind: "unicodeCodePoints",
+        // A reader takes the first that matches, so that the longest has to come first.
+        newline_sequences: ["\r\n", "\n", "\r"],
+        results,
+    };
+    let log = Log { schema: "https://json.schemastore.org/sarif-2.1.0.json", version: "2.1.0", runs: [run] };
+    super::escaped(serde_json::to_string(&log).expect("strings and numbers serialise"))
+}
+
+fn rule(code: &'static Code) -> Rule {
+    Rule {
+        id: code.id,
+        name: pascal_case(code.name),
+        short_description: message(code.summary),
+        full_description: message(code.explanation),
+        help: message(code.explanation),
+        default_configuration: Configuration {
+            enabled: code.default != Level::Allow,
+            level: if code.default == Level::Deny { "error" } else { "warning" },
+        },
+    }
+}
+
+fn outcome<'a>(diagnostic: &'a Diagnostic, sources: &'a [Source], rule_index: usize) -> Outcome<'a> {
+    let place = Place::of(diagnostic.span, sources);
+    let label = Some(diagnostic.label.as_str()).filter(|label| !label.is_empty()).map(message);
+    let fixes: Vec<Fix> = place.and_then(|place| fix(diagnostic, place)).into_iter().collect();
+    let related = |note: &'a Note| Some(location(Place::of(note.span?, sources)?, Some(message(&note.message))));
+    Outcome {
+        rule_id: diagnostic.code.id,
+        rule_index,
+        level: match diagnostic.severity {
+            Severity::Error => "error",
+            Severity::Warning => "warning",
+        },
+        message: Message { text: full_message(diagnostic, sources, fixes.is_empty()).into() },
+        locations: place.map(|place| location(place, label)).into_iter().collect(),
+        related_locations: diagnostic.notes.iter().filter_map(related).collect(),
+        fixes,
+    }
+}
+
+/// The message and all that has no field of its own.
+fn full_message(diagnostic: &Diagnostic, sources: &[Source], with_help: bool) -> String {
+    let mut text = diagnostic.message.clone();
+    for note in &diagnostic.notes {
+        if note.span.is_none_or(|span| !Place::exists(span, sources)) {
+            text += &format!("\nnote: {}", note.message);
+        }
+    }
+    if with_help {
+        if let Some(help) = &diagnostic.help {
+            text += &format!("\nhelp: {help}");
+        }
+        if let Some(fix) = &diagnostic.fix {
+            text += &format!("\nhelp: write it so: `{fix}`");
+        }
+    }
+    text
+}
+
+fn fix<'a>(diagnostic: &'a Diagnostic, place: Place<'a>) -> Option<Fix<'a>> {
+    let (replacement, mark) = (diagnostic.fix.as_deref()?, place.mark?);
+    let deleted_region = Region { snippet: None, ..region(place.source, mark) };
+    Some(Fix {
+        description: message(diagnostic.help.as_deref().unwrap_or("write it so")),
+        artifact_changes: [ArtifactChange {
+            artifact_location: artifact(place.source),
+            replacements: [Replacement { deleted_region, inserted_content: message(replacement) }],
+        }],
+    })
+}
+
+fn location<'a>(place: Place<'a>, message: Option<Message<'a>>) -> Location<'a> {
+    let region = place.mark.map(|mark| region(place.source, mark));
+    Location { physical_location: PhysicalLocation { artifact_location: artifact(place.source), region }, message }
+}
+
+fn region(source: &Source, mark: Mark) -> Region<'_> {
+    let marked = source.text().get(mark.start..mark.end).unwrap_or_default();
+    Region {
+        start_line: mark.from.line,
+        start_column: mark.from.column,
+        end_line: mark.to.line,
+        end_column: mark.to.column,
+        snippet: (marked.len() <= MAX_SNIPPET).then(|| message(marked)),
+    }
+}
+
+fn message(text: &str) -> Message<'_> {
+    Message { text: text.into() }
+}
+
+fn artifact(source: &Source) -> ArtifactLocation {
+    ArtifactLocation { uri: uri(source.name(), cfg!(windows)) }
+}
+
+/// A file's name as a URI; `windows` says by which rules to read the name.
+fn uri(name: &str, windows: bool) -> String {
+    let name = if windows { name.replace('\\', "/") } else { name.to_owned() };
+    let name = name.strip_prefix("//?/").filter(|_| windows).unwrap_or(&name);
+    let is_drive = |name: &str| matches!(name.as_bytes(), [letter, b':', ..] if letter.is_ascii_alphabetic());
+    if windows && is_drive(name) {
+        format!("file:///{}{}", &name[..2], percent_encoded(&name[2..]))
+    } else if windows && name.starts_with("//") {
+        format!("file:{}", percent_encoded(name))
+    } else if name.starts_with('/') {
+        format!("file:///{}", percent_encoded(name.trim_start_matches('/')))
+    } else {
+        percent_encoded(name.trim_start_matches("./"))
+    }
+}
+
+/// Everything but the unreserved characters of RFC 3986 and `/` as `%XX`.
+fn percent_encoded(text: &str) -> String {
+    let mut encoded = String::with_capacity(text.len());
+    for byte in text.bytes() {
+        if byte.is_ascii_alphanumeric() || b"-._~/".contains(&byte) {
+            encoded.push(char::from(byte));
+        } else {
+            encoded += &format!("%{byte:02X}");
+        }
+    }
+    encoded
+}
+
+/// `octal-number` as `OctalNumber`.
+fn pascal_case(name: &str) -> String {
+    let word = |word: &str| {
+        let mut letters = word.chars();
+        letters.next().map(|first| first.to_ascii_uppercase()).into_iter().chain(letters).collect::<String>()
+    };
+    name.split('-').map(word).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use lexibus_codegen::diagnostics::codes;
+    use lexibus_codegen::source::{FileId, Span};
+
+    /// Indented, for people to compare.
+    fn log(diagnostics: &[Diagnostic], sources: &[Source]) -> serde_json::Value {
+        serde_json::from_str(&document(diagnostics, sources, "1.2.3")).unwrap()
+    }
+
+    #[test]
+    fn a_log_without_findings_is_complete() {
+        insta::assert_snapshot!(document(&[], &[], "1.2.3"), @r#"{"$schema":"https://json.schemastore.org/sarif-2.1.0.json","version":"2.1.0","runs":[{"tool":{"driver":{"name":"lexibus","version":"1.2.3","rules":[]}},"columnKind":"unicodeCodePoints","newlineSequences":["\r\n","\n","\r"],"results":[]}]}"#);
+    }
+
+    #[test]
+    fn rules_are_the_codes_that_occur_once_each() {
+        let span = Span::default();
+        let new = |code| Diagnostic::new(code, span, "");
+        let codes = [&codes::UNKNOWN_KEY, &codes::OCTAL_NUMBER, &codes::UNKNOWN_KEY];
+        let log = log(&codes.map(new), &[]);
+        let rules = &log["runs"][0]["tool"]["driver"]["rules"];
+        assert_eq!(rules.as_array().unwrap().len(), 2);
+        insta::assert_snapshot!(format!("{:#}", rules[0]), @r#"
+        {
+          "defaultConfiguration": {
+            "enabled": false,
+            "level": "warning"
+          },
+          "fullDescription": {
+            "text": "Lexibus keeps the entry as an extension attribute of its object. Tools add keys of their own, so that this lint is off unless asked for."
+          },
+          "help": {
+            "text": "Lexibus keeps the entry as an extension attribute of its object. Tools add keys of their own, so that this lint is off unless asked for."
+          },
+          "id": "EDS012",
+          "name": "UnknownKey",
+          "shortDescription": {
+            "text": "a key has no meaning in CiA 306"
+          }
+        }
+        "#);
+        assert_eq!(log["runs"][0]["results"][2]["ruleIndex"], 0);
+        assert_eq!(rules[1]["defaultConfiguration"]["enabled"], true);
+    }
+
+    #[test]
+    fn a_result_has_places_notes_and_a_fix() {
+        let sources = [Source::new("my files/Gerät.eds", "[1018]\r\nGerät=012\r\n".into())];
+        let diagnostic = Diagnostic::new(&codes::OCTAL_NUMBER, Span::new(FileId(0), 15, 18), "`012` is octal")
+            .label("read as 10")
+            .note("a fact")
+            .note_at(Span::new(FileId(0), 1, 5), "a place")
+            .help("write it in decimal")
+            .fix("10");
+        insta::assert_snapshot!(format!("{:#}", log(&[diagnostic], &sources)["runs"][0]["results"][0]), @r#"
+        {
+          "fixes": [
+            {
+              "artifactChanges": [
+                {
+                  "artifactLocation": {
+                    "uri": "my%20files/Ger%C3%A4t.eds"
+                  },
+                  "replacements": [
+                    {
+                      "deletedRegion": {
+                        "endColumn": 10,
+                        "endLine": 2,
+                        "startColumn": 7,
+                        "startLine": 2
+                      },
+                      "insertedContent": {
+                        "text": "10"
+                      }
+                    }
+                  ]
+                }
+              ],
+              "description": {
+                "text": "write it in decimal"
+              }
+            }
+          ],
+          "level": "error",
+          "locations": [
+            {
+              "message": {
+                "text": "read as 10"
+              },
+              "physicalLocation": {
+                "artifactLocation": {
+                  "uri": "my%20files/Ger%C3%A4t.eds"
+                },
+                "region": {
+                  "endColumn": 10,
+                  "endLine": 2,
+                  "snippet": {
+                    "text": "012"
+                  },
+                  "startColumn": 7,
+                  "startLine": 2
+                }
+              }
+            }
+          ],
+          "message": {
+            "text": "`012` is octal\nnote: a fact"
+          },
+          "relatedLocations": [
+            {
+              "message": {
+                "text": "a place"
+              },
+              "physicalLocation": {
+                "artifactLocation": {
+                  "uri": "my%20files/Ger%C3%A4t.eds"
+                },
+                "region": {
+                  "endColumn": 6,
+                  "endLine": 1,
+                  "snippet": {
+                    "text": "1018"
+                  },
+                  "startColumn": 2,
+                  "startLine": 1
+                }
+              }
+            }
+          ],
+          "ruleId": "EDS020",
+          "ruleIndex": 0
+        }
+        "#);
+    }
+
+    #[test]
+    fn what_has_no_place_is_in_the_message() {
+        let diagnostic =
+            Diagnostic::new(&codes::NOT_AN_EDS, Span::default(), "no section").help("take another").fix("[1000]");
+        let sources = [Source::new("/drives/x y.eds", Vec::new())];
+        insta::assert_snapshot!(format!("{:#}", log(&[diagnostic], &sources)["runs"][0]["results"][0]), @r#"
+        {
+          "level": "error",
+          "locations": [
+            {
+              "physicalLocation": {
+                "artifactLocation": {
+                  "uri": "file:///drives/x%20y.eds"
+                }
+              }
+            }
+          ],
+          "message": {
+            "text": "no section\nhelp: take another\nhelp: write it so: `[1000]`"
+          },
+          "ruleId": "EDS002",
+          "ruleIndex": 0
+        }
+        "#);
+    }
+
+    #[test]
+    fn names_become_uris() {
+        assert_eq!(uri("./a/b c%.eds", false), "a/b%20c%25.eds");
+        assert_eq!(uri("../C:x\\y.eds", false), "../C%3Ax%5Cy.eds");
+        assert_eq!(uri("/etc/ä.eds", false), "file:///etc/%C3%A4.eds");
+        assert_eq!(uri(r"a\b.eds", true), "a/b.eds");
+        assert_eq!(uri(r"C:\a b\c.eds", true), "file:///C:/a%20b/c.eds");
+        assert_eq!(uri(r"\\?\C:\c.eds", true), "file:///C:/c.eds");
+        assert_eq!(uri(r"\\server\share\c.eds", true), "file://server/share/c.eds");
+        assert_eq!(uri("<stdin>", false), "%3Cstdin%3E");
+    }
+}

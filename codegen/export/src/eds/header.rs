@@ -1,0 +1,251 @@
+//! The sections about the file and the device as a whole, and the object lists.
+
+use super::extras::{Extra, Header};
+use super::note::{NoteKind, Place};
+use super::object;
+use super::writer::Writer;
+use super::{file_info, Context, Flavour};
+use lexibus_codegen::ir::{CanOpenSettings, Catalog, Commissioning, CompactString, DynamicChannel, Group};
+
+/// The bit rates of CiA 306 in kbit/s.
+pub(super) const BIT_RATES: [u16; 8] = [10, 20, 50, 125, 250, 500, 800, 1000];
+
+/// Writes a section of the header, if there is anything in it; an object list with its objects.
+pub(super) fn write<'e>(
+    writer: &mut Writer,
+    context: &Context<'_>,
+    catalog: &Catalog,
+    header: Header,
+    extras: impl Iterator<Item = Extra<'e>> + Clone,
+    objects: &[&Group],
+) {
+    let mut out = Section { writer, header, is_open: false };
+    if extras.clone().next().is_some() {
+        out.open();
+    }
+    match header {
+        Header::FileInfo => file_info::write(&mut out, context),
+        Header::DeviceInfo => device_info(out.open(), context, objects),
+        Header::DummyUsage => dummy_usage(&mut out, context),
+        Header::Comments => comments(&mut out, &context.device.header.comments),
+        Header::Commissioning => commissioning(&mut out, context),
+        Header::SupportedModules => supported_modules(&mut out, context, catalog),
+        Header::ConnectedModules => connected_modules(&mut out, context),
+        Header::DynamicChannels => dynamic_channels(&mut out, context),
+        Header::Mandatory | Header::Optional | Header::Manufacturer => list(out.open(), header, objects),
+    }
+    for extra in extras {
+        writer.extension(extra.key, extra.value, Place::Named(header.name()));
+    }
+    let own = objects.iter().filter(|group| list_of(group) == Some(header));
+    object::all(writer, context, own);
+}
+
+/// A section that begins with its first entry.
+pub(super) struct Section<'w> {
+    writer: &'w mut Writer,
+    header: Header,
+    is_open: bool,
+}
+
+impl Section<'_> {
+    /// The writer, within the section.
+    pub(super) fn open(&mut self) -> &mut Writer {
+        if !self.is_open {
+            self.is_open = true;
+            self.writer.section(self.header.name());
+        }
+        self.writer
+    }
+}
+
+fn device_info(writer: &mut Writer, context: &Context<'_>, objects: &[&Group]) {
+    let (device, identity) = (context.device, &context.device.identity);
+    let unknown = CanOpenSettings::default();
+    let canopen = device.canopen.as_deref().unwrap_or(&unknown);
+    let product =
+        if context.is_verbatim || !identity.product_name.is_empty() { &identity.product_name } else { &device.name };
+    writer.name("VendorName", &identity.vendor_name, Place::Device);
+    number(writer, "VendorNumber", identity.vendor_id);
+    writer.name("ProductName", product, Place::Device);
+    number(writer, "ProductNumber", identity.product_code);
+    number(writer, "RevisionNumber", identity.revision_number);
+    if !identity.order_code.is_empty() {
+        writer.name("OrderCode", &identity.order_code, Place::Device);
+    }
+    const KEYS: [&str; 8] = [
+        "BaudRate_10",
+        "BaudRate_20",
+        "BaudRate_50",
+        "BaudRate_125",
+        "BaudRate_250",
+        "BaudRate_500",
+        "BaudRate_800",
+        "BaudRate_1000",
+    ];
+    for (key, rate) in KEYS.into_iter().zip(BIT_RATES) {
+        writer.flag(key, canopen.bit_rates.contains(&rate));
+    }
+    writer.flag("SimpleBootUpMaster", canopen.boot_up_master);
+    writer.flag("SimpleBootUpSlave", canopen.boot_up_slave);
+    if let Some(granularity) = canopen.granularity {
+        writer.entry("Granularity", granularity);
+    }
+    writer.entry("DynamicChannelsSupported", canopen.dynamic_channels_supported);
+    writer.flag("GroupMessaging", canopen.group_messaging);
+    pdo_count(writer, "NrOfRXPDO", context, canopen.rx_pdos, objects, 0x1600);
+    pdo_count(writer, "NrOfTXPDO", context, canopen.tx_pdos, objects, 0x1A00);
+    writer.flag("LSS_Supported", canopen.lss);
+    if canopen.compact_pdo != 0 {
+        writer.entry("CompactPDO", format_args!("0x{:02X}", canopen.compact_pdo));
+    }
+}
+
+/// What the source announces; where it has no such number, the mapping objects that there are.
+fn pdo_count(
+    writer: &mut Writer,
+    key: &'static str,
+    context: &Context<'_>,
+    announced: Option<u16>,
+    objects: &[&Group],
+    first: u16,
+) {
+    if let Some(count) = announced {
+        writer.entry(key, count);
+    } else if !context.is_canopen {
+        let is_mapping = |group: &&&Group| group.index().is_some_and(|index| (first..first + 0x200).contains(&index));
+        writer.entry(key, objects.iter().filter(is_mapping).count());
+    }
+}
+
+fn number(writer: &mut Writer, key: &'static str, value: Option<u32>) {
+    if let Some(value) = value {
+        writer.entry(key, format_args!("0x{value:08X}"));
+    }
+}
+
+fn dummy_usage(out: &mut Section<'_>, context: &Context<'_>) {
+    let Some(canopen) = context.device.canopen.as_deref().filter(|canopen| canopen.dummies_given) else { return };
+    let writer = out.open();
+    // These are the types of the examples in CiA 306, and some readers want to see all of them.
+    let usual = 1..=7;
+    for code in usual.clone() {
+        writer.numbered(format_args!("Dummy{code:04X}"), u8::from(canopen.dummies.contains(&code)));
+    }
+    for code in canopen.dummies.iter().filter(|code| !usual.contains(code)) {
+        writer.numbered(format_args!("Dummy{code:04X}"), 1);
+    }
+}
+
+fn comments(out: &mut Section<'_>, lines: &[CompactString]) {
+    if !lines.is_empty() {
+        comment_lines(out.open(), lines);
+    }
+}
+
+/// `Lines` and `LineN`.
+pub(super) fn comment_lines(writer: &mut Writer, lines: &[CompactString]) {
+    writer.entry("Lines", lines.len());
+    for (line, number) in lines.iter().zip(1..) {
+        let line = writer.one_line(line, Place::Named("Comments"));
+        writer.numbered(format_args!("Line{number}"), line);
+    }
+}
+
+fn commissioning(out: &mut Section<'_>, context: &Context<'_>) {
+    let Some(own) = context.device.commissioning.as_deref().filter(|_| context.flavour == Flavour::Dcf) else { return };
+    let is_of_modules =
+        Commissioning { connected_modules: own.connected_modules.clone(), ..Commissioning::default() } == *own;
+    if is_of_modules && !own.connected_modules.is_empty() {
+        return;
+    }
+    let writer = out.open();
+    if let Some(node_id) = own.node_id {
+        writer.entry("NodeID", node_id);
+    }
+    writer.plain("NodeName", &own.node_name, Place::Device);
+    if let Some(rate) = own.bit_rate {
+        writer.entry("Baudrate", rate);
+    }
+    if let Some(net) = own.net_number {
+        writer.entry("NetNumber", net);
+    }
+    writer.plain("NetworkName", &own.network_name, Place::Device);
+    writer.flag("CANopenManager", own.manager);
+    if let Some(serial) = own.lss_serial_number {
+        writer.entry("LSS_SerialNumber", format_args!("0x{serial:08X}"));
+    }
+}
+
+fn supported_modules(out: &mut Section<'_>, context: &Context<'_>, catalog: &Catalog) {
+    let count = context.device.own_modules(&catalog.modules).count();
+    if context.is_canopen && (count > 0 || out.is_open) {
+        out.open().entry("NrOfEntries", count);
+    }
+}
+
+fn connected_modules(out: &mut Section<'_>, context: &Context<'_>) {
+    let Some(own) = context.device.commissioning.as_deref().filter(|_| context.flavour == Flavour::Dcf) else { return };
+    if own.connected_modules.is_empty() && !out.is_open {
+        return;
+    }
+    let writer = out.open();
+    writer.entry("NrOfEntries", own.connected_modules.len());
+    for (module, number) in own.connected_modules.iter().zip(1..) {
+        writer.numbered(number, module);
+    }
+}
+
+fn dynamic_channels(out: &mut Section<'_>, context: &Context<'_>) {
+    let Some(canopen) = context.device.canopen.as_deref() else { return };
+    if canopen.dynamic_channels.is_empty() && !out.is_open {
+        return;
+    }
+    let writer = out.open();
+    writer.entry("NrOfSeg", canopen.dynamic_channels.len());
+    for (channel, number) in canopen.dynamic_channels.iter().zip(1..) {
+        dynamic_channel(writer, channel, number);
+    }
+}
+
+fn dynamic_channel(writer: &mut Writer, channel: &DynamicChannel, number: i32) {
+    let place = Place::Named("DynamicChannels");
+    writer.numbered(format_args!("Type{number}"), format_args!("0x{:04X}", channel.data_type));
+    for (key, text) in [("Dir", &channel.direction), ("Range", &channel.range)] {
+        if !text.is_empty() {
+            let text = writer.one_line(text, place);
+            writer.numbered(format_args!("{key}{number}"), text);
+        }
+    }
+    let key = format_args!("PPOffset{number}");
+    match channel.difference {
+        Some(difference) => writer.numbered(key, format_args!("{}, {difference}", channel.offset)),
+        None => writer.numbered(key, channel.offset),
+    }
+    if channel.max_number.is_some() {
+        writer.notes.add(NoteKind::Setting, place);
+    }
+}
+
+/// The list into which an object belongs; none below 0x1000, where data types are defined.
+fn list_of(group: &Group) -> Option<Header> {
+    match group.index()? {
+        0x0000..=0x0FFF => None,
+        0x1000 | 0x1001 | 0x1018 => Some(Header::Mandatory),
+        0x2000..=0x5FFF => Some(Header::Manufacturer),
+        _ => Some(Header::Optional),
+    }
+}
+
+fn list(writer: &mut Writer, header: Header, objects: &[&Group]) {
+    let own = || objects.iter().filter(|group| list_of(group) == Some(header)).filter_map(|group| group.index());
+    indices(writer, "SupportedObjects", own().count(), own());
+}
+
+/// How many there are, and each by number.
+pub(super) fn indices(writer: &mut Writer, key: &'static str, count: usize, list: impl Iterator<Item = u16>) {
+    writer.entry(key, count);
+    for (index, number) in list.zip(1..) {
+        writer.numbered(number, format_args!("0x{index:04X}"));
+    }
+}

@@ -1,0 +1,60 @@
+//! Mapping objects of PDOs that the source describes beside the dictionary, as ETG.2000 does.
+
+use std::collections::HashSet;
+
+use lexibus_codegen::ir::{
+    Access, Binding, CompactString, Device, Direction, Group, Item, ObjectCode, Pdo, PdoEntry, Type, Value,
+    MAX_PDO_SUBS,
+};
+
+/// A mapping object for every PDO of `device` that has none.
+pub(super) fn objects(device: &Device) -> Vec<Group> {
+    let mut seen: HashSet<u16> = device.groups.iter().filter_map(Group::index).collect();
+    let tellable = device.process_data.pdos.iter().filter(|pdo| can_be_told(pdo));
+    tellable.filter(|pdo| seen.insert(pdo.mapping_index)).map(object).collect()
+}
+
+/// Whether the entries of a mapping object can say what `pdo` carries: 16 bits of index, 8 of sub-index and of length.
+/// Those that CompactPDO implies, and those without entries, need none.
+pub(super) fn can_be_told(pdo: &Pdo) -> bool {
+    let in_range = match pdo.direction {
+        Direction::Receive => (0x1600..0x1800).contains(&pdo.mapping_index),
+        Direction::Transmit => (0x1A00..0x1C00).contains(&pdo.mapping_index),
+    };
+    in_range
+        && !pdo.implicit
+        && !pdo.entries.is_empty()
+        && pdo.entries.len() <= MAX_PDO_SUBS
+        && pdo.is_mapping_known()
+        && pdo.entries.iter().all(|entry| entry.bits <= 0xFF)
+}
+
+fn object(pdo: &Pdo) -> Group {
+    let mut group = Group::object(pdo.mapping_index, ObjectCode::Record);
+    group.name = pdo.name.clone();
+    let access = if pdo.fixed { Access::ReadOnly } else { Access::ReadWrite };
+    let item = |sub: u8, name: CompactString, bits: u8, value: i128| {
+        let mut item = Item::new(Binding::coe(pdo.mapping_index, sub));
+        (item.name, item.ty, item.access) = (name, Type::Unsigned(bits), access);
+        item.default = Some(Value::Int(value));
+        item
+    };
+    let count = pdo.entries.len() as i128;
+    group.items.push(item(0, CompactString::const_new("Number of entries"), 8, count));
+    for (entry, sub) in pdo.entries.iter().zip(1..=254) {
+        group.items.push(item(sub, name(entry, sub), 32, word(entry)));
+    }
+    group
+}
+
+fn name(entry: &PdoEntry, sub: u8) -> CompactString {
+    match entry.name.as_str() {
+        "" => compact_str::format_compact!("Mapping entry {sub}"),
+        name => name.into(),
+    }
+}
+
+/// `index << 16 | sub << 8 | bits` (CiA 301 7.5.2.36).
+fn word(entry: &PdoEntry) -> i128 {
+    i128::from(entry.index) << 16 | i128::from(entry.sub_index) << 8 | i128::from(entry.bits)
+}

@@ -1,0 +1,312 @@
+//! Objects and their entries.
+
+use std::collections::HashMap;
+
+use super::compact;
+use super::data_type::{data_type, DataType};
+use super::header;
+use super::losses;
+use super::note::{NoteKind, Place};
+use super::value::{self, Form, Role};
+use super::writer::Writer;
+use super::{Context, Flavour};
+use lexibus_codegen::ir::{Access, Configured, Extension, Group, Item, Mappable, ObjectCode, Type, TypeDef, Value};
+
+/// The sections of `objects`.
+pub(super) fn all<'g>(writer: &mut Writer, context: &Context<'_>, objects: impl Iterator<Item = &'g &'g Group>) {
+    for group in objects {
+        object(writer, context, group, "", &context.device.types);
+    }
+}
+
+/// The sections of an object, `before` each of whose names stands `M1Fixed` in a module.
+pub(super) fn object(writer: &mut Writer, context: &Context<'_>, group: &Group, before: &str, types: &[TypeDef]) {
+    let (Some(index), Some(code)) = (group.index(), group.object_code()) else { return };
+    let out = Object { context, group, index, code, before, types };
+    losses::of_object(context, group, &mut writer.notes);
+    writer.section(format_args!("{before}{index:04X}"));
+    writer.name("ParameterName", &group.name, Place::Object(index));
+    writer.entry("ObjectType", format_args!("{:#X}", number(code)).to_string().replace("0X", "0x"));
+    let refinements = out.refinements_of_missing();
+    let can_be_compact = refinements.is_empty() && before.is_empty();
+    match (out.own_value(), compact::elements(group).filter(|_| can_be_compact)) {
+        (Some(item), _) => out.single(writer, item),
+        (None, Some(elements)) => out.compact(writer, &elements),
+        (None, None) => out.entries(writer),
+    }
+    out.refinements(writer, refinements);
+    if !group.links.is_empty() {
+        writer.section(format_args!("{before}{index:04X}ObjectLinks"));
+        header::indices(writer, "ObjectLinks", group.links.len(), group.links.iter().copied());
+    }
+}
+
+/// The number of an object code in CiA 301 7.4.3.
+fn number(code: ObjectCode) -> u8 {
+    match code {
+        ObjectCode::Null => 0,
+        ObjectCode::Domain => 2,
+        ObjectCode::DefType => 5,
+        ObjectCode::DefStruct => 6,
+        ObjectCode::Var => 7,
+        ObjectCode::Array => 8,
+        ObjectCode::Record => 9,
+    }
+}
+
+/// An object on its way to the file.
+pub(super) struct Object<'a> {
+    context: &'a Context<'a>,
+    group: &'a Group,
+    index: u16,
+    code: ObjectCode,
+    before: &'a str,
+    types: &'a [TypeDef],
+}
+
+impl<'a> Object<'a> {
+    /// The one value of an object without sub-indices.
+    fn own_value(&self) -> Option<&'a Item> {
+        let [item] = self.group.items.as_slice() else { return None };
+        let is_alone = item.object().is_some_and(|(_, sub)| sub == 0) && !self.code.has_subs();
+        // Another name, or flags of its own, can only have been in a section of its own.
+        let is_the_object = item.name == self.group.name && self.group.flags == 0;
+        (is_alone && (is_the_object || self.code == ObjectCode::Var)).then_some(item)
+    }
+
+    fn single(&self, writer: &mut Writer, item: &Item) {
+        let place = Place::Object(self.index);
+        if item.name != self.group.name {
+            writer.notes.add(NoteKind::Name, place);
+        }
+        self.value(writer, item, item.flags | self.group.flags);
+        writer.extensions(self.own_extensions(), place);
+        writer.extensions(&item.extensions, place);
+    }
+
+    fn entries(&self, writer: &mut Writer) {
+        let items = || self.group.items.iter().filter_map(|item| Some((item.object()?.1, item)));
+        // Sub-index 0xFF tells the structure of an object and isn't counted.
+        let described = items().filter(|(sub, _)| *sub != 0xFF).count();
+        if self.code != ObjectCode::Var || described > 0 {
+            writer.entry("SubNumber", described);
+        }
+        flags(writer, self.group.flags);
+        writer.extensions(self.own_extensions(), Place::Object(self.index));
+        let mut seen = [false; 256];
+        for (sub, item) in items() {
+            if std::mem::replace(&mut seen[usize::from(sub)], true) {
+                writer.notes.add(NoteKind::Duplicate, Place::Entry(self.index, sub));
+                continue;
+            }
+            writer.section(format_args!("{}{:04X}sub{sub:X}", self.before, self.index));
+            writer.name("ParameterName", &item.name, Place::Entry(self.index, sub));
+            writer.entry("ObjectType", "0x7");
+            self.value(writer, item, item.flags);
+            writer.extensions(&item.extensions, Place::Entry(self.index, sub));
+        }
+    }
+
+    /// The extension attributes of the object's own section.
+    fn own_extensions(&self) -> &'a [Extension] {
+        let all = &self.group.extensions;
+        all.get(..all.len() - self.refinements_of_missing().len()).unwrap_or(all)
+    }
+
+    /// The extension attributes from the first one on that stands in `[xxxxName]` or its like.
+    fn refinements_of_missing(&self) -> &'a [Extension] {
+        let all = &self.group.extensions;
+        let is_first =
+            |extension: &Extension| extension.key.split_once('/').is_some_and(|(name, _)| is_refinement(name));
+        let first = all.iter().position(is_first).filter(|_| self.context.is_verbatim);
+        all.get(first.unwrap_or(all.len())..).unwrap_or(&[])
+    }
+
+    /// Sections that refine sub-indices which the object doesn't have.
+    fn refinements(&self, writer: &mut Writer, list: &'a [Extension]) {
+        let parts = |extension: &'a Extension| extension.key.split_once('/');
+        let mut counts: HashMap<&str, usize> = HashMap::new();
+        for (section, key) in list.iter().filter_map(parts) {
+            // A key that is no number isn't counted.
+            *counts.entry(section).or_default() += usize::from(key.bytes().all(|byte| byte.is_ascii_digit()));
+        }
+        let mut section = "";
+        for extension in list {
+            let (name, key) = parts(extension).unwrap_or((section, &extension.key));
+            if name != section {
+                section = name;
+                writer.section(section);
+                writer.entry("NrOfEntries", counts.get(section).copied().unwrap_or(0));
+            }
+            writer.extension(key, &extension.value, Place::Object(self.index));
+        }
+    }
+
+    fn compact(&self, writer: &mut Writer, elements: &compact::Elements<'_>) {
+        let plain = Item { configured: None, ..elements.template.clone() };
+        self.value(writer, &plain, self.group.flags);
+        writer.entry("CompactSubObj", elements.count);
+        writer.extensions(self.own_extensions(), Place::Object(self.index));
+        let (before, index) = (self.before, self.index);
+        let mut list = |name: &str, rows: Vec<(u8, String)>| {
+            if rows.is_empty() {
+                return;
+            }
+            writer.section(format_args!("{before}{index:04X}{name}"));
+            writer.entry("NrOfEntries", rows.len());
+            for (sub, text) in rows {
+                let text = writer.one_line(&text, Place::Entry(index, sub));
+                writer.numbered(sub, text);
+            }
+        };
+        list("Name", elements.names());
+        if self.context.flavour == Flavour::Dcf {
+            let ty = self.data_type(elements.template).ty;
+            list("Value", elements.values(|value| value::text(value, ty, Role::Value, self.form()).0));
+            list("Denotation", elements.denotations());
+        } else {
+            let count = elements.configured();
+            writer.notes.add_many(NoteKind::Configuration, count, Place::Object(index));
+        }
+    }
+
+    fn data_type(&self, item: &Item) -> DataType {
+        data_type(item.type_on("canopen"), self.types, self.context.is_canopen, self.context.is_verbatim)
+    }
+
+    /// The form of numbers. Communication objects contain identifiers, mappings and masks, which are hexadecimal.
+    fn form(&self) -> Form {
+        Form { hex: (0x1000..0x2000).contains(&self.index), reals: self.context.reals }
+    }
+
+    /// The entries of one value, from its type on.
+    pub(super) fn value(&self, writer: &mut Writer, item: &Item, item_flags: u32) {
+        let place = Place::item(item);
+        let data_type = self.data_type(item);
+        losses::of_item(item, &mut writer.notes);
+        if let Some(note) = data_type.note {
+            writer.notes.add(note, place);
+        }
+        if let Some(code) = data_type.code {
+            writer.entry("DataType", format_args!("0x{code:04X}"));
+        }
+        let (access, is_mappable, note) = access(item.access_on("canopen"), item.mappable);
+        if let Some(note) = note {
+            writer.notes.add(note, place);
+        }
+        writer.entry("AccessType", access.name());
+        let ty = data_type.ty;
+        self.number(writer, "DefaultValue", item.default.as_ref(), ty, Role::Value, place);
+        writer.flag("PDOMapping", is_mappable);
+        if item.limits.are_swapped(ty) {
+            writer.notes.add(NoteKind::SwappedLimits, place);
+        } else {
+            self.number(writer, "LowLimit", item.limits.low.as_ref(), ty, Role::Low, place);
+            self.number(writer, "HighLimit", item.limits.high.as_ref(), ty, Role::High, place);
+        }
+        flags(writer, item_flags);
+        if let Some(configured) = &item.configured {
+            self.configured(writer, configured, ty, place);
+        }
+    }
+
+    fn configured(&self, writer: &mut Writer, configured: &Configured, ty: Type, place: Place<'_>) {
+        if self.context.flavour == Flavour::Eds {
+            return writer.notes.add(NoteKind::Configuration, place);
+        }
+        self.number(writer, "ParameterValue", configured.value.as_ref(), ty, Role::Value, place);
+        let texts = [
+            ("Denotation", &configured.denotation),
+            ("UploadFile", &configured.upload_file),
+            ("DownloadFile", &configured.download_file),
+        ];
+        for (key, text) in texts {
+            writer.plain(key, text.as_deref().unwrap_or_default(), place);
+        }
+    }
+
+    fn number(
+        &self,
+        writer: &mut Writer,
+        key: &'static str,
+        value: Option<&Value>,
+        ty: Type,
+        role: Role,
+        place: Place<'_>,
+    ) {
+        let Some(value) = value else { return };
+        let (text, note) = value::text(value, ty, role, self.form());
+        if let Some(note) = note {
+            writer.notes.add(note, place);
+        }
+        if let Some(text) = text {
+            let text = writer.one_line(&text, place);
+            writer.entry(key, text);
+        }
+    }
+}
+
+/// Whether a section is about sub-indices of an object: `2000Name`.
+fn is_refinement(section: &str) -> bool {
+    let rest =
+        section.trim_start_matches(|letter: char| letter.is_ascii_hexdigit() || matches!(letter, 'x' | 'X' | ' '));
+    // `De` are digits, too.
+    ["Name", "Value", "Denotation", "notation"].iter().any(|word| word.eq_ignore_ascii_case(rest))
+}
+
+/// A value that stands alone: what a module adds to an object.
+pub(super) fn template(writer: &mut Writer, context: &Context<'_>, index: u16, item: &Item, types: &[TypeDef]) {
+    let group = Group::object(index, ObjectCode::Var);
+    let out = Object { context, group: &group, index, code: ObjectCode::Var, before: "", types };
+    out.value(writer, item, item.flags);
+}
+
+fn flags(writer: &mut Writer, flags: u32) {
+    if flags != 0 {
+        writer.entry("ObjFlags", format_args!("0x{flags:X}"));
+    }
+}
+
+/// The access type and PDOMapping that say the same as `access` and `mappable` together, or what comes next to it.
+fn access(access: Access, mappable: Mappable) -> (Access, bool, Option<NoteKind>) {
+    if !mappable.any() {
+        return (access, false, None);
+    }
+    if Mappable::by_access(access) == mappable {
+        return (access, true, None);
+    }
+    let same = match access {
+        Access::ReadWrite | Access::ReadWriteInput | Access::ReadWriteOutput => {
+            [Access::ReadWrite, Access::ReadWriteInput, Access::ReadWriteOutput]
+                .into_iter()
+                .find(|other| Mappable::by_access(*other) == mappable)
+        }
+        _ => None,
+    };
+    match same {
+        Some(access) => (access, true, Some(NoteKind::Mapping)),
+        // Of a read-only value an RPDO can't be told, of a write-only one a TPDO.
+        None => {
+            let own = Mappable::by_access(access);
+            let is_left = own.rpdo && mappable.rpdo || own.tpdo && mappable.tpdo;
+            (access, is_left, Some(NoteKind::LostMapping))
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn directions_of_mapping_are_access_types() {
+        let to = |access_type, rpdo, tpdo| access(access_type, Mappable { rpdo, tpdo });
+        assert_eq!(to(Access::ReadWrite, true, true), (Access::ReadWrite, true, None));
+        assert_eq!(to(Access::ReadWrite, false, false), (Access::ReadWrite, false, None));
+        assert_eq!(to(Access::ReadWrite, true, false), (Access::ReadWriteOutput, true, Some(NoteKind::Mapping)));
+        assert_eq!(to(Access::ReadWrite, false, true), (Access::ReadWriteInput, true, Some(NoteKind::Mapping)));
+        assert_eq!(to(Access::ReadOnly, false, true), (Access::ReadOnly, true, None));
+        assert_eq!(to(Access::ReadOnly, true, false), (Access::ReadOnly, false, Some(NoteKind::LostMapping)));
+        assert_eq!(to(Access::ReadOnly, true, true), (Access::ReadOnly, true, Some(NoteKind::LostMapping)));
+    }
+}

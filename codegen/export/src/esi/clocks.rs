@@ -1,0 +1,65 @@
+//! Distributed clocks.
+
+use super::text::hex;
+use crate::note::{NoteKind, Notes, Place};
+use crate::xml::Xml;
+use lexibus_codegen::ir::{ClockMode, ClockSyncManager, ClockTime, DistributedClocks};
+
+/// Attributes of Dc.
+const ATTRIBUTES: [&str; 5] =
+    ["UnknownFRMW", "Unknown64Bit", "ExternalRefClock", "PotentialReferenceClock", "TimeLoopControlOnly"];
+
+/// Writes Dc.
+pub(super) fn write(xml: &mut Xml, notes: &mut Notes, clocks: &DistributedClocks) {
+    xml.open("Dc");
+    for (name, value) in &clocks.attributes {
+        match ATTRIBUTES.contains(&name.as_str()) {
+            true => xml.attribute(name, value),
+            false => notes.add(NoteKind::Extension, Place::Named("Dc")),
+        }
+    }
+    clocks.modes.iter().for_each(|own| mode(xml, own));
+    xml.close();
+}
+
+fn mode(xml: &mut Xml, mode: &ClockMode) {
+    xml.open("OpMode");
+    xml.leaf("Name", &mode.name);
+    if !mode.description.is_empty() {
+        xml.leaf("Desc", &mode.description);
+    }
+    xml.leaf("AssignActivate", hex(mode.assign_activate, 4));
+    time(xml, "CycleTimeSync0", mode.cycle_sync0);
+    time(xml, "ShiftTimeSync0", mode.shift_sync0);
+    time(xml, "CycleTimeSync1", mode.cycle_sync1);
+    time(xml, "ShiftTimeSync1", mode.shift_sync1);
+    mode.sync_managers.iter().for_each(|manager| sync_manager(xml, manager));
+    xml.close();
+}
+
+/// A time, if anything is said of it.
+fn time(xml: &mut Xml, element: &'static str, time: ClockTime) {
+    if time == ClockTime::default() {
+        return;
+    }
+    xml.open(element);
+    xml.optional("Factor", time.factor);
+    xml.flag("Input", time.input && element.starts_with("Shift"), "true");
+    xml.content(time.nanoseconds);
+    xml.close();
+}
+
+fn sync_manager(xml: &mut Xml, manager: &ClockSyncManager) {
+    xml.open("Sm");
+    xml.attribute("No", manager.number);
+    if let Some(kind) = manager.sync_type {
+        xml.leaf("SyncType", kind);
+    }
+    for (index, factor) in &manager.pdos {
+        xml.open("Pdo");
+        xml.optional("OSFac", *factor);
+        xml.content(hex(*index, 4));
+        xml.close();
+    }
+    xml.close();
+}

@@ -1,0 +1,131 @@
+//! Devices.
+
+use super::text::{documentation, hex, names};
+use super::types::Types;
+use super::{clocks, diagnosis, dictionary, eeprom, extras, losses, mailbox, objects, pdo, slots, sync, Context};
+use crate::note::{NoteKind, Place};
+use crate::xml::Xml;
+use lexibus_codegen::ir::{CompactString, Device, Direction, EtherCatSettings, Pdo};
+
+/// Writes a device.
+pub(super) fn write(xml: &mut Xml, context: &mut Context<'_>, device: &Device) {
+    let unknown = EtherCatSettings::default();
+    let settings = device.ethercat.as_deref().unwrap_or(&unknown);
+    let place = Place::Named(&device.name);
+    xml.open("Device");
+    xml.flag("Invisible", settings.invisible, "true");
+    physics(xml, context, settings);
+    device_type(xml, context, device);
+    for (product, revision) in &settings.hides {
+        xml.open("HideType");
+        xml.optional("ProductCode", product.map(|code| hex(code, 8)));
+        xml.optional("RevisionNo", revision.map(|number| hex(number, 8)));
+        xml.close();
+    }
+    names(xml, "Name", &device.name, &device.names, &mut context.notes, place);
+    documentation(xml, "Comment", device.documentation.as_deref(), &mut context.notes, place);
+    extras::urls(xml, device);
+    extras::info(xml, context, device, settings);
+    let group = Some(settings.group.to_string()).filter(|group| !group.is_empty() || context.is_esi);
+    let group = context.wanted(context.options.group(), group, "group");
+    xml.leaf("GroupType", group);
+    dictionary(xml, context, device, |xml, context, types| {
+        sync::write(xml, context, device, settings);
+        let is_own = |pdo: &&Pdo| pdo.buses.is_none_or(|buses| buses.coe || device.ethercat.is_none());
+        let mut pdos: Vec<&Pdo> = device.process_data.pdos.iter().filter(is_own).collect();
+        // ETG.2000 has all RxPdos in front of the TxPdos; what a file has otherwise stays so.
+        if !context.is_esi {
+            pdos.sort_by_key(|pdo| pdo.direction == Direction::Transmit);
+        }
+        for own in pdos {
+            pdo::write(xml, &mut context.notes, types, own, device.ethercat.is_some());
+        }
+    });
+    mailbox::write(xml, context, settings.mailbox.as_deref());
+    if let Some(own) = &settings.clocks {
+        clocks::write(xml, &mut context.notes, own);
+    }
+    slots::write(xml, context, device, settings);
+    eeprom::registers(xml, &mut context.notes, settings);
+    eeprom::write(xml, context, settings);
+    extras::image(xml, device);
+    xml.close();
+    losses::of_device(context, device);
+}
+
+/// The profiles with the dictionary, and behind them what `between` writes with the same types.
+pub(super) fn dictionary(
+    xml: &mut Xml,
+    context: &mut Context<'_>,
+    device: &Device,
+    between: impl FnOnce(&mut Xml, &mut Context<'_>, &Types<'_>),
+) {
+    let made = objects::of_registers(device, &mut context.notes);
+    let objects = objects::of_device(device, &made, &mut context.notes);
+    let mut types = Types::new(&device.types, context.is_esi, &mut context.notes);
+    if device.dictionary_only {
+        dictionary::write(xml, context, &mut types, &objects);
+    } else {
+        profiles(xml, context, device, |xml, context| {
+            dictionary::write(xml, context, &mut types, &objects);
+            diagnosis::write(xml, &mut context.notes, &device.code_tables);
+        });
+    }
+    between(xml, context, &types);
+}
+
+/// A profile for every number, the first one with what `first` writes.
+fn profiles(xml: &mut Xml, context: &mut Context<'_>, device: &Device, first: impl FnOnce(&mut Xml, &mut Context<'_>)) {
+    let has_more = !device.groups.is_empty() || !device.types.is_empty() || !device.code_tables.is_empty();
+    if device.profiles.is_empty() && !has_more {
+        return;
+    }
+    let (number, others) = match device.profiles.split_first() {
+        Some((number, others)) => (Some(number), others),
+        None => (None, [].as_slice()),
+    };
+    xml.open("Profile");
+    if let Some(number) = number {
+        xml.leaf("ProfileNo", number);
+    }
+    first(xml, context);
+    xml.close();
+    for number in others {
+        xml.open("Profile");
+        xml.leaf("ProfileNo", number);
+        xml.close();
+    }
+}
+
+fn physics(xml: &mut Xml, context: &mut Context<'_>, settings: &EtherCatSettings) {
+    let is_known = |ports: &str| ports.len() <= 4 && ports.bytes().all(|port| b"YKH ,".contains(&port));
+    let own = settings.physics.to_string();
+    let own = Some(own).filter(|ports| context.is_esi || !ports.is_empty());
+    let ports = context.wanted(context.options.physics(), own, "physics");
+    if !is_known(&ports) {
+        context.notes.add(NoteKind::Spelling, Place::Named("Physics"));
+        return xml.attribute("Physics", "");
+    }
+    xml.attribute("Physics", ports);
+}
+
+fn device_type(xml: &mut Xml, context: &mut Context<'_>, device: &Device) {
+    let (identity, options) = (&device.identity, context.options);
+    let product = options.product_code().or(identity.product_code);
+    let revision = options.revision().or(identity.revision_number);
+    xml.open("Type");
+    // A master can't tell a device without them from others.
+    if !context.is_esi {
+        context.wanted(product, None, "product-code");
+        context.wanted(revision, None, "revision");
+    }
+    xml.optional("ProductCode", product.map(|code| hex(code, 8)));
+    xml.optional("RevisionNo", revision.map(|number| hex(number, 8)));
+    xml.optional("SerialNo", identity.serial_number.map(|number| hex(number, 8)));
+    extras::of_type(xml, device);
+    let named = [&identity.order_code, &device.name].into_iter().find(|name| !name.is_empty());
+    let own = if context.is_esi { Some(&identity.order_code) } else { named };
+    let own = context.wanted(options.order_code(), own.map(CompactString::to_string), "order-code");
+    xml.content(own);
+    xml.close();
+}

@@ -1,0 +1,249 @@
+//! The dictionary of a device or module: data types and objects.
+
+use compact_str::CompactString;
+
+use super::object;
+use super::record::{self, FieldFacts, Plan};
+use super::text::{documentation, hex, name, names};
+use super::types::{basic_name, is_self_named, Made, MadeField, Types};
+use super::Context;
+use crate::note::{NoteKind, Notes, Place};
+use crate::xml::Xml;
+use lexibus_codegen::etg::type_name::{self, Basic};
+use lexibus_codegen::ir::{Access, EnumValue, Group, Item, Shape, Type, TypeDef};
+
+/// An object, its entries by sub-index, and its type.
+type Planned<'g> = (&'g Group, Vec<(u8, &'g Item)>, Plan);
+
+/// Writes a Dictionary, if there is anything in it.
+pub(super) fn write(xml: &mut Xml, context: &mut Context<'_>, types: &mut Types<'_>, groups: &[&Group]) {
+    let planned: Vec<Planned<'_>> = groups
+        .iter()
+        .filter_map(|group| {
+            let items = entries(group, &mut context.notes);
+            if items.is_empty() {
+                context.notes.add(NoteKind::EmptyObject, Place::object(group));
+                return None;
+            }
+            let plan = record::plan(types, group, &items, &mut context.notes);
+            Some((*group, items, plan))
+        })
+        .collect();
+    if planned.is_empty() && types.defs.is_empty() {
+        return;
+    }
+    xml.open("Dictionary");
+    data_types(xml, types, &mut context.notes);
+    xml.open("Objects");
+    for (group, items, plan) in &planned {
+        object::write(xml, context, types, group, items, plan);
+    }
+    xml.close();
+    xml.close();
+}
+
+/// The entries of an object, each sub-index once.
+fn entries<'g>(group: &'g Group, notes: &mut Notes) -> Vec<(u8, &'g Item)> {
+    let mut items: Vec<(u8, &Item)> = Vec::with_capacity(group.items.len());
+    let mut seen = [false; 256];
+    for item in &group.items {
+        match super::objects::address(item) {
+            Some((_, sub)) if !std::mem::replace(&mut seen[usize::from(sub)], true) => items.push((sub, item)),
+            Some((index, sub)) => notes.add(NoteKind::Duplicate, Place::Entry(index, sub)),
+            None => notes.add(NoteKind::NotAnObject, Place::item(item)),
+        }
+    }
+    items.sort_by_key(|(sub, _)| *sub);
+    items
+}
+
+fn data_types(xml: &mut Xml, types: &mut Types<'_>, notes: &mut Notes) {
+    xml.open("DataTypes");
+    for (at, def) in (0u32..).zip(types.defs) {
+        data_type(xml, types, at, def, notes);
+    }
+    // Types that are made up refer to no further ones.
+    for made in &types.made {
+        made_type(xml, made, notes);
+    }
+    xml.close();
+}
+
+fn data_type(xml: &mut Xml, types: &mut Types<'_>, at: u32, def: &TypeDef, notes: &mut Notes) {
+    let (own, place) = (types.name_of(at), Place::Named(&def.name));
+    let bits = types.bits(Type::Named(lexibus_codegen::ir::TypeId(at))).unwrap_or(0);
+    let base = match &def.shape {
+        Shape::Alias(_) if is_self_named(def, &own) => None,
+        Shape::Alias(ty) | Shape::Array { element: ty, .. } => Some(*ty),
+        Shape::Enumeration { base, .. } => Some(*base),
+        Shape::BitField { .. } if matches!(type_name::basic(&own), Some((Basic::Bits(_), _))) => None,
+        Shape::BitField { base, .. } => {
+            notes.add(NoteKind::BitField, place);
+            Some(*base)
+        }
+        Shape::Scaled { base, .. } => {
+            notes.add(NoteKind::Quantity, place);
+            Some(*base)
+        }
+        Shape::Record(_) => None,
+    };
+    let base = base.map(|ty| types.reference(ty, notes, place).0);
+    xml.open("DataType");
+    if let Some(code) = def.code {
+        xml.leaf("Index", hex(code, 4));
+    }
+    xml.leaf("Name", &own);
+    if let Some(base) = base.filter(|base| *base != own) {
+        xml.leaf("BaseType", base);
+    }
+    documentation(xml, "Comment", def.documentation.as_deref(), notes, place);
+    xml.leaf("BitSize", bits);
+    match &def.shape {
+        Shape::Array { dimensions, .. } => {
+            for (lower, count) in dimensions {
+                array_info(xml, i64::from(*lower), *count);
+            }
+        }
+        Shape::Record(_) => sub_items(xml, types, at, def, notes),
+        Shape::Enumeration { values, .. } => values.iter().for_each(|value| enum_info(xml, "EnumInfo", value, notes)),
+        _ => {}
+    }
+    xml.close();
+}
+
+fn array_info(xml: &mut Xml, lower: i64, count: u32) {
+    xml.open("ArrayInfo");
+    xml.leaf("LBound", lower);
+    xml.leaf("Elements", count);
+    xml.close();
+}
+
+/// A named value.
+pub(super) fn enum_info(xml: &mut Xml, element: &'static str, value: &EnumValue, notes: &mut Notes) {
+    let place = Place::Named(&value.name);
+    xml.open(element);
+    names(xml, "Text", &value.name, &value.names, notes, place);
+    xml.leaf("Enum", value.value);
+    documentation(xml, "Comment", value.documentation.as_deref(), notes, place);
+    xml.close();
+    notes.add_many(NoteKind::ValueRange, usize::from(value.last.is_some()), place);
+    let is_conditional = value.when.is_some() || value.zone.is_some();
+    notes.add_many(NoteKind::Behaviour, usize::from(is_conditional), place);
+    notes.add_many(NoteKind::Availability, usize::from(value.availability.is_some()), place);
+}
+
+/// The sub-items of a record of the device.
+fn sub_items(xml: &mut Xml, types: &mut Types<'_>, at: u32, def: &TypeDef, notes: &mut Notes) {
+    let Shape::Record(fields) = &def.shape else { return };
+    let unique = record::field_names(types, at);
+    let facts = types.uses.get(&at).cloned().unwrap_or_default();
+    for (position, (field, own)) in fields.iter().zip(&unique).enumerate() {
+        notes.add_many(NoteKind::Renamed, usize::from(*own != field.name), Place::Named(&def.name));
+        let (ty, _) = types.reference(field.ty, notes, Place::Named(&def.name));
+        xml.open("SubItem");
+        if let Some(sub_index) = field.sub_index {
+            xml.leaf("SubIdx", sub_index);
+        }
+        sub_item(xml, (own, &ty, field.bits, field.bit_offset), facts.get(position), notes);
+        xml.close();
+    }
+}
+
+/// What every sub-item has: name, type, length and first bit.
+type Placed<'p> = (&'p CompactString, &'p CompactString, u32, u32);
+
+fn sub_item(xml: &mut Xml, (own, ty, bits, offset): Placed<'_>, facts: Option<&FieldFacts>, notes: &mut Notes) {
+    let place = Place::Named(own);
+    xml.leaf("Name", own);
+    if let Some(facts) = facts {
+        for local in facts.names.iter() {
+            name(xml, "DisplayName", local, notes, place);
+        }
+    }
+    xml.leaf("Type", ty);
+    if let Some(facts) = facts {
+        documentation(xml, "Comment", facts.documentation.as_deref(), notes, place);
+    }
+    xml.leaf("BitSize", bits);
+    xml.leaf("BitOffs", offset);
+    if let Some(facts) = facts {
+        xml.open("Flags");
+        flags(xml, facts, None, notes, place);
+        xml.leaf("Backup", u8::from(facts.backup));
+        xml.leaf("Setting", u8::from(facts.setting));
+        xml.close();
+    }
+}
+
+/// Access, category and mapping.
+pub(super) fn flags(
+    xml: &mut Xml,
+    facts: &FieldFacts,
+    category: Option<&'static str>,
+    notes: &mut Notes,
+    place: Place<'_>,
+) {
+    let read = record::check_states(&facts.read_states, notes, place);
+    let write = record::check_states(&facts.write_states, notes, place);
+    xml.open("Access");
+    xml.optional("ReadRestrictions", read);
+    xml.optional("WriteRestrictions", write);
+    xml.content(match facts.access {
+        Access::ReadOnly | Access::Constant => "ro",
+        Access::WriteOnly => "wo",
+        Access::ReadWrite | Access::ReadWriteInput | Access::ReadWriteOutput => "rw",
+    });
+    xml.close();
+    notes.add_many(NoteKind::Constant, usize::from(facts.access == Access::Constant), place);
+    if let Some(category) = category {
+        xml.leaf("Category", category);
+    }
+    match (facts.mappable.rpdo, facts.mappable.tpdo) {
+        (true, true) => xml.leaf("PdoMapping", "RT"),
+        (true, false) => xml.leaf("PdoMapping", "R"),
+        (false, true) => xml.leaf("PdoMapping", "T"),
+        (false, false) => {}
+    }
+    if let Some(safety) = &facts.safety {
+        match matches!(safety.as_str(), "si" | "so" | "sio" | "sp") {
+            true => xml.leaf("SafetyMapping", safety),
+            false => notes.add(NoteKind::Spelling, place),
+        }
+    }
+}
+
+fn made_type(xml: &mut Xml, made: &Made, notes: &mut Notes) {
+    xml.open("DataType");
+    match made {
+        Made::Basic { name, bits } => {
+            xml.leaf("Name", name);
+            xml.leaf("BitSize", bits);
+        }
+        Made::Array { name, element, bits, count } => {
+            xml.leaf("Name", name);
+            xml.leaf("BaseType", element);
+            xml.leaf("BitSize", bits);
+            array_info(xml, 1, *count);
+        }
+        Made::Record { name, bits, fields } => {
+            xml.leaf("Name", name);
+            xml.leaf("BitSize", bits);
+            for MadeField { name, sub_index, ty, bits, offset, facts } in fields {
+                xml.open("SubItem");
+                xml.leaf("SubIdx", sub_index);
+                sub_item(xml, (name, ty, *bits, *offset), Some(facts), notes);
+                xml.close();
+            }
+        }
+    }
+    xml.close();
+}
+
+/// The name of the type of an entry of a PDO, which needn't be defined.
+pub(super) fn entry_type(types: &Types<'_>, ty: Type) -> Option<CompactString> {
+    match ty {
+        Type::Named(id) => types.def(ty).map(|_| types.name_of(id.0)),
+        Type::Opaque(_) | Type::Time(_) => None,
+        basic => Some(basic_name(basic)),
+    }
+}

@@ -1,0 +1,66 @@
+//! Content of the EEPROM, and registers of the slave controller.
+
+use super::text::hex;
+use super::value;
+use super::Context;
+use crate::note::{NoteKind, Notes, Place};
+use crate::xml::Xml;
+use lexibus_codegen::ir::EtherCatSettings;
+
+/// Registers that the schema has.
+const REGISTERS: [u16; 4] = [0x0108, 0x0400, 0x0410, 0x0420];
+
+/// Writes ESC.
+pub(super) fn registers(xml: &mut Xml, notes: &mut Notes, settings: &EtherCatSettings) {
+    if settings.registers.is_empty() {
+        return;
+    }
+    xml.open("ESC");
+    let mut known: Vec<(u16, u32)> = settings.registers.clone();
+    known.retain(|(address, _)| REGISTERS.contains(address));
+    known.sort_by_key(|(address, _)| *address);
+    known.dedup_by_key(|(address, _)| *address);
+    for (address, value) in &known {
+        xml.leaf(format!("Reg{address:04X}"), hex(*value, 1));
+    }
+    xml.close();
+    notes.add_many(NoteKind::Setting, settings.registers.len() - known.len(), Place::Named("ESC"));
+}
+
+/// Writes Eeprom. It has either the whole content, or a size and the configuration.
+pub(super) fn write(xml: &mut Xml, context: &mut Context<'_>, settings: &EtherCatSettings) {
+    let Some(eeprom) = settings.eeprom.as_deref() else { return };
+    let (notes, place) = (&mut context.notes, Place::Named("Eeprom"));
+    // The whole content has its size.
+    let given = if eeprom.data.is_empty() { context.options.eeprom_size() } else { None };
+    let size = given.or(eeprom.byte_size);
+    if eeprom.data.is_empty() && size.is_none() {
+        return notes.add(NoteKind::Incomplete, place);
+    }
+    xml.open("Eeprom");
+    xml.flag("AssignToPdi", eeprom.assign_to_pdi, "true");
+    match (eeprom.data.is_empty(), size) {
+        (true, Some(size)) => {
+            xml.leaf("ByteSize", size);
+            xml.leaf("ConfigData", value::hex(&eeprom.config_data));
+            if !eeprom.boot_strap.is_empty() {
+                xml.leaf("BootStrap", value::hex(&eeprom.boot_strap));
+            }
+            for (number, data) in &eeprom.categories {
+                xml.open("Category");
+                xml.leaf("CatNo", number);
+                xml.leaf("Data", value::hex(data));
+                xml.close();
+            }
+        }
+        _ => {
+            xml.leaf("Data", value::hex(&eeprom.data));
+            let others = usize::from(eeprom.byte_size.is_some())
+                + usize::from(!eeprom.config_data.is_empty())
+                + usize::from(!eeprom.boot_strap.is_empty())
+                + eeprom.categories.len();
+            notes.add_many(NoteKind::Setting, others, place);
+        }
+    }
+    xml.close();
+}

@@ -1,0 +1,197 @@
+//! Extension attributes that have a place in the file, and time limits.
+
+use std::collections::HashSet;
+
+use super::Context;
+use crate::note::{NoteKind, Place};
+use crate::xml::Xml;
+use lexibus_codegen::etg::language;
+use lexibus_codegen::ir::{Device, EtherCatSettings, Extension};
+
+/// Attributes of Type.
+const OF_TYPE: [&str; 9] = [
+    "Type@CheckProductCode",
+    "Type@CheckRevisionNo",
+    "Type@CheckSerialNo",
+    "Type@TcSmClass",
+    "Type@TcCfgModeSafeOp",
+    "Type@UseLrdLwr",
+    "Type@ModulePdoGroup",
+    "Type@DownloadModuleList",
+    "Type@ShowHideableSubDevices",
+];
+
+/// Elements of a profile that hold a number.
+const OF_PROFILE: [&str; 2] = ["AddInfo", "SubAddInfo"];
+
+/// Time limits of the state machine and of the mailbox; each list is complete or not there.
+const STATE_TIMES: [&str; 4] = ["PreopTimeout", "SafeopOpTimeout", "BackToInitTimeout", "BackToSafeopTimeout"];
+const MAILBOX_TIMES: [&str; 2] = ["RequestTimeout", "ResponseTimeout"];
+
+/// Elements of Info behind the time limits, each with the form of its text.
+const CONTROLLER: [&str; 3] =
+    ["EtherCATController/DpramSize", "EtherCATController/SmCount", "EtherCATController/FmmuCount"];
+const LAST: [&str; 3] = ["Info/StationAliasSupported", "Info/IdentificationAdo", "Info/IdentificationReg134"];
+const CURRENT: &str = "Electrical/EBusCurrent";
+const IMAGES: [&str; 2] = ["Image16x14", "ImageFile16x14"];
+const URL: &str = "Device/URL";
+const URL_LANGUAGE: &str = "Device/URL@LcId";
+const VENDOR_NAME: &str = "Vendor/Name@";
+const VENDOR_URL: &str = "Vendor/URL";
+
+fn find<'e>(list: &'e [Extension], key: &str) -> Option<&'e Extension> {
+    list.iter().find(|extension| extension.key == key)
+}
+
+/// Extensions of a device that no place was found for.
+pub(super) fn lost(device: &Device) -> usize {
+    let all = device.extensions.as_slice();
+    let image = IMAGES.iter().find(|key| find(all, key).is_some());
+    let (mut seen, mut lost) = (HashSet::new(), 0);
+    for extension in all {
+        let key = extension.key.as_str();
+        let is_known = key == CURRENT || OF_TYPE.contains(&key) || CONTROLLER.contains(&key) || LAST.contains(&key);
+        // There is room for one of each, and for one picture.
+        let is_single = is_known || image.is_some_and(|image| *image == key);
+        let is_told = matches!(key, URL | URL_LANGUAGE) || is_single && seen.insert(key);
+        lost += usize::from(!is_told);
+    }
+    lost
+}
+
+/// Further attributes of Type.
+pub(super) fn of_type(xml: &mut Xml, device: &Device) {
+    for key in OF_TYPE {
+        if let Some(extension) = find(&device.extensions, key) {
+            xml.attribute(key.trim_start_matches("Type@"), &extension.value);
+        }
+    }
+}
+
+/// Addresses of pages about a device, perhaps with a language in front of each.
+pub(super) fn urls(xml: &mut Xml, device: &Device) {
+    let mut lcid = None;
+    for extension in &device.extensions {
+        match extension.key.as_str() {
+            URL_LANGUAGE => lcid = Some(&extension.value),
+            URL => {
+                xml.open("URL");
+                xml.optional("LcId", lcid.take());
+                xml.content(&extension.value);
+                xml.close();
+            }
+            _ => {}
+        }
+    }
+}
+
+/// Writes Info, if there is anything in it.
+pub(super) fn info(xml: &mut Xml, context: &mut Context<'_>, device: &Device, settings: &EtherCatSettings) {
+    let list = device.extensions.as_slice();
+    let states = times(context, settings, &STATE_TIMES);
+    let mailbox = times(context, settings, &MAILBOX_TIMES);
+    let has_own = CONTROLLER.iter().chain(&LAST).chain([&CURRENT]).any(|key| find(list, key).is_some());
+    if states.is_empty() && mailbox.is_empty() && !has_own {
+        return;
+    }
+    xml.open("Info");
+    if let Some(current) = find(list, CURRENT) {
+        xml.open("Electrical");
+        xml.leaf("EBusCurrent", &current.value);
+        xml.close();
+    }
+    for (element, times) in [("StateMachine", states), ("Mailbox", mailbox)] {
+        if !times.is_empty() {
+            xml.open(element);
+            xml.open("Timeout");
+            times.into_iter().for_each(|(name, limit)| xml.leaf(name, limit));
+            xml.close();
+            xml.close();
+        }
+    }
+    if CONTROLLER.iter().any(|key| find(list, key).is_some()) {
+        xml.open("EtherCATController");
+        elements(xml, list, &CONTROLLER);
+        xml.close();
+    }
+    elements(xml, list, &LAST);
+    xml.close();
+}
+
+fn elements(xml: &mut Xml, list: &[Extension], keys: &[&'static str]) {
+    for key in keys {
+        if let (Some(extension), Some((_, name))) = (find(list, key), key.split_once('/')) {
+            xml.leaf(name, &extension.value);
+        }
+    }
+}
+
+/// The time limits of these names, if all are there.
+fn times(context: &mut Context<'_>, settings: &EtherCatSettings, names: &[&'static str]) -> Vec<(&'static str, u32)> {
+    let own = |name: &&'static str| {
+        let found = settings.timeouts.iter().find(|(own, _)| own == *name);
+        found.map(|(_, limit)| (*name, *limit))
+    };
+    let found: Vec<(&'static str, u32)> = names.iter().filter_map(own).collect();
+    if found.len() == names.len() {
+        return found;
+    }
+    context.notes.add_many(NoteKind::Incomplete, found.len(), Place::Named("Timeout"));
+    Vec::new()
+}
+
+/// The picture that the file refers to.
+pub(super) fn image(xml: &mut Xml, device: &Device) {
+    let first = IMAGES.iter().find_map(|key| Some((*key, find(&device.extensions, key)?)));
+    if let Some((key, extension)) = first {
+        xml.leaf(key, &extension.value);
+    }
+}
+
+/// Whether an extension of a module is in its profile.
+pub(super) fn is_of_profile(extension: &Extension) -> bool {
+    OF_PROFILE.contains(&extension.key.as_str()) && extension.value.parse::<i32>().is_ok()
+}
+
+/// Numbers beside that of a profile.
+pub(super) fn profile(xml: &mut Xml, list: &[Extension]) {
+    for key in OF_PROFILE {
+        if let Some(extension) = find(list, key).filter(|extension| is_of_profile(extension)) {
+            xml.leaf(key, &extension.value);
+        }
+    }
+}
+
+/// The vendor's name in other languages.
+pub(super) fn vendor_names(xml: &mut Xml, context: &mut Context<'_>) {
+    for extension in &context.catalog.extensions {
+        let Some(language) = extension.key.strip_prefix(VENDOR_NAME) else { continue };
+        match language::lcid(language) {
+            Some(lcid) => {
+                xml.open("Name");
+                xml.attribute("LcId", lcid);
+                xml.content(&extension.value);
+                xml.close();
+            }
+            None => context.notes.add(NoteKind::Language, Place::Named("Vendor")),
+        }
+    }
+}
+
+/// What else is said of the vendor.
+pub(super) fn of_vendor(xml: &mut Xml, context: &mut Context<'_>) {
+    let urls = context.catalog.extensions.iter().filter(|extension| extension.key == VENDOR_URL);
+    urls.for_each(|extension| xml.leaf("URL", &extension.value));
+    let is_told = |extension: &&Extension| extension.key == VENDOR_URL || extension.key.starts_with(VENDOR_NAME);
+    let lost = context.catalog.extensions.iter().filter(|extension| !is_told(extension)).count();
+    context.notes.add_many(NoteKind::Extension, lost, Place::Named("Vendor"));
+}
+
+/// The version of a file with nothing but messages.
+pub(super) fn diagnosis_version(xml: &mut Xml, context: &mut Context<'_>) {
+    const VERSION: &str = "EtherCATDiag@Version";
+    let all = context.catalog.extensions.as_slice();
+    xml.optional("Version", find(all, VERSION).map(|extension| &extension.value));
+    let lost = all.iter().filter(|extension| extension.key != VERSION).count();
+    context.notes.add_many(NoteKind::Extension, lost, Place::Device);
+}

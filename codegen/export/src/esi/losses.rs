@@ -1,0 +1,51 @@
+//! Facts that ETG.2000 has no place for.
+
+use super::{diagnosis, extras, Context};
+use crate::note::{self, NoteKind, Place};
+use lexibus_codegen::ir::{Device, Module};
+
+/// What the catalogue has beside devices and modules.
+pub(super) fn of_catalog(context: &mut Context<'_>) {
+    let (catalog, notes) = (context.catalog, &mut context.notes);
+    let mut parts = catalog.submodules.len() + catalog.unit_diagnoses.len() + catalog.code_tables.len();
+    if !context.is_esi {
+        parts += catalog.families.len() + catalog.graphics.len();
+    }
+    notes.add_many(NoteKind::OtherPart, parts, Place::Device);
+}
+
+/// What a device has beside what was written.
+pub(super) fn of_device(context: &mut Context<'_>, device: &Device) {
+    let (notes, place) = (&mut context.notes, Place::Named(&device.name));
+    let other_buses = usize::from(device.canopen.is_some() && device.ethercat.is_none())
+        + usize::from(device.profinet.is_some())
+        + device.modbus.len();
+    notes.add_many(NoteKind::OtherBus, other_buses, place);
+    notes.add_many(NoteKind::Configuration, usize::from(device.commissioning.is_some()), place);
+    let parts = note::parts_of_tables(device)
+        + device.code_tables.iter().filter(|table| !diagnosis::is_list(table)).count()
+        + device.submodules.len()
+        + device.process_data.images.len();
+    notes.add_many(NoteKind::OtherPart, parts, place);
+    let axes = device.axes.as_ref().map_or(0, |rule| usize::from(rule.axes.saturating_sub(1)));
+    notes.add_many(NoteKind::Axis, axes, place);
+    notes.add_many(NoteKind::Doubt, device.doubts.len(), place);
+    notes.add_many(NoteKind::Extension, extras::lost(device), place);
+    for group in device.groups.iter().filter(|group| group.index().is_none()) {
+        let others = group.items.iter().filter(|item| item.object().is_none()).count();
+        notes.add_many(NoteKind::NotAnObject, others, Place::Named(&group.name));
+    }
+    if !context.is_esi {
+        let header = &device.header;
+        let texts = [&header.file_version, &header.file_revision, &header.description, &header.created_by];
+        let lost = texts.iter().filter(|text| !text.is_empty()).count() + header.comments.len();
+        notes.add_many(NoteKind::FileInfo, lost, place);
+    }
+}
+
+/// What a module has beside what was written.
+pub(super) fn of_module(context: &mut Context<'_>, module: &Module) {
+    let (notes, place) = (&mut context.notes, Place::Named(&module.name));
+    notes.add_many(NoteKind::Documentation, usize::from(module.documentation.is_some()), place);
+    notes.add_many(NoteKind::Module, module.submodules.len() + module.fixed_objects.len(), place);
+}

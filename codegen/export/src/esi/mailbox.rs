@@ -1,0 +1,109 @@
+//! The mailbox: its protocols, and what a master sends at start-up.
+
+use super::pdo::slot_index;
+use super::text::hex;
+use super::value;
+use super::Context;
+use crate::note::{NoteKind, Notes, Place};
+use crate::xml::Xml;
+use lexibus_codegen::ir::{Coe, CompactString, InitCommand, Mailbox, Protocol};
+
+/// Attributes of the protocols that the IR has no field for.
+const ATTRIBUTES: [(&str, &[&str]); 4] = [
+    ("AoE", &["AdsRouter", "GenerateOwnNetId", "InitializeOwnNetId"]),
+    ("EoE", &["IP", "MAC", "TimeStamp"]),
+    ("CoE", &["EdsFile", "DS402Channels", "SdoUploadWithMaxLength", "TimeDistribution"]),
+    ("SoE", &["ChannelCount", "DriveFollowsBit3Support"]),
+];
+
+/// Writes the mailbox of the source, or that of the options where the source has none.
+pub(super) fn write(xml: &mut Xml, context: &mut Context<'_>, own: Option<&Mailbox>) {
+    let given = if own.is_none() { context.options.coe() } else { None };
+    let given = given.map(|coe| Mailbox { coe: Some(coe), ..Mailbox::default() });
+    let Some(mailbox) = own.or(given.as_ref()) else { return };
+    let notes = &mut context.notes;
+    xml.open("Mailbox");
+    xml.flag("DataLinkLayer", mailbox.data_link_layer, "true");
+    xml.flag("RealTimeMode", mailbox.real_time, "true");
+    protocol(xml, notes, "AoE", mailbox.aoe.as_ref());
+    protocol(xml, notes, "EoE", mailbox.eoe.as_ref());
+    if let Some(own) = &mailbox.coe {
+        xml.open("CoE");
+        coe_attributes(xml, notes, own);
+        own.init_commands.iter().for_each(|command| init_command(xml, notes, "CoE", command));
+        xml.close();
+    }
+    protocol(xml, notes, "FoE", mailbox.foe.as_ref());
+    protocol(xml, notes, "SoE", mailbox.soe.as_ref());
+    protocol(xml, notes, "VoE", mailbox.voe.as_ref());
+    xml.close();
+}
+
+fn coe_attributes(xml: &mut Xml, notes: &mut Notes, coe: &Coe) {
+    xml.flag("SdoInfo", coe.sdo_info, "true");
+    xml.flag("PdoAssign", coe.pdo_assign, "true");
+    xml.flag("PdoConfig", coe.pdo_config, "true");
+    xml.flag("PdoUpload", coe.pdo_upload, "true");
+    xml.flag("CompleteAccess", coe.complete_access, "true");
+    xml.flag("SegmentedSdo", coe.segmented_sdo, "true");
+    xml.flag("DiagHistory", coe.diag_history, "true");
+    attributes(xml, notes, "CoE", &coe.attributes);
+}
+
+fn protocol(xml: &mut Xml, notes: &mut Notes, element: &'static str, protocol: Option<&Protocol>) {
+    let Some(protocol) = protocol else { return };
+    xml.open(element);
+    attributes(xml, notes, element, &protocol.attributes);
+    match element {
+        "FoE" | "VoE" => notes.add_many(NoteKind::Setting, protocol.init_commands.len(), Place::Named(element)),
+        _ => protocol.init_commands.iter().for_each(|command| init_command(xml, notes, element, command)),
+    }
+    xml.close();
+}
+
+fn attributes(xml: &mut Xml, notes: &mut Notes, element: &'static str, list: &[(CompactString, CompactString)]) {
+    let known = ATTRIBUTES.iter().find(|(own, _)| *own == element).map_or(&[] as &[&str], |(_, names)| names);
+    for (name, value) in list {
+        match known.contains(&name.as_str()) {
+            true => xml.attribute(name, value),
+            false => notes.add(NoteKind::Extension, Place::Named(element)),
+        }
+    }
+}
+
+/// What a master sends on a change of state.
+pub(super) fn init_command(xml: &mut Xml, notes: &mut Notes, protocol: &'static str, command: &InitCommand) {
+    let place = Place::Object(command.index);
+    xml.open("InitCmd");
+    if protocol == "CoE" {
+        xml.flag("Fixed", command.fixed, "true");
+        xml.flag("CompleteAccess", command.complete_access, "true");
+        xml.flag("OverwrittenByModule", command.overwritten_by_module, "true");
+    }
+    if protocol == "SoE" && command.sub_index != 0 {
+        xml.attribute("Chn", command.sub_index);
+    }
+    for transition in &command.transitions {
+        match matches!(transition.as_str(), "IP" | "PS" | "SO" | "SP" | "OP" | "OS") {
+            true => xml.leaf("Transition", transition),
+            false => notes.add(NoteKind::Spelling, place),
+        }
+    }
+    match protocol {
+        "EoE" => xml.leaf("Type", command.index),
+        "SoE" => xml.leaf("IDN", command.index),
+        "CoE" => {
+            slot_index(xml, "Index", command.index, (command.depends_on_slot, command.depends_on_slot_group));
+            xml.leaf("SubIndex", hex(command.sub_index, 2));
+        }
+        _ => {}
+    }
+    xml.open("Data");
+    xml.flag("AdaptAutomatically", command.adapt && protocol == "CoE", "true");
+    xml.content(value::hex(&command.data));
+    xml.close();
+    if !command.comment.is_empty() {
+        xml.leaf("Comment", &command.comment);
+    }
+    xml.close();
+}

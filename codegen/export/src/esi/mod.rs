@@ -1,0 +1,238 @@
+//! EtherCAT slave information (ESI, ETG.2000): every slave of a catalogue, and the dictionary of any device that has objects.
+//!
+//! What was read from an ESI comes out as it was understood, in the order that the schema wants. Of a device of another
+//! format, the file has what ETG.2000 has a place for, and [`Export::notes`] says what it doesn't. What the schema wants and
+//! the source doesn't say has to be among the [`Options`].
+//!
+//! | file | subject |
+//! |---|---|
+//! | `options` | facts that the caller gives |
+//! | `text` | numbers, texts in several languages |
+//! | `device`, `module` | devices and modules |
+//! | `sync` | FMMUs, sync managers, sync units |
+//! | `pdo`, `mailbox`, `clocks`, `slots`, `eeprom` | the parts of a device |
+//! | `dictionary`, `types`, `record`, `object`, `value` | data types and objects |
+//! | `objects` | which objects there are on EtherCAT |
+//! | `diagnosis` | diagnosis messages |
+//! | `extras` | extension attributes that have a place in the file |
+//! | `losses` | facts that ETG.2000 has no place for |
+
+mod clocks;
+mod device;
+mod diagnosis;
+mod dictionary;
+mod eeprom;
+mod extras;
+mod losses;
+mod mailbox;
+mod module;
+mod object;
+mod objects;
+mod options;
+mod pdo;
+mod record;
+mod slots;
+mod sync;
+mod text;
+mod types;
+mod value;
+
+pub use super::{Export, MissingFact, Note, NoteKind, Refusal};
+use options::Asked;
+pub use options::{Area, Options};
+
+use std::collections::HashMap;
+
+use compact_str::CompactString;
+
+use super::note::{Notes, Place};
+use super::options::Wanted;
+use super::xml::Xml;
+use lexibus_codegen::etg::unit;
+use lexibus_codegen::ir::{Catalog, Device, Format, Identity};
+use text::{hex, names};
+
+/// Version of ETG.2000 that the schema of what is written has.
+const VERSION: &str = "1.17";
+
+/// The file of all devices and modules of `catalog` that are EtherCAT slaves or have objects, in UTF-8.
+pub fn export(catalog: &Catalog, options: &Options) -> Result<Export, Refusal> {
+    let options = &Asked::new(options);
+    let devices: Vec<&Device> = catalog.devices.iter().filter(|device| is_slave(device)).collect();
+    let is_messages =
+        devices.is_empty() && catalog.modules.is_empty() && catalog.code_tables.iter().any(diagnosis::is_list);
+    if devices.is_empty() && !(is_esi(catalog) && (!catalog.modules.is_empty() || is_messages)) {
+        return Err(Refusal::Nothing);
+    }
+    let mut context = Context {
+        catalog,
+        options,
+        notes: Notes::default(),
+        wanted: Wanted::default(),
+        units: HashMap::new(),
+        is_esi: is_esi(catalog),
+    };
+    let mut xml = Xml::new();
+    match devices.as_slice() {
+        [device] if device.dictionary_only => dictionary_only(&mut xml, &mut context, device),
+        [] if is_messages => messages_only(&mut xml, &mut context),
+        devices => info(&mut xml, &mut context, devices),
+    }
+    context.notes.add_many(NoteKind::Control, xml.dropped, Place::Device);
+    context.notes.add_many(NoteKind::Extension, xml.unnamed, Place::Device);
+    let Context { mut notes, wanted, .. } = context;
+    options.note_others(&mut notes);
+    wanted.finish(xml.finish(), notes.finish())
+}
+
+/// Whether a device can be described at all.
+fn is_slave(device: &Device) -> bool {
+    let has_objects = || device.groups.iter().any(|group| group.items.iter().any(|item| item.object().is_some()));
+    device.ethercat.is_some() || device.profinet.is_none() && has_objects()
+}
+
+fn is_esi(catalog: &Catalog) -> bool {
+    catalog.files.first().is_some_and(|file| file.format == Format::Esi)
+}
+
+/// What every part of the file is written from.
+struct Context<'a> {
+    catalog: &'a Catalog,
+    options: &'a Asked<'a>,
+    notes: Notes,
+    wanted: Wanted,
+    /// Numbers of units by their symbols.
+    units: HashMap<CompactString, Option<String>>,
+    /// Whether the source was an ESI: then what it leaves open stays open.
+    is_esi: bool,
+}
+
+impl Context<'_> {
+    /// What the caller gives, or else the source; if neither does, the caller is told.
+    fn wanted<T: Default>(&mut self, given: Option<T>, found: Option<T>, key: &'static str) -> T {
+        self.wanted.want(given.or(found), key, Options::KEYS)
+    }
+
+    /// The number of a unit, as it is written; a symbol that is a number already is one that nobody knows.
+    fn unit(&mut self, symbol: &CompactString) -> Option<String> {
+        if symbol.is_empty() {
+            return None;
+        }
+        let number = |symbol: &CompactString| {
+            let digits = symbol.strip_prefix("#x").unwrap_or("-");
+            if digits.bytes().all(|digit| digit.is_ascii_hexdigit())
+                || symbol.bytes().all(|digit| digit.is_ascii_digit())
+            {
+                return Some(symbol.to_string());
+            }
+            unit::number(symbol).map(|number| hex(number, 8).to_string())
+        };
+        self.units.entry(symbol.clone()).or_insert_with(|| number(symbol)).clone()
+    }
+}
+
+/// A dictionary that belongs to no device.
+fn dictionary_only(xml: &mut Xml, context: &mut Context<'_>, device: &Device) {
+    xml.open("EtherCATDict");
+    if !device.header.format_version.is_empty() {
+        xml.attribute("Version", &device.header.format_version);
+    }
+    device::dictionary(xml, context, device, |_, _, _| {});
+    xml.close();
+    losses::of_device(context, device);
+}
+
+/// Diagnosis messages that belong to no device.
+fn messages_only(xml: &mut Xml, context: &mut Context<'_>) {
+    xml.open("EtherCATDiag");
+    extras::diagnosis_version(xml, context);
+    diagnosis::write(xml, &mut context.notes, &context.catalog.code_tables);
+    xml.close();
+}
+
+fn info(xml: &mut Xml, context: &mut Context<'_>, devices: &[&Device]) {
+    xml.open("EtherCATInfo");
+    let first = devices.first();
+    let version = first.map_or("", |device| device.header.format_version.as_str());
+    match context.is_esi {
+        true if version.is_empty() => {}
+        true => xml.attribute("Version", version),
+        false => xml.attribute("Version", VERSION),
+    }
+    let of_modules = || context.catalog.modules.first().map(|module| &module.identity);
+    let none = Identity::default();
+    let identity = first.map(|device| &device.identity).or_else(of_modules).unwrap_or(&none).clone();
+    vendor(xml, context, first, &identity);
+    xml.open("Descriptions");
+    groups(xml, context, devices);
+    xml.open("Devices");
+    for device in devices {
+        match device.identity.vendor_id == identity.vendor_id {
+            true => device::write(xml, context, device),
+            false => context.notes.add(NoteKind::OtherVendor, Place::Named(&device.name)),
+        }
+    }
+    xml.close();
+    if context.is_esi && !context.catalog.modules.is_empty() {
+        xml.open("Modules");
+        for module in &context.catalog.modules {
+            match module.identity.vendor_id == identity.vendor_id {
+                true => module::write(xml, context, module),
+                false => context.notes.add(NoteKind::OtherVendor, Place::Named(&module.name)),
+            }
+        }
+        xml.close();
+    } else {
+        context.notes.add_many(NoteKind::Module, context.catalog.modules.len(), Place::Device);
+    }
+    losses::of_catalog(context);
+}
+
+fn vendor(xml: &mut Xml, context: &mut Context<'_>, device: Option<&&Device>, identity: &Identity) {
+    let header = device.map(|device| &device.header);
+    xml.open("Vendor");
+    let version = header.map(|header| &header.file_version).filter(|version| context.is_esi && !version.is_empty());
+    match version {
+        Some(version) if version.parse::<i32>().is_ok() => xml.attribute("FileVersion", version),
+        Some(_) => context.notes.add(NoteKind::FileInfo, Place::Device),
+        None => {}
+    }
+    let id = context.wanted(context.options.vendor_id(), identity.vendor_id, "vendor-id");
+    xml.leaf("Id", hex(id, 8));
+    let own = Some(identity.vendor_name.to_string()).filter(|name| !name.is_empty() || context.is_esi);
+    let own = context.wanted(context.options.vendor_name(), own, "vendor-name");
+    xml.leaf("Name", own);
+    extras::vendor_names(xml, context);
+    if context.is_esi {
+        header.into_iter().flat_map(|header| &header.comments).for_each(|comment| xml.leaf("Comment", comment));
+    }
+    extras::of_vendor(xml, context);
+    xml.close();
+}
+
+/// The families of a list of devices, and those that devices name and nobody describes.
+fn groups(xml: &mut Xml, context: &mut Context<'_>, devices: &[&Device]) {
+    xml.open("Groups");
+    let catalog = context.catalog;
+    let families = if context.is_esi { catalog.families.as_slice() } else { &[] };
+    for family in families {
+        let place = Place::Named(&family.name);
+        xml.open("Group");
+        xml.leaf("Type", &family.id);
+        names(xml, "Name", &family.name, &family.names, &mut context.notes, place);
+        for local in &family.descriptions {
+            text::name(xml, "Comment", local, &mut context.notes, place);
+        }
+        xml.close();
+    }
+    let group = if devices.is_empty() { None } else { context.options.group() };
+    if let Some(group) = &group {
+        if !families.iter().any(|family| family.id == *group) {
+            xml.open("Group");
+            xml.leaf("Type", group);
+            xml.leaf("Name", group);
+            xml.close();
+        }
+    }
+    xml.close();
+}

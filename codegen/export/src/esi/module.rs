@@ -1,0 +1,91 @@
+//! Modules.
+
+use super::mailbox::init_command;
+use super::text::{hex, names};
+use super::types::Types;
+use super::{dictionary, extras, losses, objects, pdo, Context};
+use crate::note::{NoteKind, Place};
+use crate::xml::Xml;
+use lexibus_codegen::ir::{Extension, Module};
+
+/// Flags of CoE that the IR keeps as extensions of a module.
+const COE: [&str; 9] = [
+    "CoE@SdoInfo",
+    "CoE@PdoAssign",
+    "CoE@PdoConfig",
+    "CoE@PdoUpload",
+    "CoE@CompleteAccess",
+    "CoE@SegmentedSdo",
+    "CoE@DiagHistory",
+    "CoE@EdsFile",
+    "CoE@ModuleOD",
+];
+
+/// The extension of a module whose mailbox has CoE.
+const HAS_COE: &str = "Mailbox/CoE";
+
+/// Writes a module.
+pub(super) fn write(xml: &mut Xml, context: &mut Context<'_>, module: &Module) {
+    let place = Place::Named(&module.name);
+    xml.open("Module");
+    xml.open("Type");
+    xml.attribute("ModuleIdent", hex(module.number, 8));
+    if !module.class.is_empty() {
+        xml.attribute("ModuleClass", &module.class);
+    }
+    xml.optional("ModulePdoGroup", module.pdo_group);
+    xml.content(&module.id);
+    xml.close();
+    names(xml, "Name", &module.name, &module.names, &mut context.notes, place);
+    let mut types = Types::new(&module.types, context.is_esi, &mut context.notes);
+    for own in &module.process_data.pdos {
+        pdo::write(xml, &mut context.notes, &types, own, true);
+    }
+    mailbox(xml, context, module);
+    profile(xml, context, module, &mut types);
+    if let Some(name) = module.extensions.iter().find(|extension| extension.key == "DcOpModeName") {
+        xml.leaf("DcOpModeName", &name.value);
+    }
+    xml.close();
+    let is_told = |extension: &Extension| matches!(extension.key.as_str(), "DcOpModeName" | HAS_COE);
+    let is_lost = |extension: &&Extension| !is_told(extension) && !is_coe(extension);
+    let lost = module.extensions.iter().filter(is_lost).filter(|extension| !extras::is_of_profile(extension)).count();
+    context.notes.add_many(NoteKind::Extension, lost, place);
+    losses::of_module(context, module);
+}
+
+fn is_coe(extension: &Extension) -> bool {
+    COE.contains(&extension.key.as_str())
+}
+
+fn mailbox(xml: &mut Xml, context: &mut Context<'_>, module: &Module) {
+    let attributes: Vec<&Extension> = module.extensions.iter().filter(|extension| is_coe(extension)).collect();
+    let has_coe = module.extensions.iter().any(|extension| extension.key == HAS_COE);
+    if module.init_commands.is_empty() && attributes.is_empty() && !has_coe {
+        return;
+    }
+    xml.open("Mailbox");
+    xml.open("CoE");
+    for extension in attributes {
+        xml.attribute(extension.key.trim_start_matches("CoE@"), &extension.value);
+    }
+    module.init_commands.iter().for_each(|command| init_command(xml, &mut context.notes, "CoE", command));
+    xml.close();
+    xml.close();
+}
+
+/// A module has one profile.
+fn profile(xml: &mut Xml, context: &mut Context<'_>, module: &Module, types: &mut Types<'_>) {
+    let objects = objects::all(module.groups.iter(), &mut context.notes);
+    if module.profiles.is_empty() && objects.is_empty() && types.defs.is_empty() {
+        return;
+    }
+    xml.open("Profile");
+    if let Some((number, others)) = module.profiles.split_first() {
+        xml.leaf("ProfileNo", number);
+        context.notes.add_many(NoteKind::Setting, others.len(), Place::Named(&module.name));
+    }
+    extras::profile(xml, &module.extensions);
+    dictionary::write(xml, context, types, &objects);
+    xml.close();
+}

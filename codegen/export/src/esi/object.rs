@@ -1,0 +1,224 @@
+//! Objects.
+
+use compact_str::CompactString;
+
+use super::dictionary::flags;
+use super::record::{self, FieldFacts, Plan};
+use super::text::{documentation, hex, names};
+use super::types::Types;
+use super::{value, Context};
+use crate::note::{NoteKind, Place};
+use crate::xml::Xml;
+use lexibus_codegen::ir::{Category, Extension, Group, GroupKind, Item, Storage};
+
+/// Extension attributes that are flags of an object.
+const FLAGS: [&str; 3] = ["Attribute", "Transition", "SdoAccess"];
+
+/// Writes an object with these entries.
+pub(super) fn write(
+    xml: &mut Xml,
+    context: &mut Context<'_>,
+    types: &Types<'_>,
+    group: &Group,
+    items: &[(u8, &Item)],
+    plan: &Plan,
+) {
+    let place = Place::object(group);
+    let single = items.first().map(|(_, item)| *item).filter(|_| plan.names.is_none());
+    xml.open("Object");
+    index(xml, group);
+    names(xml, "Name", &group.name, &group.names, &mut context.notes, place);
+    let own = group.documentation.as_deref().or_else(|| single.and_then(|item| item.documentation.as_deref()));
+    documentation(xml, "Comment", own, &mut context.notes, place);
+    xml.leaf("Type", &plan.ty);
+    xml.leaf("BitSize", plan.bits);
+    let both = group.documentation.is_some() && single.is_some_and(|item| item.documentation.is_some());
+    context.notes.add_many(NoteKind::Documentation, usize::from(both), place);
+    match (single, &plan.names) {
+        (Some(item), _) => {
+            let has_other_name = item.name != group.name;
+            context.notes.add_many(NoteKind::Name, usize::from(has_other_name), place);
+            xml.open("Info");
+            info(xml, context, types, item);
+            display_name(xml, context, group, item);
+            unit(xml, context, item);
+            xml.close();
+        }
+        (None, names) => sub_items(xml, context, types, items, names.as_deref().unwrap_or_default()),
+    }
+    object_flags(xml, context, group, single);
+    properties(xml, group);
+    xml.close();
+    losses(context, group, items);
+}
+
+fn index(xml: &mut Xml, group: &Group) {
+    xml.open("Index");
+    xml.flag("DependOnSlot", group.depends_on_slot, "true");
+    xml.flag("DependOnSlotGroup", group.depends_on_slot_group, "true");
+    xml.optional("OverwrittenByModule", extension(group, "OverwrittenByModule"));
+    xml.content(hex(group.index().unwrap_or(0), 4));
+    xml.close();
+}
+
+fn extension<'g>(group: &'g Group, key: &str) -> Option<&'g CompactString> {
+    group.extensions.iter().find(|extension| extension.key == key).map(|extension| &extension.value)
+}
+
+/// What the object says of each of its entries, if that is more than their names in the type.
+fn sub_items(
+    xml: &mut Xml,
+    context: &mut Context<'_>,
+    types: &Types<'_>,
+    items: &[(u8, &Item)],
+    names: &[CompactString],
+) {
+    let says_more = |(item, name): (&Item, &CompactString)| {
+        let has_unit = item.quantity.as_ref().is_some_and(|quantity| !quantity.unit.is_empty());
+        let has_display_name = record::display_name(item).is_some();
+        item.name != *name || item.default.is_some() || !item.limits.is_empty() || has_unit || has_display_name
+    };
+    let entries = items.iter().map(|(_, item)| *item).zip(names);
+    if !entries.clone().any(says_more) {
+        return;
+    }
+    xml.open("Info");
+    for (item, name) in entries {
+        xml.open("SubItem");
+        // One without a name goes by that of the type.
+        xml.leaf("Name", if item.name.is_empty() { name } else { &item.name });
+        xml.open("Info");
+        info(xml, context, types, item);
+        if let Some(name) = record::display_name(item) {
+            xml.leaf("DisplayName", name);
+        }
+        unit(xml, context, item);
+        xml.close();
+        xml.close();
+    }
+    xml.close();
+}
+
+/// Default and limits.
+fn info(xml: &mut Xml, context: &mut Context<'_>, types: &Types<'_>, item: &Item) {
+    let (elements, notes) = value::elements(item, types.underlying(item.type_on(record::BUS)));
+    elements.into_iter().for_each(|(name, text)| xml.leaf(name, text));
+    notes.into_iter().for_each(|note| context.notes.add(note, Place::item(item)));
+    context.notes.add_many(NoteKind::AllowedValues, usize::from(!item.limits.allowed.is_empty()), Place::item(item));
+}
+
+/// The one further name that a single value can have.
+fn display_name(xml: &mut Xml, context: &mut Context<'_>, group: &Group, item: &Item) {
+    if item.names == group.names {
+        return;
+    }
+    match record::display_name(item) {
+        Some(name) => xml.leaf("DisplayName", name),
+        None => context.notes.add_many(NoteKind::Language, item.names.len(), Place::item(item)),
+    }
+}
+
+/// The unit, if it has a number, and nothing else is said of the quantity.
+fn unit(xml: &mut Xml, context: &mut Context<'_>, item: &Item) {
+    let Some(quantity) = &item.quantity else { return };
+    let number = context.unit(&quantity.unit);
+    if let Some(number) = &number {
+        xml.leaf("Unit", number);
+    }
+    let says_more = quantity.scale.is_some()
+        || !quantity.sentinels.is_empty()
+        || quantity.step.is_some()
+        || !quantity.units.is_empty();
+    if number.is_none() || says_more {
+        context.notes.add(NoteKind::Quantity, Place::item(item));
+    }
+}
+
+fn object_flags(xml: &mut Xml, context: &mut Context<'_>, group: &Group, single: Option<&Item>) {
+    let category = match group.kind {
+        GroupKind::Object { category, .. } => category,
+        _ => None,
+    };
+    let letter = match category {
+        Some(Category::Mandatory) => Some("m"),
+        Some(Category::Optional) => Some("o"),
+        Some(Category::Conditional) => Some("c"),
+        Some(Category::Manufacturer) | None => None,
+    };
+    let place = Place::object(group);
+    let is_lost = category == Some(Category::Manufacturer);
+    context.notes.add_many(NoteKind::Category, usize::from(is_lost), place);
+    let others: Vec<(&str, &CompactString)> =
+        FLAGS.iter().filter_map(|key| Some((*key, extension(group, key)?))).collect();
+    if single.is_none() && letter.is_none() && others.is_empty() {
+        return;
+    }
+    xml.open("Flags");
+    let facts = single.map(FieldFacts::of);
+    match &facts {
+        Some(facts) => flags(xml, facts, letter, &mut context.notes, place),
+        None => {
+            if let Some(letter) = letter {
+                xml.leaf("Category", letter);
+            }
+        }
+    }
+    others.into_iter().for_each(|(key, value)| xml.leaf(key, value));
+    if let Some(facts) = facts {
+        if facts.backup {
+            xml.leaf("Backup", 1);
+        }
+        if facts.setting {
+            xml.leaf("Setting", 1);
+        }
+    }
+    xml.close();
+}
+
+/// What else is said of the object, by name.
+fn properties(xml: &mut Xml, group: &Group) {
+    let is_flag =
+        |extension: &&Extension| FLAGS.contains(&extension.key.as_str()) || extension.key == "OverwrittenByModule";
+    let mut others = group.extensions.iter().filter(|extension| !is_flag(extension)).peekable();
+    if others.peek().is_none() {
+        return;
+    }
+    xml.open("Properties");
+    for extension in others {
+        xml.open("Property");
+        xml.leaf("Name", &extension.key);
+        xml.leaf("Value", &extension.value);
+        xml.close();
+    }
+    xml.close();
+}
+
+/// Facts of an object and its entries that ETG.2000 has no place for.
+fn losses(context: &mut Context<'_>, group: &Group, items: &[(u8, &Item)]) {
+    let notes = &mut context.notes;
+    notes.add_many(NoteKind::Doubt, group.doubts.len(), Place::object(group));
+    notes.add_many(NoteKind::Setting, group.links.len(), Place::object(group));
+    for (_, item) in items {
+        let place = Place::item(item);
+        // Two indices on two buses are one item.
+        let other_buses = item.bindings.len().saturating_sub(1);
+        notes.add_many(NoteKind::Binding, other_buses, place);
+        let more = item.behaviour.as_ref().is_some_and(|behaviour| {
+            behaviour.storage != Storage::Unknown
+                || behaviour.effective.is_some()
+                || !behaviour.write_when.is_empty()
+                || !behaviour.writable_values.is_empty()
+                || !behaviour.side_effects.is_empty()
+                || behaviour.self_clearing
+                || behaviour.write_once
+                || behaviour.hidden
+        });
+        notes.add_many(NoteKind::Behaviour, usize::from(more), place);
+        let availability = usize::from(item.availability.is_some()) + item.variants.len();
+        notes.add_many(NoteKind::Availability, availability, place);
+        notes.add_many(NoteKind::Doubt, item.doubts.len(), place);
+        notes.add_many(NoteKind::Extension, item.extensions.len(), place);
+        notes.add_many(NoteKind::Configuration, usize::from(item.configured.is_some()), place);
+        notes.add_many(NoteKind::Setting, usize::from(item.flags != 0), place);
+    }
+}

@@ -1,0 +1,81 @@
+//! What an ESI has to say and a source may not.
+
+use crate::options::{options, OptionValue};
+use lexibus_codegen::ir::Coe;
+
+options! {
+    /// Facts that count before those of the source, or that it doesn't have.
+    pub struct Options, Asked {
+        /// Number of the vendor with the EtherCAT Technology Group.
+        vendor_id: u32 = "vendor-id",
+        /// Name of the vendor.
+        vendor_name: String = "vendor-name",
+        /// Product code, as in object 0x1018.
+        product_code: u32 = "product-code",
+        /// Revision number, as in object 0x1018.
+        revision: u32 = "revision",
+        /// What the device is called in an order (the text of Type).
+        order_code: String = "order-code",
+        /// Kind of each port: up to four of Y (MII), K (LVDS), H (enhanced) and blank (none).
+        physics: String = "physics",
+        /// Key of the group in a list of devices; it is also the group's name where the source has no such group.
+        group: String = "group",
+        /// Start address and length in bytes of the mailbox that the device receives, such as 0x1000:128.
+        mailbox_out: Area = "mailbox-out",
+        /// Start address and length in bytes of the mailbox that the device sends, such as 0x1080:128.
+        mailbox_in: Area = "mailbox-in",
+        /// Start address of the outputs in the memory of the slave controller, perhaps with a length such as 0x1100:8.
+        outputs: Area = "outputs",
+        /// Start address of the inputs in the memory of the slave controller, perhaps with a length such as 0x1180:8.
+        inputs: Area = "inputs",
+        /// What CoE can where the source has no mailbox, such as sdo-info,pdo-assign,pdo-config,complete-access.
+        coe: Coe = "coe",
+        /// Size of the EEPROM in bytes.
+        eeprom_size: u32 = "eeprom-size",
+    }
+}
+
+/// A part of the memory of a slave controller.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Area {
+    /// Address of its first byte.
+    pub start: u16,
+    /// Length in bytes, where given.
+    pub length: Option<u16>,
+}
+
+impl OptionValue for Area {
+    const WHAT: &'static str = "an address, perhaps with a length behind a colon such as 0x1000:128";
+
+    fn parse(text: &str) -> Option<Self> {
+        match text.split_once(':') {
+            Some((start, length)) => Some(Area {
+                start: <u16 as OptionValue>::parse(start)?,
+                length: Some(<u16 as OptionValue>::parse(length)?),
+            }),
+            None => Some(Area { start: <u16 as OptionValue>::parse(text)?, length: None }),
+        }
+    }
+}
+
+impl OptionValue for Coe {
+    const WHAT: &'static str = "a list of `sdo-info`, `pdo-assign`, `pdo-config`, `pdo-upload`, `complete-access`, \
+                                `segmented-sdo`, `diag-history`, or `none`";
+
+    fn parse(text: &str) -> Option<Self> {
+        let mut coe = Coe::default();
+        for word in text.split(',').map(str::trim).filter(|word| *word != "none") {
+            match word {
+                "sdo-info" => coe.sdo_info = true,
+                "pdo-assign" => coe.pdo_assign = true,
+                "pdo-config" => coe.pdo_config = true,
+                "pdo-upload" => coe.pdo_upload = true,
+                "complete-access" => coe.complete_access = true,
+                "segmented-sdo" => coe.segmented_sdo = true,
+                "diag-history" => coe.diag_history = true,
+                _ => return None,
+            }
+        }
+        Some(coe)
+    }
+}

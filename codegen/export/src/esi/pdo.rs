@@ -1,0 +1,91 @@
+//! PDOs and their entries.
+
+use super::dictionary::entry_type;
+use super::text::{hex, names};
+use super::types::Types;
+use crate::note::{NoteKind, Notes, Place};
+use crate::xml::Xml;
+use lexibus_codegen::ir::{Direction, Extension, Pdo, PdoEntry, Type};
+
+/// Writes a PDO; `is_slave` tells whether its device is an EtherCAT slave, which has no communication parameters of CAN.
+pub(super) fn write(xml: &mut Xml, notes: &mut Notes, types: &Types<'_>, pdo: &Pdo, is_slave: bool) {
+    let place = Place::Object(pdo.mapping_index);
+    xml.open(if pdo.direction == Direction::Receive { "RxPdo" } else { "TxPdo" });
+    attributes(xml, pdo);
+    slot_index(xml, "Index", pdo.mapping_index, (pdo.depends_on_slot, pdo.depends_on_slot_group));
+    names(xml, "Name", &pdo.name, &pdo.names, notes, place);
+    pdo.excludes.iter().for_each(|excluded| xml.leaf("Exclude", hex(*excluded, 4)));
+    pdo.entries.iter().for_each(|own| entry(xml, notes, types, own));
+    pdo.excluded_sync_managers.iter().for_each(|number| xml.leaf("ExcludedSm", number));
+    xml.close();
+    let is_lost = |extension: &&Extension| !is_attribute(extension);
+    notes.add_many(NoteKind::Extension, pdo.extensions.iter().filter(is_lost).count(), place);
+    notes.add_many(NoteKind::Pdo, usize::from(pdo.communication.is_some() && is_slave), place);
+    notes.add_many(NoteKind::Documentation, usize::from(pdo.documentation.is_some()), place);
+    notes.add_many(NoteKind::Doubt, pdo.doubts.len(), place);
+}
+
+fn attributes(xml: &mut Xml, pdo: &Pdo) {
+    xml.flag("Fixed", pdo.fixed, "true");
+    xml.flag("Mandatory", pdo.mandatory, "true");
+    xml.flag("Virtual", pdo.is_virtual, "true");
+    xml.optional("Sm", pdo.sync_manager);
+    xml.optional("Su", pdo.sync_unit);
+    if let Some(oversampling) = &pdo.oversampling {
+        xml.optional("OSFac", oversampling.factor);
+        xml.optional("OSMin", oversampling.min);
+        xml.optional("OSMax", oversampling.max);
+        xml.optional("OSIndexInc", oversampling.index_increment);
+    }
+    xml.flag("OverwrittenByModule", pdo.overwritten_by_module, "true");
+    for extension in pdo.extensions.iter().filter(|extension| is_attribute(extension)) {
+        if let Some((_, name)) = extension.key.split_once('@') {
+            xml.attribute(name, &extension.value);
+        }
+    }
+}
+
+/// Whether an extension is an attribute of the PDO that the schema has and the IR doesn't.
+fn is_attribute(extension: &Extension) -> bool {
+    let Some(("RxPdo" | "TxPdo", name)) = extension.key.split_once('@') else { return false };
+    match name {
+        "PdoOrder" => extension.value.parse::<i32>().is_ok(),
+        "SRA_Parameter" => matches!(extension.value.as_str(), "0" | "1" | "true" | "false"),
+        _ => false,
+    }
+}
+
+/// An index, and whether it grows with the slot and the slot group.
+pub(super) fn slot_index(xml: &mut Xml, element: &'static str, index: u16, (slot, group): (bool, bool)) {
+    xml.open(element);
+    xml.flag("DependOnSlot", slot, "true");
+    xml.flag("DependOnSlotGroup", group, "true");
+    xml.content(hex(index, 4));
+    xml.close();
+}
+
+fn entry(xml: &mut Xml, notes: &mut Notes, types: &Types<'_>, entry: &PdoEntry) {
+    xml.open("Entry");
+    xml.flag("Fixed", entry.fixed, "true");
+    slot_index(xml, "Index", entry.index, (entry.depends_on_slot, entry.depends_on_slot_group));
+    if entry.index != 0 || entry.sub_index != 0 {
+        xml.leaf("SubIndex", entry.sub_index);
+    }
+    xml.leaf("BitLen", entry.bits);
+    if !entry.name.is_empty() || !entry.names.is_empty() {
+        names(xml, "Name", &entry.name, &entry.names, notes, Place::Entry(entry.index, entry.sub_index));
+    }
+    if let Some(ty) = entry_type(types, data_type(types, entry)) {
+        xml.leaf("DataType", ty);
+    }
+    xml.close();
+}
+
+/// The type of an entry. One of which another number of bits is mapped is a number of those, but for what an ESI says of itself.
+fn data_type(types: &Types<'_>, entry: &PdoEntry) -> Type {
+    let is_whole = types.underlying(entry.ty).bits().is_none_or(|bits| bits == entry.bits);
+    match u8::try_from(entry.bits) {
+        Ok(bits @ 1..=64) if !is_whole && !types.is_esi => Type::Unsigned(bits),
+        _ => entry.ty,
+    }
+}

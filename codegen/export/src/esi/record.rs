@@ -1,0 +1,267 @@
+//! Objects with sub-indices, and the records that describe them.
+
+use compact_str::{format_compact, CompactString};
+
+use super::types::{unique, Made, MadeField, Types};
+use crate::note::{NoteKind, Notes, Place};
+use lexibus_codegen::ir::{Access, Documentation, Field, Group, Item, Mappable, ObjectCode, Texts, Type};
+use lexibus_codegen::unique::Unique;
+
+/// The bus by its name in register tables.
+pub(super) const BUS: &str = "ethercat";
+
+/// One sub-index of an object of a record.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Entry {
+    pub(super) sub_index: u8,
+    pub(super) ty: Type,
+    /// Position of its field.
+    pub(super) field: usize,
+    /// The number of the element, where the field is an array.
+    pub(super) element: Option<u32>,
+}
+
+/// What a field of a record says of the items that are made from it.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct FieldFacts {
+    pub(super) access: Access,
+    pub(super) mappable: Mappable,
+    pub(super) backup: bool,
+    pub(super) setting: bool,
+    pub(super) safety: Option<CompactString>,
+    pub(super) read_states: Vec<CompactString>,
+    pub(super) write_states: Vec<CompactString>,
+    pub(super) names: Texts,
+    pub(super) documentation: Option<Box<Documentation>>,
+}
+
+impl FieldFacts {
+    pub(super) fn of(item: &Item) -> Self {
+        let behaviour = item.behaviour.as_deref();
+        FieldFacts {
+            access: item.access_on(BUS),
+            mappable: item.mappable,
+            backup: behaviour.is_some_and(|behaviour| behaviour.backup),
+            setting: behaviour.is_some_and(|behaviour| behaviour.setting),
+            safety: behaviour.and_then(|behaviour| behaviour.safety.clone()),
+            read_states: behaviour.map_or_else(Vec::new, |behaviour| behaviour.read_states.clone()),
+            write_states: behaviour.map_or_else(Vec::new, |behaviour| behaviour.write_states.clone()),
+            names: if display_name(item).is_some() { Texts::default() } else { item.names.clone() },
+            documentation: item.documentation.clone(),
+        }
+    }
+}
+
+/// The name for people, where it is a single one in English: then it stands at the object, which has no other languages.
+pub(super) fn display_name(item: &Item) -> Option<&CompactString> {
+    match &*item.names {
+        [only] if only.language.starts_with("en") => Some(&only.text),
+        _ => None,
+    }
+}
+
+/// The type of an object.
+pub(super) struct Plan {
+    /// Its name.
+    pub(super) ty: CompactString,
+    pub(super) bits: u32,
+    /// The names that its entries have where the object gives them none; none for a single value.
+    pub(super) names: Option<Vec<CompactString>>,
+}
+
+/// The entries that an object of a record with these fields has, sorted by sub-index: an array in one of the fields stands
+/// for an entry an element, where there is room for them (ETG.2000, DataType).
+pub(super) fn expansion(types: &Types<'_>, fields: &[Field]) -> Vec<Entry> {
+    let (mut entries, mut next) = (Vec::new(), 0u32);
+    for (position, field) in fields.iter().enumerate() {
+        let following = fields.get(position + 1).and_then(|field| field.sub_index).map(u32::from);
+        let (first, mut count, mut ty) = span(types, field, next, following);
+        if count > 1 && first.saturating_add(count) > 256 {
+            (count, ty) = (1, field.ty);
+        }
+        for number in 0..count {
+            let Some(sub_index) = first.checked_add(number).and_then(|sub| u8::try_from(sub).ok()) else { break };
+            let element = (ty != field.ty || count > 1).then_some(number + 1);
+            entries.push(Entry { sub_index, ty, field: position, element });
+        }
+        next = first.saturating_add(count);
+    }
+    entries.sort_by_key(|entry| entry.sub_index);
+    entries.dedup_by_key(|entry| entry.sub_index);
+    entries
+}
+
+/// First sub-index, number of sub-indices and type of a field.
+fn span(types: &Types<'_>, field: &Field, next: u32, following: Option<u32>) -> (u32, u32, Type) {
+    let given = field.sub_index.map(u32::from);
+    let Some((element, lower, count)) = types.elements(field.ty) else { return (given.unwrap_or(next), 1, field.ty) };
+    let first = given.unwrap_or_else(|| u32::try_from(lower).unwrap_or(0).max(next));
+    let room = following.is_none_or(|following| following >= first.saturating_add(count));
+    let is_one_value = types.def(field.ty).is_some_and(|def| def.name.starts_with("ARRAY"));
+    if is_one_value || !room {
+        return (first, 1, field.ty);
+    }
+    (first, count, element)
+}
+
+/// The type of an object: one of the device that describes just its entries, or a new one.
+pub(super) fn plan(types: &mut Types<'_>, group: &Group, items: &[(u8, &Item)], notes: &mut Notes) -> Plan {
+    if let ([(0, item)], false) = (items, group.object_code().is_some_and(ObjectCode::has_subs)) {
+        let (ty, bits) = types.reference(item.type_on(BUS), notes, Place::item(item));
+        return Plan { ty, bits, names: None };
+    }
+    let index = group.index().unwrap_or(0);
+    let key: Vec<(u8, Type)> = items.iter().map(|(sub, item)| (*sub, item.type_on(BUS))).collect();
+    let candidates = types.records.get(&key).cloned().unwrap_or_default();
+    let usual = format_compact!("DT{index:04X}");
+    let (first, others): (Vec<u32>, Vec<u32>) = candidates.into_iter().partition(|&at| types.name_of(at) == usual);
+    let mut candidates = first.into_iter().chain(others);
+    if let Some(plan) = candidates.find_map(|at| existing(types, at, group, items)) {
+        return plan;
+    }
+    if group.object_code() == Some(ObjectCode::Array) && is_array(types, items) {
+        return new_array(types, &usual, items, notes);
+    }
+    new_record(types, &usual, items, notes)
+}
+
+/// The record at `at`, if what its fields say fits these items.
+fn existing(types: &mut Types<'_>, at: u32, group: &Group, items: &[(u8, &Item)]) -> Option<Plan> {
+    let entries = types.entries(at);
+    // An object of equal elements is one whose type says so.
+    let is_array = match entries.split_first() {
+        Some((first, rest)) => first.sub_index == 0 && !rest.is_empty() && rest.iter().all(|own| own.element.is_some()),
+        None => false,
+    };
+    if matches!(group.object_code(), Some(code @ (ObjectCode::Array | ObjectCode::Record)) if is_array != (code == ObjectCode::Array))
+    {
+        return None;
+    }
+    let fields = field_names(types, at);
+    let names: Vec<CompactString> = entries.iter().map(|entry| name_of(entry, &fields)).collect();
+    if !matches_by_place(&entries, &fields, items) {
+        return None;
+    }
+    let mut facts: Vec<Option<FieldFacts>> = vec![None; fields.len()];
+    for (entry, (_, item)) in entries.iter().zip(items) {
+        let (own, place) = (FieldFacts::of(item), facts.get_mut(entry.field)?);
+        if place.get_or_insert_with(|| own.clone()) != &own {
+            return None;
+        }
+    }
+    let facts: Option<Vec<FieldFacts>> = facts.into_iter().collect();
+    let facts = facts?;
+    if types.uses.entry(at).or_insert_with(|| facts.clone()) != &facts {
+        return None;
+    }
+    let bits = types.defs.get(at as usize).and_then(|def| def.bits).unwrap_or(0);
+    Some(Plan { ty: types.name_of(at), bits, names: Some(names) })
+}
+
+/// The names of the fields of a record, which the schema wants to differ.
+pub(super) fn field_names(types: &Types<'_>, at: u32) -> Vec<CompactString> {
+    let Some(lexibus_codegen::ir::Shape::Record(fields)) = types.defs.get(at as usize).map(|def| &def.shape) else {
+        return Vec::new();
+    };
+    unique_names(fields.iter().map(|field| field.name.as_str()))
+}
+
+fn unique_names<'n>(names: impl Iterator<Item = &'n str>) -> Vec<CompactString> {
+    let mut seen = Unique::default();
+    names.map(|wanted| unique(&mut seen, wanted)).collect()
+}
+
+/// The name of an entry that the object gives none.
+fn name_of(entry: &Entry, fields: &[CompactString]) -> CompactString {
+    let name = fields.get(entry.field).cloned().unwrap_or_default();
+    match entry.element {
+        Some(number) => format_compact!("{name} {number}"),
+        None => name,
+    }
+}
+
+/// Whether a reader that goes by the names of sub-items, and else by their places, finds every item in its entry.
+fn matches_by_place(entries: &[Entry], fields: &[CompactString], items: &[(u8, &Item)]) -> bool {
+    let named = |entry: &Entry| fields.get(entry.field).map_or("", CompactString::as_str);
+    items.iter().enumerate().all(|(place, (_, item))| {
+        let single = entries
+            .iter()
+            .position(|entry| entry.element.is_none_or(|number| number == 1) && named(entry) == item.name);
+        single.is_none_or(|found| found <= place)
+    })
+}
+
+/// Whether the items are sub-index 0 and equal elements from 1 on.
+fn is_array(types: &Types<'_>, items: &[(u8, &Item)]) -> bool {
+    let [(0, _), (_, first), ..] = items else { return false };
+    let facts = FieldFacts::of(first);
+    let is_like = |(place, (sub, item)): (usize, &(u8, &Item))| {
+        usize::from(*sub) == place
+            && (place == 0 || item.type_on(BUS) == first.type_on(BUS) && FieldFacts::of(item) == facts)
+    };
+    items.iter().enumerate().all(is_like) && types.elements(first.type_on(BUS)).is_none()
+}
+
+/// Sub-index 0 is followed by room up to the next word (ETG.2000, DataType).
+const FIRST_OFFSET: u32 = 16;
+
+fn new_array(types: &mut Types<'_>, usual: &str, items: &[(u8, &Item)], notes: &mut Notes) -> Plan {
+    const ELEMENTS: CompactString = CompactString::const_new("Elements");
+    let (Some((_, count_item)), Some((_, first))) = (items.first(), items.get(1)) else {
+        return new_record(types, usual, items, notes);
+    };
+    let count = u32::try_from(items.len() - 1).unwrap_or(u32::MAX);
+    let (element, element_bits) = types.reference(first.type_on(BUS), notes, Place::item(first));
+    let (count_type, count_bits) = types.reference(count_item.type_on(BUS), notes, Place::item(count_item));
+    let bits = element_bits.saturating_mul(count);
+    let array = types.unique(&format_compact!("{usual}ARR"));
+    types.made.push(Made::Array { name: array.clone(), element, bits, count });
+    let field = |name: &CompactString, sub_index, ty, bits, offset, item: &Item| MadeField {
+        name: name.clone(),
+        sub_index,
+        ty,
+        bits,
+        offset,
+        facts: FieldFacts::of(item),
+    };
+    let count_name = if count_item.name == ELEMENTS { "SubIndex 000".into() } else { count_item.name.clone() };
+    let fields = vec![
+        field(&count_name, 0, count_type, count_bits, 0, count_item),
+        field(&ELEMENTS, 1, array, bits, FIRST_OFFSET, first),
+    ];
+    let numbered = (1..=count).map(|number| format_compact!("{ELEMENTS} {number}"));
+    let names = std::iter::once(count_name).chain(numbered).collect();
+    finish(types, usual, fields, names)
+}
+
+fn new_record(types: &mut Types<'_>, usual: &str, items: &[(u8, &Item)], notes: &mut Notes) -> Plan {
+    let names = unique_names(items.iter().map(|(_, item)| item.name.as_str()));
+    let (mut fields, mut next) = (Vec::with_capacity(items.len()), 0u32);
+    for ((sub_index, item), name) in items.iter().zip(&names) {
+        let (ty, bits) = types.reference(item.type_on(BUS), notes, Place::item(item));
+        let offset = if *sub_index > 0 { next.max(FIRST_OFFSET) } else { next };
+        next = offset.saturating_add(bits);
+        let facts = FieldFacts::of(item);
+        fields.push(MadeField { name: name.clone(), sub_index: *sub_index, ty, bits, offset, facts });
+    }
+    finish(types, usual, fields, names)
+}
+
+fn finish(types: &mut Types<'_>, usual: &str, fields: Vec<MadeField>, names: Vec<CompactString>) -> Plan {
+    let bits = fields.last().map_or(0, |last| last.offset.saturating_add(last.bits));
+    let ty = types.unique(usual);
+    types.made.push(Made::Record { name: ty.clone(), bits, fields });
+    Plan { ty, bits, names: Some(names) }
+}
+
+/// Notes what of a field's facts has to be left out.
+pub(super) fn check_states(states: &[CompactString], notes: &mut Notes, place: Place<'_>) -> Option<String> {
+    const KNOWN: [&str; 7] = ["PreOp", "PreOP", "PreOP_SafeOP", "PreOP_OP", "SafeOP", "SafeOP_OP", "OP"];
+    let joined = states.join("_");
+    if joined.is_empty() {
+        return None;
+    }
+    let known = KNOWN.contains(&joined.as_str());
+    notes.add_many(NoteKind::Spelling, usize::from(!known), place);
+    known.then_some(joined)
+}

@@ -1,0 +1,107 @@
+//! Slots of a modular device.
+
+use super::text::{hex, names};
+use super::Context;
+use crate::note::{NoteKind, Notes, Place};
+use crate::xml::Xml;
+use lexibus_codegen::ir::{Device, EtherCatSettings, Fit, Slot, SlotRules};
+
+/// Writes Slots.
+pub(super) fn write(xml: &mut Xml, context: &mut Context<'_>, device: &Device, settings: &EtherCatSettings) {
+    let Some(rules) = settings.slots.as_deref() else {
+        return context.notes.add_many(NoteKind::Slot, device.slots.len(), Place::Named(&device.name));
+    };
+    xml.open("Slots");
+    attributes(xml, &mut context.notes, rules);
+    for own in &device.slots {
+        slot(xml, &mut context.notes, own, rules);
+    }
+    for (number, name) in &rules.groups {
+        xml.open("SlotGroupData");
+        xml.attribute("SlotGroup", number);
+        if !name.is_empty() {
+            xml.leaf("Name", name);
+        }
+        xml.close();
+    }
+    for group in &rules.pdo_groups {
+        xml.open("ModulePdoGroup");
+        if group.alignment != 0 {
+            xml.attribute("Alignment", group.alignment);
+        }
+        xml.optional("RxPdo", group.rx_pdo.map(|index| hex(index, 4)));
+        xml.optional("TxPdo", group.tx_pdo.map(|index| hex(index, 4)));
+        xml.close();
+    }
+    for (name, idents) in &rules.selections {
+        xml.open("SlotSelections");
+        xml.leaf("Name", name);
+        idents.iter().for_each(|ident| xml.leaf("ModuleIdent", hex(*ident, 8)));
+        xml.close();
+    }
+    xml.close();
+}
+
+fn attributes(xml: &mut Xml, notes: &mut Notes, rules: &SlotRules) {
+    xml.flag("DownloadModuleIdentList", rules.download_idents, "true");
+    xml.flag("DownloadModuleAddressList", rules.download_addresses, "true");
+    match rules.download_transition.as_str() {
+        "PS" | "" => {}
+        transition @ ("IP" | "SO") => xml.attribute("DownloadModuleListTransition", transition),
+        _ => notes.add(NoteKind::Spelling, Place::Named("DownloadModuleListTransition")),
+    }
+    xml.optional("MaxSlotCount", rules.max_slots);
+    xml.optional("MaxSlotGroupCount", rules.max_groups);
+    let increments = [
+        ("SlotPdoIncrement", rules.pdo_increment),
+        ("SlotGroupPdoIncrement", rules.group_pdo_increment),
+        ("SlotIndexIncrement", rules.index_increment),
+        ("SlotGroupIndexIncrement", rules.group_index_increment),
+    ];
+    for (name, increment) in increments.into_iter().filter(|(_, increment)| *increment != 0) {
+        xml.attribute(name, hex(increment, 1));
+    }
+}
+
+fn slot(xml: &mut Xml, notes: &mut Notes, slot: &Slot, rules: &SlotRules) {
+    let place = Place::Named(&slot.name);
+    xml.open("Slot");
+    xml.optional("SlotGroup", slot.group);
+    xml.attribute("MinInstances", slot.instances.0);
+    xml.attribute("MaxInstances", slot.instances.1);
+    let increments = [
+        ("SlotPdoIncrement", slot.pdo_increment, rules.pdo_increment),
+        ("SlotGroupPdoIncrement", slot.group_pdo_increment, rules.group_pdo_increment),
+        ("SlotIndexIncrement", slot.index_increment, rules.index_increment),
+        ("SlotGroupIndexIncrement", slot.group_index_increment, rules.group_index_increment),
+    ];
+    for (name, own, usual) in increments {
+        if own != usual {
+            xml.attribute(name, hex(own, 1));
+        }
+    }
+    if let Some(Fit::Ident(ident)) = slot.default {
+        xml.attribute("Default", hex(ident, 8));
+    }
+    if !slot.name.is_empty() || !slot.names.is_empty() {
+        names(xml, "Name", &slot.name, &slot.names, notes, place);
+    }
+    fits(xml, notes, slot);
+    xml.close();
+}
+
+/// What fits: modules by their idents, or else by their classes.
+fn fits(xml: &mut Xml, notes: &mut Notes, slot: &Slot) {
+    let by_ident = slot.fits.iter().any(|fit| matches!(fit, Fit::Ident(_)));
+    for fit in &slot.fits {
+        match fit {
+            Fit::Ident(ident) => xml.leaf("ModuleIdent", hex(*ident, 8)),
+            Fit::Class(class) if !by_ident => {
+                xml.open("ModuleClass");
+                xml.leaf("Class", class);
+                xml.close();
+            }
+            Fit::Class(_) | Fit::Name(_) => notes.add(NoteKind::Slot, Place::Named(&slot.name)),
+        }
+    }
+}

@@ -1,0 +1,57 @@
+//! Numbers, and texts in several languages.
+
+use std::fmt;
+
+use crate::note::{NoteKind, Notes, Place};
+use crate::xml::Xml;
+use lexibus_codegen::etg::language;
+use lexibus_codegen::ir::{Documentation, LocalText, Texts};
+
+/// A number as ETG.2000 writes bit patterns, with at least so many digits.
+pub(super) fn hex(value: impl Into<u32>, digits: usize) -> impl fmt::Display {
+    format!("#x{:0digits$X}", value.into())
+}
+
+/// A name, and what it is in other languages.
+pub(super) fn names(
+    xml: &mut Xml,
+    element: &'static str,
+    own: &str,
+    others: &Texts,
+    notes: &mut Notes,
+    place: Place<'_>,
+) {
+    // One without a number would give way to another in English.
+    let is_english = |local: &LocalText| language::lcid(&local.language) == Some(language::ENGLISH);
+    xml.open(element);
+    xml.optional("LcId", others.iter().any(is_english).then_some(language::ENGLISH));
+    xml.content(own);
+    xml.close();
+    for local in others.iter() {
+        name(xml, element, local, notes, place);
+    }
+}
+
+/// A text in one language.
+pub(super) fn name(xml: &mut Xml, element: &'static str, local: &LocalText, notes: &mut Notes, place: Place<'_>) {
+    let Some(lcid) = language::lcid(&local.language) else {
+        return notes.add(NoteKind::Language, place);
+    };
+    xml.open(element);
+    xml.attribute("LcId", lcid);
+    xml.content(&local.text);
+    xml.close();
+}
+
+/// A description, if there is one.
+pub(super) fn documentation(
+    xml: &mut Xml,
+    element: &'static str,
+    documentation: Option<&Documentation>,
+    notes: &mut Notes,
+    place: Place<'_>,
+) {
+    if let Some(documentation) = documentation.filter(|documentation| !documentation.text.is_empty()) {
+        names(xml, element, &documentation.text, &documentation.translations, notes, place);
+    }
+}

@@ -1,0 +1,270 @@
+//! Data types: those of the device under their names, and those that its objects need besides.
+//!
+//! Every type that is named has to be defined in the file (the keys of ETG.2000's schema), basic ones too. An object with
+//! sub-indices needs a data type with as many sub-items, which also tells what may be done with each.
+
+use std::collections::HashMap;
+
+use compact_str::{format_compact, CompactString};
+
+use super::record::{self, Entry, FieldFacts};
+use crate::note::{NoteKind, Notes, Place};
+use lexibus_codegen::etg::type_name::{self, Basic, Spelling};
+use lexibus_codegen::ir::{Shape, Type, TypeDef, TypeId};
+use lexibus_codegen::unique::Unique;
+
+/// The data types of a dictionary in the making.
+pub(super) struct Types<'a> {
+    pub(super) defs: &'a [TypeDef],
+    /// The name of each, which no other has.
+    names: Vec<CompactString>,
+    taken: Unique,
+    /// Names of basic types.
+    basic: HashMap<Type, CompactString>,
+    /// Types that are written behind those of the device.
+    pub(super) made: Vec<Made>,
+    /// What the fields of each record of the device are for, where an object is of it.
+    pub(super) uses: HashMap<u32, Vec<FieldFacts>>,
+    /// Records of the device by the sub-indices and types that an object of them has.
+    pub(super) records: HashMap<Vec<(u8, Type)>, Vec<u32>>,
+    /// Whether the source was an ESI: what it says of itself stays so.
+    pub(super) is_esi: bool,
+}
+
+/// The name that is wanted, or that with a number behind it.
+pub(super) fn unique(names: &mut Unique, wanted: &str) -> CompactString {
+    names.unique(wanted, |number| format_compact!("{wanted} ({number})"))
+}
+
+/// A data type that the device doesn't define.
+pub(super) enum Made {
+    Basic { name: CompactString, bits: u32 },
+    Array { name: CompactString, element: CompactString, bits: u32, count: u32 },
+    Record { name: CompactString, bits: u32, fields: Vec<MadeField> },
+}
+
+/// A sub-item of such a type.
+pub(super) struct MadeField {
+    pub(super) name: CompactString,
+    pub(super) sub_index: u8,
+    pub(super) ty: CompactString,
+    pub(super) bits: u32,
+    pub(super) offset: u32,
+    pub(super) facts: FieldFacts,
+}
+
+impl<'a> Types<'a> {
+    pub(super) fn new(defs: &'a [TypeDef], is_esi: bool, notes: &mut Notes) -> Self {
+        let mut types = Types {
+            defs,
+            names: Vec::with_capacity(defs.len()),
+            taken: Unique::default(),
+            basic: HashMap::new(),
+            made: Vec::new(),
+            uses: HashMap::new(),
+            records: HashMap::new(),
+            is_esi,
+        };
+        for def in defs {
+            let name = types.unique(&def.name);
+            if name != def.name {
+                notes.add(NoteKind::Renamed, Place::Named(&def.name));
+            }
+            if let Shape::Alias(ty) = def.shape {
+                if is_self_named(def, &name) {
+                    types.basic.entry(ty).or_insert_with(|| name.clone());
+                }
+            }
+            types.names.push(name);
+        }
+        for (at, def) in (0u32..).zip(defs) {
+            if let Shape::Record(fields) = &def.shape {
+                let entries = record::expansion(&types, fields);
+                let key = entries.iter().map(|entry| (entry.sub_index, entry.ty)).collect();
+                types.records.entry(key).or_default().push(at);
+            }
+        }
+        types
+    }
+
+    /// A name that no other type has: the one that is wanted, or that with a number behind it.
+    pub(super) fn unique(&mut self, wanted: &str) -> CompactString {
+        unique(&mut self.taken, if wanted.is_empty() { "Type" } else { wanted })
+    }
+
+    /// The name of a type of the device.
+    pub(super) fn name_of(&self, at: u32) -> CompactString {
+        self.names.get(at as usize).cloned().unwrap_or_default()
+    }
+
+    pub(super) fn def(&self, ty: Type) -> Option<&'a TypeDef> {
+        let Type::Named(TypeId(at)) = ty else { return None };
+        self.defs.get(at as usize)
+    }
+
+    /// The entries of an object of the record at `at`.
+    pub(super) fn entries(&self, at: u32) -> Vec<Entry> {
+        match self.defs.get(at as usize).map(|def| &def.shape) {
+            Some(Shape::Record(fields)) => record::expansion(self, fields),
+            _ => Vec::new(),
+        }
+    }
+
+    /// The name by which a type is referred to, and its length in bits. A basic type that nobody has defined is added.
+    pub(super) fn reference(&mut self, ty: Type, notes: &mut Notes, place: Place<'_>) -> (CompactString, u32) {
+        let bits = self.bits(ty);
+        if bits.is_none() && !matches!(ty, Type::Opaque(_) | Type::Domain) {
+            notes.add(NoteKind::UnknownLength, place);
+        }
+        let bits = bits.unwrap_or(0);
+        if let Type::Named(TypeId(at)) = ty {
+            if (at as usize) < self.defs.len() {
+                return (self.name_of(at), bits);
+            }
+        }
+        if let Some(name) = self.basic.get(&ty) {
+            return (name.clone(), bits);
+        }
+        let (written, is_known) = match ty {
+            Type::Time(format) => (Type::OctetString(Some(format.bytes())), false),
+            Type::Opaque(_) | Type::Named(_) => (Type::Domain, false),
+            known => (known, true),
+        };
+        if !is_known {
+            notes.add(NoteKind::UnknownType, place);
+        }
+        if let Some(name) = self.basic.get(&written) {
+            return (name.clone(), bits);
+        }
+        let name = self.unique(&basic_name(written));
+        self.basic.insert(written, name.clone());
+        self.made.push(Made::Basic { name: name.clone(), bits });
+        (name, bits)
+    }
+
+    /// Length in bits, where it is known.
+    pub(super) fn bits(&self, ty: Type) -> Option<u32> {
+        match ty {
+            Type::Named(_) => {
+                let def = self.def(ty)?;
+                def.bits.or(match def.shape {
+                    Shape::Alias(base)
+                    | Shape::BitField { base, .. }
+                    | Shape::Enumeration { base, .. }
+                    | Shape::Scaled { base, .. } => base.bits(),
+                    Shape::Array { .. } | Shape::Record(_) => None,
+                })
+            }
+            Type::VisibleString(length) | Type::OctetString(length) => length?.checked_mul(8),
+            Type::UnicodeString(length) => length?.checked_mul(16),
+            basic => basic.bits(),
+        }
+    }
+
+    /// The basic type that the values of a type have.
+    pub(super) fn underlying(&self, ty: Type) -> Type {
+        match self.def(ty).map(|def| &def.shape) {
+            Some(
+                Shape::Enumeration { base, .. }
+                | Shape::BitField { base, .. }
+                | Shape::Scaled { base, .. }
+                | Shape::Alias(base),
+            ) => *base,
+            _ => ty,
+        }
+    }
+
+    /// Element type, lower bound and number of elements of an array.
+    pub(super) fn elements(&self, ty: Type) -> Option<(Type, i32, u32)> {
+        match &self.def(ty)?.shape {
+            Shape::Array { element, dimensions } => {
+                let count = dimensions.iter().fold(1u32, |count, &(_, elements)| count.saturating_mul(elements));
+                Some((*element, dimensions.first().map_or(1, |&(lower, _)| lower), count))
+            }
+            _ => None,
+        }
+    }
+}
+
+/// Whether an alias needs no base: its name says which type it is.
+pub(super) fn is_self_named(def: &TypeDef, name: &str) -> bool {
+    let Shape::Alias(ty) = def.shape else { return false };
+    if let Type::Opaque(_) = ty {
+        return type_name::basic(name).is_none();
+    }
+    match type_name::basic(name) {
+        Some((Basic::Type(named), Spelling::Standard | Spelling::Alias)) => sized(named, def.bits) == ty,
+        _ => false,
+    }
+}
+
+/// A basic type with the size that a data type gives it.
+fn sized(ty: Type, bits: Option<u32>) -> Type {
+    let Some(bits) = bits.filter(|&bits| bits > 0) else { return ty };
+    let bytes = Some(bits / 8).filter(|_| bits % 8 == 0);
+    match ty {
+        Type::VisibleString(None) => Type::VisibleString(bytes),
+        Type::OctetString(None) => Type::OctetString(bytes),
+        Type::UnicodeString(None) => Type::UnicodeString(bytes.map(|bytes| bytes / 2)),
+        Type::Integer(_) => u8::try_from(bits).map_or(ty, Type::Integer),
+        Type::Unsigned(_) => u8::try_from(bits).map_or(ty, Type::Unsigned),
+        _ => ty,
+    }
+}
+
+/// The name of a basic type in ETG.1000.6, or what is read as it.
+pub(super) fn basic_name(ty: Type) -> CompactString {
+    match ty {
+        Type::Boolean => "BOOL".into(),
+        Type::Integer(8) => "SINT".into(),
+        Type::Integer(16) => "INT".into(),
+        Type::Integer(32) => "DINT".into(),
+        Type::Integer(64) => "LINT".into(),
+        Type::Integer(bits) => format_compact!("INT{bits}"),
+        Type::Unsigned(8) => "USINT".into(),
+        Type::Unsigned(16) => "UINT".into(),
+        Type::Unsigned(32) => "UDINT".into(),
+        Type::Unsigned(64) => "ULINT".into(),
+        Type::Unsigned(bits @ (24 | 40 | 48 | 56)) => format_compact!("UINT{bits}"),
+        Type::Unsigned(bits) => format_compact!("BIT{bits}"),
+        Type::Real32 => "REAL".into(),
+        Type::Real64 => "LREAL".into(),
+        Type::VisibleString(Some(length)) => format_compact!("STRING({length})"),
+        Type::VisibleString(None) => "STRING".into(),
+        Type::OctetString(Some(length @ 1..)) => format_compact!("ARRAY [0..{}] OF BYTE", length - 1),
+        Type::OctetString(Some(0)) => "OCTET_STRING(0)".into(),
+        Type::OctetString(None) => "OCTET_STRING".into(),
+        Type::UnicodeString(Some(length)) => format_compact!("UNICODE_STRING({length})"),
+        Type::UnicodeString(None) => "UNICODE_STRING".into(),
+        Type::TimeOfDay => "TIME_OF_DAY".into(),
+        Type::TimeDifference => "TIME_DIFFERENCE".into(),
+        Type::Domain | Type::Time(_) | Type::Opaque(_) | Type::Named(_) => "DOMAIN".into(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_of_basic_types_are_read_as_these() {
+        let octets = [Some(1), Some(9), Some(0), None].map(Type::OctetString);
+        let widths = (1..=64).flat_map(|bits| [Type::Integer(bits), Type::Unsigned(bits)]);
+        let others = [
+            Type::Boolean,
+            Type::Real32,
+            Type::Real64,
+            Type::VisibleString(Some(12)),
+            Type::VisibleString(None),
+            Type::UnicodeString(Some(3)),
+            Type::UnicodeString(None),
+            Type::TimeOfDay,
+            Type::TimeDifference,
+            Type::Domain,
+        ];
+        for ty in widths.chain(octets).chain(others) {
+            let read = type_name::basic(&basic_name(ty)).map(|(basic, _)| basic);
+            assert_eq!(read, Some(Basic::Type(ty)), "{}", basic_name(ty));
+        }
+    }
+}

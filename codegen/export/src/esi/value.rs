@@ -1,0 +1,110 @@
+//! Defaults and limits: numbers, texts, or bytes in the order of memory. Those of one value have one form (ETG.2000,
+//! ObjectInfoType).
+
+use std::fmt::Write as _;
+
+use crate::note::NoteKind;
+use lexibus_codegen::ir::{Item, Type, Value};
+
+/// Elements of an Info, and what couldn't be told.
+pub(super) type Written = (Vec<(&'static str, String)>, Vec<NoteKind>);
+
+/// What the Info of an item of the basic type `ty` says of its limits and its default.
+pub(super) fn elements(item: &Item, ty: Type) -> Written {
+    let (mut low, mut high) = (item.limits.low.as_ref(), item.limits.high.as_ref());
+    let mut notes = Vec::new();
+    if item.limits.are_swapped(ty) {
+        (low, high) = (None, None);
+        notes.push(NoteKind::SwappedLimits);
+    }
+    let values = [low, high, item.default.as_ref()];
+    if let (Some(Value::Text(text)), true) = (&item.default, is_plain(item.default.as_ref())) {
+        notes.extend(values.iter().take(2).flatten().map(|_| NoteKind::Value));
+        return (vec![("DefaultString", text.to_string())], notes);
+    }
+    let as_numbers = values.iter().flatten().all(|value| number(value).is_some() || bytes(value, ty).is_none());
+    let names =
+        if as_numbers { ["MinValue", "MaxValue", "DefaultValue"] } else { ["MinData", "MaxData", "DefaultData"] };
+    let mut elements = Vec::new();
+    for (name, value) in names.into_iter().zip(values) {
+        let Some(value) = value else { continue };
+        match if as_numbers { number(value) } else { bytes(value, ty).map(|bytes| hex(&bytes)) } {
+            Some(text) => elements.push((name, text)),
+            None => notes.push(NoteKind::Value),
+        }
+    }
+    (elements, notes)
+}
+
+/// Whether a text can stand as it is: blanks around it would be lost, and an empty one would be no default.
+fn is_plain(value: Option<&Value>) -> bool {
+    matches!(value, Some(Value::Text(text))
+        if !text.is_empty() && text.trim() == text.as_str() && !text.contains(char::is_control))
+}
+
+fn number(value: &Value) -> Option<String> {
+    value.as_int().map(|value| value.to_string())
+}
+
+/// The value in the memory of the device.
+fn bytes(value: &Value, ty: Type) -> Option<Vec<u8>> {
+    Some(match (value, ty) {
+        (Value::Bytes(bytes), _) => bytes.clone(),
+        (Value::Real(value), Type::Real32) => (*value as f32).to_le_bytes().to_vec(),
+        (Value::Real(value), Type::Real64) => value.to_le_bytes().to_vec(),
+        (Value::Int(value), Type::Real32) => (*value as f32).to_le_bytes().to_vec(),
+        (Value::Int(value), Type::Real64) => (*value as f64).to_le_bytes().to_vec(),
+        (Value::Int(_) | Value::Bool(_), Type::Boolean | Type::Integer(_) | Type::Unsigned(_)) => {
+            let length = ty.bits()?.div_ceil(8) as usize;
+            value.as_int()?.to_le_bytes().get(..length)?.to_vec()
+        }
+        (Value::Text(text), Type::UnicodeString(_)) => match text.as_str() {
+            "" => vec![0, 0],
+            text => text.encode_utf16().flat_map(u16::to_le_bytes).collect(),
+        },
+        // An element without a digit says nothing.
+        (Value::Text(text), _) if text.is_empty() => vec![0],
+        (Value::Text(text), _) => text.as_bytes().to_vec(),
+        (Value::Time { milliseconds, days }, _) => {
+            [milliseconds.to_le_bytes().as_slice(), days.to_le_bytes().as_slice()].concat()
+        }
+        _ => return None,
+    })
+}
+
+/// Pairs of hexadecimal digits.
+pub(super) fn hex(bytes: &[u8]) -> String {
+    bytes.iter().fold(String::with_capacity(2 * bytes.len()), |mut text, byte| {
+        let _ = write!(text, "{byte:02X}");
+        text
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use lexibus_codegen::ir::{Binding, Limits};
+
+    fn of(ty: Type, low: Option<Value>, default: Option<Value>) -> (Vec<(&'static str, String)>, usize) {
+        let mut item = Item::new(Binding::coe(0x2000, 0));
+        item.limits = Limits { low, ..Limits::default() };
+        item.default = default;
+        let (elements, notes) = elements(&item, ty);
+        (elements, notes.len())
+    }
+
+    #[test]
+    fn forms() {
+        let one = |name, text: &str| (vec![(name, text.to_owned())], 0);
+        let int = |value| Some(Value::Int(value));
+        assert_eq!(of(Type::Integer(16), None, int(-2)), one("DefaultValue", "-2"));
+        assert_eq!(of(Type::Real32, None, Some(Value::Real(1.5))), one("DefaultData", "0000C03F"));
+        let text = |text: &str| Some(Value::Text(text.into()));
+        assert_eq!(of(Type::VisibleString(None), None, text("a b")), one("DefaultString", "a b"));
+        assert_eq!(of(Type::VisibleString(None), None, text("")), one("DefaultData", "00"));
+        assert_eq!(of(Type::UnicodeString(None), None, text(" ä")), one("DefaultData", "2000E400"));
+        let both = (vec![("MinData", "FFFF".to_owned()), ("DefaultData", "01".to_owned())], 0);
+        assert_eq!(of(Type::Integer(16), int(-1), Some(Value::Bytes(vec![1]))), both);
+        assert_eq!(of(Type::Unsigned(32), int(0), Some(Value::NodeId(0x180))), (vec![("MinValue", "0".to_owned())], 1));
+    }
+}

@@ -1,0 +1,228 @@
+//! Channel diagnosis, process alarms, diagnosis of user structures and the log book.
+
+use std::collections::HashMap;
+
+use super::types;
+use super::Context;
+use crate::note::{NoteKind, Place};
+use crate::xml::Xml;
+use lexibus_codegen::ir::{Catalog, CodeRow, UnitDiagnosis, UnitDiagnosisField, Value};
+
+/// How a list of codes is written.
+struct List {
+    table: &'static str,
+    extended: &'static str,
+    list: &'static str,
+    /// What items are called behind `SystemDefined`, `Profile` or nothing.
+    item: &'static str,
+    extended_list: &'static str,
+    extended_item: &'static str,
+    code: &'static str,
+    add_value: &'static str,
+    has_state: bool,
+}
+
+static CHANNEL_DIAGNOSIS: List = List {
+    table: "channel_diagnosis",
+    extended: "extended_channel_diagnosis",
+    list: "ChannelDiagList",
+    item: "ChannelDiagItem",
+    extended_list: "ExtChannelDiagList",
+    extended_item: "ExtChannelDiagItem",
+    code: "ErrorType",
+    add_value: "ExtChannelAddValue",
+    has_state: true,
+};
+
+static PROCESS_ALARMS: List = List {
+    table: "process_alarms",
+    extended: "extended_process_alarms",
+    list: "ChannelProcessAlarmList",
+    item: "ChannelProcessAlarmItem",
+    extended_list: "ExtChannelProcessAlarmList",
+    extended_item: "ExtChannelProcessAlarmItem",
+    code: "Reason",
+    add_value: "ProcessAlarmReasonAddValue",
+    has_state: false,
+};
+
+/// First code that belongs to a profile.
+const FIRST_OF_PROFILE: i128 = 0x9000;
+
+/// Whether a table of the catalogue is one of those that a GSDML has.
+pub(super) fn is_list(name: &str) -> bool {
+    let lists = [&CHANNEL_DIAGNOSIS, &PROCESS_ALARMS];
+    name == "log_book" || lists.iter().any(|list| name == list.table || name == list.extended)
+}
+
+/// Writes all lists.
+pub(super) fn write(xml: &mut Xml, context: &mut Context<'_>, catalog: &Catalog) {
+    code_list(xml, context, catalog, &CHANNEL_DIAGNOSIS);
+    code_list(xml, context, catalog, &PROCESS_ALARMS);
+    if !catalog.unit_diagnoses.is_empty() {
+        xml.open("UnitDiagTypeList");
+        catalog.unit_diagnoses.iter().for_each(|own| unit_diagnosis(xml, context, own));
+        xml.close();
+    }
+    log_book(xml, context, catalog);
+}
+
+fn rows<'c>(catalog: &'c Catalog, name: &'static str) -> Vec<&'c CodeRow> {
+    catalog.code_tables.iter().filter(|table| table.name == name).flat_map(|table| &table.rows).collect()
+}
+
+fn code_list(xml: &mut Xml, context: &mut Context<'_>, catalog: &Catalog, list: &'static List) {
+    let own = rows(catalog, list.table);
+    if own.is_empty() {
+        return;
+    }
+    let mut extended: HashMap<i128, Vec<&CodeRow>> = HashMap::new();
+    for row in rows(catalog, list.extended) {
+        extended.entry(number(row.cells.first())).or_default().push(row);
+    }
+    xml.open(list.list);
+    for row in own {
+        let api = number(row.cells.get(1));
+        let prefix = match (api, row.name.is_empty()) {
+            (1.., _) => "Profile",
+            (_, true) => "SystemDefined",
+            (_, false) => "",
+        };
+        xml.open(format!("{prefix}{}", list.item));
+        head(xml, list, row, row.cells.first(), api);
+        if prefix != "SystemDefined" {
+            texts(xml, context, row);
+        }
+        extended_codes(xml, context, list, extended.remove(&row.code).unwrap_or_default());
+        xml.close();
+    }
+    xml.close();
+    context.notes.add_many(NoteKind::OtherPart, extended.values().map(Vec::len).sum(), Place::Named(list.extended));
+}
+
+fn extended_codes(xml: &mut Xml, context: &mut Context<'_>, list: &'static List, rows: Vec<&CodeRow>) {
+    if rows.is_empty() {
+        return;
+    }
+    xml.open(list.extended_list);
+    for row in rows {
+        let api = number(row.cells.get(2));
+        let prefix = if api > 0 || row.code >= FIRST_OF_PROFILE { "Profile" } else { "" };
+        xml.open(format!("{prefix}{}", list.extended_item));
+        head(xml, list, row, row.cells.get(1), api);
+        texts(xml, context, row);
+        add_values(xml, list, row.cells.get(3));
+        xml.close();
+    }
+    xml.close();
+}
+
+fn number(value: Option<&Value>) -> i128 {
+    value.and_then(Value::as_int).unwrap_or(0)
+}
+
+fn head(xml: &mut Xml, list: &'static List, row: &CodeRow, state: Option<&Value>, api: i128) {
+    if api > 0 {
+        xml.attribute("API", api);
+    }
+    xml.attribute(list.code, row.code);
+    match state {
+        Some(Value::Text(state)) if list.has_state && state != "D" => xml.attribute("MaintenanceAlarmState", state),
+        _ => {}
+    }
+}
+
+/// Name and help.
+fn texts(xml: &mut Xml, context: &mut Context<'_>, row: &CodeRow) {
+    xml.open("Name");
+    xml.attribute("TextId", context.texts.id(&row.name, &row.names));
+    xml.close();
+    if let Some(documentation) = &row.documentation {
+        context.texts.documentation(xml, "Help", documentation);
+    }
+}
+
+/// What comes along with a code, written `1 Unsigned16, 2 Float32`.
+fn add_values(xml: &mut Xml, list: &'static List, cell: Option<&Value>) {
+    let Some(Value::Text(text)) = cell else { return };
+    let items: Vec<(&str, &str)> = text.split(", ").filter_map(|item| item.split_once(' ')).collect();
+    if items.is_empty() {
+        return;
+    }
+    xml.open(list.add_value);
+    for (id, data_type) in items {
+        xml.open("DataItem");
+        xml.attribute("Id", id);
+        xml.attribute("DataType", data_type);
+        xml.close();
+    }
+    xml.close();
+}
+
+fn unit_diagnosis(xml: &mut Xml, context: &mut Context<'_>, diagnosis: &UnitDiagnosis) {
+    let prefix = if diagnosis.api > 0 { "Profile" } else { "" };
+    xml.open(format!("{prefix}UnitDiagTypeItem"));
+    if diagnosis.api > 0 {
+        xml.attribute("API", diagnosis.api);
+    }
+    xml.attribute("UserStructureIdentifier", diagnosis.identifier);
+    xml.open("Name");
+    xml.attribute("TextId", context.texts.id(&diagnosis.name, &diagnosis.names));
+    xml.close();
+    if let Some(documentation) = &diagnosis.documentation {
+        context.texts.documentation(xml, "Help", documentation);
+    }
+    diagnosis.fields.iter().for_each(|own| field(xml, context, own));
+    xml.close();
+    context.notes.add_many(NoteKind::Extension, diagnosis.extensions.len(), Place::Named(&diagnosis.name));
+}
+
+fn field(xml: &mut Xml, context: &mut Context<'_>, field: &UnitDiagnosisField) {
+    let values = field.values.and_then(|id| context.types.get(id.0 as usize));
+    xml.open("Ref");
+    xml.optional("ValueItemTarget", values.map(|def| &def.name));
+    types::place(xml, context, field.ty, (field.bit_offset, field.bits), &field.name);
+    match &field.default {
+        Some(Value::Bool(value)) => xml.attribute("DefaultValue", u8::from(*value)),
+        Some(Value::Int(value)) => xml.attribute("DefaultValue", value),
+        Some(Value::Real(value)) => xml.attribute("DefaultValue", format!("{value:?}")),
+        Some(Value::Text(text) | Value::Raw(text)) => xml.attribute("DefaultValue", text),
+        _ => {}
+    }
+    xml.attribute("TextId", context.texts.id(&field.name, &field.names));
+    xml.close();
+}
+
+/// The code of a row is the whole status, of which ErrorCode2 is the last byte.
+fn log_book(xml: &mut Xml, context: &mut Context<'_>, catalog: &Catalog) {
+    let rows = rows(catalog, "log_book");
+    if rows.is_empty() {
+        return;
+    }
+    xml.open("LogBookEntryList");
+    let mut next = 0;
+    while let Some(first) = rows.get(next) {
+        let status = first.code >> 8;
+        let same =
+            rows.iter().skip(next).take_while(|row| row.code >> 8 == status && row.last.is_none()).count().max(1);
+        xml.open("LogBookEntryItem");
+        xml.attribute("Status", status);
+        if first.last.is_some() {
+            xml.open("ErrorCode2Value");
+            texts(xml, context, first);
+            xml.close();
+        } else {
+            xml.open("ErrorCode2List");
+            for row in rows.iter().skip(next).take(same) {
+                xml.open("ErrorCode2Item");
+                xml.attribute("ErrorCode2", row.code & 0xFF);
+                texts(xml, context, row);
+                xml.close();
+            }
+            xml.close();
+        }
+        xml.close();
+        next += same;
+    }
+    xml.close();
+}

@@ -1,0 +1,391 @@
+//! A device access point for a device of another format that has fixed process images: its images are the data of one submodule.
+
+use compact_str::{format_compact, CompactString};
+use smallvec::smallvec;
+
+use super::options::Asked;
+use super::Options;
+use crate::note::{self, NoteKind, Notes, Place};
+use crate::options::Wanted;
+use lexibus_codegen::ir::{
+    Binding, Catalog, Device, Direction, Header, Identity, IoData, IoItem, IoLengths, Numbers, PdoEntry, PdoEntryKind,
+    Places, ProcessImage, ProfinetSettings, Shape, Submodule, SubmoduleId, SubmoduleKind, SubmoduleUse, Type, TypeDef,
+};
+
+/// Subslots of the first interface, and of the first port.
+const INTERFACE: u16 = 0x8000;
+const PORT: u16 = 0x8001;
+const MAX_PORTS: u16 = 0x0FFF;
+
+/// The catalogue of the devices of `source` that have fixed process images; none where there are no such devices.
+pub(super) fn catalog(
+    source: &Catalog,
+    options: &Asked<'_>,
+    notes: &mut Notes,
+    wanted: &mut Wanted,
+) -> Option<Catalog> {
+    let mut made = Catalog::default();
+    for device in source.devices.iter().filter(|device| !device.process_data.images.is_empty()) {
+        losses(device, notes);
+        let position = made.devices.len();
+        let mut maker = Maker { options, wanted, notes, made: &mut made, position };
+        let own = maker.device(device);
+        made.devices.push(own);
+    }
+    (!made.devices.is_empty()).then_some(made)
+}
+
+struct Maker<'m> {
+    options: &'m Asked<'m>,
+    wanted: &'m mut Wanted,
+    notes: &'m mut Notes,
+    made: &'m mut Catalog,
+    /// The number of devices before this one.
+    position: usize,
+}
+
+impl Maker<'_> {
+    fn want<T: Default>(&mut self, given: Option<T>, key: &'static str) -> T {
+        self.wanted.want(given, key, Options::KEYS)
+    }
+
+    fn device(&mut self, source: &Device) -> Device {
+        self.want(self.options.date(), "date");
+        let mut device = Device {
+            name: source.name.clone(),
+            names: source.names.clone(),
+            id: self.id("DAP"),
+            documentation: source.documentation.clone(),
+            identity: Identity {
+                vendor_name: source.identity.vendor_name.clone(),
+                order_code: self.options.order_number().as_deref().unwrap_or(&source.identity.order_code).into(),
+                ..Identity::default()
+            },
+            header: Header {
+                description: source.documentation.as_ref().map_or("", |own| own.text.as_str()).into(),
+                ..Header::default()
+            },
+            ..Device::default()
+        };
+        device.profinet = Some(Box::new(self.settings()));
+        let submodule = self.submodule(source);
+        let subslot = self.options.subslot().unwrap_or(1);
+        self.add(&mut device, submodule, subslot);
+        self.interface(&mut device);
+        device
+    }
+
+    /// An identifier that no other element of the file has.
+    fn id(&self, what: &str) -> CompactString {
+        format_compact!("{what}_{}", self.position + 1)
+    }
+
+    fn add(&mut self, device: &mut Device, submodule: Submodule, subslot: u16) {
+        let position = u32::try_from(self.made.submodules.len()).unwrap_or(u32::MAX);
+        let places = Places { fixed: Numbers::from_iter([subslot]), ..Places::default() };
+        device.submodules.push(SubmoduleUse { submodule: SubmoduleId(position), places });
+        self.made.submodules.push(submodule);
+    }
+
+    fn settings(&mut self) -> ProfinetSettings {
+        let options = self.options;
+        let input = self.want(options.max_input_length(), "max-input-length");
+        let output = self.want(options.max_output_length(), "max-output-length");
+        let mut settings = ProfinetSettings {
+            ident: self.want(options.module_ident(), "module-ident"),
+            family: (
+                options.main_family().as_deref().unwrap_or_default().into(),
+                options.product_family().as_deref().unwrap_or_default().into(),
+            ),
+            pnio_version: self.want(options.pnio_version(), "pnio-version").into(),
+            // The device access point is all that there is.
+            slots: Numbers(smallvec![(0, 0)]),
+            dns_name: self.want(options.dns_name(), "dns-name").into(),
+            min_device_interval: Some(self.want(options.min_device_interval(), "min-device-interval")),
+            max_record_size: 4068,
+            relations: 1,
+            startup_modes: list(options.startup_modes().as_deref().unwrap_or("Legacy")),
+            max_lengths: IoLengths { input: Some(input), output: Some(output), data: None },
+            send_clocks: options.send_clocks().unwrap_or_default(),
+            reduction_ratios: options.reduction_ratios().unwrap_or_default(),
+            places: Places { fixed: Numbers(smallvec![(0, 0)]), ..Places::default() },
+            ..ProfinetSettings::default()
+        };
+        settings.attributes = self.attributes();
+        settings
+    }
+
+    /// Attributes of the device access point for which the IR has no fields.
+    fn attributes(&mut self) -> Vec<(CompactString, CompactString)> {
+        let options = self.options;
+        let wanted = [
+            ("ObjectUUID_LocalIndex", self.want(options.object_uuid_index(), "object-uuid-index").to_string()),
+            (
+                "NameOfStationNotTransferable",
+                self.want(options.name_not_transferable(), "name-not-transferable").to_string(),
+            ),
+            ("DeviceAccessSupported", self.want(options.device_access(), "device-access").to_string()),
+            ("CheckDeviceID_Allowed", self.want(options.check_device_id(), "check-device-id").to_string()),
+        ];
+        let given = [("HardwareRelease", options.hardware_release()), ("SoftwareRelease", options.software_release())];
+        let given = given.into_iter().filter_map(|(key, value)| Some((key, value?)));
+        let all = wanted.into_iter().chain(self.certificate()).chain(given);
+        all.map(|(key, value)| (CompactString::const_new(key), value.into())).collect()
+    }
+
+    /// CertificationInfo, which has a conformance class or isn't there.
+    fn certificate(&mut self) -> Vec<(&'static str, String)> {
+        let options = self.options;
+        let Some(conformance) = options.conformance_class() else { return Vec::new() };
+        let application = self.want(options.application_class(), "application-class");
+        let application = if application == "none" { String::new() } else { application };
+        let netload = options.netload_class().map(|class| ("CertificationInfo@NetloadClass", class));
+        let classes =
+            [("CertificationInfo@ConformanceClass", conformance), ("CertificationInfo@ApplicationClass", application)];
+        classes.into_iter().chain(netload).collect()
+    }
+
+    /// The submodule with the data.
+    fn submodule(&mut self, source: &Device) -> Submodule {
+        let mut submodule = Submodule {
+            id: self.id("IO"),
+            ident: self.want(self.options.submodule_ident(), "submodule-ident"),
+            kind: SubmoduleKind::Virtual,
+            name: source.name.clone(),
+            names: source.names.clone(),
+            documentation: source.documentation.clone(),
+            status_lengths: (1, 1),
+            ..Submodule::default()
+        };
+        let alarms = self.want(self.options.process_alarms(), "process-alarms");
+        submodule.attributes.push(("MayIssueProcessAlarm".into(), format_compact!("{alarms}")));
+        for image in &source.process_data.images {
+            let place = match image.direction {
+                Direction::Transmit => &mut submodule.input,
+                Direction::Receive => &mut submodule.output,
+            };
+            match place {
+                Some(_) => self.notes.add(NoteKind::OtherPart, Place::Named(&image.name)),
+                None => {
+                    let data = io_data(image, &source.types, self.notes);
+                    let consistent = self.options.consistent().unwrap_or(false);
+                    *place = Some(Box::new(IoData { consistent, ..data }));
+                }
+            }
+        }
+        submodule
+    }
+
+    /// Interface and ports, if the caller gives an ident number of the interface.
+    fn interface(&mut self, device: &mut Device) {
+        let options = self.options;
+        let Some(ident) = options.interface_ident() else {
+            return self.notes.add(NoteKind::Incomplete, Place::Named("InterfaceSubmoduleItem"));
+        };
+        let mut attributes = vec![(
+            CompactString::const_new("SupportedProtocols"),
+            CompactString::from(self.want(options.supported_protocols(), "supported-protocols")),
+        )];
+        if let Some(classes) = &options.rt_classes() {
+            attributes.push(("SupportedRT_Classes".into(), classes.into()));
+        }
+        let name = CompactString::from(self.want(options.interface_name(), "interface-name"));
+        let interface = Submodule {
+            id: self.id("Interface"),
+            ident,
+            kind: SubmoduleKind::Interface,
+            name: name.clone(),
+            attributes,
+            status_lengths: (1, 1),
+            ..Submodule::default()
+        };
+        self.add(device, interface, INTERFACE);
+        let ports = self.want(options.ports(), "ports");
+        if ports > MAX_PORTS {
+            self.notes.add(NoteKind::GivenFact, Place::Named("ports"));
+        }
+        for number in 0..ports.min(MAX_PORTS) {
+            let kind = self.want(options.mau_type(), "mau-type");
+            let port = Submodule {
+                id: format_compact!("Port_{}_{}", self.position + 1, number + 1),
+                ident: self.want(options.port_ident(), "port-ident"),
+                kind: SubmoduleKind::Port,
+                name: format_compact!("{name} P{}", number + 1),
+                attributes: vec![("MAUTypeItem@Value".into(), format_compact!("{kind}"))],
+                status_lengths: (1, 1),
+                ..Submodule::default()
+            };
+            self.add(device, port, PORT + number);
+        }
+    }
+}
+
+/// Words with `;` between them.
+fn list(text: &str) -> Vec<CompactString> {
+    text.split(';').map(str::trim).filter(|word| !word.is_empty()).map(Into::into).collect()
+}
+
+/// The data of an image, as data items one behind the other. They are told in whole bytes: of fields that share bytes, those
+/// of one bit keep their names.
+fn io_data(image: &ProcessImage, types: &[TypeDef], notes: &mut Notes) -> IoData {
+    let mut fields: Vec<PdoEntry> = Vec::new();
+    let mut items = Vec::new();
+    let mut sorted: Vec<&PdoEntry> = image.fields.iter().collect();
+    sorted.sort_by_key(|field| field.bit_offset);
+    let (mut at, mut next) = (0u32, 0usize);
+    while let Some(first) = sorted.get(next) {
+        let start = first.bit_offset / 8 * 8;
+        filler(&mut fields, at, start);
+        // Up to where a field begins with a byte.
+        let mut end = first.bit_offset.saturating_add(first.bits);
+        let mut last = next + 1;
+        while let Some(field) = sorted.get(last).filter(|field| field.bit_offset / 8 < end.div_ceil(8)) {
+            end = end.max(field.bit_offset.saturating_add(field.bits));
+            last += 1;
+        }
+        let end_of_bytes = end.div_ceil(8) * 8;
+        let run = sorted.get(next..last).unwrap_or_default();
+        match run {
+            [only] if only.bit_offset == start && end == end_of_bytes => {
+                fields.push(whole(only, image, types, notes));
+            }
+            _ => bits(&mut fields, &mut items, run, (start, end_of_bytes), notes),
+        }
+        (at, next) = (end_of_bytes, last);
+    }
+    filler(&mut fields, at, image.length.saturating_mul(8));
+    let image = ProcessImage { fields, big_endian: true, ..image.clone() };
+    IoData { image, consistent: false, items, channels: Vec::new() }
+}
+
+/// Bytes that no field has.
+fn filler(fields: &mut Vec<PdoEntry>, from: u32, to: u32) {
+    if from < to {
+        let octets = Type::OctetString(Some((to - from) / 8));
+        let name = CompactString::const_new("Reserved");
+        fields.push(PdoEntry { bit_offset: from, name, ty: octets, ..PdoEntry::new(0, 0, to - from) });
+    }
+}
+
+/// A field of whole bytes.
+fn whole(field: &PdoEntry, image: &ProcessImage, types: &[TypeDef], notes: &mut Notes) -> PdoEntry {
+    let place = Place::Named(&field.name);
+    let octets = |kind| (Type::OctetString(Some(field.bits / 8)), Some(kind));
+    let (below, note) = underlying(field.ty, types);
+    let (ty, own) = match below {
+        Type::Unsigned(width) | Type::Integer(width) if u32::from(width) != field.bits => octets(NoteKind::UnknownType),
+        Type::Unsigned(16 | 32 | 64) | Type::Integer(16 | 32 | 64) | Type::Real32 | Type::Real64
+            if !image.big_endian =>
+        {
+            octets(NoteKind::ByteOrder)
+        }
+        Type::Unsigned(8 | 16 | 32 | 64) | Type::Integer(8 | 16 | 32 | 64) | Type::Real32 | Type::Real64 => {
+            (below, None)
+        }
+        Type::Boolean if field.bits == 8 => (below, None),
+        Type::VisibleString(_) | Type::OctetString(_) => (below, None),
+        Type::Opaque(_) => octets(NoteKind::UnknownType),
+        _ => octets(NoteKind::Structure),
+    };
+    note.into_iter().chain(own).for_each(|note| notes.add(note, place));
+    PdoEntry { ty, ..field.clone() }
+}
+
+/// What a type is below its names, bits and values; those have no place in cyclic data.
+fn underlying(mut ty: Type, types: &[TypeDef]) -> (Type, Option<NoteKind>) {
+    let mut note = None;
+    for _ in 0..8 {
+        let Type::Named(id) = ty else { break };
+        let Some(def) = types.get(id.0 as usize) else { break };
+        let (below, own) = match &def.shape {
+            Shape::Alias(base) => (*base, None),
+            Shape::Enumeration { base, .. } => (*base, Some(NoteKind::Enumeration)),
+            Shape::BitField { base, .. } => (*base, Some(NoteKind::BitField)),
+            Shape::Scaled { base, .. } => (*base, Some(NoteKind::Quantity)),
+            Shape::Array { .. } | Shape::Record(_) => return (Type::Opaque(None), Some(NoteKind::Structure)),
+        };
+        (ty, note) = (below, note.or(own));
+    }
+    (ty, note)
+}
+
+/// Fields that share bytes, as one data item of bits.
+fn bits(
+    fields: &mut Vec<PdoEntry>,
+    items: &mut Vec<IoItem>,
+    run: &[&PdoEntry],
+    (from, to): (u32, u32),
+    notes: &mut Notes,
+) {
+    let first = u32::try_from(fields.len()).unwrap_or(u32::MAX);
+    let padding = |at: u32, end: u32| PdoEntry {
+        bit_offset: at,
+        kind: PdoEntryKind::Padding,
+        ..PdoEntry::new(0, 0, end.saturating_sub(at))
+    };
+    let mut at = from;
+    for field in run {
+        if field.bits != 1 || field.bit_offset < at {
+            notes.add(NoteKind::Layout, Place::Named(&field.name));
+            continue;
+        }
+        if at < field.bit_offset {
+            fields.push(padding(at, field.bit_offset));
+        }
+        fields.push(PdoEntry { ty: Type::Boolean, kind: PdoEntryKind::Item, ..(*field).clone() });
+        at = field.bit_offset + 1;
+    }
+    if at < to {
+        fields.push(padding(at, to));
+    }
+    let names: Vec<&str> = run.iter().map(|field| field.name.as_str()).collect();
+    items.push(IoItem {
+        name: match names.as_slice() {
+            [only] => CompactString::from(*only),
+            [one, .., last] => format_compact!("{one} … {last}"),
+            [] => CompactString::default(),
+        },
+        data_type: if to - from == 8 { "Unsigned8".into() } else { "OctetString".into() },
+        bit_offset: from,
+        bits: to - from,
+        first_field: first,
+        fields: u32::try_from(fields.len()).unwrap_or(u32::MAX).saturating_sub(first),
+        ..IoItem::default()
+    });
+}
+
+/// What of the device isn't in its process images.
+fn losses(device: &Device, notes: &mut Notes) {
+    let place = Place::Named(&device.name);
+    let others = [device.canopen.is_some(), device.ethercat.is_some()].iter().filter(|is_there| **is_there).count();
+    notes.add_many(NoteKind::OtherBus, others + device.modbus.len(), place);
+    let parts = note::parts_of_tables(device) + device.code_tables.len();
+    notes.add_many(NoteKind::OtherPart, parts, place);
+    notes.add_many(NoteKind::Doubt, device.doubts.len(), place);
+    notes.add_many(NoteKind::Pdo, device.process_data.pdos.len(), place);
+    let axes = device.axes.as_ref().map_or(0, |rule| usize::from(rule.axes.saturating_sub(1)));
+    notes.add_many(NoteKind::Axis, axes, place);
+    for group in &device.groups {
+        for item in &group.items {
+            let in_image = item.bindings.iter().any(|binding| matches!(binding, Binding::Image(_)));
+            let in_record = item.bindings.iter().any(|binding| matches!(binding, Binding::Record { .. }));
+            let place = Place::Named(&item.name);
+            match (in_image, in_record) {
+                (true, _) => {
+                    notes.add_many(NoteKind::Binding, item.bindings.len() - 1, place);
+                    notes.add_many(NoteKind::Quantity, usize::from(item.quantity.is_some()), place);
+                    let limits = usize::from(!item.limits.is_empty()) + usize::from(item.default.is_some());
+                    notes.add_many(NoteKind::Limits, limits, place);
+                    notes.add_many(NoteKind::Behaviour, usize::from(item.behaviour.is_some()), place);
+                    let available = usize::from(item.availability.is_some()) + item.variants.len();
+                    notes.add_many(NoteKind::Availability, available, place);
+                    notes.add_many(NoteKind::Documentation, usize::from(item.documentation.is_some()), place);
+                    notes.add_many(NoteKind::Doubt, item.doubts.len(), place);
+                }
+                // What a record says at start-up, its defaults for every byte, no register tells.
+                (false, true) => notes.add(NoteKind::Binding, place),
+                (false, false) => notes.add(NoteKind::NotInData, place),
+            }
+        }
+    }
+}

@@ -1,0 +1,116 @@
+//! Cyclic data of a submodule.
+
+use super::types::{self, Name};
+use super::Context;
+use crate::note::Place;
+use crate::xml::Xml;
+use lexibus_codegen::ir::{IoChannel, IoData, IoItem, PdoEntry, PdoEntryKind, Submodule, Type};
+
+/// Writes IOData.
+pub(super) fn write(xml: &mut Xml, context: &mut Context<'_>, submodule: &Submodule) {
+    xml.open("IOData");
+    let (provider, consumer) = submodule.status_lengths;
+    for (name, length) in [("IOPS_Length", provider), ("IOCS_Length", consumer)] {
+        if length != 1 {
+            xml.attribute(name, length);
+        }
+    }
+    for (key, value) in &submodule.attributes {
+        if let Some(("IOData", name)) = key.split_once('@') {
+            xml.attribute(name, value);
+        }
+    }
+    for (element, data) in [("Input", &submodule.input), ("Output", &submodule.output)] {
+        if let Some(data) = data {
+            direction(xml, context, element, data);
+        }
+    }
+    xml.close();
+}
+
+fn direction(xml: &mut Xml, context: &mut Context<'_>, element: &'static str, data: &IoData) {
+    xml.open(element);
+    xml.flag("Consistency", data.consistent, "All items consistency");
+    let mut next = 0usize;
+    for item in &data.items {
+        let first = item.first_field as usize;
+        simple(xml, context, data.image.fields.get(next..first).unwrap_or_default());
+        let fields = data.image.fields.get(first..first.saturating_add(item.fields as usize)).unwrap_or_default();
+        composed(xml, context, item, fields);
+        next = first + fields.len();
+    }
+    simple(xml, context, data.image.fields.get(next..).unwrap_or_default());
+    data.channels.iter().for_each(|own| channel(xml, own));
+    xml.close();
+}
+
+/// Data items of one field each.
+fn simple(xml: &mut Xml, context: &mut Context<'_>, fields: &[PdoEntry]) {
+    let types = context.types;
+    for field in fields {
+        let Name { name, needs_length, note } = types::name(field.ty, field.bits, types);
+        if let Some(note) = note {
+            context.notes.add(note, Place::Named(&field.name));
+        }
+        xml.open("DataItem");
+        xml.attribute("DataType", name);
+        if needs_length {
+            xml.attribute("Length", field.bits / 8);
+        }
+        xml.attribute("TextId", context.texts.id(&field.name, &field.names));
+        xml.close();
+    }
+}
+
+/// A data item of bits, of two values, or of none.
+fn composed(xml: &mut Xml, context: &mut Context<'_>, item: &IoItem, fields: &[PdoEntry]) {
+    let is_bit = |field: &PdoEntry| field.kind == PdoEntryKind::Padding || field.bits == 1 && field.ty == Type::Boolean;
+    let is_bits = !fields.is_empty() && fields.iter().all(is_bit);
+    let needs_length = item.data_type.contains("String") && item.data_type != "OctetString2+Unsigned8"
+        || item.data_type.contains("STRING");
+    xml.open("DataItem");
+    xml.attribute("DataType", &item.data_type);
+    if needs_length {
+        xml.attribute("Length", item.bits / 8);
+    }
+    xml.flag("UseAsBits", is_bits, "true");
+    xml.flag("Subordinate", item.subordinate, "true");
+    xml.attribute("TextId", context.texts.id(&item.name, &item.names));
+    if is_bits {
+        // The most significant byte of a number is the first one, and its bits are counted from the last.
+        let is_number = item.data_type.starts_with("Unsigned")
+            || item.data_type.starts_with("Integer")
+            || matches!(item.data_type.as_str(), "V2" | "L2");
+        for field in fields.iter().filter(|field| field.kind != PdoEntryKind::Padding) {
+            let place = field.bit_offset.saturating_sub(item.bit_offset);
+            let offset = match item.bits.checked_div(8).filter(|bytes| is_number && place / 8 < *bytes) {
+                Some(bytes) => (bytes - 1 - place / 8) * 8 + place % 8,
+                None => place,
+            };
+            xml.open("BitDataItem");
+            xml.attribute("BitOffset", offset);
+            xml.attribute("TextId", context.texts.id(&field.name, &field.names));
+            xml.close();
+        }
+    }
+    xml.close();
+}
+
+fn channel(xml: &mut Xml, channel: &IoChannel) {
+    xml.open("Channel");
+    xml.attribute("Number", channel.number);
+    channel.attributes.iter().for_each(|(name, value)| xml.attribute(name, value));
+    if let Some((offset, bits)) = channel.data {
+        xml.open("Data");
+        xml.attribute("BitOffset", offset);
+        xml.attribute("BitLength", bits);
+        xml.close();
+    }
+    if let Some((offset, _)) = channel.quality {
+        xml.open("Quality");
+        xml.attribute("BitOffset", offset);
+        xml.attribute("Format", &channel.quality_format);
+        xml.close();
+    }
+    xml.close();
+}

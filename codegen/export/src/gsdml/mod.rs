@@ -1,0 +1,285 @@
+//! PROFINET device descriptions (GSDML): all device access points of a catalogue, and one for a device of another format that
+//! has fixed process images.
+//!
+//! What was read from a GSDML comes out as it was understood, in the order that the schema wants; attributes of later versions
+//! of the schema stay as they are. Of a device of another format, the file has a device access point with one submodule, which
+//! has the process images as its data, and [`Export::notes`] says what is left out. What the schema wants and the source
+//! doesn't say has to be among the [`Options`].
+//!
+//! | file | subject |
+//! |---|---|
+//! | `options` | facts that the caller gives |
+//! | `texts` | the text list |
+//! | `elements` | elements of which the IR keeps the attributes as they are |
+//! | `device`, `module`, `submodule` | device access points, modules, submodules |
+//! | `image` | a device access point for fixed process images |
+//! | `io_data`, `types` | cyclic data and its types |
+//! | `record` | parameter records, those of PROFIsafe too |
+//! | `values` | named values |
+//! | `diagnosis` | diagnosis, alarms and log book |
+
+mod device;
+mod diagnosis;
+mod elements;
+mod image;
+mod io_data;
+mod module;
+mod options;
+mod record;
+mod submodule;
+mod texts;
+mod types;
+mod values;
+
+pub use super::{Export, MissingFact, Note, NoteKind, Refusal};
+use options::Asked;
+pub use options::Options;
+
+use std::collections::HashSet;
+
+use super::note::{Notes, Place};
+use super::options::Wanted;
+use super::xml::Xml;
+use lexibus_codegen::ir::{Catalog, Documentation, Extension, Format, LocalText, TypeDef};
+use texts::TextList;
+
+/// Version of the schema that is written where the source doesn't say.
+const VERSION: &str = "2.35";
+
+/// The file of all device access points of `catalog`, in UTF-8. Its name has to be that of [`file_name`].
+pub fn export(catalog: &Catalog, options: &Options) -> Result<Export, Refusal> {
+    let options = &Asked::new(options);
+    // It is a part of the file's name.
+    options.date();
+    let (mut notes, mut wanted) = (Notes::default(), Wanted::default());
+    let made = match is_gsdml(catalog) {
+        true => None,
+        false => Some(image::catalog(catalog, options, &mut notes, &mut wanted).ok_or(Refusal::Nothing)?),
+    };
+    let catalog = made.as_ref().unwrap_or(catalog);
+    if catalog.devices.is_empty() && catalog.modules.is_empty() && catalog.submodules.is_empty() {
+        return Err(Refusal::Nothing);
+    }
+    let texts = TextList::new(&catalog.extensions);
+    let mut context = Context {
+        catalog,
+        options,
+        types: &catalog.types,
+        notes,
+        wanted,
+        texts,
+        pluggable_ports: submodule::pluggable_ports(catalog),
+        is_gsdml: made.is_none(),
+    };
+    let mut xml = Xml::new();
+    root(&mut xml, &mut context);
+    context.notes.add_many(NoteKind::Control, xml.dropped, Place::Device);
+    context.notes.add_many(NoteKind::Extension, xml.unnamed, Place::Device);
+    let Context { mut notes, wanted, .. } = context;
+    options.note_others(&mut notes);
+    wanted.finish(xml.finish(), notes.finish())
+}
+
+/// The name, without ending, that the file has to have: version of the schema, vendor, family and date. None where nobody
+/// gives the date.
+pub fn file_name(catalog: &Catalog, options: &Options) -> Option<String> {
+    let source = catalog.files.first().filter(|_| is_gsdml(catalog));
+    let stem = source.and_then(|file| {
+        let name = file.name.rsplit(['/', '\\']).next().unwrap_or(&file.name);
+        name.strip_suffix(".xml").or_else(|| name.strip_suffix(".XML"))
+    });
+    if let (Some(stem), None) = (stem.filter(|stem| stem.starts_with("GSDML-V")), &options.date) {
+        return Some(stem.to_owned());
+    }
+    let date = options.date.as_ref()?;
+    let device = catalog.devices.first();
+    let vendor =
+        options.vendor_name.as_deref().or_else(|| device.map(|device| device.identity.vendor_name.as_str()))?;
+    let family = options.product_family.as_deref().or_else(|| device.map(|device| device.name.as_str()))?;
+    // A dash divides the parts of the name.
+    let part = |text: &str| -> String {
+        let is_safe = |letter: char| letter.is_ascii_alphanumeric() || matches!(letter, '_' | '.' | '+');
+        text.trim().chars().map(|letter| if is_safe(letter) { letter } else { '_' }).collect()
+    };
+    Some(format!("GSDML-V{}-{}-{}-{}", version(catalog), part(vendor), part(family), part(date)))
+}
+
+fn is_gsdml(catalog: &Catalog) -> bool {
+    catalog.files.first().is_some_and(|file| file.format == Format::Gsdml)
+}
+
+fn version(catalog: &Catalog) -> &str {
+    let own = catalog.devices.first().map(|device| device.header.format_version.as_str());
+    own.filter(|version| is_gsdml(catalog) && !version.is_empty()).unwrap_or(VERSION)
+}
+
+/// What every part of the file is written from.
+struct Context<'a> {
+    catalog: &'a Catalog,
+    options: &'a Asked<'a>,
+    types: &'a [TypeDef],
+    notes: Notes,
+    wanted: Wanted,
+    texts: TextList,
+    /// Positions of the ports that can be plugged.
+    pluggable_ports: HashSet<u32>,
+    /// Whether the source was a GSDML: then what it leaves out stays left out.
+    is_gsdml: bool,
+}
+
+impl Context<'_> {
+    /// What the caller gives, or else the source; if neither does, the caller is told.
+    fn wanted<T: Default>(&mut self, given: Option<T>, found: Option<T>, key: &'static str) -> T {
+        self.wanted.want(given.or(found), key, Options::KEYS)
+    }
+}
+
+fn root(xml: &mut Xml, context: &mut Context<'_>) {
+    const NAMESPACE: &str = "http://www.profibus.com/GSDML/2003/11/DeviceProfile";
+    let version = version(context.catalog);
+    xml.open("ISO15745Profile");
+    xml.attribute("xmlns", NAMESPACE);
+    xml.attribute("xmlns:xsi", "http://www.w3.org/2001/XMLSchema-instance");
+    xml.attribute("xsi:schemaLocation", format_args!("{NAMESPACE} ..\\xsd\\GSDML-DeviceProfile-v{version}.xsd"));
+    profile_header(xml, &context.catalog.extensions);
+    xml.open("ProfileBody");
+    identity(xml, context);
+    xml.open("ApplicationProcess");
+    process(xml, context);
+    let texts = std::mem::take(&mut context.texts);
+    texts.write(xml, &mut context.notes);
+    lost(context);
+}
+
+/// The header of ISO 15745-1, in which every GSDML says the same.
+const HEADER: [(&str, &str); 5] = [
+    ("ProfileIdentification", "PROFINET Device Profile"),
+    ("ProfileRevision", "1.00"),
+    ("ProfileName", "Device Profile for PROFINET Devices"),
+    ("ProfileSource", "PROFIBUS Nutzerorganisation e. V. (PNO)"),
+    ("ProfileClassID", "Device"),
+];
+
+const REFERENCE: [(&str, &str); 3] = [("ISO15745Part", "4"), ("ISO15745Edition", "1"), ("ProfileTechnology", "GSDML")];
+
+fn profile_header(xml: &mut Xml, extensions: &[Extension]) {
+    let find = |above: &str, name: &str| {
+        let is_own = |key: &str| key.split_once('/').is_some_and(|(own, rest)| own == above && rest == name);
+        extensions.iter().find(|extension| is_own(&extension.key)).map(|extension| extension.value.as_str())
+    };
+    xml.open("ProfileHeader");
+    for (name, usual) in HEADER {
+        xml.leaf(name, find("ProfileHeader", name).unwrap_or(usual));
+    }
+    for name in ["ProfileDate", "AdditionalInformation"] {
+        if let Some(value) = find("ProfileHeader", name) {
+            xml.leaf(name, value);
+        }
+    }
+    xml.open("ISO15745Reference");
+    for (name, usual) in REFERENCE {
+        xml.leaf(name, find("ISO15745Reference", name).unwrap_or(usual));
+    }
+    xml.close();
+    xml.close();
+}
+
+/// DeviceIdentity and DeviceFunction.
+fn identity(xml: &mut Xml, context: &mut Context<'_>) {
+    let (catalog, options) = (context.catalog, context.options);
+    let none = Default::default();
+    let device = catalog.devices.first().unwrap_or(&none);
+    let own = |number: Option<u32>| number.and_then(|number| u16::try_from(number).ok()).filter(|_| context.is_gsdml);
+    let (vendor, number) = (own(device.identity.vendor_id), own(device.identity.product_code));
+    let name = Some(device.identity.vendor_name.to_string()).filter(|name| context.is_gsdml || !name.is_empty());
+    let text = Some(device.header.description.to_string()).filter(|text| context.is_gsdml || !text.is_empty());
+    let family = device.profinet.as_ref().map(|settings| &settings.family);
+    let main = family.map(|(main, _)| main.to_string()).filter(|main| context.is_gsdml || !main.is_empty());
+    let product = family.map(|(_, product)| product.to_string()).filter(|product| !product.is_empty());
+    xml.open("DeviceIdentity");
+    let vendor = context.wanted(options.vendor_id(), vendor, "vendor-id");
+    xml.attribute("VendorID", format_args!("0x{vendor:04X}"));
+    let number = context.wanted(options.device_id(), number, "device-id");
+    xml.attribute("DeviceID", format_args!("0x{number:04X}"));
+    let text = context.wanted(options.description(), text, "description");
+    let language = |extension: &Extension| {
+        let language = extension.key.strip_prefix("DeviceIdentity/InfoText/")?;
+        Some(LocalText { language: language.into(), text: extension.value.clone() })
+    };
+    let translations = catalog.extensions.iter().filter_map(language).collect();
+    context.texts.documentation(xml, "InfoText", &Documentation { text, translations, ..Documentation::default() });
+    xml.open("VendorName");
+    let name = context.wanted(options.vendor_name(), name, "vendor-name");
+    xml.attribute("Value", name);
+    xml.close();
+    xml.close();
+    xml.open("DeviceFunction");
+    xml.open("Family");
+    let main = context.wanted(options.main_family(), main, "main-family");
+    xml.attribute("MainFamily", main);
+    xml.optional("ProductFamily", options.product_family().or(product));
+    xml.close();
+    xml.close();
+}
+
+fn process(xml: &mut Xml, context: &mut Context<'_>) {
+    let catalog = context.catalog;
+    xml.open("DeviceAccessPointList");
+    catalog.devices.iter().for_each(|own| device::write(xml, context, own));
+    xml.close();
+    if !catalog.modules.is_empty() {
+        xml.open("ModuleList");
+        catalog.modules.iter().for_each(|own| module::write(xml, context, own));
+        xml.close();
+    }
+    submodule::pluggable(xml, context);
+    values::write(xml, context);
+    diagnosis::write(xml, context, catalog);
+    if !catalog.graphics.is_empty() {
+        xml.open("GraphicsList");
+        for graphic in &catalog.graphics {
+            xml.open("GraphicItem");
+            xml.attribute("ID", &graphic.id);
+            xml.attribute("GraphicFile", &graphic.file);
+            xml.close();
+        }
+        xml.close();
+    }
+    if !catalog.families.is_empty() {
+        xml.open("CategoryList");
+        catalog.families.iter().for_each(|family| category(xml, context, family));
+        xml.close();
+    }
+}
+
+fn category(xml: &mut Xml, context: &mut Context<'_>, family: &lexibus_codegen::ir::Family) {
+    xml.open("CategoryItem");
+    xml.attribute("ID", &family.id);
+    xml.attribute("TextId", context.texts.id(&family.name, &family.names));
+    if let Some((first, others)) = family.descriptions.split_first() {
+        let translations = others.iter().cloned().collect();
+        let own = Documentation { text: first.text.to_string(), translations, ..Documentation::default() };
+        context.texts.documentation(xml, "InfoText", &own);
+    }
+    xml.close();
+}
+
+/// What the catalogue has beside what was written.
+fn lost(context: &mut Context<'_>) {
+    let catalog = context.catalog;
+    let is_told = |extension: &&Extension| {
+        let key = extension.key.as_str();
+        let is_header = |above: &str, names: &[(&str, &str)]| {
+            key.strip_prefix(above).is_some_and(|name| names.iter().any(|(own, _)| *own == name))
+        };
+        texts::kept(key).is_some()
+            || key.starts_with("DeviceIdentity/InfoText/")
+            || is_header("ProfileHeader/", &HEADER)
+            || is_header("ISO15745Reference/", &REFERENCE)
+            || matches!(key, "ProfileHeader/ProfileDate" | "ProfileHeader/AdditionalInformation")
+    };
+    let lost = catalog.extensions.iter().filter(|extension| !is_told(extension)).count();
+    context.notes.add_many(NoteKind::Extension, lost, Place::Device);
+    let tables = catalog.code_tables.iter().filter(|table| !diagnosis::is_list(&table.name)).count();
+    context.notes.add_many(NoteKind::OtherPart, tables, Place::Device);
+}

@@ -1,0 +1,99 @@
+//! What a GSDML has to say and a source may not.
+
+use crate::options::{options, OptionValue};
+use lexibus_codegen::ir::Numbers;
+
+options! {
+    /// Facts that count before those of the source, or that it doesn't have. Those of the device access point, its submodules and
+    /// the interface are asked for only where a fixed process image becomes a device access point.
+    pub struct Options, Asked {
+        /// Number of the vendor with PROFIBUS & PROFINET International (VendorID).
+        vendor_id: u16 = "vendor-id",
+        /// Number that tells the devices of the vendor apart (DeviceID).
+        device_id: u16 = "device-id",
+        /// Name of the vendor.
+        vendor_name: String = "vendor-name",
+        /// What the family of devices is, in a sentence.
+        description: String = "description",
+        /// Main family, such as Drives.
+        main_family: String = "main-family",
+        /// Product family, the vendor's own.
+        product_family: String = "product-family",
+        /// Date of the file, YYYYMMDD, which is a part of its name.
+        date: String = "date",
+        /// Name by which a new device answers (DNS_CompatibleName).
+        dns_name: String = "dns-name",
+        /// Version of PROFINET that the device follows, such as V2.35.
+        pnio_version: String = "pnio-version",
+        /// Module ident number of the device access point.
+        module_ident: u32 = "module-ident",
+        /// Ident number of the submodule with the process data.
+        submodule_ident: u32 = "submodule-ident",
+        /// Whether all data of one direction are consistent with each other; else only each item is.
+        consistent: bool = "consistent",
+        /// Subslot of the submodule with the process data.
+        subslot: u16 = "subslot",
+        /// Least interval between two frames in units of 31.25 µs (MinDeviceInterval).
+        min_device_interval: u16 = "min-device-interval",
+        /// Last part of the device's object UUID (ObjectUUID_LocalIndex).
+        object_uuid_index: u16 = "object-uuid-index",
+        /// Greatest length of the controller's inputs in bytes, provider and consumer status included (MaxInputLength).
+        max_input_length: u16 = "max-input-length",
+        /// Greatest length of the controller's outputs in bytes, provider and consumer status included (MaxOutputLength).
+        max_output_length: u16 = "max-output-length",
+        /// Whether the name of station is lost with the storage medium (NameOfStationNotTransferable).
+        name_not_transferable: bool = "name-not-transferable",
+        /// Whether a controller may read and write without an IO relation (DeviceAccessSupported).
+        device_access: bool = "device-access",
+        /// Whether a controller may check the device's number (CheckDeviceID_Allowed).
+        check_device_id: bool = "check-device-id",
+        /// Whether the submodule with the process data may issue process alarms (MayIssueProcessAlarm).
+        process_alarms: bool = "process-alarms",
+        /// Order number.
+        order_number: String = "order-number",
+        /// Hardware release.
+        hardware_release: String = "hardware-release",
+        /// Software release.
+        software_release: String = "software-release",
+        /// Ident number of the interface submodule; without it, the file has neither interface nor ports.
+        interface_ident: u32 = "interface-ident",
+        /// Name of the interface, such as X1.
+        interface_name: String = "interface-name",
+        /// Protocols of the interface, such as SNMP;LLDP (SupportedProtocols).
+        supported_protocols: String = "supported-protocols",
+        /// Real-time classes of the interface, such as RT_CLASS_1 (SupportedRT_Classes).
+        rt_classes: String = "rt-classes",
+        /// Start-up modes, such as Legacy;Advanced.
+        startup_modes: String = "startup-modes",
+        /// Send clock factors in units of 31.25 µs, such as 32 or 32 64 128.
+        send_clocks: Numbers = "send-clocks",
+        /// Reduction ratios, such as 1 2 4 8.
+        reduction_ratios: Numbers = "reduction-ratios",
+        /// Number of ports.
+        ports: u16 = "ports",
+        /// Ident number of the ports' submodules.
+        port_ident: u32 = "port-ident",
+        /// MAU type of the ports, such as 16 for 100BASE-TX full duplex.
+        mau_type: u16 = "mau-type",
+        /// Conformance class: A, B or C.
+        conformance_class: String = "conformance-class",
+        /// Application classes, or `none`.
+        application_class: String = "application-class",
+        /// Netload class: I, II or III.
+        netload_class: String = "netload-class",
+    }
+}
+
+impl OptionValue for Numbers {
+    const WHAT: &'static str = "a list of numbers and ranges such as `32 64 128` or `8..128`";
+
+    fn parse(text: &str) -> Option<Self> {
+        let number = |text: &str| text.trim().parse::<u16>().ok();
+        let range = |part: &str| match part.split_once("..") {
+            Some((first, last)) => Some((number(first)?, number(last)?)).filter(|(first, last)| first <= last),
+            None => number(part).map(|number| (number, number)),
+        };
+        let parts = text.split([' ', ',', ';']).filter(|part| !part.is_empty());
+        parts.map(range).collect::<Option<_>>().map(Numbers).filter(|numbers| !numbers.is_empty())
+    }
+}

@@ -1,0 +1,252 @@
+//! Submodules of all kinds: virtual and pluggable ones, interfaces and ports.
+
+use std::collections::HashSet;
+
+use super::elements::{self, Attributes};
+use super::module::{find, graphics_of, is_of_info, places, ranges, Info};
+use super::{io_data, record, Context};
+use crate::note::{NoteKind, Place};
+use crate::xml::Xml;
+use lexibus_codegen::ir::{
+    Catalog, CompactString, Device, Numbers, ProfinetSettings, Submodule, SubmoduleKind, SubmoduleUse,
+};
+
+/// Subslot of the first interface.
+const INTERFACE: u16 = 0x8000;
+
+/// Whether a submodule is part of what holds it: then it is described there.
+fn is_built_in(context: &Context<'_>, at: u32) -> bool {
+    let Some(submodule) = context.catalog.submodules.get(at as usize) else { return false };
+    match submodule.kind {
+        SubmoduleKind::Virtual | SubmoduleKind::Interface => true,
+        SubmoduleKind::Pluggable => false,
+        SubmoduleKind::Port => !context.pluggable_ports.contains(&at),
+    }
+}
+
+/// Ports of the submodule list: those behind the first submodule that can be plugged, and those that can be anywhere.
+pub(super) fn pluggable_ports(catalog: &Catalog) -> HashSet<u32> {
+    let uses = |list: &[SubmoduleUse]| -> Vec<(u32, bool)> {
+        let is_anywhere = |own: &SubmoduleUse| !own.places.allowed.is_empty() || !own.places.used.is_empty();
+        list.iter().map(|own| (own.submodule.0, is_anywhere(own))).collect()
+    };
+    let of_devices = catalog.devices.iter().flat_map(|device: &Device| uses(&device.submodules));
+    let of_modules = catalog.modules.iter().flat_map(|module| uses(&module.submodules));
+    let (mut pluggable, mut used) = (HashSet::new(), HashSet::new());
+    for (at, is_anywhere) in of_devices.chain(of_modules) {
+        // One that two take isn't a part of either.
+        if !used.insert(at) || is_anywhere {
+            pluggable.insert(at);
+        }
+    }
+    let is_port = |submodule: &Submodule| submodule.kind == SubmoduleKind::Port;
+    let unused = (0u32..).zip(&catalog.submodules).filter(|(at, own)| is_port(own) && !used.contains(at));
+    pluggable.extend(unused.map(|(at, _)| at));
+    pluggable
+}
+
+/// The built-in submodules of a device access point or a module.
+pub(super) fn built_in(
+    xml: &mut Xml,
+    context: &mut Context<'_>,
+    uses: &[SubmoduleUse],
+    settings: Option<&ProfinetSettings>,
+) {
+    let catalog = context.catalog;
+    let own: Vec<(&Submodule, &SubmoduleUse)> = uses
+        .iter()
+        .filter(|own| is_built_in(context, own.submodule.0))
+        .filter_map(|own| Some((catalog.submodules.get(own.submodule.0 as usize)?, own)))
+        .collect();
+    let (ordinary, system): (Vec<_>, Vec<_>) =
+        own.into_iter().partition(|(submodule, _)| submodule.kind == SubmoduleKind::Virtual);
+    if !ordinary.is_empty() {
+        xml.open("VirtualSubmoduleList");
+        for (submodule, own) in ordinary {
+            let fixed = Some(&own.places.fixed).filter(|numbers| **numbers != Numbers::from_iter([1]));
+            write(xml, context, submodule, ("VirtualSubmoduleItem", fixed), None);
+        }
+        xml.close();
+    }
+    if !system.is_empty() {
+        xml.open("SystemDefinedSubmoduleList");
+        let mut settings = settings;
+        for (submodule, own) in system {
+            let element = match submodule.kind {
+                SubmoduleKind::Interface => "InterfaceSubmoduleItem",
+                _ => "PortSubmoduleItem",
+            };
+            // What the device as a whole can is told by the first interface.
+            let settings = settings.take_if(|_| submodule.kind == SubmoduleKind::Interface);
+            write(xml, context, submodule, (element, Some(&own.places.fixed)), settings);
+        }
+        xml.close();
+    }
+}
+
+/// References to submodules that can be plugged.
+pub(super) fn useable(xml: &mut Xml, context: &mut Context<'_>, uses: &[SubmoduleUse]) {
+    let catalog = context.catalog;
+    let others: Vec<&SubmoduleUse> = uses.iter().filter(|own| !is_built_in(context, own.submodule.0)).collect();
+    if others.is_empty() {
+        return;
+    }
+    xml.open("UseableSubmodules");
+    for own in others {
+        let Some(submodule) = catalog.submodules.get(own.submodule.0 as usize) else { continue };
+        xml.open("SubmoduleItemRef");
+        xml.attribute("SubmoduleItemTarget", &submodule.id);
+        places(xml, &own.places, "Subslots");
+        xml.close();
+    }
+    xml.close();
+}
+
+/// Writes SubmoduleList.
+pub(super) fn pluggable(xml: &mut Xml, context: &mut Context<'_>) {
+    let catalog = context.catalog;
+    let is_own = |(at, submodule): &(u32, &Submodule)| match submodule.kind {
+        SubmoduleKind::Pluggable => true,
+        SubmoduleKind::Port => context.pluggable_ports.contains(at),
+        SubmoduleKind::Virtual | SubmoduleKind::Interface => false,
+    };
+    let own: Vec<(u32, &Submodule)> = (0u32..).zip(&catalog.submodules).filter(is_own).collect();
+    if own.is_empty() {
+        return;
+    }
+    xml.open("SubmoduleList");
+    for (_, submodule) in own {
+        let element = match submodule.kind {
+            SubmoduleKind::Port => "PortSubmoduleItem",
+            _ => "SubmoduleItem",
+        };
+        write(xml, context, submodule, (element, None), None);
+    }
+    xml.close();
+}
+
+fn write(
+    xml: &mut Xml,
+    context: &mut Context<'_>,
+    submodule: &Submodule,
+    (element, fixed): (&'static str, Option<&Numbers>),
+    settings: Option<&ProfinetSettings>,
+) {
+    let attributes = submodule.attributes.as_slice();
+    let is_system = matches!(element, "InterfaceSubmoduleItem" | "PortSubmoduleItem");
+    let has_info = !is_system || fixed.is_none();
+    xml.open(element);
+    head(xml, context, submodule, has_info);
+    match fixed.filter(|numbers| !numbers.is_empty()) {
+        Some(numbers) if is_system => subslot(xml, element, numbers),
+        Some(numbers) => xml.attribute("FixedInSubslots", ranges(numbers)),
+        None => {}
+    }
+    for (key, value) in attributes.iter().filter(|(key, _)| !elements::is_of_element(key) && !is_of_info(key)) {
+        xml.attribute(key, value);
+    }
+    match submodule.kind {
+        SubmoduleKind::Virtual | SubmoduleKind::Pluggable => io_data::write(xml, context, submodule),
+        SubmoduleKind::Interface => elements::GENERAL.write(xml, attributes),
+        SubmoduleKind::Port => {}
+    }
+    record::list(xml, context, submodule);
+    match submodule.kind {
+        SubmoduleKind::Interface => interface(xml, attributes, settings),
+        SubmoduleKind::Port => elements::MAU_TYPES.write(xml, attributes),
+        SubmoduleKind::Virtual | SubmoduleKind::Pluggable => {}
+    }
+    if has_info {
+        info(xml, context, submodule);
+    }
+    graphics_of(xml, submodule.graphics.iter().map(|(kind, target)| (kind.as_str(), target)));
+    if matches!(submodule.kind, SubmoduleKind::Virtual | SubmoduleKind::Pluggable) {
+        elements::OF_SUBMODULE.iter().for_each(|own| own.write(xml, attributes));
+    }
+    xml.close();
+    context.notes.add_many(NoteKind::Extension, submodule.extensions.len(), Place::Named(&submodule.name));
+}
+
+fn head(xml: &mut Xml, context: &mut Context<'_>, submodule: &Submodule, has_info: bool) {
+    if !submodule.id.is_empty() {
+        xml.attribute("ID", &submodule.id);
+    }
+    xml.attribute("SubmoduleIdentNumber", format_args!("0x{:08X}", submodule.ident));
+    if submodule.api != 0 {
+        xml.attribute("API", submodule.api);
+    }
+    if !has_info {
+        xml.attribute("TextId", context.texts.id(&submodule.name, &submodule.names));
+    }
+}
+
+/// The subslot of an interface or port, where it isn't the usual one.
+fn subslot(xml: &mut Xml, element: &str, numbers: &Numbers) {
+    let first = numbers.0.first().map_or(INTERFACE, |(first, _)| *first);
+    if element == "PortSubmoduleItem" || first != INTERFACE {
+        xml.attribute("SubslotNumber", first);
+    }
+}
+
+fn info(xml: &mut Xml, context: &mut Context<'_>, submodule: &Submodule) {
+    let attributes = submodule.attributes.as_slice();
+    let has_nothing = submodule.name.is_empty() && submodule.documentation.is_none();
+    if has_nothing && context.is_gsdml {
+        return;
+    }
+    let info = Info {
+        name: &submodule.name,
+        names: &submodule.names,
+        documentation: submodule.documentation.as_deref(),
+        vendor: &submodule.identity.vendor_name,
+        order: &submodule.identity.order_code,
+        hardware: find(attributes, "HardwareRelease"),
+        software: find(attributes, "SoftwareRelease"),
+        attributes,
+    };
+    info.write(xml, context);
+}
+
+/// What an interface has behind its records.
+fn interface(xml: &mut Xml, attributes: &Attributes, settings: Option<&ProfinetSettings>) {
+    elements::OF_INTERFACE.iter().for_each(|own| own.write(xml, attributes));
+    elements::RELATIONS.write(xml, &relations(attributes, settings, true));
+    elements::MEDIA_REDUNDANCY.write(xml, attributes);
+}
+
+/// Attributes of ApplicationRelations, among them those for which the IR has fields.
+pub(super) fn relations(
+    attributes: &Attributes,
+    settings: Option<&ProfinetSettings>,
+    is_interface: bool,
+) -> Vec<(CompactString, CompactString)> {
+    let of = |element: &str| {
+        let is_own = |key: &str| key.split_once('@').map_or(key, |(own, _)| own) == element;
+        attributes.iter().filter(move |(key, _)| is_own(key)).cloned().collect::<Vec<_>>()
+    };
+    let mut list = Vec::new();
+    let mut timing = Vec::new();
+    if let Some(settings) = settings {
+        let modes = settings.startup_modes.join(";");
+        if is_interface || modes != "Legacy" {
+            list.push(("ApplicationRelations@StartupMode".into(), modes.into()));
+        }
+        if settings.relations != 1 {
+            list.push((
+                "ApplicationRelations@NumberOfAR".into(),
+                compact_str::format_compact!("{}", settings.relations),
+            ));
+        }
+        if !settings.send_clocks.is_empty() {
+            timing.push(("TimingProperties@SendClock".into(), ranges(&settings.send_clocks).into()));
+        }
+        if !settings.reduction_ratios.is_empty() {
+            timing.push(("TimingProperties@ReductionRatio".into(), ranges(&settings.reduction_ratios).into()));
+        }
+    }
+    list.extend(of("ApplicationRelations"));
+    list.append(&mut timing);
+    list.extend(of("TimingProperties"));
+    list.extend(of("RT_Class3TimingProperties"));
+    list
+}

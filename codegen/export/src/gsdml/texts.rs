@@ -1,0 +1,150 @@
+//! The text list: every text once, in all languages.
+
+use std::collections::{HashMap, HashSet};
+
+use compact_str::{format_compact, CompactString};
+
+use crate::note::{NoteKind, Notes, Place};
+use crate::xml::Xml;
+use lexibus_codegen::ir::{Documentation, Extension, LocalText, Texts};
+
+/// A language, and its texts by their identifiers.
+type Language<'t> = (&'t CompactString, Vec<(&'t CompactString, &'t CompactString)>);
+
+/// Texts so far.
+#[derive(Default)]
+pub(super) struct TextList {
+    texts: Vec<(CompactString, CompactString, Texts)>,
+    /// Identifiers by their text and its translations.
+    known: HashMap<(CompactString, Vec<(CompactString, CompactString)>), CompactString>,
+    taken: HashSet<CompactString>,
+    next: usize,
+}
+
+impl TextList {
+    /// A list that begins with the texts of the source to which nothing refers but attributes that are kept as they are.
+    pub(super) fn new(extensions: &[Extension]) -> Self {
+        let mut list = TextList::default();
+        let mut places: HashMap<CompactString, usize> = HashMap::new();
+        let mut others: Vec<Vec<LocalText>> = Vec::new();
+        for extension in extensions {
+            let Some((language, id)) = kept(&extension.key) else { continue };
+            let at = *places.entry(id.into()).or_insert_with(|| {
+                list.texts.push((id.into(), CompactString::default(), Texts::default()));
+                others.push(Vec::new());
+                list.texts.len() - 1
+            });
+            match language {
+                "primary" => {
+                    if let Some((_, text, _)) = list.texts.get_mut(at) {
+                        *text = extension.value.clone();
+                    }
+                }
+                _ => {
+                    let local = LocalText { language: language.into(), text: extension.value.clone() };
+                    others.get_mut(at).into_iter().for_each(|own| own.push(local.clone()));
+                }
+            }
+        }
+        for (text, own) in list.texts.iter_mut().zip(others) {
+            text.2 = own.into();
+        }
+        list.taken = list.texts.iter().map(|(id, ..)| id.clone()).collect();
+        list
+    }
+
+    /// The identifier of a text.
+    pub(super) fn id(&mut self, text: &str, names: &Texts) -> CompactString {
+        let others = names.iter().map(|local| (local.language.clone(), local.text.clone())).collect();
+        let key = (CompactString::from(text), others);
+        if let Some(id) = self.known.get(&key) {
+            return id.clone();
+        }
+        let id = self.add(text, names);
+        self.known.insert(key, id.clone());
+        id
+    }
+
+    /// The identifier of a text that no other element may refer to.
+    pub(super) fn add(&mut self, text: &str, names: &Texts) -> CompactString {
+        let id = loop {
+            self.next += 1;
+            let id = format_compact!("T{}", self.next);
+            if self.taken.insert(id.clone()) {
+                break id;
+            }
+        };
+        self.texts.push((id.clone(), text.into(), names.clone()));
+        id
+    }
+
+    /// An element that refers to a description.
+    pub(super) fn documentation(&mut self, xml: &mut Xml, element: &'static str, documentation: &Documentation) {
+        let id = self.id(&documentation.text, &documentation.translations);
+        xml.open(element);
+        xml.attribute("TextId", id);
+        xml.close();
+    }
+
+    /// The languages in the order in which they occur, each with its texts.
+    fn translations(&self) -> Vec<Language<'_>> {
+        let mut places: HashMap<&str, usize> = HashMap::new();
+        let mut languages: Vec<Language<'_>> = Vec::new();
+        for (id, _, names) in &self.texts {
+            for local in names.iter() {
+                let at = *places.entry(&local.language).or_insert(languages.len());
+                if at == languages.len() {
+                    languages.push((&local.language, Vec::new()));
+                }
+                // Of two texts in one language the first one counts.
+                if let Some((_, own)) =
+                    languages.get_mut(at).filter(|(_, own)| own.last().is_none_or(|last| last.0 != id))
+                {
+                    own.push((id, &local.text));
+                }
+            }
+        }
+        languages
+    }
+
+    /// Writes ExternalTextList.
+    pub(super) fn write(self, xml: &mut Xml, notes: &mut Notes) {
+        xml.open("ExternalTextList");
+        xml.open("PrimaryLanguage");
+        for (id, value, _) in &self.texts {
+            text(xml, id, value);
+        }
+        xml.close();
+        for (language, own) in self.translations() {
+            if !is_tag(language) {
+                notes.add_many(NoteKind::Language, own.len(), Place::Named(language));
+                continue;
+            }
+            xml.open("Language");
+            xml.attribute("xml:lang", language);
+            own.into_iter().for_each(|(id, value)| text(xml, id, value));
+            xml.close();
+        }
+        xml.close();
+    }
+}
+
+fn text(xml: &mut Xml, id: &str, value: &str) {
+    xml.open("Text");
+    xml.attribute("TextId", id);
+    xml.attribute("Value", value);
+    xml.close();
+}
+
+/// Language and identifier of a text that nothing refers to: `Text/de/T7`.
+pub(super) fn kept(key: &str) -> Option<(&str, &str)> {
+    key.strip_prefix("Text/")?.split_once('/')
+}
+
+/// Whether a text has the form of a language tag (`xs:language`).
+fn is_tag(text: &str) -> bool {
+    let mut parts = text.split('-');
+    let is_part = |part: &str| (1..=8).contains(&part.len()) && part.bytes().all(|byte| byte.is_ascii_alphanumeric());
+    parts.next().is_some_and(|first| is_part(first) && first.bytes().all(|byte| byte.is_ascii_alphabetic()))
+        && parts.all(is_part)
+}

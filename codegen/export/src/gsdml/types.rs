@@ -1,0 +1,151 @@
+//! Names of data types.
+
+use super::Context;
+use crate::note::{NoteKind, Place};
+use crate::xml::Xml;
+use lexibus_codegen::ir::{Shape, TimeFormat, Type, TypeDef};
+
+/// How many names a type may have on the way to what it is.
+const MAX_DEPTH: usize = 8;
+
+/// The name of a data type, and whether its length has to stand beside it.
+pub(super) struct Name<'t> {
+    pub(super) name: &'t str,
+    pub(super) needs_length: bool,
+    pub(super) note: Option<NoteKind>,
+}
+
+fn plain(name: &str) -> Name<'_> {
+    Name { name, needs_length: false, note: None }
+}
+
+/// What a type of so many bits is called.
+pub(super) fn name(ty: Type, bits: u32, types: &[TypeDef]) -> Name<'_> {
+    let octets = |note| Name { name: "OctetString", needs_length: true, note };
+    let (ty, note) = match own_name(ty, types) {
+        Ok(own) => return own,
+        Err(below) => below,
+    };
+    let mut found = match ty {
+        Type::Boolean if bits == 8 => plain("Boolean"),
+        Type::Unsigned(8) => plain("Unsigned8"),
+        Type::Unsigned(16) => plain("Unsigned16"),
+        Type::Unsigned(32) => plain("Unsigned32"),
+        Type::Unsigned(64) => plain("Unsigned64"),
+        Type::Integer(8) => plain("Integer8"),
+        Type::Integer(16) => plain("Integer16"),
+        Type::Integer(32) => plain("Integer32"),
+        Type::Integer(64) => plain("Integer64"),
+        Type::Real32 => plain("Float32"),
+        Type::Real64 => plain("Float64"),
+        Type::VisibleString(_) => Name { name: "VisibleString", needs_length: true, note: None },
+        Type::OctetString(_) => octets(None),
+        Type::TimeOfDay => plain("TimeOfDay with date indication"),
+        Type::TimeDifference => plain("TimeDifference with date indication"),
+        Type::Time(format) => plain(time(format)),
+        _ => octets(Some(NoteKind::UnknownType)),
+    };
+    found.note = found.note.or(note);
+    found
+}
+
+/// Writes the type and the place of a value in a record.
+pub(super) fn place(xml: &mut Xml, context: &mut Context<'_>, ty: Type, (offset, bits): (u32, u32), of: &str) {
+    let is_byte = offset.is_multiple_of(8);
+    let is_bits = match ty {
+        Type::Boolean | Type::Unsigned(1) => bits == 1,
+        Type::Unsigned(width) => !matches!(width, 8 | 16 | 32 | 64) || !is_byte,
+        _ => false,
+    };
+    let Name { name, needs_length, note } = match ty {
+        Type::Boolean | Type::Unsigned(1) if is_bits => plain("Bit"),
+        _ if is_bits => plain("BitArea"),
+        _ => name(ty, bits, context.types),
+    };
+    if let Some(note) = note {
+        context.notes.add(note, Place::Named(of));
+    }
+    xml.attribute("DataType", name);
+    xml.attribute("ByteOffset", offset / 8);
+    if is_bits && !is_byte {
+        xml.attribute("BitOffset", offset % 8);
+    }
+    if name == "BitArea" {
+        xml.attribute("BitLength", bits);
+    }
+    if needs_length {
+        xml.attribute("Length", bits / 8);
+    }
+}
+
+/// A type that GSDML has under its name, or what a defined type is below its names, bits and values.
+fn own_name(mut ty: Type, types: &[TypeDef]) -> Result<Name<'_>, (Type, Option<NoteKind>)> {
+    let mut note = None;
+    for _ in 0..MAX_DEPTH {
+        let Type::Named(id) = ty else { break };
+        let Some(def) = types.get(id.0 as usize) else { break };
+        ty = match &def.shape {
+            Shape::Alias(Type::OctetString(_)) if is_string(&def.name) => {
+                return Ok(Name { name: &def.name, needs_length: true, note: None });
+            }
+            Shape::Alias(_) | Shape::Scaled { .. } | Shape::Record(_) if is_number(&def.name) => {
+                return Ok(plain(&def.name));
+            }
+            Shape::Alias(base) => *base,
+            Shape::Enumeration { base, .. } => *base,
+            Shape::BitField { base, .. } => {
+                note = note.or(Some(NoteKind::BitField));
+                *base
+            }
+            Shape::Scaled { base, .. } => {
+                note = note.or(Some(NoteKind::Quantity));
+                *base
+            }
+            Shape::Array { .. } | Shape::Record(_) => return Err((Type::Opaque(None), Some(NoteKind::Structure))),
+        };
+    }
+    Err((ty, note))
+}
+
+/// The integer of an enumeration.
+pub(super) fn enumeration(ty: Type, types: &[TypeDef]) -> Option<(&TypeDef, Type)> {
+    let Type::Named(id) = ty else { return None };
+    let def = types.get(id.0 as usize)?;
+    match def.shape {
+        Shape::Enumeration { base, .. } => Some((def, base)),
+        _ => None,
+    }
+}
+
+fn is_string(name: &str) -> bool {
+    matches!(name, "UnicodeString8" | "61131_STRING" | "61131_WSTRING")
+}
+
+/// Types of PROFIdrive and of process control, and pairs of a value and its status.
+fn is_number(name: &str) -> bool {
+    const NAMES: [&str; 18] = [
+        "N2",
+        "N4",
+        "E2",
+        "C4",
+        "X2",
+        "X4",
+        "T2",
+        "T4",
+        "D2",
+        "R2",
+        "Unipolar2.16",
+        "Float32+Unsigned8",
+        "Float32+Status8",
+        "Unsigned8+Unsigned8",
+        "OctetString2+Unsigned8",
+        "Unsigned16_S",
+        "Integer16_S",
+        "Unsigned8_S",
+    ];
+    NAMES.contains(&name)
+}
+
+fn time(format: TimeFormat) -> &'static str {
+    format.name()
+}

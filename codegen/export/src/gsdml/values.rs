@@ -1,0 +1,57 @@
+//! Lists of named values.
+
+use std::collections::HashSet;
+
+use super::Context;
+use crate::note::{NoteKind, Place};
+use crate::xml::Xml;
+use lexibus_codegen::ir::{EnumValue, Shape, TypeDef};
+
+/// Writes ValueList: a list a name, however many types have its values.
+pub(super) fn write(xml: &mut Xml, context: &mut Context<'_>) {
+    let types = context.types;
+    let enumeration = |def: &'_ TypeDef| matches!(def.shape, Shape::Enumeration { .. });
+    if !types.iter().any(enumeration) {
+        return;
+    }
+    let mut seen = HashSet::new();
+    xml.open("ValueList");
+    for def in types {
+        let Shape::Enumeration { values, .. } = &def.shape else { continue };
+        if !seen.insert(&def.name) {
+            continue;
+        }
+        xml.open("ValueItem");
+        xml.attribute("ID", &def.name);
+        if let Some(documentation) = &def.documentation {
+            context.texts.documentation(xml, "Help", documentation);
+        }
+        if !values.is_empty() {
+            assignments(xml, context, values);
+        }
+        xml.close();
+    }
+    xml.close();
+}
+
+/// The values of a list; every one of them has a text of its own.
+fn assignments(xml: &mut Xml, context: &mut Context<'_>, values: &[EnumValue]) {
+    let mut used = HashSet::new();
+    xml.open("Assignments");
+    for value in values {
+        let mut text = context.texts.id(&value.name, &value.names);
+        if !used.insert(text.clone()) {
+            text = context.texts.add(&value.name, &value.names);
+        }
+        xml.open("Assign");
+        xml.attribute("TextId", text);
+        match value.last {
+            Some(last) => xml.attribute("Content", format_args!("{}..{last}", value.value)),
+            None => xml.attribute("Content", value.value),
+        }
+        xml.close();
+        let is_more = value.documentation.is_some();
+        context.notes.add_many(NoteKind::Documentation, usize::from(is_more), Place::Named(&value.name));
+    }
+    xml.close();
+}

@@ -1,0 +1,306 @@
+//! The summary of a file: one JSON object.
+
+use std::collections::BTreeMap;
+
+use serde::Serialize;
+
+use lexibus_codegen::compile::Compilation;
+use lexibus_codegen::diagnostics::Severity;
+use lexibus_codegen::ir::{
+    Catalog, Device, Direction, Format, Group, GroupKind, IoData, Module, ProcessData, Submodule, SubmoduleKind,
+    SubmoduleUse,
+};
+use lexibus_codegen::source::{FileId, Origin};
+
+/// What `lexibus info --format json` says of a file.
+#[derive(Clone, Debug, Serialize)]
+pub struct Info {
+    /// Its name.
+    pub file: String,
+    /// Its format: `eds`, `dcf`, `xdd`, `esi`, `gsdml`, `table`; null where it wasn't recognised.
+    pub format: Option<&'static str>,
+    /// How its bytes were decoded.
+    pub encoding: &'static str,
+    /// The devices that it describes; for GSDML, the device access points.
+    pub devices: Vec<DeviceInfo>,
+    /// A dictionary that several devices share (EtherCATDict), where it describes one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub dictionary: Option<DictionaryInfo>,
+    /// The device access points, for GSDML.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub daps: Option<Vec<DapInfo>>,
+    /// The modules that it describes, for ESI and GSDML.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub modules: Option<Vec<ModuleInfo>>,
+    /// The submodules that can be plugged in, for GSDML.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub submodules: Option<Vec<SubmoduleInfo>>,
+    /// Number of errors, by code.
+    pub errors: BTreeMap<&'static str, usize>,
+    /// Number of warnings, by code.
+    pub warnings: BTreeMap<&'static str, usize>,
+}
+
+/// One device.
+#[derive(Clone, Debug, Serialize)]
+pub struct DeviceInfo {
+    /// Number of the vendor.
+    pub vendor_id: Option<u32>,
+    /// Product code; for GSDML, the DeviceID.
+    pub product_code: Option<u32>,
+    /// Revision number.
+    pub revision: Option<u32>,
+    /// Name of the product.
+    pub name: String,
+    /// Order code, or Type of ETG.2000; empty where there is none.
+    pub order_code: String,
+    /// Number of distinct indices that the file and a dictionary file of the device declare.
+    pub objects: usize,
+    /// Number of addressable sub-entries that they declare, sub-index 0 included.
+    pub entries: usize,
+    /// For register tables: number of registers, which are items of chapters.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub registers: Option<usize>,
+    /// RPDOs whose mapping the file describes.
+    pub rx_pdos: Vec<PdoInfo>,
+    /// TPDOs whose mapping the file describes.
+    pub tx_pdos: Vec<PdoInfo>,
+}
+
+/// A dictionary without a device.
+#[derive(Clone, Copy, Debug, Serialize, PartialEq, Eq)]
+pub struct DictionaryInfo {
+    /// Number of distinct indices that the file declares.
+    pub objects: usize,
+    /// Number of addressable sub-entries that the file declares, sub-index 0 included.
+    pub entries: usize,
+}
+
+/// A device access point of PROFINET.
+#[derive(Clone, Debug, Serialize)]
+pub struct DapInfo {
+    /// Its ID.
+    pub id: String,
+    /// Module ident number.
+    pub ident: u32,
+    /// Its virtual submodules.
+    pub virtual_submodules: Vec<SubmoduleInfo>,
+}
+
+/// A module.
+#[derive(Clone, Debug, Serialize)]
+pub struct ModuleInfo {
+    /// Its ID (GSDML), or its Type (ETG.2000).
+    pub id: String,
+    /// Module ident number.
+    pub ident: u32,
+    /// What of it depends on the bus.
+    #[serde(flatten)]
+    pub content: ModuleContent,
+}
+
+/// What a module has.
+#[derive(Clone, Debug, Serialize)]
+#[serde(untagged)]
+pub enum ModuleContent {
+    /// On PROFINET.
+    Profinet {
+        /// Bytes of its virtual submodules' inputs, those of F message trailers included.
+        input_bytes: u32,
+        /// Bytes of its virtual submodules' outputs, those of F message trailers included.
+        output_bytes: u32,
+        /// Parameter records of its virtual submodules.
+        records: Vec<RecordInfo>,
+        /// Its virtual submodules.
+        virtual_submodules: Vec<SubmoduleInfo>,
+    },
+    /// On EtherCAT.
+    EtherCat {
+        /// Number of distinct indices that the file declares.
+        objects: usize,
+        /// Number of addressable sub-entries that the file declares, sub-index 0 included.
+        entries: usize,
+        /// Its RPDOs.
+        rx_pdos: Vec<PdoInfo>,
+        /// Its TPDOs.
+        tx_pdos: Vec<PdoInfo>,
+    },
+}
+
+/// A submodule of PROFINET.
+#[derive(Clone, Debug, Serialize)]
+pub struct SubmoduleInfo {
+    /// Its ID.
+    pub id: String,
+    /// Submodule ident number.
+    pub ident: u32,
+    /// API number.
+    pub api: u32,
+    /// Bytes of its inputs, those of an F message trailer included.
+    pub input_bytes: u32,
+    /// Bytes of its outputs, those of an F message trailer included.
+    pub output_bytes: u32,
+    /// Its parameter records.
+    pub records: Vec<RecordInfo>,
+}
+
+/// A parameter record.
+#[derive(Clone, Copy, Debug, Serialize, PartialEq, Eq)]
+pub struct RecordInfo {
+    /// Record index.
+    pub index: u16,
+    /// Length in bytes.
+    pub length: u32,
+    /// Number of parameters in it.
+    pub refs: usize,
+}
+
+/// One PDO.
+#[derive(Clone, Copy, Debug, Serialize, PartialEq, Eq)]
+pub struct PdoInfo {
+    /// Index of its mapping object.
+    pub index: u16,
+    /// Number of entries, dummy entries included.
+    pub entries: usize,
+    /// Length in bits.
+    pub bits: u32,
+}
+
+/// Sums up a checked compilation of one file.
+pub fn info(compilation: &Compilation) -> Info {
+    let source = compilation.sources.first();
+    let nothing = Catalog::default();
+    let catalog = compilation.catalog.as_ref().unwrap_or(&nothing);
+    let is_gsdml = compilation.format == Some(Format::Gsdml);
+    let is_table = compilation.format == Some(Format::Table);
+    let is_modular = is_gsdml || compilation.format == Some(Format::Esi);
+    let own_devices = || catalog.devices.iter().filter(|device| is_own(device.origin));
+    let own_modules = || catalog.modules.iter().filter(|module| is_own(module.origin));
+    let mut info = Info {
+        file: source.map(|source| source.name().to_owned()).unwrap_or_default(),
+        format: compilation.format.map(|format| format.name()),
+        encoding: source.map_or("utf-8", |source| source.encoding().name()),
+        devices: own_devices()
+            .filter(|device| !device.dictionary_only)
+            .map(|own| DeviceInfo { registers: is_table.then(|| registers(own)), ..device(own, catalog) })
+            .collect(),
+        dictionary: own_devices().find(|device| device.dictionary_only).map(|device| dictionary(device, catalog)),
+        daps: is_gsdml.then(|| catalog.devices.iter().map(|device| dap(device, catalog)).collect()),
+        modules: is_modular.then(|| own_modules().map(|one| module(one, catalog, is_gsdml)).collect()),
+        submodules: is_gsdml.then(|| {
+            let pluggable = |one: &&Submodule| one.kind == SubmoduleKind::Pluggable;
+            catalog.submodules.iter().filter(pluggable).map(submodule).collect()
+        }),
+        errors: BTreeMap::new(),
+        warnings: BTreeMap::new(),
+    };
+    for diagnostic in compilation.diagnostics.list() {
+        let counts = match diagnostic.severity {
+            Severity::Error => &mut info.errors,
+            Severity::Warning => &mut info.warnings,
+        };
+        *counts.entry(diagnostic.code.id).or_default() += 1;
+    }
+    info
+}
+
+/// Whether something stands in the file itself, not in one that it refers to.
+fn is_own(origin: Origin) -> bool {
+    origin.span.file == FileId(0)
+}
+
+/// The objects that the file and the dictionary files of its devices declare, without those of overlays and profiles.
+fn declared<'g>(groups: &'g [Group], catalog: &'g Catalog) -> impl Iterator<Item = &'g Group> {
+    let format = |origin: Origin| catalog.files.get(origin.span.file.0 as usize).map(|file| file.format);
+    let is_declared = move |group: &&Group| {
+        let is_described = is_own(group.origin) || format(group.origin) == Some(Format::Esi);
+        group.origin.line > 0 && group.index().is_some() && is_described
+    };
+    groups.iter().filter(is_declared)
+}
+
+fn device(device: &Device, catalog: &Catalog) -> DeviceInfo {
+    let DictionaryInfo { objects, entries } = dictionary(device, catalog);
+    DeviceInfo {
+        vendor_id: device.identity.vendor_id,
+        product_code: device.identity.product_code,
+        revision: device.identity.revision_number,
+        name: device.name.to_string(),
+        order_code: device.identity.order_code.to_string(),
+        objects,
+        entries,
+        registers: None,
+        rx_pdos: pdos(&device.process_data, Direction::Receive),
+        tx_pdos: pdos(&device.process_data, Direction::Transmit),
+    }
+}
+
+/// Number of items in chapters.
+fn registers(device: &Device) -> usize {
+    let chapters = device.groups.iter().filter(|group| matches!(group.kind, GroupKind::Chapter));
+    chapters.map(|group| group.items.len()).sum()
+}
+
+fn dictionary(device: &Device, catalog: &Catalog) -> DictionaryInfo {
+    let groups = || declared(&device.groups, catalog);
+    DictionaryInfo { objects: groups().count(), entries: groups().map(|group| group.items.len()).sum() }
+}
+
+fn dap(device: &Device, catalog: &Catalog) -> DapInfo {
+    DapInfo {
+        id: device.id.to_string(),
+        ident: device.profinet.as_ref().map_or(0, |profinet| profinet.ident),
+        virtual_submodules: virtual_submodules(&device.submodules, catalog),
+    }
+}
+
+fn module(module: &Module, catalog: &Catalog, is_gsdml: bool) -> ModuleInfo {
+    let content = if is_gsdml {
+        let virtual_submodules = virtual_submodules(&module.submodules, catalog);
+        ModuleContent::Profinet {
+            input_bytes: virtual_submodules.iter().map(|one| one.input_bytes).sum(),
+            output_bytes: virtual_submodules.iter().map(|one| one.output_bytes).sum(),
+            records: virtual_submodules.iter().flat_map(|one| &one.records).copied().collect(),
+            virtual_submodules,
+        }
+    } else {
+        ModuleContent::EtherCat {
+            objects: declared(&module.groups, catalog).count(),
+            entries: declared(&module.groups, catalog).map(|group| group.items.len()).sum(),
+            rx_pdos: pdos(&module.process_data, Direction::Receive),
+            tx_pdos: pdos(&module.process_data, Direction::Transmit),
+        }
+    };
+    ModuleInfo { id: module.id.to_string(), ident: module.number, content }
+}
+
+fn virtual_submodules(uses: &[SubmoduleUse], catalog: &Catalog) -> Vec<SubmoduleInfo> {
+    let all = uses.iter().filter_map(|own| catalog.submodules.get(own.submodule.0 as usize));
+    all.filter(|one| one.kind == SubmoduleKind::Virtual).map(submodule).collect()
+}
+
+fn submodule(submodule: &Submodule) -> SubmoduleInfo {
+    let bytes = |data: &Option<Box<IoData>>| data.as_ref().map_or(0, |data| data.image.length + data.image.overhead);
+    SubmoduleInfo {
+        id: submodule.id.to_string(),
+        ident: submodule.ident,
+        api: submodule.api,
+        input_bytes: bytes(&submodule.input),
+        output_bytes: bytes(&submodule.output),
+        records: submodule.records.iter().filter_map(record).collect(),
+    }
+}
+
+fn record(group: &Group) -> Option<RecordInfo> {
+    match &group.kind {
+        GroupKind::Record(record) => {
+            Some(RecordInfo { index: record.index, length: record.length, refs: group.items.len() })
+        }
+        _ => None,
+    }
+}
+
+fn pdos(data: &ProcessData, direction: Direction) -> Vec<PdoInfo> {
+    let own = data.pdos.iter().filter(|pdo| pdo.direction == direction && !pdo.implicit);
+    own.map(|pdo| PdoInfo { index: pdo.mapping_index, entries: pdo.entries.len(), bits: pdo.bits() }).collect()
+}

@@ -1,0 +1,14 @@
+//! JSON: the IR as a whole, and the summary that `lexibus info` prints.
+
+mod info;
+
+pub use info::{
+    info, DapInfo, DeviceInfo, DictionaryInfo, Info, ModuleContent, ModuleInfo, PdoInfo, RecordInfo, SubmoduleInfo,
+};
+
+use lexibus_codegen::ir::Catalog;
+
+/// The IR of `catalog` as indented JSON.
+pub fn dump(catalog: &Catalog) -> String {
+    serde_json::to_string_pretty(catalog).unwrap_or_else(|error| format!("\"{error}\""))
+}

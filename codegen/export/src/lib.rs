@@ -1,0 +1,31 @@
+//! Exports: devices that were read from any format, written as EDS or DCF (CiA 306), ESI (ETG.2000) or GSDML;
+//! the IR as JSON, and diagnostics as JSON lines or SARIF.
+//!
+//! What a format has no place for is left out, and [`Export::notes`] lists it.
+//!
+//! ```
+//! use lexibus_codegen::compile::{check, Options};
+//! use lexibus_codegen::source::Source;
+//! use lexibus_export::eds;
+//!
+//! let table = "lexibus = 1\n[device]\nname = \"Pump\"\nbuses = [\"canopen\"]\n[[chapters]]\n[chapters.objects]\n\
+//!              0x2000 = { name = \"Speed\", type = \"u16\", access = \"rw\" }\n";
+//! let catalog = check(Source::new("pump.toml", table.into()), &Options::default()).catalog.expect("a device");
+//! let file = eds::export(&catalog, &catalog.devices[0], eds::Flavour::Eds).expect("a device with objects");
+//! assert!(file.text.contains("[2000]\r\nParameterName=Speed\r\n"));
+//! ```
+
+#![forbid(unsafe_code)]
+
+pub mod diagnostics;
+pub mod eds;
+pub mod esi;
+pub mod gsdml;
+pub mod json;
+mod note;
+mod options;
+mod registers;
+mod xml;
+
+pub use note::{Export, Note, NoteKind};
+pub use options::{MissingFact, Refusal};

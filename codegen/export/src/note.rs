@@ -1,0 +1,243 @@
+//! What an export leaves out or changes, so that nothing is lost in silence.
+
+use std::collections::BTreeMap;
+use std::fmt;
+
+use lexibus_codegen::ir::{Device, Group, Item};
+
+/// An exported file.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Export {
+    /// Its text.
+    pub text: String,
+    /// What was left out or changed, a note a kind, by kind.
+    pub notes: Vec<Note>,
+}
+
+/// Everything of one kind that an export left out or changed.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Note {
+    /// What kind of fact it is.
+    pub kind: NoteKind,
+    /// How many there are.
+    pub count: usize,
+    /// Where the first one is: an object, an entry, or the device.
+    pub first: String,
+}
+
+impl fmt::Display for Note {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} × {} (first: {})", self.count, self.kind.text(), self.first)
+    }
+}
+
+macro_rules! kinds {
+    ($($(#[doc = $doc:literal])+ $kind:ident = $name:literal, $text:literal;)+) => {
+        /// A kind of fact that the format has no place for, or that has to be told another way.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+        #[non_exhaustive]
+        pub enum NoteKind {
+            $($(#[doc = $doc])+ $kind,)+
+        }
+
+        impl NoteKind {
+            /// All kinds.
+            pub const ALL: &'static [NoteKind] = &[$(NoteKind::$kind,)+];
+
+            /// A name for programs.
+            pub fn name(self) -> &'static str {
+                match self {
+                    $(NoteKind::$kind => $name,)+
+                }
+            }
+
+            /// What it is and what became of it.
+            pub fn text(self) -> &'static str {
+                match self {
+                    $(NoteKind::$kind => $text,)+
+                }
+            }
+        }
+    };
+}
+
+kinds! {
+    /// A fact that the caller gave.
+    GivenFact = "given-fact", "fact that was given and has no place in this file left out";
+    /// ParameterValue, Denotation and the like in an EDS.
+    Configuration = "configuration", "configuration of one device left out (of all formats, a DCF has it)";
+    /// Unit, scale, sentinels, step.
+    Quantity = "unit", "unit or scale left out";
+    /// A type with named values.
+    Enumeration = "enumeration", "enumeration written as the integer below";
+    /// A type with named bits.
+    BitField = "bit-field", "bit field written as the integer below";
+    /// A record or array in one entry.
+    Structure = "structure", "array or record in one entry written as raw bytes";
+    /// An integer of a width that the format doesn't have.
+    Widened = "widened-type", "integer of a width that the format doesn't have written as the next wider one";
+    /// A type that the format doesn't have, or that nobody defines.
+    UnknownType = "unknown-type", "type that the format doesn't have written as raw bytes";
+    /// The greatest length of a text.
+    Length = "text-length", "greatest length of a string left out";
+    /// Several ranges, or a list of values.
+    AllowedValues = "allowed-values", "list of allowed values left out but for the least and the greatest";
+    /// Default and limits of a value in cyclic data.
+    Limits = "limits", "default or limits of a value in cyclic data left out";
+    /// A lower limit above the upper one.
+    SwappedLimits = "swapped-limits", "limits left out because the lower one is above the upper one";
+    /// A default or limit of another kind than its type.
+    Value = "value", "value that its type can't have left out";
+    /// A limit between two integers.
+    RoundedLimit = "rounded-limit", "limit of an integer rounded to one";
+    /// `$NODEID` minus something.
+    NegativeFormula = "negative-formula", "formula with a negative number, which CiA 306 doesn't provide for";
+    /// Directions of PDO mapping that don't follow from the access type.
+    Mapping = "pdo-mapping", "directions of PDO mapping told by the access types rwr or rww";
+    /// Directions of PDO mapping that no access type tells.
+    LostMapping = "lost-mapping", "direction of PDO mapping that no access type tells left out";
+    /// A PDO that no objects tell.
+    Pdo = "pdo", "PDO, or its communication parameters, that no object of the file tells";
+    /// Storage, side effects, conditions.
+    Behaviour = "behaviour", "storage, conditions or side effects left out";
+    /// Models, versions, options.
+    Availability = "availability", "models, versions or options that have it left out";
+    /// A description.
+    Documentation = "documentation", "description left out";
+    /// A name or text in another language.
+    Language = "language", "text in another language left out";
+    /// A name of a value beside that of its object.
+    Name = "name", "name of a value that isn't its object's left out";
+    /// A doubt.
+    Doubt = "doubt", "doubt left out";
+    /// A category of an object.
+    Category = "category", "category of an object left out";
+    /// An address on another bus.
+    Binding = "binding", "address on another bus left out";
+    /// An object that CANopen doesn't have.
+    CoeOnly = "coe-only", "object that is on EtherCAT only left out";
+    /// An item that is no entry of an object dictionary.
+    NotAnObject = "not-an-object", "item that is in no object dictionary left out";
+    /// A sub-index 0 that an object of registers has to have.
+    Completed = "completed", "sub-index 0 that no register describes added";
+    /// Two objects, or entries, at one address.
+    Duplicate = "duplicate", "further object or entry of an index left out";
+    /// An extension attribute that no key can carry.
+    Extension = "extension", "extension attribute that the format has no place for left out";
+    /// A module.
+    Module = "module", "module of another bus left out";
+    /// Slots.
+    Slot = "slot", "slot left out";
+    /// What the device is on another bus.
+    OtherBus = "other-bus", "settings of another bus left out";
+    /// A further axis, whose objects follow from those of the first.
+    Axis = "axis", "further axis left out: the file has the objects of the first";
+    /// A PROFINET submodule, a message, a code table, a state machine, a procedure, a variant.
+    OtherPart = "other-part", "message, code table, state machine, procedure, variant or submodule left out";
+    /// A setting of the device or of one of its objects.
+    Setting = "setting", "setting that the format doesn't have left out";
+    /// A date or version of another form.
+    FileInfo = "file-info", "date, time, version or comment of the file that the format has in another form, or not at all, left out or replaced";
+    /// A text with a line break.
+    LineBreak = "line-break", "line break in a text written as a blank";
+    /// A text that isn't ASCII.
+    NotAscii = "not-ascii", "line that isn't ASCII: the file has to be UTF-8";
+    /// A line of over 255 characters.
+    LongLine = "long-line", "line of over 255 characters";
+    /// A value that never changes.
+    Constant = "constant", "constant written as a read-only value";
+    /// A named range of values.
+    ValueRange = "value-range", "range of values of an enumeration written as its first value";
+    /// A name that has to be the only one.
+    Renamed = "renamed", "name that occurs twice made unique";
+    /// A type without a fixed length.
+    UnknownLength = "unknown-length", "type whose length nothing tells written with a length of 0";
+    /// An object of CAN's own services, or one that the source has on CANopen only.
+    CanObject = "can-object", "object that is on CANopen only, or about CAN itself (identifiers, SYNC, heartbeat), left out";
+    /// An object without entries.
+    EmptyObject = "empty-object", "object without entries left out";
+    /// Half of a group of facts.
+    Incomplete = "incomplete", "facts left out because the format wants others beside them that are missing";
+    /// A spelling that the schema doesn't allow.
+    Spelling = "spelling", "word or number of a form that the schema doesn't allow left out";
+    /// A device of another vendor.
+    OtherVendor = "other-vendor", "device or module of another vendor left out: a file has one";
+    /// A control character.
+    Control = "control-character", "control character left out of a text";
+    /// A text in a file that has a text list.
+    MissingText = "missing-text", "element without the text that the format wants for it named by its identifier";
+    /// A field of a process image that overlaps another, or isn't whole bytes.
+    Layout = "layout", "field of cyclic data that doesn't begin or end with a byte written as octets or bits";
+    /// An item that is in no process image.
+    NotInData = "not-in-data", "item that is in no cyclic data left out";
+    /// A number that the least significant byte comes first of.
+    ByteOrder = "byte-order", "number whose least significant byte comes first written as octets: the bus has the most significant first";
+}
+
+/// Collects notes.
+#[derive(Default)]
+pub(super) struct Notes(BTreeMap<NoteKind, (usize, String)>);
+
+impl Notes {
+    pub(super) fn add(&mut self, kind: NoteKind, place: Place<'_>) {
+        self.add_many(kind, 1, place);
+    }
+
+    pub(super) fn add_many(&mut self, kind: NoteKind, count: usize, place: Place<'_>) {
+        if count > 0 {
+            self.0.entry(kind).or_insert_with(|| (0, place.to_string())).0 += count;
+        }
+    }
+
+    pub(super) fn finish(self) -> Vec<Note> {
+        self.0.into_iter().map(|(kind, (count, first))| Note { kind, count, first }).collect()
+    }
+}
+
+/// How many parts a device has that no file of a vendor has a place for.
+pub(super) fn parts_of_tables(device: &Device) -> usize {
+    let parts = [
+        device.messages.len(),
+        device.machines.len(),
+        device.procedures.len(),
+        device.composites.len(),
+        device.variants.len(),
+        usize::from(device.framing.is_some()),
+    ];
+    parts.iter().sum()
+}
+
+/// Where something is in the device.
+#[derive(Clone, Copy)]
+pub(super) enum Place<'a> {
+    Device,
+    Object(u16),
+    Entry(u16, u8),
+    Named(&'a str),
+}
+
+impl Place<'_> {
+    /// The object that a group is.
+    pub(super) fn object(group: &Group) -> Self {
+        group.index().map_or(Place::Device, Place::Object)
+    }
+
+    pub(super) fn item(item: &Item) -> Place<'_> {
+        item.object().map_or(Place::Named(&item.name), |(index, sub)| Place::Entry(index, sub))
+    }
+}
+
+impl fmt::Display for Place<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Place::Device => f.write_str("the device"),
+            Place::Object(index) => write!(f, "0x{index:04X}"),
+            Place::Entry(index, sub) => write!(f, "0x{index:04X}:{sub:02X}"),
+            // A name may have anything in it, and a note is one line.
+            Place::Named(name) => name.chars().try_for_each(|letter| {
+                let letter = if letter.is_control() { ' ' } else { letter };
+                write!(f, "{letter}")
+            }),
+        }
+    }
+}

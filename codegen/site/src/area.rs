@@ -1,0 +1,189 @@
+//! Pages of items: a chapter of registers, or a range of objects.
+
+use std::collections::HashMap;
+
+use super::anchor::Names;
+use super::entry::{self, Doubt, Known, Row, Rows};
+use super::findings::Finding;
+use super::words::{self, PLAIN};
+use lexibus_codegen::ir::{Group, GroupKind, Item, TypeDef};
+
+/// So many items are on a page.
+const PAGE: usize = 500;
+
+/// A page of items.
+#[derive(Debug)]
+pub(super) struct Area {
+    /// Name of the file, without ending.
+    pub file: String,
+    pub title: String,
+    pub facts: Vec<String>,
+    pub doubts: Vec<Doubt>,
+    pub sections: Vec<Section>,
+}
+
+impl Area {
+    /// How many items it has.
+    pub fn count(&self) -> usize {
+        self.sections.iter().map(|own| own.rows.len()).sum()
+    }
+}
+
+/// Items that stand together: an object with its entries, or registers.
+#[derive(Debug)]
+pub(super) struct Section {
+    /// The address of an object with several entries; else its only row has one.
+    pub anchor: Option<String>,
+    pub number: String,
+    pub name: String,
+    pub names: Vec<(String, String)>,
+    pub facts: Vec<String>,
+    pub doubts: Vec<Doubt>,
+    pub findings: Vec<Finding>,
+    pub rows: Vec<Row>,
+}
+
+/// A part of a device whose groups make pages.
+struct Part<'g> {
+    title: String,
+    groups: Vec<&'g Group>,
+}
+
+/// The pages of these groups. Names of their files begin with `prefix`.
+pub(super) fn areas(
+    groups: &[Group],
+    types: &[TypeDef],
+    known: Known<'_>,
+    files: &mut Names,
+    prefix: &str,
+) -> Vec<Area> {
+    parts(groups).iter().flat_map(|part| pages(part, types, known, files, prefix)).collect()
+}
+
+/// A part for each chapter and image, and for each range of objects (CiA 301 7.4.1).
+fn parts(groups: &[Group]) -> Vec<Part<'_>> {
+    let mut parts: Vec<Part<'_>> = Vec::new();
+    let mut ranges: HashMap<&str, usize> = HashMap::new();
+    for group in groups.iter().filter(|group| !group.items.is_empty() || group.index().is_some()) {
+        let title = match &group.kind {
+            GroupKind::Object { index, .. } => {
+                let at = *ranges.entry(range_of(*index)).or_insert(parts.len());
+                if let Some(part) = parts.get_mut(at) {
+                    part.groups.push(group);
+                    continue;
+                }
+                range_of(*index).to_owned()
+            }
+            GroupKind::Chapter => group.name.to_string(),
+            GroupKind::Image { .. } => format!("Image {}", group.name),
+            GroupKind::Record(_) => format!("Record {}", group.name),
+        };
+        parts.push(Part { title, groups: vec![group] });
+    }
+    parts
+}
+
+fn range_of(index: u16) -> &'static str {
+    match index {
+        0x0000..=0x0FFF => "Data types",
+        0x1000..=0x1FFF => "Communication objects",
+        0x2000..=0x5FFF => "Manufacturer objects",
+        0x6000..=0x9FFF => "Profile objects",
+        0xA000..=0xBFFF => "Interface objects",
+        _ => "Further objects",
+    }
+}
+
+fn pages(part: &Part<'_>, types: &[TypeDef], known: Known<'_>, files: &mut Names, prefix: &str) -> Vec<Area> {
+    let mut names = Names::default();
+    let mut sections: Vec<Section> = Vec::new();
+    let mut areas: Vec<Vec<Section>> = Vec::new();
+    let mut shown = Vec::new();
+    let mut count = 0;
+    for group in &part.groups {
+        // Registers of a long chapter go on to further pages; an object stays whole.
+        let chunks: Vec<&[Item]> = match group.kind {
+            GroupKind::Object { .. } => vec![group.items.as_slice()],
+            _ => group.items.chunks(PAGE).collect(),
+        };
+        for items in chunks {
+            if count + items.len() > PAGE && count > 0 {
+                areas.push(std::mem::take(&mut sections));
+                (names, shown, count) = (Names::default(), Vec::new(), 0);
+            }
+            let mut rows = Rows { types, known, names: &mut names, shown };
+            sections.push(section(group, items, &mut rows));
+            shown = rows.shown;
+            count += items.len();
+        }
+    }
+    areas.push(sections);
+    let several = areas.len();
+    let about = part.groups.first().filter(|group| group.index().is_none());
+    let page = |(at, sections): (usize, Vec<Section>)| {
+        let title = match several {
+            1 => part.title.clone(),
+            _ => format!("{} ({} of {several})", part.title, at + 1),
+        };
+        let mut facts = about.map(|group| PLAIN.description(group.documentation.as_deref())).unwrap_or_default();
+        facts.extend(
+            about.and_then(|group| PLAIN.place(known.manual, "", group.documentation.as_deref(), &group.names)),
+        );
+        Area {
+            file: files.file(&format!("{prefix}{}", part.title)),
+            title,
+            facts,
+            doubts: about.map(|group| entry::doubts(&group.doubts, known.manual)).unwrap_or_default(),
+            sections,
+        }
+    };
+    areas.into_iter().enumerate().map(page).collect()
+}
+
+fn section(group: &Group, items: &[Item], rows: &mut Rows<'_>) -> Section {
+    let GroupKind::Object { index, code, .. } = group.kind else {
+        let modbus = rows.known.modbus;
+        let number =
+            |item: &Item| words::addresses(item, modbus).first().map_or_else(String::new, |own| own.number.clone());
+        let rows = items.iter().map(|item| rows.row(item, number(item), true)).collect();
+        return Section::plain(rows);
+    };
+    let number = format!("0x{index:04X}");
+    if let ([item], false) = (items, code.has_subs()) {
+        let mut row = rows.row(item, number, false);
+        if row.name.is_empty() {
+            row.name = group.name.to_string();
+        }
+        return Section::plain(vec![row]);
+    }
+    let mut facts = PLAIN.description(group.documentation.as_deref());
+    facts.extend(PLAIN.place(rows.known.manual, "", group.documentation.as_deref(), &group.names));
+    let anchor = rows.names.anchor(&number);
+    let sub = |item: &Item| item.object().map_or_else(String::new, |(index, sub)| format!("0x{index:04X}:{sub:02X}"));
+    Section {
+        anchor: Some(anchor),
+        number,
+        name: format!("{} ({})", group.name, code.name()),
+        names: words::names(&group.names),
+        facts,
+        doubts: entry::doubts(&group.doubts, rows.known.manual),
+        findings: rows.known.findings.of_group(group),
+        rows: items.iter().map(|item| rows.row(item, sub(item), false)).collect(),
+    }
+}
+
+impl Section {
+    /// Rows without a heading.
+    pub fn plain(rows: Vec<Row>) -> Self {
+        Section {
+            anchor: None,
+            number: String::new(),
+            name: String::new(),
+            names: Vec::new(),
+            facts: Vec::new(),
+            doubts: Vec::new(),
+            findings: Vec::new(),
+            rows,
+        }
+    }
+}

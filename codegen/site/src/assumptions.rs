@@ -1,0 +1,133 @@
+//! All ambiguities of the source with what was assumed, the most severe first.
+
+use std::collections::HashMap;
+
+use super::area::Area;
+use super::codes::Codes;
+use super::entry::Doubt;
+use super::machines::Behaviour;
+use super::process::Frame;
+use super::protocol::Protocol;
+use lexibus_codegen::ir::Severity;
+
+/// An ambiguity, and the elements that have it: several where a row of the source is repeated.
+#[derive(Debug)]
+pub(super) struct Assumption<'d> {
+    pub elements: Vec<Element>,
+    pub doubt: &'d Doubt,
+}
+
+/// What an ambiguity is about.
+#[derive(Debug)]
+pub(super) struct Element {
+    /// File and anchor.
+    pub link: String,
+    /// Address and name.
+    pub title: String,
+}
+
+/// The ambiguities of one severity.
+#[derive(Debug)]
+pub(super) struct Ranked<'d> {
+    pub severity: Severity,
+    pub assumptions: Vec<Assumption<'d>>,
+}
+
+impl Ranked<'_> {
+    /// What a wrong assumption leads to, as a heading.
+    pub fn heading(&self) -> &'static str {
+        match self.severity {
+            Severity::Hazard => "Can move a motor or damage wiring",
+            Severity::Value => "Can change a value",
+            Severity::Print => "Misprints",
+        }
+    }
+}
+
+/// The places where a device has ambiguities.
+pub(super) struct Places<'d> {
+    /// The first page, and the ambiguities that belong to no element.
+    pub overview: (&'d str, &'d [Doubt]),
+    pub areas: &'d [Area],
+    /// The page of process data.
+    pub process: Option<(&'d str, &'d [Frame])>,
+    /// The page of messages.
+    pub protocol: Option<(&'d str, &'d Protocol)>,
+    /// The page of state machines and procedures.
+    pub behaviour: Option<(&'d str, &'d Behaviour)>,
+    /// The page of tables of codes.
+    pub codes: Option<(&'d str, &'d [Codes])>,
+}
+
+impl<'d> Places<'d> {
+    /// All ambiguities by severity, within one in the order of the pages; none for a severity without any.
+    pub fn ranked(&self) -> Vec<Ranked<'d>> {
+        let mut ranks = [Severity::Hazard, Severity::Value, Severity::Print]
+            .map(|severity| Ranked { severity, assumptions: Vec::new() });
+        for own in self.all() {
+            ranks[own.doubt.severity as usize].assumptions.push(own);
+        }
+        ranks.into_iter().filter(|rank| !rank.assumptions.is_empty()).collect()
+    }
+
+    /// All ambiguities, each once.
+    fn all(&self) -> Vec<Assumption<'d>> {
+        let mut all: Vec<Assumption<'d>> = Vec::new();
+        let mut known = HashMap::new();
+        self.visit(&mut |link, title, doubt| {
+            let at = *known.entry(doubt).or_insert(all.len());
+            if at == all.len() {
+                all.push(Assumption { elements: Vec::new(), doubt });
+            }
+            // One with a subject is also in the list of the device, and at each element of that type.
+            match doubt.subject.as_str() {
+                "" => all[at].elements.push(Element { link, title: title.to_owned() }),
+                _ if !all[at].elements.is_empty() => {}
+                subject => all[at].elements.push(Element { link, title: subject.to_owned() }),
+            }
+        });
+        all
+    }
+
+    /// Visits the ambiguities in the order of the pages, with the link and the title of the element that has them.
+    fn visit(&self, visitor: &mut impl FnMut(String, &str, &'d Doubt)) {
+        let (first, doubts) = self.overview;
+        let (of_device, with_subject): (Vec<_>, Vec<_>) = doubts.iter().partition(|doubt| doubt.subject.is_empty());
+        of_device.into_iter().for_each(|doubt| visitor(first.to_owned(), "Device", doubt));
+        for area in self.areas {
+            let file = &area.file;
+            area.doubts.iter().for_each(|doubt| visitor(file.clone(), &area.title, doubt));
+            for section in &area.sections {
+                let (anchor, title) = (section.anchor.as_deref(), named(&section.number, &section.name));
+                let link = || format!("{file}#{}", anchor.unwrap_or_default());
+                section.doubts.iter().for_each(|doubt| visitor(link(), &title, doubt));
+                for row in &section.rows {
+                    let (link, title) = (|| format!("{file}#{}", row.anchor), named(&row.number, &row.name));
+                    row.doubts.iter().chain(&row.doubts_of_type).for_each(|doubt| visitor(link(), &title, doubt));
+                }
+            }
+        }
+        if let Some((file, own)) = self.behaviour {
+            let of_machines = own.machines.iter().flat_map(|own| &own.doubts);
+            let doubts = of_machines.chain(own.sequences.iter().flat_map(|own| &own.doubts));
+            doubts.for_each(|doubt| visitor(file.to_owned(), "", doubt));
+        }
+        let mut visit_all = |file: &str, anchor: &str, title: &str, doubts: &'d [Doubt]| {
+            doubts.iter().for_each(|doubt| visitor(format!("{file}#{anchor}"), title, doubt));
+        };
+        if let Some((file, frames)) = self.process {
+            frames.iter().for_each(|own| visit_all(file, &own.anchor, &own.title, &own.doubts));
+        }
+        if let Some((file, protocol)) = self.protocol {
+            protocol.messages.iter().for_each(|own| visit_all(file, &own.anchor, &own.name, &own.doubts));
+        }
+        if let Some((file, tables)) = self.codes {
+            tables.iter().for_each(|own| visit_all(file, &own.anchor, &own.title, &own.doubts));
+        }
+        with_subject.into_iter().for_each(|doubt| visitor(first.to_owned(), "Device", doubt));
+    }
+}
+
+fn named(number: &str, name: &str) -> String {
+    format!("{number} {name}").trim().to_owned()
+}

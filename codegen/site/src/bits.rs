@@ -1,0 +1,154 @@
+//! Drawings of bit fields: a cell a bit, the most significant first.
+
+use std::collections::BTreeSet;
+
+use super::cell::Cell;
+use super::words;
+use lexibus_codegen::ir::owner::Owner;
+use lexibus_codegen::ir::{BitFieldEntry, BitMeaning, EnumValue, Shape, Trigger, Type, TypeDef};
+
+/// Bits in a row of a drawing.
+const ROW: u32 = 16;
+
+/// Width of a bit.
+const CELL: u32 = 40;
+
+/// First bit and number of bits of the rows of drawings.
+pub(super) type Grids = BTreeSet<(u32, u32)>;
+
+/// A bit field, ready to be drawn and listed.
+#[derive(Debug)]
+pub(super) struct Bits {
+    /// Rows of the drawing, the most significant bits first.
+    pub rows: Vec<Row>,
+    pub fields: Vec<Field>,
+}
+
+/// A row of a drawing.
+#[derive(Debug)]
+pub(super) struct Row {
+    /// The number of its least significant bit.
+    pub first: u32,
+    /// How many bits it has.
+    pub bits: u32,
+    /// Distance from the top.
+    pub top: u32,
+    pub cells: Vec<Cell>,
+}
+
+/// A line of the list.
+#[derive(Debug)]
+pub(super) struct Field {
+    /// `7`, `3–0`.
+    pub bits: String,
+    pub name: String,
+    pub names: Vec<(String, String)>,
+    pub facts: String,
+    pub values: Vec<Label>,
+}
+
+/// A value with a name.
+#[derive(Debug)]
+pub(super) struct Label {
+    pub number: String,
+    pub name: String,
+    pub names: Vec<(String, String)>,
+    pub facts: String,
+}
+
+/// Bits and values of a type; nothing for one that has neither.
+pub(super) fn of_type(types: &[TypeDef], ty: Type) -> (Option<Bits>, Vec<Label>) {
+    match Owner::of_types(types).definition(ty).map(|definition| &definition.shape) {
+        Some(Shape::BitField { base, fields }) => {
+            let bits = words::basic(types, *base).bits().unwrap_or(8);
+            (Some(drawing(types, fields, bits)), Vec::new())
+        }
+        Some(Shape::Enumeration { values, .. }) => (None, labels(values)),
+        _ => (None, Vec::new()),
+    }
+}
+
+/// The rows that drawings have: first bit and number of bits of each, for the grid behind it.
+pub(super) fn grids<'b>(drawings: impl Iterator<Item = &'b Bits>) -> Grids {
+    drawings.flat_map(|own| &own.rows).map(|row| (row.first, row.bits)).collect()
+}
+
+fn drawing(types: &[TypeDef], fields: &[BitFieldEntry], bits: u32) -> Bits {
+    let bits = bits.clamp(1, 64);
+    let mut rows = Vec::new();
+    let mut last = bits;
+    while last > 0 {
+        let first = (last - 1) / ROW * ROW;
+        let top = rows.len() as u32 * CELL;
+        let cells = fields.iter().filter_map(|field| cell(field, first, last - first)).collect();
+        rows.push(Row { first, bits: last - first, top, cells });
+        last = first;
+    }
+    Bits { rows, fields: fields.iter().map(|own| field(types, own)).collect() }
+}
+
+/// What of a field stands in the row of `bits` bits from `first` on. Reserved bits stay empty.
+fn cell(field: &BitFieldEntry, first: u32, bits: u32) -> Option<Cell> {
+    if matches!(field.meaning, BitMeaning::Reserved { .. }) {
+        return None;
+    }
+    let low = u32::from(field.offset).max(first);
+    let end = (u32::from(field.offset) + u32::from(field.bits)).min(first + bits);
+    let width = end.checked_sub(low).filter(|width| *width > 0)? * CELL;
+    let left = (first + bits - end) * CELL;
+    Some(Cell::new(left, width, &field.name))
+}
+
+fn field(types: &[TypeDef], own: &BitFieldEntry) -> Field {
+    let (first, last) = (u32::from(own.offset), u32::from(own.offset) + u32::from(own.bits).max(1) - 1);
+    let mut facts = Vec::new();
+    let mut values = Vec::new();
+    match &own.meaning {
+        BitMeaning::Flag { inverted: true } => facts.push("Set while 0.".to_owned()),
+        BitMeaning::Reserved { write: Some(bit) } => facts.push(format!("Reserved, {}.", u8::from(*bit))),
+        BitMeaning::Reserved { write: None } => facts.push("Reserved.".to_owned()),
+        BitMeaning::Enumeration(id) => {
+            let own = Owner::of_types(types).enumeration(Type::Named(*id));
+            values = own.map(|(values, _)| labels(values)).unwrap_or_default();
+        }
+        BitMeaning::Number if own.bits > 1 => facts.push("A number.".to_owned()),
+        _ => {}
+    }
+    if let Some(condition) = &own.when {
+        facts.push(format!("While {}.", words::PLAIN.holds(condition)));
+    }
+    facts.extend(own.trigger.map(|trigger| match trigger {
+        Trigger::Rising => "Acts on the change from 0 to 1.".to_owned(),
+        Trigger::Falling => "Acts on the change from 1 to 0.".to_owned(),
+        Trigger::Toggle => "Acts on every change.".to_owned(),
+        Trigger::SelfClearing => "The device clears it by itself.".to_owned(),
+    }));
+    facts.extend(own.access.map(|access| format!("Access: {}.", access.name())));
+    facts.extend(words::PLAIN.description(own.documentation.as_deref()));
+    facts.extend(own.availability.as_ref().map(|own| words::PLAIN.availability(own)));
+    Field {
+        bits: if first == last { first.to_string() } else { format!("{last}–{first}") },
+        name: own.name.to_string(),
+        names: words::names(&own.names),
+        facts: facts.join(" "),
+        values,
+    }
+}
+
+fn labels(values: &[EnumValue]) -> Vec<Label> {
+    let label = |own: &EnumValue| {
+        let mut facts = Vec::new();
+        if let Some(condition) = &own.when {
+            facts.push(format!("While {}.", words::PLAIN.holds(condition)));
+        }
+        facts.extend(words::PLAIN.description(own.documentation.as_deref()));
+        facts.extend(own.availability.as_ref().map(|own| words::PLAIN.availability(own)));
+        Label {
+            number: words::numbers(own.value, own.last),
+            name: own.name.to_string(),
+            names: words::names(&own.names),
+            facts: facts.join(" "),
+        }
+    };
+    values.iter().map(label).collect()
+}

@@ -1,0 +1,63 @@
+//! Tables of codes: alarms, emergency codes, abort codes, with causes and remedies.
+
+use super::anchor::Names;
+use super::entry::{self, Doubt};
+use super::words::{self, PLAIN};
+use lexibus_codegen::facts::code;
+use lexibus_codegen::ir::{CodeTable, Device, Manual, SubjectKind};
+
+/// A table.
+#[derive(Debug)]
+pub(super) struct Codes {
+    pub anchor: String,
+    pub title: String,
+    pub facts: Vec<String>,
+    pub doubts: Vec<Doubt>,
+    pub columns: Vec<String>,
+    pub rows: Vec<Code>,
+}
+
+/// A code.
+#[derive(Debug)]
+pub(super) struct Code {
+    pub anchor: String,
+    pub number: String,
+    pub name: String,
+    pub names: Vec<(String, String)>,
+    pub facts: String,
+    pub cells: Vec<String>,
+}
+
+pub(super) fn tables(device: &Device, manual: &Manual) -> Vec<Codes> {
+    let mut names = Names::default();
+    let with = device.code_tables.iter().filter(|table| !table.rows.is_empty());
+    with.map(|table| self::table(table, device, manual, &mut names)).collect()
+}
+
+fn table(table: &CodeTable, device: &Device, manual: &Manual, names: &mut Names) -> Codes {
+    let anchor = names.anchor(&table.name);
+    let mut facts = PLAIN.description(table.documentation.as_deref());
+    if !table.buses.is_empty() {
+        let buses: Vec<&str> = table.buses.iter().map(|bus| lexibus_codegen::facts::words::bus_name(bus)).collect();
+        facts.push(format!("On {}.", buses.join(", ")));
+    }
+    facts.extend(PLAIN.place(manual, "", table.documentation.as_deref(), &[]));
+    let rows = table.rows.iter().map(|row| {
+        let mut facts = PLAIN.description(row.documentation.as_deref());
+        facts.extend(row.availability.as_ref().map(|own| PLAIN.availability(own)));
+        facts.extend(PLAIN.place(manual, "", row.documentation.as_deref(), &row.names));
+        let number = code::text(row);
+        Code {
+            anchor: names.anchor(&format!("{}-{number}", table.name)),
+            number,
+            name: row.name.to_string(),
+            names: words::names(&row.names),
+            facts: facts.join(" "),
+            cells: (0..table.columns.len()).map(|at| code::cell(row, at)).collect(),
+        }
+    });
+    let rows = rows.collect();
+    let columns = table.columns.iter().map(ToString::to_string).collect();
+    let doubts = entry::about(&device.doubts, SubjectKind::Codes, &table.name, manual);
+    Codes { anchor, title: table.name.to_string(), facts, doubts, columns, rows }
+}

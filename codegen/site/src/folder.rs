@@ -1,0 +1,359 @@
+//! The pages of a catalogue, in a folder of their own.
+
+use std::collections::{BTreeSet, HashMap};
+use std::rc::Rc;
+
+use super::anchor::Names;
+use super::area::{self, Area};
+use super::assumptions::{Places, Ranked};
+use super::codes::{self, Codes};
+use super::entry::{Known, Row};
+use super::findings::Findings;
+use super::format::{Around, Catalogue, Frameset, List, Listed, Pages};
+use super::links::Links;
+use super::machines;
+use super::modules::{self, ModuleModel};
+use super::overview::{self, Contents, Overview};
+use super::process::{self, About, Frame};
+use super::protocol::{self, Protocol};
+use super::search::{Entry, Index};
+use super::Page;
+use lexibus_codegen::backend::rust;
+use lexibus_codegen::facts::pdo;
+use lexibus_codegen::facts::words;
+use lexibus_codegen::ir::{Catalog, Device, Documentation, Group, Manual, Texts};
+
+/// The name of the first page of a folder, without ending.
+pub(super) const FIRST: &str = "index";
+
+/// The folder of a catalogue.
+pub(super) struct Folder {
+    pub format: &'static dyn Pages,
+    files: Names,
+    pub pages: Vec<Page>,
+    pub index: Index,
+    pub listed: Catalogue,
+    findings: Findings,
+    /// Pages that all devices share.
+    shared: Rc<Links>,
+    /// The pages of the device that was written last.
+    last: Rc<Links>,
+}
+
+/// What a device has beside items, and the files that it goes to.
+struct Parts {
+    overview: Overview,
+    areas: Vec<Area>,
+    frames: Vec<Frame>,
+    process: Option<String>,
+    protocol: Option<(String, Protocol)>,
+    behaviour: Option<(String, machines::Behaviour)>,
+    codes: Option<(String, Vec<Codes>)>,
+    assumptions: Option<String>,
+}
+
+impl Parts {
+    /// The ambiguities of a device whose first page is `first`, the most severe first.
+    fn assumptions<'p>(&'p self, first: &'p str) -> Vec<Ranked<'p>> {
+        let places = Places {
+            overview: (first, &self.overview.doubts),
+            areas: &self.areas,
+            process: self.process.as_deref().map(|file| (file, self.frames.as_slice())),
+            protocol: self.protocol.as_ref().map(|(file, own)| (file.as_str(), own)),
+            behaviour: self.behaviour.as_ref().map(|(file, own)| (file.as_str(), own)),
+            codes: self.codes.as_ref().map(|(file, own)| (file.as_str(), own.as_slice())),
+        };
+        places.ranked()
+    }
+}
+
+impl Folder {
+    pub fn new(format: &'static dyn Pages, findings: Findings) -> Self {
+        let mut files = Names::default();
+        files.file(FIRST);
+        Folder {
+            format,
+            files,
+            pages: Vec::new(),
+            index: Index::default(),
+            listed: Catalogue::default(),
+            findings,
+            shared: Rc::default(),
+            last: Rc::default(),
+        }
+    }
+
+    /// All pages of a catalogue that is called `title`.
+    pub fn catalog(&mut self, title: &str, catalog: &Catalog) {
+        let is_alone = catalog.devices.len() == 1;
+        // Pages of devices lead to those that all of them share, whose names are known first therefore.
+        let (modules, files) = self.modules(catalog);
+        let findings = (!self.findings.list.is_empty()).then(|| self.file("Findings"));
+        self.listed.shared.extend(files.iter().cloned());
+        self.listed.shared.extend(findings.iter().map(|file| (file.clone(), "Findings".to_owned())));
+        // The first page of modules leads to those behind it.
+        self.shared = Rc::new(Links::new(self.listed.shared.clone(), files.len().min(1)..files.len()));
+        let spoken = languages_of_modules(catalog);
+        for device in &catalog.devices {
+            self.device(device, catalog, is_alone, &spoken);
+        }
+        let title = self.listed.devices.first().filter(|_| is_alone).map_or(title, |own| own.title.as_str()).to_owned();
+        let own = if is_alone { self.last.clone() } else { Rc::default() };
+        let languages = languages(&catalog.devices, &spoken);
+        let set = Frameset { title, own, shared: self.shared.clone(), languages };
+        self.module_pages(&modules, &files, &set);
+        if let Some(file) = &findings {
+            let text = self.format.findings(Around { set: &set, file }, &self.findings.list);
+            self.page(file, text);
+        }
+        if !is_alone {
+            self.list(&set);
+        }
+    }
+
+    fn page(&mut self, file: &str, text: String) {
+        self.pages.push(Page::new(file, text));
+    }
+
+    /// The name of a new file for `title`.
+    fn file(&mut self, title: &str) -> String {
+        self.files.file(title) + self.format.ending()
+    }
+
+    fn device(&mut self, device: &Device, catalog: &Catalog, is_alone: bool, spoken: &BTreeSet<&str>) {
+        let (format, title) = (self.format, title(device));
+        let own = if is_alone { FIRST.to_owned() } else { self.files.file(&title) };
+        let first = own.clone() + format.ending();
+        let prefix = if is_alone { String::new() } else { format!("{own}-") };
+        let manual = words::manual(device);
+        let overview = overview::overview(device, catalog.files.first(), &manual);
+        let (parts, pages) = self.parts(device, overview, &manual, &prefix);
+        let mut links = vec![(first.clone(), "Overview".to_owned())];
+        links.extend(pages.iter().cloned());
+        self.last = Rc::new(Links::new(links, 1..1 + parts.areas.len()));
+        let languages = languages(std::slice::from_ref(device), spoken);
+        let set = Frameset { title: title.clone(), own: self.last.clone(), shared: self.shared.clone(), languages };
+        let text = format.overview(Around { set: &set, file: &first }, &parts.overview, &contents(device, &parts));
+        if let Some(file) = &parts.assumptions {
+            self.page(file, format.assumptions(Around { set: &set, file }, &parts.assumptions(&first)));
+        }
+        self.page(&first, text);
+        self.index.page(&first, &title);
+        for own in &parts.areas {
+            self.page(&own.file, format.area(Around { set: &set, file: &own.file }, own));
+            self.index.page(&own.file, &title);
+            index_area(&mut self.index, own);
+        }
+        self.further(device, &parts, &set);
+        self.listed.devices.push(Listed { title, vendor: device.identity.vendor_name.to_string(), path: first, pages });
+    }
+
+    /// What there is to write of a device, and the further pages that it gives.
+    fn parts(
+        &mut self,
+        device: &Device,
+        overview: Overview,
+        manual: &Manual,
+        prefix: &str,
+    ) -> (Parts, Vec<(String, String)>) {
+        let calls = rust::calls(device).into_iter().map(|(item, lines)| (std::ptr::from_ref(item), lines)).collect();
+        let known =
+            Known { manual, doubts: &device.doubts, modbus: &device.modbus, calls: &calls, findings: &self.findings };
+        let mut areas = area::areas(&device.groups, &device.types, known, &mut self.files, prefix);
+        for own in &mut areas {
+            own.file += self.format.ending();
+        }
+        let mut pages: Vec<_> = areas.iter().map(|own| (own.file.clone(), own.title.clone())).collect();
+        let mut further = |has: bool, title: &str| {
+            let file = has.then(|| self.file(&format!("{prefix}{title}")));
+            pages.extend(file.clone().map(|file| (file, title.to_owned())));
+            file
+        };
+        let frames = process::frames(
+            &device.process_data,
+            &device.types,
+            About { buses: pdo::buses(device), manual, doubts: &device.doubts },
+        );
+        let protocol = protocol::protocol(device, manual);
+        let behaviour = machines::behaviour(device, manual);
+        let tables = codes::tables(device, manual);
+        let mut parts = Parts {
+            overview,
+            process: further(!frames.is_empty() || !device.process_data.sync_managers.is_empty(), "Process data"),
+            protocol: further(protocol.is_some(), "Messages").zip(protocol),
+            behaviour: further(behaviour.is_some(), "States and procedures").zip(behaviour),
+            codes: further(!tables.is_empty(), "Codes").map(|file| (file, tables)),
+            areas,
+            frames,
+            assumptions: None,
+        };
+        if !parts.assumptions("").is_empty() {
+            parts.assumptions = further(true, "Assumptions");
+        }
+        (parts, pages)
+    }
+
+    /// The pages behind those of items.
+    fn further(&mut self, device: &Device, parts: &Parts, set: &Frameset) {
+        let format = self.format;
+        if let Some(file) = &parts.process {
+            let sync_managers = process::sync_managers(&device.process_data);
+            self.page(file, format.process(Around { set, file }, &parts.frames, &sync_managers));
+            self.index.page(file, &set.title);
+            for own in &parts.frames {
+                self.index.entry(&found(&own.anchor, &own.anchor, &own.title));
+            }
+        }
+        if let Some((file, own)) = &parts.protocol {
+            self.page(file, format.protocol(Around { set, file }, own));
+            self.index.page(file, &set.title);
+            for own in &own.messages {
+                let words = own.facts.first().map_or("", String::as_str);
+                self.index.entry(&Entry { names: &own.names, words, ..found(&own.anchor, "message", &own.name) });
+            }
+        }
+        if let Some((file, own)) = &parts.behaviour {
+            self.page(file, format.machines(Around { set, file }, &own.machines, &own.sequences));
+        }
+        if let Some((file, tables)) = &parts.codes {
+            self.page(file, format.codes(Around { set, file }, tables));
+            self.index.page(file, &set.title);
+            for own in tables.iter().flat_map(|table| &table.rows) {
+                let entry = found(&own.anchor, &own.number, &own.name);
+                let words = format!("{} {}", own.cells.join(" "), own.facts);
+                self.index.entry(&Entry { names: &own.names, words: &words, ..entry });
+            }
+        }
+    }
+
+    /// The modules, and the files and titles of their pages.
+    fn modules(&mut self, catalog: &Catalog) -> (Vec<ModuleModel>, Vec<(String, String)>) {
+        let mut all = modules::modules(catalog, &self.findings);
+        let count = all.len().div_ceil(modules::PAGE);
+        let name = |at: usize| match count {
+            1 => "Modules".to_owned(),
+            _ => format!("Modules ({} of {count})", at + 1),
+        };
+        let files: Vec<(String, String)> = (0..count).map(|at| (self.file("modules"), name(at))).collect();
+        link_parts(&mut all, &files);
+        (all, files)
+    }
+
+    fn module_pages(&mut self, all: &[ModuleModel], files: &[(String, String)], set: &Frameset) {
+        for ((file, _), modules) in files.iter().zip(all.chunks(modules::PAGE)) {
+            self.page(file, self.format.modules(Around { set, file }, modules));
+            self.index.page(file, &set.title);
+            for own in modules {
+                let words = own.facts.first().map_or("", String::as_str);
+                self.index.entry(&Entry { names: &own.names, words, ..found(&own.anchor, &own.number, &own.name) });
+                for (_, section) in &own.sections {
+                    index_rows(&mut self.index, &section.rows);
+                }
+            }
+        }
+    }
+
+    /// The first page of a catalogue of several devices.
+    fn list(&mut self, set: &Frameset) {
+        let file = format!("{FIRST}{}", self.format.ending());
+        let list = List { devices: &self.listed.devices, root: "..", index: "" };
+        let text = self.format.list(Around { set, file: &file }, list);
+        self.page(&file, text);
+    }
+}
+
+/// Makes links of the addresses of submodules, which may be on another page.
+fn link_parts(modules: &mut [ModuleModel], files: &[(String, String)]) {
+    let places: HashMap<String, usize> =
+        modules.iter().enumerate().map(|(at, own)| (own.anchor.clone(), at / modules::PAGE)).collect();
+    for (at, own) in modules.iter_mut().enumerate() {
+        for (_, anchor) in &mut own.parts {
+            let page = places.get(anchor).copied().filter(|page| *page != at / modules::PAGE);
+            let file = page.and_then(|page| files.get(page)).map_or("", |(file, _)| file.as_str());
+            *anchor = format!("{file}#{anchor}");
+        }
+    }
+}
+
+fn contents(device: &Device, parts: &Parts) -> Contents {
+    let of_frame = |(file, own): (&String, &Frame)| (format!("{file}#{}", own.anchor), own.title.clone());
+    Contents {
+        areas: parts.areas.iter().map(|own| (own.file.clone(), own.title.clone(), own.count())).collect(),
+        frames: parts
+            .process
+            .iter()
+            .flat_map(|file| parts.frames.iter().map(move |own| (file, own)))
+            .map(of_frame)
+            .collect(),
+        slots: modules::slots(device),
+    }
+}
+
+fn found<'e>(anchor: &'e str, number: &'e str, name: &'e str) -> Entry<'e> {
+    Entry { anchor, number, name, names: &[], unit: "", words: "" }
+}
+
+fn index_area(index: &mut Index, own: &Area) {
+    for section in &own.sections {
+        if let Some(anchor) = &section.anchor {
+            index.entry(&Entry { names: &section.names, ..found(anchor, &section.number, &section.name) });
+        }
+        index_rows(index, &section.rows);
+    }
+}
+
+fn index_rows(index: &mut Index, rows: &[Row]) {
+    for row in rows {
+        let words = row.description.as_str();
+        for number in row.lookups() {
+            let entry = found(&row.anchor, number, &row.name);
+            index.entry(&Entry { names: &row.names, unit: &row.unit, words, ..entry });
+        }
+    }
+}
+
+fn title(device: &Device) -> String {
+    let names = [&device.name, &device.identity.product_name, &device.identity.order_code, &device.id];
+    names.into_iter().find(|name| !name.trim().is_empty()).map_or_else(|| "Device".to_owned(), ToString::to_string)
+}
+
+/// The languages of names and descriptions: of these devices, and those that their modules have, which are on pages of all devices.
+fn languages(devices: &[Device], modules: &BTreeSet<&str>) -> Vec<String> {
+    let mut all = Languages(modules.clone());
+    for device in devices {
+        all.add(&device.names, device.documentation.as_deref());
+        device.messages.iter().for_each(|own| all.add(&own.names, own.documentation.as_deref()));
+        all.add_groups(&device.groups);
+    }
+    all.0.into_iter().map(str::to_owned).collect()
+}
+
+fn languages_of_modules(catalog: &Catalog) -> BTreeSet<&str> {
+    let mut all = Languages::default();
+    for module in &catalog.modules {
+        all.add(&module.names, module.documentation.as_deref());
+        all.add_groups(&module.groups);
+    }
+    for submodule in &catalog.submodules {
+        all.add(&submodule.names, submodule.documentation.as_deref());
+        all.add_groups(&submodule.records);
+    }
+    all.0
+}
+
+#[derive(Default)]
+struct Languages<'c>(BTreeSet<&'c str>);
+
+impl<'c> Languages<'c> {
+    fn add(&mut self, names: &'c Texts, documentation: Option<&'c Documentation>) {
+        let translations = documentation.into_iter().flat_map(|own| own.translations.iter());
+        self.0.extend(names.iter().chain(translations).map(|own| own.language.as_str()));
+    }
+
+    fn add_groups(&mut self, groups: &'c [Group]) {
+        for group in groups {
+            self.add(&group.names, group.documentation.as_deref());
+            group.items.iter().for_each(|item| self.add(&item.names, item.documentation.as_deref()));
+        }
+    }
+}

@@ -1,0 +1,140 @@
+//! What a device is, on its first page.
+
+use super::entry::{self, Doubt};
+use super::modules::Slot;
+use super::words::{self, PLAIN};
+use lexibus_codegen::ir::Manual;
+use lexibus_codegen::ir::{Device, DistributedClocks, EtherCatSettings, FileInfo, ProfinetSettings};
+
+/// The first page of a device.
+#[derive(Debug)]
+pub(super) struct Overview {
+    pub facts: Vec<String>,
+    /// The description in other languages.
+    pub translations: Vec<(String, String)>,
+    /// Name and value: who made it, on which buses it is, where this was read.
+    pub identity: Vec<(&'static str, String)>,
+    /// Models, with their constants.
+    pub models: Vec<Model>,
+    pub doubts: Vec<Doubt>,
+}
+
+/// Where on its further pages a device has what.
+#[derive(Debug)]
+pub(super) struct Contents {
+    /// Areas of items: file, title and number of items.
+    pub areas: Vec<(String, String, usize)>,
+    /// Cyclic data: address and title.
+    pub frames: Vec<(String, String)>,
+    pub slots: Vec<Slot>,
+}
+
+/// A model of a family.
+#[derive(Debug)]
+pub(super) struct Model {
+    pub name: String,
+    pub facts: String,
+    pub constants: Vec<(String, String)>,
+}
+
+pub(super) fn overview(device: &Device, file: Option<&FileInfo>, manual: &Manual) -> Overview {
+    let mut facts = PLAIN.description(device.documentation.as_deref());
+    facts.extend(PLAIN.place(manual, "", device.documentation.as_deref(), &device.names));
+    let mut identity = identity(device);
+    identity.extend(settings(device));
+    let title = [manual.title.as_str(), manual.edition.as_str()].into_iter().filter(|text| !text.is_empty());
+    let title = title.collect::<Vec<_>>().join(", ");
+    identity.extend((!title.is_empty()).then_some(("Manual", title)));
+    if let Some(file) = file {
+        let name = file.name.rsplit(['/', '\\']).next().unwrap_or_default();
+        identity.push(("Read from", format!("{name} ({}), SHA-256 {}", file.format.name(), file.sha256)));
+    }
+    let models = device.variants.iter().map(|own| Model {
+        name: own.name.to_string(),
+        facts: PLAIN.description(own.documentation.as_deref()).join(" "),
+        constants: own.constants.iter().map(|(name, value)| (name.to_string(), PLAIN.value(value))).collect(),
+    });
+    let translations = words::translations(device.documentation.as_deref());
+    Overview { facts, translations, identity, models: models.collect(), doubts: entry::doubts(doubts(device), manual) }
+}
+
+/// The ambiguities of a device that no other page shows: its own, those of numbers of the machine, and those of chapters without items.
+fn doubts(device: &Device) -> impl Iterator<Item = &lexibus_codegen::ir::Doubt> {
+    let given = device.given.iter().flat_map(|own| &own.doubts);
+    let empty = device.groups.iter().filter(|group| group.index().is_none() && group.items.is_empty());
+    device.doubts.iter().chain(given).chain(empty.flat_map(|group| &group.doubts))
+}
+
+fn identity(device: &Device) -> Vec<(&'static str, String)> {
+    let own = &device.identity;
+    let hex = |number: Option<u32>| number.map(|number| format!("0x{number:08X}")).unwrap_or_default();
+    let all = [
+        ("Vendor", own.vendor_name.to_string()),
+        ("Product", own.product_name.to_string()),
+        ("Order code", own.order_code.to_string()),
+        ("Vendor-ID", hex(own.vendor_id)),
+        ("Product code", hex(own.product_code)),
+        ("Revision", hex(own.revision_number)),
+    ];
+    all.into_iter().filter(|(_, value)| !value.is_empty()).collect()
+}
+
+/// What it can on its buses.
+fn settings(device: &Device) -> Vec<(&'static str, String)> {
+    let mut all = Vec::new();
+    if let Some(own) = &device.canopen {
+        let rates: Vec<String> = own.bit_rates.iter().map(|rate| format!("{rate} kbit/s")).collect();
+        all.push(("CANopen", if rates.is_empty() { "yes".to_owned() } else { rates.join(", ") }));
+    }
+    all.extend(device.ethercat.as_deref().map(|own| ("EtherCAT", ethercat(own))));
+    all.extend(device.profinet.as_deref().map(|own| ("PROFINET", profinet(own))));
+    for own in &device.modbus {
+        let functions: Vec<String> = own.functions.iter().map(u8::to_string).collect();
+        let most = [("reads", own.max_read), ("writes", own.max_write)];
+        let most = most.into_iter().filter_map(|(what, most)| Some(format!("{what} up to {}", most?)));
+        let facts: Vec<String> = std::iter::once(format!("functions {}", functions.join(", "))).chain(most).collect();
+        all.push(("Modbus", facts.join("; ")));
+    }
+    all.extend(device.node_ids.map(|(first, last)| ("Numbers of nodes", format!("{first} to {last}"))));
+    let profiles: Vec<String> = device.profiles.iter().map(u32::to_string).collect();
+    all.extend((!profiles.is_empty()).then(|| ("Profiles", profiles.join(", "))));
+    all
+}
+
+fn ethercat(own: &EtherCatSettings) -> String {
+    let mut facts = Vec::new();
+    if let Some(mailbox) = &own.mailbox {
+        let protocols = [
+            ("CoE", mailbox.coe.is_some()),
+            ("FoE", mailbox.foe.is_some()),
+            ("EoE", mailbox.eoe.is_some()),
+            ("SoE", mailbox.soe.is_some()),
+            ("AoE", mailbox.aoe.is_some()),
+            ("VoE", mailbox.voe.is_some()),
+        ];
+        let protocols: Vec<&str> = protocols.into_iter().filter(|(_, has)| *has).map(|(name, _)| name).collect();
+        facts.push(match protocols.is_empty() {
+            true => "mailbox".to_owned(),
+            false => format!("mailbox with {}", protocols.join(", ")),
+        });
+    }
+    facts.extend(own.clocks.as_deref().map(clocks));
+    if facts.is_empty() {
+        "yes".to_owned()
+    } else {
+        facts.join("; ")
+    }
+}
+
+fn clocks(own: &DistributedClocks) -> String {
+    let modes: Vec<&str> = own.modes.iter().map(|mode| mode.name.as_str()).collect();
+    format!("distributed clocks ({})", modes.join(", "))
+}
+
+fn profinet(own: &ProfinetSettings) -> String {
+    let mut facts = vec![format!("device 0x{:04X}, module 0x{:08X}", own.device_id, own.ident)];
+    if !own.dns_name.is_empty() {
+        facts.push(format!("name {}", own.dns_name));
+    }
+    facts.join("; ")
+}

@@ -1,0 +1,231 @@
+//! Messages of a command protocol: how frames are delimited, and what each carries.
+
+use super::anchor::Names;
+use super::bits::{self, Bits, Label};
+use super::entry::{self, Doubt};
+use super::words::{self, PLAIN};
+use lexibus_codegen::facts::physical::Physical;
+use lexibus_codegen::ir::Manual;
+use lexibus_codegen::ir::{Completion, Device, Framing, Message, MessageField, MessageValue, TypeDef};
+
+/// The protocol of a device.
+#[derive(Debug)]
+pub(super) struct Protocol {
+    /// How frames are delimited, as name and value.
+    pub framing: Vec<(&'static str, String)>,
+    pub framing_facts: Vec<String>,
+    pub messages: Vec<MessageModel>,
+}
+
+/// A request and its reply.
+#[derive(Debug)]
+pub(super) struct MessageModel {
+    pub anchor: String,
+    pub name: String,
+    pub names: Vec<(String, String)>,
+    pub facts: Vec<String>,
+    pub doubts: Vec<Doubt>,
+    pub request: Vec<Part>,
+    pub reply: Vec<Part>,
+    pub examples: Vec<Example>,
+}
+
+/// A field of a frame.
+#[derive(Debug)]
+pub(super) struct Part {
+    /// How long it is: `2 bytes`, `4 bits`; empty where that isn't known.
+    pub length: String,
+    pub label: String,
+    pub facts: String,
+    /// How the field is drawn: `c` for fixed bytes, `v` for values, `e` for copies.
+    pub kind: &'static str,
+    /// How deep it is repeated.
+    pub depth: usize,
+    pub bits: Option<Bits>,
+    pub labels: Vec<Label>,
+}
+
+/// Frames as the source prints them.
+#[derive(Debug)]
+pub(super) struct Example {
+    pub request: String,
+    pub reply: String,
+    pub facts: String,
+}
+
+/// `None` where a device has no messages.
+pub(super) fn protocol(device: &Device, manual: &Manual) -> Option<Protocol> {
+    if device.messages.is_empty() {
+        return None;
+    }
+    let mut names = Names::default();
+    let framing = device.framing.as_deref();
+    Some(Protocol {
+        framing: framing.map(delimited).unwrap_or_default(),
+        framing_facts: framing.map(|own| PLAIN.description(own.documentation.as_deref())).unwrap_or_default(),
+        messages: device.messages.iter().map(|own| message(own, device, manual, &mut names)).collect(),
+    })
+}
+
+fn delimited(own: &Framing) -> Vec<(&'static str, String)> {
+    let byte = |byte: u8| format!("0x{byte:02X}");
+    let mut facts = Vec::new();
+    facts.extend(own.start.map(|start| ("First byte", byte(start))));
+    facts.extend(own.end.map(|end| ("Last byte", byte(end))));
+    facts.extend(own.escape.map(|escape| ("Escape", byte(escape))));
+    if own.escape.is_some() {
+        let escaped: Vec<String> = own.escaped.iter().copied().map(byte).collect();
+        facts.push(("Escaped bytes", escaped.join(", ")));
+        facts.push(("Sent combined with", format!("{} (exclusive or)", byte(own.escape_xor))));
+    }
+    if !own.check.is_empty() {
+        facts.push(("Check", format!("{}, beginning with 0x{:02X}", own.check, own.check_seed)));
+    }
+    facts.extend(own.check_from.as_ref().map(|field| ("Checked from", field.to_string())));
+    facts.extend(own.max_data.map(|max| ("Most bytes of data", max.to_string())));
+    facts.extend(own.address.as_ref().map(|field| ("Number of the device", field.to_string())));
+    facts
+}
+
+fn message(own: &Message, device: &Device, manual: &Manual, names: &mut Names) -> MessageModel {
+    let mut facts = PLAIN.description(own.documentation.as_deref());
+    facts.extend(match &own.completion {
+        Completion::Immediate => None,
+        Completion::Reply => Some("The reply comes when the order is carried out.".to_owned()),
+        Completion::Delayed(milliseconds) => Some(format!("The order is carried out after {milliseconds} ms.")),
+        Completion::Polled { item, .. } => Some(format!("The order is carried out when {item} says so.")),
+    });
+    facts.extend(own.reply_time.map(|time| format!("The reply takes about {time} ms.")));
+    if !own.accepted_in.is_empty() {
+        let states: Vec<&str> = own.accepted_in.iter().map(|state| state.as_str()).collect();
+        facts.push(format!("Accepted in the states: {}.", states.join(", ")));
+    }
+    facts.extend(own.accepted_when.iter().map(|own| format!("Accepted only while {}.", PLAIN.holds(own))));
+    facts.extend(own.side_effects.iter().map(|effect| lexibus_codegen::facts::words::sentence(effect)));
+    facts.extend(own.after.as_ref().map(|other| format!("Means this after {other}.")));
+    facts.extend(own.by_default.then(|| "So it is after power-on, too.".to_owned()));
+    facts.extend(
+        own.error.as_ref().map(|other| format!("Where the device refuses, {other} comes instead of the reply.")),
+    );
+    facts.extend(own.availability.as_ref().map(|own| PLAIN.availability(own)));
+    facts.extend(PLAIN.place(manual, "", own.documentation.as_deref(), &own.names));
+    facts.retain(|fact| !fact.is_empty());
+    let mut parts = Parts { types: &device.types, all: Vec::new(), doubts: own.doubts.to_vec() };
+    parts.fields(&own.request, 0);
+    let request = std::mem::take(&mut parts.all);
+    parts.fields(&own.reply, 0);
+    MessageModel {
+        anchor: names.anchor(&own.name),
+        name: own.name.to_string(),
+        names: words::names(&own.names),
+        facts,
+        doubts: entry::doubts(&parts.doubts, manual),
+        request,
+        reply: parts.all,
+        examples: own
+            .examples
+            .iter()
+            .map(|own| Example {
+                request: hexadecimal(&own.request),
+                reply: hexadecimal(&own.reply),
+                facts: PLAIN.description(own.documentation.as_deref()).join(" "),
+            })
+            .collect(),
+    }
+}
+
+fn hexadecimal(bytes: &[u8]) -> String {
+    bytes.iter().map(|byte| format!("{byte:02X}")).collect::<Vec<_>>().join(" ")
+}
+
+/// Collects fields, those of repetitions too.
+struct Parts<'d> {
+    types: &'d [TypeDef],
+    all: Vec<Part>,
+    /// The ambiguities of the message and of its fields.
+    doubts: Vec<lexibus_codegen::ir::Doubt>,
+}
+
+impl Parts<'_> {
+    fn fields(&mut self, fields: &[MessageField], depth: usize) {
+        for field in fields {
+            let part = |length: String, label: String, kind| Part {
+                length,
+                label,
+                facts: String::new(),
+                kind,
+                depth,
+                bits: None,
+                labels: Vec::new(),
+            };
+            let own = match field {
+                MessageField::Constant(bytes) => part(count(bytes.len(), "byte"), hexadecimal(bytes), "c"),
+                MessageField::FixedBits { bits, value } => {
+                    part(count((*bits).into(), "bit"), format!("{value:#b}").replacen("0b", "", 1), "c")
+                }
+                MessageField::Value(value) => self.value(value, depth),
+                MessageField::Echo { field, bytes } => {
+                    let which = bytes.map(|(first, last)| format!(", bytes {first}–{last}")).unwrap_or_default();
+                    part(String::new(), format!("{field} of the request{which}"), "e")
+                }
+                MessageField::Copy { first, last } => {
+                    let length = usize::from(last.saturating_sub(*first)) + 1;
+                    part(count(length, "byte"), format!("bytes {first}–{last} of the request"), "e")
+                }
+                MessageField::ItemCode { space, bits } => {
+                    part(count((*bits).into(), "bit"), format!("number of a {space}"), "v")
+                }
+                MessageField::ItemValue { space } => part(String::new(), format!("value of the {space}"), "v"),
+                MessageField::ItemPadding { space } => {
+                    part(String::new(), format!("zeros, as many as the {space} has bytes"), "c")
+                }
+                MessageField::Padding(bytes) => part(count((*bytes).into(), "byte"), "no meaning".to_owned(), "c"),
+                MessageField::Rest => part(String::new(), "all that follows".to_owned(), "v"),
+                MessageField::Repeat { count: number, max, fields } => {
+                    let often =
+                        number.as_ref().map_or("up to the end".to_owned(), |own| format!("as often as {own} says"));
+                    let most = max.map(|max| format!(", {max} times at most")).unwrap_or_default();
+                    self.all.push(part(String::new(), format!("repeated {often}{most}:"), "r"));
+                    self.fields(fields, depth + 1);
+                    continue;
+                }
+            };
+            self.all.push(own);
+        }
+    }
+
+    fn value(&mut self, own: &MessageValue, depth: usize) -> Part {
+        let item = &own.item;
+        self.doubts.extend(item.doubts.iter().cloned());
+        let basic = words::basic(self.types, item.ty);
+        let (bits, labels) = bits::of_type(self.types, item.ty);
+        let mut facts = vec![format!("{}.", words::type_name(self.types, item.ty))];
+        facts.extend(
+            PLAIN.limits(&item.limits, Physical::of(item.quantity.as_deref()).as_ref()).map(|own| format!("{own}.")),
+        );
+        if let Some(quantity) = &item.quantity {
+            let unit = PLAIN.quantity(quantity);
+            facts.extend((!unit.is_empty()).then(|| format!("{}.", unit.trim_start_matches([',', ' ']))));
+            facts.extend(PLAIN.notes(quantity));
+        }
+        if !own.byte_order.is_empty() {
+            let order: String = own.byte_order.iter().map(|byte| char::from(b'A'.saturating_add(*byte))).collect();
+            facts.push(format!("Bytes in the order {order}, A being the most significant."));
+        }
+        facts.extend(own.counts.as_ref().map(|from| format!("The number of bytes from {from} on.")));
+        facts.extend(PLAIN.description(item.documentation.as_deref()));
+        let length = match basic.bits() {
+            Some(bits) if bits.is_multiple_of(8) => count((bits / 8) as usize, "byte"),
+            Some(bits) => count(bits as usize, "bit"),
+            None => String::new(),
+        };
+        Part { length, label: item.name.to_string(), facts: facts.join(" "), kind: "v", depth, bits, labels }
+    }
+}
+
+fn count(number: usize, what: &str) -> String {
+    match number {
+        1 => format!("1 {what}"),
+        _ => format!("{number} {what}s"),
+    }
+}

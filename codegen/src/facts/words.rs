@@ -1,0 +1,522 @@
+//! Sentences about elements of the IR, for documentation of any kind.
+
+use crate::facts::cob_id;
+use crate::facts::physical::{self, depends_on_node, shown_unit, Physical};
+use crate::ir::{
+    Availability, Behaviour, Binding, CiteUnit, CompactString, Condition, Device, Direction, Documentation, Doubt,
+    Item, ItemVariant, Limits, LocalText, Manual, Quantity, Scale, Severity, Shape, Step, Storage, TypeDef, Value,
+    PRINTED_NAME,
+};
+
+/// Makes sentences. Every text of a source goes through `escape` on its way into one.
+#[derive(Clone, Copy)]
+pub struct Words<'w> {
+    /// The text as the output shows it literally, on one line.
+    pub escape: fn(&str) -> String,
+    /// A link to the element of this name that shows the name; `None` where the output has no such element.
+    pub link: &'w dyn Fn(&str) -> Option<String>,
+}
+
+/// For an output without links.
+pub const NO_LINK: &dyn Fn(&str) -> Option<String> = &|_| None;
+
+/// Sentences as they are.
+pub const PLAIN: Words<'static> = Words { escape: one_line, link: NO_LINK };
+
+/// A text without breaks of lines.
+pub fn one_line(text: &str) -> String {
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+/// The manual that a description was transcribed from.
+pub fn manual(device: &Device) -> Manual {
+    device.manual.as_deref().cloned().unwrap_or_default()
+}
+
+/// What the manual calls the row of an item: its name in an ASCII protocol, or that of a register or parameter. Objects have names that
+/// a manual may not print.
+pub fn row_of(item: &Item) -> &str {
+    let ascii = item.bindings.iter().find_map(|binding| match binding {
+        Binding::Ascii(name) => Some(name.as_str()),
+        _ => None,
+    });
+    let is_row = |binding: &Binding| matches!(binding, Binding::Register(_) | Binding::Parameter { .. });
+    ascii.or_else(|| item.bindings.iter().any(is_row).then_some(item.name.as_str())).unwrap_or_default()
+}
+
+/// At most so many sections are named in one citation.
+const SECTIONS_NAMED: usize = 3;
+
+/// `PARAMETRI MOVIMENTO, Rvel (line 2178)`: section, row and page or line of a manual. Without sections, `line 2178`.
+fn citation(manual: &Manual, row: &str, cite: &str) -> String {
+    let numbers = cite.split(',').filter_map(|part| part.split('-').next()?.trim().parse().ok());
+    let mut sections: Vec<&str> = Vec::new();
+    for section in numbers.filter_map(|number| manual.section(number)) {
+        if !sections.contains(&section.title.as_str()) {
+            sections.push(&section.title);
+        }
+    }
+    let number = match manual.counts {
+        Some(_) if !cite.starts_with(|letter: char| letter.is_ascii_digit()) => cite.to_owned(),
+        Some(unit) => {
+            let plural = if cite.contains([',', '-']) { "s" } else { "" };
+            format!("{}{plural} {cite}", if unit == CiteUnit::Page { "page" } else { "line" })
+        }
+        None => cite.to_owned(),
+    };
+    if sections.is_empty() {
+        return number;
+    }
+    let more = sections.len().saturating_sub(SECTIONS_NAMED);
+    let mut place = sections[..sections.len() - more].join("; ");
+    if more > 0 {
+        place += &format!("; {more} more {}", if more == 1 { "section" } else { "sections" });
+    }
+    if !row.is_empty() && !sections.contains(&row) {
+        place += ", ";
+        place += row;
+    }
+    format!("{place} ({number})")
+}
+
+/// `text` with a full stop, where it has none.
+pub fn sentence(text: &str) -> String {
+    match text.ends_with(['.', '!', '?', ':']) {
+        true => text.to_owned(),
+        false => format!("{text}."),
+    }
+}
+
+/// `text` as the start of a sentence.
+pub fn capital(text: &str) -> String {
+    let mut letters = text.chars();
+    letters.next().into_iter().flat_map(char::to_uppercase).chain(letters).collect()
+}
+
+/// A bus as people write it.
+pub fn bus_name(key: &str) -> &str {
+    match key {
+        "canopen" => "CANopen",
+        "ethercat" => "EtherCAT",
+        "modbus" => "Modbus",
+        "profinet" => "PROFINET",
+        "serial" => "a serial line",
+        other => other,
+    }
+}
+
+/// What a raw value means that is no number.
+fn sentinel<'i>(item: &'i Item, value: &Value) -> Option<&'i str> {
+    let quantity = item.quantity.as_deref()?;
+    quantity.sentinels.iter().find(|(own, _)| own == value).map(|(_, meaning)| meaning.as_str())
+}
+
+/// Whether the values of an item are indices or mappings of objects: mapping parameters and assignments of PDOs.
+fn is_object_reference(item: &Item) -> bool {
+    let is_mapping = |index| matches!(index, 0x1600..=0x17FF | 0x1A00..=0x1BFF | 0x1C10..=0x1C2F);
+    item.object().is_some_and(|(index, sub)| sub > 0 && is_mapping(index))
+}
+
+impl Words<'_> {
+    fn escaped(&self, text: &str) -> String {
+        (self.escape)(text)
+    }
+
+    /// The name of another element.
+    fn name(&self, name: &str) -> String {
+        (self.link)(name).unwrap_or_else(|| self.escaped(name))
+    }
+
+    fn list(&self, names: &[CompactString]) -> String {
+        names.iter().map(|name| self.escaped(name)).collect::<Vec<_>>().join(", ")
+    }
+
+    /// The words of a description, as sentences.
+    pub fn description(&self, documentation: Option<&Documentation>) -> Vec<String> {
+        let lines = documentation.into_iter().flat_map(|documentation| documentation.text.lines());
+        lines.map(|line| self.escaped(line)).filter(|line| !line.is_empty()).map(|line| sentence(&line)).collect()
+    }
+
+    /// Whether the access rights are an assumption.
+    pub fn access(&self, item: &Item) -> Option<String> {
+        let assumed = if item.access.writable() { "read-write" } else { "read-only" };
+        item.is_access_assumed.then(|| format!("The manual states no access rights; {assumed} is assumed."))
+    }
+
+    /// What is known of storage, side effects and conditions of writing.
+    pub fn behaviour(&self, behaviour: &Behaviour) -> Vec<String> {
+        let mut sentences = Vec::new();
+        match &behaviour.storage {
+            Storage::Unknown => {}
+            Storage::Volatile => sentences.push("Volatile.".to_owned()),
+            Storage::Immediate => sentences.push("Non-volatile.".to_owned()),
+            Storage::OnCommand(command) => {
+                sentences.push(format!("Non-volatile: stored by {}.", self.name(command)));
+            }
+        }
+        if let Some(access) = behaviour.pdi_access {
+            sentences.push(format!("Access rights of the device's own processor: {}.", access.name()));
+        }
+        if let Some(effective) = &behaviour.effective {
+            sentences.push(format!("Takes effect at: {}", sentence(&self.escaped(effective))));
+        }
+        for condition in &behaviour.write_when {
+            sentences.push(format!("Can be written only while {}.", self.holds(condition)));
+        }
+        if !behaviour.writable_values.is_empty() {
+            sentences.push(format!("Only {} can be written.", self.values(&behaviour.writable_values)));
+        }
+        if behaviour.self_clearing {
+            sentences.push("The device clears it by itself.".to_owned());
+        }
+        if behaviour.write_once {
+            sentences.push("Can be written only once.".to_owned());
+        }
+        sentences.extend(behaviour.side_effects.iter().map(|effect| sentence(&self.escaped(effect))));
+        sentences
+    }
+
+    /// `Mode is 1 or 2`, `Status & 0x6F is 0x21`: hexadecimal where bits are compared.
+    pub fn holds(&self, condition: &Condition) -> String {
+        let name = self.name(&condition.item);
+        match condition.mask {
+            None => format!("{name} is {}", self.values(&condition.values)),
+            Some(mask) => {
+                let mask = self.escaped(&format!("& 0x{mask:X}"));
+                let values: Vec<String> = condition.values.iter().map(|value| self.bits(value)).collect();
+                format!("{name} {mask} is {}", values.join(" or "))
+            }
+        }
+    }
+
+    /// A value as bits: hexadecimal.
+    fn bits(&self, value: &Value) -> String {
+        match value.as_int().and_then(|number| u64::try_from(number).ok()) {
+            Some(0) => "0".to_owned(),
+            Some(number) => format!("0x{number:X}"),
+            None => self.value(value),
+        }
+    }
+
+    /// A value in a step: large ones are codes, indices and mappings more often than amounts.
+    fn step_value(&self, value: &Value) -> String {
+        match value.as_int() {
+            Some(0x100..) => self.bits(value),
+            _ => self.value(value),
+        }
+    }
+
+    fn values(&self, values: &[Value]) -> String {
+        values.iter().map(|value| self.value(value)).collect::<Vec<_>>().join(" or ")
+    }
+
+    /// What a step of a procedure does.
+    pub fn step(&self, own: &Step) -> String {
+        let value = |value| self.step_value(value);
+        let name = |name: &str| self.escaped(name);
+        match own {
+            Step::Write(item, to) => format!("Write {} to {}.", value(to), name(item)),
+            Step::WriteBits(item, mask, to) => {
+                format!("Write {} to the bits 0x{mask:X} of {}.", self.bits(to), name(item))
+            }
+            Step::WriteArgument(item, argument) => format!("Write {} to {}.", name(argument), name(item)),
+            Step::Read(item) => format!("Read {}.", name(item)),
+            Step::WaitFor(item, mask, to, limit) => {
+                let limit = limit.map(|limit| format!(", at most {limit} ms")).unwrap_or_default();
+                let what = match *mask {
+                    u64::MAX => format!("{} is {}", name(item), value(to)),
+                    mask => format!("{} {} is {}", name(item), self.escaped(&format!("& 0x{mask:X}")), self.bits(to)),
+                };
+                format!("Wait until {what}{limit}.")
+            }
+            Step::Delay(milliseconds) => format!("Wait {milliseconds} ms."),
+            Step::Send(message) => format!("Send {}.", name(message)),
+            Step::Exchange(Direction::Receive) => "Send the outputs once.".to_owned(),
+            Step::Exchange(Direction::Transmit) => "Take the inputs once.".to_owned(),
+            Step::Manual(text) => sentence(&name(text)),
+        }
+    }
+
+    /// A value; of a long text or block of bytes, the start.
+    pub fn value(&self, value: &Value) -> String {
+        const SHOWN: usize = 60;
+        let text = value.to_string();
+        match text.char_indices().nth(SHOWN) {
+            Some((cut, _)) => format!("{} …", self.escaped(&text[..cut])),
+            None => self.escaped(&text),
+        }
+    }
+
+    /// A value of an item: its physical value first, the flags of a COB-ID by name, or what `raw` writes.
+    pub fn of_item(&self, item: &Item, value: &Value, raw: &dyn Fn(&Value) -> String) -> String {
+        let cob_id = cob_id::of(item).and_then(|kind| cob_id::text(value, kind));
+        match (cob_id, Physical::of(item.quantity.as_deref())) {
+            (Some(text), _) => self.escaped(&text),
+            (None, Some(_)) if sentinel(item, value).is_some() => {
+                let meaning = sentinel(item, value).unwrap_or_default();
+                format!("{} (raw {})", self.escaped(meaning), raw(value))
+            }
+            (None, None) if is_object_reference(item) => self.reference(value, raw),
+            (None, Some(physical)) => physical.value(value, raw, &|unit| self.escaped(unit)),
+            (None, None) => raw(value),
+        }
+    }
+
+    /// A value that names an object, a PDO or a mapping: `0x1701`, `0x60410010`.
+    fn reference(&self, value: &Value, raw: &dyn Fn(&Value) -> String) -> String {
+        match value.as_int() {
+            Some(number @ 0x1000..=0xFFFF_FFFF) => format!("0x{number:04X}"),
+            _ => raw(value),
+        }
+    }
+
+    /// `range 0 to 5`, `one of 1, 3 to 7`, `range -20.0 … 200.0 °C (raw -200 … 2000)`; `None` without limits.
+    pub fn limits(&self, limits: &Limits, physical: Option<&Physical<'_>>) -> Option<String> {
+        if !limits.allowed.is_empty() {
+            return Some(format!("one of {}", self.allowed(limits, physical, &|value| self.value(value))));
+        }
+        let text = match (physical, &limits.low, &limits.high) {
+            (_, None, None) => return None,
+            (Some(_), ..) => format!("range {}", self.range(limits, physical, &|value| self.value(value))),
+            (None, Some(low), Some(high)) => format!("range {} to {}", self.value(low), self.value(high)),
+            (None, Some(low), None) => format!("at least {}", self.value(low)),
+            (None, None, Some(high)) => format!("at most {}", self.value(high)),
+        };
+        // What depends on the node-ID is known only at run time.
+        Some(if depends_on_node(limits) { text + " (not checked)" } else { text })
+    }
+
+    /// `0 … 5`, `-20.0 … 200.0 °C (raw -200 … 2000)`; empty without limits. `raw` writes a raw value.
+    pub fn range(&self, limits: &Limits, physical: Option<&Physical<'_>>, raw: &dyn Fn(&Value) -> String) -> String {
+        let (low, high) = (limits.low.as_ref(), limits.high.as_ref());
+        match physical.filter(|_| low.is_some() || high.is_some()) {
+            Some(physical) => physical.range((low, high), raw, &|unit| self.escaped(unit)),
+            None => physical::span((low.map(raw), high.map(raw))),
+        }
+    }
+
+    /// The only values and ranges of values, `1, 3 to 7`; of many, the first.
+    pub fn allowed(&self, limits: &Limits, physical: Option<&Physical<'_>>, raw: &dyn Fn(&Value) -> String) -> String {
+        const SHOWN: usize = 16;
+        self.first_allowed(limits, physical, raw, SHOWN)
+    }
+
+    /// The first so many of them.
+    pub fn first_allowed(
+        &self,
+        limits: &Limits,
+        physical: Option<&Physical<'_>>,
+        raw: &dyn Fn(&Value) -> String,
+        shown: usize,
+    ) -> String {
+        let unit = |unit: &str| self.escaped(unit);
+        let one = |(first, last): &(Value, Value)| match (physical, first == last) {
+            (None, true) => raw(first),
+            (None, false) => format!("{} to {}", raw(first), raw(last)),
+            (Some(physical), true) => physical.value(first, raw, &unit),
+            (Some(physical), false) => physical.range((Some(first), Some(last)), raw, &unit),
+        };
+        let mut list: Vec<String> = limits.allowed.iter().take(shown).map(one).collect();
+        if limits.allowed.len() > shown {
+            list.push("…".to_owned());
+        }
+        list.join(", ")
+    }
+
+    /// Models, firmware, buses and options that have an element; empty where all do.
+    pub fn availability(&self, availability: &Availability) -> String {
+        let mut sentences = Vec::new();
+        if !availability.models.is_empty() {
+            sentences.push(format!("Only of {}.", self.list(&availability.models)));
+        }
+        match (&availability.since, &availability.until) {
+            (Some(since), Some(until)) => {
+                sentences.push(format!("From firmware {} to before {}.", self.escaped(since), self.escaped(until)));
+            }
+            (Some(since), None) => sentences.push(format!("From firmware {} on.", self.escaped(since))),
+            (None, Some(until)) => sentences.push(format!("Before firmware {}.", self.escaped(until))),
+            (None, None) => {}
+        }
+        if let Some(other) = &availability.replaced_by {
+            sentences.push(format!("Replaced by {}.", self.name(other)));
+        }
+        if !availability.buses.is_empty() {
+            let buses: Vec<CompactString> = availability.buses.iter().map(|bus| bus_name(bus).into()).collect();
+            sentences.push(format!("Only on {}.", self.list(&buses)));
+        }
+        if !availability.options.is_empty() {
+            sentences.push(format!("Needs {}.", self.list(&availability.options)));
+        }
+        sentences.join(" ")
+    }
+
+    /// `Note: … Chosen: … (why). Manual: ….`
+    pub fn doubt(&self, manual: &Manual, doubt: &Doubt) -> String {
+        let part = |text: &str| self.escaped(text.trim_end_matches('.'));
+        let why = if doubt.why.is_empty() { String::new() } else { format!(" ({})", part(&doubt.why)) };
+        let place = doubt.cite.as_deref().map(|cite| format!(" {}.", self.citation(manual, "", cite)));
+        let hazard = if doubt.severity == Severity::Hazard { "Hazard" } else { "Note" };
+        let place = place.unwrap_or_default();
+        let element = doubt.subject.as_deref().map(|subject| subject.element.as_str()).unwrap_or_default();
+        let element = if element.is_empty() { String::new() } else { format!("{}: ", self.escaped(element)) };
+        format!("{hazard}: {element}{}. Chosen: {}{why}.{place}", part(&doubt.says), part(&doubt.chosen))
+    }
+
+    /// `Manual: PARAMETRI MOVIMENTO, Rvel (line 2178)`, or `Manual, line 2178` where no section is known.
+    pub fn citation(&self, manual: &Manual, row: &str, cite: &str) -> String {
+        let behind = if manual.sections.is_empty() { "," } else { ":" };
+        format!("Manual{behind} {}", self.escaped(&citation(manual, row, cite)))
+    }
+
+    /// The place in the manual and its own words for an element: `Manual: PARAMETRI MOVIMENTO, Rvel (line 12): Posizione.`
+    pub fn place(
+        &self,
+        manual: &Manual,
+        row: &str,
+        documentation: Option<&Documentation>,
+        names: &[LocalText],
+    ) -> Option<String> {
+        let cite = documentation.and_then(|documentation| documentation.cite.as_deref());
+        let from = documentation.and_then(|documentation| self.text_from(documentation));
+        let is_original = |text: &&LocalText| !manual.language.is_empty() && text.language == manual.language;
+        let is_new = |text: &&LocalText| {
+            let is_same = |other: &str| other.to_lowercase() == text.text.to_lowercase();
+            !is_same(row) && !manual.sections.iter().any(|section| is_same(&section.title))
+        };
+        let original = names.iter().find(is_original).filter(is_new).map(|text| self.escaped(&text.text));
+        let place = cite.map(|cite| self.citation(manual, row, cite));
+        let place = match (place, original) {
+            (None, None) => None,
+            (Some(place), None) => Some(format!("{place}.")),
+            (place, Some(original)) => {
+                let place = place.unwrap_or_else(|| "Manual".to_owned());
+                Some(format!("{place}: {}", sentence(&original)))
+            }
+        };
+        let sentences: Vec<String> = from.into_iter().chain(place).collect();
+        (!sentences.is_empty()).then(|| sentences.join(" "))
+    }
+
+    /// `Bits from CiA 402, 10.3.1.`: whose bits or values a type has, where they aren't the description's own.
+    pub fn meaning_from(&self, definition: Option<&TypeDef>) -> Option<String> {
+        let definition = definition?;
+        let standard = &definition.documentation.as_deref()?.text_from;
+        let what = if matches!(definition.shape, Shape::BitField { .. }) { "Bits" } else { "Values" };
+        (!standard.is_empty()).then(|| format!("{what} from {}.", self.escaped(standard)))
+    }
+
+    /// `Description from CiA 402, 17.3.7.`
+    fn text_from(&self, documentation: &Documentation) -> Option<String> {
+        match documentation.text_from.as_str() {
+            "" => None,
+            PRINTED_NAME => Some("Description spelled out from the printed name.".to_owned()),
+            standard if documentation.text.is_empty() => Some(format!("From {}.", self.escaped(standard))),
+            standard => Some(format!("Description from {}.", self.escaped(standard))),
+        }
+    }
+
+    /// `, in 0.01 rev/s`: unit and scale as a part of a sentence.
+    pub fn quantity(&self, quantity: &Quantity) -> String {
+        let unit = self.escaped(shown_unit(quantity));
+        let behind = if unit.is_empty() { String::new() } else { format!(" {unit}") };
+        match &quantity.scale {
+            None if unit.is_empty() => String::new(),
+            None => format!(", in {unit}"),
+            Some(scale) => self.scaled(scale, &behind),
+        }
+    }
+
+    /// The same for a scale, with the unit behind it.
+    fn scaled(&self, scale: &Scale, behind: &str) -> String {
+        match scale {
+            Scale::Linear { factor, offset } if *offset == 0.0 => format!(", 1 LSB = {factor}{behind}"),
+            Scale::Linear { factor, offset } => {
+                let sign = if *offset < 0.0 { '−' } else { '+' };
+                format!(", physical value = raw × {factor} {sign} {}{behind}", offset.abs())
+            }
+            Scale::Reciprocal { numerator } => format!(", physical value = {numerator} / raw{behind}"),
+            Scale::Fraction { bits, base } => {
+                format!(", physical value = raw / 2^{bits} × {}{behind}", self.escaped(base))
+            }
+            Scale::Exponent { exponent, base, fraction } => {
+                let part = if *fraction == 0 { String::new() } else { format!(" / 2^{fraction}") };
+                format!(", physical value = raw{part} × {base}^{}{behind}", self.name(exponent))
+            }
+            Scale::ByItem { item, factor } => {
+                let factor = if *factor == 1.0 { String::new() } else { format!(" × {factor}") };
+                format!(", physical value = raw{factor} / {}{behind}", self.name(item))
+            }
+            Scale::TimesItem { item, factor } => {
+                let factor = if *factor == 1.0 { String::new() } else { format!(" × {factor}") };
+                format!(", physical value = raw{factor} × {}{behind}", self.name(item))
+            }
+        }
+    }
+
+    /// What else is known of a quantity: numbers that are none, and steps.
+    pub fn notes(&self, quantity: &Quantity) -> Vec<String> {
+        let sentinels = quantity.sentinels.iter();
+        let mut notes: Vec<String> = sentinels
+            .map(|(value, name)| format!("{} means: {}", self.value(value), sentence(&self.escaped(name))))
+            .collect();
+        if let Some(step) = &quantity.step {
+            notes.push(format!("The device rounds to {}.", self.step_of(step, Physical::of(Some(quantity)))));
+        }
+        if !quantity.standard.is_empty() {
+            notes.push(format!("Unit from {}.", self.escaped(&quantity.standard)));
+        }
+        notes
+    }
+
+    /// `steps of 0.5 K (raw 5)`.
+    fn step_of(&self, step: &Value, physical: Option<Physical<'_>>) -> String {
+        let raw = |value: &Value| self.value(value);
+        let step = physical.map_or_else(|| raw(step), |own| own.step(step, &raw, &|unit| self.escaped(unit)));
+        format!("steps of {step}")
+    }
+
+    /// What differs on some models or buses, and that the row of the item is about the others.
+    pub fn variants(&self, item: &Item, manual: &Manual) -> Vec<String> {
+        let is_by_model = item.variants.iter().any(|own| !own.models.is_empty());
+        let others = is_by_model.then(|| "Default and range of the row apply to the other models.".to_owned());
+        let cite = |own: Option<&Documentation>| own.and_then(|own| own.cite.clone());
+        let of_item = cite(item.documentation.as_deref());
+        let variant = |own: &ItemVariant| {
+            let documentation = own.documentation.as_deref().filter(|own| cite(Some(own)) != of_item);
+            let place = self.place(manual, "", documentation, &[]);
+            std::iter::once(self.variant(own, item)).chain(place).collect::<Vec<_>>().join(" ")
+        };
+        others.into_iter().chain(item.variants.iter().map(variant)).collect()
+    }
+
+    /// What of an item differs on some models or buses.
+    fn variant(&self, variant: &ItemVariant, item: &Item) -> String {
+        let own_unit = item.quantity.as_ref().map_or("", |quantity| quantity.unit.as_str());
+        let own = variant.scale.as_ref().map(|scale| Physical::scaled(scale, own_unit));
+        let physical = || own.unwrap_or_else(|| Physical::of(item.quantity.as_deref()));
+        let raw = |value: &Value| self.value(value);
+        let shown = |value: &Value| match physical() {
+            Some(own) => own.value(value, &raw, &|unit| self.escaped(unit)),
+            None => raw(value),
+        };
+        let unit = self.escaped(own_unit);
+        let behind = if unit.is_empty() { unit } else { format!(" {unit}") };
+        let who = match (variant.models.is_empty(), variant.buses.is_empty()) {
+            (false, true) => format!("Of {}", self.list(&variant.models)),
+            (false, false) => format!("Of {} on {}", self.list(&variant.models), self.list(&variant.buses)),
+            (true, _) => format!("On {}", self.list(&variant.buses)),
+        };
+        let mut facts = Vec::new();
+        facts.extend(variant.ty.map(|ty| ty.to_string()));
+        facts.extend(variant.access.map(|access| access.name().to_owned()));
+        facts.extend(variant.default.as_ref().map(|value| format!("default {}", shown(value))));
+        facts.extend(self.limits(&variant.limits, physical().as_ref()));
+        facts.extend(variant.step.as_ref().map(|step| format!("rounded to {}", self.step_of(step, physical()))));
+        facts.extend(
+            variant.scale.as_ref().map(|scale| self.scaled(scale, &behind).trim_start_matches(", ").to_owned()),
+        );
+        let mut sentences = vec![format!("{who}: {}.", facts.join(", "))];
+        sentences.extend(self.description(variant.documentation.as_deref()));
+        sentences.join(" ")
+    }
+}

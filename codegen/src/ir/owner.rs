@@ -1,0 +1,217 @@
+//! What has items and types of its own: a device, a module, or all submodules of a catalogue.
+
+use std::cell::OnceCell;
+use std::collections::{HashMap, HashSet};
+
+use super::{EnumValue, Group, Item, ItemPaths, Shape, Type, TypeDef, TypeId, Value, Zone};
+use crate::source::Span;
+
+/// How many names of types may lead from one to the next.
+const MAX_ALIASES: usize = 16;
+
+/// Groups of items, and the types that the items name.
+#[derive(Clone, Copy)]
+pub struct Owner<'a> {
+    /// The types that the items name.
+    pub types: &'a [TypeDef],
+    /// Lists of groups.
+    pub groups: &'a [&'a [Group]],
+}
+
+impl<'a> Owner<'a> {
+    /// Types alone.
+    pub fn of_types(types: &'a [TypeDef]) -> Self {
+        Owner { types, groups: &[] }
+    }
+
+    /// All items.
+    pub fn items(self) -> impl Iterator<Item = &'a Item> {
+        self.groups.iter().flat_map(|groups| groups.iter()).flat_map(|group| &group.items)
+    }
+
+    /// The definition of a type, below other names of it.
+    pub fn definition(self, ty: Type) -> Option<&'a TypeDef> {
+        let mut ty = ty;
+        for _ in 0..MAX_ALIASES {
+            let Type::Named(TypeId(id)) = ty else { return None };
+            let definition = self.types.get(id as usize)?;
+            match definition.shape {
+                Shape::Alias(other) => ty = other,
+                _ => return Some(definition),
+            }
+        }
+        None
+    }
+
+    /// The type below other names, bit fields, enumerations and scales.
+    pub fn basic(self, ty: Type) -> Type {
+        let mut ty = ty;
+        for _ in 0..MAX_ALIASES {
+            let Type::Named(TypeId(id)) = ty else { break };
+            match self.types.get(id as usize).map(|definition| &definition.shape) {
+                Some(Shape::Alias(base) | Shape::BitField { base, .. } | Shape::Enumeration { base, .. }) => ty = *base,
+                Some(Shape::Scaled { base, .. }) => ty = *base,
+                _ => break,
+            }
+        }
+        ty
+    }
+
+    /// The values of an enumeration, and whether there are no others.
+    pub fn enumeration(self, ty: Type) -> Option<(&'a [EnumValue], bool)> {
+        match &self.definition(ty)?.shape {
+            Shape::Enumeration { values, closed, .. } => Some((values, *closed)),
+            _ => None,
+        }
+    }
+}
+
+/// Where types are used. The list is made when it is first asked for: most types are as they should be.
+pub(crate) struct Places<'a> {
+    first: OnceCell<HashMap<TypeId, Span>>,
+    owner: Owner<'a>,
+}
+
+impl<'a> Places<'a> {
+    pub fn new(owner: Owner<'a>) -> Self {
+        Places { first: OnceCell::new(), owner }
+    }
+
+    /// Where a type is used first, else where it is defined.
+    pub fn of(&self, id: TypeId) -> Span {
+        let defined = || self.owner.types.get(id.0 as usize).map(|definition| definition.origin.span);
+        self.first().get(&id).copied().or_else(defined).unwrap_or_default()
+    }
+
+    fn first(&self) -> &HashMap<TypeId, Span> {
+        self.first.get_or_init(|| {
+            let mut first = HashMap::new();
+            for item in self.owner.items() {
+                if let Type::Named(id) = item.ty {
+                    first.entry(id).or_insert(item.at.ty.or(item.origin.span));
+                }
+            }
+            first
+        })
+    }
+}
+
+/// Items by what refers to them. Each list is made when it is first asked for: most descriptions refer to nothing.
+pub(crate) struct Index<'a> {
+    names: OnceCell<HashMap<&'a str, &'a Item>>,
+    objects: OnceCell<HashMap<(u16, u8), &'a Item>>,
+    paths: OnceCell<ItemPaths<'a>>,
+    owner: Owner<'a>,
+}
+
+impl<'a> Index<'a> {
+    pub fn new(owner: Owner<'a>) -> Self {
+        Index { names: OnceCell::new(), objects: OnceCell::new(), paths: OnceCell::new(), owner }
+    }
+
+    fn groups(&self) -> impl Iterator<Item = &'a Group> {
+        self.owner.groups.iter().flat_map(|groups| groups.iter())
+    }
+
+    /// Of the items that share a name, the first counts. An object of one value goes by the object's name too; a record and a
+    /// chapter are none of their values.
+    fn names(&self) -> &HashMap<&'a str, &'a Item> {
+        self.names.get_or_init(|| {
+            let own = self.groups().flat_map(|group| group.items.iter().map(|item| (item.name.as_str(), item)));
+            let objects = self.groups().filter(|group| group.index().is_some());
+            let only = objects.filter_map(|group| match group.items.as_slice() {
+                [item] => Some((group.name.as_str(), item)),
+                _ => None,
+            });
+            let mut names = HashMap::new();
+            for (name, item) in own.chain(only).filter(|(name, _)| !name.is_empty()) {
+                names.entry(name).or_insert(item);
+            }
+            names
+        })
+    }
+
+    fn objects(&self) -> &HashMap<(u16, u8), &'a Item> {
+        let items = || self.owner.items().filter_map(|item| Some((item.object()?, item)));
+        self.objects.get_or_init(|| items().collect())
+    }
+
+    /// The item that goes by this name, is at this place (`0x6040`, `0x1018:1`), or is in this chapter (`Chapter/Item`).
+    pub fn find(&self, name: &str) -> Option<&'a Item> {
+        let by_name = || self.names().get(name).copied();
+        let by_object = || self.objects().get(&object(name)?).copied();
+        let by_path = || self.paths.get_or_init(|| ItemPaths::new(self.groups())).find(name);
+        by_name().or_else(by_object).or_else(by_path)
+    }
+
+    /// The indices of all objects that have a value.
+    pub fn indices(&self) -> HashSet<u16> {
+        self.objects().keys().map(|(index, _)| *index).collect()
+    }
+}
+
+/// Index and sub-index of `0x6040`, `0x1018:1`.
+fn object(text: &str) -> Option<(u16, u8)> {
+    let (index, sub_index) = text.split_once(':').unwrap_or((text, "0"));
+    let number = |text: &str| match text.strip_prefix("0x") {
+        Some(digits) => u16::from_str_radix(digits, 16).ok(),
+        None => text.parse().ok(),
+    };
+    Some((number(index)?, u8::try_from(number(sub_index)?).ok()?))
+}
+
+/// Whether a value is reserved; `None` where it has no name at all. A name within a reserved zone counts.
+pub(crate) fn reserved(labels: &[EnumValue], value: i128) -> Option<bool> {
+    let own = |label: &&EnumValue| (label.value..=label.last.unwrap_or(label.value)).contains(&value);
+    let mut own = labels.iter().filter(own).map(|label| label.zone == Some(Zone::Reserved));
+    let first = own.next()?;
+    Some(first && own.all(|is_reserved| is_reserved))
+}
+
+/// The only value that an item may have.
+pub(crate) fn fixed(item: &Item) -> Option<i128> {
+    let low = item.limits.low.as_ref().and_then(Value::as_int)?;
+    (item.limits.high.as_ref().and_then(Value::as_int) == Some(low)).then_some(low)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::ir::{Binding, GroupKind, ObjectCode};
+
+    fn object(index: u16, name: &str, values: &[&str]) -> Group {
+        let mut group = Group::object(index, ObjectCode::Record);
+        group.name = name.into();
+        for (sub, name) in (0..).zip(values) {
+            let mut item = Item::new(Binding::canopen(index, sub));
+            item.name = (*name).into();
+            group.items.push(item);
+        }
+        group
+    }
+
+    #[test]
+    fn an_object_of_one_value_goes_by_its_name_and_nothing_else_does() {
+        let chapter = Group { kind: GroupKind::Chapter, ..object(0x2002, "Chapter", &["Only"]) };
+        let groups = [object(0x2000, "Speed", &["Value"]), object(0x2001, "Gains", &["Count", "P"]), chapter];
+        let all = [groups.as_slice()];
+        let index = Index::new(Owner { types: &[], groups: &all });
+        assert_eq!(index.find("Speed").map(|item| item.name.as_str()), Some("Value"));
+        assert_eq!(index.find("Gains/P").map(|item| item.name.as_str()), Some("P"));
+        assert!(index.find("Gains").is_none() && index.find("Chapter").is_none());
+        assert_eq!(index.indices(), HashSet::from([0x2000, 0x2001, 0x2002]));
+    }
+
+    #[test]
+    fn a_type_is_where_it_is_used_first() {
+        let mut groups = [object(0x2000, "Speed", &["a"]), object(0x2001, "Limit", &["b"])];
+        for (group, at) in groups.iter_mut().zip([5, 9]) {
+            group.items[0].ty = Type::Named(TypeId(0));
+            group.items[0].at.ty = Span::new(crate::source::FileId(0), at, at + 1);
+        }
+        let all = [groups.as_slice()];
+        let owner = Owner { types: &[], groups: &all };
+        assert_eq!(Places::new(owner).of(TypeId(0)).start, 5);
+        assert_eq!(Places::new(owner).of(TypeId(1)), Span::default());
+    }
+}
