@@ -13,14 +13,13 @@ pub use levels::{Level, Levels, UnknownCode};
 use std::collections::{BTreeMap, HashMap};
 use std::hash::{Hash, Hasher};
 
-use serde::{Deserialize, Serialize};
-
 use crate::limits::MAX_SAME_DIAGNOSTICS;
 use crate::source::{FileId, Span};
 
 /// How bad a finding is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "lowercase"))]
 pub enum Severity {
     /// The input was understood, perhaps after a repair; output is produced.
     Warning,

@@ -1,31 +1,30 @@
 //! Access, bindings, units, storage and availability of items.
 
-use serde::{Deserialize, Serialize};
-
 use super::{CompactString, Condition, Documentation, Doubts, Scale, Texts, Type, Value};
 use crate::source::{Origin, Span};
 
 /// Access rights of an item, seen from the bus (CiA 306; ETG.2000 Flags/Access).
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Access {
     /// `ro`.
     #[default]
-    #[serde(rename = "ro")]
+    #[cfg_attr(feature = "serde", serde(rename = "ro"))]
     ReadOnly,
     /// `wo`.
-    #[serde(rename = "wo")]
+    #[cfg_attr(feature = "serde", serde(rename = "wo"))]
     WriteOnly,
     /// `rw`.
-    #[serde(rename = "rw")]
+    #[cfg_attr(feature = "serde", serde(rename = "rw"))]
     ReadWrite,
     /// `rwr`: read and write, and a process input (may go in a TPDO).
-    #[serde(rename = "rwr")]
+    #[cfg_attr(feature = "serde", serde(rename = "rwr"))]
     ReadWriteInput,
     /// `rww`: read and write, and a process output (may come in an RPDO).
-    #[serde(rename = "rww")]
+    #[cfg_attr(feature = "serde", serde(rename = "rww"))]
     ReadWriteOutput,
     /// `const`: read-only and never changes.
-    #[serde(rename = "const")]
+    #[cfg_attr(feature = "serde", serde(rename = "const"))]
     Constant,
 }
 
@@ -67,7 +66,8 @@ impl Access {
 }
 
 /// Into which PDOs an item may be mapped, seen from the device: an RPDO is received by it.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Mappable {
     /// Into an RPDO.
     pub rpdo: bool,
@@ -91,8 +91,9 @@ impl Mappable {
 }
 
 /// Where an item is found on one bus.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum Binding {
     /// An entry of the object dictionary.
     Object {
@@ -138,7 +139,8 @@ pub enum Binding {
 }
 
 /// The buses on which an object is found under one index.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ObjectBuses {
     /// On CANopen.
     pub canopen: bool,
@@ -166,17 +168,18 @@ impl Binding {
 }
 
 /// Where an item is found on Modbus.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct RegisterBinding {
     /// Which table.
     pub space: RegisterSpace,
     /// Address on the wire, counted from 0.
     pub address: u16,
     /// The number, or numbers, as the source prints them: `40102–40103`, `R01`; empty if it prints the address on the wire.
-    #[serde(default, skip_serializing_if = "CompactString::is_empty")]
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "CompactString::is_empty"))]
     pub printed: CompactString,
     /// Whether the order of words is an assumption.
-    #[serde(default, skip_serializing_if = "is_false")]
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "is_false"))]
     pub is_order_assumed: bool,
     /// Number of registers (of bits in a coil or input table).
     pub count: u16,
@@ -187,10 +190,10 @@ pub struct RegisterBinding {
     /// First bit within the register, where the item is a part of it.
     pub bit_offset: Option<u8>,
     /// How many registers of 16 bits one address stands for: 2 where a device gives each of its registers of 32 bits one.
-    #[serde(default = "one", skip_serializing_if = "is_one")]
+    #[cfg_attr(feature = "serde", serde(default = "one", skip_serializing_if = "is_one"))]
     pub words_per_address: u8,
     /// Whether a value with fewer bits than the registers have fills them: with copies of its sign, or zeros where it has none.
-    #[serde(default, skip_serializing_if = "is_false")]
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "is_false"))]
     pub extended: bool,
 }
 
@@ -202,21 +205,25 @@ impl RegisterBinding {
     }
 }
 
+#[cfg(feature = "serde")]
 fn one() -> u8 {
     1
 }
 
+#[cfg(feature = "serde")]
 fn is_false(value: &bool) -> bool {
     !value
 }
 
+#[cfg(feature = "serde")]
 fn is_one(value: &u8) -> bool {
     *value == 1
 }
 
 /// The four tables of Modbus.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum RegisterSpace {
     /// 0x: coils.
     Coil,
@@ -229,7 +236,8 @@ pub enum RegisterSpace {
 }
 
 /// Bits of a fixed process image.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ImageBinding {
     /// Name of the image.
     pub image: CompactString,
@@ -238,12 +246,13 @@ pub struct ImageBinding {
     /// Number of bits.
     pub bits: u32,
     /// The type that the value has there, where it isn't the item's.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub ty: Option<Type>,
 }
 
 /// Access through a window: the number of the item is written to one item, and its value read or written through another.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct IndirectBinding {
     /// The space that the number is one of.
     pub space: CompactString,
@@ -260,7 +269,8 @@ pub struct IndirectBinding {
 }
 
 /// One way through a window.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct WindowSide {
     /// The item that takes the number.
     pub number: CompactString,
@@ -279,7 +289,8 @@ pub struct WindowSide {
 }
 
 /// Unit and scale of an item.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Quantity {
     /// Symbol of the unit of the physical value (`rpm`, `0.1 A`), as the source has it.
     pub unit: CompactString,
@@ -292,18 +303,19 @@ pub struct Quantity {
     /// Number of raw steps in which the device rounds.
     pub step: Option<Value>,
     /// What the physical number is in a unit of the machine that the device drives.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub machine: Option<Box<MachineUnit>>,
     /// Numbers that the source converts as examples.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Vec::is_empty"))]
     pub conversions: Vec<Conversion>,
     /// The standard and its clause that say this, where the description doesn't: `CiA 402, 17.3.7`.
-    #[serde(default, skip_serializing_if = "CompactString::is_empty")]
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "CompactString::is_empty"))]
     pub standard: CompactString,
 }
 
 /// A number that a source converts as an example.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Conversion {
     /// The raw number.
     pub raw: Option<i128>,
@@ -325,7 +337,8 @@ pub struct Conversion {
 
 /// A unit of the machine that a device drives: the physical number, multiplied and divided by numbers that only whoever builds the
 /// machine knows ([`GivenNumber`]).
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct MachineUnit {
     /// Symbol of the unit.
     pub unit: CompactString,
@@ -336,7 +349,8 @@ pub struct MachineUnit {
 }
 
 /// A number that no device holds and whoever builds the machine knows, such as the pitch of a screw.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct GivenNumber {
     /// Its name.
     pub name: CompactString,
@@ -353,7 +367,8 @@ pub struct GivenNumber {
 }
 
 /// Storage, side effects and conditions of writing.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Behaviour {
     /// Where the value is kept over power-off.
     pub storage: Storage,
@@ -378,7 +393,7 @@ pub struct Behaviour {
     /// Whether a tool doesn't show it (Visible of GSDML).
     pub hidden: bool,
     /// What the slave's own side may do with memory of its slave controller (PDI access in ETG.1000.4).
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub pdi_access: Option<Access>,
     /// Communication states in which reading is allowed (ETG.2000 ReadRestrictions); empty = all.
     pub read_states: Vec<CompactString>,
@@ -387,8 +402,9 @@ pub struct Behaviour {
 }
 
 /// Where a value is kept over power-off.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum Storage {
     /// The source doesn't say.
     #[default]
@@ -402,7 +418,8 @@ pub enum Storage {
 }
 
 /// Models, firmware versions, options and buses that have an item.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Availability {
     /// Models; empty = all.
     pub models: Vec<CompactString>,
@@ -415,6 +432,6 @@ pub struct Availability {
     /// Options that have to be fitted.
     pub options: Vec<CompactString>,
     /// The only buses on which it exists, by their names in register tables, where its addresses don't tell; empty = all.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Vec::is_empty"))]
     pub buses: Vec<CompactString>,
 }

@@ -1,6 +1,5 @@
 //! The top of the IR: a catalogue, the files it came from, and what every element shares.
 
-use serde::{Deserialize, Serialize};
 use thin_vec::ThinVec;
 
 use super::{
@@ -10,7 +9,8 @@ use super::{
 use crate::source::{Encoding, Origin, Span};
 
 /// The devices of one vendor, as one or more files describe them.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Catalog {
     /// The files that were read; spans refer to them by position.
     pub files: Vec<FileInfo>,
@@ -44,8 +44,9 @@ impl Catalog {
 }
 
 /// The formats that Lexibus reads.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "lowercase"))]
 pub enum Format {
     /// CANopen electronic data sheet (CiA 306).
     Eds,
@@ -76,7 +77,8 @@ impl Format {
 }
 
 /// One file of a catalogue.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct FileInfo {
     /// Its name, as the caller gave it.
     pub name: String,
@@ -89,7 +91,8 @@ pub struct FileInfo {
 }
 
 /// A text in one language.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct LocalText {
     /// BCP 47 tag (`en`, `de-DE`), or the source's own number of the language (`lcid:1033`).
     pub language: CompactString,
@@ -98,7 +101,8 @@ pub struct LocalText {
 }
 
 /// A name with its value that the source has and the IR has no field for.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Extension {
     /// The key, element or attribute, as the source spells it. A comment with content is kept under `;`. Those of a whole
     /// EDS have the name of their section before them: `FileInfo/Author`, `Vendor stuff/;`.
@@ -116,7 +120,8 @@ pub type Extensions = ThinVec<Extension>;
 pub type Doubts = ThinVec<Doubt>;
 
 /// A place where the source contradicts itself or leaves something open, and what was made of it.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Doubt {
     /// What the source says, the contradicting statements side by side.
     pub says: String,
@@ -129,15 +134,16 @@ pub struct Doubt {
     /// Page, line or clause of a manual.
     pub cite: Option<CompactString>,
     /// What a wrong choice leads to.
-    #[serde(default)]
+    #[cfg_attr(feature = "serde", serde(default))]
     pub severity: Severity,
     /// What it is about, if that has no list of doubts of its own.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub subject: Option<Box<Subject>>,
 }
 
 /// What a doubt of a device is about.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Subject {
     /// Its kind.
     pub kind: SubjectKind,
@@ -148,8 +154,9 @@ pub struct Subject {
 }
 
 /// The kinds of elements that a doubt of a device is about.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum SubjectKind {
     /// Bits or values: a definition of a type.
     Type,
@@ -177,8 +184,9 @@ impl Doubt {
 }
 
 /// What a wrong choice in an ambiguity of the source leads to, the worst first.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "lowercase"))]
 pub enum Severity {
     /// A motor moves or wiring is damaged.
     Hazard,
@@ -201,7 +209,8 @@ impl Severity {
 }
 
 /// The manual that a description was transcribed from.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Manual {
     /// Its title.
     pub title: CompactString,
@@ -218,8 +227,9 @@ pub struct Manual {
 }
 
 /// What the numbers of citations count.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "lowercase"))]
 pub enum CiteUnit {
     /// Pages.
     Page,
@@ -228,7 +238,8 @@ pub enum CiteUnit {
 }
 
 /// A section or table of a manual.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ManualSection {
     /// The page or line of its title.
     pub start: u32,
@@ -248,7 +259,8 @@ impl Manual {
 pub const PRINTED_NAME: &str = "name";
 
 /// What a source or a manual says about an element in words.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Documentation {
     /// A description in English, or in the source's only language.
     pub text: String,
@@ -258,6 +270,6 @@ pub struct Documentation {
     pub cite: Option<CompactString>,
     /// Where the text comes from, unless from the source itself: a standard with its clause (`CiA 402, 17.3.7`), or
     /// [`PRINTED_NAME`].
-    #[serde(default, skip_serializing_if = "CompactString::is_empty")]
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "CompactString::is_empty"))]
     pub text_from: CompactString,
 }

@@ -1,12 +1,11 @@
 //! Numbers that a device keeps in several items.
 
-use serde::{Deserialize, Serialize};
-
 use super::{CompactString, Documentation, Texts};
 use crate::source::Origin;
 
 /// One number in several items: digits to a base, and perhaps a sign.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Composite {
     /// Its name.
     pub name: CompactString,

@@ -1,7 +1,5 @@
 //! A device: identity, file header, bus settings, and what it consists of.
 
-use serde::{Deserialize, Serialize};
-
 use super::{
     CodeTable, CompactString, Composite, Documentation, Doubts, EtherCatSettings, Extensions, Framing, Group, Message,
     Module, ModuleUse, Procedure, ProcessData, ProfinetSettings, RegisterSpace, Slot, StateMachine, SubmoduleUse,
@@ -10,7 +8,8 @@ use super::{
 use crate::source::{Origin, Span};
 
 /// One device.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Device {
     /// What it is called.
     pub name: CompactString,
@@ -31,13 +30,13 @@ pub struct Device {
     /// What the device can on PROFINET.
     pub profinet: Option<Box<ProfinetSettings>>,
     /// What its tables of Modbus take, where the source says so.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Vec::is_empty"))]
     pub modbus: Vec<ModbusTable>,
     /// Frames of Modbus that the source prints: node, function and data, with or without the CRC.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Vec::is_empty"))]
     pub modbus_examples: Vec<super::MessageExample>,
     /// First and last of the numbers that a node, or a server, may have.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub node_ids: Option<(u8, u8)>,
     /// Device profiles that it follows, by number (402 = drives, 5001 = modular device).
     pub profiles: Vec<u32>,
@@ -62,7 +61,7 @@ pub struct Device {
     /// How frames of the command protocol are delimited and checked.
     pub framing: Option<Box<Framing>>,
     /// Numbers of the machine, of which units make use.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Vec::is_empty"))]
     pub given: Vec<super::GivenNumber>,
     /// Alarms, emergency codes, abort codes and the like.
     pub code_tables: Vec<CodeTable>,
@@ -71,7 +70,7 @@ pub struct Device {
     /// Sequences of steps.
     pub procedures: Vec<Procedure>,
     /// Numbers that are split over several items.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Vec::is_empty"))]
     pub composites: Vec<Composite>,
     /// Models and firmware versions that share this description.
     pub variants: Vec<Variant>,
@@ -80,7 +79,7 @@ pub struct Device {
     /// What the source says about it.
     pub documentation: Option<Box<Documentation>>,
     /// The manual that the description was transcribed from.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub manual: Option<Box<super::Manual>>,
     /// Contradictions of the source.
     pub doubts: Doubts,
@@ -115,7 +114,8 @@ impl Device {
 }
 
 /// Who made a device and which one it is (object 0x1018, CiA 301 7.5.2.19).
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Identity {
     /// Number of the vendor.
     pub vendor_id: Option<u32>,
@@ -136,7 +136,8 @@ pub struct Identity {
 }
 
 /// The requests that a table of Modbus takes.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ModbusTable {
     /// The table.
     pub space: RegisterSpace,
@@ -147,12 +148,13 @@ pub struct ModbusTable {
     /// The greatest number that one request writes.
     pub max_write: Option<u16>,
     /// Whether a value that is longer than that may be read and written in several requests.
-    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "std::ops::Not::not"))]
     pub split: bool,
 }
 
 /// What a file says about itself (`[FileInfo]` of CiA 306, ISO15745 ProfileHeader). Texts are kept as written.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Header {
     /// Name of the file.
     pub file_name: CompactString,
@@ -183,7 +185,8 @@ pub struct Header {
 }
 
 /// What a device can on CANopen (`[DeviceInfo]`, `[DummyUsage]`, `[DynamicChannels]` of CiA 306).
-#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct CanOpenSettings {
     /// Supported bit rates in kbit/s.
     pub bit_rates: Vec<u16>,
@@ -218,7 +221,8 @@ pub struct CanOpenSettings {
 }
 
 /// Where facts of [`CanOpenSettings`] stand in the source; an empty span for what the source doesn't say.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct CanOpenSpans {
     /// The number of RPDOs.
     pub rx_pdos: Span,
@@ -227,7 +231,8 @@ pub struct CanOpenSpans {
 }
 
 /// A segment of network variables (CiA 302-4).
-#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct DynamicChannel {
     /// Number of the data type.
     pub data_type: u32,
@@ -244,7 +249,8 @@ pub struct DynamicChannel {
 }
 
 /// The place of one device in a network (`[DeviceComissioning]` of CiA 306).
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Commissioning {
     /// Node-ID, 1 to 127.
     pub node_id: Option<u8>,
@@ -265,7 +271,8 @@ pub struct Commissioning {
 }
 
 /// A model or firmware version of a family that shares one description.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Variant {
     /// Its name.
     pub name: CompactString,
@@ -280,7 +287,8 @@ pub struct Variant {
 }
 
 /// How the items of further axes follow from those of the first.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct AxisRule {
     /// Number of axes.
     pub axes: u8,
@@ -291,7 +299,8 @@ pub struct AxisRule {
 }
 
 /// The rule for the objects of a range of indices.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct AxisRange {
     /// First and last index.
     pub indices: (u16, u16),
@@ -300,8 +309,9 @@ pub struct AxisRange {
 }
 
 /// How to get from one axis to the next.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum AxisStep {
     /// Add this to the index.
     Index(u16),

@@ -1,12 +1,11 @@
 //! What an EtherCAT slave can, and how its controller is set up (ETG.2000, `Device`).
 
-use serde::{Deserialize, Serialize};
-
 use super::CompactString;
 use crate::source::Origin;
 
 /// What a device can on EtherCAT, and how a master sets it up.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct EtherCatSettings {
     /// The kind of each of up to four ports (`Physics`): Y = MII, K = LVDS, H = enhanced, blank = none.
     pub physics: CompactString,
@@ -35,7 +34,8 @@ pub struct EtherCatSettings {
 }
 
 /// A fieldbus memory management unit (ETG.1000.4 6.6).
-#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Fmmu {
     /// What it maps: `Outputs`, `Inputs`, `MBoxState`, or what the source says.
     pub purpose: CompactString,
@@ -48,7 +48,8 @@ pub struct Fmmu {
 }
 
 /// A sync unit: process data that is exchanged together.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct SyncUnit {
     /// Its name.
     pub name: CompactString,
@@ -63,7 +64,8 @@ pub struct SyncUnit {
 }
 
 /// The mailbox and its protocols (ETG.1000.6).
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Mailbox {
     /// Whether the data link layer of the mailbox is supported (repeat requests).
     pub data_link_layer: bool,
@@ -84,7 +86,8 @@ pub struct Mailbox {
 }
 
 /// A mailbox protocol of which nothing but its flags matters.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Protocol {
     /// Its attributes, by name, as the source spells them (`IP`, `MAC`, `ChannelCount`).
     pub attributes: Vec<(CompactString, CompactString)>,
@@ -93,7 +96,8 @@ pub struct Protocol {
 }
 
 /// CAN application protocol over EtherCAT.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Coe {
     /// Whether the SDO information service is supported.
     pub sdo_info: bool,
@@ -116,7 +120,8 @@ pub struct Coe {
 }
 
 /// Something that a master sends to the mailbox on a change of state.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct InitCommand {
     /// The changes of state: `IP`, `PS`, `SP`, `SO`, `OP`, `OS`.
     pub transitions: Vec<CompactString>,
@@ -145,7 +150,8 @@ pub struct InitCommand {
 }
 
 /// Distributed clocks.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct DistributedClocks {
     /// Its attributes, by name, as the source spells them (`UnknownFRMW`, `PotentialReferenceClock`).
     pub attributes: Vec<(CompactString, CompactString)>,
@@ -154,7 +160,8 @@ pub struct DistributedClocks {
 }
 
 /// A mode of operation of the distributed clocks (`OpMode`).
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ClockMode {
     /// Its name.
     pub name: CompactString,
@@ -175,7 +182,8 @@ pub struct ClockMode {
 }
 
 /// A time of a clock mode.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ClockTime {
     /// The time in ns; 0 where it follows from the cycle time.
     pub nanoseconds: i32,
@@ -186,7 +194,8 @@ pub struct ClockTime {
 }
 
 /// What a clock mode says of a sync manager.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ClockSyncManager {
     /// Number of the sync manager.
     pub number: u8,
@@ -197,7 +206,8 @@ pub struct ClockSyncManager {
 }
 
 /// How the slots of a modular device are counted (`Slots`).
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct SlotRules {
     /// Greatest number of slots, where given.
     pub max_slots: Option<u16>,
@@ -226,7 +236,8 @@ pub struct SlotRules {
 }
 
 /// Modules whose process data stand one after the other (`ModulePdoGroup`).
-#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ModulePdoGroup {
     /// Alignment of each module's data in bytes; 0 and 1 = none.
     pub alignment: u16,
@@ -237,7 +248,8 @@ pub struct ModulePdoGroup {
 }
 
 /// Content of the EEPROM of a slave (ETG.1000.6 5.4, ETG.2010).
-#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Eeprom {
     /// All of it, where the source gives it whole.
     pub data: Vec<u8>,

@@ -1,6 +1,5 @@
 //! Items and the groups that hold them.
 
-use serde::{Deserialize, Serialize};
 use smallvec::SmallVec;
 use thin_vec::ThinVec;
 
@@ -11,7 +10,8 @@ use super::{
 use crate::source::{Origin, Span};
 
 /// One value of the device.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Item {
     /// Its name as the source spells it (ParameterName in CiA 306); may be empty.
     pub name: CompactString,
@@ -22,12 +22,12 @@ pub struct Item {
     /// Its type.
     pub ty: Type,
     /// Whether the source states that it names no bits and no values, so that no profile adds any.
-    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "std::ops::Not::not"))]
     pub is_meaning_absent: bool,
     /// Access rights.
     pub access: Access,
     /// Whether the source says nothing of the access rights, so that `access` is an assumption.
-    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "std::ops::Not::not"))]
     pub is_access_assumed: bool,
     /// Into which PDOs it may be mapped.
     pub mappable: Mappable,
@@ -36,7 +36,7 @@ pub struct Item {
     /// The values it may have, where the source says so; else all of its type.
     pub limits: Limits,
     /// What differs between models or buses, in the order of the source.
-    #[serde(default, skip_serializing_if = "ThinVec::is_empty")]
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "ThinVec::is_empty"))]
     pub variants: ThinVec<ItemVariant>,
     /// What a DCF or XDC sets for this one device.
     pub configured: Option<Box<Configured>>,
@@ -141,7 +141,8 @@ impl Item {
 }
 
 /// Where the facts of an item stand in the source; an empty span for what the source doesn't say.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ItemSpans {
     /// The name.
     pub name: Span,
@@ -164,7 +165,8 @@ pub struct ItemSpans {
 }
 
 /// What a configuration file (DCF, XDC) sets for one device.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Configured {
     /// ParameterValue: the value of this device.
     pub value: Option<Value>,
@@ -177,7 +179,8 @@ pub struct Configured {
 }
 
 /// Items that the source keeps together.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Group {
     /// Its name as the source spells it; may be empty.
     pub name: CompactString,
@@ -258,8 +261,9 @@ impl Group {
 }
 
 /// What a group is.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum GroupKind {
     /// An object of an object dictionary (CiA 301 7.4, ETG.1000.6 5.6).
     Object {
@@ -282,7 +286,8 @@ pub enum GroupKind {
 }
 
 /// What a parameter record of a PROFINET submodule is (ParameterRecordDataItem of GSDML).
-#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Record {
     /// Record index.
     pub index: u16,
@@ -297,8 +302,9 @@ pub struct Record {
 }
 
 /// Whether an object has to exist.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum Category {
     /// It has to.
     Mandatory,
@@ -311,8 +317,9 @@ pub enum Category {
 }
 
 /// Object codes of CiA 301 7.4.3.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum ObjectCode {
     /// 0: no data.
     Null,

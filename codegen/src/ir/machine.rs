@@ -1,12 +1,11 @@
 //! State machines and procedures.
 
-use serde::{Deserialize, Serialize};
-
 use super::{Availability, CompactString, Direction, Documentation, SharedList, Texts, Value};
 use crate::source::{Origin, Span};
 
 /// A state machine.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct StateMachine {
     /// Its name.
     pub name: CompactString,
@@ -15,26 +14,27 @@ pub struct StateMachine {
     /// The item that commands it.
     pub control_item: CompactString,
     /// The enumeration whose values are the states, where the source has one.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub state_type: Option<CompactString>,
     /// States, by the bits of the status item; with a `state_type`, one for each of its values.
     pub states: SharedList<Pattern>,
     /// The state after power-on.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub initial: Option<CompactString>,
     /// Commands, by the bits of the control item.
     pub commands: SharedList<Pattern>,
     /// From which state to which.
     pub transitions: SharedList<Transition>,
     /// What commands do in each state, where the source has a table of that.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Vec::is_empty"))]
     pub outcomes: Vec<CommandOutcomes>,
     /// What the source says about it.
     pub documentation: Option<Box<Documentation>>,
 }
 
 /// What a command does in each state: a row of a table of commands and states.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct CommandOutcomes {
     /// Its name in that table.
     pub name: CompactString,
@@ -51,7 +51,8 @@ pub struct CommandOutcomes {
 }
 
 /// What a command does in one state.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct StateOutcome {
     /// The state in which it comes.
     pub state: CompactString,
@@ -62,8 +63,9 @@ pub struct StateOutcome {
 }
 
 /// What happens to a command.
-#[derive(Clone, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum Outcome {
     /// It is carried out, and the state stays.
     Unchanged,
@@ -74,7 +76,8 @@ pub enum Outcome {
 }
 
 /// A state or a command: bits that have to have a value.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Pattern {
     /// Its name.
     pub name: CompactString,
@@ -89,7 +92,8 @@ pub struct Pattern {
 }
 
 /// A change from one state to another.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Transition {
     /// Its number in the source.
     pub number: Option<u16>,
@@ -104,7 +108,8 @@ pub struct Transition {
 }
 
 /// A sequence of steps.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Procedure {
     /// Its name.
     pub name: CompactString,
@@ -131,8 +136,9 @@ impl Procedure {
 }
 
 /// A step of a procedure.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum Step {
     /// Write a value to an item.
     Write(CompactString, Value),

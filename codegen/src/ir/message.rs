@@ -1,12 +1,11 @@
 //! Command protocols and code tables.
 
-use serde::{Deserialize, Serialize};
-
 use super::{Availability, CompactString, Condition, Documentation, Doubts, Item, SharedList, Texts, Value};
 use crate::source::{Origin, Span};
 
 /// A request and its reply.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Message {
     /// Its name.
     pub name: CompactString,
@@ -17,12 +16,12 @@ pub struct Message {
     /// When the order is carried out.
     pub completion: Completion,
     /// About how many milliseconds the reply takes where it comes late, and where the source says.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub reply_time: Option<u32>,
     /// The message after which a device answers so: the meaning of the reply to one request depends on an earlier one.
     pub after: Option<CompactString>,
     /// Whether the device answers so after power-on too, before any message of those that others name in `after`.
-    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "std::ops::Not::not"))]
     pub by_default: bool,
     /// The message that comes instead of the reply where the device refuses.
     pub error: Option<CompactString>,
@@ -37,7 +36,7 @@ pub struct Message {
     /// States in which the device accepts it; empty = all.
     pub accepted_in: Vec<CompactString>,
     /// Frames that the source prints as examples.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Vec::is_empty"))]
     pub examples: Vec<MessageExample>,
     /// What the source says about it.
     pub documentation: Option<Box<Documentation>>,
@@ -65,7 +64,8 @@ fn values(fields: &[MessageField]) -> Box<dyn Iterator<Item = &MessageValue> + '
 }
 
 /// A request, and what a device answered, byte for byte.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct MessageExample {
     /// The bytes of the request; empty where the source has none.
     pub request: Vec<u8>,
@@ -80,8 +80,9 @@ pub struct MessageExample {
 }
 
 /// When an order is carried out.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
+#[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum Completion {
     /// Before the reply.
     #[default]
@@ -98,7 +99,7 @@ pub enum Completion {
         value: Option<Value>,
         /// Whether the reply to the order tells it already: as long as the order isn't carried out, the reply has another value
         /// for certain. Else what it has may still be about the order before.
-        #[serde(default)]
+        #[cfg_attr(feature = "serde", serde(default))]
         in_reply: bool,
     },
     /// After so many milliseconds.
@@ -106,8 +107,9 @@ pub enum Completion {
 }
 
 /// One field of a frame. Fields of less than a byte follow each other from the most significant bit on.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum MessageField {
     /// Fixed bytes.
     Constant(Vec<u8>),
@@ -168,19 +170,21 @@ pub enum MessageField {
 }
 
 /// A typed value in a message.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct MessageValue {
     /// What it is: an item that is found nowhere else, so that it has no binding.
     pub item: Item,
     /// Order of its bytes on the wire, the most significant numbered 0; empty = big-endian.
     pub byte_order: Vec<u8>,
     /// The field of the same frame from which on the value counts the bytes, where it is a length.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub counts: Option<CompactString>,
 }
 
 /// Numbers by which a command protocol addresses items, and the messages that carry their values.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ParameterSpace {
     /// Its name.
     pub name: CompactString,
@@ -199,7 +203,8 @@ pub struct ParameterSpace {
 }
 
 /// How frames are delimited and checked.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Framing {
     /// First byte.
     pub start: Option<u8>,
@@ -222,7 +227,7 @@ pub struct Framing {
     /// Greatest number of data bytes, without start, end, escapes and check.
     pub max_data: Option<u16>,
     /// The field of requests that holds the number of the device for which they are; `None` = devices have no numbers.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub address: Option<CompactString>,
     /// What the source says about it.
     pub documentation: Option<Box<Documentation>>,
@@ -231,7 +236,8 @@ pub struct Framing {
 }
 
 /// A table of codes with their meaning: alarms, emergency codes, abort codes, channel diagnosis.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct CodeTable {
     /// Its name.
     pub name: CompactString,
@@ -240,23 +246,24 @@ pub struct CodeTable {
     /// Its rows.
     pub rows: SharedList<CodeRow>,
     /// The only buses on which its codes mean this; all of them where it is empty.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Vec::is_empty"))]
     pub buses: Vec<CompactString>,
     /// What it is.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub documentation: Option<Box<Documentation>>,
     /// Where it is declared.
     pub origin: Origin,
 }
 
 /// One code.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct CodeRow {
     /// The code, or codes, in the notation of the source (`0x8700`, `F125`, `0xFF13 to 0xFF15`); empty if that is decimal.
-    #[serde(default, skip_serializing_if = "CompactString::is_empty")]
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "CompactString::is_empty"))]
     pub printed: CompactString,
     /// The cells in the notation of the source; empty for all that it doesn't write as hexadecimal numbers.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Vec::is_empty"))]
     pub printed_cells: Vec<CompactString>,
     /// The code; the first of a range.
     pub code: i128,
@@ -267,7 +274,7 @@ pub struct CodeRow {
     /// The name in other languages.
     pub names: Texts,
     /// Models and firmware versions that have it.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub availability: Option<Box<Availability>>,
     /// Cause and remedy.
     pub documentation: Option<Box<Documentation>>,

@@ -32,6 +32,7 @@ mod module;
 pub mod owner;
 mod process_data;
 mod profinet;
+#[cfg(feature = "serde")]
 mod real;
 mod shared;
 mod types;

@@ -1,7 +1,5 @@
 //! Modular devices: slots, and modules that can be plugged into them.
 
-use serde::{Deserialize, Serialize};
-
 use super::{
     CompactString, Documentation, Extensions, Group, Identity, InitCommand, Item, Numbers, Places, ProcessData,
     SubmoduleUse, SubslotName, Texts, TypeDef,
@@ -9,7 +7,8 @@ use super::{
 use crate::source::Origin;
 
 /// A place for modules.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Slot {
     /// Its number, or first number.
     pub number: u16,
@@ -36,8 +35,9 @@ pub struct Slot {
 }
 
 /// What fits into a slot.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum Fit {
     /// The module with this ident number.
     Ident(u32),
@@ -48,11 +48,13 @@ pub enum Fit {
 }
 
 /// Position of a [`Module`] in [`Catalog::modules`](super::Catalog::modules).
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ModuleId(pub u32);
 
 /// A module, and the slots that it may or has to be in.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ModuleUse {
     /// The module.
     pub module: ModuleId,
@@ -61,7 +63,8 @@ pub struct ModuleUse {
 }
 
 /// A module of a modular device (`[M1ModuleInfo]` … of CiA 306, Module of ETG.2000, ModuleItem of GSDML).
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Module {
     /// Its number in the description, counted from 1 (CiA 306), or its ident number (ETG.2000, GSDML).
     pub number: u32,
@@ -112,7 +115,8 @@ pub struct Module {
 }
 
 /// Sub-indices that a module adds to an object (`[M<n>SubExt<index>]` of CiA 306).
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct SubExtension {
     /// Index of the object.
     pub index: u16,

@@ -2,13 +2,12 @@
 
 use std::collections::HashMap;
 
-use serde::{Deserialize, Serialize};
-
 use super::{CompactString, Documentation, Doubts, Extensions, ObjectBuses, Texts, Type, Value};
 use crate::source::Origin;
 
 /// Cyclic data of a device or a module.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ProcessData {
     /// PDOs, RPDOs first, each by number.
     pub pdos: Vec<Pdo>,
@@ -84,8 +83,9 @@ impl<'a> DefaultAssignment<'a> {
 }
 
 /// Direction of cyclic data, seen from the device.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum Direction {
     /// Received by the device: outputs of the controller, RPDO.
     Receive,
@@ -94,7 +94,8 @@ pub enum Direction {
 }
 
 /// One process data object.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Pdo {
     /// Direction.
     pub direction: Direction,
@@ -133,18 +134,18 @@ pub struct Pdo {
     /// The name in other languages.
     pub names: Texts,
     /// Greatest length of its own in bytes, where the source gives one that isn't its sync manager's.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub max_bytes: Option<u16>,
     /// What the source says about it.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub documentation: Option<Box<Documentation>>,
     /// Contradictions of the source.
-    #[serde(default, skip_serializing_if = "Doubts::is_empty")]
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Doubts::is_empty"))]
     pub doubts: Doubts,
     /// What the source says beyond that.
     pub extensions: Extensions,
     /// The buses on which it is mapped so; all those of the device where none is said.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub buses: Option<ObjectBuses>,
     /// Whether no section describes it and it follows from NrOfRXPDO or NrOfTXPDO and CompactPDO (CiA 306).
     pub implicit: bool,
@@ -215,7 +216,8 @@ impl Pdo {
 }
 
 /// Communication parameters of a CANopen PDO (CiA 301 7.5.2.35, 7.5.2.37).
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct PdoCommunication {
     /// Index of the communication object (0x1400 …, 0x1800 …).
     pub index: u16,
@@ -234,7 +236,8 @@ pub struct PdoCommunication {
 }
 
 /// One entry of a PDO.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct PdoEntry {
     /// Index of the mapped object; 0 for padding.
     pub index: u16,
@@ -283,7 +286,8 @@ impl PdoEntry {
 }
 
 /// Several samples of a PDO in one cycle (OSFac, OSMin, OSMax, OSIndexInc of ETG.2000).
-#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Oversampling {
     /// Number of samples by default.
     pub factor: Option<u16>,
@@ -296,8 +300,9 @@ pub struct Oversampling {
 }
 
 /// What a PDO entry is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum PdoEntryKind {
     /// An item of the device.
     Item,
@@ -310,7 +315,8 @@ pub enum PdoEntryKind {
 }
 
 /// A sync manager of an EtherCAT slave (ETG.1000.4 6.7).
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct SyncManager {
     /// Its number.
     pub number: u8,
@@ -337,8 +343,9 @@ pub struct SyncManager {
 }
 
 /// What a sync manager is for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum SyncManagerPurpose {
     /// Mailbox, controller to device.
     MailboxOut,
@@ -363,7 +370,8 @@ impl SyncManagerPurpose {
 }
 
 /// A process image with a fixed layout.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ProcessImage {
     /// Its name.
     pub name: CompactString,

@@ -1,16 +1,16 @@
 //! What a PROFINET IO device can, and its submodules (GSDML).
 
-use serde::{Deserialize, Serialize};
-
 use super::{CompactString, Documentation, Extensions, Group, Identity, Places, ProcessImage, Texts, TypeId};
 use crate::source::Origin;
 
 /// Position of a [`Submodule`] in [`Catalog::submodules`](super::Catalog::submodules).
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct SubmoduleId(pub u32);
 
 /// A device access point: what it can, and how a controller sets it up.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ProfinetSettings {
     /// Module ident number of the device access point.
     pub ident: u32,
@@ -49,7 +49,8 @@ pub struct ProfinetSettings {
 }
 
 /// The name of a subslot.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct SubslotName {
     /// Its number.
     pub number: u16,
@@ -60,7 +61,8 @@ pub struct SubslotName {
 }
 
 /// A block of a vendor's data in the request that opens an application relation (`Request` of `ARVendorBlock`).
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct VendorBlock {
     /// API number.
     pub api: u32,
@@ -73,7 +75,8 @@ pub struct VendorBlock {
 }
 
 /// Greatest lengths of the data that a device access point exchanges (`IOConfigData`), in bytes.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct IoLengths {
     /// Inputs of the controller.
     pub input: Option<u16>,
@@ -84,7 +87,8 @@ pub struct IoLengths {
 }
 
 /// A submodule: what has data, records and diagnosis.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Submodule {
     /// Its identifier in the source.
     pub id: CompactString,
@@ -125,8 +129,9 @@ pub struct Submodule {
 }
 
 /// Kinds of submodules.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum SubmoduleKind {
     /// Part of a module, at fixed subslots.
     #[default]
@@ -140,7 +145,8 @@ pub enum SubmoduleKind {
 }
 
 /// Data of one direction.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct IoData {
     /// Layout of the data; `overhead` counts the bytes of an F message trailer.
     pub image: ProcessImage,
@@ -153,7 +159,8 @@ pub struct IoData {
 }
 
 /// A data item that became several fields (bits, a value with its status), or none (an F message trailer).
-#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct IoItem {
     /// Its name.
     pub name: CompactString,
@@ -174,7 +181,8 @@ pub struct IoItem {
 }
 
 /// A channel of V2.45: which bits belong to it, and which bits tell their quality.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct IoChannel {
     /// Its number.
     pub number: u16,
@@ -189,7 +197,8 @@ pub struct IoChannel {
 }
 
 /// The F-parameter record of PROFIsafe.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct FParameters {
     /// Index of the record.
     pub index: u16,
@@ -204,7 +213,8 @@ pub struct FParameters {
 }
 
 /// One F-parameter.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct FParameter {
     /// Its name (`F_Check_iPar`, `F_SIL`, `F_Source_Add`, …).
     pub name: CompactString,
@@ -223,7 +233,8 @@ pub struct FParameter {
 }
 
 /// A menu of an engineering tool: parameters and further menus.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Menu {
     /// Its identifier.
     pub id: CompactString,
@@ -236,7 +247,8 @@ pub struct Menu {
 }
 
 /// A submodule, and the subslots it may or has to be in.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct SubmoduleUse {
     /// The submodule.
     pub submodule: SubmoduleId,
@@ -245,7 +257,8 @@ pub struct SubmoduleUse {
 }
 
 /// A picture.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Graphic {
     /// Its identifier.
     pub id: CompactString,
@@ -254,7 +267,8 @@ pub struct Graphic {
 }
 
 /// Diagnosis of a user structure (`UnitDiagTypeItem`): the fields that follow a user structure identifier.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct UnitDiagnosis {
     /// API number.
     pub api: u32,
@@ -275,7 +289,8 @@ pub struct UnitDiagnosis {
 }
 
 /// A field of a user structure.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct UnitDiagnosisField {
     /// Its name.
     pub name: CompactString,

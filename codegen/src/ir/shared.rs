@@ -4,7 +4,6 @@ use std::fmt;
 use std::ops::Deref;
 use std::sync::Arc;
 
-use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use smallvec::SmallVec;
 
 use super::{CompactString, LocalText};
@@ -80,20 +79,23 @@ impl<T: fmt::Debug> fmt::Debug for SharedList<T> {
     }
 }
 
-impl<T: Serialize> Serialize for SharedList<T> {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+#[cfg(feature = "serde")]
+impl<T: serde::Serialize> serde::Serialize for SharedList<T> {
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         serializer.collect_seq(self.iter())
     }
 }
 
-impl<'de, T: Deserialize<'de>> Deserialize<'de> for SharedList<T> {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+#[cfg(feature = "serde")]
+impl<'de, T: serde::Deserialize<'de>> serde::Deserialize<'de> for SharedList<T> {
+    fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         Vec::deserialize(deserializer).map(SharedList::from)
     }
 }
 
 /// Numbers of slots or subslots, and the like: ranges in the order of the source (`1..3 7`).
-#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Numbers(pub SmallVec<[(u16, u16); 2]>);
 
 impl Numbers {
@@ -135,7 +137,8 @@ impl PartialEq for Mark {
 }
 
 /// A family of devices or modules (`Group` of ETG.2000, `CategoryItem` of GSDML).
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Family {
     /// Its key.
     pub id: CompactString,
@@ -150,7 +153,8 @@ pub struct Family {
 }
 
 /// The numbers of the slots, or subslots, that something may or has to be in. All empty = wherever the place allows it.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Places {
     /// Where it may be plugged (`AllowedInSlots`, `AllowedInSubslots`).
     pub allowed: Numbers,

@@ -2,14 +2,13 @@
 
 use std::fmt;
 
-use serde::{Deserialize, Serialize};
-
 use super::{Access, Availability, CompactString, Documentation, Mark, Texts, Value};
 use crate::source::Origin;
 
 /// The type of an item: basic, or the position of a [`TypeDef`] in its device.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum Type {
     /// BOOLEAN (CiA 301 code 0x01): one bit in a PDO, one byte in an SDO.
     Boolean,
@@ -42,8 +41,9 @@ pub enum Type {
 }
 
 /// Types of time of IEC 61158-6-10, all big-endian on PROFINET.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum TimeFormat {
     /// Date: 7 bytes.
     Date,
@@ -91,7 +91,8 @@ impl TimeFormat {
 
 /// Position of a [`TypeDef`] in the types of what holds it: the device's, the module's, or for everything in a PROFINET
 /// submodule [`Catalog::types`](super::Catalog::types).
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct TypeId(pub u32);
 
 impl Type {
@@ -196,7 +197,8 @@ impl fmt::Display for Type {
 }
 
 /// A type that a device defines.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct TypeDef {
     /// Its name in the source.
     pub name: CompactString,
@@ -213,8 +215,9 @@ pub struct TypeDef {
 }
 
 /// What a defined type is made of.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum Shape {
     /// Another name of a type.
     Alias(Type),
@@ -253,7 +256,8 @@ pub enum Shape {
 }
 
 /// A field of a record.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Field {
     /// Its name.
     pub name: CompactString,
@@ -268,7 +272,8 @@ pub struct Field {
 }
 
 /// A field of a bit field.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct BitFieldEntry {
     /// Its name.
     pub name: CompactString,
@@ -285,20 +290,21 @@ pub struct BitFieldEntry {
     /// Whether the field acts on an edge, clears itself, or toggles.
     pub trigger: Option<Trigger>,
     /// Who may do what with the bits, where it isn't what the item says.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub access: Option<Access>,
     /// Models and firmware versions in which the bits mean this.
     pub availability: Option<Box<Availability>>,
     /// What the source says about it.
     pub documentation: Option<Box<Documentation>>,
     /// Where it stands.
-    #[serde(skip)]
+    #[cfg_attr(feature = "serde", serde(skip))]
     pub at: Mark,
 }
 
 /// What the bits of a field mean.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum BitMeaning {
     /// One bit that is set or not.
     Flag {
@@ -317,8 +323,9 @@ pub enum BitMeaning {
 }
 
 /// When a bit acts.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum Trigger {
     /// On the change from 0 to 1.
     Rising,
@@ -331,7 +338,8 @@ pub enum Trigger {
 }
 
 /// One value, or a range of values, of an enumeration.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct EnumValue {
     /// Its name.
     pub name: CompactString,
@@ -344,14 +352,14 @@ pub struct EnumValue {
     /// The name in other languages.
     pub names: Texts,
     /// The value of another item with which the device has it (the mode of operation, say).
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub when: Option<Condition>,
     /// Models, firmware versions and buses that have it.
     pub availability: Option<Box<Availability>>,
     /// What the source says about it.
     pub documentation: Option<Box<Documentation>>,
     /// Where it stands.
-    #[serde(skip)]
+    #[cfg_attr(feature = "serde", serde(skip))]
     pub at: Mark,
 }
 
@@ -373,8 +381,9 @@ impl EnumValue {
 }
 
 /// A zone of an enumeration.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum Zone {
     /// Must not be used.
     Reserved,
@@ -383,22 +392,23 @@ pub enum Zone {
 }
 
 /// How a raw number relates to a physical one.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum Scale {
     /// physical = raw × factor + offset.
     Linear {
         /// Physical units per count.
-        #[serde(with = "super::real")]
+        #[cfg_attr(feature = "serde", serde(with = "super::real"))]
         factor: f64,
         /// The physical value of raw 0.
-        #[serde(with = "super::real")]
+        #[cfg_attr(feature = "serde", serde(with = "super::real"))]
         offset: f64,
     },
     /// physical = numerator / raw.
     Reciprocal {
         /// The numerator.
-        #[serde(with = "super::real")]
+        #[cfg_attr(feature = "serde", serde(with = "super::real"))]
         numerator: f64,
     },
     /// A fraction of a base value: physical = raw / 2^bits × base.
@@ -422,7 +432,7 @@ pub enum Scale {
         /// The other item.
         item: CompactString,
         /// The constant part.
-        #[serde(with = "super::real")]
+        #[cfg_attr(feature = "serde", serde(with = "super::real"))]
         factor: f64,
     },
     /// physical = raw × factor × value of another item.
@@ -430,19 +440,20 @@ pub enum Scale {
         /// The other item.
         item: CompactString,
         /// The constant part.
-        #[serde(with = "super::real")]
+        #[cfg_attr(feature = "serde", serde(with = "super::real"))]
         factor: f64,
     },
 }
 
 /// "While the item `item` has one of these values."
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Condition {
     /// Name of the other item.
     pub item: CompactString,
     /// Its values.
     pub values: Vec<Value>,
     /// The bits of the item that are compared with the values; `None` = all.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub mask: Option<u64>,
 }

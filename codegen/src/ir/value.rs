@@ -3,21 +3,21 @@
 use std::cmp::Ordering;
 use std::fmt;
 
-use serde::{Deserialize, Serialize};
 use thin_vec::ThinVec;
 
 use super::{CompactString, Type};
 
 /// A value as its source means it, converted to its type.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum Value {
     /// A BOOLEAN.
     Bool(bool),
     /// An integer of any width and sign.
     Int(i128),
     /// A real number; also the value of an integer type's limit where the source gives a fraction.
-    Real(#[serde(with = "super::real")] f64),
+    Real(#[cfg_attr(feature = "serde", serde(with = "super::real"))] f64),
     /// A text.
     Text(CompactString),
     /// An octet string.
@@ -88,7 +88,8 @@ impl fmt::Display for Value {
 }
 
 /// Inclusive limits of a value.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Limits {
     /// The least value.
     pub low: Option<Value>,

@@ -1,22 +1,21 @@
 //! What differs of an item between models, or between buses.
 
-use serde::{Deserialize, Serialize};
-
 use super::{Access, CompactString, Documentation, Limits, Scale, Type, Value};
 use crate::source::Span;
 
 /// Facts of an item that hold on some models or buses only; those that aren't given are the item's.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ItemVariant {
     /// The models, in which `*` stands for any letters; empty = all.
     pub models: Vec<CompactString>,
     /// The buses by their names in register tables; empty = all.
     pub buses: Vec<CompactString>,
     /// The type that the value has there: another width, on some buses.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub ty: Option<Type>,
     /// What may be done with it there: less than elsewhere, on some buses.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub access: Option<Access>,
     /// The value before anybody wrote it.
     pub default: Option<Value>,

@@ -1,25 +1,25 @@
 //! From bytes to text: byte order marks, UTF-8, what an XML declaration names, and Windows-1252.
 
 use encoding_rs::{Encoding as Charset, UTF_16BE, UTF_16LE, UTF_8, WINDOWS_1252};
-use serde::{Deserialize, Serialize};
 
 /// How a file's bytes were turned into text.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Encoding {
     /// Only ASCII, or valid UTF-8 without a byte order mark.
-    #[serde(rename = "utf-8")]
+    #[cfg_attr(feature = "serde", serde(rename = "utf-8"))]
     Utf8,
     /// UTF-8 that starts with a byte order mark.
-    #[serde(rename = "utf-8-bom")]
+    #[cfg_attr(feature = "serde", serde(rename = "utf-8-bom"))]
     Utf8Bom,
     /// UTF-16, recognised by its byte order mark or by the zero bytes of its first characters.
-    #[serde(rename = "utf-16")]
+    #[cfg_attr(feature = "serde", serde(rename = "utf-16"))]
     Utf16,
     /// Not UTF-8: every byte read as Windows-1252, which contains ISO 8859-1.
-    #[serde(rename = "windows-1252")]
+    #[cfg_attr(feature = "serde", serde(rename = "windows-1252"))]
     Windows1252,
     /// Not UTF-8: another encoding that the XML declaration names (GB2312, Shift JIS).
-    #[serde(rename = "declared")]
+    #[cfg_attr(feature = "serde", serde(rename = "declared"))]
     Declared,
 }
 

@@ -42,13 +42,13 @@ pub(super) fn emit(catalog: &Catalog, file: &FileInfo, options: &RustOptions) ->
         [] => {}
         [device] => {
             let place = Place { nest: 0, modules: paths(&modules, &names, "modules") };
-            text += &render(Model::new(device, file, options, &place));
+            text += &render(&Model::new(device, file, options, &place));
         }
         devices => {
             let paths = paths(&modules, &names, "super::modules");
             for (device, name) in devices.iter().zip(device_names(devices, file)) {
                 let place = Place { nest: STEP, modules: paths.clone() };
-                let body = render(Model::new(device, file, options, &place));
+                let body = render(&Model::new(device, file, options, &place));
                 nested::module(&mut text, &heading(&device.name, &name), &name, &body);
             }
         }
@@ -59,7 +59,7 @@ pub(super) fn emit(catalog: &Catalog, file: &FileInfo, options: &RustOptions) ->
         }
         let mut content = String::new();
         for ((_, module), name) in modules.iter().zip(&names) {
-            let body = render(Model::of_module(module, options, 2 * STEP));
+            let body = render(&Model::of_module(module, options, 2 * STEP));
             nested::module(&mut content, &heading(&module.name, name), name, &body);
         }
         let about = "Modules that can be plugged in. Indices that depend on the slot are those of slot 0.";

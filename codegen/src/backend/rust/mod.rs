@@ -61,10 +61,37 @@ use scope::Scope;
 /// The number of the interface between generated code and the runtime: `lexibus::interface::VERSION`.
 pub const INTERFACE_VERSION: u32 = 1;
 
-#[derive(Template)]
-#[template(path = "rust/device.rs.txt", escape = "none")]
-struct DeviceTemplate<'a> {
-    m: Model<'a>,
+/// The templates of a device's module, one after the other. Each is a function of its own to the compiler.
+macro_rules! templates {
+    ($($name:ident = $path:literal,)*) => {
+        $(
+            #[derive(Template)]
+            #[template(path = $path, escape = "none")]
+            struct $name<'a> {
+                m: &'a Model<'a>,
+            }
+        )*
+
+        fn render(model: &Model<'_>) -> String {
+            let mut text = String::with_capacity(model.size_hint());
+            // Writing to a String can't fail, and the templates call nothing that does.
+            $(let _ = $name { m: model }.render_into(&mut text);)*
+            text
+        }
+    };
+}
+templates! {
+    DeviceTemplate = "rust/device/device.rs.txt",
+    AccessorsTemplate = "rust/device/accessors.rs.txt",
+    MessagesTemplate = "rust/device/messages.rs.txt",
+    TypesTemplate = "rust/device/types.rs.txt",
+    CodesTemplate = "rust/device/codes.rs.txt",
+    ObjectsTemplate = "rust/device/objects.rs.txt",
+    MappingTemplate = "rust/device/mapping.rs.txt",
+    PdosTemplate = "rust/device/pdos.rs.txt",
+    ViewsTemplate = "rust/device/views.rs.txt",
+    ImageTemplate = "rust/device/image.rs.txt",
+    TableTemplate = "rust/device/table.rs.txt",
 }
 
 /// The Rust module for all of `catalog`; `None` where it describes nothing that code could be generated for.
@@ -82,7 +109,7 @@ pub fn emit_catalog(catalog: &Catalog, options: &RustOptions) -> Option<String> 
 ///
 /// The text is the content of a module: it can be a file of its own or be included inside of `mod name { … }`.
 pub fn emit(device: &Device, file: &FileInfo, options: &RustOptions) -> String {
-    let body = render(Model::new(device, file, options, &model::Place::default()));
+    let body = render(&Model::new(device, file, options, &model::Place::default()));
     layout::fit(&(header(file) + &body))
 }
 
@@ -94,13 +121,6 @@ fn header(file: &FileInfo) -> String {
          // SHA-256 of the source: {sha256}\n\
          // Changes to this file are lost when it is generated again.\n\n"
     )
-}
-
-fn render(model: Model<'_>) -> String {
-    let mut text = String::with_capacity(model.size_hint());
-    // Writing to a String can't fail, and the template calls nothing that does.
-    let _ = DeviceTemplate { m: model }.render_into(&mut text);
-    text
 }
 
 /// The lines of a program that read and write each item of a device, as in `device.identity().vendor_id().read()?`.

@@ -1,40 +1,35 @@
 //! Values of the format that are one thing or another: a factor or a rule, values or bits.
 
-use std::fmt;
-
-use serde::de::value::MapAccessDeserializer;
-use serde::de::{Deserialize, Deserializer, Error, MapAccess, Visitor};
+use toml::de::DeValue;
 
 use super::at::{Literal, OneOrMany};
-use super::format::{ConditionTable, ScaleRule, Scaling};
+use super::format::{ConditionTable, FlagOrText, NumberOrText, ScaleRule, Scaling};
+use super::read::{literal, number, Mistake, Node, Read};
 
-impl<'de> Deserialize<'de> for Scaling {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct Either;
-        impl<'de> Visitor<'de> for Either {
-            type Value = Scaling;
-
-            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-                f.write_str("a factor, or a table with `factor`, `by`, `times`, `reciprocal`, `fraction` or `exponent`")
-            }
-
-            fn visit_i64<E: Error>(self, value: i64) -> Result<Scaling, E> {
-                Ok(Scaling::Factor(value as f64))
-            }
-
-            fn visit_u64<E: Error>(self, value: u64) -> Result<Scaling, E> {
-                Ok(Scaling::Factor(value as f64))
-            }
-
-            fn visit_f64<E: Error>(self, value: f64) -> Result<Scaling, E> {
-                Ok(Scaling::Factor(value))
-            }
-
-            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<Scaling, A::Error> {
-                ScaleRule::deserialize(MapAccessDeserializer::new(map)).map(|rule| Scaling::Rule(Box::new(rule)))
-            }
+impl Read for Scaling {
+    fn read(node: &Node<'_>) -> Result<Self, Mistake> {
+        const EXPECTED: &str =
+            "a factor, or a table with `factor`, `by`, `times`, `reciprocal`, `fraction` or `exponent`";
+        match node.get_ref() {
+            DeValue::Table(_) => ScaleRule::read(node).map(|rule| Scaling::Rule(Box::new(rule))),
+            _ => number(node).map(Scaling::Factor).ok_or_else(|| Mistake::ty(node, EXPECTED)),
         }
-        deserializer.deserialize_any(Either)
+    }
+}
+
+impl Read for NumberOrText {
+    fn read(node: &Node<'_>) -> Result<Self, Mistake> {
+        let number = || i64::read(node).map(NumberOrText::Number);
+        let text = |_| String::read(node).map(NumberOrText::Text);
+        number().or_else(text).map_err(|_| Mistake::value(node, "a number or a text".to_owned()))
+    }
+}
+
+impl Read for FlagOrText {
+    fn read(node: &Node<'_>) -> Result<Self, Mistake> {
+        let flag = || bool::read(node).map(FlagOrText::Flag);
+        let text = |_| String::read(node).map(FlagOrText::Text);
+        flag().or_else(text).map_err(|_| Mistake::value(node, "true, false or a text".to_owned()))
     }
 }
 
@@ -54,71 +49,38 @@ impl Default for ConditionValues {
     }
 }
 
-impl<'de> Deserialize<'de> for ConditionValues {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        /// A table is never a value, so that the two can be told apart.
-        struct Single(ConditionValues);
-        impl<'de> Deserialize<'de> for Single {
-            fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-                match LiteralOrTable::deserialize(deserializer)? {
-                    LiteralOrTable::Literal(literal) => Ok(Single(ConditionValues::Values(OneOrMany(vec![literal])))),
-                    LiteralOrTable::Table(table) => Ok(Single(ConditionValues::Bits(table))),
-                }
-            }
-        }
-        let OneOrMany(list) = OneOrMany::<Single>::deserialize(deserializer)?;
+impl Read for ConditionValues {
+    fn read(node: &Node<'_>) -> Result<Self, Mistake> {
+        let OneOrMany(list) = OneOrMany::<LiteralOrTable>::read(node)?;
         let mut values = Vec::new();
-        for Single(own) in list {
+        for own in list {
             match own {
-                ConditionValues::Values(OneOrMany(own)) => values.extend(own),
-                bits if values.is_empty() => return Ok(bits),
-                _ => return Err(D::Error::custom("a condition is values, or one table of `mask` and `value`")),
+                LiteralOrTable::Literal(own) => values.push(own),
+                LiteralOrTable::Table(bits) if values.is_empty() => return Ok(ConditionValues::Bits(bits)),
+                LiteralOrTable::Table(_) => {
+                    let message = "a condition is values, or one table of `mask` and `value`".to_owned();
+                    return Err(Mistake::value(node, message));
+                }
             }
         }
         Ok(ConditionValues::Values(OneOrMany(values)))
     }
 }
 
-/// A literal or the table of a condition.
+/// A literal or the table of a condition. A table is never a value, so that the two can be told apart.
 enum LiteralOrTable {
     Literal(Literal),
     Table(ConditionTable),
 }
 
-impl<'de> Deserialize<'de> for LiteralOrTable {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct Either;
-        impl<'de> Visitor<'de> for Either {
-            type Value = LiteralOrTable;
-
-            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-                f.write_str("a value, or a table of `mask` and `value`")
-            }
-
-            fn visit_bool<E: Error>(self, value: bool) -> Result<LiteralOrTable, E> {
-                Ok(LiteralOrTable::Literal(Literal::Bool(value)))
-            }
-
-            fn visit_i64<E: Error>(self, value: i64) -> Result<LiteralOrTable, E> {
-                Ok(LiteralOrTable::Literal(Literal::Int(value.into())))
-            }
-
-            fn visit_u64<E: Error>(self, value: u64) -> Result<LiteralOrTable, E> {
-                Ok(LiteralOrTable::Literal(Literal::Int(value.into())))
-            }
-
-            fn visit_f64<E: Error>(self, value: f64) -> Result<LiteralOrTable, E> {
-                Ok(LiteralOrTable::Literal(Literal::Real(value)))
-            }
-
-            fn visit_str<E: Error>(self, value: &str) -> Result<LiteralOrTable, E> {
-                Ok(LiteralOrTable::Literal(Literal::Text(value.to_owned())))
-            }
-
-            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<LiteralOrTable, A::Error> {
-                ConditionTable::deserialize(MapAccessDeserializer::new(map)).map(LiteralOrTable::Table)
+impl Read for LiteralOrTable {
+    fn read(node: &Node<'_>) -> Result<Self, Mistake> {
+        match node.get_ref() {
+            DeValue::Table(_) => ConditionTable::read(node).map(LiteralOrTable::Table),
+            _ => {
+                let literal = literal(node).map(LiteralOrTable::Literal);
+                literal.ok_or_else(|| Mistake::ty(node, "a value, or a table of `mask` and `value`"))
             }
         }
-        deserializer.deserialize_any(Either)
     }
 }

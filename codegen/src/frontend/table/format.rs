@@ -1,27 +1,55 @@
-//! The register table format, as `serde` reads it. What the keys mean to whoever writes them is told in
+//! The register table format. What the keys mean to whoever writes them is told in
 //! `dictionaries/README.md`; the doc comments are what editors show.
 
 use std::fmt;
 
-use serde::Deserialize;
-
 use super::alternatives::ConditionValues;
 use super::at::{At, Entries, FlagOr, Literal, OneOrMany, TextOr};
+use super::read::{self, Mistake, Node, Read};
 #[cfg(test)]
 use super::schema;
 
-/// Derives what every table of the format derives.
-macro_rules! tables {
-    ($($(#[$attribute:meta])* pub struct $name:ident { $($body:tt)* })*) => {
-        $(
-            $(#[$attribute])*
-            #[derive(Clone, Debug, Default, Deserialize)]
-            #[cfg_attr(test, derive(schemars::JsonSchema))]
-            #[serde(deny_unknown_fields, default)]
-            #[allow(missing_docs)]
-            pub struct $name { $($body)* }
-        )*
+/// The key of a field: its name, or what stands behind `=`.
+macro_rules! key {
+    ($field:ident) => {
+        stringify!($field)
     };
+    ($field:ident $key:literal) => {
+        $key
+    };
+}
+
+/// Tables of the format, with what reads them: every key may be absent, and there are no others. A field whose name can't be that of its
+/// key has the key behind `=`.
+macro_rules! tables {
+    ($(
+        $(#[$attribute:meta])*
+        pub struct $name:ident {
+            $($(#[$of_field:meta])* pub $field:ident $(= $key:literal)?: $ty:ty,)*
+        }
+    )*) => {$(
+        $(#[$attribute])*
+        #[derive(Clone, Debug, Default)]
+        #[cfg_attr(test, derive(schemars::JsonSchema), schemars(deny_unknown_fields, default))]
+        #[allow(missing_docs)]
+        pub struct $name {
+            $($(#[$of_field])* $(#[cfg_attr(test, schemars(rename = $key))])? pub $field: $ty,)*
+        }
+
+        impl Read for $name {
+            fn read(node: &Node<'_>) -> Result<Self, Mistake> {
+                const KEYS: &[&str] = &[$(key!($field $($key)?)),*];
+                let mut own = Self::default();
+                for (key, value) in read::table(node, concat!("struct ", stringify!($name)))? {
+                    match key.get_ref().as_ref() {
+                        $(key!($field $($key)?) => own.$field = Read::read(value)?,)*
+                        _ => return Err(Mistake::unknown_key(key, KEYS)),
+                    }
+                }
+                Ok(own)
+            }
+        }
+    )*};
 }
 
 /// Values of other items that have to be there, by the items' names.
@@ -61,9 +89,8 @@ pub type BitEntries = Entries<OneOrMany<TextOr<BitTable>>>;
 pub type ValueEntries = Entries<TextOr<ValueTable>>;
 
 /// A number or a text.
-#[derive(Clone, Debug, Deserialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
-#[serde(untagged, expecting = "a number or a text")]
+#[derive(Clone, Debug)]
+#[cfg_attr(test, derive(schemars::JsonSchema), schemars(untagged))]
 pub enum NumberOrText {
     /// A number.
     Number(i64),
@@ -81,9 +108,8 @@ impl fmt::Display for NumberOrText {
 }
 
 /// `true`, `false` or a text.
-#[derive(Clone, Debug, Deserialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
-#[serde(untagged, expecting = "true, false or a text")]
+#[derive(Clone, Debug)]
+#[cfg_attr(test, derive(schemars::JsonSchema), schemars(untagged))]
 pub enum FlagOrText {
     /// A truth value.
     Flag(bool),
@@ -327,8 +353,7 @@ tables! {
     /// What an overlay applies to.
     pub struct OverlayTable {
         /// The devices that it is for.
-        #[serde(rename = "for")]
-        pub applies: Option<AppliesTable>,
+        pub applies = "for": Option<AppliesTable>,
         /// Why it is needed.
         pub why: Option<String>,
         /// What it is, in your own words.
@@ -573,16 +598,14 @@ tables! {
         #[cfg_attr(test, schemars(transform = schema::words(&["var", "array", "record", "domain"])))]
         pub code: Option<At<String>>,
         /// `u16`, `i32`, `f32`, `bool`, `str(25)`, `bytes(6)`, `u16[10]`, …; `?` where the manual doesn't say.
-        #[serde(rename = "type")]
         #[cfg_attr(test, schemars(transform = schema::types))]
-        pub ty: Option<At<String>>,
+        pub ty = "type": Option<At<String>>,
         /// What the bits mean: a name of `[bits]`, or the bits themselves.
         #[cfg_attr(test, schemars(transform = schema::keys(schema::BITS)))]
         pub bits: Option<At<TextOr<BitEntries>>>,
         /// What the values mean: a name of `[enums]`, or the values themselves.
-        #[serde(rename = "enum")]
         #[cfg_attr(test, schemars(transform = schema::keys(schema::VALUES)))]
-        pub values: Option<At<TextOr<ValueEntries>>>,
+        pub values = "enum": Option<At<TextOr<ValueEntries>>>,
         /// `ro`, `rw`, `wo`, `const`, `rwr` or `rww`; `?` if the manual does not state it.
         #[cfg_attr(test, schemars(transform = schema::words(&["ro", "rw", "wo", "const", "rwr", "rww", "?"])))]
         pub access: Option<At<String>>,
@@ -700,9 +723,8 @@ tables! {
         #[cfg_attr(test, schemars(transform = schema::words(schema::BUSES)))]
         pub buses: Option<Vec<At<String>>>,
         /// The type of the value there, on buses where it has another width.
-        #[serde(rename = "type")]
         #[cfg_attr(test, schemars(transform = schema::types))]
-        pub ty: Option<At<String>>,
+        pub ty = "type": Option<At<String>>,
         /// What may be done there, on buses that allow less.
         #[cfg_attr(test, schemars(transform = schema::words(&["ro", "rw", "wo"])))]
         pub access: Option<At<String>>,
@@ -736,8 +758,7 @@ tables! {
     pub struct SummaryTable {
         /// The type that it says.
         #[cfg_attr(test, schemars(transform = schema::types))]
-        #[serde(rename = "type")]
-        pub ty: Option<At<String>>,
+        pub ty = "type": Option<At<String>>,
         /// The access that it says.
         pub access: Option<At<String>>,
         /// The direction of PDOs that it says.
@@ -895,8 +916,7 @@ tables! {
         #[cfg_attr(test, schemars(transform = schema::keys(schema::VALUES)))]
         pub values: Option<ValueEntries>,
         /// The same, as a name of `[enums]`.
-        #[serde(rename = "enum")]
-        pub enumeration: Option<At<String>>,
+        pub enumeration = "enum": Option<At<String>>,
         /// The bits mean nothing: a writer puts 0, 1, or `keep`s what was read.
         pub reserved: Option<NumberOrText>,
         /// `rising`, `falling`, `toggle` or `self_clearing`.
@@ -1030,16 +1050,14 @@ tables! {
         /// First bit in that byte.
         pub bit: Option<u8>,
         /// Its type, where it isn't that of the item.
-        #[serde(rename = "type")]
         #[cfg_attr(test, schemars(transform = schema::types))]
-        pub ty: Option<At<String>>,
+        pub ty = "type": Option<At<String>>,
         /// What the bits mean: a name of `[bits]`, or the bits themselves.
         #[cfg_attr(test, schemars(transform = schema::keys(schema::BITS)))]
         pub bits: Option<At<TextOr<BitEntries>>>,
         /// What the values mean: a name of `[enums]`, or the values themselves.
-        #[serde(rename = "enum")]
         #[cfg_attr(test, schemars(transform = schema::keys(schema::VALUES)))]
-        pub values: Option<At<TextOr<ValueEntries>>>,
+        pub values = "enum": Option<At<TextOr<ValueEntries>>>,
         /// A symbol, or a name of `[units]`.
         pub unit: Option<At<String>>,
         /// physical = raw × scale + offset, in units of `unit`; or how the factor is found.
@@ -1452,18 +1470,16 @@ tables! {
         /// Name of a value.
         pub field: Option<At<String>>,
         /// Its type.
-        #[serde(rename = "type")]
         #[cfg_attr(test, schemars(transform = schema::types))]
-        pub ty: Option<At<String>>,
+        pub ty = "type": Option<At<String>>,
         /// Order of its bytes, the most significant being `A`.
         pub order: Option<At<String>>,
         /// What the bits mean: a name of `[bits]`, or the bits themselves.
         #[cfg_attr(test, schemars(transform = schema::keys(schema::BITS)))]
         pub bits: Option<At<TextOr<BitEntries>>>,
         /// What the values mean: a name of `[enums]`, or the values themselves.
-        #[serde(rename = "enum")]
         #[cfg_attr(test, schemars(transform = schema::keys(schema::VALUES)))]
-        pub values: Option<At<TextOr<ValueEntries>>>,
+        pub values = "enum": Option<At<TextOr<ValueEntries>>>,
         /// A symbol, or a name of `[units]`.
         pub unit: Option<At<String>>,
         /// physical = raw × scale + offset, in units of `unit`; or how the factor is found.

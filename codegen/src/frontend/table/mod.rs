@@ -2,7 +2,7 @@
 //!
 //! | file | subject |
 //! |---|---|
-//! | `format`, `at`, `alternatives` | the tables of the format, as `serde` reads them; the pieces they are made of |
+//! | `format`, `at`, `alternatives`, `read` | the tables of the format, the pieces they are made of, and how both are read |
 //! | `tree` | from the text to those tables, with every error at its place; options |
 //! | `place`, `types`, `value`, `units` | numbers and places, names of types, literals, symbols of units |
 //! | `definitions`, `given` | units, enumerations, bit fields; numbers of the machine |
@@ -50,6 +50,7 @@ mod outcomes;
 pub mod overlay;
 mod place;
 mod process;
+mod read;
 mod references;
 mod repeats;
 mod rows;
@@ -68,7 +69,6 @@ mod windows;
 
 use std::collections::HashSet;
 
-use serde::de::DeserializeOwned;
 use toml::de::DeValue;
 
 use self::machine_budget::MachineBudget;
@@ -80,6 +80,7 @@ use by_name::ByName;
 use definitions::Definitions;
 use format::{ChapterTable, DeviceTable, OptionTable, Row};
 use objects::Dictionary;
+use read::Read;
 use repeats::Repeats;
 use rows::Rows;
 use spaces::Buses;
@@ -263,7 +264,7 @@ impl<'a> Table<'a> {
     }
 
     /// A table.
-    fn take<T: DeserializeOwned>(&mut self, reader: &mut Reader<'a, '_>, key: &str) -> Option<At<T>> {
+    fn take<T: Read>(&mut self, reader: &mut Reader<'a, '_>, key: &str) -> Option<At<T>> {
         let node = self.node(key)?;
         let (start, end) = (node.span().start as u32, node.span().end as u32);
         Some(At { value: reader.piece(node)?, start, end })
@@ -275,7 +276,7 @@ impl<'a> Table<'a> {
     }
 
     /// The same, read.
-    fn list<T: DeserializeOwned>(&mut self, reader: &mut Reader<'a, '_>, key: &str) -> Vec<At<T>> {
+    fn list<T: Read>(&mut self, reader: &mut Reader<'a, '_>, key: &str) -> Vec<At<T>> {
         let nodes = self.nodes(reader, key);
         nodes
             .into_iter()
@@ -292,7 +293,7 @@ impl<'a> Table<'a> {
     }
 
     /// The same, read.
-    fn named<T: DeserializeOwned>(&mut self, reader: &mut Reader<'a, '_>, key: &str) -> Vec<(At<String>, T)> {
+    fn named<T: Read>(&mut self, reader: &mut Reader<'a, '_>, key: &str) -> Vec<(At<String>, T)> {
         let entries = self.entries(reader, key);
         entries.into_iter().filter_map(|(name, node)| Some((name, reader.piece(node)?))).collect()
     }

@@ -5,20 +5,18 @@ use std::collections::HashMap;
 use std::rc::Rc;
 
 use compact_str::CompactString;
-use serde::de::DeserializeOwned;
 use serde_spanned::Spanned;
-use toml::de::{DeString, DeTable, DeValue, ValueDeserializer};
+use toml::de::{DeString, DeTable, DeValue};
 
 use super::at::{At, Literal};
 use super::format::{DoubtTable, NumberOrText, OptionTable};
+pub(super) use super::read::Node;
+use super::read::{MistakeKind, Read};
 use crate::diagnostics::{codes, Code, Diagnostic, Diagnostics};
 use crate::ir::{Documentation, Doubt, Doubts, LocalText, Severity, Subject, SubjectKind, Texts};
 use crate::limits::MAX_UNKNOWN_KEYS;
 use crate::source::{FileId, Origin, Source, Span};
 use crate::text::{brief, edit_distance, standard_and_clause};
-
-/// A value of the file.
-pub(super) type Node<'a> = Spanned<DeValue<'a>>;
 
 /// So many names are listed where none is like the one that was looked for.
 const MAX_LISTED: usize = 12;
@@ -74,36 +72,33 @@ impl<'a> Reader<'a, '_> {
     }
 
     /// Reads a piece. What is wrong with it is reported; unknown keys are left out, so that the rest counts.
-    pub fn piece<T: DeserializeOwned>(&mut self, node: Node<'a>) -> Option<T> {
-        let whole = self.range(Some(node.span()));
-        let mut node = node;
+    pub fn piece<T: Read>(&mut self, mut node: Node<'a>) -> Option<T> {
         // Each costs another reading.
         for told in 0..=MAX_UNKNOWN_KEYS {
-            let error = match T::deserialize(ValueDeserializer::from(node.clone())) {
+            let mistake = match T::read(&node) {
                 Ok(piece) => return Some(piece),
-                Err(error) => error,
+                Err(mistake) => mistake,
             };
-            let span = self.range(error.span());
-            let span = if error.span().is_some() { span } else { whole };
-            let message = first_line(error.message());
-            match unknown_key(message) {
-                Some(_) if told == MAX_UNKNOWN_KEYS => break,
-                Some((key, known)) => {
-                    self.unknown_key(key, &known, span);
+            let span = self.range(Some(mistake.span));
+            match mistake.kind {
+                MistakeKind::UnknownKey { .. } if told == MAX_UNKNOWN_KEYS => break,
+                MistakeKind::UnknownKey { key, known } => {
+                    self.unknown_key(&key, known, span);
                     // A key that is misspelt is read as the one that was meant, so that nothing more is said of it.
-                    let meant = similar(key, known.iter().copied());
-                    if !remove(node.get_mut(), span, key, meant) {
+                    let meant = similar(&key, known.iter().copied());
+                    if !remove(node.get_mut(), span, &key, meant) {
                         return None;
                     }
                 }
-                None => {
-                    let diagnostic = Diagnostic::new(&codes::TABLE_VALUE, span, message.to_owned());
+                MistakeKind::Value(message) => {
+                    let diagnostic = Diagnostic::new(&codes::TABLE_VALUE, span, message);
                     self.diagnostics
                         .push(diagnostic.help("`lexibus schema` and dictionaries/README.md say what it may be"));
                     return None;
                 }
             }
         }
+        let whole = self.range(Some(node.span()));
         let message = format!("more than {MAX_UNKNOWN_KEYS} keys that the format doesn't have");
         let diagnostic = Diagnostic::new(&codes::TABLE_VALUE, whole, message);
         self.diagnostics.push(diagnostic.label("all of this is left out"));
@@ -319,14 +314,6 @@ pub(super) fn sorted<'a>(table: DeTable<'a>) -> Vec<(At<String>, Node<'a>)> {
     let mut entries: Vec<_> = table.into_iter().map(|(key, value)| (place(key), value)).collect();
     entries.sort_by_key(|(key, _)| key.start);
     entries
-}
-
-/// What of a message of `serde` is about a key that isn't known: the key, and those that are.
-fn unknown_key(message: &str) -> Option<(&str, Vec<&str>)> {
-    let rest = message.strip_prefix("unknown field `")?;
-    let (key, rest) = rest.split_once('`')?;
-    let known = rest.split('`').skip(1).step_by(2).collect();
-    Some((key, known))
 }
 
 /// What is usually meant where a table isn't TOML.
