@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # What a compiler costs as a build dependency: a cold `cargo build` of a crate whose build script uses it, in the dev profile.
 #
-#     benches/build-time.sh                 # Lexibus, prost-build, svd2rust
+#     benches/build-time.sh                 # Lexibus, with EDS and tables alone, prost-build, svd2rust
 #     benches/build-time.sh lexibus         # one of them
 #     COMMIT=main~20 benches/build-time.sh lexibus
 #
@@ -42,6 +42,12 @@ lexibus() {
         "fn main() { lexibus_codegen::Builder::new().compile(\"$root/dictionaries/demo-drive.eds\").unwrap() }"
     measure lexibus
 }
+# EDS and register tables, with profiles and overlays.
+lexibus-eds() {
+    crate lexibus-eds "lexibus-codegen = { path = \"$root/codegen\", default-features = false, features = [\"eds\"] }" \
+        "fn main() { lexibus_codegen::Builder::new().compile(\"$root/dictionaries/demo-drive.eds\").unwrap() }"
+    measure lexibus-eds
+}
 prost-build() {
     crate prost-build 'prost-build = "0.14"' 'fn main() { let _ = prost_build::Config::new(); }'
     measure prost-build
@@ -54,8 +60,8 @@ svd2rust() {
 
 for name in "${@:-}"; do
     case $name in
-        "") lexibus && prost-build && svd2rust ;;
-        lexibus | prost-build | svd2rust) "$name" ;;
+        "") lexibus && lexibus-eds && prost-build && svd2rust ;;
+        lexibus | lexibus-eds | prost-build | svd2rust) "$name" ;;
         *) echo "no measurement is called $name" >&2 && exit 2 ;;
     esac
 done

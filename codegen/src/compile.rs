@@ -4,7 +4,15 @@ use std::path::PathBuf;
 
 use crate::backend::rust::{self, RustOptions};
 use crate::diagnostics::{Diagnostic, Diagnostics, Levels};
-use crate::frontend::{detect, eds, esi, gsdml, table, xdd};
+#[cfg(feature = "eds")]
+use crate::frontend::eds;
+#[cfg(feature = "esi")]
+use crate::frontend::esi;
+#[cfg(feature = "gsdml")]
+use crate::frontend::gsdml;
+#[cfg(feature = "xdd")]
+use crate::frontend::xdd;
+use crate::frontend::{detect, table};
 use crate::ir::{Catalog, FileInfo, Format};
 use crate::passes;
 use crate::profiles;
@@ -132,14 +140,23 @@ fn front_end(
             return (None, None, Default::default());
         }
     };
-    let aliases = &options.node_id_aliases;
+    #[cfg_attr(not(feature = "esi"), allow(unused_mut))]
     let mut references = References::new(source);
     let catalog = match format {
-        Format::Eds | Format::Dcf => eds::read(source, file, aliases, diagnostics),
-        Format::Xdd => xdd::read(source, file, aliases, diagnostics),
+        #[cfg(feature = "eds")]
+        Format::Eds | Format::Dcf => eds::read(source, file, &options.node_id_aliases, diagnostics),
+        #[cfg(feature = "xdd")]
+        Format::Xdd => xdd::read(source, file, &options.node_id_aliases, diagnostics),
+        #[cfg(feature = "esi")]
         Format::Esi => esi::read(source, file, &mut references, diagnostics),
+        #[cfg(feature = "gsdml")]
         Format::Gsdml => gsdml::read(source, file, diagnostics),
         Format::Table => table::read(source, file, &options.choices, diagnostics),
+        #[cfg(not(all(feature = "eds", feature = "xdd", feature = "esi", feature = "gsdml")))]
+        _ => {
+            diagnostics.push(detect::without_feature(format, file));
+            None
+        }
     };
     // What tells a DCF from an EDS is the place in a network that it gives the device, whatever its file is called.
     let mut devices = catalog.iter().flat_map(|catalog| &catalog.devices);

@@ -31,6 +31,18 @@
 //! [The book](https://github.com/lexibus/lexibus/blob/main/docs/src/SUMMARY.md)
 //! has a chapter for each format, and one that writes a front end.
 //!
+//! # Features
+//!
+//! A feature for each format, all on by default: `eds` (EDS and DCF), `xdd` (XDD and XDC), `esi`, and `gsdml` with the code for PROFINET. Register
+//! tables and profiles need none. A build script that reads one format compiles faster with that alone:
+//!
+//! ```toml
+//! [build-dependencies]
+//! lexibus-codegen = { version = "0.1", default-features = false, features = ["eds"] }
+//! ```
+//!
+//! `serde` gives [`ir`] the traits of that crate; it is off by default.
+//!
 //! Each stage can be used by itself:
 //!
 //! ```

@@ -38,6 +38,18 @@ fn is_table(name: &str, start: &str) -> bool {
     by_name || first.strip_prefix("lexibus").is_some_and(|rest| rest.trim_start().starts_with('='))
 }
 
+/// The error for a format whose front end was left out of the build.
+#[cfg(not(all(feature = "eds", feature = "xdd", feature = "esi", feature = "gsdml")))]
+pub fn without_feature(format: Format, file: FileId) -> Diagnostic {
+    let feature = match format {
+        Format::Dcf => "eds",
+        _ => format.name(),
+    };
+    let message = format!("`lexibus-codegen` was built without the feature `{feature}`, which reads this format");
+    let help = format!("add it to the dependency: `lexibus-codegen = {{ …, features = [\"{feature}\"] }}`");
+    Diagnostic::new(&codes::UNKNOWN_FORMAT, Span::new(file, 0, 0), message).help(help)
+}
+
 fn unknown(span: Span, message: &str) -> Diagnostic {
     Diagnostic::new(&codes::UNKNOWN_FORMAT, span, message)
         .help("Lexibus reads EDS and DCF files (CiA 306), XDD and XDC files (CiA 311), ESI (ETG.2000) and GSDML files")

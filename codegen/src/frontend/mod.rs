@@ -1,10 +1,15 @@
 //! Front ends: one folder a format, each turning syntax into IR and nothing else.
 
+#[cfg(any(feature = "eds", feature = "xdd"))]
 pub mod canopen;
 pub mod declared_encoding;
 pub mod detect;
+#[cfg(feature = "eds")]
 pub mod eds;
+#[cfg(feature = "esi")]
 pub mod esi;
+#[cfg(feature = "gsdml")]
 pub mod gsdml;
 pub mod table;
+#[cfg(feature = "xdd")]
 pub mod xdd;

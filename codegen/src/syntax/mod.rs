@@ -4,4 +4,5 @@
 //! - [`xml`]: a cursor over `quick-xml`'s events with positions and the breadcrumb of open elements.
 
 pub mod ini;
+#[cfg(feature = "xml")]
 pub mod xml;

@@ -39,6 +39,7 @@ mod options;
 mod pdo;
 mod place;
 mod procedure;
+#[cfg(feature = "gsdml")]
 mod profinet;
 mod quantity;
 mod reachable;
@@ -54,7 +55,7 @@ pub use options::{Presence, RustOptions};
 
 use askama::Template;
 
-use crate::ir::{Catalog, Device, FileInfo, Format, Item, Scale};
+use crate::ir::{Catalog, Device, FileInfo, Item, Scale};
 use model::Model;
 use scope::Scope;
 
@@ -99,7 +100,8 @@ templates! {
 /// One device is the module itself; several are a module each. Modules of modular devices stand beside them.
 pub fn emit_catalog(catalog: &Catalog, options: &RustOptions) -> Option<String> {
     let file = catalog.files.first()?;
-    if file.format == Format::Gsdml {
+    #[cfg(feature = "gsdml")]
+    if file.format == crate::ir::Format::Gsdml {
         return profinet::emit(catalog, file, options);
     }
     catalog::emit(catalog, file, options)
