@@ -67,7 +67,7 @@ impl Read for ConditionValues {
     }
 }
 
-/// A literal or the table of a condition. A table is never a value, so that the two can be told apart.
+/// A literal or the table of a condition. A table is never a value.
 enum LiteralOrTable {
     Literal(Literal),
     Table(ConditionTable),

@@ -1,5 +1,4 @@
-//! The register table format. What the keys mean to whoever writes them is told in
-//! `dictionaries/README.md`; the doc comments are what editors show.
+//! The register table format. `dictionaries/README.md` explains the keys to authors of tables; editors show the doc comments.
 
 use std::fmt;
 
@@ -9,7 +8,7 @@ use super::read::{self, Mistake, Node, Read};
 #[cfg(test)]
 use super::schema;
 
-/// The key of a field: its name, or what stands behind `=`.
+/// The key of a field: its name, or the text after `=`.
 macro_rules! key {
     ($field:ident) => {
         stringify!($field)
