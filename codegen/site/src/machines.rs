@@ -219,10 +219,11 @@ fn diagram(own: &StateMachine) -> Option<Diagram> {
     let mut ways: Vec<(usize, usize, String)> = Vec::new();
     for (at, way) in own.transitions.iter().enumerate() {
         let (Some(from), Some(to)) = (from(way), place(&way.to)) else { continue };
+        let number = number((at, way));
         match ways.iter_mut().find(|known| (known.0, known.1) == (from, to)) {
-            Some((.., label)) if label.split(", ").any(|known| *known == number((at, way))) => {}
-            Some((.., label)) => *label += &format!(", {}", number((at, way))),
-            None => ways.push((from, to, number((at, way)))),
+            Some((.., label)) if label.split(", ").any(|known| known == number) => {}
+            Some((.., label)) => *label += &format!(", {number}"),
+            None => ways.push((from, to, number)),
         }
     }
     if ways.is_empty() {
@@ -273,38 +274,41 @@ fn diagram(own: &StateMachine) -> Option<Diagram> {
     Some(Diagram { width, height, boxes: boxes.iter().enumerate().filter_map(state_box).collect(), arrows })
 }
 
-/// How many transitions each state is from the first one. States that it doesn't lead to come behind: first those that no other of
-/// them leads to.
+/// How many transitions each state is from the first one. States that it doesn't lead to come behind: first those that no other
+/// state leads to.
 fn ranks(count: usize, first: usize, ways: &[(usize, usize, String)]) -> Vec<usize> {
     let mut ranks = vec![None; count];
-    let (mut sources, mut rank) = (vec![first], 0);
-    while !sources.is_empty() {
-        for at in sources {
-            ranks[at] = Some(rank);
-            follow(at, ways, &mut ranks);
+    let mut last = follow(first, 0, ways, &mut ranks);
+    let leads_to = |at: usize| ways.iter().any(|(from, to, _)| *to == at && *from != at);
+    let starts: Vec<usize> = (0..count).filter(|at| ranks[*at].is_none() && !leads_to(*at)).collect();
+    let rank = last + 1;
+    for at in starts {
+        last = last.max(follow(at, rank, ways, &mut ranks));
+    }
+    // States that only lead to one another.
+    for at in 0..count {
+        if ranks[at].is_none() {
+            last = follow(at, last + 1, ways, &mut ranks);
         }
-        rank = ranks.iter().flatten().max().map_or(0, |last| last + 1);
-        let is_open = |at: usize| ranks[at].is_none();
-        let open: Vec<usize> = (0..count).filter(|at| is_open(*at)).collect();
-        let leads = |at: usize| ways.iter().any(|(from, to, _)| *to == at && *from != at && is_open(*from));
-        let starts: Vec<usize> = open.iter().copied().filter(|at| !leads(*at)).collect();
-        sources = if starts.is_empty() { open.into_iter().take(1).collect() } else { starts };
     }
     ranks.into_iter().flatten().collect()
 }
 
-/// Ranks the states that follow a state.
-fn follow(at: usize, ways: &[(usize, usize, String)], ranks: &mut [Option<usize>]) {
-    let mut queue = VecDeque::from([at]);
-    while let Some(at) = queue.pop_front() {
-        let next = ranks[at].map(|rank| rank + 1);
+/// Ranks a state and those that follow it. Returns the last rank of them.
+fn follow(at: usize, rank: usize, ways: &[(usize, usize, String)], ranks: &mut [Option<usize>]) -> usize {
+    let mut queue = VecDeque::from([(at, rank)]);
+    ranks[at] = Some(rank);
+    let mut last = rank;
+    while let Some((at, rank)) = queue.pop_front() {
+        last = rank;
         for (_, to, _) in ways.iter().filter(|(from, ..)| *from == at) {
             if ranks[*to].is_none() {
-                ranks[*to] = next;
-                queue.push_back(*to);
+                ranks[*to] = Some(rank + 1);
+                queue.push_back((*to, rank + 1));
             }
         }
     }
+    last
 }
 
 /// A curve from one state to another, its number beside it. Those that lead down leave at the bottom, those that lead back at the

@@ -479,10 +479,9 @@ impl Words<'_> {
     pub fn variants(&self, item: &Item, manual: &Manual) -> Vec<String> {
         let is_by_model = item.variants.iter().any(|own| !own.models.is_empty());
         let others = is_by_model.then(|| "Default and range of the row apply to the other models.".to_owned());
-        let cite = |own: Option<&Documentation>| own.and_then(|own| own.cite.clone());
-        let of_item = cite(item.documentation.as_deref());
+        let of_item = item.documentation.as_deref().and_then(|own| own.cite.as_ref());
         let variant = |own: &ItemVariant| {
-            let documentation = own.documentation.as_deref().filter(|own| cite(Some(own)) != of_item);
+            let documentation = own.documentation.as_deref().filter(|own| own.cite.as_ref() != of_item);
             let place = self.place(manual, "", documentation, &[]);
             std::iter::once(self.variant(own, item)).chain(place).collect::<Vec<_>>().join(" ")
         };

@@ -481,7 +481,7 @@ tables! {
         pub order_assumed: bool,
         /// What the manual prints before each number: `R` for `R01`.
         pub prefix: Option<String>,
-        /// The least number of digits that the manual prints: 2 for `R01`.
+        /// The minimum number of digits that the manual prints: 2 for `R01`.
         pub digits: Option<u8>,
         /// Whether the bytes of a word are swapped.
         pub swap: bool,

@@ -106,10 +106,11 @@ fn printed_lengths(reader: &mut Reader<'_, '_>, own: &PdoTable, pdo: &Pdo) {
 
 /// `0x6040:0/16`, `item`, `item/16`, `pad/8`, `? name/16`, `? name/i16`.
 fn entry(reader: &mut Reader<'_, '_>, text: &At<String>, targets: &Targets<'_>) -> Option<PdoEntry> {
-    let (what, bits) = match text.value.rsplit_once('/') {
-        Some((what, bits)) => (what.trim(), place::integer(bits).and_then(|bits| u32::try_from(bits).ok())),
+    let (what, length) = match text.value.rsplit_once('/') {
+        Some((what, length)) => (what.trim(), Some(length)),
         None => (text.value.trim(), None),
     };
+    let bits = length.and_then(place::integer).and_then(|bits| u32::try_from(bits).ok());
     let origin = reader.origin(text);
     if what == "pad" {
         let bits = bits.filter(|&bits| bits > 0);
@@ -119,8 +120,7 @@ fn entry(reader: &mut Reader<'_, '_>, text: &At<String>, targets: &Targets<'_>) 
         return Some(PdoEntry { origin, kind: PdoEntryKind::Padding, ..PdoEntry::new(0, 0, bits?) });
     }
     if let Some(name) = what.strip_prefix('?').map(str::trim) {
-        let typed =
-            text.value.rsplit_once('/').and_then(|(_, ty)| types::named(ty)).filter(|own| own.elements.is_none());
+        let typed = length.and_then(types::named).filter(|own| own.elements.is_none());
         let ty = typed.map_or(Type::Opaque(None), |own| own.ty);
         let bits = bits.or(ty.bits()).filter(|&bits| bits > 0 && !name.is_empty());
         if bits.is_none() {

@@ -65,6 +65,12 @@ pub(super) fn table<'n, 'a>(node: &'n Node<'a>, expected: &str) -> Result<&'n De
     }
 }
 
+/// A key with its place.
+pub(super) fn key(key: &Spanned<DeString<'_>>) -> At<String> {
+    let span = key.span();
+    At { value: key.get_ref().to_string(), start: span.start as u32, end: span.end as u32 }
+}
+
 fn integer(number: &DeInteger<'_>) -> Option<i128> {
     i128::from_str_radix(number.as_str(), number.radix()).ok()
 }
@@ -145,11 +151,7 @@ impl<T: Read> Read for At<T> {
 
 impl<T: Read> Read for Entries<T> {
     fn read(node: &Node<'_>) -> Result<Self, Mistake> {
-        let entry = |(key, value): (&Spanned<DeString<'_>>, &Node<'_>)| {
-            let span = key.span();
-            let key = At { value: key.get_ref().to_string(), start: span.start as u32, end: span.end as u32 };
-            Ok((key, At::read(value)?))
-        };
+        let entry = |(key, value): (&Spanned<DeString<'_>>, &Node<'_>)| Ok((self::key(key), At::read(value)?));
         let mut list = table(node, "a table")?.iter().map(entry).collect::<Result<Vec<_>, Mistake>>()?;
         // The parser sorts by name.
         list.sort_by_key(|(key, _)| key.start);

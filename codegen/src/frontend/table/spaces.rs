@@ -27,7 +27,7 @@ pub(super) struct Space {
     /// Whether a shorter value fills all bits of its numbers.
     extend: bool,
     windows: Vec<Window>,
-    /// What the manual prints before each number on Modbus, and the least number of digits.
+    /// What the manual prints before each number on Modbus, and the minimum number of digits.
     pub prefix: CompactString,
     pub digits: u8,
     /// Whether the order of words is an assumption.

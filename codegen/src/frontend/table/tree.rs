@@ -6,12 +6,12 @@ use std::rc::Rc;
 
 use compact_str::CompactString;
 use serde_spanned::Spanned;
-use toml::de::{DeString, DeTable, DeValue};
+use toml::de::{DeTable, DeValue};
 
 use super::at::{At, Literal};
 use super::format::{DoubtTable, NumberOrText, OptionTable};
 pub(super) use super::read::Node;
-use super::read::{MistakeKind, Read};
+use super::read::{self, MistakeKind, Read};
 use crate::diagnostics::{codes, Code, Diagnostic, Diagnostics};
 use crate::ir::{Documentation, Doubt, Doubts, LocalText, Severity, Subject, SubjectKind, Texts};
 use crate::limits::MAX_UNKNOWN_KEYS;
@@ -307,11 +307,7 @@ pub(super) fn similar<'n>(name: &str, known: impl Iterator<Item = &'n str>) -> O
 
 /// Entries by their place: the parser sorts by name.
 pub(super) fn sorted<'a>(table: DeTable<'a>) -> Vec<(At<String>, Node<'a>)> {
-    let place = |key: Spanned<DeString<'a>>| {
-        let span = key.span();
-        At { value: key.into_inner().into_owned(), start: span.start as u32, end: span.end as u32 }
-    };
-    let mut entries: Vec<_> = table.into_iter().map(|(key, value)| (place(key), value)).collect();
+    let mut entries: Vec<_> = table.into_iter().map(|(key, value)| (read::key(&key), value)).collect();
     entries.sort_by_key(|(key, _)| key.start);
     entries
 }
