@@ -2,6 +2,7 @@
 
 use std::collections::HashSet;
 
+use super::code::{call, seq, slice, Doc};
 use super::doc_table;
 use super::docs;
 use super::docs::WORDS;
@@ -47,7 +48,7 @@ pub(super) struct DebugModel {
     pub gate: Option<String>,
     pub title: String,
     pub raw: String,
-    pub calls: Vec<String>,
+    pub calls: Vec<Doc>,
 }
 
 /// A flag or a field of several bits.
@@ -59,7 +60,7 @@ pub(super) struct FieldModel {
     pub setter: String,
     pub ty: String,
     /// Its value, from `self.0`.
-    pub get: String,
+    pub get: Doc,
     /// All bits with `value` in its place.
     pub set: String,
     /// How `Debug` prints it.
@@ -346,18 +347,18 @@ fn debug(name: &str, native: &str, fields: &[FieldModel], options: &RustOptions)
 }
 
 /// One call for all plain fields in a row, and one for each other.
-fn calls(fields: &[FieldModel]) -> Vec<String> {
+fn calls(fields: &[FieldModel]) -> Vec<Doc> {
     let are_plain = |one: &FieldModel, other: &FieldModel| {
         matches!((&one.debug, &other.debug), (FieldDebug::Plain(_), FieldDebug::Plain(_)))
     };
     let call = |run: &[FieldModel]| {
         let plain = run.iter().filter_map(|field| match &field.debug {
-            FieldDebug::Plain(pair) => Some(pair.as_str()),
+            FieldDebug::Plain(pair) => Some(pair),
             FieldDebug::Call(_) => None,
         });
         match run.first().map(|field| &field.debug) {
             Some(FieldDebug::Call(call)) => call.clone(),
-            _ => format!("plain(«bits¦ &[«{}»]»)", plain.collect::<Vec<_>>().join("¦ ")),
+            _ => call!("plain", "bits", slice(plain)),
         }
     };
     fields.chunk_by(are_plain).map(call).collect()
@@ -366,9 +367,9 @@ fn calls(fields: &[FieldModel]) -> Vec<String> {
 /// How `Debug` shows a field.
 pub(super) enum FieldDebug {
     /// By its name and its bits.
-    Plain(String),
+    Plain(Doc),
     /// By a call of its own.
-    Call(String),
+    Call(Doc),
 }
 
 /// What the code of every field depends on.
@@ -421,14 +422,14 @@ impl Context<'_, '_> {
         let code = self.code(entry);
         let getter = names_unique::escaped(name);
         let (text, place) = (literal::string(name), hexadecimal(mask(entry.bits.into()) << entry.offset));
-        let plain = || FieldDebug::Plain(format!("(«{text}¦ {place}»)"));
+        let plain = || FieldDebug::Plain(call!("", text, place));
         let debug = match entry.meaning {
             BitMeaning::Flag { inverted: true } if entry.bits == 1 => {
-                FieldDebug::Call(format!("inverted(«bits¦ {text}¦ {place}»)"))
+                FieldDebug::Call(call!("inverted", "bits", text, place))
             }
             BitMeaning::Flag { .. } if entry.bits == 1 => plain(),
             _ if code.is_named || entry.bits < 2 => {
-                FieldDebug::Call(format!("field(«bits¦ {text}¦ {place}¦ &self.{getter}()»)"))
+                FieldDebug::Call(call!("field", "bits", text, place, seq!["&self.", getter, "()"]))
             }
             _ => plain(),
         };
@@ -450,7 +451,7 @@ impl Context<'_, '_> {
             return Code {
                 is_named: false,
                 ty: "bool".to_owned(),
-                get: format!("self.0 & {place} {is} 0"),
+                get: seq!["self.0 & ", place, " ", is, " 0"],
                 set: self.joined(&place, &shifted_left(&format!("({not}value as {})", self.native), offset)),
             };
         }
@@ -483,10 +484,10 @@ impl Context<'_, '_> {
         };
         match named {
             Some(named) => {
-                let get = format!("{}::from_raw(«{cast}»)", named.name);
+                let get = call!(seq![named.name, "::from_raw"], cast);
                 Code { ty: named.name.clone(), get, set, is_named: true }
             }
-            None => Code { ty: number.to_owned(), get: cast, set, is_named: false },
+            None => Code { ty: number.to_owned(), get: Doc::from(cast), set, is_named: false },
         }
     }
 
@@ -522,7 +523,7 @@ struct Code {
     ty: String,
     /// Whether that is an enumeration.
     is_named: bool,
-    get: String,
+    get: Doc,
     set: String,
 }
 

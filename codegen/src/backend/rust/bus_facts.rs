@@ -2,28 +2,27 @@
 
 use std::collections::BTreeMap;
 
-use super::data::Data;
+use super::code::{seq, Data, Doc};
 use crate::ir::{Availability, Binding, Device, Item, ModbusTable, RegisterBinding, RegisterSpace};
 
 /// A constant, ready to be written.
 pub(super) struct FactModel {
     pub docs: String,
-    pub code: String,
+    pub code: Doc,
 }
 
 /// The names of these constants, as modules name things.
 pub(super) const RESERVED: [&str; 2] = ["node_ids", "modbus"];
 
-/// `nest` is how far the text is moved to the right afterwards.
-pub(super) fn models(device: &Device, nest: usize) -> Vec<FactModel> {
+pub(super) fn models(device: &Device) -> Vec<FactModel> {
     let mut facts = Vec::new();
     if let Some((first, last)) = device.node_ids {
         facts.push(FactModel {
             docs: "The numbers that a node may have.".to_owned(),
-            code: format!("pub const NODE_IDS: core::ops::RangeInclusive<u8> = {first}..={last};"),
+            code: seq!["pub const NODE_IDS: core::ops::RangeInclusive<u8> = ", first, "..=", last, ";"],
         });
     }
-    facts.extend(modbus(device, nest));
+    facts.extend(modbus(device));
     facts
 }
 
@@ -36,7 +35,7 @@ const TABLES: [(RegisterSpace, &str, &str, u16, u16); 4] = [
 ];
 
 /// `MODBUS`, of a device that has registers.
-fn modbus(device: &Device, nest: usize) -> Option<FactModel> {
+fn modbus(device: &Device) -> Option<FactModel> {
     let has_registers = items(device).any(|item| registers(item).next().is_some());
     if !has_registers && device.modbus.is_empty() {
         return None;
@@ -50,31 +49,30 @@ fn modbus(device: &Device, nest: usize) -> Option<FactModel> {
         };
         (field, data)
     };
-    const START: &str = "pub const MODBUS: rt::modbus::Limits = ";
-    let data = Data::Struct("rt::modbus::Limits", TABLES.map(table).into());
+    let data = Data::fields("rt::modbus::Limits", TABLES.map(table));
     Some(FactModel {
         docs: "Which requests the device takes on Modbus, and which registers can be read together.".to_owned(),
-        code: format!("{START}{};", data.render(0, START.len(), 1, nest)),
+        code: seq!["pub const MODBUS: rt::modbus::Limits = ", data, ";"],
     })
 }
 
-fn limits(own: Option<&ModbusTable>, (max_read, max_write): (u16, u16), spans: Vec<Data>) -> Data {
+fn limits(own: Option<&ModbusTable>, (max_read, max_write): (u16, u16), spans: Vec<Doc>) -> Doc {
     let functions = own.map_or(&[][..], |own| &own.functions);
     let number = |given: Option<u16>, standard: u16| Data::text(given.unwrap_or(standard).to_string());
-    Data::Struct(
+    Data::fields(
         "rt::modbus::TableLimits",
         vec![
-            ("functions", Data::Slice(functions.iter().map(|own| Data::text(own.to_string())).collect())),
+            ("functions", Data::slice(functions.iter().map(|own| Data::text(own.to_string())))),
             ("max_read", number(own.and_then(|own| own.max_read), max_read)),
             ("max_write", number(own.and_then(|own| own.max_write), max_write)),
-            ("split", Data::flag(own.is_some_and(|own| own.split))),
-            ("readable", Data::Slice(spans)),
+            ("split", Data::text((own.is_some_and(|own| own.split)).to_string())),
+            ("readable", Data::slice(spans)),
         ],
     )
 }
 
 /// The addresses of a table that can be read along with their neighbours. What is longer than Modbus reads at once never is.
-fn spans(device: &Device, space: RegisterSpace, longest: u16) -> Vec<Data> {
+fn spans(device: &Device, space: RegisterSpace, longest: u16) -> Vec<Doc> {
     let mut addresses: BTreeMap<u16, Option<u8>> = BTreeMap::new();
     let all = items(device).flat_map(|item| registers(item).map(move |own| (item, own)));
     for (item, register) in all.filter(|(_, own)| own.space == space && own.count <= longest) {
@@ -95,9 +93,9 @@ fn spans(device: &Device, space: RegisterSpace, longest: u16) -> Vec<Data> {
     spans.into_iter().map(span).collect()
 }
 
-fn span((first, last, words): (u16, u16, u8)) -> Data {
+fn span((first, last, words): (u16, u16, u8)) -> Doc {
     match words {
-        1 => Data::Call("rt::modbus::Span::new", vec![Data::text(first.to_string()), Data::text(last.to_string())]),
+        1 => Data::call("rt::modbus::Span::new", vec![Data::text(first.to_string()), Data::text(last.to_string())]),
         _ => Data::text(format!("rt::modbus::Span::new({first}, {last}).words_per_address({words})")),
     }
 }

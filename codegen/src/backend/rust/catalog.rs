@@ -2,12 +2,12 @@
 
 use std::collections::{HashMap, HashSet};
 
+use super::code::{open, Code};
 use super::device_names::module_name;
 use super::ethercat::ModulePaths;
-use super::model::{Model, Place};
-use super::nested::{self, STEP};
+use super::model::Model;
 use super::options::RustOptions;
-use super::{docs, header, layout, render};
+use super::{docs, header, print};
 use crate::ir::{Catalog, Device, FileInfo, Module, ModuleId};
 use crate::passes::names_unique::{self, Case, Wish};
 
@@ -36,36 +36,40 @@ const RESERVED: [&str; 18] = [
 pub(super) fn emit(catalog: &Catalog, file: &FileInfo, options: &RustOptions) -> Option<String> {
     let modules = reachable(catalog);
     let names = module_names(&modules);
-    let mut text = header(file);
+    let mut code = Code::new(header(file), &options.runtime);
     match catalog.devices.as_slice() {
         [] if modules.is_empty() => return None,
         [] => {}
         [device] => {
-            let place = Place { nest: 0, modules: paths(&modules, &names, "modules") };
-            text += &render(&Model::new(device, file, options, &place));
+            let paths = paths(&modules, &names, "modules");
+            print::model(&mut code, &Model::new(device, file, options, &paths));
         }
         devices => {
             let paths = paths(&modules, &names, "super::modules");
             for (device, name) in devices.iter().zip(device_names(devices, file)) {
-                let place = Place { nest: STEP, modules: paths.clone() };
-                let body = render(&Model::new(device, file, options, &place));
-                nested::module(&mut text, &heading(&device.name, &name), &name, &body);
+                let model = Model::new(device, file, options, &paths);
+                module(&mut code, &heading(&device.name, &name), &name, |code| print::model(code, &model));
             }
         }
     }
     if !modules.is_empty() {
-        if !text.ends_with('\n') {
-            text.push('\n');
-        }
-        let mut content = String::new();
-        for ((_, module), name) in modules.iter().zip(&names) {
-            let body = render(&Model::of_module(module, options, 2 * STEP));
-            nested::module(&mut content, &heading(&module.name, name), name, &body);
-        }
         let about = "Modules that can be plugged in. Indices that depend on the slot are those of slot 0.";
-        nested::module(&mut text, about, "modules", &content);
+        module(&mut code, about, "modules", |code| {
+            for ((_, own), name) in modules.iter().zip(&names) {
+                let model = Model::of_module(own, options);
+                module(code, &heading(&own.name, name), name, |code| print::model(code, &model));
+            }
+        });
     }
-    Some(layout::fit(&text))
+    Some(code.finish())
+}
+
+/// A module within the generated one.
+fn module(code: &mut Code, heading: &str, name: &str, content: impl FnOnce(&mut Code)) {
+    code.doc(heading);
+    open!(code, "pub mod ", name, " {");
+    content(code);
+    code.close("}");
 }
 
 /// The modules that a device takes, or all where there is no device.

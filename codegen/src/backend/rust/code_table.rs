@@ -1,6 +1,7 @@
 //! Tables of codes: alarms, emergency codes, abort codes.
 
 use super::bus_facts;
+use super::code::{call, slice, Doc};
 use super::code_type::{self, CodeTypeModel};
 use super::docs;
 use super::docs::WORDS;
@@ -17,7 +18,7 @@ pub(super) struct CodeTableModel {
     /// A link to it from beside it.
     pub link: String,
     pub docs: Vec<String>,
-    pub rows: Vec<String>,
+    pub rows: Vec<Doc>,
     /// Whether a cell may resemble a mathematical constant, which clippy would point out.
     pub has_real: bool,
     /// The type of its codes.
@@ -67,31 +68,28 @@ fn model(table: &CodeTable, (name, ty): (String, String), scope: &Scope<'_>, opt
 }
 
 /// `None` for a code beyond 64 bits.
-fn row(row: &CodeRow, columns: usize) -> Option<String> {
+fn row(row: &CodeRow, columns: usize) -> Option<Doc> {
     let (first, last) = (i64::try_from(row.code).ok()?, i64::try_from(row.last.unwrap_or(row.code)).ok()?);
     let mut text = row.documentation.as_ref().map_or_else(String::new, |documentation| documentation.text.clone());
     if let Some(availability) = &row.availability {
         let whole = if text.is_empty() { String::new() } else { docs::sentence(&text) + " " };
         text = whole + &WORDS.availability(availability);
     }
-    let mut cells: Vec<String> = row.cells.iter().take(columns.max(row.cells.len())).map(cell).collect();
-    cells.resize(columns.max(cells.len()), "rt::codes::Cell::Empty".to_owned());
-    let cells = if cells.is_empty() { "&[]".to_owned() } else { format!("&[«{}»]", cells.join("¦ ")) };
+    let mut cells: Vec<Doc> = row.cells.iter().take(columns.max(row.cells.len())).map(cell).collect();
+    cells.resize(columns.max(cells.len()), Doc::from("rt::codes::Cell::Empty"));
+    let cells = if cells.is_empty() { Doc::from("&[]") } else { slice(cells) };
     let (name, text) = (literal::string(&row.name), literal::string(&text));
-    Some(format!(
-        "rt::codes::Code::new(«{}¦ {}¦ {name}¦ {text}¦ {cells}»)",
-        code_type::number(first),
-        code_type::number(last)
-    ))
+    let [first, last] = [first, last].map(code_type::number);
+    Some(call!("rt::codes::Code::new", first, last, name, text, cells))
 }
 
-fn cell(value: &Value) -> String {
-    let text = |text: &str| format!("rt::codes::Cell::Text(«{}»)", literal::string(text));
+fn cell(value: &Value) -> Doc {
+    let text = |text: &str| call!("rt::codes::Cell::Text", literal::string(text));
     match value {
-        Value::Real(real) if real.is_finite() => format!("rt::codes::Cell::Real({real:?})"),
+        Value::Real(real) if real.is_finite() => Doc::from(format!("rt::codes::Cell::Real({real:?})")),
         Value::Text(own) => text(own),
         other => match other.as_int().and_then(|number| i64::try_from(number).ok()) {
-            Some(number) => format!("rt::codes::Cell::Number({number})"),
+            Some(number) => Doc::from(format!("rt::codes::Cell::Number({number})")),
             None => text(&other.to_string()),
         },
     }

@@ -1,7 +1,7 @@
 //! Numbers that are split over several items: a constant for each, which joins and splits them.
 
 use super::bus_facts::{self, FactModel};
-use super::data::Data;
+use super::code::{seq, Data};
 use super::docs;
 use super::links::Here;
 use super::scope::Scope;
@@ -11,9 +11,8 @@ use crate::passes::names_unique::{self, Case};
 /// Names of constants that stand beside them.
 const BESIDE: [&str; 6] = ["device", "axes", "module", "entries", "identity", "node_id"];
 
-/// `nest` is how far the text is moved to the right afterwards.
-pub(super) fn models(scope: &Scope<'_>, device: &Device, nest: usize) -> Vec<FactModel> {
-    device.composites.iter().zip(names(device)).map(|(own, name)| model(scope, own, &name, nest)).collect()
+pub(super) fn models(scope: &Scope<'_>, device: &Device) -> Vec<FactModel> {
+    device.composites.iter().zip(names(device)).map(|(own, name)| model(scope, own, &name)).collect()
 }
 
 /// The names of the constants.
@@ -24,7 +23,7 @@ pub(super) fn names(device: &Device) -> Vec<String> {
     names.iter().map(|name| name.to_ascii_uppercase()).collect()
 }
 
-fn model(scope: &Scope<'_>, own: &Composite, name: &str, nest: usize) -> FactModel {
+fn model(scope: &Scope<'_>, own: &Composite, name: &str) -> FactModel {
     let link = |name: &str| scope.link(name, Here::TOP).unwrap_or_else(|| docs::escape(name));
     let parts: Vec<String> = own.parts.iter().map(|part| link(part)).collect();
     let mut sentences =
@@ -39,12 +38,11 @@ fn model(scope: &Scope<'_>, own: &Composite, name: &str, nest: usize) -> FactMod
     if !text.is_empty() {
         sentences.push(docs::sentence(&docs::escape(text)));
     }
-    let start = format!("pub const {name}: rt::Composite<{}> = ", own.parts.len());
     let base = Data::text(own.base.to_string());
     let value = match &own.sign {
-        None => Data::Call("rt::Composite::new", vec![base]),
-        Some((_, negative)) => Data::Call("rt::Composite::signed", vec![base, Data::text(negative.to_string())]),
+        None => Data::call("rt::Composite::new", vec![base]),
+        Some((_, negative)) => Data::call("rt::Composite::signed", vec![base, Data::text(negative.to_string())]),
     };
-    let code = format!("{start}{};", value.render(0, start.len(), 1, nest));
+    let code = seq!["pub const ", name, ": rt::Composite<", own.parts.len(), "> = ", value, ";"];
     FactModel { docs: sentences.join(" "), code }
 }

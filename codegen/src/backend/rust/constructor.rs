@@ -1,5 +1,6 @@
 //! The call that makes a handle.
 
+use super::code::{call, list, seq, Doc};
 use super::item::ItemType;
 use super::literal;
 use super::place::Place;
@@ -15,10 +16,10 @@ const NO_FLAGS: &str = "rt::Flags::NONE";
 /// What the constructors of a handle take beside its address.
 pub(super) struct Arguments<'i> {
     name: String,
-    range: String,
-    initial: String,
+    range: Doc,
+    initial: Doc,
     /// The default, where it can be told as a literal.
-    default: Option<String>,
+    default: Option<Doc>,
     unit: &'i str,
     flags: &'static str,
 }
@@ -27,8 +28,8 @@ impl<'i> Arguments<'i> {
     /// `outer` leads from the handle's place to the device's.
     pub fn of(item: &'i Item, name: &str, ty: &ItemType<'_>, outer: &str) -> Self {
         let wrap = |literal: String| match ty.named {
-            Some(_) => format!("{}::from_raw(«{literal}»)", ty.path(outer)),
-            None => literal,
+            Some(_) => call!(seq![ty.path(outer), "::from_raw"], literal),
+            None => Doc::from(literal),
         };
         // A truth value is the number of an enumeration.
         let number = item.default.as_ref().filter(|_| ty.named.is_some()).and_then(Value::as_int).map(Value::Int);
@@ -46,46 +47,50 @@ impl<'i> Arguments<'i> {
     }
 
     /// The shortest call that says everything: every argument costs `rustc` a tenth of what the rest of the handle does.
-    pub fn constructor(&self, place: &Place<'_>, location: impl FnOnce() -> String) -> String {
+    pub fn constructor(&self, place: &Place<'_>, location: impl FnOnce() -> Doc) -> Doc {
         self.of_object(place).or_else(|| self.of_register(place)).unwrap_or_else(|| {
             let Arguments { name, range, initial, flags, .. } = self;
-            format!("new(«{}¦ {name}¦ {range}¦ {initial}¦ {}¦ {flags}»)", location(), literal::string(self.unit))
+            call!("new", location(), name, range, initial, literal::string(self.unit), flags)
         })
     }
 
     /// The arguments in which models of a device differ: range and initial value.
-    pub fn of_model(&self) -> [&str; 2] {
+    pub fn of_model(&self) -> [&Doc; 2] {
         [&self.range, &self.initial]
     }
 
     /// Whether every value of the type is one of the item's, and it has no unit.
     fn is_plain(&self) -> bool {
-        self.range == FULL && self.unit.is_empty()
+        self.range.text() == FULL && self.unit.is_empty()
     }
 
     /// The call for what is an object, and nothing else.
-    fn of_object(&self, place: &Place<'_>) -> Option<String> {
+    fn of_object(&self, place: &Place<'_>) -> Option<Doc> {
         let (object, index, sub) = place.only_object().filter(|_| self.is_plain())?;
         let (name, flags) = (&self.name, self.flags);
-        let address = format!("0x{index:04X}¦ 0x{sub:02X}¦ {name}");
+        let [index, sub] = [format!("0x{index:04X}"), format!("0x{sub:02X}")];
         match (&self.default, flags) {
-            (Some(default), NO_FLAGS) => Some(format!("{object}_with_default(«{address}¦ {default}»)")),
-            (Some(default), _) => Some(format!("flagged_{object}_with_default(«{address}¦ {flags}¦ {default}»)")),
-            (None, _) if self.initial != UNKNOWN => None,
-            (None, NO_FLAGS) => Some(format!("{object}(«{address}»)")),
-            (None, _) => Some(format!("flagged_{object}(«{address}¦ {flags}»)")),
+            (Some(default), NO_FLAGS) => Some(call!(seq![object, "_with_default"], index, sub, name, default)),
+            (Some(default), _) => {
+                Some(call!(seq!["flagged_", object, "_with_default"], index, sub, name, flags, default))
+            }
+            (None, _) if self.initial.text() != UNKNOWN => None,
+            (None, NO_FLAGS) => Some(call!(object, index, sub, name)),
+            (None, _) => Some(call!(seq!["flagged_", object], index, sub, name, flags)),
         }
     }
 
     /// The call for a register, which may be an object as well.
-    fn of_register(&self, place: &Place<'_>) -> Option<String> {
-        let address = place.with_register().filter(|_| self.initial == UNKNOWN)?;
+    fn of_register(&self, place: &Place<'_>) -> Option<Doc> {
+        let address = place.with_register().filter(|_| self.initial.text() == UNKNOWN)?;
         let Arguments { name, range, flags, .. } = self;
+        let address = address.into_iter().map(Doc::from);
+        let text = |text: &str| Doc::from(text);
         Some(match self.is_plain() {
-            true => format!("register(«{address}¦ {name}¦ {flags}»)"),
+            true => list("register(", address.chain([text(name), text(flags)]), ")"),
             false => {
-                let unit = literal::string(self.unit);
-                format!("register_within(«{address}¦ {name}¦ {range}¦ {unit}¦ {flags}»)")
+                let unit = Doc::from(literal::string(self.unit));
+                list("register_within(", address.chain([text(name), range.clone(), unit, text(flags)]), ")")
             }
         })
     }

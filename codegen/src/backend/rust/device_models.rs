@@ -1,5 +1,6 @@
 //! The models of a device: their constants, and the items in whose values they differ, each with those of its model.
 
+use super::code::{list, Doc};
 use super::constructor::Arguments;
 use super::docs;
 use super::given::{in_unit, wish};
@@ -24,7 +25,9 @@ pub(super) struct DeviceModel {
 impl DeviceModel {
     /// Whether its handles name types of the device.
     pub(super) fn names_types(&self) -> bool {
-        self.items.iter().any(|own| [&own.ty, &own.range, &own.initial].iter().any(|text| text.contains("types::")))
+        self.items
+            .iter()
+            .any(|own| [&own.ty, &own.range, &own.initial].iter().any(|text| text.text().contains("types::")))
     }
 }
 
@@ -33,9 +36,9 @@ pub(super) struct OwnItem {
     pub name: String,
     pub docs: String,
     /// Its type, as the device's place names it.
-    pub ty: String,
-    pub range: String,
-    pub initial: String,
+    pub ty: Doc,
+    pub range: Doc,
+    pub initial: Doc,
 }
 
 /// The models that have constants or items of their own. `objects` are the handles of all models.
@@ -81,9 +84,9 @@ fn own(scope: &Scope<'_>, item: &Item, object: &ObjectModel, model: &str) -> Opt
             facts.join(", "),
             handle.constant
         ),
-        ty: format!("objects::{}<«{}»>", handle.access, handle.arguments_at_top),
-        range: range.to_owned(),
-        initial: initial.to_owned(),
+        ty: list(&format!("objects::{}<", handle.access), &handle.arguments_at_top, ">"),
+        range: range.clone(),
+        initial: initial.clone(),
     })
 }
 

@@ -1,5 +1,6 @@
 //! How the bits of a value are written in Rust, and turned into an integer and back.
 
+use super::code::{call, seq, Break, Doc};
 use super::named::NamedType;
 use super::scope::Scope;
 use crate::ir::Type;
@@ -58,20 +59,28 @@ impl FieldType {
         }
     }
 
-    /// The value from its bits, which `§` stands for; `path` is that of the type.
-    pub fn decode(&self, path: &str) -> String {
+    /// The value from its bits, of which a truth value is the lowest; `path` is that of the type.
+    pub fn decode(&self, path: &str, bits: &Doc) -> Doc {
         match self {
-            FieldType::Named(_, "u64") => format!("{path}::from_raw(§)"),
-            FieldType::Named(_, native) => format!("{path}::from_raw(§ as {native})"),
-            FieldType::Bool => "§ & 1 == 1".to_owned(),
-            FieldType::Native("u64") => "§".to_owned(),
-            FieldType::Native(native) => format!("§ as {native}"),
-            FieldType::Odd(true, _) => "rt::Int::from_raw(§)".to_owned(),
-            FieldType::Odd(false, _) => "rt::Uint::from_raw(§)".to_owned(),
-            FieldType::Real(32) => "f32::from_bits(§ as u32)".to_owned(),
-            FieldType::Real(_) => "f64::from_bits(§)".to_owned(),
-            FieldType::Time(path) => format!("{path}::from_raw(§)"),
-            FieldType::Bytes(_) => "rt::pdo::to_bytes(§)".to_owned(),
+            FieldType::Named(_, "u64") | FieldType::Time(_) => call!(seq![path, "::from_raw"], bits),
+            FieldType::Named(_, native) => call!(seq![path, "::from_raw"], cast(bits, native)),
+            FieldType::Bool => seq![bits, " & 1 == 1"],
+            FieldType::Native("u64") => bits.clone(),
+            FieldType::Native(native) => cast(bits, native),
+            FieldType::Odd(true, _) => call!("rt::Int::from_raw", bits),
+            FieldType::Odd(false, _) => call!("rt::Uint::from_raw", bits),
+            FieldType::Real(32) => call!("f32::from_bits", cast(bits, "u32")),
+            FieldType::Real(_) => call!("f64::from_bits", bits),
+            FieldType::Bytes(_) => call!("rt::pdo::to_bytes", bits),
+        }
+    }
+
+    /// Whether the bits are part of an expression, so that operators in them need brackets.
+    pub fn is_cast(&self) -> bool {
+        match self {
+            FieldType::Native(native) | FieldType::Named(_, native) => *native != "u64",
+            FieldType::Bool | FieldType::Real(32) => true,
+            _ => false,
         }
     }
 
@@ -84,6 +93,11 @@ impl FieldType {
             _ => None,
         }
     }
+}
+
+/// `value as ty`, broken in front of `as`.
+fn cast(value: &Doc, ty: &str) -> Doc {
+    seq![value, Break, " as ", ty]
 }
 
 /// How `bits` bits of a type are written.

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use super::code::Doc;
 use super::item::ItemModel;
 use super::objects::ObjectModel;
 use crate::ir::Access;
@@ -38,17 +39,8 @@ pub(super) fn aliases(objects: &[ObjectModel]) -> Vec<Alias> {
 }
 
 /// Each type of a handle once, sorted by name.
-pub(super) fn types(objects: &[ObjectModel]) -> Vec<(String, &'static str, String)> {
+pub(super) fn types(objects: &[ObjectModel]) -> Vec<(String, &'static str, Vec<Doc>)> {
     let all = objects.iter().flat_map(|object| &object.items);
     let names: BTreeMap<&str, &ItemModel> = all.map(|item| (item.alias.as_str(), item)).collect();
-    // They stand beside the modules of objects, one level below the device.
-    let arguments = |item: &ItemModel| {
-        let arguments = item.arguments_at_top.replace("¦ objects::", "¦ ");
-        if arguments.starts_with("types::") {
-            format!("super::{arguments}")
-        } else {
-            arguments
-        }
-    };
-    names.into_iter().map(|(name, item)| (name.to_owned(), item.access, arguments(item))).collect()
+    names.into_iter().map(|(name, item)| (name.to_owned(), item.access, item.arguments_beside.clone())).collect()
 }

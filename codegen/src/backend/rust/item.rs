@@ -1,5 +1,6 @@
 //! An entry or a register, ready to be written as a handle.
 
+use super::code::{call, seq, Doc};
 use super::constructor::Arguments;
 use super::docs;
 use super::handle::alias;
@@ -21,20 +22,21 @@ pub(super) struct ItemModel {
     pub method_docs: Vec<String>,
     pub heading: String,
     pub access: &'static str,
-    /// The type of the value and, where there are others, that of the location, as the handle's place names them, and as
-    /// the device's does.
-    pub arguments: String,
-    pub arguments_at_top: String,
+    /// The type of the value and, where there are others, that of the location, as the handle's place names them, as the device's
+    /// does, and as the types of handles do.
+    pub arguments: Vec<Doc>,
+    pub arguments_at_top: Vec<Doc>,
+    pub arguments_beside: Vec<Doc>,
     /// The private name of the handle's type: one without parameters, so that `rustc` has nothing to infer.
     pub alias: String,
     /// The call that makes the handle, without its type.
-    pub constructor: String,
+    pub constructor: Doc,
     /// Whether a literal may resemble a mathematical constant.
     pub real: bool,
     /// The object on the bus of the PDOs.
     pub object: Option<(u16, u8)>,
     /// The arguments of the type that says how it is mapped into PDOs.
-    pub mappable: Option<String>,
+    pub mappable: Option<[String; 3]>,
 }
 
 impl ItemModel {
@@ -48,11 +50,11 @@ impl ItemModel {
     }
 
     /// The expression that joins a handle to the device's client. A long name would break the chain of calls.
-    pub(super) fn at_client(&self) -> String {
+    pub(super) fn at_client(&self) -> Doc {
         const LONG: usize = 48;
         match self.constant.len() > LONG {
-            true => format!("rt::Item::at(«objects::{}¦ &mut self.client»)", self.constant),
-            false => format!("objects::{}.at(&mut self.client)", self.constant),
+            true => call!("rt::Item::at", seq!["objects::", self.constant], "&mut self.client"),
+            false => seq!["objects::", self.constant, ".at(&mut self.client)"],
         }
     }
 }
@@ -82,7 +84,8 @@ pub(super) fn model(
     let heading = heading(original, &place.heading());
     let ty = ItemType::of(scope, item);
     let location = |outer: &str| locations.argument(place.buses(), outer);
-    let on = if location("").is_empty() { String::new() } else { place.buses().word() };
+    let on = location("").map(|_| place.buses().word()).unwrap_or_default();
+    let types = |outer: &str| std::iter::once(ty.path(outer)).chain(location(outer).map(Doc::from)).collect();
     let arguments = Arguments::of(item, original, &ty, outer);
     ItemModel {
         constant: name.to_ascii_uppercase(),
@@ -91,8 +94,9 @@ pub(super) fn model(
         method_docs: if scope.links.has_methods { docs::method(item, &heading, scope, of_method) } else { Vec::new() },
         heading,
         access: alias(item.access),
-        arguments: format!("{}{}", ty.path(outer), location(outer)),
-        arguments_at_top: format!("{}{}", ty.path(""), location("")),
+        arguments: types(outer),
+        arguments_at_top: types(""),
+        arguments_beside: types("super::"),
         alias: format!("{}{}{on}", alias(item.access), ty.word()),
         constructor: arguments.constructor(&place, || locations.code(scope, &place, outer)),
         real: ty.basic.is_real() && (item.default.is_some() || !item.limits.is_empty()),
@@ -129,11 +133,11 @@ impl<'s> ItemType<'s> {
     }
 
     /// Its path; `outer` leads from where it stands to the device's place.
-    pub fn path(&self, outer: &str) -> String {
+    pub fn path(&self, outer: &str) -> Doc {
         match (self.named, &self.quantity) {
-            (Some(name), _) => format!("{outer}types::{name}"),
+            (Some(name), _) => seq![outer, "types::", name],
             (None, Some(quantity)) => quantity.path.clone(),
-            (None, None) => self.basic.path().to_owned(),
+            (None, None) => Doc::from(self.basic.path()),
         }
     }
 

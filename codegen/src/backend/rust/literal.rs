@@ -35,8 +35,8 @@ pub(super) fn bytes(bytes: &[u8]) -> String {
     literal
 }
 
-/// Signs of units, of arithmetic and of punctuation: without them a text says something else. None of them is a marker of the
-/// templates, and none changes how others are shown.
+/// Signs of units, of arithmetic and of punctuation: without them a text says something else. None of them changes how
+/// others are shown.
 const SIGNS: &str = "°µ±·€−×÷≤≥≠≈√∞Σ→←↑↓↔–—…‘’“”„‰•";
 
 /// Letters and digits of any script, and [`SIGNS`].

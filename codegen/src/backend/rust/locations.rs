@@ -2,6 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use super::code::{list, Doc};
 use super::place::{Buses, Place};
 use super::reachable::addressable;
 use super::scope::Scope;
@@ -28,8 +29,8 @@ pub(super) struct Locations {
 
 /// What makes locations of several items.
 struct Shared {
-    body: String,
-    parameters: String,
+    body: Doc,
+    parameters: Vec<String>,
     buses: Buses,
 }
 
@@ -52,7 +53,7 @@ impl Locations {
     }
 
     /// The functions that make locations: name, parameters, type and body.
-    pub fn makers(&self) -> Vec<(String, String, String, String)> {
+    pub fn makers(&self) -> Vec<(String, Vec<String>, String, Doc)> {
         let model = |(at, own): (usize, &Shared)| {
             (maker(at), own.parameters.clone(), self.name(own.buses, ""), own.body.clone())
         };
@@ -60,11 +61,11 @@ impl Locations {
     }
 
     /// The code of an item's location; `outer` leads from the handle's place to the device's.
-    pub fn code(&self, scope: &Scope<'_>, place: &Place<'_>, outer: &str) -> String {
+    pub fn code(&self, scope: &Scope<'_>, place: &Place<'_>, outer: &str) -> Doc {
         let found = place.maker(scope, WINDOWS).and_then(|own| {
             let is_own = |shared: &Shared| shared.body == own.body && shared.parameters == own.parameters;
             let at = self.shared.iter().position(is_own)?;
-            Some(format!("{}{}(«{}»)", beside_handles(outer), maker(at), own.arguments))
+            Some(list(&format!("{}{}(", beside_handles(outer), maker(at)), own.arguments, ")"))
         });
         found.unwrap_or_else(|| place.code(scope, &format!("{outer}windows::")))
     }
@@ -78,19 +79,19 @@ impl Locations {
     }
 
     /// The locations that the runtime has no name for: name, documentation and type.
-    pub fn own(&self) -> Vec<(String, String, String)> {
+    pub fn own(&self) -> Vec<(String, String, Doc)> {
         let unnamed = self.each.iter().filter(|own| own.path().is_none());
         let docs = |own: &Buses| format!("The location of what is found on {}.", own.titles());
         unnamed.map(|own| (own.word(), docs(own), own.written_out())).collect()
     }
 
     /// What follows the type of a value where handles of several locations exist.
-    pub fn argument(&self, buses: Buses, outer: &str) -> String {
+    pub fn argument(&self, buses: Buses, outer: &str) -> Option<String> {
         if buses == self.usual {
-            return String::new();
+            return None;
         }
         let outer = if outer.is_empty() { "objects::" } else { beside_handles(outer) };
-        format!("¦ {}", self.name(buses, outer))
+        Some(self.name(buses, outer))
     }
 }
 
@@ -109,7 +110,7 @@ fn usual(each: &BTreeMap<Buses, usize>) -> Buses {
 
 /// What makes more than one of these places.
 fn shared(scope: &Scope<'_>, places: &[Place<'_>]) -> Vec<Shared> {
-    let mut makers: BTreeMap<(String, String), (usize, Buses)> = BTreeMap::new();
+    let mut makers: BTreeMap<(Doc, Vec<String>), (usize, Buses)> = BTreeMap::new();
     for place in places {
         if let Some(own) = place.maker(scope, WINDOWS) {
             makers.entry((own.body, own.parameters)).or_insert((0, place.buses())).0 += 1;

@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use super::bit_field::BitFieldModel;
-use super::data::Data;
+use super::code::{Data, Doc};
 use super::doc_table;
 use super::docs;
 use super::enumeration::EnumerationModel;
@@ -20,21 +20,13 @@ pub(super) struct MachineModel {
     pub states: Option<PatternsModel>,
     pub commands: Option<PatternsModel>,
     /// Transitions between states by commands, where there are any.
-    transitions: Option<Data>,
+    pub transitions: Option<Doc>,
 }
 
 impl MachineModel {
     /// Whether there is a list of transitions.
     pub(super) fn has_transitions(&self) -> bool {
         self.states.is_some() && self.commands.is_some() && self.transitions.is_some()
-    }
-
-    /// The literal of the transitions, in a text that is moved so far to the right.
-    pub(super) fn transitions(&self, nest: &usize) -> Option<String> {
-        const INDENT: usize = 8;
-        let commands = self.commands.as_ref()?;
-        let column = INDENT + format!("const TRANSITIONS: &'static [rt::Transition<{}>] = ", commands.name).len();
-        Some(self.transitions.as_ref()?.render(INDENT, column, 1, *nest))
     }
 }
 
@@ -237,7 +229,7 @@ impl Named<'_, '_> {
 }
 
 /// The transitions that a controller can take, or wait for. One that leaves any state by itself is a fault, and no way to go.
-fn steps(transitions: &[Transition], states: &PatternsModel, commands: &PatternsModel) -> Option<Data> {
+fn steps(transitions: &[Transition], states: &PatternsModel, commands: &PatternsModel) -> Option<Doc> {
     let named = |list: &PatternsModel, name: &str| {
         list.patterns.iter().find(|own| own.original == name).map(|own| own.name.clone())
     };
@@ -246,7 +238,7 @@ fn steps(transitions: &[Transition], states: &PatternsModel, commands: &Patterns
         let command = own.command.as_ref().map(|name| named(commands, name));
         let command = match command {
             None => Data::text("None"),
-            Some(Some(name)) => Data::Call("Some", vec![Data::text(format!("{}::{name}", commands.name))]),
+            Some(Some(name)) => Data::call("Some", vec![Data::text(format!("{}::{name}", commands.name))]),
             // A message, or a command without bits.
             Some(None) => continue,
         };
@@ -258,10 +250,10 @@ fn steps(transitions: &[Transition], states: &PatternsModel, commands: &Patterns
         let Some(to) = named(states, &own.to) else { continue };
         let state = |name: &str| Data::text(format!("Self::{name} as u8"));
         for from in from {
-            steps.push(Data::Call("rt::Transition::new", vec![state(&from), state(&to), command.clone()]));
+            steps.push(Data::call("rt::Transition::new", vec![state(&from), state(&to), command.clone()]));
         }
     }
-    (!steps.is_empty()).then_some(Data::Slice(steps))
+    (!steps.is_empty()).then_some(Data::slice(steps))
 }
 
 fn patterns(

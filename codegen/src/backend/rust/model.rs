@@ -2,6 +2,7 @@
 
 use super::axes::{self, AxesModel};
 use super::bus_facts::{self, FactModel};
+use super::code::Doc;
 use super::code_table::{self, CodeTableModel};
 use super::composite;
 use super::device_models::{self, DeviceModel};
@@ -28,21 +29,10 @@ use super::window::{self, WindowModel};
 use super::INTERFACE_VERSION;
 use crate::ir::{Device, FileInfo, Module};
 
-/// Where a device's code stands.
-#[derive(Default)]
-pub(super) struct Place {
-    /// How far its lines are moved to the right.
-    pub nest: usize,
-    /// The paths of modules, as seen from the device.
-    pub modules: ModulePaths,
-}
-
 /// A device, ready to be written.
 pub(super) struct Model<'a> {
     pub options: &'a RustOptions,
     pub interface_version: u32,
-    /// How far the lines are moved to the right.
-    pub nest: usize,
     pub device_name: String,
     pub title: String,
     /// Who made the device; a module of a modular device has none.
@@ -54,9 +44,9 @@ pub(super) struct Model<'a> {
     /// Whether handles have several types of locations.
     pub has_locations: bool,
     /// Locations that the runtime has no name for: name, documentation and type.
-    pub locations: Vec<(String, String, String)>,
+    pub locations: Vec<(String, String, Doc)>,
     /// Functions that make locations which several items have: name, parameters, type and body.
-    pub makers: Vec<(String, String, String, String)>,
+    pub makers: Vec<(String, Vec<String>, String, Doc)>,
     /// The windows through which items are found.
     pub windows: Vec<WindowModel>,
     /// What the handles are of, and what one of them is of at the start of a sentence and within it.
@@ -81,7 +71,7 @@ pub(super) struct Model<'a> {
     pub objects: Vec<ObjectModel>,
     pub aliases: Vec<Alias>,
     /// Private names of the types of handles: name, access and arguments.
-    pub handle_types: Vec<(String, &'static str, String)>,
+    pub handle_types: Vec<(String, &'static str, Vec<Doc>)>,
     pub pdos: Vec<PdoModel>,
     /// PDOs that can be mapped anew.
     pub remappable: Vec<RemappableModel>,
@@ -89,41 +79,40 @@ pub(super) struct Model<'a> {
     pub has_views: bool,
     pub ethercat: Option<EtherCatModel>,
     /// `MODULE` of a module.
-    pub module: Option<String>,
+    pub module: Option<Doc>,
     pub table: Option<Vec<EntryModel>>,
     pub table_feature: Option<String>,
 }
 
 impl<'a> Model<'a> {
-    /// A device.
-    pub(super) fn new(device: &'a Device, file: &'a FileInfo, options: &'a RustOptions, place: &Place) -> Self {
+    /// A device, which finds the constants of modules by these paths.
+    pub(super) fn new(device: &'a Device, file: &'a FileInfo, options: &'a RustOptions, modules: &ModulePaths) -> Self {
         let device_name = device_names::device_name(device, file, options.device_name.as_deref());
         let (scope, types) = Scope::of_device(device, options, &device_name);
         let mut model = Model::of_scope(&scope, types, options);
         model.protocol = model.protocol_of(&scope);
         model.has_accessors = scope.links.has_methods;
-        model.nest = place.nest;
         model.device_name = device_name;
         model.title = docs::escape(&device_names::title(device));
         model.identity = (!device.dictionary_only).then(|| IdentityModel::new(device));
         model.procedures = procedure::models(&scope, device);
         model.models = device_models::models(&scope, device, &model.objects);
         model.given = given::model(&scope, device, options);
-        model.ethercat = EtherCatModel::new(device, &model.pdos, &place.modules, place.nest);
+        model.ethercat = EtherCatModel::new(device, &model.pdos, modules);
         model.code_tables = code_table::models(&scope, device, options);
-        model.axes = axes::model(device, place.nest);
-        model.bus_facts = bus_facts::models(device, place.nest);
-        model.bus_facts.extend(composite::models(&scope, device, place.nest));
+        model.axes = axes::model(device);
+        model.bus_facts = bus_facts::models(device);
+        model.bus_facts.extend(composite::models(&scope, device));
         model.node_id = device.commissioning.as_ref().and_then(|own| own.node_id);
         model
     }
 
     /// A module of a modular device.
-    pub(super) fn of_module(module: &'a Module, options: &'a RustOptions, nest: usize) -> Self {
+    pub(super) fn of_module(module: &'a Module, options: &'a RustOptions) -> Self {
         let (scope, types) = Scope::of_module(module, options);
         let mut model = Model::of_scope(&scope, types, options);
         model.title = docs::escape(&module.name);
-        model.module = Some(ethercat::module(module, &model.pdos, nest));
+        model.module = Some(ethercat::module(module, &model.pdos));
         model
     }
 
@@ -163,7 +152,6 @@ impl<'a> Model<'a> {
         Model {
             options,
             interface_version: INTERFACE_VERSION,
-            nest: 0,
             device_name: String::new(),
             title: String::new(),
             identity: None,

@@ -35,7 +35,9 @@ impl ObjectModel {
 
     /// Whether its items need the runtime's name.
     pub(super) fn names_runtime(&self) -> bool {
-        self.items.iter().any(|item| item.arguments.contains("rt::") || item.constructor.contains("rt::"))
+        self.items
+            .iter()
+            .any(|item| item.arguments.iter().chain([&item.constructor]).any(|own| own.text().contains("rt::")))
     }
 }
 

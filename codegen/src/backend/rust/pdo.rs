@@ -2,12 +2,12 @@
 
 use std::collections::{HashMap, HashSet};
 
+use super::code::{call, list, seq, Break, Data, Doc};
 use super::doc_table;
 use super::docs;
 use super::docs::WORDS;
 use super::ethercat::depends_on;
 use super::field_type::{field_type, FieldType};
-use super::layout;
 use super::links::Here;
 use super::method_names::{beside, method_allow};
 use super::options::RustOptions;
@@ -39,7 +39,7 @@ pub(super) struct PdoModel {
     /// Whether packing and unpacking are `const fn` in the oldest Rust that the runtime supports.
     pub constant: &'static str,
     pub fields: Vec<FieldModel>,
-    pub mapping: Vec<String>,
+    pub mapping: Vec<Doc>,
     pub word: bool,
     /// All bits that a field covers.
     pub covered: String,
@@ -63,10 +63,7 @@ pub(super) struct FieldModel {
     /// What derived traits need to know of it.
     pub attribute: Option<String>,
     pub ty: String,
-    /// Its bits as an `u64`.
-    pub encode: String,
-    /// The field from its bits, `§` standing for the word that has them lowest.
-    pub decode: String,
+    kind: FieldType,
     /// The bits that the field has of its Rust type, where these are fewer and its own conversions don't say so.
     cut: Option<String>,
     pub offset: u32,
@@ -292,9 +289,9 @@ pub(super) fn mapping_entry(entry: &PdoEntry) -> (&'static str, Vec<String>) {
     (path, arguments)
 }
 
-pub(super) fn mapping_line(entry: &PdoEntry) -> String {
+pub(super) fn mapping_line(entry: &PdoEntry) -> Doc {
     let (path, arguments) = mapping_entry(entry);
-    format!("{path}(«{}»)", arguments.join("¦ "))
+    list(&format!("{path}("), arguments, ")")
 }
 
 fn fields(scope: &Scope<'_>, mapped: &[&PdoEntry], options: &RustOptions) -> Vec<FieldModel> {
@@ -356,10 +353,8 @@ fn field_text(scope: &Scope<'_>, entry: &PdoEntry) -> String {
 
 fn field(scope: &Scope<'_>, entry: &PdoEntry, name: &str, text: &str, options: &RustOptions) -> FieldModel {
     let name = names_unique::escaped(name);
-    let own = format!("self.{name}");
     let kind = field_type(scope, entry.ty, entry.bits);
     let ty = kind.path("super::");
-    let (encode, decode) = (kind.encode(&own, entry.bits), kind.decode(&ty));
     let cut = kind.cut(entry.bits);
     let address = format!("0x{:04X}:{:02X}", entry.index, entry.sub_index);
     let object = match (entry.kind, scope.links.object((entry.index, entry.sub_index))) {
@@ -390,8 +385,7 @@ fn field(scope: &Scope<'_>, entry: &PdoEntry, name: &str, text: &str, options: &
             _ => None,
         },
         ty,
-        encode,
-        decode,
+        kind,
         cut,
         offset: entry.bit_offset,
         bits: entry.bits,
@@ -449,25 +443,20 @@ impl PdoModel {
         lines
     }
 
-    /// `name: value` for each field, from the frame's bytes.
-    pub(super) fn unpacked(&self) -> Vec<String> {
+    /// The struct, from the frame's bytes.
+    pub(super) fn unpacked(&self) -> Doc {
         let value = |field: &FieldModel| if self.word { field.unpack_word() } else { field.unpack_data() };
-        self.fields.iter().map(|field| format!("{}: {}", field.name, value(field))).collect()
-    }
-
-    /// Whether `prettyplease` would leave the struct on one line: of 34 bytes, eight are `Self { ` and the blank at its end.
-    pub(super) fn is_short(&self) -> bool {
-        let text = self.unpacked().join(", ");
-        text.chars().filter(|letter| !layout::is_mark(*letter)).count() <= 34 - 8
+        Data::fields("Self", self.fields.iter().map(|field| (field.name.as_str(), value(field))))
     }
 }
 
 impl FieldModel {
     /// Its bits, none of which is beyond its width.
     pub(super) fn packed(&self) -> String {
+        let bits = self.kind.encode(&format!("self.{}", self.name), self.bits);
         match &self.cut {
-            Some(mask) => format!("{} & {mask}", self.encode),
-            None => self.encode.clone(),
+            Some(mask) => format!("{bits} & {mask}"),
+            None => bits,
         }
     }
 
@@ -488,54 +477,43 @@ impl FieldModel {
     }
 
     /// The field from `word`, which has all bits of the PDO.
-    pub(super) fn unpack_word(&self) -> String {
+    fn unpack_word(&self) -> Doc {
         let shifted = match (self.offset, &self.cut) {
             (0, None) => "word".to_owned(),
             (0, Some(mask)) => format!("word & {mask}"),
             (offset, None) => format!("word >> {offset}"),
             (offset, Some(mask)) => format!("(word >> {offset}) & {mask}"),
         };
-        let in_parentheses = self.decode.contains("(§)") || self.decode == "§";
-        let bits = if shifted == "word" || in_parentheses { shifted } else { format!("({shifted})") };
         // Precedence of `&` and `==` is plain only with brackets.
-        match self.decode.replace('§', &bits).strip_suffix(" & 1 == 1") {
-            Some(bit) => format!("({bit}) & 1 == 1").replace("((", "(").replace("))", ")"),
-            None => self.call(&bits).unwrap_or_else(|| self.decode.replace('§', &bits)),
-        }
+        let is_plain = match self.kind {
+            FieldType::Bool => false,
+            _ => shifted == "word" || !self.kind.is_cast(),
+        };
+        let bits = Doc::from(if is_plain { shifted } else { format!("({shifted})") });
+        self.kind.decode(&self.ty, &bits)
     }
 
     /// The field from `data`, for PDOs of more than a word.
-    pub(super) fn unpack_data(&self) -> String {
+    fn unpack_data(&self) -> Doc {
         if self.long {
             return self.get_bytes("data", &self.offset.to_string());
         }
-        let bits = format!("rt::bits::get(«data¦ {}¦ {}»)", self.offset, self.bits);
-        self.decode_marked(&bits)
+        self.decode(&call!("rt::bits::get", "data", self.offset, self.bits))
     }
 
-    /// The decoding of `bits`, with marks where a long line may be broken.
-    fn decode_marked(&self, bits: &str) -> String {
-        if self.decode == "§ & 1 == 1" {
-            return format!("{bits}‡!= 0");
+    /// The decoding of bits, of which none is beyond the width of the field.
+    fn decode(&self, bits: &Doc) -> Doc {
+        match self.kind {
+            FieldType::Bool => seq![bits, Break, " != 0"],
+            _ => self.kind.decode(&self.ty, bits),
         }
-        if let Some(ty) = self.decode.strip_prefix("§ as ") {
-            return format!("{bits}‡as {ty}");
-        }
-        self.call(bits).unwrap_or_else(|| self.decode.replace('§', bits))
-    }
-
-    /// The decoding of `bits` where it is a call, with marks where a long line may be broken.
-    fn call(&self, bits: &str) -> Option<String> {
-        let (path, rest) = self.decode.split_once('(')?;
-        let inner = rest.strip_suffix(')')?;
-        Some(format!("{path}(«{}»)", inner.replace(" as ", "‡as ").replace('§', bits)))
     }
 
     /// The expression that copies the field from the bit `at` of `data`.
-    fn get_bytes(&self, data: &str, at: &str) -> String {
+    fn get_bytes(&self, data: &str, at: &str) -> Doc {
         match self.odd_bits() {
-            Some(bits) => format!("rt::bits::get_bits(«{data}¦ {at}¦ {bits}»)"),
-            None => format!("rt::bits::get_bytes(«{data}¦ {at}»)"),
+            Some(bits) => call!("rt::bits::get_bits", data, at, bits),
+            None => call!("rt::bits::get_bytes", data, at),
         }
     }
 
@@ -554,26 +532,24 @@ impl FieldModel {
     }
 
     /// The expression that reads the field from a process image.
-    pub(super) fn get_in_image(&self) -> String {
+    pub(super) fn get_in_image(&self) -> Doc {
         let at = self.bit();
         if self.long {
             return self.get_bytes("self.data.as_ref()", &at);
         }
-        self.decode_marked(&format!("rt::bits::get(«self.data.as_ref()¦ {at}¦ {}»)", self.bits))
+        self.decode(&call!("rt::bits::get", "self.data.as_ref()", at, self.bits))
     }
 
     /// The statement that writes `value` into a process image.
-    pub(super) fn set_in_image(&self) -> String {
+    pub(super) fn set_in_image(&self) -> Doc {
         let at = self.bit();
-        if self.long {
-            return match self.odd_bits() {
-                Some(bits) => format!("rt::bits::set_bits(«self.data.as_mut()¦ {at}¦ {bits}¦ &value»);"),
-                None => format!("rt::bits::set_bytes(«self.data.as_mut()¦ {at}¦ &value»);"),
-            };
-        }
-        let own = format!("self.{}", self.name);
-        let value = self.encode.replace(&own, "value");
-        format!("rt::bits::set(«self.data.as_mut()¦ {at}¦ {}¦ {value}»);", self.bits)
+        let data = "self.data.as_mut()";
+        let set = match self.odd_bits().filter(|_| self.long) {
+            Some(bits) => call!("rt::bits::set_bits", data, at, bits, "&value"),
+            None if self.long => call!("rt::bits::set_bytes", data, at, "&value"),
+            None => call!("rt::bits::set", data, at, self.bits, self.kind.encode("value", self.bits)),
+        };
+        seq![set, ";"]
     }
 
     /// The statements that put the field into `data`, for PDOs of more than a word.

@@ -1,12 +1,13 @@
 //! Units and scales: the types of numbers that stand for physical ones, and what documentation says of them.
 
+use super::code::{generic, list, Doc};
 use super::scope::Scope;
 use crate::ir::{Item, Quantity, Scale};
 
 /// The type of a quantity.
 pub(super) struct QuantityType {
     /// Its path, in terms of the runtime.
-    pub path: String,
+    pub path: Doc,
     /// Its name as a part of another one.
     pub word: String,
 }
@@ -31,21 +32,21 @@ pub(super) fn of(scope: &Scope<'_>, item: &Item) -> Option<QuantityType> {
         Some(Scale::Reciprocal { numerator }) => by_fraction("Reciprocal", base, &word, *numerator)?,
         Some(Scale::ByItem { factor, .. }) => by_fraction("PerItem", base, &word, *factor)?,
         Some(Scale::Fraction { bits, .. }) => {
-            QuantityType { path: format!("rt::Fraction<«{base}¦ {bits}»>"), word: format!("Fraction{bits}Of{word}") }
+            QuantityType { path: generic!("rt::Fraction", base, *bits), word: format!("Fraction{bits}Of{word}") }
         }
         // What models differ in, and what no type of the runtime computes, is left to the caller.
         Some(Scale::TimesItem { .. }) => return None,
         Some(Scale::Exponent { base: 10, fraction: 0, .. }) => {
-            QuantityType { path: format!("rt::Exponential<«{base}»>"), word: format!("Exponential{word}") }
+            QuantityType { path: generic!("rt::Exponential", base), word: format!("Exponential{word}") }
         }
         Some(Scale::Exponent { base: raised, fraction, .. }) => QuantityType {
-            path: format!("rt::Exponential<«{base}¦ {raised}¦ {fraction}»>"),
+            path: generic!("rt::Exponential", base, *raised, *fraction),
             word: format!("Exponential{raised}Of{fraction}Bits{word}"),
         },
     };
     for (raw, _) in sentinels {
         own = QuantityType {
-            path: format!("rt::OrNone<«{}¦ {raw}»>", own.path),
+            path: generic!("rt::OrNone", own.path, raw),
             word: format!("{}OrNone{}", own.word, spelled(raw)),
         };
     }
@@ -66,24 +67,30 @@ fn sentinels(quantity: &Quantity) -> Vec<(i128, &str)> {
 fn linear(base: &str, word: &str, factor: f64, offset: f64) -> Option<QuantityType> {
     let (num, den, offset) = common(factor, offset)?;
     let arguments = match (den, offset) {
-        (1, 0) => num.to_string(),
-        (_, 0) => format!("{num}¦ {den}"),
-        _ => format!("{num}¦ {den}¦ {offset}"),
+        (1, 0) => vec![num],
+        (_, 0) => vec![num, den],
+        _ => vec![num, den, offset],
     };
     let plus = if offset == 0 { String::new() } else { format!("Plus{}", spelled(offset.into())) };
     Some(QuantityType {
-        path: format!("rt::Scaled<«{base}¦ {arguments}»>"),
+        path: with_numbers("rt::Scaled", base, &arguments),
         word: format!("{word}Times{}Per{den}{plus}", spelled(num.into())),
     })
 }
 
 fn by_fraction(name: &str, base: &str, word: &str, factor: f64) -> Option<QuantityType> {
     let (num, den) = rational(factor)?;
-    let arguments = if den == 1 { num.to_string() } else { format!("{num}¦ {den}") };
+    let arguments = if den == 1 { vec![num] } else { vec![num, den] };
     Some(QuantityType {
-        path: format!("rt::{name}<«{base}¦ {arguments}»>"),
+        path: with_numbers(&format!("rt::{name}"), base, &arguments),
         word: format!("{name}{word}Times{}Per{den}", spelled(num.into())),
     })
+}
+
+/// The path of a type with these parameters.
+fn with_numbers(path: &str, base: &str, numbers: &[i64]) -> Doc {
+    let parameters = std::iter::once(base.to_owned()).chain(numbers.iter().map(i64::to_string));
+    list(&format!("{path}<"), parameters, ">")
 }
 
 fn spelled(number: i128) -> String {

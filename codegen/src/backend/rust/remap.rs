@@ -2,6 +2,7 @@
 
 use std::collections::HashMap;
 
+use super::code::{seq, slice, Doc};
 use super::field_type;
 use super::links::Here;
 use super::objects::ObjectModel;
@@ -24,7 +25,7 @@ pub(super) struct RemappableModel {
     /// What stands for its identifier.
     pub cob_id: &'static str,
     /// Constants, each with its type and value.
-    pub constants: Vec<String>,
+    pub constants: Vec<Doc>,
 }
 
 /// The PDOs that can be mapped anew; where there are any, items get to know how they are mapped.
@@ -45,21 +46,21 @@ fn model(scope: &Scope<'_>, device: &Device, pdo: &Pdo, name: String) -> Option<
         return None;
     }
     let entries = writable_entries(scope, pdo);
-    let mut constants = vec![format!("INDEX: u16 = 0x{:04X}", pdo.mapping_index)];
+    let mut constants = vec![Doc::from(format!("INDEX: u16 = 0x{:04X}", pdo.mapping_index))];
     let cob_id = match &pdo.communication {
         Some(_) => {
-            constants.push(format!("ENTRIES: usize = {}", entries?));
+            constants.push(seq!["ENTRIES: usize = ", entries?]);
             on_canopen(device, pdo, &mut constants)?
         }
         None => {
             let entries = entries.or_else(|| configures(device).then_some(MAX_PDO_SUBS));
-            constants.push(format!("ENTRIES: usize = {}", entries?));
+            constants.push(seq!["ENTRIES: usize = ", entries?]);
             on_ethercat(scope, device, pdo, &mut constants)?
         }
     };
-    let kept: Vec<String> = pdo.entries.iter().filter(|entry| entry.fixed).map(pdo::mapping_line).collect();
+    let kept: Vec<Doc> = pdo.entries.iter().filter(|entry| entry.fixed).map(pdo::mapping_line).collect();
     if !kept.is_empty() {
-        constants.push(format!("KEPT: &'static [rt::MappedEntry] = &[«{}»]", kept.join("¦ ")));
+        constants.push(seq!["KEPT: &'static [rt::MappedEntry] = ", slice(kept)]);
     }
     Some(RemappableModel {
         title: match pdo::is_generated(pdo) {
@@ -85,31 +86,31 @@ fn writable_entries(scope: &Scope<'_>, pdo: &Pdo) -> Option<usize> {
 }
 
 /// What CANopen adds, and what stands for the identifier; nothing where the mapping is fixed.
-fn on_canopen(device: &Device, pdo: &Pdo, constants: &mut Vec<String>) -> Option<&'static str> {
+fn on_canopen(device: &Device, pdo: &Pdo, constants: &mut Vec<Doc>) -> Option<&'static str> {
     let communication = pdo.communication.as_ref()?;
     let settings = device.canopen.as_deref();
     match settings.and_then(|settings| settings.granularity) {
         // CiA 306: the mapping is fixed.
         Some(0) => return None,
-        Some(bits @ 2..) => constants.push(format!("GRANULARITY: u32 = {bits}")),
+        Some(bits @ 2..) => constants.push(seq!["GRANULARITY: u32 = ", u32::from(bits)]),
         _ => {}
     }
     let receives = pdo.direction == Direction::Receive;
     let dummies = settings.filter(|_| receives).map_or(&[][..], |settings| &settings.dummies);
     let dummies = dummies.iter().filter_map(|&code| 1_u32.checked_shl(code.into())).fold(0, |all, one| all | one);
     if dummies != 0 {
-        constants.push(format!("DUMMIES: u32 = 0x{dummies:X}"));
+        constants.push(Doc::from(format!("DUMMIES: u32 = 0x{dummies:X}")));
     }
     if communication.writable.contains(&1) {
-        constants.push(format!("COMMUNICATION: Option<u16> = Some(0x{:04X})", communication.index));
+        constants.push(Doc::from(format!("COMMUNICATION: Option<u16> = Some(0x{:04X})", communication.index)));
     }
     let timing = pdo::timing_writes(communication);
     if !timing.is_empty() {
-        constants.push(format!("TIMING: &'static [rt::SdoWrite] = &[«{}»]", timing.join("¦ ")));
+        constants.push(seq!["TIMING: &'static [rt::SdoWrite] = ", slice(timing)]);
     }
     match pdo::cob_id(pdo).filter(|_| pdo::has_identifier(pdo)) {
         Some(cob_id) => {
-            constants.push(format!("COB_ID: rt::CobId = {cob_id}"));
+            constants.push(seq!["COB_ID: rt::CobId = ", cob_id]);
             Some("rt::CobId")
         }
         None => Some("rt::pdo::NoCobId"),
@@ -117,7 +118,7 @@ fn on_canopen(device: &Device, pdo: &Pdo, constants: &mut Vec<String>) -> Option
 }
 
 /// What EtherCAT adds, and what stands for the identifier.
-fn on_ethercat(scope: &Scope<'_>, device: &Device, pdo: &Pdo, constants: &mut Vec<String>) -> Option<&'static str> {
+fn on_ethercat(scope: &Scope<'_>, device: &Device, pdo: &Pdo, constants: &mut Vec<Doc>) -> Option<&'static str> {
     if scope.bus != ObjectBus::CoE || device.dictionary_only {
         return None;
     }
@@ -125,7 +126,7 @@ fn on_ethercat(scope: &Scope<'_>, device: &Device, pdo: &Pdo, constants: &mut Ve
     let own = managers.iter().find(|manager| Some(manager.number) == pdo.sync_manager);
     let bytes = own.and_then(|manager| manager.size_range.1).unwrap_or(MAX_SYNC_MANAGER);
     let bytes = pdo.max_bytes.map_or(bytes, |own| own.min(bytes));
-    constants.push(format!("MAX_BITS: u32 = {}", u32::from(bytes) * 8));
+    constants.push(seq!["MAX_BITS: u32 = ", u32::from(bytes) * 8]);
     Some("rt::pdo::OnEtherCat")
 }
 
@@ -184,7 +185,7 @@ fn arguments(
     (index, sub_index): (u16, u8),
     into: Mappable,
     outer: &str,
-) -> Option<String> {
+) -> Option<[String; 3]> {
     let direction = match (into.rpdo, into.tpdo) {
         (true, true) => "rt::AnyPdo",
         (true, false) => "rt::Rpdo",
@@ -193,7 +194,7 @@ fn arguments(
     };
     let bits = bits(scope.base(item.object_type())).filter(|bits| (1..=MAX_ENTRY).contains(bits))?;
     let field = field_type::field_type(scope, item.ty, bits).path(outer);
-    Some(format!("{field}¦ {direction}¦ {}", word(index, sub_index, bits)))
+    Some([field, direction.to_owned(), word(index, sub_index, bits)])
 }
 
 /// Length in bits, of texts as well where it is known.

@@ -1,5 +1,6 @@
 //! The route to an item on each bus: its type, and the code that makes it.
 
+use super::code::{call, generic, seq, slice, Doc};
 use crate::ir::{Limits, Value};
 
 /// The buses of a location, in the order of its fields, but for the records of PROFINET, which tables have no items in.
@@ -74,15 +75,15 @@ pub(super) enum Leg {
 }
 
 impl Leg {
-    fn ty(self, net: Net, reads: bool) -> String {
+    fn ty(self, net: Net, reads: bool) -> Doc {
         let address = net.address();
         match self {
-            Leg::Direct => address.to_owned(),
-            Leg::Resized => format!("rt::Resized<«{address}»>"),
-            Leg::Limited => format!("rt::Limited<«{address}»>"),
-            Leg::LimitedResized => format!("rt::Limited<«rt::Resized<«{address}»>»>"),
-            Leg::Window if reads => format!("rt::Through<«rt::ReadWindow<«{address}»>»>"),
-            Leg::Window => format!("rt::Through<«rt::WriteWindow<«{address}»>»>"),
+            Leg::Direct => Doc::from(address),
+            Leg::Resized => generic!("rt::Resized", address),
+            Leg::Limited => generic!("rt::Limited", address),
+            Leg::LimitedResized => generic!("rt::Limited", generic!("rt::Resized", address)),
+            Leg::Window if reads => generic!("rt::Through", generic!("rt::ReadWindow", address)),
+            Leg::Window => generic!("rt::Through", generic!("rt::WriteWindow", address)),
         }
     }
 
@@ -111,13 +112,13 @@ pub(super) enum Kind {
 
 impl Kind {
     /// Its type.
-    pub fn ty(self, net: Net) -> String {
+    pub fn ty(self, net: Net) -> Doc {
         match self {
-            Kind::Absent => "rt::Absent".to_owned(),
+            Kind::Absent => Doc::from("rt::Absent"),
             Kind::One(leg) => leg.ty(net, true),
-            Kind::Reads(leg) => format!("rt::Split<«{}¦ rt::Closed»>", leg.ty(net, true)),
-            Kind::Writes(leg) => format!("rt::Split<«rt::Closed¦ {}»>", leg.ty(net, false)),
-            Kind::Both(read, write) => format!("rt::Split<«{}¦ {}»>", read.ty(net, true), write.ty(net, false)),
+            Kind::Reads(leg) => generic!("rt::Split", leg.ty(net, true), "rt::Closed"),
+            Kind::Writes(leg) => generic!("rt::Split", "rt::Closed", leg.ty(net, false)),
+            Kind::Both(read, write) => generic!("rt::Split", read.ty(net, true), write.ty(net, false)),
         }
     }
 
@@ -160,19 +161,19 @@ impl Way<'_> {
     }
 
     /// The code that makes it, of that of the address or, through a window, that of the window; `number` stands for the number.
-    pub fn code(&self, at: &str, number: Option<&str>) -> String {
+    pub fn code(&self, at: &str, number: Option<&str>) -> Doc {
         let sign = if self.is_signed { "signed" } else { "unsigned" };
         if let Some((_, own)) = self.window {
             let number = number.map_or_else(|| format!("0x{own:04X}"), ToOwned::to_owned);
-            return format!("rt::Through::{sign}(«{number}¦ &{at}»)");
+            return call!(seq!["rt::Through::", sign], number, seq!["&", at]);
         }
         let own = match self.resized {
-            Some(bits) => format!("rt::Resized::{sign}(«{at}¦ {bits}»)"),
-            None => at.to_owned(),
+            Some(bits) => call!(seq!["rt::Resized::", sign], at, bits),
+            None => Doc::from(at),
         };
         match self.limited {
             Some((limits, is_signed)) => {
-                format!("rt::Limited::new(«{own}¦ {is_signed}¦ &[«{}»]»)", runs(limits).join("¦ "))
+                call!("rt::Limited::new", own, is_signed.to_string(), slice(runs(limits)))
             }
             None => own,
         }
@@ -218,17 +219,17 @@ impl Route<'_> {
     }
 
     /// The code that makes it; `address` is that of the address, `window` names a window, and `number` stands for its number.
-    pub fn code(&self, address: &str, window: impl Fn(usize) -> String, number: Option<&str>) -> String {
+    pub fn code(&self, address: &str, window: impl Fn(usize) -> String, number: Option<&str>) -> Doc {
         let way = |way: &Way<'_>| match way.window {
             Some((at, _)) => way.code(&window(at), number),
             None => way.code(address, None),
         };
         match (self.kind(), &self.read, &self.write) {
-            (Kind::Reads(_), Some(read), _) => format!("rt::Split::reading(«{}»)", way(read)),
-            (Kind::Writes(_), _, Some(write)) => format!("rt::Split::writing(«{}»)", way(write)),
-            (Kind::Both(..), Some(read), Some(write)) => format!("rt::Split::new(«{}¦ {}»)", way(read), way(write)),
+            (Kind::Reads(_), Some(read), _) => call!("rt::Split::reading", way(read)),
+            (Kind::Writes(_), _, Some(write)) => call!("rt::Split::writing", way(write)),
+            (Kind::Both(..), Some(read), Some(write)) => call!("rt::Split::new", way(read), way(write)),
             (Kind::One(_), Some(only), _) | (Kind::One(_), None, Some(only)) => way(only),
-            _ => "rt::Absent".to_owned(),
+            _ => Doc::from("rt::Absent"),
         }
     }
 }

@@ -1,5 +1,6 @@
 //! The static table of all items that a client can reach.
 
+use super::code::{call, Doc};
 use super::constructor::flags;
 use super::literal;
 use super::place::{ObjectAddress, Place};
@@ -18,7 +19,7 @@ pub(super) struct EntryModel {
     pub data_type: String,
     pub access: &'static str,
     pub flags: &'static str,
-    pub initial: String,
+    pub initial: Doc,
     pub low: String,
     pub high: String,
     pub unit: String,
@@ -138,18 +139,18 @@ fn data_type(ty: Type) -> String {
 }
 
 /// The default as the bytes that an SDO upload gives.
-fn raw_initial(item: &Item, base: Type, ty: ValueType) -> String {
+fn raw_initial(item: &Item, base: Type, ty: ValueType) -> Doc {
     let formula = item.default.as_ref().and_then(|value| ty.formula(value));
     if let Some(offset) = formula.and_then(|offset| u64::try_from(offset).ok()) {
-        return format!("rt::table::RawInitial::NodeId({offset:#x})");
+        return Doc::from(format!("rt::table::RawInitial::NodeId({offset:#x})"));
     }
     let bytes = match item.default.as_ref() {
         Some(value) if ty.literal(value).is_some() => raw_bytes(value, base),
         _ => None,
     };
     match bytes {
-        Some(bytes) => format!("rt::table::RawInitial::Bytes(«{}»)", literal::bytes(&bytes)),
-        None => "rt::table::RawInitial::Unknown".to_owned(),
+        Some(bytes) => call!("rt::table::RawInitial::Bytes", literal::bytes(&bytes)),
+        None => Doc::from("rt::table::RawInitial::Unknown"),
     }
 }
 

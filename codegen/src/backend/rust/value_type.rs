@@ -1,5 +1,6 @@
 //! How the IR's types and values are written in Rust.
 
+use super::code::{call, slice, Doc};
 use super::literal;
 use crate::ir::{Limits, Type, Value};
 
@@ -130,69 +131,69 @@ impl ValueType {
     }
 
     /// An `Initial` of the type, whose values `wrap` makes of literals.
-    pub(super) fn initial_as(self, value: Option<&Value>, wrap: &dyn Fn(String) -> String) -> String {
+    pub(super) fn initial_as(self, value: Option<&Value>, wrap: &dyn Fn(String) -> Doc) -> Doc {
         if let Some(offset) = value.and_then(|value| self.formula(value)) {
             // A negative number in hexadecimal would be its two's complement.
             let offset = if offset < 0 { offset.to_string() } else { format!("{offset:#x}") };
-            return format!("rt::Initial::NodeId(«{}»)", wrap(offset));
+            return call!("rt::Initial::NodeId", wrap(offset));
         }
         match value.and_then(|value| self.literal(value)) {
-            Some(literal) if matches!(self, ValueType::Bytes(_)) => format!("rt::Initial::bytes(«{literal}»)"),
-            Some(literal) => format!("rt::Initial::Value(«{}»)", wrap(literal)),
-            None => "rt::Initial::Unknown".to_owned(),
+            Some(literal) if matches!(self, ValueType::Bytes(_)) => call!("rt::Initial::bytes", literal),
+            Some(literal) => call!("rt::Initial::Value", wrap(literal)),
+            None => Doc::from("rt::Initial::Unknown"),
         }
     }
 
     /// A `Range` of the type: limits beyond the type are clamped to it, impossible ones are not checked.
-    pub(super) fn range_as(self, limits: &Limits, wrap: &dyn Fn(String) -> String) -> String {
+    pub(super) fn range_as(self, limits: &Limits, wrap: &dyn Fn(String) -> Doc) -> Doc {
         const FULL: &str = "rt::Range::Full";
         if let Some(list) = self.only(limits, wrap) {
             return list;
         }
         if limits.is_empty() {
-            return FULL.to_owned();
+            return Doc::from(FULL);
         }
         let (low, high) = match self.integers() {
             Some(range) => match self.integer_limits(limits, range) {
                 Some(limits) => limits,
-                None => return FULL.to_owned(),
+                None => return Doc::from(FULL),
             },
             None if self.is_real() => match self.real_limits(limits) {
                 Some(limits) => limits,
-                None => return FULL.to_owned(),
+                None => return Doc::from(FULL),
             },
-            None => return FULL.to_owned(),
+            None => return Doc::from(FULL),
         };
         match (low.map(wrap), high.map(wrap)) {
-            (None, None) => FULL.to_owned(),
-            (Some(low), None) => format!("rt::Range::From(«{low}»)"),
-            (None, Some(high)) => format!("rt::Range::To(«{high}»)"),
-            (Some(low), Some(high)) => format!("rt::Range::Between(«{low}¦ {high}»)"),
+            (None, None) => Doc::from(FULL),
+            (Some(low), None) => call!("rt::Range::From", low),
+            (None, Some(high)) => call!("rt::Range::To", high),
+            (Some(low), Some(high)) => call!("rt::Range::Between", low, high),
         }
     }
 
     /// A `Range` of integers that are fewer than their type in Rust has: whatever the limits, no other is allowed.
-    pub(super) fn range_within(self, limits: &Limits) -> Option<String> {
-        if let Some(list) = self.only(limits, &|literal| literal) {
+    pub(super) fn range_within(self, limits: &Limits) -> Option<Doc> {
+        if let Some(list) = self.only(limits, &Doc::from) {
             return Some(list);
         }
         let range = self.integers()?;
         let (low, high) = self.integer_limits(limits, range).unwrap_or_default();
         let (low, high) = (low.unwrap_or(range.0.to_string()), high.unwrap_or(range.1.to_string()));
         Some(match low == "0" && range.0 == 0 {
-            true => format!("rt::Range::To(«{high}»)"),
-            false => format!("rt::Range::Between(«{low}¦ {high}»)"),
+            true => call!("rt::Range::To", high),
+            false => call!("rt::Range::Between", low, high),
         })
     }
 
     /// The only values, where the type has all of them.
-    fn only(self, limits: &Limits, wrap: &dyn Fn(String) -> String) -> Option<String> {
+    fn only(self, limits: &Limits, wrap: &dyn Fn(String) -> Doc) -> Option<Doc> {
         let (low, high) = self.integers().filter(|_| !limits.allowed.is_empty())?;
         let one =
             |value: &Value| value.as_int().filter(|number| (low..=high).contains(number)).map(|own| own.to_string());
-        let range = |(first, last): &(Value, Value)| Some(format!("(«{}¦ {}»)", wrap(one(first)?), wrap(one(last)?)));
-        let list: Option<Vec<String>> = limits.allowed.iter().map(range).collect();
-        Some(format!("rt::Range::OneOf(«&[«{}»]»)", list?.join("¦ ")))
+        let range = |(first, last): &(Value, Value)| Some(call!("", wrap(one(first)?), wrap(one(last)?)));
+        let list: Option<Vec<Doc>> = limits.allowed.iter().map(range).collect();
+        Some(call!("rt::Range::OneOf", slice(list?)))
     }
 
     fn integer_limits(self, limits: &Limits, range: (i128, i128)) -> Option<(Option<String>, Option<String>)> {
@@ -248,10 +249,6 @@ pub(super) fn number(value: i128, unsigned: bool) -> String {
 mod tests {
     use super::*;
 
-    fn same(literal: String) -> String {
-        literal
-    }
-
     fn limits(low: i128, high: i128) -> Limits {
         Limits { low: Some(Value::Int(low)), high: Some(Value::Int(high)), ..Limits::default() }
     }
@@ -259,19 +256,28 @@ mod tests {
     #[test]
     fn limits_are_clamped_and_impossible_ones_are_not_checked() {
         let u16 = ValueType::of(Type::Unsigned(16));
-        assert_eq!(u16.range_as(&limits(0, 65536), &same), "rt::Range::Full");
-        assert_eq!(u16.range_as(&limits(5, 65536), &same), "rt::Range::From(«5»)");
-        assert_eq!(u16.range_as(&limits(5, 4), &same), "rt::Range::Full");
-        assert_eq!(ValueType::of(Type::Integer(24)).range_as(&limits(-8_388_608, 5), &same), "rt::Range::To(«5»)");
-        assert_eq!(ValueType::of(Type::Real32).range_as(&limits(0, 5), &same), "rt::Range::Between(«0.0¦ 5.0»)");
+        assert_eq!(u16.range_as(&limits(0, 65536), &Doc::from), Doc::from("rt::Range::Full"));
+        assert_eq!(u16.range_as(&limits(5, 65536), &Doc::from), call!("rt::Range::From", "5"));
+        assert_eq!(u16.range_as(&limits(5, 4), &Doc::from), Doc::from("rt::Range::Full"));
+        assert_eq!(
+            ValueType::of(Type::Integer(24)).range_as(&limits(-8_388_608, 5), &Doc::from),
+            call!("rt::Range::To", "5")
+        );
+        assert_eq!(
+            ValueType::of(Type::Real32).range_as(&limits(0, 5), &Doc::from),
+            call!("rt::Range::Between", "0.0", "5.0")
+        );
     }
 
     #[test]
     fn initial_values() {
         let u32 = ValueType::of(Type::Unsigned(32));
-        assert_eq!(u32.initial_as(Some(&Value::NodeId(0x180)), &same), "rt::Initial::NodeId(«0x180»)");
-        assert_eq!(u32.initial_as(Some(&Value::Int(-1)), &same), "rt::Initial::Unknown");
-        assert_eq!(u32.initial_as(Some(&Value::Int(7)), &same), "rt::Initial::Value(«7»)");
-        assert_eq!(ValueType::of(Type::Boolean).initial_as(Some(&Value::Int(2)), &same), "rt::Initial::Unknown");
+        assert_eq!(u32.initial_as(Some(&Value::NodeId(0x180)), &Doc::from), call!("rt::Initial::NodeId", "0x180"));
+        assert_eq!(u32.initial_as(Some(&Value::Int(-1)), &Doc::from), Doc::from("rt::Initial::Unknown"));
+        assert_eq!(u32.initial_as(Some(&Value::Int(7)), &Doc::from), call!("rt::Initial::Value", "7"));
+        assert_eq!(
+            ValueType::of(Type::Boolean).initial_as(Some(&Value::Int(2)), &Doc::from),
+            Doc::from("rt::Initial::Unknown")
+        );
     }
 }

@@ -1,5 +1,6 @@
 //! Windows: what takes the number of an item, and what has its value then.
 
+use super::code::{generic, Doc};
 use super::docs;
 use super::links::Here;
 use super::place;
@@ -31,7 +32,7 @@ pub(super) struct Window {
 pub(super) struct WindowModel {
     pub docs: Vec<String>,
     pub name: String,
-    pub ty: String,
+    pub ty: Doc,
     pub kind: &'static str,
     pub facts: Vec<String>,
 }
@@ -180,7 +181,7 @@ fn model(scope: &Scope<'_>, own: &Window) -> WindowModel {
     WindowModel {
         docs: vec![format!("On {}: {number} takes a number, and {value} {verb} its value.", net.title())],
         name: own.name.clone(),
-        ty: format!("{kind}<«{}»>", net.address()),
+        ty: generic!(kind, net.address()),
         kind,
         facts,
     }

@@ -1,7 +1,7 @@
 //! `DEVICE` and `MODULE`: the description of a slave as the runtime wants it.
 
 use super::{depends_on, Assigned, ModulePaths, NOTHING};
-use crate::backend::rust::data::Data;
+use crate::backend::rust::code::{Data, Doc};
 use crate::backend::rust::literal;
 use crate::backend::rust::pdo::{mapping_entry, PdoModels};
 use crate::ir::{
@@ -18,23 +18,23 @@ pub(super) fn device(
     pdos: &PdoModels<'_>,
     modules: &ModulePaths,
     assigned: &[Assigned<'_>],
-) -> Data {
+) -> Doc {
     let slots = settings.slots.as_deref().map(|rules| slots(device, rules, modules));
-    Data::Struct(
+    Data::fields(
         "rt::ethercat::Device",
         vec![
             ("identity", Data::text("IDENTITY")),
-            ("sync_managers", Data::Slice(device.process_data.sync_managers.iter().map(sync_manager).collect())),
+            ("sync_managers", Data::slice(device.process_data.sync_managers.iter().map(sync_manager))),
             ("pdos", pdo_list(&device.process_data.pdos, pdos)),
-            ("default_pdos", Data::Slice(assigned.iter().map(|own| Data::index(own.pdo.mapping_index)).collect())),
+            ("default_pdos", Data::slice(assigned.iter().map(|own| Data::index(own.pdo.mapping_index)))),
             ("mailbox", mailbox(settings.mailbox.as_deref())),
-            ("slots", slots.map_or_else(|| Data::text("None"), |slots| Data::Call("Some", vec![slots]))),
+            ("slots", slots.map_or_else(|| Data::text("None"), |slots| Data::call("Some", vec![slots]))),
         ],
     )
 }
 
-pub(super) fn module(module: &Module, pdos: &PdoModels<'_>) -> Data {
-    Data::Struct(
+pub(super) fn module(module: &Module, pdos: &PdoModels<'_>) -> Doc {
+    Data::fields(
         "rt::ethercat::Module",
         vec![
             ("ident", Data::text(format!("0x{:08X}", module.number))),
@@ -42,14 +42,14 @@ pub(super) fn module(module: &Module, pdos: &PdoModels<'_>) -> Data {
             ("class", Data::text(literal::string(&module.class))),
             ("pdo_group", Data::text(module.pdo_group.unwrap_or(0).to_string())),
             ("pdos", pdo_list(&module.process_data.pdos, pdos)),
-            ("init_commands", Data::Slice(module.init_commands.iter().map(init_command).collect())),
-            ("objects", Data::Slice(slot_objects(&module.groups))),
+            ("init_commands", Data::slice(module.init_commands.iter().map(init_command))),
+            ("objects", Data::slice(slot_objects(&module.groups))),
         ],
     )
 }
 
 /// Objects in a row that depend on the same.
-fn slot_objects(groups: &[Group]) -> Vec<Data> {
+fn slot_objects(groups: &[Group]) -> Vec<Doc> {
     let known = groups.iter().filter_map(|group| Some((group.index()?, group)));
     let known = known.map(|(index, group)| (index, depends_on(group.depends_on_slot, group.depends_on_slot_group)));
     let mut rows: Vec<(u16, u16, &str)> = Vec::new();
@@ -61,17 +61,17 @@ fn slot_objects(groups: &[Group]) -> Vec<Data> {
     }
     rows.retain(|&(.., depends_on)| depends_on != NOTHING);
     let data = |(first, last, depends_on)| vec![Data::index(first), Data::index(last), Data::text(depends_on)];
-    rows.into_iter().map(|row| Data::Call("rt::ethercat::SlotObjects::new", data(row))).collect()
+    rows.into_iter().map(|row| Data::call("rt::ethercat::SlotObjects::new", data(row))).collect()
 }
 
-fn sync_manager(own: &SyncManager) -> Data {
+fn sync_manager(own: &SyncManager) -> Doc {
     let purpose = match own.purpose {
         SyncManagerPurpose::MailboxOut => "MailboxOut",
         SyncManagerPurpose::MailboxIn => "MailboxIn",
         SyncManagerPurpose::Outputs => "Outputs",
         SyncManagerPurpose::Inputs => "Inputs",
     };
-    Data::Struct(
+    Data::fields(
         "rt::ethercat::SyncManager",
         vec![
             ("number", Data::text(own.number.to_string())),
@@ -81,28 +81,28 @@ fn sync_manager(own: &SyncManager) -> Data {
             ("min_size", Data::option(own.size_range.0)),
             ("max_size", Data::option(own.size_range.1)),
             ("control", Data::text(format!("0x{:02X}", own.control))),
-            ("enable", Data::flag(own.enable)),
-            ("op_only", Data::flag(own.op_only)),
+            ("enable", Data::text((own.enable).to_string())),
+            ("op_only", Data::text((own.op_only).to_string())),
         ],
     )
 }
 
 /// Outputs first, as the runtime has them.
-fn pdo_list(pdos: &[Pdo], models: &PdoModels<'_>) -> Data {
+fn pdo_list(pdos: &[Pdo], models: &PdoModels<'_>) -> Doc {
     // Those of CANopen may have the same indices.
     let is_own = |pdo: &&Pdo| !pdo.is_virtual && pdo.buses.is_none_or(|buses| buses.coe);
     let of = |direction| pdos.iter().filter(move |pdo| pdo.direction == direction).filter(is_own);
     let all = of(Direction::Receive).chain(of(Direction::Transmit));
-    Data::Slice(all.map(|pdo| pdo_info(pdo, models)).collect())
+    Data::slice(all.map(|pdo| pdo_info(pdo, models)))
 }
 
-fn pdo_info(pdo: &Pdo, models: &PdoModels<'_>) -> Data {
+fn pdo_info(pdo: &Pdo, models: &PdoModels<'_>) -> Doc {
     let direction = match pdo.direction {
         Direction::Receive => "Output",
         Direction::Transmit => "Input",
     };
-    let numbers = |list: Vec<String>| Data::Slice(list.into_iter().map(Data::Text).collect());
-    Data::Struct(
+    let numbers = |list: Vec<String>| Data::slice(list.into_iter().map(Doc::from));
+    Data::fields(
         "rt::ethercat::PdoInfo",
         vec![
             ("index", Data::index(pdo.mapping_index)),
@@ -111,8 +111,8 @@ fn pdo_info(pdo: &Pdo, models: &PdoModels<'_>) -> Data {
             ("sync_manager", Data::option(pdo.sync_manager)),
             ("excluded_sync_managers", numbers(pdo.excluded_sync_managers.iter().map(u8::to_string).collect())),
             // A mapping with an unknown index cannot be written.
-            ("fixed", Data::flag(pdo.fixed || !pdo.is_mapping_known())),
-            ("mandatory", Data::flag(pdo.mandatory)),
+            ("fixed", Data::text((pdo.fixed || !pdo.is_mapping_known()).to_string())),
+            ("mandatory", Data::text((pdo.mandatory).to_string())),
             ("depends_on", Data::text(depends_on(pdo.depends_on_slot, pdo.depends_on_slot_group))),
             ("excludes", numbers(pdo.excludes.iter().map(|index| format!("0x{index:04X}")).collect())),
             ("mapping", mapping(pdo, models)),
@@ -121,55 +121,54 @@ fn pdo_info(pdo: &Pdo, models: &PdoModels<'_>) -> Data {
 }
 
 /// The mapping of a PDO that has a struct is said there.
-fn mapping(pdo: &Pdo, models: &PdoModels<'_>) -> Data {
+fn mapping(pdo: &Pdo, models: &PdoModels<'_>) -> Doc {
     match models.of(pdo) {
         Some(model) => Data::text(format!("<pdo::{} as rt::Pdo>::MAPPING", model.name)),
         None => {
-            let entry = |(path, arguments): (&'static str, Vec<String>)| {
-                Data::Call(path, arguments.into_iter().map(Data::Text).collect())
-            };
-            Data::Slice(pdo.entries.iter().map(mapping_entry).map(entry).collect())
+            let entry =
+                |(path, arguments): (&'static str, Vec<String>)| Data::call(path, arguments.into_iter().map(Doc::from));
+            Data::slice(pdo.entries.iter().map(mapping_entry).map(entry))
         }
     }
 }
 
-fn mailbox(mailbox: Option<&Mailbox>) -> Data {
+fn mailbox(mailbox: Option<&Mailbox>) -> Doc {
     let Some(mailbox) = mailbox else { return Data::text("rt::ethercat::Mailbox::NONE") };
     let coe = mailbox.coe.as_ref().map(coe);
-    Data::Struct(
+    Data::fields(
         "rt::ethercat::Mailbox",
         vec![
-            ("coe", coe.map_or_else(|| Data::text("None"), |coe| Data::Call("Some", vec![coe]))),
-            ("aoe", Data::flag(mailbox.aoe.is_some())),
-            ("eoe", Data::flag(mailbox.eoe.is_some())),
-            ("foe", Data::flag(mailbox.foe.is_some())),
-            ("soe", Data::flag(mailbox.soe.is_some())),
-            ("voe", Data::flag(mailbox.voe.is_some())),
+            ("coe", coe.map_or_else(|| Data::text("None"), |coe| Data::call("Some", vec![coe]))),
+            ("aoe", Data::text((mailbox.aoe.is_some()).to_string())),
+            ("eoe", Data::text((mailbox.eoe.is_some()).to_string())),
+            ("foe", Data::text((mailbox.foe.is_some()).to_string())),
+            ("soe", Data::text((mailbox.soe.is_some()).to_string())),
+            ("voe", Data::text((mailbox.voe.is_some()).to_string())),
         ],
     )
 }
 
-fn coe(coe: &Coe) -> Data {
-    Data::Struct(
+fn coe(coe: &Coe) -> Doc {
+    Data::fields(
         "rt::ethercat::Coe",
         vec![
-            ("sdo_info", Data::flag(coe.sdo_info)),
-            ("pdo_assign", Data::flag(coe.pdo_assign)),
-            ("pdo_config", Data::flag(coe.pdo_config)),
-            ("complete_access", Data::flag(coe.complete_access)),
-            ("init_commands", Data::Slice(coe.init_commands.iter().map(init_command).collect())),
+            ("sdo_info", Data::text((coe.sdo_info).to_string())),
+            ("pdo_assign", Data::text((coe.pdo_assign).to_string())),
+            ("pdo_config", Data::text((coe.pdo_config).to_string())),
+            ("complete_access", Data::text((coe.complete_access).to_string())),
+            ("init_commands", Data::slice(coe.init_commands.iter().map(init_command))),
         ],
     )
 }
 
-fn init_command(command: &InitCommand) -> Data {
-    Data::Struct(
+fn init_command(command: &InitCommand) -> Doc {
+    Data::fields(
         "rt::ethercat::InitCommand",
         vec![
             ("transitions", transitions(known_transitions(command.transitions.iter().map(CompactString::as_str)))),
             ("index", Data::index(command.index)),
             ("sub_index", Data::text(format!("0x{:02X}", command.sub_index))),
-            ("complete_access", Data::flag(command.complete_access)),
+            ("complete_access", Data::text((command.complete_access).to_string())),
             ("depends_on", Data::text(depends_on(command.depends_on_slot, command.depends_on_slot_group))),
             ("data", Data::text(literal::bytes(&command.data))),
         ],
@@ -182,13 +181,13 @@ fn known_transitions<'a>(names: impl Iterator<Item = &'a str>) -> Vec<&'static s
     TRANSITIONS.into_iter().filter(|known| names.contains(known)).collect()
 }
 
-fn transitions(names: Vec<&str>) -> Data {
-    let list = names.into_iter().map(|name| Data::text(format!("rt::ethercat::Transition::{name}"))).collect();
-    Data::Call("rt::ethercat::Transitions::of", vec![Data::Slice(list)])
+fn transitions(names: Vec<&str>) -> Doc {
+    let list = names.into_iter().map(|name| Data::text(format!("rt::ethercat::Transition::{name}")));
+    Data::call("rt::ethercat::Transitions::of", vec![Data::slice(list)])
 }
 
 /// When the list of modules goes out: on PS where the description doesn't say anything that the runtime knows.
-fn download(rules: &SlotRules) -> Data {
+fn download(rules: &SlotRules) -> Doc {
     if !rules.download_idents {
         return Data::text("rt::ethercat::Transitions::NONE");
     }
@@ -197,37 +196,37 @@ fn download(rules: &SlotRules) -> Data {
     transitions(if known.is_empty() { vec!["PS"] } else { known })
 }
 
-fn slots(device: &Device, rules: &SlotRules, modules: &ModulePaths) -> Data {
+fn slots(device: &Device, rules: &SlotRules, modules: &ModulePaths) -> Doc {
     let known = device.modules.iter().filter_map(|own| modules.get(&own.module));
-    Data::Struct(
+    Data::fields(
         "rt::ethercat::Slots",
         vec![
-            ("slots", Data::Slice(device.slots.iter().map(slot).collect())),
-            ("modules", Data::Slice(known.map(|path| Data::text(format!("&{path}"))).collect())),
-            ("pdo_groups", Data::Slice(rules.pdo_groups.iter().map(pdo_group).collect())),
+            ("slots", Data::slice(device.slots.iter().map(slot))),
+            ("modules", Data::slice(known.map(|path| Data::text(format!("&{path}"))))),
+            ("pdo_groups", Data::slice(rules.pdo_groups.iter().map(pdo_group))),
             ("download_idents", download(rules)),
         ],
     )
 }
 
-fn slot(slot: &Slot) -> Data {
+fn slot(slot: &Slot) -> Doc {
     let fit = |fit: &Fit| match fit {
         Fit::Ident(ident) => Data::text(format!("rt::ethercat::Fit::Ident(0x{ident:08X})")),
         Fit::Class(name) | Fit::Name(name) => {
-            Data::Call("rt::ethercat::Fit::Class", vec![Data::text(literal::string(name))])
+            Data::call("rt::ethercat::Fit::Class", vec![Data::text(literal::string(name))])
         }
     };
     let default = match &slot.default {
         Some(Fit::Ident(ident)) => Some(format!("0x{ident:08X}")),
         _ => None,
     };
-    Data::Struct(
+    Data::fields(
         "rt::ethercat::Slot",
         vec![
             ("name", Data::text(literal::string(&slot.name))),
             ("min", Data::text(slot.instances.0.to_string())),
             ("max", Data::text(slot.instances.1.to_string())),
-            ("fits", Data::Slice(slot.fits.iter().map(fit).collect())),
+            ("fits", Data::slice(slot.fits.iter().map(fit))),
             ("default", Data::option(default)),
             ("increments", increments(slot.index_increment, slot.pdo_increment)),
             ("group", slot.group.map_or_else(|| Data::text("None"), |number| slot_group(number, slot))),
@@ -235,20 +234,20 @@ fn slot(slot: &Slot) -> Data {
     )
 }
 
-fn increments(index: u16, pdo: u16) -> Data {
+fn increments(index: u16, pdo: u16) -> Doc {
     let numbers = [index, pdo].map(|number| Data::text(format!("0x{number:X}")));
-    Data::Call("rt::ethercat::Increments::new", numbers.into())
+    Data::call("rt::ethercat::Increments::new", numbers)
 }
 
-fn slot_group(number: u16, slot: &Slot) -> Data {
+fn slot_group(number: u16, slot: &Slot) -> Doc {
     let own = increments(slot.group_index_increment, slot.group_pdo_increment);
-    let group = Data::Call("rt::ethercat::SlotGroup::new", vec![Data::text(number.to_string()), own]);
-    Data::Call("Some", vec![group])
+    let group = Data::call("rt::ethercat::SlotGroup::new", vec![Data::text(number.to_string()), own]);
+    Data::call("Some", vec![group])
 }
 
-fn pdo_group(group: &ModulePdoGroup) -> Data {
+fn pdo_group(group: &ModulePdoGroup) -> Doc {
     let index = |index: Option<u16>| Data::option(index.map(|index| format!("0x{index:04X}")));
-    Data::Struct(
+    Data::fields(
         "rt::ethercat::PdoGroup",
         vec![
             ("alignment", Data::text(group.alignment.to_string())),

@@ -6,7 +6,7 @@ mod startup;
 
 use std::collections::HashMap;
 
-use super::data::Data;
+use super::code::{Data, Doc};
 use super::literal;
 use super::pdo::{PdoModel, PdoModels};
 use crate::ir::{ClockMode, ClockTime, Device, EtherCatSettings, Fmmu, Module, ModuleId, Pdo};
@@ -16,13 +16,13 @@ pub(super) use image::ImageModel;
 /// What a device has beside objects and PDOs.
 pub(super) struct EtherCatModel {
     /// `DEVICE`.
-    pub device: String,
+    pub device: Doc,
     /// `FMMUS`.
-    pub fmmus: Option<String>,
+    pub fmmus: Option<Doc>,
     /// `CLOCK_MODES`.
-    pub clock_modes: Option<String>,
+    pub clock_modes: Option<Doc>,
     /// `STARTUP`.
-    pub startup: Option<String>,
+    pub startup: Option<Doc>,
     /// Constants of bytes: name, what it is, value.
     pub bytes: Vec<(&'static str, &'static str, String)>,
     /// The images by default.
@@ -32,30 +32,19 @@ pub(super) struct EtherCatModel {
 /// Where the constants of modules are, by the position of the module in the catalogue.
 pub(super) type ModulePaths = HashMap<ModuleId, String>;
 
-/// Renders data for a constant of this name and type, `nest` bytes further to the right than its place in the template.
-fn constant(data: &Data, name: &str, ty: &str, nest: usize) -> String {
-    data.render(0, format!("pub const {name}: {ty} = ").len(), 1, nest)
-}
-
 impl EtherCatModel {
-    pub(super) fn new(device: &Device, pdos: &[PdoModel], modules: &ModulePaths, nest: usize) -> Option<Self> {
+    pub(super) fn new(device: &Device, pdos: &[PdoModel], modules: &ModulePaths) -> Option<Self> {
         let settings = device.ethercat.as_deref().filter(|_| !device.dictionary_only)?;
         let assigned = assigned_by_default(device);
         let pdos = PdoModels::new(pdos);
         let descriptor = descriptor::device(device, settings, &pdos, modules, &assigned);
-        let column = "pub static DEVICE: rt::ethercat::Device = ".len();
         let clocks = settings.clocks.as_ref().filter(|clocks| !clocks.modes.is_empty());
-        let list = |list: Vec<Data>, name: &str, ty: &str| {
-            (!list.is_empty()).then(|| constant(&Data::Slice(list), name, ty, nest))
-        };
+        let list = |list: Vec<Doc>| (!list.is_empty()).then(|| Data::slice(list));
         Some(EtherCatModel {
-            device: descriptor.render(0, column, 1, nest),
-            fmmus: list(settings.fmmus.iter().map(fmmu).collect(), "FMMUS", "&[rt::ethercat::Fmmu]"),
-            clock_modes: clocks.and_then(|clocks| {
-                let modes = clocks.modes.iter().map(clock_mode).collect();
-                list(modes, "CLOCK_MODES", "&[rt::ethercat::ClockMode]")
-            }),
-            startup: list(startup::commands(device, settings, &assigned), "STARTUP", "&[rt::SdoWrite]"),
+            device: descriptor,
+            fmmus: list(settings.fmmus.iter().map(fmmu).collect()),
+            clock_modes: clocks.and_then(|clocks| list(clocks.modes.iter().map(clock_mode).collect())),
+            startup: list(startup::commands(device, settings, &assigned)),
             bytes: bytes(settings),
             images: image::models(&pdos, &assigned),
         })
@@ -63,9 +52,8 @@ impl EtherCatModel {
 }
 
 /// `MODULE` of a module.
-pub(super) fn module(module: &Module, pdos: &[PdoModel], nest: usize) -> String {
-    let column = "pub static MODULE: rt::ethercat::Module = ".len();
-    descriptor::module(module, &PdoModels::new(pdos)).render(0, column, 1, nest)
+pub(super) fn module(module: &Module, pdos: &[PdoModel]) -> Doc {
+    descriptor::module(module, &PdoModels::new(pdos))
 }
 
 /// What an index grows with that is the same in every slot.
@@ -92,29 +80,29 @@ fn assigned_by_default(device: &Device) -> Vec<Assigned<'_>> {
     assigned.into_iter().map(|(pdo, sync_manager)| Assigned { pdo, sync_manager }).collect()
 }
 
-fn fmmu(fmmu: &Fmmu) -> Data {
+fn fmmu(fmmu: &Fmmu) -> Doc {
     let purpose = match fmmu.purpose.as_str() {
         "Outputs" => "Outputs",
         "Inputs" => "Inputs",
         "MBoxState" => "MailboxState",
         _ => "Other",
     };
-    Data::Struct(
+    Data::fields(
         "rt::ethercat::Fmmu",
         vec![
             ("purpose", Data::text(format!("rt::ethercat::FmmuPurpose::{purpose}"))),
             ("sync_manager", Data::option(fmmu.sync_manager)),
-            ("op_only", Data::flag(fmmu.op_only)),
+            ("op_only", Data::text((fmmu.op_only).to_string())),
         ],
     )
 }
 
-fn clock_mode(mode: &ClockMode) -> Data {
+fn clock_mode(mode: &ClockMode) -> Doc {
     let time = |time: &ClockTime| {
         let factor = time.factor.unwrap_or(0);
         Data::text(format!("rt::ethercat::ClockTime::new({}, {factor})", time.nanoseconds))
     };
-    Data::Struct(
+    Data::fields(
         "rt::ethercat::ClockMode",
         vec![
             ("name", Data::text(literal::string(&mode.name))),

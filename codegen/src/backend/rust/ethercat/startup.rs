@@ -1,13 +1,13 @@
 //! The writes that set up the assignment by default: what `rt::ethercat::Assignment::by_default` gives, as a constant.
 
 use super::Assigned;
-use crate::backend::rust::data::Data;
+use crate::backend::rust::code::{Data, Doc};
 use crate::ir::{Device, EtherCatSettings, SyncManager, SyncManagerPurpose, MAX_PDO_SUBS};
 
 /// Index of the assignment object of sync manager 0 (ETG.1000.6 5.6.7.4).
 const ASSIGN: u16 = 0x1C10;
 
-pub(super) fn commands(device: &Device, settings: &EtherCatSettings, assigned: &[Assigned<'_>]) -> Vec<Data> {
+pub(super) fn commands(device: &Device, settings: &EtherCatSettings, assigned: &[Assigned<'_>]) -> Vec<Doc> {
     let Some(coe) = settings.mailbox.as_ref().and_then(|mailbox| mailbox.coe.as_ref()) else { return Vec::new() };
     // What a plan of modules assigns can't be known here.
     if assigned.is_empty() || settings.slots.is_some() {
@@ -48,6 +48,6 @@ pub(super) fn commands(device: &Device, settings: &EtherCatSettings, assigned: &
     commands
 }
 
-fn write(ty: &str, index: u16, sub: u8, value: &str) -> Data {
+fn write(ty: &str, index: u16, sub: u8, value: &str) -> Doc {
     Data::text(format!("rt::SdoWrite::new_{ty}(0x{index:04X}, 0x{sub:02X}, {value})"))
 }

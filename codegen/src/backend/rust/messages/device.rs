@@ -3,6 +3,7 @@
 use super::field::Field;
 use super::rules::Rules;
 use super::{DataModel, MessageModel};
+use crate::backend::rust::code::{Data, Doc};
 use crate::backend::rust::links::Here;
 use crate::backend::rust::literal;
 use crate::backend::rust::method_names::beside;
@@ -21,7 +22,7 @@ pub(in crate::backend::rust) struct CallModel {
     pub ty: String,
     pub arguments: Vec<String>,
     /// The expression of the message.
-    pub build: String,
+    pub build: Doc,
     /// The lifetime that the arguments have.
     pub borrows: bool,
     pub deprecated: Option<String>,
@@ -48,13 +49,13 @@ pub(super) fn calls(shaped: &[Shaped<'_>], messages: &[MessageModel], rules: &Ru
     for ((own, model, request), name) in with().zip(names) {
         let names = arguments(&request.fields);
         let fields = request.fields.iter().zip(&names).map(|(field, name)| field.argument(name, rules));
-        let (arguments, built): (Vec<String>, Vec<String>) = fields.unzip();
+        let (arguments, built): (Vec<String>, Vec<(String, Doc)>) = fields.unzip();
         let lifetime = if request.borrows { "<'a>" } else { "" };
         let ty = format!("messages::{}", request.name);
         let (arguments, build) = match arguments.len() {
-            0 => (Vec::new(), ty.clone()),
-            1..=MAX_ARGUMENTS => (arguments, super::literal(&ty, &built, 8)),
-            _ => (vec![format!("message: {ty}{lifetime}")], "message".to_owned()),
+            0 => (Vec::new(), Doc::from(ty.as_str())),
+            1..=MAX_ARGUMENTS => (arguments, Data::fields(&ty, built)),
+            _ => (vec![format!("message: {ty}{lifetime}")], Doc::from("message")),
         };
         let after = own.message.after.as_ref();
         let selector = selector(shaped, messages, after.map(|own| own.as_str()));

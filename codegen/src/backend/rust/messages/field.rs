@@ -2,6 +2,7 @@
 
 use super::rules::Rules;
 use super::steps::number;
+use crate::backend::rust::code::{call, seq, Doc};
 use crate::backend::rust::docs::{self, WORDS};
 use crate::backend::rust::field_type::{field_type, FieldType};
 use crate::backend::rust::links::Here;
@@ -24,13 +25,13 @@ pub(in crate::backend::rust) struct Field {
     /// What tells `serde` how to handle it.
     pub attribute: Option<String>,
     /// The name of the constant with its scale, and the type of that.
-    pub scale: Option<(String, String)>,
+    pub scale: Option<(String, Doc)>,
     position: usize,
     kind: Kind,
 }
 
 enum Kind {
-    Value { bits: u32, order: Vec<u8>, encode: String, decode: String, check: Option<Check> },
+    Value { bits: u32, order: Vec<u8>, encode: String, decode: Doc, check: Option<Check> },
     Text { length: u32 },
     Code { bits: u32 },
     Setting { space: String, bits: u32 },
@@ -42,7 +43,7 @@ enum Kind {
 }
 
 /// The type that checks a value, the value, and its range.
-type Check = (String, String, String);
+type Check = (String, String, Doc);
 
 /// The fields of these steps. `entry` is the name of the type of what is repeated, `lifetime` that of what is borrowed.
 pub(super) fn fields(scope: &Scope<'_>, steps: &[Step<'_>], entry: &str) -> Vec<Field> {
@@ -114,12 +115,13 @@ fn typed(scope: &Scope<'_>, value: &MessageValue, bits: u32, name: String, posit
         FieldType::Odd(signed, _) => {
             let native = native(signed, bits);
             let width: u32 = native[1..].parse().unwrap_or(64);
-            let sign = format!("(§ << {0}) as {native} >> {0}", width - bits);
+            let local = local(position);
             let decode = match (signed, native) {
-                (true, _) => sign,
-                (false, "u64") => "§".to_owned(),
-                (false, _) => format!("§ as {native}"),
+                (true, _) => format!("({local} << {0}) as {native} >> {0}", width - bits),
+                (false, "u64") => local,
+                (false, _) => format!("{local} as {native}"),
             };
+            let decode = Doc::from(decode);
             let encode = match (signed, native) {
                 (false, "u64") => format!("self.{name}"),
                 (true, "i64") | (false, _) => format!("self.{name} as u64"),
@@ -141,7 +143,7 @@ fn typed(scope: &Scope<'_>, value: &MessageValue, bits: u32, name: String, posit
                 }
                 // A list of values stands in a function, where no call is a constant.
                 FieldType::Named(_, native) => match range(item, base, &name, Some(&ty)) {
-                    Some((.., range)) if range.contains("OneOf") => {
+                    Some((.., range)) if range.text().contains("OneOf") => {
                         narrow(item, base, native, format!("self.{name}.raw()"))
                     }
                     check => check,
@@ -150,7 +152,7 @@ fn typed(scope: &Scope<'_>, value: &MessageValue, bits: u32, name: String, posit
             };
             let encode = other.encode(&format!("self.{name}"), bits);
             let encode = if ty == "u64" { format!("self.{name}") } else { encode };
-            let decode = other.decode(&ty);
+            let decode = other.decode(&ty, &Doc::from(local(position)));
             (ty.clone(), Kind::Value { bits, order: value.byte_order.clone(), encode, decode, check })
         }
     };
@@ -159,16 +161,21 @@ fn typed(scope: &Scope<'_>, value: &MessageValue, bits: u32, name: String, posit
     Field { docs: documentation(scope, item, base), ty, attribute: None, scale, position, kind, name }
 }
 
+/// The variable with what was read of the field at a position.
+fn local(position: usize) -> String {
+    format!("value_{position}")
+}
+
 /// The check of a value; `None` where all numbers of the type are allowed.
 fn range(item: &Item, base: Type, name: &str, named: Option<&str>) -> Option<Check> {
     let ty = ValueType::of(base);
     let wrap = |literal: String| match named {
-        Some(path) => format!("{path}::from_raw(«{literal}»)"),
-        None => literal,
+        Some(path) => call!(seq![path, "::from_raw"], literal),
+        None => Doc::from(literal),
     };
     let range = ty.range_as(&variant::widest(item), &wrap);
     let path = named.unwrap_or(ty.path()).to_owned();
-    (range != "rt::Range::Full").then(|| (path, format!("self.{name}"), range))
+    (range.text() != "rt::Range::Full").then(|| (path, format!("self.{name}"), range))
 }
 
 /// The same for a number that has fewer bits than its type in Rust.
@@ -211,7 +218,7 @@ impl Field {
     pub(super) fn local(&self) -> String {
         match self.kind {
             Kind::List => "list".to_owned(),
-            _ => format!("value_{}", self.position),
+            _ => local(self.position),
         }
     }
 
@@ -247,52 +254,52 @@ impl Field {
     }
 
     /// What a method takes for it under this name, and how the field is made of that.
-    pub(super) fn argument(&self, name: &str, rules: &Rules) -> (String, String) {
+    pub(super) fn argument(&self, name: &str, rules: &Rules) -> (String, (String, Doc)) {
         match &self.kind {
             Kind::Settings { space, bits } => {
                 let rule = format!("messages::{}", rules.name(space, Some(*bits)));
-                let own = format!("{}: rt::message::Settings::sent(«{name}¦ {rule}»)", self.name);
-                (format!("{name}: &'a [rt::message::Setting]"), own)
+                let own = call!("rt::message::Settings::sent", name, rule);
+                (format!("{name}: &'a [rt::message::Setting]"), (self.name.clone(), own))
             }
             // As seen from the device, which stands beside the modules.
             _ => {
                 let ty = self.ty.replace("super::types", "types").replace("<'a, ", "<'a, messages::");
-                let own = if name == self.name { self.name.clone() } else { format!("{}: {name}", self.name) };
-                (format!("{name}: {ty}"), own)
+                (format!("{name}: {ty}"), (self.name.clone(), Doc::from(name)))
             }
         }
     }
 
-    pub(super) fn write(&self, rules: &Rules) -> Vec<String> {
+    pub(super) fn write(&self, rules: &Rules) -> Vec<Doc> {
         let name = &self.name;
         match &self.kind {
             Kind::Value { bits, order, encode, check, .. } => {
                 let mut lines = Vec::new();
                 if let Some((ty, value, range)) = check {
-                    lines.push(format!("let range = {range};"));
-                    lines.push(format!("rt::message::check::<{ty}>({value}, &range)?;"));
+                    lines.push(seq!["let range = ", range, ";"]);
+                    lines.push(seq!["rt::message::check::<", ty, ">(", value, ", &range)?;"]);
                 }
                 lines.push(number(*bits, order, encode));
                 lines
             }
-            Kind::Text { .. } => vec![format!("to.bytes(&self.{name})?;")],
+            Kind::Text { .. } => vec![seq!["to.bytes(&self.", name, ")?;"]],
             Kind::Code { bits } => {
                 let mut lines = Vec::new();
                 if *bits < 32 {
                     let last = (1_u64 << bits) - 1;
-                    lines.push(format!("rt::message::check::<u32>(self.{name}.0, &rt::Range::To({last}))?;"));
+                    let check = format!("rt::message::check::<u32>(self.{name}.0, &rt::Range::To({last}))?;");
+                    lines.push(Doc::from(check));
                 }
-                lines.push(format!("to.number({bits}, self.{name}.0.into())?;"));
+                lines.push(seq!["to.number(", *bits, ", self.", name, ".0.into())?;"]);
                 lines
             }
             Kind::Setting { space, bits } => {
-                vec![format!("{}.write(&self.{name}, to)?;", rules.name(space, Some(*bits)))]
+                vec![seq![rules.name(space, Some(*bits)), ".write(&self.", name, ", to)?;"]]
             }
             Kind::Blank { space, bits } => {
-                vec![format!("{}.write_blank(self.{name}, to)?;", rules.name(space, Some(*bits)))]
+                vec![seq![rules.name(space, Some(*bits)), ".write_blank(self.", name, ", to)?;"]]
             }
-            Kind::Settings { .. } | Kind::List => vec![format!("self.{name}.write(to)?;")],
-            Kind::ValueOnly { .. } | Kind::Bytes => vec![format!("to.bytes(self.{name})?;")],
+            Kind::Settings { .. } | Kind::List => vec![seq!["self.", name, ".write(to)?;"]],
+            Kind::ValueOnly { .. } | Kind::Bytes => vec![seq!["to.bytes(self.", name, ")?;"]],
         }
     }
 
@@ -308,17 +315,17 @@ impl Field {
         }
     }
 
-    pub(super) fn decode(&self, rules: &Rules) -> String {
+    pub(super) fn decode(&self, rules: &Rules) -> Doc {
         let local = self.local();
         match &self.kind {
-            Kind::Value { decode, .. } => decode.replace('§', &local),
-            Kind::Text { .. } => format!("{local}.try_into().ok()?"),
-            Kind::Code { .. } => format!("rt::Parameter({local} as u32)"),
-            Kind::Setting { .. } | Kind::Blank { .. } | Kind::ValueOnly { .. } | Kind::Bytes => local,
+            Kind::Value { decode, .. } => decode.clone(),
+            Kind::Text { .. } => seq![local, ".try_into().ok()?"],
+            Kind::Code { .. } => seq!["rt::Parameter(", local, " as u32)"],
+            Kind::Setting { .. } | Kind::Blank { .. } | Kind::ValueOnly { .. } | Kind::Bytes => Doc::from(local),
             Kind::Settings { space, bits } => {
-                format!("rt::message::Settings::received(«{local}¦ {}»)?", rules.name(space, Some(*bits)))
+                seq![call!("rt::message::Settings::received", local, rules.name(space, Some(*bits))), "?"]
             }
-            Kind::List => format!("rt::message::List::received({local})?"),
+            Kind::List => seq!["rt::message::List::received(", local, ")?"],
         }
     }
 }

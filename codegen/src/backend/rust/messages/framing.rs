@@ -1,6 +1,6 @@
 //! The constants of a protocol: how frames are delimited, how long they are, which field numbers the device.
 
-use crate::backend::rust::data::Data;
+use crate::backend::rust::code::{Data, Doc};
 use crate::backend::rust::docs;
 use crate::backend::rust::scope::Scope;
 use crate::ir::{Device, Framing};
@@ -10,15 +10,14 @@ use crate::passes::messages_shaped::{Shaped, Step};
 const ROOM: u32 = 256;
 
 /// The expression of the framing; `None` where frames have no last byte, or their check is one that the runtime hasn't.
-pub(super) fn constant(framing: &Framing, shaped: &[Shaped<'_>]) -> Option<String> {
-    const START: &str = "    pub const FRAMING: rt::framing::Delimited = ";
+pub(super) fn constant(framing: &Framing, shaped: &[Shaped<'_>]) -> Option<Doc> {
     let byte = |byte: u8| Data::text(format!("0x{byte:02X}"));
     let max = framing.max_data.map_or_else(|| "usize::MAX".to_owned(), |max| max.to_string());
     let from = framing.check_from.as_deref().and_then(|field| place(field, shaped)).unwrap_or(0);
     let escape = |escape: u8| {
-        let escaped = framing.escaped.iter().copied().map(byte).collect();
-        let own = vec![("byte", byte(escape)), ("xor", byte(framing.escape_xor)), ("escaped", Data::Slice(escaped))];
-        Data::Call("Some", vec![Data::Struct("rt::framing::Escape", own)])
+        let escaped = framing.escaped.iter().copied().map(byte);
+        let own = vec![("byte", byte(escape)), ("xor", byte(framing.escape_xor)), ("escaped", Data::slice(escaped))];
+        Data::call("Some", vec![Data::fields("rt::framing::Escape", own)])
     };
     let fields = vec![
         ("start", Data::option(framing.start.map(|start| format!("0x{start:02X}")))),
@@ -26,10 +25,10 @@ pub(super) fn constant(framing: &Framing, shaped: &[Shaped<'_>]) -> Option<Strin
         ("escape", framing.escape.map_or_else(|| Data::text("None"), escape)),
         ("check", Data::text(format!("rt::framing::Check::{}", check(framing)?))),
         ("check_from", Data::text(from.to_string())),
-        ("is_check_escaped", Data::flag(framing.check_escaped)),
+        ("is_check_escaped", Data::text((framing.check_escaped).to_string())),
         ("max_data", Data::text(max)),
     ];
-    Some(Data::Struct("rt::framing::Delimited", fields).render(4, START.len(), 1, 0))
+    Some(Data::fields("rt::framing::Delimited", fields))
 }
 
 /// What documentation says of it.

@@ -11,8 +11,8 @@ mod steps;
 
 use std::collections::{HashMap, HashSet};
 
+use super::code::{call, seq, Doc};
 use super::docs::{self, WORDS};
-use super::layout;
 use super::links::{self, Here};
 use super::named::Types;
 use super::options::RustOptions;
@@ -21,16 +21,16 @@ use crate::ir::{Completion, Device, Message};
 use crate::passes::messages_shaped::{self, Shaped, Step};
 use crate::passes::names_unique::{self, Case, Wish};
 pub(super) use device::{CallModel, DefaultModel};
-use field::Field;
+pub(super) use field::Field;
 use outcomes::OutcomesModel;
-use parameters::ParametersModel;
+pub(super) use parameters::{Arm, ParametersModel};
 use rules::{RuleModel, Rules};
-use steps::Statements;
+pub(super) use steps::Statements;
 
 /// A protocol, ready to be written.
 pub(super) struct ProtocolModel {
     /// The expression of the constant.
-    pub framing: Option<String>,
+    pub framing: Option<Doc>,
     pub framing_docs: Vec<String>,
     pub max_data: u32,
     pub derives: Vec<String>,
@@ -58,7 +58,7 @@ pub(super) struct MessageModel {
     pub reply: Option<DataModel>,
     /// The type of what comes where the device refuses.
     pub refusal: String,
-    pub completion: String,
+    pub completion: Doc,
     /// Whether the requests of others mean what this one has selected.
     pub is_selector: bool,
     /// What it does in each state.
@@ -352,14 +352,14 @@ impl Maker<'_, '_> {
     }
 }
 
-fn completion(completion: &Completion) -> String {
-    let word = match completion {
-        Completion::Immediate => "Immediate".to_owned(),
-        Completion::Reply => "Reply".to_owned(),
-        Completion::Polled { .. } => "Polled".to_owned(),
-        Completion::Delayed(milliseconds) => format!("Delayed(«{milliseconds}»)"),
+fn completion(completion: &Completion) -> Doc {
+    let name = match completion {
+        Completion::Immediate => "Immediate",
+        Completion::Reply => "Reply",
+        Completion::Polled { .. } => "Polled",
+        Completion::Delayed(milliseconds) => return call!("rt::message::Completion::Delayed", *milliseconds),
     };
-    format!("rt::message::Completion::{word}")
+    seq!["rt::message::Completion::", name]
 }
 
 /// The requests that can be told apart: of those that are alike, the first.
@@ -368,24 +368,4 @@ fn requests(messages: &[MessageModel]) -> Vec<(String, bool)> {
     let requests = messages.iter().filter_map(|message| message.request.as_ref());
     let first = requests.filter(|request| seen.insert(&request.code.read));
     first.map(|request| (request.name.clone(), request.borrows)).collect()
-}
-
-/// A struct's literal as `prettyplease` would print it: on one line of `indent` blanks where it is short.
-pub(super) fn literal(path: &str, fields: &[String], indent: usize) -> String {
-    const SHORT: usize = 34;
-    if fields.is_empty() {
-        return path.to_owned();
-    }
-    let flat = format!("{path} {{ {} ", fields.join(", "));
-    if flat.chars().filter(|letter| !layout::is_mark(*letter)).count() <= SHORT {
-        return flat + "}";
-    }
-    let line = |field: &String| format!("{:indent$}    {field},\n", "");
-    let lines: String = fields.iter().map(line).collect();
-    format!("{path} {{\n{lines}{:indent$}}}", "")
-}
-
-/// Whether one of these fields has a scale.
-pub(super) fn has_scales(fields: &[Field]) -> bool {
-    fields.iter().any(|field| field.scale.is_some())
 }

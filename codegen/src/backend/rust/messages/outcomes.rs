@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use crate::backend::rust::data::Data;
+use crate::backend::rust::code::{Data, Doc};
 use crate::backend::rust::doc_table;
 use crate::backend::rust::docs;
 use crate::backend::rust::links::Here;
@@ -19,16 +19,7 @@ pub(in crate::backend::rust) struct OutcomesModel {
     pub docs: Vec<String>,
     /// The type of the states.
     pub states: String,
-    value: Data,
-}
-
-impl OutcomesModel {
-    /// The expression of the constant, in a text that is moved so far to the right.
-    pub(in crate::backend::rust) fn value(&self, nest: &usize) -> String {
-        const INDENT: usize = 8;
-        let start = format!("pub const {}: rt::message::Outcomes<{}> = ", self.name, self.states).len();
-        self.value.render(INDENT, INDENT + start, 1, *nest)
-    }
+    pub value: Doc,
 }
 
 /// The rows of each message, by its name.
@@ -83,21 +74,21 @@ pub(super) fn links(scope: &Scope<'_>, device: &Device, types: &Types) -> HashMa
     links
 }
 
-fn row_data(row: &CommandOutcomes, states: &str, variants: &HashMap<String, String>) -> Data {
+fn row_data(row: &CommandOutcomes, states: &str, variants: &HashMap<String, String>) -> Doc {
     let state = |name: &str| Some(Data::text(format!("{states}::{}", variants.get(name)?)));
     let outcome = |own: &Outcome| match own {
         Outcome::Unchanged => Data::text("rt::message::Outcome::Unchanged"),
         Outcome::Refused => Data::text("rt::message::Outcome::Refused"),
         Outcome::States(to) => {
-            let to = to.iter().filter_map(|name| state(name)).collect();
-            Data::Call("rt::message::Outcome::States", vec![Data::Slice(to)])
+            let to = to.iter().filter_map(|name| state(name)).collect::<Vec<_>>();
+            Data::call("rt::message::Outcome::States", vec![Data::slice(to)])
         }
     };
     let cells = row.cells.iter().filter(|cell| !cell.outcomes.is_empty()).filter_map(|cell| {
-        let outcomes = cell.outcomes.iter().map(outcome).collect();
-        Some(Data::Call("rt::message::StateOutcomes::new", vec![state(&cell.state)?, Data::Slice(outcomes)]))
+        let outcomes = cell.outcomes.iter().map(outcome);
+        Some(Data::call("rt::message::StateOutcomes::new", vec![state(&cell.state)?, Data::slice(outcomes)]))
     });
-    Data::Call("rt::message::Outcomes::new", vec![Data::Slice(cells.collect())])
+    Data::call("rt::message::Outcomes::new", vec![Data::slice(cells)])
 }
 
 fn documentation(

@@ -2,6 +2,7 @@
 
 use super::rules::Rules;
 use super::MessageModel;
+use crate::backend::rust::code::{call, Doc};
 use crate::ir::Device;
 use crate::passes::messages_shaped::{carriers, Shaped, Step};
 
@@ -19,7 +20,7 @@ pub(in crate::backend::rust) struct Arm {
     /// The type of the message.
     pub message: String,
     /// How it is made.
-    pub build: Vec<String>,
+    pub build: Vec<(String, Doc)>,
     /// The value in the reply.
     pub value: String,
 }
@@ -44,7 +45,7 @@ pub(super) fn model(
 fn reading((shape, model): (&Shaped<'_>, &MessageModel), rule: &str, rules: &Rules) -> Option<Arm> {
     let (request, reply) = (model.request.as_ref()?, model.reply.as_ref()?);
     let field = request.fields.first()?;
-    let build = if field.name == "parameter" { "parameter".to_owned() } else { format!("{}: parameter", field.name) };
+    let build = (field.name.clone(), Doc::from("parameter"));
     let steps = shape.reply.steps.iter();
     let mut value = steps.filter_map(|step| match step {
         Step::Setting { space, .. } => Some((true, *space)),
@@ -64,10 +65,10 @@ fn writing((shape, model): (&Shaped<'_>, &MessageModel), rule: &str, rules: &Rul
     let request = model.request.as_ref()?;
     let name = &request.fields.first()?.name;
     let build = shape.request.steps.iter().find_map(|step| match step {
-        Step::Setting { .. } => Some(format!("{name}: settings[0]")),
+        Step::Setting { .. } => Some((name.clone(), Doc::from("settings[0]"))),
         Step::Settings { bits, space, .. } => {
             let rule = rules.name(space, Some(*bits));
-            Some(format!("{name}: rt::message::Settings::sent(«&settings¦ {rule}»)"))
+            Some((name.clone(), call!("rt::message::Settings::sent", "&settings", rule)))
         }
         _ => None,
     });

@@ -18,7 +18,7 @@ pub(in crate::backend::rust) struct RuleModel {
     pub code_bits: u32,
     pub order: String,
     /// First and last number, and how many bytes their values have.
-    pub lengths: String,
+    pub lengths: Vec<String>,
 }
 
 /// All constants.
@@ -95,7 +95,7 @@ fn documentation(scope: &Scope<'_>, own: Option<&ParameterSpace>, space: &str) -
 }
 
 /// Neighbouring numbers whose values have one length.
-fn lengths(scope: &Scope<'_>, device: &Device, space: &str) -> String {
+fn lengths(scope: &Scope<'_>, device: &Device, space: &str) -> Vec<String> {
     let mut spans: Vec<(u32, u32, u32)> = Vec::new();
     for (code, item) in numbered(device, space) {
         let Some(length) = length(scope.base(item.ty)) else { continue };
@@ -106,7 +106,7 @@ fn lengths(scope: &Scope<'_>, device: &Device, space: &str) -> String {
     }
     let one =
         |(first, last, length): &(u32, u32, u32)| format!("({first:#X}, {last:#X}, {length})").replace("0X", "0x");
-    spans.iter().map(one).collect::<Vec<_>>().join("¦ ")
+    spans.iter().map(one).collect()
 }
 
 /// How many bytes a value of a type has; `None` where that isn't fixed, or they are more than 8.

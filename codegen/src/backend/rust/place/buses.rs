@@ -1,5 +1,6 @@
 //! The buses of a location, which are its type.
 
+use crate::backend::rust::code::{generic, Doc};
 use crate::backend::rust::route::{Kind, Leg, Net, Route};
 
 /// The buses of a location, and what the route is on each.
@@ -48,12 +49,12 @@ impl Buses {
     }
 
     /// The type of the location, written out.
-    pub fn written_out(self) -> String {
+    pub fn written_out(self) -> Doc {
         let [canopen, coe, modbus, serial, image, esc] = self.types();
-        format!("rt::Location<«{canopen}¦ {coe}¦ {modbus}¦ rt::Absent¦ {serial}¦ {image}¦ {esc}»>")
+        generic!("rt::Location", canopen, coe, modbus, "rt::Absent", serial, image, esc)
     }
 
-    fn types(self) -> [String; 6] {
+    fn types(self) -> [Doc; 6] {
         std::array::from_fn(|at| self.0[at].ty(Net::ALL[at]))
     }
 

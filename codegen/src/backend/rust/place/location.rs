@@ -1,14 +1,15 @@
 //! The code that makes the location of an item.
 
 use super::Place;
+use crate::backend::rust::code::{call, seq, Doc};
 use crate::backend::rust::route::{Net, Route};
 use crate::backend::rust::scope::Scope;
 
 /// What makes a location.
 pub(in crate::backend::rust) struct Maker {
-    pub parameters: String,
-    pub arguments: String,
-    pub body: String,
+    pub parameters: Vec<String>,
+    pub arguments: Vec<String>,
+    pub body: Doc,
 }
 
 impl Place<'_> {
@@ -28,15 +29,15 @@ impl Place<'_> {
 
     /// The arguments that the constructors of registers begin with, where the item is a register, and at most one object
     /// beside.
-    pub fn with_register(&self) -> Option<String> {
+    pub fn with_register(&self) -> Option<Vec<String>> {
         let routed = self.routed();
         let register = self.register(routed.modbus.filter(|_| routed.serial.is_none() && routed.is_simple())?);
         match (routed.canopen, routed.coe) {
-            (None, None) => Some(register),
+            (None, None) => Some(vec![register]),
             (Some(canopen), Some(coe)) if canopen != coe => None,
             (canopen, coe) => {
                 let (index, sub) = canopen.or(coe)?;
-                Some(format!("0x{index:04X}¦ 0x{sub:02X}¦ {register}"))
+                Some(vec![format!("0x{index:04X}"), format!("0x{sub:02X}"), register])
             }
         }
     }
@@ -61,9 +62,8 @@ impl Place<'_> {
     }
 
     /// The call that makes the location. `windows` leads to the windows of the device.
-    pub fn code(&self, scope: &Scope<'_>, windows: &str) -> String {
+    pub fn code(&self, scope: &Scope<'_>, windows: &str) -> Doc {
         let Some(path) = self.buses().path() else { return self.new_location(scope, windows) };
-        let object = |(index, sub): (u16, u8)| format!("0x{index:04X}¦ 0x{sub:02X}");
         let Place { canopen, coe, modbus, serial, image, esc, .. } = self.routed();
         let same = canopen.is_none() || coe.is_none() || canopen == coe;
         match (canopen.or(coe), modbus, serial) {
@@ -73,16 +73,17 @@ impl Place<'_> {
                     (None, _) => "coe",
                     _ => "object",
                 };
-                format!("{path}::{method}(0x{index:04X}, 0x{sub:02X})")
+                Doc::from(format!("{path}::{method}(0x{index:04X}, 0x{sub:02X})"))
             }
-            (Some(place), Some(register), None) if same => {
-                format!("{path}::register(«{}¦ {}»)", object(place), self.register(register))
+            (Some((index, sub)), Some(register), None) if same => {
+                let [index, sub] = [format!("0x{index:04X}"), format!("0x{sub:02X}")];
+                call!(seq![path, "::register"], index, sub, self.register(register))
             }
-            (None, Some(register), None) => format!("{path}::modbus(«{}»)", self.register(register)),
-            (None, None, Some(code)) => format!("{path}::serial({code})"),
+            (None, Some(register), None) => call!(seq![path, "::modbus"], self.register(register)),
+            (None, None, Some(code)) => Doc::from(format!("{path}::serial({code})")),
             (None, None, None) => match (image, esc) {
-                (Some(field), _) => format!("{path}::field(«{}»)", field.code(self.is_bytes)),
-                (None, Some((address, length))) => format!("{path}::memory(0x{address:04X}, {length})"),
+                (Some(field), _) => call!(seq![path, "::field"], field.code(self.is_bytes)),
+                (None, Some((address, length))) => Doc::from(format!("{path}::memory(0x{address:04X}, {length})")),
                 (None, None) => self.new_location(scope, windows),
             },
             // Addresses that differ between the buses, and routes that are too rare for a name.
@@ -90,7 +91,7 @@ impl Place<'_> {
         }
     }
 
-    fn new_location(&self, scope: &Scope<'_>, windows: &str) -> String {
+    fn new_location(&self, scope: &Scope<'_>, windows: &str) -> Doc {
         self.location_of(scope, windows, |net| self.address(net).unwrap_or_default(), None)
     }
 
@@ -101,11 +102,11 @@ impl Place<'_> {
         windows: &str,
         address: impl Fn(Net) -> String,
         number: Option<&str>,
-    ) -> String {
+    ) -> Doc {
         let window = |at: usize| format!("{windows}{}", scope.windows.get(at).map_or("", |own| own.name.as_str()));
         let [canopen, coe, modbus, serial, image, esc] =
             Net::ALL.map(|net| self.routes[net as usize].code(&address(net), window, number));
-        format!("rt::Location::new(«{canopen}¦ {coe}¦ {modbus}¦ rt::Absent¦ {serial}¦ {image}¦ {esc}»)")
+        call!("rt::Location::new", canopen, coe, modbus, "rt::Absent", serial, image, esc)
     }
 
     /// The location as a function of what items differ in, for one that the runtime has no name for: `rustc` takes a third of
@@ -131,8 +132,8 @@ impl Place<'_> {
             arguments.push(format!("0x{number:04X}"));
         }
         Some(Maker {
-            parameters: parameters.join("¦ "),
-            arguments: arguments.join("¦ "),
+            parameters,
+            arguments,
             body: self.location_of(scope, windows, |net| net.word().to_lowercase(), Some("number")),
         })
     }

@@ -6,11 +6,12 @@ use super::image::{self, ImageModel};
 use super::literal;
 use super::record::{self, RecordModel};
 use super::scope::{AccessPoint, Scope};
+use crate::backend::rust::code::{call, seq, slice, Doc};
 use crate::backend::rust::doc_table;
 use crate::ir::{Direction, IoData, Module, ModuleUse, Numbers, Places, Submodule, SubmoduleUse};
 
 /// A submodule, ready to be written.
-pub(super) struct SubmoduleModel<'a> {
+pub(in crate::backend::rust) struct SubmoduleModel<'a> {
     pub name: &'a str,
     pub docs: Vec<String>,
     pub ident: u32,
@@ -24,7 +25,7 @@ pub(super) struct SubmoduleModel<'a> {
     pub records: Vec<RecordModel>,
     pub f_record: Option<FRecordModel>,
     /// Elements of the list of records, in the order of transfer.
-    pub record_list: String,
+    pub record_list: Vec<Doc>,
     /// Whether a field is an enumeration.
     pub uses_values: bool,
 }
@@ -95,9 +96,10 @@ fn length(data: Option<&IoData>) -> String {
 }
 
 /// By their transfer sequence; 0 leaves the order open, and comes last.
-fn record_list(records: &[RecordModel], f_record: Option<&FRecordModel>) -> String {
+fn record_list(records: &[RecordModel], f_record: Option<&FRecordModel>) -> Vec<Doc> {
     let element = |index: u16, sequence: u16, title: &str, data: &str| {
-        let call = format!("rt::profinet::Record::new(«0x{index:04X}¦ {sequence}¦ {title}¦ &{data}»)");
+        let index = format!("0x{index:04X}");
+        let call = call!("rt::profinet::Record::new", index, sequence, title, seq!["&", data]);
         (if sequence == 0 { u16::MAX } else { sequence }, call)
     };
     let own = records.iter().map(|record| {
@@ -106,19 +108,19 @@ fn record_list(records: &[RecordModel], f_record: Option<&FRecordModel>) -> Stri
     });
     let safe = f_record
         .map(|record| element(record.index, record.transfer_sequence, "\"F-parameters\"", "F_PARAMETERS_DEFAULT"));
-    let mut list: Vec<(u16, String)> = safe.into_iter().chain(own).collect();
+    let mut list: Vec<(u16, Doc)> = safe.into_iter().chain(own).collect();
     list.sort_by_key(|(sequence, _)| *sequence);
-    list.into_iter().map(|(_, call)| call).collect::<Vec<_>>().join("¦ ")
+    list.into_iter().map(|(_, call)| call).collect()
 }
 
 /// A module, ready to be written.
-pub(super) struct ModuleModel<'a> {
+pub(in crate::backend::rust) struct ModuleModel<'a> {
     pub name: &'a str,
     pub docs: Vec<String>,
     pub ident: u32,
     pub title: String,
-    pub submodules: String,
-    pub subslots: String,
+    pub submodules: Vec<Doc>,
+    pub subslots: Vec<String>,
 }
 
 pub(super) fn module<'s>(scope: &'s Scope<'_>, module: &'s Module, name: &'s str) -> ModuleModel<'s> {
@@ -136,7 +138,7 @@ pub(super) fn module<'s>(scope: &'s Scope<'_>, module: &'s Module, name: &'s str
 }
 
 /// A device access point, ready to be written.
-pub(super) struct DapModel<'a> {
+pub(in crate::backend::rust) struct DapModel<'a> {
     pub name: &'a str,
     pub docs: Vec<String>,
     /// What the comments call it.
@@ -148,9 +150,9 @@ pub(super) struct DapModel<'a> {
     pub title: String,
     pub vendor_name: String,
     pub order_code: String,
-    pub submodules: String,
-    pub slots: String,
-    pub modules: String,
+    pub submodules: Vec<Doc>,
+    pub slots: Vec<String>,
+    pub modules: Vec<Doc>,
     pub max_lengths: [String; 3],
     pub max_record_size: u32,
 }
@@ -200,41 +202,41 @@ fn list_submodules(scope: &Scope<'_>, uses: &[SubmoduleUse], docs: &mut Vec<Stri
     }
 }
 
-fn submodule_uses(scope: &Scope<'_>, uses: &[SubmoduleUse], outer: &str) -> String {
+fn submodule_uses(scope: &Scope<'_>, uses: &[SubmoduleUse], outer: &str) -> Vec<Doc> {
     let element = |usage: &SubmoduleUse| {
         let (_, name) = scope.submodules.get(&usage.submodule.0)?;
         let place = places(&usage.places);
-        Some(format!("rt::profinet::SubmoduleUse::new(«&{outer}submodules::{name}::SUBMODULE¦ {place}»)"))
+        let path = format!("&{outer}submodules::{name}::SUBMODULE");
+        Some(call!("rt::profinet::SubmoduleUse::new", path, place))
     };
-    uses.iter().filter_map(element).collect::<Vec<_>>().join("¦ ")
+    uses.iter().filter_map(element).collect()
 }
 
-fn module_uses(scope: &Scope<'_>, uses: &[ModuleUse], outer: &str) -> String {
+fn module_uses(scope: &Scope<'_>, uses: &[ModuleUse], outer: &str) -> Vec<Doc> {
     let element = |usage: &ModuleUse| {
         let (_, name) = scope.modules.get(&usage.module.0)?;
         let place = places(&usage.places);
-        Some(format!("rt::profinet::ModuleUse::new(«&{outer}modules::{name}::MODULE¦ {place}»)"))
+        let path = format!("&{outer}modules::{name}::MODULE");
+        Some(call!("rt::profinet::ModuleUse::new", path, place))
     };
-    uses.iter().filter_map(element).collect::<Vec<_>>().join("¦ ")
+    uses.iter().filter_map(element).collect()
 }
 
-fn places(places: &Places) -> String {
+fn places(places: &Places) -> Doc {
     let Places { allowed, fixed, used } = places;
     match (allowed.is_empty(), fixed.is_empty(), used.is_empty()) {
-        (true, false, true) => format!("rt::profinet::Places::fixed(«&[«{}»]»)", numbers(fixed)),
-        (false, true, true) => format!("rt::profinet::Places::allowed(«&[«{}»]»)", numbers(allowed)),
-        _ => format!(
-            "rt::profinet::Places::new(«&[«{}»]¦ &[«{}»]¦ &[«{}»]»)",
-            numbers(allowed),
-            numbers(fixed),
-            numbers(used)
-        ),
+        (true, false, true) => call!("rt::profinet::Places::fixed", slice(numbers(fixed))),
+        (false, true, true) => call!("rt::profinet::Places::allowed", slice(numbers(allowed))),
+        _ => {
+            let [allowed, fixed, used] = [allowed, fixed, used].map(|own| slice(numbers(own)));
+            call!("rt::profinet::Places::new", allowed, fixed, used)
+        }
     }
 }
 
-fn numbers(numbers: &Numbers) -> String {
+fn numbers(numbers: &Numbers) -> Vec<String> {
     // Subslots of interfaces and ports are known by their hexadecimal numbers.
     let number = |number: u16| if number < 0x8000 { number.to_string() } else { format!("0x{number:04X}") };
     let range = |&(first, last): &(u16, u16)| format!("({}, {})", number(first), number(last));
-    numbers.0.iter().map(range).collect::<Vec<_>>().join("¦ ")
+    numbers.0.iter().map(range).collect()
 }

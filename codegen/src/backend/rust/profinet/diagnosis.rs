@@ -8,6 +8,7 @@ use super::image::{self, FieldModel};
 use super::literal;
 use super::values::Values;
 use super::RustOptions;
+use crate::backend::rust::code::{call, slice, Doc};
 use crate::ir::{Catalog, CodeRow, Type, UnitDiagnosis, UnitDiagnosisField};
 use crate::passes::names_unique::{self, Case, Wish};
 
@@ -21,7 +22,7 @@ const EXTENDED: &str = "extended_channel_diagnosis";
 type Key = (u32, u16);
 
 /// The errors of channels that the source names, as elements of a table: each once.
-pub(super) fn channel_errors(catalog: &Catalog) -> Vec<String> {
+pub(super) fn channel_errors(catalog: &Catalog) -> Vec<Doc> {
     let rows = |name: &'static str| {
         catalog.code_tables.iter().filter(move |table| table.name == name).flat_map(|table| &table.rows)
     };
@@ -46,21 +47,20 @@ fn number(row: &CodeRow, cell: usize) -> Option<u32> {
     u32::try_from(row.cells.get(cell)?.as_int()?).ok()
 }
 
-fn error((api, code): Key, row: Option<&CodeRow>, extended: &BTreeMap<u16, &CodeRow>) -> String {
+fn error((api, code): Key, row: Option<&CodeRow>, extended: &BTreeMap<u16, &CodeRow>) -> Doc {
     let (name, help) = row.map_or(("\"\"".to_owned(), "\"\"".to_owned()), texts);
-    let extended: Vec<String> = extended
-        .iter()
-        .map(|(code, row)| {
-            let (name, help) = texts(row);
-            format!("rt::profinet::ExtendedError::new(«0x{code:04X}¦ {name}¦ {help}»)")
-        })
-        .collect();
-    let extended = extended.join("¦ ");
-    let constructor = match api {
-        0 => format!("new(«0x{code:04X}"),
-        _ => format!("of_profile(«0x{api:04X}¦ 0x{code:04X}"),
-    };
-    format!("rt::profinet::ChannelError::{constructor}¦ {name}¦ {help}¦ &[«{extended}»]»)")
+    let extended = slice(extended.iter().map(|(code, row)| {
+        let (name, help) = texts(row);
+        call!("rt::profinet::ExtendedError::new", format_args!("0x{code:04X}"), name, help)
+    }));
+    let code = format!("0x{code:04X}");
+    match api {
+        0 => call!("rt::profinet::ChannelError::new", code, name, help, extended),
+        _ => {
+            let api = format!("0x{api:04X}");
+            call!("rt::profinet::ChannelError::of_profile", api, code, name, help, extended)
+        }
+    }
 }
 
 fn texts(row: &CodeRow) -> (String, String) {
@@ -69,7 +69,7 @@ fn texts(row: &CodeRow) -> (String, String) {
 }
 
 /// A user structure, ready to be written.
-pub(super) struct UnitModel {
+pub(in crate::backend::rust) struct UnitModel {
     pub name: String,
     pub docs: Vec<String>,
     pub derives: Vec<String>,
@@ -126,13 +126,5 @@ fn unit_model(unit: &UnitDiagnosis, name: String, values: &Values<'_>, options: 
         identifier: unit.identifier,
         length,
         fields,
-    }
-}
-
-impl UnitModel {
-    /// The struct from the array `data`.
-    pub(super) fn decoded(&self) -> Vec<String> {
-        let fields: Vec<_> = self.fields.iter().map(|field| (field.name.clone(), field.read.clone())).collect();
-        image::literal("Ok(", &fields, ")")
     }
 }

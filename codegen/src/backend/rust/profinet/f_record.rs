@@ -1,16 +1,17 @@
 //! The F-parameter record of PROFIsafe.
 
+use crate::backend::rust::code::{call, seq, slice, Doc};
 use crate::ir::{FParameter, FParameters};
 
 /// The record, ready to be written.
-pub(super) struct FRecordModel {
+pub(in crate::backend::rust) struct FRecordModel {
     pub index: u16,
     pub transfer_sequence: u16,
     pub length: u32,
     pub docs: Vec<String>,
     /// Each parameter of the runtime's type with its default.
     pub defaults: Vec<(&'static str, String)>,
-    pub limits: Vec<String>,
+    pub limits: Vec<Doc>,
 }
 
 /// A parameter: its name in GSDML, the field of the runtime's struct, and the variant of its `FField`.
@@ -94,7 +95,7 @@ fn literal(field: &str, value: u32) -> String {
 }
 
 /// What a parameter may be; `None` where that is anything.
-fn limit(parameter: &FParameter, variant: &str) -> Option<String> {
+fn limit(parameter: &FParameter, variant: &str) -> Option<Doc> {
     let default = number(parameter);
     let mut list: Vec<(u32, u32)> = parameter
         .allowed
@@ -111,6 +112,6 @@ fn limit(parameter: &FParameter, variant: &str) -> Option<String> {
     if list.is_empty() || list.contains(&(0, u32::MAX)) {
         return None;
     }
-    let list: Vec<String> = list.iter().map(|(first, last)| format!("({first}, {last})")).collect();
-    Some(format!("rt::profinet::FLimit::new(«rt::profinet::FField::{variant}¦ &[«{}»]»)", list.join("¦ ")))
+    let list = slice(list.iter().map(|(first, last)| format!("({first}, {last})")));
+    Some(call!("rt::profinet::FLimit::new", seq!["rt::profinet::FField::", variant], list))
 }

@@ -2,6 +2,7 @@
 
 use super::types::type_name;
 use super::values::{Enumeration, Values};
+use crate::backend::rust::code::{call, seq, Doc};
 use crate::backend::rust::value_type::native;
 use crate::ir::{TimeFormat, Type, TypeDef};
 
@@ -190,55 +191,58 @@ impl<'v> Field<'v> {
     }
 
     /// The field's value, from the reference `data` to an array of bytes.
-    pub(super) fn read(&self, data: &str) -> String {
+    pub(super) fn read(&self, data: &str) -> Doc {
         let Place { byte, bit, bits } = self.place;
-        let from_bytes = |ty: &str| format!("{ty}::from_be_bytes(«rt::profinet::be::bytes(«{data}¦ {byte}»)»)");
-        let cut = |name: &str| format!("rt::profinet::be::{name}(«{data}¦ {byte}¦ {bit}¦ {bits}»)");
+        let bytes = || call!("rt::profinet::be::bytes", data, byte);
+        let from_bytes = |ty: &str| call!(seq![ty, "::from_be_bytes"], bytes());
+        let at = || seq![data, "[", byte, "]"];
+        let cut = |name: &str| call!(seq!["rt::profinet::be::", name], data, byte, bit, bits);
         if let Some(enumeration) = self.enumeration {
             let raw = match self.kind {
-                Kind::Native { signed: false } if bits == 8 => format!("{data}[{byte}]"),
+                Kind::Native { signed: false } if bits == 8 => at(),
                 Kind::Native { .. } if bits > 8 => from_bytes(enumeration.native),
                 _ => cut(&format!("bits_{}", enumeration.native)),
             };
-            return format!("{}::from_raw(«{raw}»)", enumeration.path);
+            return call!(seq![enumeration.path, "::from_raw"], raw);
         }
         match self.kind {
-            Kind::Bit => format!("{data}[{byte}] & 0x{:02X} != 0", 1 << bit),
-            Kind::Flag => format!("{data}[{byte}] != 0"),
-            Kind::Native { signed: false } if bits == 8 => format!("{data}[{byte}]"),
-            Kind::Native { .. } if bits == 8 => format!("{data}[{byte}] as i8"),
+            Kind::Bit => seq![at(), format_args!(" & 0x{:02X} != 0", 1 << bit)],
+            Kind::Flag => seq![at(), " != 0"],
+            Kind::Native { signed: false } if bits == 8 => at(),
+            Kind::Native { .. } if bits == 8 => seq![at(), " as i8"],
             Kind::Native { .. } | Kind::Real => from_bytes(&self.rust_type()),
             Kind::Number { signed } if self.usage == Use::Image => {
-                format!("rt::{}::from_raw(«{}»)", if signed { "Int" } else { "Uint" }, cut("number"))
+                call!(seq!["rt::", if signed { "Int" } else { "Uint" }, "::from_raw"], cut("number"))
             }
             Kind::Number { .. } => cut(&format!("bits_{}", self.native())),
-            Kind::Time(name) => format!("rt::profinet::be::{name}(«{data}¦ {byte}»)"),
-            Kind::Bytes => format!("rt::profinet::be::bytes(«{data}¦ {byte}»)"),
+            Kind::Time(name) => call!(seq!["rt::profinet::be::", name], data, byte),
+            Kind::Bytes => bytes(),
         }
     }
 
     /// The statement that puts `value` into an array of bytes: `data` names the array, `reference` is a mutable
     /// reference to it.
-    pub(super) fn write(&self, data: &str, reference: &str, value: &str) -> String {
+    pub(super) fn write(&self, data: &str, reference: &str, value: &str) -> Doc {
         let Place { byte, bit, bits } = self.place;
         let raw = if self.enumeration.is_some() { format!("{value}.raw()") } else { value.to_owned() };
-        let put = |bytes: &str| format!("rt::profinet::be::put(«{reference}¦ {byte}¦ {bytes}»);");
+        let at = || seq![data, "[", byte, "] = "];
+        let put = |bytes: Doc| seq![call!("rt::profinet::be::put", reference, byte, bytes), ";"];
         match self.kind {
-            Kind::Bit => format!("rt::profinet::be::put_bit(«{reference}¦ {byte}¦ {bit}¦ {value}»);"),
-            Kind::Native { signed: false } if bits == 8 => format!("{data}[{byte}] = {raw};"),
-            Kind::Flag => format!("{data}[{byte}] = {value} as u8;"),
-            Kind::Native { .. } if bits == 8 => format!("{data}[{byte}] = {raw} as u8;"),
-            Kind::Native { .. } | Kind::Real => put(&format!("&{raw}.to_be_bytes()")),
+            Kind::Bit => seq![call!("rt::profinet::be::put_bit", reference, byte, bit, value), ";"],
+            Kind::Native { signed: false } if bits == 8 => seq![at(), raw, ";"],
+            Kind::Flag => seq![at(), value, " as u8;"],
+            Kind::Native { .. } if bits == 8 => seq![at(), raw, " as u8;"],
+            Kind::Native { .. } | Kind::Real => put(seq!["&", raw, ".to_be_bytes()"]),
             Kind::Number { .. } => {
                 let number = match (self.usage, self.enumeration, self.native()) {
                     (Use::Image, None, _) => format!("{value}.raw()"),
                     (_, _, "u64") => raw,
                     _ => format!("{raw} as u64"),
                 };
-                format!("rt::profinet::be::put_number(«{reference}¦ {byte}¦ {bit}¦ {bits}¦ {number}»);")
+                seq![call!("rt::profinet::be::put_number", reference, byte, bit, bits, number), ";"]
             }
-            Kind::Time(name) => put(&format!("&rt::profinet::be::from_{name}(«{value}»)")),
-            Kind::Bytes => put(&format!("&{value}")),
+            Kind::Time(name) => put(call!(seq!["&rt::profinet::be::from_", name], value)),
+            Kind::Bytes => put(seq!["&", value]),
         }
     }
 }

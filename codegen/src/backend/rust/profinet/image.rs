@@ -4,6 +4,7 @@ use super::docs;
 use super::field::{Field, Use};
 use super::values::Values;
 use super::RustOptions;
+use crate::backend::rust::code::Doc;
 use crate::backend::rust::doc_table;
 use crate::ir::{Direction, IoData, PdoEntry, PdoEntryKind, Submodule};
 use crate::passes::names_unique::{self, Case, Wish};
@@ -14,17 +15,8 @@ const MAX_FIELD_NAME: usize = 30;
 /// Names that no field may have.
 const RESERVED: [&str; 8] = ["self", "super", "crate", "new", "view", "clone", "into", "try_into"];
 
-/// A struct of strictly less than this, up to the blank before its closing brace, stays on one line.
-const SHORT_STRUCT: usize = 34;
-
-/// The greatest width of a line.
-const MARGIN: usize = 89;
-
-/// Where the literal in a function of a submodule stands.
-const LITERAL_INDENT: usize = 16;
-
 /// The data of one direction, ready to be written.
-pub(super) struct ImageModel {
+pub(in crate::backend::rust) struct ImageModel {
     /// `Inputs` or `Outputs`.
     pub name: &'static str,
     pub is_output: bool,
@@ -39,7 +31,7 @@ pub(super) struct ImageModel {
 }
 
 /// A field of a struct.
-pub(super) struct FieldModel {
+pub(in crate::backend::rust) struct FieldModel {
     pub name: String,
     pub docs: Vec<String>,
     pub heading: String,
@@ -49,13 +41,13 @@ pub(super) struct FieldModel {
     /// The attribute in front of it.
     pub attribute: Option<String>,
     /// Its value from a view.
-    pub get: String,
+    pub get: Doc,
     /// Its value from the array `data`.
-    pub read: String,
+    pub read: Doc,
     /// The statement that puts `self`'s field into the array `data`.
-    pub pack: String,
+    pub pack: Doc,
     /// The statement that puts `value` into a view.
-    pub set: String,
+    pub set: Doc,
     /// `const ` where it can be read in a constant.
     pub constant: &'static str,
 }
@@ -166,7 +158,7 @@ impl FieldModel {
     }
 
     /// The name of its setter.
-    pub(super) fn setter(&self) -> String {
+    pub(in crate::backend::rust) fn setter(&self) -> String {
         names_unique::prefixed("set_", &self.name)
     }
 }
@@ -176,39 +168,4 @@ fn allow<'n>(mut names: impl Iterator<Item = &'n str>) -> Option<&'static str> {
     let misread =
         names.any(|name| ["from_", "into_", "to_", "is_", "as_"].iter().any(|prefix| name.starts_with(prefix)));
     misread.then_some("#[allow(clippy::wrong_self_convention)]")
-}
-
-/// The lines of a struct literal with these fields, behind `start` (`Ok(`) and before `end`.
-pub(super) fn literal(start: &str, fields: &[(String, String)], end: &str) -> Vec<String> {
-    let plain = |value: &str| value.replace(['«', '»', '¬'], "").replace('¦', ",");
-    let flat: Vec<String> = fields.iter().map(|(name, value)| format!("{name}: {}", plain(value))).collect();
-    let flat = format!("Self {{ {} ", flat.join(", "));
-    if fields.is_empty() {
-        return vec![format!("{start}Self {{}}{end}")];
-    }
-    if flat.len() <= SHORT_STRUCT {
-        return vec![format!("{start}{flat}}}{end}")];
-    }
-    let mut lines = vec![format!("{start}Self {{")];
-    lines.extend(fields.iter().map(|(name, value)| format!("    {name}: {value},")));
-    lines.push(format!("}}{end}"));
-    lines
-}
-
-impl ImageModel {
-    /// The struct, from a view of the data.
-    pub(super) fn unpacked(&self) -> Vec<String> {
-        let value = |field: &FieldModel| (field.name.clone(), format!("view.{}()", field.name));
-        let lines = literal("Ok(", &self.fields.iter().map(value).collect::<Vec<_>>(), ")");
-        // A chain of calls that is too long for its line goes on in the next one; the last comma doesn't count.
-        let last = lines.len().saturating_sub(2);
-        let broken = |(at, line): (usize, String)| {
-            let width = LITERAL_INDENT + line.len() - usize::from(at == last);
-            match line.split_once(": view.") {
-                Some((name, call)) if width > MARGIN => vec![format!("{name}: view"), format!("        .{call}")],
-                _ => vec![line],
-            }
-        };
-        lines.into_iter().enumerate().flat_map(broken).collect()
-    }
 }

@@ -9,6 +9,7 @@ use super::image::{self, FieldModel};
 use super::literal;
 use super::values::Values;
 use super::RustOptions;
+use crate::backend::rust::code::Doc;
 use crate::ir::{Access, Binding, Group, GroupKind, Item, Record, Value};
 use crate::limits::MAX_RECORD_BYTES;
 use crate::passes::names_unique::{self, Case, Wish};
@@ -26,7 +27,7 @@ const RESERVED_CONSTANTS: [&str; 8] =
     ["self", "super", "crate", "index", "len", "transfer_sequence", "default", "default_bytes"];
 
 /// A record, ready to be written.
-pub(super) struct RecordModel {
+pub(in crate::backend::rust) struct RecordModel {
     pub name: String,
     /// Its name in the source, as a literal.
     pub title: String,
@@ -39,21 +40,21 @@ pub(super) struct RecordModel {
     /// Fields that can be changed.
     pub fields: Vec<FieldModel>,
     /// Their defaults.
-    pub defaults: Vec<String>,
+    pub defaults: Vec<Doc>,
     /// Fields that can't be changed.
     pub constants: Vec<ConstantModel>,
     /// Statements that check the fields.
-    pub checks: Vec<String>,
+    pub checks: Vec<Doc>,
     /// Whether a literal may resemble a mathematical constant.
     pub has_real: bool,
 }
 
 /// A field that can't be changed.
-pub(super) struct ConstantModel {
+pub(in crate::backend::rust) struct ConstantModel {
     pub name: String,
     pub docs: Vec<String>,
     pub ty: String,
-    pub value: String,
+    pub value: Doc,
 }
 
 /// An item with its field.
@@ -196,19 +197,4 @@ fn facts(parameter: &Parameter<'_>, values: &Values<'_>) -> Vec<String> {
 
 fn bound(value: &Option<Value>) -> String {
     value.as_ref().map_or_else(|| "any".to_owned(), docs::value)
-}
-
-impl RecordModel {
-    /// The struct with its defaults.
-    pub(super) fn default(&self) -> Vec<String> {
-        let fields: Vec<_> =
-            self.fields.iter().zip(&self.defaults).map(|(field, value)| (field.name.clone(), value.clone())).collect();
-        image::literal("pub const DEFAULT: Self = ", &fields, ";")
-    }
-
-    /// The struct from the array `data`.
-    pub(super) fn decoded(&self) -> Vec<String> {
-        let fields: Vec<_> = self.fields.iter().map(|field| (field.name.clone(), field.read.clone())).collect();
-        image::literal("Ok(", &fields, ")")
-    }
 }

@@ -24,7 +24,7 @@ pub(super) struct Values<'a> {
 }
 
 /// An enumeration, ready to be written.
-pub(super) struct Enumeration {
+pub(in crate::backend::rust) struct Enumeration {
     pub name: String,
     /// Its path from the module of a submodule.
     pub path: String,
@@ -36,7 +36,7 @@ pub(super) struct Enumeration {
 }
 
 /// One value.
-pub(super) struct Variant {
+pub(in crate::backend::rust) struct Variant {
     pub name: String,
     pub docs: String,
     pub value: i128,

@@ -1,6 +1,7 @@
 //! The bytes of a record by default, and what its fields are then.
 
 use super::Parameter;
+use crate::backend::rust::code::{call, seq, Doc};
 use crate::backend::rust::literal;
 use crate::backend::rust::profinet::field::Field;
 use crate::backend::rust::profinet::values::Enumeration;
@@ -70,36 +71,39 @@ fn number_of(field: &Field<'_>, bytes: &[u8]) -> u64 {
 }
 
 /// The field's value in these bytes, as a literal.
-pub(super) fn value_of(field: &Field<'_>, bytes: &[u8]) -> String {
+pub(super) fn value_of(field: &Field<'_>, bytes: &[u8]) -> Doc {
     let place = field.place;
     if let Some(length) = field.byte_string() {
         let own = bytes.get(place.byte as usize..).and_then(|rest| rest.get(..length as usize)).unwrap_or(&[]);
         let is_zero = own.iter().all(|byte| *byte == 0);
-        return if is_zero { format!("[0; {length}]") } else { format!("*{}", literal::bytes(own)) };
+        return if is_zero { seq!["[0; ", length, "]"] } else { seq!["*", literal::bytes(own)] };
     }
     let bits = number_of(field, bytes);
     if field.is_bool() {
-        return (bits != 0).to_string();
+        return Doc::from((bits != 0).to_string());
     }
     if field.is_real() {
-        return if place.bits == 32 { real32(f32::from_bits(bits as u32)) } else { real64(f64::from_bits(bits)) };
+        return Doc::from(match place.bits {
+            32 => real32(f32::from_bits(bits as u32)),
+            _ => real64(f64::from_bits(bits)),
+        });
     }
     let Some((low, high)) = field.range() else {
         let (milliseconds, days) = (bits >> 16 & 0x0FFF_FFFF, bits & 0xFFFF);
-        return format!("{}::new(«{milliseconds}¦ {days}»)", field.rust_type());
+        return call!(seq![field.rust_type(), "::new"], milliseconds, days);
     };
     let bits = i128::from(bits);
     let value = if bits > high { bits - (high - low + 1) } else { bits };
     match field.enumeration {
         Some(enumeration) => enumeration_value(enumeration, value),
-        None => value.to_string(),
+        None => Doc::from(value.to_string()),
     }
 }
 
-fn enumeration_value(enumeration: &Enumeration, value: i128) -> String {
+fn enumeration_value(enumeration: &Enumeration, value: i128) -> Doc {
     match enumeration.variants.iter().find(|variant| variant.value == value) {
-        Some(variant) => format!("{}::{}", enumeration.path, variant.name),
-        None => format!("{}::Unknown(«{value}»)", enumeration.path),
+        Some(variant) => seq![enumeration.path, "::", variant.name],
+        None => call!(seq![enumeration.path, "::Unknown"], value),
     }
 }
 

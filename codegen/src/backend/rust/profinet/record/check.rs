@@ -1,6 +1,7 @@
 //! The checks of a record's fields against the allowed values.
 
 use super::Parameter;
+use crate::backend::rust::code::{call, seq, slice, Doc};
 use crate::backend::rust::literal;
 use crate::backend::rust::profinet::field::Field;
 use crate::ir::{Limits, Type, Value};
@@ -17,7 +18,7 @@ pub(super) fn ranges(limits: &Limits) -> Vec<(Option<Value>, Option<Value>)> {
 }
 
 /// The statement that checks a field; `None` where all values of its type are allowed, or none of them is.
-pub(super) fn check(parameter: &Parameter<'_>, name: &str) -> Option<String> {
+pub(super) fn check(parameter: &Parameter<'_>, name: &str) -> Option<Doc> {
     let Parameter { item, field } = parameter;
     let allowed = ranges(&item.limits);
     let list = if field.is_bool() {
@@ -29,7 +30,7 @@ pub(super) fn check(parameter: &Parameter<'_>, name: &str) -> Option<String> {
     }?;
     let raw = if field.enumeration.is_some() { ".raw()" } else { "" };
     let title = literal::string(if item.name.is_empty() { name } else { &item.name });
-    Some(format!("rt::profinet::check(«{title}¦ self.{name}{raw}¦ &[«{}»]»)?;", list.join("¦ ")))
+    Some(seq![call!("rt::profinet::check", title, seq!["self.", name, raw], slice(list)), "?;"])
 }
 
 fn bools(allowed: &[(Option<Value>, Option<Value>)]) -> Option<Vec<String>> {

@@ -1,0 +1,209 @@
+//! Breaks lines that are too long.
+
+use super::doc::{Doc, Mark};
+
+/// The greatest width of a line, in bytes as `prettyplease` counts.
+const MARGIN: usize = 89;
+
+const STEP: usize = 4;
+
+/// Writes a document that starts a line which is indented so far; `out` ends where the line starts.
+pub(super) fn write(doc: &Doc, indent: usize, out: &mut String) {
+    newline(out, indent);
+    let text = doc.text();
+    if doc.marks().is_empty() || indent + text.len() <= MARGIN && !doc.has_long() {
+        out.push_str(text);
+        return;
+    }
+    let mut printer = Printer { doc, out, at: 0, column: indent, indent, open: Vec::new() };
+    for position in 0..doc.marks().len() {
+        printer.mark(position);
+    }
+    printer.text_to(text.len());
+}
+
+fn newline(out: &mut String, indent: usize) {
+    if !out.is_empty() {
+        out.push('\n');
+    }
+    out.extend(std::iter::repeat_n(' ', indent));
+}
+
+/// An open list.
+#[derive(Clone, Copy)]
+struct List {
+    kind: Mark,
+    is_broken: bool,
+}
+
+struct Printer<'d, 'o> {
+    doc: &'d Doc,
+    out: &'o mut String,
+    /// Offset of the text that isn't written yet.
+    at: usize,
+    column: usize,
+    indent: usize,
+    open: Vec<List>,
+}
+
+impl Printer<'_, '_> {
+    fn mark(&mut self, position: usize) {
+        let Some(&(offset, mark)) = self.doc.marks().get(position) else { return };
+        self.text_to(offset);
+        let may_break = self.open.last().is_none_or(|list| list.is_broken);
+        match mark {
+            Mark::Open | Mark::OpenNumbers | Mark::OpenStruct { .. } => {
+                let is_broken = may_break && self.column.saturating_add(self.width(position)) > MARGIN;
+                self.open.push(List { kind: mark, is_broken });
+                if is_broken {
+                    self.indent += STEP;
+                    self.newline();
+                    self.skip_blank();
+                }
+            }
+            Mark::Next => self.next(position),
+            Mark::Close => {
+                if self.open.pop().is_some_and(|list| list.is_broken) {
+                    self.out.push(',');
+                    self.indent -= STEP;
+                    self.newline();
+                    self.skip_blank();
+                }
+            }
+            Mark::Soft => {
+                if may_break && self.column + self.width(position) > MARGIN {
+                    self.indent += STEP;
+                    self.newline();
+                    self.indent -= STEP;
+                    self.skip_blank();
+                }
+            }
+            Mark::Stop => {}
+        }
+    }
+
+    /// Between two members: a comma, and a blank or a new line.
+    fn next(&mut self, position: usize) {
+        let Some(list) = self.open.last().copied().filter(|list| list.is_broken) else { return };
+        self.text_to(self.at + 1);
+        if list.kind == Mark::OpenNumbers && self.column + self.width_of_next(position) <= MARGIN {
+            return;
+        }
+        self.newline();
+        self.skip_blank();
+    }
+
+    /// Width of the blank in front of the next number, of that number, and of the comma behind it where a further one follows.
+    fn width_of_next(&self, position: usize) -> usize {
+        let behind = self.doc.marks().get(position + 1);
+        behind.map_or(0, |(offset, mark)| offset - self.at + usize::from(*mark == Mark::Next))
+    }
+
+    fn text_to(&mut self, end: usize) {
+        let text = self.doc.text().get(self.at..end).unwrap_or_default();
+        self.out.push_str(text);
+        self.column += text.len();
+        self.at = self.at.max(end);
+    }
+
+    /// The blank at a place where the line is broken.
+    fn skip_blank(&mut self) {
+        if self.doc.text()[self.at..].starts_with(' ') {
+            self.at += 1;
+        }
+    }
+
+    fn newline(&mut self) {
+        newline(self.out, self.indent);
+        self.column = self.indent;
+    }
+
+    /// Width on one line of what begins at a mark, and of what follows it up to the next place for a break that lies in no later
+    /// list; without an end where a struct within it takes several lines.
+    fn width(&self, position: usize) -> usize {
+        let (mut depth, mut is_own) = (0_usize, true);
+        let marks = self.doc.marks().get(position..).unwrap_or_default();
+        let start = marks.first().map_or(0, |(offset, _)| *offset);
+        let begins = marks.first().is_some_and(|(_, mark)| *mark == Mark::Soft);
+        for (offset, mark) in marks.iter().skip(usize::from(begins)) {
+            if offset - start > MARGIN {
+                return usize::MAX;
+            }
+            match mark {
+                Mark::OpenStruct { is_long: true } if is_own => return usize::MAX,
+                Mark::Open | Mark::OpenNumbers | Mark::OpenStruct { .. } => depth += 1,
+                Mark::Next if depth == 0 => return offset - start + 1,
+                Mark::Close | Mark::Stop | Mark::Soft if depth == 0 => return offset - start,
+                Mark::Close => {
+                    depth -= 1;
+                    is_own &= depth > 0;
+                }
+                Mark::Next | Mark::Stop | Mark::Soft => {}
+            }
+        }
+        self.doc.text().len() - start
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::write;
+    use crate::backend::rust::code::{call, generic, seq, Break, Data, Doc, Stop};
+
+    fn written(indent: usize, doc: &Doc) -> String {
+        let mut out = String::new();
+        write(doc, indent, &mut out);
+        out + "\n"
+    }
+
+    #[test]
+    fn short_lines_stay_as_they_are() {
+        assert_eq!(written(0, &seq![call!("a", "b", "c"), ";"]), "a(b, c);\n");
+        assert_eq!(written(4, &seq![Stop, "x", Break, " as u8"]), "    x as u8\n");
+    }
+
+    #[test]
+    fn long_lists_break_from_the_outside() {
+        let name = "n".repeat(70);
+        assert_eq!(
+            written(4, &seq![call!(name, "aaaaaaaa", call!("f", "b")), ";"]),
+            format!("    {name}(\n        aaaaaaaa,\n        f(b),\n    );\n")
+        );
+        assert_eq!(
+            written(0, &seq![name, ": ", call!("get", "a", "b"), Break, " as u32,"]),
+            format!("{name}: get(a, b) as u32,\n")
+        );
+        let long = "n".repeat(75);
+        assert_eq!(
+            written(0, &seq![long, ": ", call!("get", "a"), Break, " as u32,"]),
+            format!("{long}: get(a)\n    as u32,\n")
+        );
+        assert_eq!(
+            written(0, &seq![call!(seq!["fn ", name], "&mut self"), " -> ", generic!("f", "u8"), " {"]),
+            format!("fn {name}(\n    &mut self,\n) -> f<u8> {{\n")
+        );
+    }
+
+    fn canonical(value: &Doc) {
+        let text = written(0, &seq!["static X: T = ", value, ";"]);
+        assert_eq!(text, prettyplease::unparse(&syn::parse_file(&text).unwrap()));
+    }
+
+    #[test]
+    fn literals_are_as_prettyplease_prints_them() {
+        let numbers = |count: u16| Data::slice((0..count).map(|at| Data::index(at * 7)));
+        (0..60).for_each(|count| canonical(&numbers(count)));
+        let point = |size: usize| {
+            Data::fields("rt::P", [("x", Data::text("1".repeat(size))), ("long_name", Data::option(Some(2)))])
+        };
+        for size in 1..70 {
+            canonical(&point(size));
+            canonical(&Data::slice([point(size), point(1)]));
+            canonical(&Data::call("Some", [point(size)]));
+            let call = Data::call("rt::f", [Data::text("a".repeat(size)), Data::text("b".repeat(20))]);
+            canonical(&call);
+            canonical(&Data::slice([call.clone(), call.clone()]));
+            canonical(&Data::fields("rt::Q", [("call", call), ("numbers", numbers(size as u16)), ("point", point(3))]));
+        }
+    }
+}

@@ -1,0 +1,66 @@
+//! The start of a device's module: who made the device, and what a master has to know of it.
+
+use crate::backend::rust::code::{line, open, Code};
+use crate::backend::rust::ethercat::EtherCatModel;
+use crate::backend::rust::identity::IdentityModel;
+use crate::backend::rust::model::Model;
+
+pub(super) fn write(code: &mut Code, model: &Model<'_>) {
+    code.use_runtime();
+    line!(code, "const _: () = rt::interface::assert_version(", model.interface_version, ");");
+    if let Some(own) = &model.identity {
+        identity(code, own, &model.title);
+    }
+    if let Some(node_id) = model.node_id {
+        code.doc("The node-ID that the configuration file gives this device.");
+        line!(code, "pub const NODE_ID: Option<rt::NodeId> = rt::NodeId::new(", node_id, ");");
+    }
+    for fact in &model.bus_facts {
+        code.doc(&fact.docs);
+        line!(code, fact.code);
+    }
+    if let Some(module) = &model.module {
+        code.doc(&format!("What a master has to know of {}.", model.title));
+        line!(code, "pub static MODULE: rt::ethercat::Module = ", module, ";");
+    }
+    if let Some(own) = &model.ethercat {
+        ethercat(code, own, &model.title);
+    }
+    if let Some(axes) = &model.axes {
+        code.doc(&format!("The axes{}, and where their objects are.", axes.models));
+        line!(code, "pub static AXES: rt::Axes = ", axes.constant, ";");
+    }
+}
+
+fn identity(code: &mut Code, own: &IdentityModel, title: &str) {
+    code.doc(&format!("Who made {title}, and which device it is."));
+    open!(code, "pub const IDENTITY: rt::Identity = rt::Identity {");
+    line!(code, "vendor_id: ", own.vendor_id, ",");
+    line!(code, "product_code: ", own.product_code, ",");
+    line!(code, "revision_number: ", own.revision_number, ",");
+    line!(code, "vendor_name: ", own.vendor_name, ",");
+    line!(code, "product_name: ", own.product_name, ",");
+    line!(code, "order_code: ", own.order_code, ",");
+    code.close("};");
+}
+
+fn ethercat(code: &mut Code, own: &EtherCatModel, title: &str) {
+    code.doc(&format!("What a master has to know of {title}."));
+    line!(code, "pub static DEVICE: rt::ethercat::Device = ", own.device, ";");
+    if let Some(fmmus) = &own.fmmus {
+        code.doc("The FMMUs, in the order of the slave controller.");
+        line!(code, "pub const FMMUS: &[rt::ethercat::Fmmu] = ", fmmus, ";");
+    }
+    if let Some(modes) = &own.clock_modes {
+        code.doc("The modes of the distributed clocks, the default one first.");
+        line!(code, "pub const CLOCK_MODES: &[rt::ethercat::ClockMode] = ", modes, ";");
+    }
+    if let Some(startup) = &own.startup {
+        code.doc("The writes that set up the PDOs by default, in Pre-Operational.");
+        line!(code, "pub const STARTUP: &[rt::SdoWrite] = ", startup, ";");
+    }
+    for (name, title, bytes) in &own.bytes {
+        code.doc(title);
+        line!(code, "pub const ", name, ": &[u8] = ", bytes, ";");
+    }
+}

@@ -1,0 +1,109 @@
+//! The process image by default.
+
+use crate::backend::rust::code::{call, generic, line, open, seq, Code, Doc, Stop};
+use crate::backend::rust::ethercat::{EtherCatModel, ImageModel};
+
+pub(super) fn write(code: &mut Code, ethercat: Option<&EtherCatModel>) {
+    let Some(ethercat) = ethercat.filter(|own| !own.images.is_empty()) else { return };
+    code.doc("The process image by default, sync manager by sync manager.");
+    open!(code, "pub mod image {");
+    code.use_runtime();
+    for image in &ethercat.images {
+        structure(code, image);
+        view(code, image);
+    }
+    code.close("}");
+}
+
+/// A doc comment with the errors of what takes the bytes of an image.
+fn docs(code: &mut Code, first: &str) {
+    code.doc(first);
+    code.doc("");
+    code.doc("# Errors");
+    code.doc("");
+    code.doc("When `data` has fewer bytes than the image.");
+    line!(code, "#[inline]");
+}
+
+fn structure(code: &mut Code, image: &ImageModel) {
+    code.doc(&image.title);
+    code.lines(&image.derives);
+    open!(code, "pub struct ", image.name, " {");
+    for field in &image.fields {
+        code.doc(&field.docs);
+        line!(code, "pub ", field.name, ": super::pdo::", field.pdo, ",");
+    }
+    code.close("}");
+    open!(code, "impl ", image.name, " {");
+    code.doc("Number of the sync manager.");
+    line!(code, "pub const SYNC_MANAGER: u8 = ", image.sync_manager, ";");
+    code.doc("Length in bytes.");
+    line!(code, "pub const LEN: usize = ", image.length, ";");
+    code.doc("The bytes of the image; padding is zero.");
+    line!(code, "#[inline]");
+    open!(code, "pub fn pack(&self) -> [u8; ", image.length, "] {");
+    line!(code, "let mut data = [0; ", image.length, "];");
+    for field in &image.fields {
+        let packed = seq!["&self.", field.name, ".pack()"];
+        line!(code, call!("rt::bits::set_bytes", "&mut data", field.bit, packed), ";");
+    }
+    line!(code, "data");
+    code.close("}");
+    unpack(code, image);
+    code.close("}");
+}
+
+fn unpack(code: &mut Code, image: &ImageModel) {
+    docs(code, "The PDOs of an image. Bytes behind it are not looked at.");
+    open!(code, "pub fn unpack(data: &[u8]) -> Result<Self, rt::LengthError> {");
+    line!(code, "rt::bits::check_length(data, ", image.bits, ")?;");
+    open!(code, "let image = Self {");
+    for (left, field) in (0..image.fields.len()).rev().zip(&image.fields) {
+        let bytes = call!(seq!["&rt::bits::get_bytes::<", field.length, ">"], "data", field.bit);
+        let value = call!(seq!["super::pdo::", field.pdo, "::unpack"], bytes);
+        // The last comma may stand beyond the margin.
+        let end = (left == 0).then_some(Stop);
+        line!(code, field.name, ": ", value, "?", end, ",");
+    }
+    code.close("};");
+    line!(code, "Ok(image)");
+    code.close("}");
+}
+
+fn view(code: &mut Code, image: &ImageModel) {
+    code.doc(&format!("{} Read and written where it stands.", image.title));
+    open!(code, "pub struct ", image.name, "View<B> {");
+    line!(code, "data: B,");
+    code.close("}");
+    code.lines(image.view_allow());
+    open!(code, "impl<B: AsRef<[u8]>> ", image.name, "View<B> {");
+    docs(code, "The image in `data`.");
+    open!(code, "pub fn new(data: B) -> Result<Self, rt::LengthError> {");
+    line!(code, "rt::bits::check_length(data.as_ref(), ", image.bits, ")?;");
+    line!(code, "Ok(Self { data })");
+    code.close("}");
+    for field in &image.fields {
+        let method = call!(seq!["pub fn ", field.name], "&self");
+        pdo(code, [&field.docs, &field.pdo], (method, "&[u8]", "as_ref"), field.bit);
+    }
+    code.close("}");
+    code.lines(image.view_mut_allow());
+    open!(code, "impl<B: AsMut<[u8]>> ", image.name, "View<B> {");
+    for field in &image.fields {
+        let method = call!(seq!["pub fn ", field.name_mut], "&mut self");
+        pdo(code, [&field.docs, &field.pdo], (method, "&mut [u8]", "as_mut"), field.bit);
+    }
+    code.close("}");
+}
+
+/// The method that gives the view of a PDO: its signature, the bytes and how it gets at them.
+fn pdo(code: &mut Code, [docs, pdo]: [&str; 2], (method, bytes, borrow): (Doc, &str, &str), bit: u32) {
+    code.doc(docs);
+    line!(code, "#[inline]");
+    open!(code, method, " -> ", generic!(seq!["super::view::", pdo], bytes), " {");
+    open!(code, "super::view::", pdo, " {");
+    line!(code, "data: self.data.", borrow, "(),");
+    line!(code, "bit: ", bit, ",");
+    code.close("}");
+    code.close("}");
+}

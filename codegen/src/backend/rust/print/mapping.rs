@@ -1,0 +1,52 @@
+//! What `lexibus::pdo!` looks up: PDOs that can be mapped anew, and what can be mapped into them.
+
+use crate::backend::rust::code::{line, list, open, Code, Stop};
+use crate::backend::rust::model::Model;
+use crate::backend::rust::remap::RemappableModel;
+
+pub(super) fn write(code: &mut Code, model: &Model<'_>) {
+    if model.remappable.is_empty() {
+        return;
+    }
+    code.doc("PDOs whose mapping can be changed: `lexibus::pdo!` looks them up here.");
+    open!(code, "pub mod remappable {");
+    code.use_runtime();
+    model.remappable.iter().for_each(|own| remappable(code, own));
+    code.close("}");
+    mappable(code, model);
+}
+
+fn remappable(code: &mut Code, own: &RemappableModel) {
+    code.doc(&own.title);
+    line!(code, "pub enum ", own.name, " {}");
+    open!(code, "impl rt::Remappable for ", own.name, " {");
+    line!(code, "type Direction = ", own.direction, ";");
+    line!(code, "type CobId = ", own.cob_id, ";");
+    for constant in &own.constants {
+        line!(code, "const ", constant, ";");
+    }
+    code.close("}");
+}
+
+fn mappable(code: &mut Code, model: &Model<'_>) {
+    code.doc("What can be mapped into PDOs, by the names of the accessors: `lexibus::pdo!` looks it up here.");
+    line!(code, "#[allow(missing_docs, non_camel_case_types)]");
+    open!(code, "pub mod mappable {");
+    code.use_runtime();
+    let stop = Stop;
+    for object in model.objects.iter().filter(|object| object.has_mappable()) {
+        if object.is_module {
+            open!(code, "pub mod ", object.name, " {");
+            line!(code, "use super::rt;");
+        }
+        for item in &object.items {
+            let Some(own) = &item.mappable else { continue };
+            let name = if object.is_module { item.mappable_name() } else { object.name.clone() };
+            line!(code, "pub type ", name, " = ", stop, list("rt::Mappable<", own, ">"), ";");
+        }
+        if object.is_module {
+            code.close("}");
+        }
+    }
+    code.close("}");
+}

@@ -1,0 +1,129 @@
+//! The handles of objects and registers, and the windows through which some are found.
+
+use crate::backend::rust::code::{call, generic, line, list, open, seq, Code, Doc, Stop};
+use crate::backend::rust::item::ItemModel;
+use crate::backend::rust::model::Model;
+use crate::backend::rust::objects::ObjectModel;
+use crate::backend::rust::window::WindowModel;
+
+pub(super) fn write(code: &mut Code, model: &Model<'_>) {
+    windows(code, &model.windows);
+    if model.objects.is_empty() {
+        return;
+    }
+    code.doc(&format!("A handle for every {}.", model.handles[0]));
+    open!(code, "pub mod objects {");
+    code.use_runtime();
+    locations(code, model);
+    handle_types(code, model);
+    for object in &model.objects {
+        if object.is_module {
+            self::object(code, object, model.has_accessors);
+        } else {
+            object.items.iter().for_each(|item| handle(code, item, ""));
+        }
+    }
+    code.close("}");
+}
+
+fn windows(code: &mut Code, windows: &[WindowModel]) {
+    if windows.is_empty() {
+        return;
+    }
+    code.doc("Windows: what takes the number of a value, and what has the value then.");
+    open!(code, "pub mod windows {");
+    code.use_runtime();
+    for window in windows {
+        code.docs(&window.docs);
+        open!(code, "pub const ", window.name, ": ", window.ty, " = ", Stop, window.kind, " {");
+        for fact in &window.facts {
+            line!(code, fact, ",");
+        }
+        code.close("};");
+    }
+    code.close("}");
+}
+
+/// The types of locations that the runtime has no name for, and the functions that make those which several items have.
+fn locations(code: &mut Code, model: &Model<'_>) {
+    for (name, docs, path) in &model.locations {
+        code.doc(docs);
+        line!(code, "pub type ", name, " = ", Stop, path, ";");
+    }
+    for (name, parameters, ty, body) in &model.makers {
+        open!(code, list(&format!("const fn {name}("), parameters, ")"), " -> ", ty, " {");
+        line!(code, body);
+        code.close("}");
+    }
+}
+
+fn handle_types(code: &mut Code, model: &Model<'_>) {
+    let [_, start, within] = model.handles;
+    let parameter = seq!["L = ", model.location];
+    let stop = Stop;
+    for own in &model.aliases {
+        code.doc(&format!("{start} {}.", own.text));
+        let (parameters, location) = match model.has_locations {
+            true => (generic!(own.name, "V", parameter), "L"),
+            false => (generic!(own.name, "V"), model.location.as_str()),
+        };
+        line!(code, "pub type ", parameters, " = ", stop, generic!("rt::Item", "V", own.marker, location), ";");
+    }
+    for (name, access, value) in &model.handle_types {
+        line!(code, "type ", name, " = ", list(&format!("{access}<"), value, ">"), ";");
+    }
+    for own in model.aliases.iter().filter(|_| model.has_accessors) {
+        code.doc(&format!("Access to {within} {}.", own.text));
+        let name = seq![own.name, "Access"];
+        let (parameters, location) = match model.has_locations {
+            true => (generic!(name, "'c", "C", "V", parameter), "L"),
+            false => (generic!(name, "'c", "C", "V"), model.location.as_str()),
+        };
+        let accessor = generic!("rt::Accessor", "'c", "C", "V", own.marker, location);
+        line!(code, "pub type ", parameters, " = ", stop, accessor, ";");
+    }
+}
+
+/// An object of several values.
+fn object(code: &mut Code, object: &ObjectModel, has_accessors: bool) {
+    code.docs(&object.docs);
+    open!(code, "pub mod ", object.name, " {");
+    if object.names_runtime() {
+        code.use_runtime();
+    }
+    object.items.iter().for_each(|item| handle(code, item, "super::"));
+    if has_accessors {
+        code.doc(&format!("Access to the entries of {}", object.heading));
+        open!(code, "pub struct Accessors<'c, C> {");
+        line!(code, "pub(in super::super) client: &'c mut C,");
+        code.close("}");
+        code.lines(&object.method_allow);
+        open!(code, "impl<C> Accessors<'_, C> {");
+        for item in &object.items {
+            code.docs(&item.method_docs);
+            let result = access("super::", item.access, &item.arguments);
+            open!(code, call!(seq!["pub fn ", item.method], "&mut self"), " -> ", result, " {");
+            line!(code, item.constant, ".at(self.client)");
+            code.close("}");
+        }
+        code.close("}");
+    }
+    code.close("}");
+}
+
+/// The type of access to an item.
+pub(super) fn access(outer: &str, access: &str, arguments: &[Doc]) -> Doc {
+    let client = ["'_", "C"].map(Doc::from);
+    list(&format!("{outer}{access}Access<"), client.iter().chain(arguments), ">")
+}
+
+/// The handle of an item; `outer` leads to where the types of handles stand.
+fn handle(code: &mut Code, item: &ItemModel, outer: &str) {
+    code.docs(&item.docs);
+    if item.real {
+        line!(code, "#[allow(clippy::approx_constant)]");
+    }
+    let ty = list(&format!("{outer}{}<", item.access), &item.arguments, ">");
+    let stop = Stop;
+    line!(code, "pub const ", item.constant, ": ", ty, " = ", stop, outer, item.alias, "::", item.constructor, ";");
+}

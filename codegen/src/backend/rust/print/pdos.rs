@@ -1,0 +1,128 @@
+//! PDO structs.
+
+use crate::backend::rust::code::{line, open, Code};
+use crate::backend::rust::pdo::PdoModel;
+
+pub(super) fn write(code: &mut Code, pdos: &[PdoModel]) {
+    if pdos.is_empty() {
+        return;
+    }
+    code.doc("Process data objects as they are mapped by default.");
+    open!(code, "pub mod pdo {");
+    code.use_runtime();
+    pdos.iter().for_each(|own| pdo(code, own));
+    code.close("}");
+}
+
+fn pdo(code: &mut Code, pdo: &PdoModel) {
+    code.docs(&pdo.docs);
+    code.lines(&pdo.derives);
+    open!(code, "pub struct ", pdo.name, " {");
+    for field in &pdo.fields {
+        code.docs(&field.docs);
+        code.lines(&field.attribute);
+        line!(code, "pub ", field.name, ": ", field.ty, ",");
+    }
+    code.close("}");
+    open!(code, "impl ", pdo.name, " {");
+    code.doc("Length in bits.");
+    line!(code, "pub const BITS: u32 = ", pdo.bits, ";");
+    code.doc("Length in bytes.");
+    line!(code, "pub const LEN: usize = ", pdo.length, ";");
+    if let Some(cob_id) = &pdo.cob_id {
+        code.doc("The identifier by default (CiA 301 7.5.2.35).");
+        line!(code, "pub const COB_ID: rt::CobId = ", cob_id, ";");
+    }
+    pack(code, pdo);
+    unpack(code, pdo);
+    if !pdo.configuration.is_empty() {
+        configuration(code, pdo);
+    }
+    code.close("}");
+    open!(code, "impl rt::Pdo for ", pdo.name, " {");
+    line!(code, "const INDEX: u16 = ", format_args!("0x{:04X}", pdo.mapping_index), ";");
+    line!(code, "const LEN: usize = Self::LEN;");
+    open!(code, "const MAPPING: &'static [rt::MappedEntry] = &[");
+    for entry in &pdo.mapping {
+        line!(code, entry, ",");
+    }
+    code.close("];");
+    code.close("}");
+    if pdo.word && !pdo.constant.is_empty() {
+        proof(code, pdo);
+    }
+}
+
+fn pack(code: &mut Code, pdo: &PdoModel) {
+    code.doc("The bytes of a frame; padding is zero.");
+    line!(code, "#[inline]");
+    open!(code, "pub ", pdo.constant, "fn pack(&self) -> [u8; ", pdo.length, "] {");
+    if pdo.word {
+        line!(code, "let mut word = 0;");
+        for field in &pdo.fields {
+            line!(code, "let bits = ", field.packed(), ";");
+            match field.offset {
+                0 => line!(code, "word |= bits;"),
+                offset => line!(code, "word |= bits << ", offset, ";"),
+            }
+        }
+        line!(code, "rt::pdo::to_bytes(word)");
+    } else {
+        code.lines(pdo.pack_long());
+    }
+    code.close("}");
+}
+
+fn unpack(code: &mut Code, pdo: &PdoModel) {
+    code.doc("The fields of a frame. Bytes behind the mapped ones are not looked at.");
+    code.doc("");
+    code.doc("# Errors");
+    code.doc("");
+    code.doc("When `data` has fewer bytes than the PDO.");
+    line!(code, "#[inline]");
+    open!(code, "pub ", pdo.constant, "fn unpack(data: &[u8]) -> Result<Self, rt::LengthError> {");
+    open!(code, "let Some(data) = data.first_chunk::<", pdo.length, ">() else {");
+    line!(code, "return Err(rt::LengthError::new(Self::LEN, data.len()));");
+    code.close("};");
+    if pdo.word {
+        line!(code, "let word = rt::pdo::from_bytes(data);");
+    }
+    line!(code, "let pdo = ", pdo.unpacked(), ";");
+    line!(code, "Ok(pdo)");
+    code.close("}");
+}
+
+fn configuration(code: &mut Code, pdo: &PdoModel) {
+    let count = pdo.configuration.len();
+    if pdo.has_identifier {
+        code.doc("The writes that set the PDO up in the device with its default identifier, and switch it on.");
+        open!(code, "pub const fn configuration(node_id: rt::NodeId) -> [rt::SdoWrite; ", count, "] {");
+        line!(code, "Self::configuration_as(Self::COB_ID.resolve(node_id))");
+        code.close("}");
+    }
+    code.doc(
+        "The writes that set the PDO up with the identifier `cob_id`: disable, clear, map, count, timing, enable. What",
+    );
+    code.doc("the device lets nobody write is left out.");
+    open!(code, "pub const fn configuration_as(cob_id: u32) -> [rt::SdoWrite; ", count, "] {");
+    open!(code, "[");
+    for write in &pdo.configuration {
+        line!(code, write, ",");
+    }
+    code.close("]");
+    code.close("}");
+}
+
+/// The constant that proves that unpacking and packing give the same bits.
+fn proof(code: &mut Code, pdo: &PdoModel) {
+    open!(code, "const _: () = {");
+    line!(code, "let word = ", pdo.covered, ";");
+    line!(code, "let data: [u8; ", pdo.length, "] = rt::pdo::to_bytes(word);");
+    open!(code, "let packed = match ", pdo.name, "::unpack(&data) {");
+    line!(code, "Ok(pdo) => pdo.pack(),");
+    line!(code, "Err(_) => panic!(),");
+    code.close("};");
+    line!(code, "let packed = rt::pdo::from_bytes(&packed);");
+    line!(code, "assert!(packed == word);");
+    code.close("};");
+}

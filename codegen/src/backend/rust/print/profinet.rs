@@ -1,0 +1,157 @@
+//! PROFINET devices.
+
+mod diagnosis;
+mod image;
+mod record;
+mod values;
+
+use crate::backend::rust::code::{line, list, open, Code, Data, Doc};
+use crate::backend::rust::profinet::{DapModel, FieldModel, FileModel, ModuleModel, SubmoduleModel};
+
+/// All device access points of a file, and what can be plugged into them.
+pub(in crate::backend::rust) fn write(code: &mut Code, file: &FileModel<'_>) {
+    for point in &file.access_points {
+        if file.is_single {
+            access_point(code, point);
+            continue;
+        }
+        module(code, &point.heading, point.name, |code| {
+            code.use_runtime();
+            access_point(code, point);
+        });
+    }
+    if !file.modules.is_empty() {
+        module(code, "Modules that can be plugged into the device.", "modules", |code| {
+            file.modules.iter().for_each(|own| self::pluggable(code, own));
+        });
+    }
+    if !file.submodules.is_empty() {
+        module(code, "Submodules: their data and parameter records.", "submodules", |code| {
+            file.submodules.iter().for_each(|own| submodule(code, own));
+        });
+    }
+    if !file.values.is_empty() {
+        module(code, "Enumerations: named values of fields.", "values", |code| {
+            file.values.iter().for_each(|own| values::write(code, own));
+        });
+    }
+    if !file.errors.is_empty() || !file.units.is_empty() {
+        module(code, "Diagnosis: what error types and user structures mean.", "diagnosis", |code| {
+            diagnosis::write(code, file);
+        });
+    }
+}
+
+fn module(code: &mut Code, heading: &str, name: &str, content: impl FnOnce(&mut Code)) {
+    code.doc(heading);
+    open!(code, "pub mod ", name, " {");
+    content(code);
+    code.close("}");
+}
+
+fn hexadecimal(number: impl Into<u32>, digits: usize) -> String {
+    format!("0x{:0digits$X}", number.into())
+}
+
+fn access_point(code: &mut Code, own: &DapModel<'_>) {
+    code.docs(&own.docs);
+    open!(code, "pub static DAP: rt::profinet::Dap = rt::profinet::Dap {");
+    line!(code, "vendor_id: ", hexadecimal(own.vendor_id, 4), ",");
+    line!(code, "device_id: ", hexadecimal(own.device_id, 4), ",");
+    line!(code, "slot: ", own.slot, ",");
+    open!(code, "module: rt::profinet::Module {");
+    line!(code, "ident: ", hexadecimal(own.ident, 8), ",");
+    line!(code, "name: ", own.title, ",");
+    line!(code, "submodules: ", list("&[", &own.submodules, "]"), ",");
+    line!(code, "subslots: &[],");
+    code.close("},");
+    line!(code, "slots: ", list("&[", &own.slots, "]"), ",");
+    line!(code, "modules: ", list("&[", &own.modules, "]"), ",");
+    open!(code, "max_lengths: rt::profinet::IoLengths {");
+    let [input, output, data] = &own.max_lengths;
+    line!(code, "input: ", input, ",");
+    line!(code, "output: ", output, ",");
+    line!(code, "data: ", data, ",");
+    code.close("},");
+    line!(code, "max_record_size: ", own.max_record_size, ",");
+    code.close("};");
+    identity(code, own);
+}
+
+fn identity(code: &mut Code, own: &DapModel<'_>) {
+    code.doc("Who made the device, and which one it is: the product code is the number that PROFINET calls DeviceID.");
+    open!(code, "pub const IDENTITY: rt::Identity = rt::Identity {");
+    line!(code, "vendor_id: Some(", hexadecimal(own.vendor_id, 4), "),");
+    line!(code, "product_code: Some(", hexadecimal(own.device_id, 4), "),");
+    line!(code, "revision_number: None,");
+    line!(code, "vendor_name: ", own.vendor_name, ",");
+    line!(code, "product_name: ", own.title, ",");
+    line!(code, "order_code: ", own.order_code, ",");
+    code.close("};");
+}
+
+fn pluggable(code: &mut Code, own: &ModuleModel<'_>) {
+    code.docs(&own.docs);
+    open!(code, "pub mod ", own.name, " {");
+    code.use_runtime();
+    code.doc("The module, as a plan names it.");
+    open!(code, "pub static MODULE: rt::profinet::Module = rt::profinet::Module {");
+    line!(code, "ident: ", hexadecimal(own.ident, 8), ",");
+    line!(code, "name: ", own.title, ",");
+    line!(code, "submodules: ", list("&[", &own.submodules, "]"), ",");
+    line!(code, "subslots: ", list("&[", &own.subslots, "]"), ",");
+    code.close("};");
+    code.close("}");
+}
+
+fn submodule(code: &mut Code, own: &SubmoduleModel<'_>) {
+    code.docs(&own.docs);
+    open!(code, "pub mod ", own.name, " {");
+    code.use_runtime();
+    if own.uses_values {
+        line!(code, "use super::super::values;");
+    }
+    code.doc("The submodule, as modules and plans name it.");
+    open!(code, "pub static SUBMODULE: rt::profinet::Submodule = rt::profinet::Submodule {");
+    line!(code, "ident: ", hexadecimal(own.ident, 8), ",");
+    line!(code, "api: ", hexadecimal(own.api, 4), ",");
+    line!(code, "name: ", own.title, ",");
+    line!(code, "input_len: ", own.input_len, ",");
+    line!(code, "output_len: ", own.output_len, ",");
+    line!(code, "provider_len: ", own.provider_len, ",");
+    line!(code, "consumer_len: ", own.consumer_len, ",");
+    line!(code, "records: ", list("&[", &own.record_list, "]"), ",");
+    code.close("};");
+    own.images.iter().for_each(|image| image::write(code, image));
+    own.records.iter().for_each(|record| record::write(code, record));
+    if let Some(record) = &own.f_record {
+        record::f_parameters(code, record);
+    }
+    code.close("}");
+}
+
+/// The fields of a struct.
+fn fields(code: &mut Code, fields: &[FieldModel]) {
+    for field in fields {
+        code.docs(&field.docs);
+        code.lines(&field.attribute);
+        line!(code, "pub ", field.name, ": ", field.ty, ",");
+    }
+}
+
+/// The literal of a struct with these fields.
+fn literal(fields: Vec<(&str, Doc)>) -> Doc {
+    if fields.is_empty() {
+        return Doc::from("Self {}");
+    }
+    Data::fields("Self", fields)
+}
+
+/// The lines of a doc comment with the errors of a function.
+fn docs_with_error(code: &mut Code, first: &str, error: &str) {
+    code.doc(first);
+    code.doc("");
+    code.doc("# Errors");
+    code.doc("");
+    code.doc(error);
+}

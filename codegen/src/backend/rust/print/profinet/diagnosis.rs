@@ -1,0 +1,48 @@
+//! Errors of channels, and user structures.
+
+use super::{docs_with_error, fields, hexadecimal, literal};
+use crate::backend::rust::code::{call, line, list, open, Code};
+use crate::backend::rust::profinet::{FileModel, UnitModel};
+
+pub(super) fn write(code: &mut Code, file: &FileModel<'_>) {
+    code.use_runtime();
+    if !file.units.is_empty() && !file.values.is_empty() {
+        line!(code, "#[allow(unused_imports)]");
+        line!(code, "use super::values;");
+    }
+    if !file.errors.is_empty() {
+        code.doc("The errors of channels that the description names, by application process (API) and error type.");
+        let (count, errors) = (file.errors.len(), list("[", &file.errors, "]"));
+        line!(code, "pub static CHANNEL_ERRORS: [rt::profinet::ChannelError; ", count, "] = ", errors, ";");
+        code.doc("What the description says about an error type in a submodule of this application process (API); `None` for");
+        code.doc("those of the standard, which need no description.");
+        let function = call!("pub fn channel_error", "api: u32", "error_type: u16");
+        open!(code, function, " -> Option<&'static rt::profinet::ChannelError> {");
+        line!(code, "rt::profinet::ChannelError::find(&CHANNEL_ERRORS, api, error_type)");
+        code.close("}");
+    }
+    file.units.iter().for_each(|own| unit(code, own));
+}
+
+fn unit(code: &mut Code, own: &UnitModel) {
+    code.docs(&own.docs);
+    code.lines(&own.derives);
+    open!(code, "pub struct ", own.name, " {");
+    fields(code, &own.fields);
+    code.close("}");
+    open!(code, "impl ", own.name, " {");
+    code.doc("The application process (API) that it belongs to.");
+    line!(code, "pub const API: u32 = ", hexadecimal(own.api, 4), ";");
+    code.doc("The identifier that stands before it (UserStructureIdentifier).");
+    line!(code, "pub const IDENTIFIER: u16 = ", hexadecimal(own.identifier, 4), ";");
+    code.doc("Length in bytes up to the end of its last field.");
+    line!(code, "pub const LEN: usize = ", own.length, ";");
+    let first = "The fields of a structure. Bytes behind these are not looked at.";
+    docs_with_error(code, first, "When `data` has fewer bytes than the structure.");
+    open!(code, "pub fn decode(data: &[u8]) -> Result<Self, rt::LengthError> {");
+    line!(code, "let data = rt::profinet::be::chunk::<", own.length, ">(data)?;");
+    let values = own.fields.iter().map(|field| (field.name.as_str(), field.read.clone()));
+    line!(code, "Ok(", literal(values.collect()), ")");
+    code.close("}");
+    code.close("}");
+}

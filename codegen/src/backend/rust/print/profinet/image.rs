@@ -1,0 +1,115 @@
+//! Cyclic data: structs, and views of the bytes.
+
+use super::{docs_with_error, fields, literal};
+use crate::backend::rust::code::{call, line, open, seq, Break, Code, Doc};
+use crate::backend::rust::profinet::ImageModel;
+
+const ERROR: &str = "When `data` has fewer bytes than the user data.";
+
+pub(super) fn write(code: &mut Code, own: &ImageModel) {
+    let name = own.name;
+    code.docs(&own.docs);
+    code.lines(&own.derives);
+    open!(code, "pub struct ", name, " {");
+    fields(code, &own.fields);
+    code.close("}");
+    open!(code, "impl ", name, " {");
+    code.doc("Length of the user data in bytes.");
+    line!(code, "pub const LEN: usize = ", own.length, ";");
+    pack(code, own);
+    docs_with_error(code, "The fields of the user data. Bytes behind these are not looked at.", ERROR);
+    line!(code, "#[inline]");
+    open!(code, "pub fn unpack(data: &[u8]) -> Result<Self, rt::LengthError> {");
+    line!(code, "let view = ", name, "View::new(data)?;");
+    let values = own.fields.iter().map(|field| (field.name.as_str(), seq!["view", Break, ".", field.name, "()"]));
+    line!(code, "Ok(", literal(values.collect()), ")");
+    code.close("}");
+    code.close("}");
+    io_data(code, own);
+    view(code, own);
+    if own.is_output {
+        view_mut(code, own);
+    }
+}
+
+fn pack(code: &mut Code, own: &ImageModel) {
+    code.doc("The user data; what no field covers is 0.");
+    line!(code, "#[inline]");
+    open!(code, "pub fn pack(&self) -> [u8; ", own.length, "] {");
+    line!(code, "let mut data = [0; ", own.length, "];");
+    if own.is_output {
+        line!(code, "let mut view = ", own.name, "Mut(&mut data);");
+        for field in &own.fields {
+            line!(code, call!(seq!["view.", field.setter()], seq!["self.", field.name]), ";");
+        }
+    } else {
+        code.lines(own.fields.iter().map(|field| &field.pack));
+    }
+    line!(code, "data");
+    code.close("}");
+}
+
+fn io_data(code: &mut Code, own: &ImageModel) {
+    open!(code, "impl rt::profinet::IoData for ", own.name, " {");
+    line!(code, "const LEN: usize = Self::LEN;");
+    line!(code, "const TRAILER_LEN: usize = ", own.trailer, ";");
+    line!(code, "const STATUS_LEN: usize = ", own.status, ";");
+    open!(code, "fn unpack(data: &[u8]) -> Result<Self, rt::LengthError> {");
+    line!(code, "Self::unpack(data)");
+    code.close("}");
+    open!(code, "fn pack_into(&self, data: &mut [u8]) -> Result<(), rt::LengthError> {");
+    line!(code, "rt::profinet::be::write(data, &self.pack())?;");
+    line!(code, "Ok(())");
+    code.close("}");
+    code.close("}");
+}
+
+fn view(code: &mut Code, own: &ImageModel) {
+    let name = own.name;
+    code.doc(&format!("{name} in place: fields are read from the bytes without a copy of these."));
+    line!(code, "#[derive(Clone, Copy)]");
+    line!(code, "pub struct ", name, "View<'a>(&'a [u8; ", own.length, "]);");
+    code.lines(own.allow);
+    open!(code, "impl<'a> ", name, "View<'a> {");
+    docs_with_error(code, "The user data at the start of `data`.", ERROR);
+    line!(code, "#[inline]");
+    open!(code, "pub const fn new(data: &'a [u8]) -> Result<Self, rt::LengthError> {");
+    open!(code, "match rt::profinet::be::chunk(data) {");
+    line!(code, "Ok(data) => Ok(Self(data)),");
+    line!(code, "Err(error) => Err(error),");
+    code.close("}");
+    code.close("}");
+    for field in &own.fields {
+        let function = call!(seq!["pub ", field.constant, "fn ", field.name], "&self");
+        method(code, &field.heading, seq![function, " -> ", field.ty], &field.get);
+    }
+    code.close("}");
+}
+
+fn view_mut(code: &mut Code, own: &ImageModel) {
+    let name = own.name;
+    code.doc(&format!("{name} in place: fields are written to the bytes without a copy of these."));
+    line!(code, "pub struct ", name, "Mut<'a>(&'a mut [u8; ", own.length, "]);");
+    open!(code, "impl<'a> ", name, "Mut<'a> {");
+    docs_with_error(code, "The user data at the start of `data`.", ERROR);
+    line!(code, "#[inline]");
+    open!(code, "pub fn new(data: &'a mut [u8]) -> Result<Self, rt::LengthError> {");
+    line!(code, "Ok(Self(rt::profinet::be::chunk_mut(data)?))");
+    code.close("}");
+    let function = seq!["pub fn view(&self) -> ", name, "View<'_>"];
+    method(code, "The same, to be read.", function, &seq![name, "View(self.0)"]);
+    for field in &own.fields {
+        let function = call!(seq!["pub fn ", field.setter()], "&mut self", seq!["value: ", field.ty]);
+        method(code, &field.heading, function, &field.set);
+    }
+    code.close("}");
+}
+
+/// A method of one line.
+fn method(code: &mut Code, docs: &str, function: Doc, body: &Doc) {
+    code.doc(docs);
+    line!(code, "#[inline]");
+    open!(code, function, " {");
+    line!(code, body);
+    code.close("}");
+}

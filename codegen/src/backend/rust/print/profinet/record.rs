@@ -1,0 +1,129 @@
+//! Parameter records.
+
+use super::{docs_with_error, fields, hexadecimal, literal};
+use crate::backend::rust::code::{call, line, list, open, Code};
+use crate::backend::rust::profinet::{FRecordModel, RecordModel};
+
+pub(super) fn write(code: &mut Code, own: &RecordModel) {
+    let name = &own.name;
+    code.docs(&own.docs);
+    code.lines(&own.derives);
+    if own.fields.is_empty() {
+        line!(code, "pub struct ", name, " {}");
+    } else {
+        open!(code, "pub struct ", name, " {");
+        fields(code, &own.fields);
+        code.close("}");
+    }
+    open!(code, "impl ", name, " {");
+    constants(code, own);
+    check(code, own);
+    encode(code, own);
+    decode(code, own);
+    code.close("}");
+    open!(code, "impl Default for ", name, " {");
+    open!(code, "fn default() -> Self {");
+    line!(code, "Self::DEFAULT");
+    code.close("}");
+    code.close("}");
+    record_data(code, name);
+}
+
+/// What a function or a constant has in front of it whose numbers may resemble a mathematical constant.
+fn allow_real(code: &mut Code, own: &RecordModel) {
+    if own.has_real {
+        line!(code, "#[allow(clippy::approx_constant)]");
+    }
+}
+
+fn constants(code: &mut Code, own: &RecordModel) {
+    code.doc("The record's index.");
+    line!(code, "pub const INDEX: u16 = ", hexadecimal(own.index, 4), ";");
+    code.doc("Its length in bytes.");
+    line!(code, "pub const LEN: usize = ", own.length, ";");
+    code.doc("Its place among the records of the submodule at start-up; 0 = any.");
+    line!(code, "pub const TRANSFER_SEQUENCE: u16 = ", own.transfer_sequence, ";");
+    code.doc("Its bytes by default.");
+    line!(code, "pub const DEFAULT_BYTES: [u8; ", own.length, "] = *", own.default_bytes, ";");
+    code.doc("Its fields by default.");
+    allow_real(code, own);
+    let values = own.fields.iter().zip(&own.defaults).map(|(field, value)| (field.name.as_str(), value.clone()));
+    line!(code, "pub const DEFAULT: Self = ", literal(values.collect()), ";");
+    for constant in &own.constants {
+        code.docs(&constant.docs);
+        allow_real(code, own);
+        line!(code, "pub const ", constant.name, ": ", constant.ty, " = ", constant.value, ";");
+    }
+}
+
+fn check(code: &mut Code, own: &RecordModel) {
+    let first = "Checks the fields against the values that the device allows.";
+    docs_with_error(code, first, "When a field has another value.");
+    allow_real(code, own);
+    open!(code, "pub fn check(&self) -> Result<(), rt::profinet::NotAllowed> {");
+    code.lines(&own.checks);
+    line!(code, "Ok(())");
+    code.close("}");
+}
+
+fn encode(code: &mut Code, own: &RecordModel) {
+    let first = "The record's bytes: its constants and fields; what neither covers is 0.";
+    docs_with_error(code, first, "When a field has a value that the device doesn't allow.");
+    let function = call!("pub fn encode", "&self");
+    open!(code, function, " -> Result<[u8; ", own.length, "], rt::profinet::NotAllowed> {");
+    line!(code, "self.check()?;");
+    if own.fields.is_empty() {
+        line!(code, "Ok(Self::DEFAULT_BYTES)");
+    } else {
+        line!(code, "let mut data = Self::DEFAULT_BYTES;");
+        code.lines(own.fields.iter().map(|field| &field.pack));
+        line!(code, "Ok(data)");
+    }
+    code.close("}");
+}
+
+fn decode(code: &mut Code, own: &RecordModel) {
+    let first = "The fields of a record that was read from the device. Bytes behind it are not looked at.";
+    docs_with_error(code, first, "When `data` has fewer bytes than the record.");
+    open!(code, "pub fn decode(data: &[u8]) -> Result<Self, rt::LengthError> {");
+    let data = if own.fields.is_empty() { "" } else { "let data = " };
+    line!(code, data, "rt::profinet::be::chunk::<", own.length, ">(data)?;");
+    let values = own.fields.iter().map(|field| (field.name.as_str(), field.read.clone()));
+    line!(code, "Ok(", literal(values.collect()), ")");
+    code.close("}");
+}
+
+fn record_data(code: &mut Code, name: &str) {
+    open!(code, "impl rt::profinet::RecordData for ", name, " {");
+    line!(code, "const INDEX: u16 = Self::INDEX;");
+    line!(code, "const LEN: usize = Self::LEN;");
+    line!(code, "const TRANSFER_SEQUENCE: u16 = Self::TRANSFER_SEQUENCE;");
+    open!(code, "fn decode(data: &[u8]) -> Result<Self, rt::LengthError> {");
+    line!(code, "Self::decode(data)");
+    code.close("}");
+    open!(code, "fn encode_into<'b>(");
+    line!(code, "&self,");
+    line!(code, "data: &'b mut [u8],");
+    code.reopen(") -> Result<&'b [u8], rt::profinet::RecordError> {");
+    line!(code, "let record = self.encode()?;");
+    line!(code, "Ok(rt::profinet::be::write(data, &record)?)");
+    code.close("}");
+    code.close("}");
+}
+
+/// The F-parameters of PROFIsafe.
+pub(super) fn f_parameters(code: &mut Code, own: &FRecordModel) {
+    code.docs(&own.docs);
+    let length = own.length;
+    open!(code, "pub const F_PARAMETERS: rt::profinet::FRecord<", length, "> = rt::profinet::FRecord {");
+    line!(code, "index: ", hexadecimal(own.index, 4), ",");
+    line!(code, "transfer_sequence: ", own.transfer_sequence, ",");
+    open!(code, "default: rt::profinet::FParameters {");
+    for (name, value) in &own.defaults {
+        line!(code, name, ": ", value, ",");
+    }
+    code.close("},");
+    line!(code, "limits: ", list("&[", &own.limits, "]"), ",");
+    code.close("};");
+    line!(code, "static F_PARAMETERS_DEFAULT: [u8; ", length, "] = F_PARAMETERS.default_bytes();");
+}

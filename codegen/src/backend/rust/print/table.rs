@@ -1,0 +1,42 @@
+//! The static table of all items.
+
+use crate::backend::rust::code::{call, line, open, Code, Doc};
+use crate::backend::rust::model::Model;
+use crate::backend::rust::table::EntryModel;
+
+pub(super) fn write(code: &mut Code, model: &Model<'_>) {
+    let Some(table) = &model.table else { return };
+    code.doc("All items, by index and sub-index; registers that are no objects come first, by their addresses.");
+    if let Some(feature) = &model.table_feature {
+        line!(code, "#[cfg(feature = ", feature, ")]");
+    }
+    line!(code, "#[allow(clippy::approx_constant)]");
+    if table.is_empty() {
+        line!(code, "pub static ENTRIES: &[rt::table::Entry] = &[];");
+        return;
+    }
+    open!(code, "pub static ENTRIES: &[rt::table::Entry] = &[");
+    table.iter().for_each(|own| entry(code, own));
+    code.close("];");
+}
+
+fn entry(code: &mut Code, own: &EntryModel) {
+    open!(code, "rt::table::Entry {");
+    match own.object {
+        Some((index, sub_index)) => {
+            line!(code, format_args!("object: Some(rt::Object::new(0x{index:04X}, 0x{sub_index:02X})),"));
+        }
+        None => line!(code, "object: None,"),
+    }
+    let register = own.register.as_ref().map_or(Doc::from("None"), |register| call!("Some", register));
+    line!(code, "register: ", register, ",");
+    line!(code, "name: ", own.name, ",");
+    line!(code, "data_type: rt::DataType::", own.data_type, ",");
+    line!(code, "access: rt::AccessRights::", own.access, ",");
+    line!(code, "flags: ", own.flags, ",");
+    line!(code, "initial: ", own.initial, ",");
+    line!(code, "low: ", own.low, ",");
+    line!(code, "high: ", own.high, ",");
+    line!(code, "unit: ", own.unit, ",");
+    code.close("},");
+}

@@ -1,0 +1,64 @@
+//! Views of PDOs within a process image.
+
+use crate::backend::rust::code::{call, line, open, seq, Code};
+use crate::backend::rust::model::Model;
+use crate::backend::rust::pdo::PdoModel;
+
+pub(super) fn write(code: &mut Code, model: &Model<'_>) {
+    if !model.has_views {
+        return;
+    }
+    code.doc("PDOs within a process image, read and written where they stand.");
+    open!(code, "pub mod view {");
+    code.use_runtime();
+    model.pdos.iter().for_each(|pdo| view(code, pdo));
+    code.close("}");
+}
+
+fn view(code: &mut Code, pdo: &PdoModel) {
+    code.docs(&pdo.view_docs);
+    open!(code, "pub struct ", pdo.name, "<B> {");
+    line!(code, "pub(super) data: B,");
+    line!(code, "pub(super) bit: usize,");
+    code.close("}");
+    code.lines(pdo.view_allow());
+    open!(code, "impl<B: AsRef<[u8]>> ", pdo.name, "<B> {");
+    constructors(code, pdo);
+    for field in &pdo.fields {
+        code.docs(&field.docs);
+        line!(code, "#[inline]");
+        open!(code, call!(seq!["pub fn ", field.getter], "&self"), " -> ", field.ty, " {");
+        line!(code, field.get_in_image());
+        code.close("}");
+    }
+    code.close("}");
+    open!(code, "impl<B: AsMut<[u8]>> ", pdo.name, "<B> {");
+    for field in &pdo.fields {
+        code.docs(&field.docs);
+        line!(code, "#[inline]");
+        open!(code, call!(seq!["pub fn ", field.setter], "&mut self", seq!["value: ", field.ty]), " {");
+        line!(code, field.set_in_image());
+        code.close("}");
+    }
+    code.close("}");
+}
+
+fn constructors(code: &mut Code, pdo: &PdoModel) {
+    let errors = |code: &mut Code, first: &str| {
+        code.doc(first);
+        code.doc("");
+        code.doc("# Errors");
+        code.doc("");
+        code.doc("When `data` ends before the PDO does.");
+        line!(code, "#[inline]");
+    };
+    errors(code, "The PDO at the start of `data`.");
+    open!(code, "pub fn new(data: B) -> Result<Self, rt::LengthError> {");
+    line!(code, "Self::at(data, 0)");
+    code.close("}");
+    errors(code, "The PDO that starts at this bit of `data`.");
+    open!(code, "pub fn at(data: B, bit: usize) -> Result<Self, rt::LengthError> {");
+    line!(code, "rt::bits::check_length(data.as_ref(), bit.saturating_add(", pdo.bits, "))?;");
+    line!(code, "Ok(Self { data, bit })");
+    code.close("}");
+}
