@@ -8,11 +8,12 @@ mod text;
 use core::fmt;
 
 use crate::client::{AsyncClient, Client};
-use crate::error::{Error, LengthError};
+use crate::error::Error;
 use crate::item::Item;
 use crate::location::On;
 use crate::route::{ReadRoute, WriteRoute};
 use crate::value::Value;
+use crate::value_error::LengthError;
 
 /// Reads and writes one [`Item`] through one client; made by [`Item::at`].
 ///
@@ -25,6 +26,14 @@ use crate::value::Value;
 pub struct Accessor<'c, C, V: Value, A, L> {
     client: &'c mut C,
     item: Item<V, A, L>,
+}
+
+impl<V: Value, A, L> Item<V, A, L> {
+    /// Joins the item to a client of one device.
+    #[inline]
+    pub fn at<C>(self, client: &mut C) -> Accessor<'_, C, V, A, L> {
+        Accessor::new(client, self)
+    }
 }
 
 impl<'c, C, V: Value, A, L> Accessor<'c, C, V, A, L> {

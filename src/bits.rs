@@ -2,8 +2,8 @@
 //!
 //! Bit 0 is the lowest bit of the first byte, bit 8 the lowest of the second: the order of a PDO (CiA 301 7.1.4).
 
-use crate::error::LengthError;
 use crate::pdo::{from_bytes, mask};
+use crate::value_error::LengthError;
 
 /// Whether `data` has at least `bits` bits.
 ///

@@ -1,6 +1,6 @@
 //! Numbers that a device keeps in several items.
 
-use crate::error::OutOfRange;
+use crate::value_error::OutOfRange;
 
 /// How a device splits one number over `N` items: digits to a base, the most significant one first, and perhaps a sign in an item of
 /// its own.

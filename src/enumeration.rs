@@ -1,9 +1,9 @@
 //! Values, or bits, that have names.
 
 use crate::data_type::DataType;
-use crate::error::{LengthError, OutOfRange};
 use crate::range::Range;
 use crate::value::{Fixed, Value};
+use crate::value_error::{LengthError, OutOfRange};
 
 /// An enumeration of a device: named values of an integer. A bit field, an integer whose bits have names, is one, too.
 ///

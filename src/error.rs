@@ -6,7 +6,8 @@ use core::fmt;
 use crate::abort::AbortCode;
 use crate::bus::Object;
 use crate::profinet::parameter_access::ParameterError;
-use crate::profinet::NotAllowed;
+use crate::profinet::{NotAllowed, RecordError};
+use crate::value_error::{LengthError, OutOfRange, TextError};
 
 /// Why an access failed. `E` is the client's own error.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -49,31 +50,6 @@ pub enum Error<E> {
     ParameterAccess(ParameterError),
 }
 
-/// A number of bytes other than the expected one.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct LengthError {
-    /// How many bytes the value takes, or how many the buffer holds at most.
-    pub expected: usize,
-    /// How many bytes there are.
-    pub actual: usize,
-}
-
-impl LengthError {
-    /// `actual` bytes where there should be `expected`.
-    #[must_use]
-    pub const fn new(expected: usize, actual: usize) -> Self {
-        Self { expected, actual }
-    }
-}
-
-/// A value outside the declared range of its item, or outside what its type can hold.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct OutOfRange;
-
-/// Text with characters that its type doesn't allow, or bytes that aren't text.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct TextError;
-
 impl<E: fmt::Display> fmt::Display for Error<E> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -95,24 +71,6 @@ impl<E: fmt::Display> fmt::Display for Error<E> {
     }
 }
 
-impl fmt::Display for LengthError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "expected {} bytes, got {}", self.expected, self.actual)
-    }
-}
-
-impl fmt::Display for OutOfRange {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str("value out of range")
-    }
-}
-
-impl fmt::Display for TextError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str("invalid text")
-    }
-}
-
 impl<E: error::Error> error::Error for Error<E> {
     fn source(&self) -> Option<&(dyn error::Error + 'static)> {
         match self {
@@ -122,31 +80,39 @@ impl<E: error::Error> error::Error for Error<E> {
     }
 }
 
-impl error::Error for LengthError {}
-impl error::Error for OutOfRange {}
-impl error::Error for TextError {}
+macro_rules! from {
+    ($($error:ident => $variant:ident,)*) => {$(
+        impl<E> From<$error> for Error<E> {
+            fn from(error: $error) -> Self {
+                Self::$variant(error)
+            }
+        }
+    )*};
+}
 
-impl<E> From<AbortCode> for Error<E> {
-    fn from(code: AbortCode) -> Self {
-        Self::Abort(code)
+from! {
+    AbortCode => Abort,
+    OutOfRange => OutOfRange,
+    LengthError => Length,
+    TextError => Text,
+    NotAllowed => NotAllowed,
+}
+
+impl<E> From<RecordError> for Error<E> {
+    fn from(error: RecordError) -> Self {
+        match error {
+            RecordError::NotAllowed(error) => Self::NotAllowed(error),
+            RecordError::Length(error) => Self::Length(error),
+        }
     }
 }
 
-impl<E> From<OutOfRange> for Error<E> {
-    fn from(error: OutOfRange) -> Self {
-        Self::OutOfRange(error)
-    }
-}
-
-impl<E> From<LengthError> for Error<E> {
-    fn from(error: LengthError) -> Self {
-        Self::Length(error)
-    }
-}
-
-impl<E> From<TextError> for Error<E> {
-    fn from(error: TextError) -> Self {
-        Self::Text(error)
+impl<E> From<ParameterError> for Error<E> {
+    fn from(error: ParameterError) -> Self {
+        match error {
+            ParameterError::Length(error) => Self::Length(error),
+            error => Self::ParameterAccess(error),
+        }
     }
 }
 

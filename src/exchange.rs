@@ -2,8 +2,9 @@
 
 use crate::bus::{Parameter, Serial};
 use crate::client::{AsyncClient, Client};
-use crate::error::{Error, LengthError};
+use crate::error::Error;
 use crate::message::{answer, Answer, AsyncMessageClient, Message, MessageClient, Station, WriteError, Writer};
+use crate::value_error::LengthError;
 
 /// Sends a request to one device and waits for its reply, for protocols of messages.
 ///

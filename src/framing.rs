@@ -30,7 +30,7 @@ mod delimited;
 use core::error;
 use core::fmt;
 
-use crate::error::LengthError;
+use crate::value_error::LengthError;
 
 pub use check::Check;
 pub use delimited::{Delimited, DelimitedDecoder, Escape};

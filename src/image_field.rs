@@ -1,9 +1,9 @@
 //! Fields of a fixed process image.
 
 use crate::bits;
-use crate::error::LengthError;
 use crate::profinet::be;
 use crate::value::byte_len;
+use crate::value_error::LengthError;
 
 /// In which order the bytes of a field lie.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]

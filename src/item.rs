@@ -4,8 +4,6 @@ use core::fmt;
 use core::marker::PhantomData;
 use core::ops::RangeInclusive;
 
-use crate::accessor::Accessor;
-use crate::error::OutOfRange;
 use crate::flags::Flags;
 use crate::initial::Initial;
 use crate::location::{
@@ -15,6 +13,7 @@ use crate::quantity::{Exponential, Quantity};
 use crate::range::Range;
 use crate::register::Register;
 use crate::value::Value;
+use crate::value_error::OutOfRange;
 
 /// One value of a device: an entry of its object dictionary, a register, a parameter.
 ///
@@ -88,12 +87,6 @@ impl<V: Value, A, L> Item<V, A, L> {
         L: Copy,
     {
         Self { range, initial, ..self }
-    }
-
-    /// Joins the item to a client of one device.
-    #[inline]
-    pub fn at<C>(self, client: &mut C) -> Accessor<'_, C, V, A, L> {
-        Accessor::new(client, self)
     }
 }
 

@@ -145,6 +145,7 @@ pub mod table;
 mod text;
 mod time;
 mod value;
+mod value_error;
 mod wide;
 
 pub use abort::AbortCode;
@@ -158,7 +159,7 @@ pub use composite::Composite;
 pub use data_type::DataType;
 pub use emergency::Emergency;
 pub use enumeration::Enumeration;
-pub use error::{Error, LengthError, OutOfRange, TextError};
+pub use error::Error;
 pub use exchange::{AsyncExchange, Exchange, ParameterMessages, Parameters};
 pub use flags::Flags;
 pub use identity::Identity;
@@ -182,6 +183,7 @@ pub use table::{AccessRights, Bound, Entry, RawInitial};
 pub use text::{Domain, OctetString, Opaque, UnicodeString, Utf16, VisibleString};
 pub use time::{TimeDifference, TimeOfDay};
 pub use value::{Fixed, Value};
+pub use value_error::{LengthError, OutOfRange, TextError};
 pub use wide::{Int, Uint};
 
 #[cfg(feature = "macros")]

@@ -3,9 +3,9 @@
 use core::marker::PhantomData;
 
 use crate::data_type::DataType;
-use crate::error::{LengthError, OutOfRange};
 use crate::range::Range;
 use crate::value::{Fixed, Value};
+use crate::value_error::{LengthError, OutOfRange};
 
 mod sealed {
     pub trait Sealed {}

@@ -1,8 +1,8 @@
 //! Registers of Modbus, and how a value lies in them.
 
-use crate::error::LengthError;
 use crate::pdo::mask;
 use crate::value::byte_len;
+use crate::value_error::LengthError;
 
 /// The four tables of Modbus.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]

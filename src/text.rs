@@ -4,8 +4,8 @@ use core::char::decode_utf16;
 use core::fmt::{self, Write};
 
 use crate::data_type::DataType;
-use crate::error::{LengthError, TextError};
 use crate::value::Value;
+use crate::value_error::{LengthError, TextError};
 
 /// ISO 646 text, one byte a character (CiA 301 7.1.6.3).
 #[derive(Clone, Copy, Debug, Default)]

@@ -3,9 +3,9 @@
 use core::cmp::Ordering;
 
 use crate::data_type::DataType;
-use crate::error::{LengthError, OutOfRange};
 use crate::range::Range;
 use crate::value::{decode_raw, encode_raw, Fixed, Value};
+use crate::value_error::{LengthError, OutOfRange};
 
 /// A date with the time of day (CiA 301 7.1.6.5).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Default)]

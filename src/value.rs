@@ -1,8 +1,8 @@
 //! The types of values, and how those of a fixed size travel.
 
 use crate::data_type::DataType;
-use crate::error::{LengthError, OutOfRange};
 use crate::range::Range;
+use crate::value_error::{LengthError, OutOfRange};
 
 /// The type of an item's value.
 pub trait Value {

@@ -1,10 +1,10 @@
 //! Integers of the widths that Rust has no type for.
 
 use crate::data_type::DataType;
-use crate::error::{LengthError, OutOfRange};
 use crate::pdo::{mask, sign_extend};
 use crate::range::Range;
 use crate::value::{decode_raw, encode_raw, Fixed, Value};
+use crate::value_error::{LengthError, OutOfRange};
 
 /// An unsigned integer of `BITS` bits, 1 to 63. Any other width doesn't compile:
 ///

@@ -3,11 +3,12 @@
 use super::{filled, Accessor};
 use crate::access::{Readable, Writable};
 use crate::client::{AsyncClient, Client};
-use crate::error::{Error, LengthError, OutOfRange};
+use crate::error::Error;
 use crate::item::Item;
 use crate::location::On;
 use crate::route::{ReadRoute, WriteRoute};
 use crate::value::{byte_len, Fixed};
+use crate::value_error::{LengthError, OutOfRange};
 
 impl<C, V: Fixed, A, L> Accessor<'_, C, V, A, L> {
     /// Reads the value.

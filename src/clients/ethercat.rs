@@ -71,9 +71,10 @@ use self::protocol::{Answer, Command};
 use crate::bus::{CoE, Object};
 use crate::client::AsyncClient;
 use crate::emergency::Emergency;
-use crate::error::{Error, LengthError};
+use crate::error::Error;
 use crate::ethercat::StartupCommand;
 use crate::identity::Identity;
+use crate::value_error::LengthError;
 
 /// So many times the state of a mailbox is read until it has changed, where nothing else is said. Each takes a frame there
 /// and back, on most segments 50 to 200 µs.

@@ -1,7 +1,7 @@
 //! Frames between two bytes.
 
 use super::{Check, FrameError, Framing};
-use crate::error::LengthError;
+use crate::value_error::LengthError;
 
 /// Frames that end in a byte of their own, and mostly begin with one: begin, data, check, end.
 ///

@@ -2,9 +2,11 @@
 
 use core::iter::FusedIterator;
 
+use super::setting::copy;
 use super::{Reader, Setting, WriteError, Writer};
 use crate::bus::Parameter;
-use crate::error::{Error, LengthError, OutOfRange};
+use crate::error::Error;
+use crate::value_error::{LengthError, OutOfRange};
 
 /// Fields that occur several times: one occurrence.
 pub trait Group: Copy {
@@ -246,19 +248,10 @@ impl SettingsRule {
     ///
     /// [`Error::Length`] where it has another length than `value`.
     pub fn copy<E>(&self, bytes: &[u8], value: &mut [u8]) -> Result<usize, Error<E>> {
-        let own =
+        let found =
             Reader::new(bytes).value(self.order, bytes.len()).ok_or(LengthError::new(value.len(), bytes.len()))?;
-        copy(own.get(..bytes.len()).unwrap_or_default(), value)
+        copy(found.get(..bytes.len()).unwrap_or_default(), value)
     }
-}
-
-/// Copies a value of the same length.
-pub(super) fn copy<E>(own: &[u8], value: &mut [u8]) -> Result<usize, Error<E>> {
-    if own.len() != value.len() {
-        return Err(LengthError::new(value.len(), own.len()).into());
-    }
-    value.copy_from_slice(own);
-    Ok(own.len())
 }
 
 impl<'a> Settings<'a> {

@@ -3,8 +3,8 @@
 use core::fmt;
 use core::marker::PhantomData;
 
-use crate::error::OutOfRange;
 use crate::quantity::Quantity;
+use crate::value_error::OutOfRange;
 
 /// How a field of a message relates to a physical number: a constant of generated messages, in units that its documentation has.
 ///

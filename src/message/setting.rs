@@ -2,10 +2,11 @@
 
 use crate::access::Writable;
 use crate::bus::{Parameter, Serial};
-use crate::error::{Error, OutOfRange};
+use crate::error::Error;
 use crate::item::Item;
 use crate::location::On;
 use crate::value::Fixed;
+use crate::value_error::{LengthError, OutOfRange};
 
 /// The number of a parameter, and a value for it.
 ///
@@ -81,7 +82,7 @@ impl Setting {
     /// [`Error::UnexpectedReply`] where it is another parameter's, [`Error::Length`] where it has another length than `value`.
     pub fn copy<E>(&self, parameter: Parameter, value: &mut [u8]) -> Result<usize, Error<E>> {
         match self.parameter == parameter {
-            true => super::list::copy(self.value(), value),
+            true => copy(self.value(), value),
             false => Err(Error::UnexpectedReply),
         }
     }
@@ -91,4 +92,13 @@ impl Setting {
     pub fn value_of<V: Fixed, A, L: On<Serial, Route = Parameter>>(&self, item: &Item<V, A, L>) -> Option<V::Native> {
         (item.location().route() == self.parameter).then(|| V::decode(self.value()).ok())?
     }
+}
+
+/// Copies a value of the same length.
+pub(super) fn copy<E>(from: &[u8], value: &mut [u8]) -> Result<usize, Error<E>> {
+    if from.len() != value.len() {
+        return Err(LengthError::new(value.len(), from.len()).into());
+    }
+    value.copy_from_slice(from);
+    Ok(from.len())
 }

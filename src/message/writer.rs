@@ -3,9 +3,10 @@
 use core::error;
 use core::fmt;
 
-use crate::error::{Error, LengthError, OutOfRange};
+use crate::error::Error;
 use crate::range::Range;
 use crate::value::Fixed;
+use crate::value_error::{LengthError, OutOfRange};
 
 /// Writes fields one after the other. Numbers are big-endian where no order of bytes is given, and parts of a byte follow each
 /// other from the most significant bit on.

@@ -2,12 +2,12 @@
 
 use crate::access::Readable;
 use crate::bus::Modbus;
-use crate::error::LengthError;
 use crate::item::Item;
 use crate::location::On;
 use crate::register::Register;
 use crate::route::Direct;
 use crate::value::{byte_len, Fixed};
+use crate::value_error::LengthError;
 
 /// What can be read as a part of a [`Block`]: an [`Item`] that can be read, is a register or a bit of Modbus, and has a type
 /// of a fixed size.

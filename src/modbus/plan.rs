@@ -1,8 +1,8 @@
 //! Which requests read several registers.
 
 use super::limits::Limits;
-use crate::error::LengthError;
 use crate::register::{Register, RegisterTable, WordOrder};
+use crate::value_error::LengthError;
 
 /// The fewest requests that read `N` items, computed without allocation and, for constant items, by the compiler.
 ///

@@ -4,8 +4,8 @@ use super::block::Block;
 use super::limits::Limits;
 use super::plan::{bytes, Plan};
 use crate::bits;
-use crate::error::LengthError;
 use crate::register::{Register, RegisterTable};
+use crate::value_error::LengthError;
 
 /// Bytes of the longest answer: 125 registers, or 2000 bits.
 pub(super) const MAX_BYTES: usize = 250;

@@ -2,10 +2,10 @@
 
 use crate::bits;
 use crate::enumeration::Enumeration;
-use crate::error::LengthError;
 use crate::pdo::{from_bytes, mask, sign_extend, to_bytes};
 use crate::time::{TimeDifference, TimeOfDay};
 use crate::value::Value;
+use crate::value_error::LengthError;
 use crate::wide::{Int, Uint};
 
 /// A type that a field of a PDO can have: a number, a truth value, an enumeration, a bit field, a time, bytes.

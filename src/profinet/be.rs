@@ -3,9 +3,9 @@
 //! A field that is no whole number of bytes is a part of a big-endian number: of the bytes that it touches, where bit 0
 //! is the lowest bit of the last one. Reading beyond the end of the data gives 0; writing there does nothing.
 
-use crate::error::LengthError;
 use crate::pdo::{mask, sign_extend};
 use crate::time::{TimeDifference, TimeOfDay};
+use crate::value_error::LengthError;
 
 /// The `N` bytes from `at` on, or zeros where the data has fewer.
 #[must_use]

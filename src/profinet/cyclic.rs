@@ -7,8 +7,9 @@ use super::io::IoStatus;
 use crate::abort::AbortCode;
 use crate::bus::ProcessImage;
 use crate::client::{AsyncClient, Client, Write};
-use crate::error::{Error, LengthError};
+use crate::error::Error;
 use crate::image_field::ImageField;
+use crate::value_error::LengthError;
 
 /// How long a cycle takes at least, as long as something is waited for.
 const CYCLE: Duration = Duration::from_millis(1);

@@ -3,7 +3,7 @@
 //! Its layout and its checksum F_Par_CRC (polynomial 0x4EAB, start value 0, over F_iPar_CRC and then everything else)
 //! were checked against the defaults that GSDML files of several vendors give.
 
-use crate::error::LengthError;
+use crate::value_error::LengthError;
 
 /// Puts a few bytes at `$at` of an array, in a constant too.
 macro_rules! push {

@@ -5,7 +5,8 @@ use core::time::Duration;
 use super::io::{IoData, IoStatus, WithStatus};
 use super::plan::Plan;
 use crate::client::sleep;
-use crate::error::{Error, LengthError};
+use crate::error::Error;
+use crate::value_error::LengthError;
 
 /// Exchanges the process image of one device with it, waiting for each cycle.
 ///

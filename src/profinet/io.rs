@@ -1,6 +1,6 @@
 //! Cyclic data of a submodule, and the status beside it.
 
-use crate::error::LengthError;
+use crate::value_error::LengthError;
 
 /// The inputs or outputs of one submodule, as a struct of its fields. Implemented by generated code.
 pub trait IoData: Sized {

@@ -3,7 +3,7 @@
 use core::error;
 use core::fmt;
 
-use crate::error::LengthError;
+use crate::value_error::LengthError;
 
 /// A parameter record as a struct of its fields. Implemented by generated code.
 pub trait RecordData: Sized {

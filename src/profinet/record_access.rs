@@ -1,10 +1,11 @@
 //! Typed records and items, through a record client.
 
-use super::record::{NotAllowed, RecordData, RecordError};
+use super::record::RecordData;
 use super::record_client::{AsyncRecordClient, RecordAddress, RecordClient, SubmoduleAddress};
 use crate::bus::{Profinet, Record};
 use crate::client::{AsyncClient, Client};
-use crate::error::{Error, LengthError};
+use crate::error::Error;
+use crate::value_error::LengthError;
 
 /// Reads and writes records as structs, and items that are parts of records.
 ///
@@ -208,20 +209,5 @@ impl<C: AsyncRecordClient, const N: usize> AsyncClient for RecordAccess<C, N> {
         self.replace(length, address, data)?;
         let record = self.buffer.get(..length).unwrap_or_default();
         self.client.write_record(address.into(), record).await
-    }
-}
-
-impl<E> From<NotAllowed> for Error<E> {
-    fn from(error: NotAllowed) -> Self {
-        Self::NotAllowed(error)
-    }
-}
-
-impl<E> From<RecordError> for Error<E> {
-    fn from(error: RecordError) -> Self {
-        match error {
-            RecordError::NotAllowed(error) => Self::NotAllowed(error),
-            RecordError::Length(error) => Self::Length(error),
-        }
     }
 }

@@ -3,8 +3,9 @@
 use super::{ReadRoute, WriteRoute};
 use crate::bus::Bus;
 use crate::client::{AsyncClient, Client};
-use crate::error::{Error, OutOfRange};
+use crate::error::Error;
 use crate::pdo::{from_bytes, sign_extend};
+use crate::value_error::OutOfRange;
 
 /// An integer of which one bus takes these values only, first and last of each run. What comes isn't checked.
 ///

@@ -3,9 +3,10 @@
 use super::{ReadRoute, WriteRoute};
 use crate::bus::Bus;
 use crate::client::{AsyncClient, Client};
-use crate::error::{Error, LengthError, OutOfRange};
+use crate::error::Error;
 use crate::pdo::{from_bytes, mask, sign_extend};
 use crate::value::byte_len;
+use crate::value_error::{LengthError, OutOfRange};
 
 /// An integer that has `bits` bits on the bus, whatever the width of its item.
 ///

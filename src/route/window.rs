@@ -5,7 +5,8 @@ use core::time::Duration;
 use super::{resized, ReadRoute, WriteRoute};
 use crate::bus::Bus;
 use crate::client::{AsyncClient, Client};
-use crate::error::{Error, OutOfRange};
+use crate::error::Error;
+use crate::value_error::OutOfRange;
 
 /// How long two looks at a number are apart that the device clears.
 const INTERVAL: Duration = Duration::from_millis(1);

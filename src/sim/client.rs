@@ -19,8 +19,22 @@ pub struct Connection<B, D = Device> {
     bus: PhantomData<fn() -> B>,
 }
 
+impl Device {
+    /// A client of this device on the bus `B`: [`CanOpen`](crate::CanOpen), [`CoE`](crate::CoE) or
+    /// [`Modbus`](crate::Modbus).
+    pub fn client<B>(&mut self) -> Connection<B, &mut Self> {
+        Connection::new(self)
+    }
+
+    /// The same, with the device inside.
+    #[must_use]
+    pub fn into_client<B>(self) -> Connection<B, Self> {
+        Connection::new(self)
+    }
+}
+
 impl<B, D: BorrowMut<Device>> Connection<B, D> {
-    pub(super) const fn new(device: D) -> Self {
+    const fn new(device: D) -> Self {
         Self { device, bus: PhantomData }
     }
 

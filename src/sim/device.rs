@@ -6,9 +6,8 @@ use std::collections::VecDeque;
 use std::vec::Vec;
 
 use super::cells::Cells;
-use super::client::Connection;
 use super::fault::Fault;
-use super::modbus::Limits;
+use super::limits::Limits;
 use super::place::Place;
 use super::slots::Slots;
 use super::values;
@@ -71,7 +70,7 @@ impl Device {
             slots: Slots::new(entries),
             cells: Cells::default(),
             emergencies: VecDeque::new(),
-            limits: Limits::STANDARD,
+            limits: Limits::REGISTERS,
             axes: None,
             node: FIRST_NODE,
             hooks: Vec::new(),
@@ -102,18 +101,6 @@ impl Device {
     #[must_use]
     pub const fn node_id(&self) -> NodeId {
         self.node
-    }
-
-    /// A client of this device on the bus `B`: [`CanOpen`](crate::CanOpen), [`CoE`](crate::CoE) or
-    /// [`Modbus`](crate::Modbus).
-    pub fn client<B>(&mut self) -> Connection<B, &mut Self> {
-        Connection::new(self)
-    }
-
-    /// The same, with the device inside.
-    #[must_use]
-    pub fn into_client<B>(self) -> Connection<B, Self> {
-        Connection::new(self)
     }
 
     /// Switches the device off and on: all values are those of power-on, or those that were stored (0x1010).

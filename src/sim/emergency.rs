@@ -1,11 +1,9 @@
 //! What a device tells of itself: its errors.
 
 use super::device::Device;
+use super::slots::ERRORS;
 use crate::bus::Object;
 use crate::emergency::Emergency;
-
-/// The list of errors (CiA 301 7.5.2.4).
-pub(super) const ERRORS: u16 = 0x1003;
 
 impl Device {
     /// The device has an error: it goes into the error register (0x1001) and to the top of the list of errors (0x1003), as

@@ -53,6 +53,7 @@ mod client;
 mod device;
 mod emergency;
 mod fault;
+mod limits;
 mod modbus;
 mod parameters;
 mod place;

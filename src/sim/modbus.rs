@@ -7,21 +7,10 @@ use std::vec::Vec;
 use super::cells::{is_readable, is_writable};
 use super::device::Device;
 use super::fault::{Exception, Fault};
+use super::limits::Limits;
 use super::values;
 use crate::error::Error;
 use crate::register::{Register, RegisterTable};
-
-/// How many registers, or bits, one request takes at most (MODBUS Application Protocol 6).
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Limits {
-    read: u16,
-    write: u16,
-}
-
-impl Limits {
-    pub const STANDARD: Self = Self { read: 125, write: 123 };
-    const BITS: Self = Self { read: 2000, write: 1968 };
-}
 
 const fn is_bits(table: RegisterTable) -> bool {
     matches!(table, RegisterTable::Coil | RegisterTable::DiscreteInput)

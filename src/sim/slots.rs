@@ -3,7 +3,6 @@
 use std::collections::BTreeMap;
 use std::vec::Vec;
 
-use super::emergency::ERRORS;
 use super::values;
 use crate::abort::AbortCode;
 use crate::axes::Axes;
@@ -12,6 +11,9 @@ use crate::data_type::DataType;
 use crate::node_id::NodeId;
 use crate::register::Register;
 use crate::table::{Entry, RawInitial};
+
+/// The list of errors, the pre-defined error field (CiA 301 7.5.2.4).
+pub(super) const ERRORS: u16 = 0x1003;
 
 /// An item and its value.
 #[derive(Clone, Debug)]

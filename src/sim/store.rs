@@ -1,7 +1,7 @@
 //! Parameters that outlive power-off, and the list of errors: objects to which a write is a command.
 
 use super::device::Device;
-use super::emergency::ERRORS;
+use super::slots::ERRORS;
 use crate::abort::AbortCode;
 use crate::bus::Object;
 use crate::table::Entry;

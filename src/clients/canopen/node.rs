@@ -6,9 +6,10 @@ use super::frame::CanFrame;
 use super::nmt::{self, NmtCommand, NmtState};
 use super::port::{AsyncCanPort, CanPort};
 use crate::emergency::Emergency;
-use crate::error::{Error, LengthError, OutOfRange};
+use crate::error::Error;
 use crate::node_id::NodeId;
 use crate::pdo::{is_restricted, CobId};
+use crate::value_error::{LengthError, OutOfRange};
 
 /// How long an answer may take where nothing else is said.
 pub const TIMEOUT: Duration = Duration::from_millis(500);

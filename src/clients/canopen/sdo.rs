@@ -10,8 +10,9 @@ use super::port::{AsyncCanPort, CanPort, BACKLOG};
 use crate::abort::AbortCode;
 use crate::bus::{CanOpen, Object};
 use crate::client::{AsyncClient, Client};
-use crate::error::{Error, LengthError};
+use crate::error::Error;
 use crate::node_id::NodeId;
+use crate::value_error::LengthError;
 
 /// A transfer on the default channel: requests on 0x600 + node-ID, answers on 0x580 + node-ID (CiA 301 7.3.5).
 struct Transfer {

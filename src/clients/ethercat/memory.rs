@@ -5,7 +5,8 @@ use ethercrab::{Command, MainDevice, SubDevice};
 
 use crate::bus::{Esc, EscMemory};
 use crate::client::AsyncClient;
-use crate::error::{Error, LengthError};
+use crate::error::Error;
+use crate::value_error::LengthError;
 
 /// The memory of the slave controller of one SubDevice (ETG.1000.4): the client of items that have an address in it.
 ///

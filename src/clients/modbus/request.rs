@@ -6,10 +6,11 @@ use std::vec::Vec;
 use tokio_modbus::{Request, Response};
 
 use super::{ModbusError, Reply};
-use crate::error::{Error, OutOfRange};
+use crate::error::Error;
 use crate::modbus::Limits;
 use crate::pdo::{from_bytes, mask, sign_extend};
 use crate::register::{Register, RegisterTable};
+use crate::value_error::OutOfRange;
 
 /// Parts of a value that are read or written one after the other; one part, unless the limits say otherwise.
 #[derive(Clone, Copy, Debug)]

@@ -4,7 +4,7 @@ use core::error;
 use core::fmt;
 
 use super::format::Format;
-use crate::error::{Error, LengthError};
+use crate::value_error::LengthError;
 
 /// Why an access to parameters failed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -108,15 +108,6 @@ impl error::Error for Refusal {}
 impl From<LengthError> for ParameterError {
     fn from(error: LengthError) -> Self {
         Self::Length(error)
-    }
-}
-
-impl<E> From<ParameterError> for Error<E> {
-    fn from(error: ParameterError) -> Self {
-        match error {
-            ParameterError::Length(error) => Self::Length(error),
-            error => Self::ParameterAccess(error),
-        }
     }
 }
 

@@ -2,7 +2,7 @@
 
 use core::fmt;
 
-use crate::error::LengthError;
+use crate::value_error::LengthError;
 
 /// The format of a parameter's values, by its number: a data type of IEC 61158, one of PROFIdrive, or only a length.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]

@@ -2,7 +2,7 @@
 
 use super::error::ParameterError;
 use super::format::Format;
-use crate::error::LengthError;
+use crate::value_error::LengthError;
 
 /// How many parameters a request has at most.
 pub const MAX_PARAMETERS: usize = 39;

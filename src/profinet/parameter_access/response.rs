@@ -3,8 +3,8 @@
 use super::error::{ErrorNumber, ParameterError, Refusal};
 use super::format::{Format, ParameterValue};
 use super::request::{CHANGE, HEADER_LEN};
-use crate::error::LengthError;
 use crate::profinet::be;
+use crate::value_error::LengthError;
 
 /// Set in the kind of a response where at least one parameter is refused.
 const NEGATIVE: u8 = 0x80;

@@ -2,7 +2,7 @@ use std::string::ToString;
 use std::vec::Vec;
 
 use super::*;
-use crate::error::LengthError;
+use crate::value_error::LengthError;
 
 const ONE: ParameterAddress = ParameterAddress::value(0x0123, 0x0004);
 

@@ -1,0 +1,51 @@
+//! Errors of values and their bytes.
+
+use core::error;
+use core::fmt;
+
+/// A number of bytes other than the expected one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct LengthError {
+    /// How many bytes the value takes, or how many the buffer holds at most.
+    pub expected: usize,
+    /// How many bytes there are.
+    pub actual: usize,
+}
+
+impl LengthError {
+    /// `actual` bytes where there should be `expected`.
+    #[must_use]
+    pub const fn new(expected: usize, actual: usize) -> Self {
+        Self { expected, actual }
+    }
+}
+
+/// A value outside the declared range of its item, or outside what its type can hold.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct OutOfRange;
+
+/// Text with characters that its type doesn't allow, or bytes that aren't text.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct TextError;
+
+impl fmt::Display for LengthError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "expected {} bytes, got {}", self.expected, self.actual)
+    }
+}
+
+impl fmt::Display for OutOfRange {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("value out of range")
+    }
+}
+
+impl fmt::Display for TextError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("invalid text")
+    }
+}
+
+impl error::Error for LengthError {}
+impl error::Error for OutOfRange {}
+impl error::Error for TextError {}
