@@ -61,6 +61,7 @@
 //! | for | see |
 //! |---|---|
 //! | values, and reading and writing them | [`Item`], [`Accessor`], [`Value`], [`Range`], [`Error`] |
+//! | the buses on which an item exists, and its addresses | [`Location`], [`On`], [`location!`] |
 //! | scales and units | [`Quantity`], [`Scaled`] and its like |
 //! | the state machine of a drive | [`Step`] |
 //! | alarms and other codes | [`codes`] |
@@ -167,8 +168,8 @@ pub use image_field::{ImageField, ImageOrder};
 pub use initial::{AddNodeId, Initial};
 pub use item::Item;
 pub use location::{
-    Absent, Location, On, OnCanOpen, OnCanOpenAndCoE, OnCanOpenAndModbus, OnCanOpenCoEAndModbus, OnCoE, OnCoEAndModbus,
-    OnEsc, OnImage, OnModbus, OnProfinet, OnSerial,
+    Location, On, OnCanOpen, OnCanOpenAndCoE, OnCanOpenAndModbus, OnCanOpenCoEAndModbus, OnCoE, OnCoEAndModbus, OnEsc,
+    OnImage, OnModbus, OnProfinet, OnSerial,
 };
 pub use machine::{Step, Transition};
 pub use node_id::NodeId;
@@ -177,7 +178,7 @@ pub use quantity::{Exponential, Fraction, Number, OrNone, PerItem, Quantity, Rec
 pub use range::Range;
 pub use register::{Register, RegisterPart, RegisterTable, WordOrder};
 pub use route::{
-    Closed, Direct, Handshake, Limited, ReadRoute, ReadWindow, Resized, Split, Through, WriteRoute, WriteWindow,
+    Closed, Direct, Handshake, Limited, ReadRoute, ReadWindow, Resized, Route, Split, Through, WriteRoute, WriteWindow,
 };
 pub use table::{AccessRights, Bound, Entry, RawInitial};
 pub use text::{Domain, OctetString, Opaque, UnicodeString, Utf16, VisibleString};

@@ -1,128 +1,158 @@
-//! Where an item is found: at most one route on each bus.
+//! Where an item is found: a route on each bus on which it exists.
 
 use crate::bus::{
     Bus, CanOpen, CoE, Esc, EscMemory, Modbus, Object, Parameter, ProcessImage, Profinet, Record, Serial,
 };
 use crate::image_field::ImageField;
 use crate::register::Register;
+use crate::route::Route;
 
-/// Stands in a [`Location`] for a bus on which the item doesn't exist.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub struct Absent;
-
-/// How an item is reached on each bus. Each field is a route, as a rule the bus's address itself, or [`Absent`].
+/// Where an item is found: a route on each bus on which it exists. [`location!`](crate::location!) declares such types.
 ///
-/// ```
-/// use lexibus::{Absent, Location, Modbus, Object, On, Register};
-///
-/// const TARGET_POSITION: Location<Object, Object, Register> = Location {
-///     canopen: Object { index: 0x607A, sub_index: 0 },
-///     coe: Object { index: 0x607A, sub_index: 0 },
-///     modbus: Register::high_first(0x8009, 2),
-///     profinet: Absent,
-///     serial: Absent,
-///     image: Absent,
-///     esc: Absent,
-/// };
-/// assert_eq!(On::<Modbus>::route(&TARGET_POSITION).address, 0x8009);
-/// ```
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub struct Location<C = Absent, E = Absent, M = Absent, P = Absent, S = Absent, I = Absent, X = Absent> {
-    /// On CANopen: an [`Object`], another route over objects, or [`Absent`].
-    pub canopen: C,
-    /// On CANopen over EtherCAT: the same.
-    pub coe: E,
-    /// On Modbus: a [`Register`], another route over registers, or [`Absent`].
-    pub modbus: M,
-    /// In a record of PROFINET: a [`Record`], or [`Absent`].
-    pub profinet: P,
-    /// On a serial protocol: a [`Parameter`], or [`Absent`].
-    pub serial: S,
-    /// In a fixed process image: an [`ImageField`](crate::ImageField), another route over such fields, or [`Absent`].
-    pub image: I,
-    /// In the memory of an EtherCAT slave controller: an [`EscMemory`](crate::EscMemory), or [`Absent`].
-    pub esc: X,
+/// The runtime has those of the usual combinations of buses, such as [`OnCanOpenAndCoE`]; generated code declares the others.
+pub trait Location: Copy {
+    /// Calls `visit` with the route on each bus.
+    fn for_each_route(&self, visit: &mut dyn FnMut(&dyn Route));
 }
 
-impl<C, E, M, P, S, I, X> Location<C, E, M, P, S, I, X> {
-    /// The route on each bus.
-    #[must_use]
-    pub const fn new(canopen: C, coe: E, modbus: M, profinet: P, serial: S, image: I, esc: X) -> Self {
-        Self { canopen, coe, modbus, profinet, serial, image, esc }
-    }
-}
-
-/// Says how an item is reached on bus `B`.
+/// Says how an item is reached on bus `B`. A location implements it for each bus on which its items exist.
+#[diagnostic::on_unimplemented(
+    message = "this item doesn't exist on `{B}`",
+    label = "the client's bus is `{B}`, on which the device doesn't have this item",
+    note = "`{Self}` says on which buses the item exists"
+)]
 pub trait On<B: Bus> {
-    /// The way there, as a [`ReadRoute`](crate::ReadRoute), a [`WriteRoute`](crate::WriteRoute) or both; [`Absent`] where there is
-    /// none.
+    /// A [`ReadRoute`](crate::ReadRoute), a [`WriteRoute`](crate::WriteRoute) or both.
     type Route: Copy;
 
     /// The item's route on bus `B`.
     fn route(&self) -> Self::Route;
 }
 
-macro_rules! on {
-    ($($bus:ident $field:ident $location:ident<$($parameter:ident),*> $(, $other:ident)*;)*) => {$(
-        impl<R: Copy $(, $other)*> On<$bus> for $location<$($parameter),*> {
-            type Route = R;
+/// Declares the type of a location: a struct with a field for each bus on which its items exist. Each field names the bus
+/// and the type of the route, as a rule the bus's address itself.
+///
+/// ```
+/// use lexibus::{CanOpen, Modbus, Object, On, Register, Resized};
+///
+/// lexibus::location! {
+///     /// An object of another width than the register.
+///     pub struct OnCanOpenResizedAndModbus {
+///         canopen: CanOpen => Resized<Object>,
+///         modbus: Modbus => Register,
+///     }
+/// }
+///
+/// const TARGET_POSITION: OnCanOpenResizedAndModbus = OnCanOpenResizedAndModbus {
+///     canopen: Resized::signed(Object::new(0x607A, 0), 32),
+///     modbus: Register::high_first(0x8009, 4),
+/// };
+/// assert_eq!(On::<Modbus>::route(&TARGET_POSITION).address, 0x8009);
+/// ```
+///
+/// An access through a client of another bus doesn't compile:
+///
+/// ```compile_fail,E0277
+/// # use lexibus::{Client, Flags, Initial, Item, Modbus, OnCanOpen, Range, Ro};
+/// # const STATUSWORD: Item<u16, Ro, OnCanOpen> = Item::object(0x6041, 0, "Statusword");
+/// fn read(mut client: impl Client<Bus = Modbus>) {
+///     let _ = STATUSWORD.at(&mut client).read(); // an item that exists on CANopen only
+/// }
+/// ```
+#[macro_export]
+macro_rules! location {
+    (
+        $(#[$attribute:meta])*
+        $visibility:vis struct $name:ident { $($field:ident: $bus:ty => $route:ty),* $(,)? }
+    ) => {
+        $(#[$attribute])*
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        $visibility struct $name {
+            $(
+                #[doc = concat!("The route on [`", stringify!($bus), "`].")]
+                pub $field: $route,
+            )*
+        }
 
-            #[inline]
-            fn route(&self) -> R {
-                self.$field
+        impl $name {
+            /// The location with these routes, in the order of its buses.
+            #[must_use]
+            #[allow(dead_code)]
+            pub const fn new($($field: $route),*) -> Self {
+                Self { $($field),* }
             }
         }
-    )*};
+
+        impl $crate::Location for $name {
+            fn for_each_route(&self, visit: &mut dyn FnMut(&dyn $crate::Route)) {
+                let _ = &visit;
+                $(visit(&self.$field);)*
+            }
+        }
+
+        $(
+            impl $crate::On<$bus> for $name {
+                type Route = $route;
+
+                #[inline]
+                fn route(&self) -> $route {
+                    self.$field
+                }
+            }
+        )*
+    };
 }
 
-on! {
-    CanOpen canopen Location<R, E, M, P, S, I, X>, E, M, P, S, I, X;
-    CoE coe Location<C, R, M, P, S, I, X>, C, M, P, S, I, X;
-    Modbus modbus Location<C, E, R, P, S, I, X>, C, E, P, S, I, X;
-    Profinet profinet Location<C, E, M, R, S, I, X>, C, E, M, S, I, X;
-    Serial serial Location<C, E, M, P, R, I, X>, C, E, M, P, I, X;
-    ProcessImage image Location<C, E, M, P, S, R, X>, C, E, M, P, S, X;
-    Esc esc Location<C, E, M, P, S, I, R>, C, E, M, P, S, I;
+location! {
+    /// The location of an item that exists on CANopen only.
+    pub struct OnCanOpen { canopen: CanOpen => Object }
 }
-
-/// The location of an item that exists on CANopen only.
-pub type OnCanOpen = Location<Object>;
-
-/// The location of an item that exists on CANopen over EtherCAT only.
-pub type OnCoE = Location<Absent, Object>;
-
-/// The location of an item that has the same object address on CANopen and on CANopen over EtherCAT.
-pub type OnCanOpenAndCoE = Location<Object, Object>;
-
-/// The location of an item that exists on Modbus only.
-pub type OnModbus = Location<Absent, Absent, Register>;
-
-/// The location of an item that is an object on CANopen and a register on Modbus.
-pub type OnCanOpenAndModbus = Location<Object, Absent, Register>;
-
-/// The location of an item that is an object on CANopen over EtherCAT and a register on Modbus.
-pub type OnCoEAndModbus = Location<Absent, Object, Register>;
-
-/// The location of an item that is the same object on CANopen and on CANopen over EtherCAT, and a register on Modbus.
-pub type OnCanOpenCoEAndModbus = Location<Object, Object, Register>;
-
-/// The location of an item that exists on PROFINET only, as a part of a record.
-pub type OnProfinet = Location<Absent, Absent, Absent, Record>;
-
-/// The location of an item that exists on a serial protocol only.
-pub type OnSerial = Location<Absent, Absent, Absent, Absent, Parameter>;
-
-/// The location of an item that exists in a fixed process image only.
-pub type OnImage = Location<Absent, Absent, Absent, Absent, Absent, ImageField>;
-
-/// The location of an item that exists in the memory of an EtherCAT slave controller only.
-pub type OnEsc = Location<Absent, Absent, Absent, Absent, Absent, Absent, EscMemory>;
+location! {
+    /// The location of an item that exists on CANopen over EtherCAT only.
+    pub struct OnCoE { coe: CoE => Object }
+}
+location! {
+    /// The location of an item that is an object on CANopen and on CANopen over EtherCAT.
+    pub struct OnCanOpenAndCoE { canopen: CanOpen => Object, coe: CoE => Object }
+}
+location! {
+    /// The location of an item that exists on Modbus only.
+    pub struct OnModbus { modbus: Modbus => Register }
+}
+location! {
+    /// The location of an item that is an object on CANopen and a register on Modbus.
+    pub struct OnCanOpenAndModbus { canopen: CanOpen => Object, modbus: Modbus => Register }
+}
+location! {
+    /// The location of an item that is an object on CANopen over EtherCAT and a register on Modbus.
+    pub struct OnCoEAndModbus { coe: CoE => Object, modbus: Modbus => Register }
+}
+location! {
+    /// The location of an item that is an object on CANopen and on CANopen over EtherCAT, and a register on Modbus.
+    pub struct OnCanOpenCoEAndModbus { canopen: CanOpen => Object, coe: CoE => Object, modbus: Modbus => Register }
+}
+location! {
+    /// The location of an item that exists on PROFINET only, as a part of a record.
+    pub struct OnProfinet { profinet: Profinet => Record }
+}
+location! {
+    /// The location of an item that exists on a serial protocol only.
+    pub struct OnSerial { serial: Serial => Parameter }
+}
+location! {
+    /// The location of an item that exists in a fixed process image only.
+    pub struct OnImage { image: ProcessImage => ImageField }
+}
+location! {
+    /// The location of an item that exists in the memory of an EtherCAT slave controller only.
+    pub struct OnEsc { esc: Esc => EscMemory }
+}
 
 impl OnCanOpen {
     /// An object of a CANopen device.
     #[must_use]
     pub const fn canopen(index: u16, sub_index: u8) -> Self {
-        objects(Object { index, sub_index }, Absent)
+        Self { canopen: Object { index, sub_index } }
     }
 }
 
@@ -130,15 +160,16 @@ impl OnCoE {
     /// An object of an EtherCAT device.
     #[must_use]
     pub const fn coe(index: u16, sub_index: u8) -> Self {
-        objects(Absent, Object { index, sub_index })
+        Self { coe: Object { index, sub_index } }
     }
 }
 
 impl OnCanOpenAndCoE {
-    /// An object of a device that speaks CANopen and EtherCAT.
+    /// An object of a device that speaks CANopen and EtherCAT, the same on both.
     #[must_use]
     pub const fn object(index: u16, sub_index: u8) -> Self {
-        objects(Object { index, sub_index }, Object { index, sub_index })
+        let object = Object { index, sub_index };
+        Self { canopen: object, coe: object }
     }
 }
 
@@ -146,7 +177,7 @@ impl OnModbus {
     /// A register of a Modbus device.
     #[must_use]
     pub const fn modbus(register: Register) -> Self {
-        registers(Absent, Absent, register)
+        Self { modbus: register }
     }
 }
 
@@ -154,7 +185,7 @@ impl OnCanOpenAndModbus {
     /// An object that is a register, too.
     #[must_use]
     pub const fn register(index: u16, sub_index: u8, register: Register) -> Self {
-        registers(Object { index, sub_index }, Absent, register)
+        Self { canopen: Object { index, sub_index }, modbus: register }
     }
 }
 
@@ -162,7 +193,7 @@ impl OnCoEAndModbus {
     /// An object that is a register, too.
     #[must_use]
     pub const fn register(index: u16, sub_index: u8, register: Register) -> Self {
-        registers(Absent, Object { index, sub_index }, register)
+        Self { coe: Object { index, sub_index }, modbus: register }
     }
 }
 
@@ -170,7 +201,8 @@ impl OnCanOpenCoEAndModbus {
     /// An object, the same on both buses, that is a register, too.
     #[must_use]
     pub const fn register(index: u16, sub_index: u8, register: Register) -> Self {
-        registers(Object { index, sub_index }, Object { index, sub_index }, register)
+        let object = Object { index, sub_index };
+        Self { canopen: object, coe: object, modbus: register }
     }
 }
 
@@ -178,7 +210,7 @@ impl OnProfinet {
     /// A part of a record of a PROFINET device.
     #[must_use]
     pub const fn record(part: Record) -> Self {
-        Location::new(Absent, Absent, Absent, part, Absent, Absent, Absent)
+        Self { profinet: part }
     }
 }
 
@@ -186,7 +218,7 @@ impl OnSerial {
     /// A parameter of a serial protocol.
     #[must_use]
     pub const fn serial(number: u32) -> Self {
-        Location::new(Absent, Absent, Absent, Absent, Parameter(number), Absent, Absent)
+        Self { serial: Parameter(number) }
     }
 }
 
@@ -194,7 +226,7 @@ impl OnImage {
     /// A field of a fixed process image.
     #[must_use]
     pub const fn field(field: ImageField) -> Self {
-        Location::new(Absent, Absent, Absent, Absent, Absent, field, Absent)
+        Self { image: field }
     }
 }
 
@@ -202,21 +234,14 @@ impl OnEsc {
     /// Memory of a slave controller.
     #[must_use]
     pub const fn memory(address: u16, length: u16) -> Self {
-        Location::new(Absent, Absent, Absent, Absent, Absent, Absent, EscMemory::new(address, length))
+        Self { esc: EscMemory::new(address, length) }
     }
-}
-
-const fn registers<C: Copy, E: Copy>(canopen: C, coe: E, modbus: Register) -> Location<C, E, Register> {
-    Location::new(canopen, coe, modbus, Absent, Absent, Absent, Absent)
-}
-
-const fn objects<C: Copy, E: Copy>(canopen: C, coe: E) -> Location<C, E> {
-    Location::new(canopen, coe, Absent, Absent, Absent, Absent, Absent)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::vec::Vec;
 
     #[test]
     fn object_is_found_on_each_of_its_buses() {
@@ -240,10 +265,23 @@ mod tests {
         assert_eq!(On::<Serial>::route(&OnSerial::serial(70_000)), Parameter(70_000));
     }
 
+    location! {
+        struct Everywhere {
+            canopen: CanOpen => Object,
+            coe: CoE => Object,
+            modbus: Modbus => Register,
+            profinet: Profinet => Record,
+            serial: Serial => Parameter,
+            image: ProcessImage => ImageField,
+            esc: Esc => EscMemory,
+        }
+    }
+    location! { struct Nowhere {} }
+
     #[test]
     fn every_bus_has_its_own_address() {
         let field = ImageField::output(24, 32);
-        let everywhere = Location {
+        let everywhere = Everywhere {
             canopen: Object { index: 1, sub_index: 2 },
             coe: Object { index: 3, sub_index: 4 },
             modbus: Register::holding(5),
@@ -260,5 +298,18 @@ mod tests {
         assert_eq!(On::<ProcessImage>::route(&everywhere), field);
         assert_eq!(On::<ProcessImage>::route(&OnImage::field(field)), field);
         assert_eq!(On::<Esc>::route(&everywhere), On::<Esc>::route(&OnEsc::memory(0x120, 2)));
+    }
+    #[test]
+    fn each_route_is_visited() {
+        fn addresses(location: &impl Location) -> Vec<(Option<Object>, Option<Register>)> {
+            let mut addresses = Vec::new();
+            location.for_each_route(&mut |route| addresses.push((route.object(), route.register())));
+            addresses
+        }
+        let (object, register) = (Object::new(0x2008, 1), Register::holding(8));
+        let location = OnCanOpenAndModbus::register(0x2008, 1, register);
+        assert_eq!(addresses(&location), [(Some(object), None), (None, Some(register))]);
+        assert_eq!(addresses(&OnSerial::serial(1)), [(None, None)]);
+        assert_eq!(addresses(&Nowhere::new()), []);
     }
 }

@@ -14,10 +14,45 @@ pub use limited::Limited;
 pub use resized::Resized;
 pub use window::{Handshake, ReadWindow, Through, WriteWindow};
 
+/// The address that a route leads to, for tools; none if it leads through a window.
+pub trait Route {
+    /// The entry of an object dictionary, on CANopen or on CANopen over EtherCAT.
+    fn object(&self) -> Option<Object> {
+        None
+    }
+
+    /// The register on Modbus.
+    fn register(&self) -> Option<Register> {
+        None
+    }
+
+    /// Whether the value has another width there than its item.
+    fn is_resized(&self) -> bool {
+        false
+    }
+}
+
+impl Route for Object {
+    fn object(&self) -> Option<Object> {
+        Some(*self)
+    }
+}
+
+impl Route for Register {
+    fn register(&self) -> Option<Register> {
+        Some(*self)
+    }
+}
+
+impl Route for Record {}
+impl Route for Parameter {}
+impl Route for ImageField {}
+impl Route for EscMemory {}
+
 /// An address of a value's own on bus `B`, with nothing in between.
 #[diagnostic::on_unimplemented(
-    message = "this item doesn't exist on `{B}`, or has no address of its own there",
-    label = "the client's bus doesn't have this item at an address of the item's width"
+    message = "this item has no address of its own on `{B}`",
+    label = "the client's bus has this item behind a window, or in another width"
 )]
 pub trait Direct<B: Bus>: Copy {
     /// The address.
@@ -27,7 +62,7 @@ pub trait Direct<B: Bus>: Copy {
 /// A way on which a value can be read. An address is the direct one; [`Split`], [`Resized`], [`Limited`] and [`Through`] are made
 /// of addresses, and of each other.
 #[diagnostic::on_unimplemented(
-    message = "this item doesn't exist on `{B}`, or can't be read there",
+    message = "this item can't be read on `{B}`",
     label = "the client's bus has no way to read this item"
 )]
 pub trait ReadRoute<B: Bus>: Copy {
@@ -53,7 +88,7 @@ pub trait ReadRoute<B: Bus>: Copy {
 
 /// A way on which a value can be written.
 #[diagnostic::on_unimplemented(
-    message = "this item doesn't exist on `{B}`, or can't be written there",
+    message = "this item can't be written on `{B}`",
     label = "the client's bus has no way to write this item"
 )]
 pub trait WriteRoute<B: Bus>: Copy {
@@ -163,6 +198,22 @@ impl<W> Split<Closed, W> {
     #[must_use]
     pub const fn writing(write: W) -> Self {
         Self { read: Closed, write }
+    }
+}
+
+impl Route for Closed {}
+
+impl<R: Route, W: Route> Route for Split<R, W> {
+    fn object(&self) -> Option<Object> {
+        self.read.object().or_else(|| self.write.object())
+    }
+
+    fn register(&self) -> Option<Register> {
+        self.read.register().or_else(|| self.write.register())
+    }
+
+    fn is_resized(&self) -> bool {
+        self.read.is_resized() || self.write.is_resized()
     }
 }
 

@@ -1,8 +1,10 @@
 //! The Rust that GSDML files become: its shape, and that nothing in a file can break it.
 
 mod compile_support;
+mod form_support;
 
 use compile_support::{compile, compile_in};
+use form_support::canonical;
 use lexibus_codegen::compile::{check, Options};
 use lexibus_codegen::source::Source;
 use lexibus_codegen::{Presence, RustOptions};
@@ -86,19 +88,8 @@ fn rust(xml: String, options: &RustOptions) -> String {
     compilation.rust(options).unwrap_or_else(|| panic!("no bindings: {errors:#?}"))
 }
 
-/// `prettyplease` drops the comment at the top.
-fn assert_canonical(text: &str) {
-    let body = text.split_once("\n\n").map_or(text, |(_, body)| body);
-    let parsed = syn::parse_file(body).unwrap_or_else(|error| panic!("{error}\n{text}"));
-    let expected = prettyplease::unparse(&parsed);
-    for (ours, theirs) in body.lines().zip(expected.lines()) {
-        assert_eq!(ours, theirs);
-    }
-    assert_eq!(body, expected);
-}
-
 fn accept(name: &str, text: &str) {
-    assert_canonical(text);
+    assert_eq!(canonical(name, text), Ok(()));
     compile(name, text).unwrap_or_else(|message| panic!("{message}\n{text}"));
 }
 
@@ -364,7 +355,7 @@ fn optional_implementations_are_gated() {
     assert!(text.contains("#[cfg_attr(feature = \"serde\", derive(serde::Serialize, serde::Deserialize))]"));
     assert!(text.contains("serde(with = \"::lexibus::octets\")"), "{text}");
     assert!(!text.contains("Debug"));
-    assert_canonical(&text);
+    assert_eq!(canonical("example", &text), Ok(()));
     // A crate without these features would be warned of them; that is its own business.
     compile("gated", &format!("#[allow(unexpected_cfgs)]\nmod inner {{\n{text}\n}}\npub use inner::*;\n"))
         .expect("it compiles");

@@ -1,35 +1,15 @@
 //! The generated Rust has the form that `prettyplease` would give it, for every file of the corpus.
 
 mod corpus_support;
+mod form_support;
 
 use std::path::Path;
 
 use corpus_support::lane;
+use form_support::canonical;
 use lexibus_codegen::compile::{check, Options};
 use lexibus_codegen::source::Source;
 use lexibus_codegen::Presence;
-
-/// `prettyplease` drops comments that are no documentation: the header is all that we have of them.
-fn without_header(text: &str) -> String {
-    text.lines()
-        .skip_while(|line| line.starts_with("//"))
-        .skip_while(|line| line.is_empty())
-        .map(|line| format!("{line}\n"))
-        .collect()
-}
-
-/// The first line that isn't as `prettyplease` prints it.
-fn canonical(name: &str, text: &str) -> Result<(), String> {
-    let text = without_header(text);
-    let parsed = syn::parse_file(&text).map_err(|error| format!("{name}: {error}"))?;
-    let expected = prettyplease::unparse(&parsed);
-    for (line, (ours, theirs)) in text.lines().zip(expected.lines()).enumerate() {
-        if ours != theirs {
-            return Err(format!("{name}, line {}:\n    {ours}\n    {theirs}", line + 1));
-        }
-    }
-    (text.len() == expected.len()).then_some(()).ok_or_else(|| format!("{name}: not of the same length"))
-}
 
 #[test]
 fn output_is_as_prettyplease_prints_it() {

@@ -2,12 +2,14 @@
 //! would give it.
 
 mod compile_support;
+mod form_support;
 #[path = "../../tests/support/lane.rs"]
 mod lane;
 
 use std::path::Path;
 
 use compile_support::{compile, document};
+use form_support::canonical;
 use lexibus_codegen::compile::{check, Options};
 use lexibus_codegen::source::Source;
 use lexibus_codegen::{Presence, RustOptions};
@@ -55,13 +57,7 @@ fn tables_compile() {
 fn tables_have_the_form_of_prettyplease() {
     for name in TABLES {
         let text = bindings(file(name), everything());
-        let body = text.lines().skip_while(|line| line.starts_with("//") || line.is_empty());
-        let body: String = body.flat_map(|line| [line, "\n"]).collect();
-        let expected = prettyplease::unparse(&syn::parse_file(&body).expect("Rust"));
-        for (number, (ours, theirs)) in body.lines().zip(expected.lines()).enumerate() {
-            assert_eq!(ours, theirs, "{name}, line {}", number + 1);
-        }
-        assert_eq!(body.len(), expected.len(), "{name}");
+        assert_eq!(canonical(name, &text), Ok(()));
     }
 }
 

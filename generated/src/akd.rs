@@ -3898,16 +3898,13 @@ pub mod procedures {
 /// A handle for every register and every entry of the object dictionary.
 pub mod objects {
     use ::lexibus as rt;
-    /// The location of what is found on EtherCAT, the slave controller.
-    pub type OnCoEEsc = rt::Location<
-        rt::Absent,
-        rt::Object,
-        rt::Absent,
-        rt::Absent,
-        rt::Absent,
-        rt::Absent,
-        rt::EscMemory,
-    >;
+    rt::location! {
+        /// The location of what is found on EtherCAT, the slave controller.
+        pub struct OnCoEEsc {
+            coe: rt::CoE => rt::Object,
+            esc: rt::Esc => rt::EscMemory,
+        }
+    }
     /// A register or an entry that can be read.
     pub type ReadOnly<V, L = OnCoEEsc> = rt::Item<V, rt::Ro, L>;
     /// A register or an entry that can be read and written.

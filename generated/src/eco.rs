@@ -8302,186 +8302,191 @@ pub mod windows {
 /// A handle for every register and every entry of the object dictionary.
 pub mod objects {
     use ::lexibus as rt;
-    /// The location of what is found on PROFINET.
-    pub type OnImageOut = rt::Location<
-        rt::Absent,
-        rt::Absent,
-        rt::Absent,
-        rt::Absent,
-        rt::Absent,
-        rt::Split<rt::Closed, rt::ImageField>,
-        rt::Absent,
-    >;
-    /// The location of what is found on CANopen, EtherCAT, PROFINET.
-    pub type OnCanOpenCoEImage = rt::Location<
-        rt::Object,
-        rt::Object,
-        rt::Absent,
-        rt::Absent,
-        rt::Absent,
-        rt::ImageField,
-        rt::Absent,
-    >;
-    /// The location of what is found on CANopen, EtherCAT, Modbus, PROFINET.
-    pub type OnCanOpenCoEModbusImage = rt::Location<
-        rt::Object,
-        rt::Object,
-        rt::Register,
-        rt::Absent,
-        rt::Absent,
-        rt::ImageField,
-        rt::Absent,
-    >;
-    /// The location of what is found on CANopen, EtherCAT, Modbus, PROFINET.
-    pub type OnCanOpenCoEModbusImageWindowIn = rt::Location<
-        rt::Object,
-        rt::Object,
-        rt::Register,
-        rt::Absent,
-        rt::Absent,
-        rt::Split<rt::Through<rt::ReadWindow<rt::ImageField>>, rt::Closed>,
-        rt::Absent,
-    >;
-    /// The location of what is found on CANopen, EtherCAT, Modbus, PROFINET.
-    pub type OnCanOpenCoEModbusImageWindowInOut = rt::Location<
-        rt::Object,
-        rt::Object,
-        rt::Register,
-        rt::Absent,
-        rt::Absent,
-        rt::Split<rt::Through<rt::ReadWindow<rt::ImageField>>, rt::ImageField>,
-        rt::Absent,
-    >;
-    /// The location of what is found on CANopen, EtherCAT, Modbus, PROFINET.
-    pub type OnCanOpenCoEModbusImageWindows = rt::Location<
-        rt::Object,
-        rt::Object,
-        rt::Register,
-        rt::Absent,
-        rt::Absent,
-        rt::Split<
-            rt::Through<rt::ReadWindow<rt::ImageField>>,
-            rt::Through<rt::WriteWindow<rt::ImageField>>,
-        >,
-        rt::Absent,
-    >;
-    /// The location of what is found on CANopen, EtherCAT, Modbus, PROFINET.
-    pub type OnCanOpenWindowInCoEWindowInModbusImage = rt::Location<
-        rt::Split<rt::Through<rt::ReadWindow<rt::Object>>, rt::Closed>,
-        rt::Split<rt::Through<rt::ReadWindow<rt::Object>>, rt::Closed>,
-        rt::Register,
-        rt::Absent,
-        rt::Absent,
-        rt::ImageField,
-        rt::Absent,
-    >;
-    /// The location of what is found on CANopen, EtherCAT, Modbus, PROFINET.
-    pub type OnCanOpenWindowInCoEWindowInModbusImageWindowIn = rt::Location<
-        rt::Split<rt::Through<rt::ReadWindow<rt::Object>>, rt::Closed>,
-        rt::Split<rt::Through<rt::ReadWindow<rt::Object>>, rt::Closed>,
-        rt::Register,
-        rt::Absent,
-        rt::Absent,
-        rt::Split<rt::Through<rt::ReadWindow<rt::ImageField>>, rt::Closed>,
-        rt::Absent,
-    >;
-    /// The location of what is found on CANopen, EtherCAT, Modbus, PROFINET.
-    pub type OnCanOpenWindowInLimitedOutCoEWindowInLimitedOutModbusImageWindowInOut = rt::Location<
-        rt::Split<rt::Through<rt::ReadWindow<rt::Object>>, rt::Limited<rt::Object>>,
-        rt::Split<rt::Through<rt::ReadWindow<rt::Object>>, rt::Limited<rt::Object>>,
-        rt::Register,
-        rt::Absent,
-        rt::Absent,
-        rt::Split<rt::Through<rt::ReadWindow<rt::ImageField>>, rt::ImageField>,
-        rt::Absent,
-    >;
-    /// The location of what is found on CANopen, EtherCAT, Modbus, PROFINET.
-    pub type OnCanOpenWindowsCoEWindowsModbusImageWindowInOut = rt::Location<
-        rt::Split<
-            rt::Through<rt::ReadWindow<rt::Object>>,
-            rt::Through<rt::WriteWindow<rt::Object>>,
-        >,
-        rt::Split<
-            rt::Through<rt::ReadWindow<rt::Object>>,
-            rt::Through<rt::WriteWindow<rt::Object>>,
-        >,
-        rt::Register,
-        rt::Absent,
-        rt::Absent,
-        rt::Split<rt::Through<rt::ReadWindow<rt::ImageField>>, rt::ImageField>,
-        rt::Absent,
-    >;
-    /// The location of what is found on CANopen, EtherCAT, Modbus, PROFINET.
-    pub type OnCanOpenWindowsCoEWindowsModbusImageWindows = rt::Location<
-        rt::Split<
-            rt::Through<rt::ReadWindow<rt::Object>>,
-            rt::Through<rt::WriteWindow<rt::Object>>,
-        >,
-        rt::Split<
-            rt::Through<rt::ReadWindow<rt::Object>>,
-            rt::Through<rt::WriteWindow<rt::Object>>,
-        >,
-        rt::Register,
-        rt::Absent,
-        rt::Absent,
-        rt::Split<
-            rt::Through<rt::ReadWindow<rt::ImageField>>,
-            rt::Through<rt::WriteWindow<rt::ImageField>>,
-        >,
-        rt::Absent,
-    >;
-    /// The location of what is found on CANopen, EtherCAT, Modbus, PROFINET.
-    pub type OnCanOpenWindowsCoEWindowsModbusLimitedImageWindows = rt::Location<
-        rt::Split<
-            rt::Through<rt::ReadWindow<rt::Object>>,
-            rt::Through<rt::WriteWindow<rt::Object>>,
-        >,
-        rt::Split<
-            rt::Through<rt::ReadWindow<rt::Object>>,
-            rt::Through<rt::WriteWindow<rt::Object>>,
-        >,
-        rt::Limited<rt::Register>,
-        rt::Absent,
-        rt::Absent,
-        rt::Split<
-            rt::Through<rt::ReadWindow<rt::ImageField>>,
-            rt::Through<rt::WriteWindow<rt::ImageField>>,
-        >,
-        rt::Absent,
-    >;
+    rt::location! {
+        /// The location of what is found on PROFINET.
+        pub struct OnImageOut {
+            image: rt::ProcessImage => rt::Split<rt::Closed, rt::ImageField>,
+        }
+    }
+    rt::location! {
+        /// The location of what is found on CANopen, EtherCAT, PROFINET.
+        pub struct OnCanOpenCoEImage {
+            canopen: rt::CanOpen => rt::Object,
+            coe: rt::CoE => rt::Object,
+            image: rt::ProcessImage => rt::ImageField,
+        }
+    }
+    rt::location! {
+        /// The location of what is found on CANopen, EtherCAT, Modbus, PROFINET.
+        pub struct OnCanOpenCoEModbusImage {
+            canopen: rt::CanOpen => rt::Object,
+            coe: rt::CoE => rt::Object,
+            modbus: rt::Modbus => rt::Register,
+            image: rt::ProcessImage => rt::ImageField,
+        }
+    }
+    rt::location! {
+        /// The location of what is found on CANopen, EtherCAT, Modbus, PROFINET.
+        pub struct OnCanOpenCoEModbusImageWindowIn {
+            canopen: rt::CanOpen => rt::Object,
+            coe: rt::CoE => rt::Object,
+            modbus: rt::Modbus => rt::Register,
+            image: rt::ProcessImage => rt::Split<
+                rt::Through<rt::ReadWindow<rt::ImageField>>,
+                rt::Closed,
+            >,
+        }
+    }
+    rt::location! {
+        /// The location of what is found on CANopen, EtherCAT, Modbus, PROFINET.
+        pub struct OnCanOpenCoEModbusImageWindowInOut {
+            canopen: rt::CanOpen => rt::Object,
+            coe: rt::CoE => rt::Object,
+            modbus: rt::Modbus => rt::Register,
+            image: rt::ProcessImage => rt::Split<
+                rt::Through<rt::ReadWindow<rt::ImageField>>,
+                rt::ImageField,
+            >,
+        }
+    }
+    rt::location! {
+        /// The location of what is found on CANopen, EtherCAT, Modbus, PROFINET.
+        pub struct OnCanOpenCoEModbusImageWindows {
+            canopen: rt::CanOpen => rt::Object,
+            coe: rt::CoE => rt::Object,
+            modbus: rt::Modbus => rt::Register,
+            image: rt::ProcessImage => rt::Split<
+                rt::Through<rt::ReadWindow<rt::ImageField>>,
+                rt::Through<rt::WriteWindow<rt::ImageField>>,
+            >,
+        }
+    }
+    rt::location! {
+        /// The location of what is found on CANopen, EtherCAT, Modbus, PROFINET.
+        pub struct OnCanOpenWindowInCoEWindowInModbusImage {
+            canopen: rt::CanOpen => rt::Split<
+                rt::Through<rt::ReadWindow<rt::Object>>,
+                rt::Closed,
+            >,
+            coe: rt::CoE => rt::Split<
+                rt::Through<rt::ReadWindow<rt::Object>>,
+                rt::Closed,
+            >,
+            modbus: rt::Modbus => rt::Register,
+            image: rt::ProcessImage => rt::ImageField,
+        }
+    }
+    rt::location! {
+        /// The location of what is found on CANopen, EtherCAT, Modbus, PROFINET.
+        pub struct OnCanOpenWindowInCoEWindowInModbusImageWindowIn {
+            canopen: rt::CanOpen => rt::Split<
+                rt::Through<rt::ReadWindow<rt::Object>>,
+                rt::Closed,
+            >,
+            coe: rt::CoE => rt::Split<
+                rt::Through<rt::ReadWindow<rt::Object>>,
+                rt::Closed,
+            >,
+            modbus: rt::Modbus => rt::Register,
+            image: rt::ProcessImage => rt::Split<
+                rt::Through<rt::ReadWindow<rt::ImageField>>,
+                rt::Closed,
+            >,
+        }
+    }
+    rt::location! {
+        /// The location of what is found on CANopen, EtherCAT, Modbus, PROFINET.
+        pub struct OnCanOpenWindowInLimitedOutCoEWindowInLimitedOutModbusImageWindowInOut {
+            canopen: rt::CanOpen => rt::Split<
+                rt::Through<rt::ReadWindow<rt::Object>>,
+                rt::Limited<rt::Object>,
+            >,
+            coe: rt::CoE => rt::Split<
+                rt::Through<rt::ReadWindow<rt::Object>>,
+                rt::Limited<rt::Object>,
+            >,
+            modbus: rt::Modbus => rt::Register,
+            image: rt::ProcessImage => rt::Split<
+                rt::Through<rt::ReadWindow<rt::ImageField>>,
+                rt::ImageField,
+            >,
+        }
+    }
+    rt::location! {
+        /// The location of what is found on CANopen, EtherCAT, Modbus, PROFINET.
+        pub struct OnCanOpenWindowsCoEWindowsModbusImageWindowInOut {
+            canopen: rt::CanOpen => rt::Split<
+                rt::Through<rt::ReadWindow<rt::Object>>,
+                rt::Through<rt::WriteWindow<rt::Object>>,
+            >,
+            coe: rt::CoE => rt::Split<
+                rt::Through<rt::ReadWindow<rt::Object>>,
+                rt::Through<rt::WriteWindow<rt::Object>>,
+            >,
+            modbus: rt::Modbus => rt::Register,
+            image: rt::ProcessImage => rt::Split<
+                rt::Through<rt::ReadWindow<rt::ImageField>>,
+                rt::ImageField,
+            >,
+        }
+    }
+    rt::location! {
+        /// The location of what is found on CANopen, EtherCAT, Modbus, PROFINET.
+        pub struct OnCanOpenWindowsCoEWindowsModbusImageWindows {
+            canopen: rt::CanOpen => rt::Split<
+                rt::Through<rt::ReadWindow<rt::Object>>,
+                rt::Through<rt::WriteWindow<rt::Object>>,
+            >,
+            coe: rt::CoE => rt::Split<
+                rt::Through<rt::ReadWindow<rt::Object>>,
+                rt::Through<rt::WriteWindow<rt::Object>>,
+            >,
+            modbus: rt::Modbus => rt::Register,
+            image: rt::ProcessImage => rt::Split<
+                rt::Through<rt::ReadWindow<rt::ImageField>>,
+                rt::Through<rt::WriteWindow<rt::ImageField>>,
+            >,
+        }
+    }
+    rt::location! {
+        /// The location of what is found on CANopen, EtherCAT, Modbus, PROFINET.
+        pub struct OnCanOpenWindowsCoEWindowsModbusLimitedImageWindows {
+            canopen: rt::CanOpen => rt::Split<
+                rt::Through<rt::ReadWindow<rt::Object>>,
+                rt::Through<rt::WriteWindow<rt::Object>>,
+            >,
+            coe: rt::CoE => rt::Split<
+                rt::Through<rt::ReadWindow<rt::Object>>,
+                rt::Through<rt::WriteWindow<rt::Object>>,
+            >,
+            modbus: rt::Modbus => rt::Limited<rt::Register>,
+            image: rt::ProcessImage => rt::Split<
+                rt::Through<rt::ReadWindow<rt::ImageField>>,
+                rt::Through<rt::WriteWindow<rt::ImageField>>,
+            >,
+        }
+    }
     const fn place_1(
         canopen: rt::Object,
         coe: rt::Object,
         modbus: rt::Register,
         image: rt::ImageField,
     ) -> OnCanOpenCoEModbusImage {
-        rt::Location::new(
-            canopen,
-            coe,
-            modbus,
-            rt::Absent,
-            rt::Absent,
-            image,
-            rt::Absent,
-        )
+        OnCanOpenCoEModbusImage::new(canopen, coe, modbus, image)
     }
     const fn place_2(
         canopen: rt::Object,
         coe: rt::Object,
         modbus: rt::Register,
         number: u32,
-    ) -> OnCanOpenCoEModbusImageWindows {
-        rt::Location::new(
+    ) -> OnCanOpenCoEModbusImageWindowIn {
+        OnCanOpenCoEModbusImageWindowIn::new(
             canopen,
             coe,
             modbus,
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
+            rt::Split::reading(
                 rt::Through::signed(number, &super::windows::REGISTER_READ_IMAGE),
-                rt::Through::signed(number, &super::windows::REGISTER_WRITE_IMAGE),
             ),
-            rt::Absent,
         )
     }
     const fn place_3(
@@ -8491,17 +8496,14 @@ pub mod objects {
         image: rt::ImageField,
         number: u32,
     ) -> OnCanOpenCoEModbusImageWindowInOut {
-        rt::Location::new(
+        OnCanOpenCoEModbusImageWindowInOut::new(
             canopen,
             coe,
             modbus,
-            rt::Absent,
-            rt::Absent,
             rt::Split::new(
                 rt::Through::unsigned(number, &super::windows::REGISTER_READ_IMAGE),
                 image,
             ),
-            rt::Absent,
         )
     }
     const fn place_4(
@@ -8510,17 +8512,14 @@ pub mod objects {
         modbus: rt::Register,
         number: u32,
     ) -> OnCanOpenCoEModbusImageWindows {
-        rt::Location::new(
+        OnCanOpenCoEModbusImageWindows::new(
             canopen,
             coe,
             modbus,
-            rt::Absent,
-            rt::Absent,
             rt::Split::new(
-                rt::Through::unsigned(number, &super::windows::REGISTER_READ_IMAGE),
-                rt::Through::unsigned(number, &super::windows::REGISTER_WRITE_IMAGE),
+                rt::Through::signed(number, &super::windows::REGISTER_READ_IMAGE),
+                rt::Through::signed(number, &super::windows::REGISTER_WRITE_IMAGE),
             ),
-            rt::Absent,
         )
     }
     const fn place_5(
@@ -8528,35 +8527,72 @@ pub mod objects {
         coe: rt::Object,
         modbus: rt::Register,
         number: u32,
-    ) -> OnCanOpenCoEModbusImageWindowIn {
-        rt::Location::new(
+    ) -> OnCanOpenCoEModbusImageWindows {
+        OnCanOpenCoEModbusImageWindows::new(
             canopen,
             coe,
             modbus,
-            rt::Absent,
-            rt::Absent,
-            rt::Split::reading(
-                rt::Through::signed(number, &super::windows::REGISTER_READ_IMAGE),
+            rt::Split::new(
+                rt::Through::unsigned(number, &super::windows::REGISTER_READ_IMAGE),
+                rt::Through::unsigned(number, &super::windows::REGISTER_WRITE_IMAGE),
             ),
-            rt::Absent,
         )
     }
-    const fn place_6(image: rt::ImageField) -> OnImageOut {
-        rt::Location::new(
-            rt::Absent,
-            rt::Absent,
-            rt::Absent,
-            rt::Absent,
-            rt::Absent,
-            rt::Split::writing(image),
-            rt::Absent,
+    const fn place_6(
+        modbus: rt::Register,
+        image: rt::ImageField,
+        number: u32,
+    ) -> OnCanOpenWindowInCoEWindowInModbusImage {
+        OnCanOpenWindowInCoEWindowInModbusImage::new(
+            rt::Split::reading(
+                rt::Through::unsigned(number, &super::windows::REGISTER_READ_CANOPEN),
+            ),
+            rt::Split::reading(
+                rt::Through::unsigned(number, &super::windows::REGISTER_READ_COE),
+            ),
+            modbus,
+            image,
         )
     }
     const fn place_7(
         modbus: rt::Register,
         number: u32,
+    ) -> OnCanOpenWindowInCoEWindowInModbusImageWindowIn {
+        OnCanOpenWindowInCoEWindowInModbusImageWindowIn::new(
+            rt::Split::reading(
+                rt::Through::signed(number, &super::windows::REGISTER_READ_CANOPEN),
+            ),
+            rt::Split::reading(
+                rt::Through::signed(number, &super::windows::REGISTER_READ_COE),
+            ),
+            modbus,
+            rt::Split::reading(
+                rt::Through::signed(number, &super::windows::REGISTER_READ_IMAGE),
+            ),
+        )
+    }
+    const fn place_8(
+        modbus: rt::Register,
+        number: u32,
+    ) -> OnCanOpenWindowInCoEWindowInModbusImageWindowIn {
+        OnCanOpenWindowInCoEWindowInModbusImageWindowIn::new(
+            rt::Split::reading(
+                rt::Through::unsigned(number, &super::windows::PARAMETER_READ_CANOPEN_0),
+            ),
+            rt::Split::reading(
+                rt::Through::unsigned(number, &super::windows::PARAMETER_READ_COE_0),
+            ),
+            modbus,
+            rt::Split::reading(
+                rt::Through::unsigned(number, &super::windows::PARAMETER_READ_IMAGE),
+            ),
+        )
+    }
+    const fn place_9(
+        modbus: rt::Register,
+        number: u32,
     ) -> OnCanOpenWindowsCoEWindowsModbusImageWindows {
-        rt::Location::new(
+        OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
             rt::Split::new(
                 rt::Through::signed(number, &super::windows::REGISTER_READ_CANOPEN),
                 rt::Through::signed(number, &super::windows::REGISTER_WRITE_CANOPEN),
@@ -8566,20 +8602,17 @@ pub mod objects {
                 rt::Through::signed(number, &super::windows::REGISTER_WRITE_COE),
             ),
             modbus,
-            rt::Absent,
-            rt::Absent,
             rt::Split::new(
                 rt::Through::signed(number, &super::windows::REGISTER_READ_IMAGE),
                 rt::Through::signed(number, &super::windows::REGISTER_WRITE_IMAGE),
             ),
-            rt::Absent,
         )
     }
-    const fn place_8(
+    const fn place_10(
         modbus: rt::Register,
         number: u32,
     ) -> OnCanOpenWindowsCoEWindowsModbusImageWindows {
-        rt::Location::new(
+        OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
             rt::Split::new(
                 rt::Through::unsigned(number, &super::windows::PARAMETER_READ_CANOPEN_0),
                 rt::Through::unsigned(number, &super::windows::PARAMETER_WRITE_CANOPEN_0),
@@ -8589,73 +8622,14 @@ pub mod objects {
                 rt::Through::unsigned(number, &super::windows::PARAMETER_WRITE_COE_0),
             ),
             modbus,
-            rt::Absent,
-            rt::Absent,
             rt::Split::new(
                 rt::Through::unsigned(number, &super::windows::PARAMETER_READ_IMAGE),
                 rt::Through::unsigned(number, &super::windows::PARAMETER_WRITE_IMAGE),
             ),
-            rt::Absent,
         )
     }
-    const fn place_9(
-        modbus: rt::Register,
-        number: u32,
-    ) -> OnCanOpenWindowInCoEWindowInModbusImageWindowIn {
-        rt::Location::new(
-            rt::Split::reading(
-                rt::Through::signed(number, &super::windows::REGISTER_READ_CANOPEN),
-            ),
-            rt::Split::reading(
-                rt::Through::signed(number, &super::windows::REGISTER_READ_COE),
-            ),
-            modbus,
-            rt::Absent,
-            rt::Absent,
-            rt::Split::reading(
-                rt::Through::signed(number, &super::windows::REGISTER_READ_IMAGE),
-            ),
-            rt::Absent,
-        )
-    }
-    const fn place_10(
-        modbus: rt::Register,
-        number: u32,
-    ) -> OnCanOpenWindowInCoEWindowInModbusImageWindowIn {
-        rt::Location::new(
-            rt::Split::reading(
-                rt::Through::unsigned(number, &super::windows::PARAMETER_READ_CANOPEN_0),
-            ),
-            rt::Split::reading(
-                rt::Through::unsigned(number, &super::windows::PARAMETER_READ_COE_0),
-            ),
-            modbus,
-            rt::Absent,
-            rt::Absent,
-            rt::Split::reading(
-                rt::Through::unsigned(number, &super::windows::PARAMETER_READ_IMAGE),
-            ),
-            rt::Absent,
-        )
-    }
-    const fn place_11(
-        modbus: rt::Register,
-        image: rt::ImageField,
-        number: u32,
-    ) -> OnCanOpenWindowInCoEWindowInModbusImage {
-        rt::Location::new(
-            rt::Split::reading(
-                rt::Through::unsigned(number, &super::windows::REGISTER_READ_CANOPEN),
-            ),
-            rt::Split::reading(
-                rt::Through::unsigned(number, &super::windows::REGISTER_READ_COE),
-            ),
-            modbus,
-            rt::Absent,
-            rt::Absent,
-            image,
-            rt::Absent,
-        )
+    const fn place_11(image: rt::ImageField) -> OnImageOut {
+        OnImageOut::new(rt::Split::writing(image))
     }
     /// A register or an entry that can be read.
     pub type ReadOnly<V, L = rt::OnCanOpenAndCoE> = rt::Item<V, rt::Ro, L>;
@@ -8970,7 +8944,7 @@ pub mod objects {
     ///
     /// Manual: Mappatura memoria condivisa; Accesso asincrono a registri e parametri (lines 6095, 6298-6304): Variable Read Address.
     pub const CYCLIC_READ_ADDRESS: ReadWrite<u16, OnImageOut> = ReadWriteU16OnImageOut::new(
-        place_6(rt::ImageField::output(192, 16)),
+        place_11(rt::ImageField::output(192, 16)),
         "cyclic read address",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -8988,7 +8962,7 @@ pub mod objects {
     ///
     /// Hazard: The manual describes neither an order of writing address and value, nor an acknowledgment. Chosen: both are written in one cycle (an old address with a new value would write another variable). Manual: Accesso asincrono a registri e parametri (lines 6306-6312).
     pub const CYCLIC_WRITE_ADDRESS: ReadWrite<u16, OnImageOut> = ReadWriteU16OnImageOut::new(
-        place_6(rt::ImageField::output(208, 16)),
+        place_11(rt::ImageField::output(208, 16)),
         "cyclic write address",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -9004,7 +8978,7 @@ pub mod objects {
     ///
     /// Manual: Mappatura memoria condivisa; Accesso asincrono a registri e parametri (lines 6098, 6311): Variable Write Value.
     pub const CYCLIC_WRITE_VALUE: ReadWrite<u32, OnImageOut> = ReadWriteU32OnImageOut::new(
-        place_6(rt::ImageField::output(224, 32)),
+        place_11(rt::ImageField::output(224, 32)),
         "cyclic write value",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -9027,7 +9001,7 @@ pub mod objects {
         super::types::DriveCommand,
         OnCanOpenWindowsCoEWindowsModbusImageWindowInOut,
     > = ReadWriteNamedDriveCommandOnCanOpenWindowsCoEWindowsModbusImageWindowInOut::new(
-        rt::Location::new(
+        OnCanOpenWindowsCoEWindowsModbusImageWindowInOut::new(
             rt::Split::new(
                 rt::Through::unsigned(0x8000, &super::windows::REGISTER_READ_CANOPEN),
                 rt::Through::unsigned(0x8000, &super::windows::REGISTER_WRITE_CANOPEN),
@@ -9037,13 +9011,10 @@ pub mod objects {
                 rt::Through::unsigned(0x8000, &super::windows::REGISTER_WRITE_COE),
             ),
             rt::Register::high_first(32768, 2).words_per_address(2),
-            rt::Absent,
-            rt::Absent,
             rt::Split::new(
                 rt::Through::unsigned(0x8000, &super::windows::REGISTER_READ_IMAGE),
                 rt::ImageField::output(0, 16),
             ),
-            rt::Absent,
         ),
         "control_word",
         rt::Range::Full,
@@ -9075,7 +9046,7 @@ pub mod objects {
         super::types::Mode,
         OnCanOpenWindowInLimitedOutCoEWindowInLimitedOutModbusImageWindowInOut,
     > = ReadWriteNamedModeOnCanOpenWindowInLimitedOutCoEWindowInLimitedOutModbusImageWindowInOut::new(
-        rt::Location::new(
+        OnCanOpenWindowInLimitedOutCoEWindowInLimitedOutModbusImageWindowInOut::new(
             rt::Split::new(
                 rt::Through::signed(0x8001, &super::windows::REGISTER_READ_CANOPEN),
                 rt::Limited::new(
@@ -9102,13 +9073,10 @@ pub mod objects {
                 ),
             ),
             rt::Register::high_first(32769, 2).sign_extended().words_per_address(2),
-            rt::Absent,
-            rt::Absent,
             rt::Split::new(
                 rt::Through::signed(0x8001, &super::windows::REGISTER_READ_IMAGE),
                 rt::ImageField::output(16, 8),
             ),
-            rt::Absent,
         ),
         "modes_of_operation",
         rt::Range::From(super::types::Mode::from_raw(-127)),
@@ -9158,7 +9126,7 @@ pub mod objects {
     ///
     /// Chapter Registers. Description from CiA 402, 14.3.5. Manual: Registri; Oggetti opzionali, following\_error\_timeout (lines 130, 3783).
     pub const FOLLOWING_ERROR_TIMEOUT: ReadWrite<u16, OnCanOpenCoEModbusImageWindows> = ReadWriteU16OnCanOpenCoEModbusImageWindows::new(
-        place_4(
+        place_5(
             rt::Object::new(0x6066, 0x00),
             rt::Object::new(0x6066, 0x00),
             rt::Register::high_first(32772, 2).words_per_address(2),
@@ -9188,7 +9156,7 @@ pub mod objects {
         super::types::DriveStatus,
         OnCanOpenWindowInCoEWindowInModbusImage,
     > = ReadOnlyNamedDriveStatusOnCanOpenWindowInCoEWindowInModbusImage::new(
-        place_11(
+        place_6(
             rt::Register::high_first(32773, 2).words_per_address(2),
             rt::ImageField::input(0, 16),
             0x8005,
@@ -9245,7 +9213,7 @@ pub mod objects {
         rt::PerItem<i32, 1>,
         OnCanOpenCoEModbusImageWindows,
     > = ReadWritePerItemI32Times1Per1OnCanOpenCoEModbusImageWindows::new(
-        place_2(
+        place_4(
             rt::Object::new(0x2001, 0x00),
             rt::Object::new(0x2001, 0x00),
             rt::Register::high_first(32775, 2).words_per_address(2),
@@ -9297,17 +9265,14 @@ pub mod objects {
         rt::PerItem<i32, 1>,
         OnCanOpenCoEModbusImageWindowInOut,
     > = ReadWritePerItemI32Times1Per1OnCanOpenCoEModbusImageWindowInOut::new(
-        rt::Location::new(
+        OnCanOpenCoEModbusImageWindowInOut::new(
             rt::Object::new(0x607A, 0x00),
             rt::Object::new(0x607A, 0x00),
             rt::Register::high_first(32777, 2).words_per_address(2),
-            rt::Absent,
-            rt::Absent,
             rt::Split::new(
                 rt::Through::signed(0x8009, &super::windows::REGISTER_READ_IMAGE),
                 rt::ImageField::output(24, 32),
             ),
-            rt::Absent,
         ),
         "target_position",
         rt::Range::Full,
@@ -9412,7 +9377,7 @@ pub mod objects {
         rt::PerItem<i32, 60>,
         OnCanOpenCoEModbusImageWindows,
     > = ReadWritePerItemI32Times60Per1OnCanOpenCoEModbusImageWindows::new(
-        place_2(
+        place_4(
             rt::Object::new(0x60FF, 0x00),
             rt::Object::new(0x60FF, 0x00),
             rt::Register::high_first(32781, 2).words_per_address(2),
@@ -9440,7 +9405,7 @@ pub mod objects {
         rt::OrNone<rt::Scaled<u16, 1>, 65535>,
         OnCanOpenCoEModbusImageWindows,
     > = ReadWriteU16Times1Per1OrNone65535OnCanOpenCoEModbusImageWindows::new(
-        place_4(
+        place_5(
             rt::Object::new(0x606D, 0x00),
             rt::Object::new(0x606D, 0x00),
             rt::Register::high_first(32782, 2).words_per_address(2),
@@ -9463,7 +9428,7 @@ pub mod objects {
     ///
     /// Chapter Registers. Description from CiA 402, 16.3.6. Manual: Registri; Oggetti opzionali, velocity\_window\_time (lines 243, 3788).
     pub const VELOCITY_WINDOW_TIME: ReadWrite<u16, OnCanOpenCoEModbusImageWindows> = ReadWriteU16OnCanOpenCoEModbusImageWindows::new(
-        place_4(
+        place_5(
             rt::Object::new(0x606E, 0x00),
             rt::Object::new(0x606E, 0x00),
             rt::Register::high_first(32783, 2).words_per_address(2),
@@ -9491,7 +9456,7 @@ pub mod objects {
         rt::OrNone<rt::Scaled<u16, 1>, 65535>,
         OnCanOpenCoEModbusImageWindows,
     > = ReadWriteU16Times1Per1OrNone65535OnCanOpenCoEModbusImageWindows::new(
-        place_4(
+        place_5(
             rt::Object::new(0x606F, 0x00),
             rt::Object::new(0x606F, 0x00),
             rt::Register::high_first(32784, 2).words_per_address(2),
@@ -9514,7 +9479,7 @@ pub mod objects {
     ///
     /// Chapter Registers. Description from CiA 402, 16.3.8. Manual: Registri; Oggetti opzionali, velocity\_threshold\_time (lines 245, 3790).
     pub const VELOCITY_THRESHOLD_TIME: ReadWrite<u16, OnCanOpenCoEModbusImageWindows> = ReadWriteU16OnCanOpenCoEModbusImageWindows::new(
-        place_4(
+        place_5(
             rt::Object::new(0x6070, 0x00),
             rt::Object::new(0x6070, 0x00),
             rt::Register::high_first(32785, 2).words_per_address(2),
@@ -9542,7 +9507,7 @@ pub mod objects {
         super::types::HomingMethod,
         OnCanOpenCoEModbusImageWindows,
     > = ReadWriteNamedHomingMethodOnCanOpenCoEModbusImageWindows::new(
-        place_4(
+        place_5(
             rt::Object::new(0x6098, 0x00),
             rt::Object::new(0x6098, 0x00),
             rt::Register::high_first(32786, 2).words_per_address(2),
@@ -9568,7 +9533,7 @@ pub mod objects {
         rt::PerItem<i32, 1>,
         OnCanOpenCoEModbusImageWindows,
     > = ReadWritePerItemI32Times1Per1OnCanOpenCoEModbusImageWindows::new(
-        place_2(
+        place_4(
             rt::Object::new(0x607C, 0x00),
             rt::Object::new(0x607C, 0x00),
             rt::Register::high_first(32787, 2).words_per_address(2),
@@ -9594,7 +9559,7 @@ pub mod objects {
         rt::PerItem<u32, 1000>,
         OnCanOpenCoEModbusImageWindows,
     > = ReadWritePerItemU32Times1000Per1OnCanOpenCoEModbusImageWindows::new(
-        place_4(
+        place_5(
             rt::Object::new(0x609A, 0x00),
             rt::Object::new(0x609A, 0x00),
             rt::Register::high_first(32790, 2).words_per_address(2),
@@ -9622,7 +9587,7 @@ pub mod objects {
         i16,
         OnCanOpenWindowInCoEWindowInModbusImageWindowIn,
     > = ReadOnlyI16OnCanOpenWindowInCoEWindowInModbusImageWindowIn::new(
-        place_9(
+        place_7(
             rt::Register::high_first(32791, 2).sign_extended().words_per_address(2),
             0x8017,
         ),
@@ -9646,7 +9611,7 @@ pub mod objects {
         u16,
         OnCanOpenCoEModbusImageWindows,
     > = ReadWriteU16OnCanOpenCoEModbusImageWindows::new(
-        place_4(
+        place_5(
             rt::Object::new(0x3000, 0x00),
             rt::Object::new(0x3000, 0x00),
             rt::Register::high_first(32792, 2).words_per_address(2),
@@ -9669,7 +9634,7 @@ pub mod objects {
     ///
     /// Chapter Registers. Manual: Registri; Oggetti “manufacturer specific”; Descrizione degli oggetti manufacturer specific, gear\_ratio\_numerator (lines 269, 3879, 4064-4066).
     pub const GEAR_RATIO_NUMERATOR: ReadWrite<u8, OnCanOpenCoEModbusImageWindows> = ReadWriteU8OnCanOpenCoEModbusImageWindows::new(
-        place_4(
+        place_5(
             rt::Object::new(0x3001, 0x00),
             rt::Object::new(0x3001, 0x00),
             rt::Register::high_first(32793, 2).words_per_address(2),
@@ -9692,7 +9657,7 @@ pub mod objects {
     ///
     /// Chapter Registers. Manual: Registri; Oggetti “manufacturer specific”; Descrizione degli oggetti manufacturer specific, gear\_ratio\_divisor (lines 270, 3880, 4068-4070).
     pub const GEAR_RATIO_DIVISOR: ReadWrite<u8, OnCanOpenCoEModbusImageWindows> = ReadWriteU8OnCanOpenCoEModbusImageWindows::new(
-        place_4(
+        place_5(
             rt::Object::new(0x3002, 0x00),
             rt::Object::new(0x3002, 0x00),
             rt::Register::high_first(32794, 2).words_per_address(2),
@@ -9718,7 +9683,7 @@ pub mod objects {
         super::types::MotionProfile,
         OnCanOpenCoEModbusImageWindows,
     > = ReadWriteNamedMotionProfileOnCanOpenCoEModbusImageWindows::new(
-        place_2(
+        place_4(
             rt::Object::new(0x6086, 0x00),
             rt::Object::new(0x6086, 0x00),
             rt::Register::high_first(32795, 2).sign_extended().words_per_address(2),
@@ -9741,7 +9706,7 @@ pub mod objects {
     ///
     /// Chapter Registers. Manual: Registri; Oggetti “manufacturer specific”; Descrizione degli oggetti manufacturer specific, acceleration\_jerk (lines 276, 3881, 4072-4074).
     pub const ACCELERATION_JERK: ReadWrite<u8, OnCanOpenCoEModbusImageWindows> = ReadWriteU8OnCanOpenCoEModbusImageWindows::new(
-        place_4(
+        place_5(
             rt::Object::new(0x3100, 0x00),
             rt::Object::new(0x3100, 0x00),
             rt::Register::high_first(32796, 2).words_per_address(2),
@@ -9764,7 +9729,7 @@ pub mod objects {
     ///
     /// Chapter Registers. Manual: Registri; Oggetti “manufacturer specific”; Descrizione degli oggetti manufacturer specific, deceleration\_jerk (lines 278, 3882, 4076-4078).
     pub const DECELERATION_JERK: ReadWrite<u8, OnCanOpenCoEModbusImageWindows> = ReadWriteU8OnCanOpenCoEModbusImageWindows::new(
-        place_4(
+        place_5(
             rt::Object::new(0x3101, 0x00),
             rt::Object::new(0x3101, 0x00),
             rt::Register::high_first(32797, 2).words_per_address(2),
@@ -9789,7 +9754,7 @@ pub mod objects {
     ///
     /// Note: The name is Aux in 1 in the table of registers, aux\_in\_1 in the text on the inputs. Chosen: aux\_in\_1 (the text on the inputs names it with the number of the register). Manual: Registri; Morsettiera CN2 ECO2/ECO4 (lines 279, 1713, 1740).
     pub const AUX_IN_1: ReadWrite<i32, OnCanOpenCoEModbusImageWindows> = ReadWriteI32OnCanOpenCoEModbusImageWindows::new(
-        place_2(
+        place_4(
             rt::Object::new(0x3201, 0x00),
             rt::Object::new(0x3201, 0x00),
             rt::Register::high_first(32798, 2).words_per_address(2),
@@ -9812,7 +9777,7 @@ pub mod objects {
     ///
     /// Chapter Registers. Manual: Registri; Oggetti “manufacturer specific”; Descrizione degli oggetti manufacturer specific, aux\_in\_2 (lines 284-287, 3884, 4083-4084): Aux in 2.
     pub const AUX_IN_2: ReadWrite<i32, OnCanOpenCoEModbusImageWindows> = ReadWriteI32OnCanOpenCoEModbusImageWindows::new(
-        place_2(
+        place_4(
             rt::Object::new(0x3202, 0x00),
             rt::Object::new(0x3202, 0x00),
             rt::Register::high_first(32799, 2).words_per_address(2),
@@ -9839,7 +9804,7 @@ pub mod objects {
     ///
     /// Note: The text on Auxiliary Output nr. 1 calls it an input. Chosen: an output (its name and its access rights are those of an output). Manual: Oggetti “manufacturer specific”; Descrizione degli oggetti manufacturer specific (lines 3885, 4086).
     pub const AUX_OUT_1: ReadOnly<i32, OnCanOpenCoEModbusImageWindowIn> = ReadOnlyI32OnCanOpenCoEModbusImageWindowIn::new(
-        place_5(
+        place_2(
             rt::Object::new(0x3301, 0x00),
             rt::Object::new(0x3301, 0x00),
             rt::Register::high_first(32800, 2).words_per_address(2),
@@ -9866,7 +9831,7 @@ pub mod objects {
     ///
     /// Note: The text on Auxiliary Output nr. 2 calls it an input. Chosen: an output (its name and its access rights are those of an output). Manual: Oggetti “manufacturer specific”; Descrizione degli oggetti manufacturer specific (lines 3886, 4089).
     pub const AUX_OUT_2: ReadOnly<i32, OnCanOpenCoEModbusImageWindowIn> = ReadOnlyI32OnCanOpenCoEModbusImageWindowIn::new(
-        place_5(
+        place_2(
             rt::Object::new(0x3302, 0x00),
             rt::Object::new(0x3302, 0x00),
             rt::Register::high_first(32801, 2).words_per_address(2),
@@ -9891,7 +9856,7 @@ pub mod objects {
     ///
     /// Note: The register has 32-bit limits, 0x80000000 to 0x7FFFFFFF; its object 0x3401 has two bytes and is called Aux16 In 3. Chosen: 16 bits, signed (the neighbors R35 and R36 have 16 bits; CANopen cannot carry more of it). Manual: Registri; Oggetti “manufacturer specific” (lines 299-302, 3887).
     pub const AUX_IN_3: ReadWrite<i16, OnCanOpenCoEModbusImageWindows> = ReadWriteI16OnCanOpenCoEModbusImageWindows::new(
-        place_2(
+        place_4(
             rt::Object::new(0x3401, 0x00),
             rt::Object::new(0x3401, 0x00),
             rt::Register::high_first(32802, 2).sign_extended().words_per_address(2),
@@ -9916,7 +9881,7 @@ pub mod objects {
     ///
     /// Hazard: The register is called Torque max, with Object CANopen (0x3402) in the same cell; the table of objects calls 0x3402 Aux16 In 4, an input for general use. Chosen: R35 and 0x3402 are one value (the row of R35 names the object). Manual: Registri; Oggetti “manufacturer specific” (lines 304, 3888).
     pub const TORQUE_MAX: ReadWrite<i16, OnCanOpenCoEModbusImageWindows> = ReadWriteI16OnCanOpenCoEModbusImageWindows::new(
-        place_2(
+        place_4(
             rt::Object::new(0x3402, 0x00),
             rt::Object::new(0x3402, 0x00),
             rt::Register::high_first(32803, 2).sign_extended().words_per_address(2),
@@ -9943,7 +9908,7 @@ pub mod objects {
     ///
     /// Note: Outputs are aux\_out\_1 and 2, then aux16\_out\_3 and 4: 32-bit and 16-bit outputs share one numbering, and so do the inputs. Chosen: the printed names (the objects have the same names). Manual: Registri (lines 289-314).
     pub const AUX16_OUT_3: ReadOnly<i16, OnCanOpenCoEModbusImageWindowIn> = ReadOnlyI16OnCanOpenCoEModbusImageWindowIn::new(
-        place_5(
+        place_2(
             rt::Object::new(0x3501, 0x00),
             rt::Object::new(0x3501, 0x00),
             rt::Register::high_first(32804, 2).sign_extended().words_per_address(2),
@@ -9968,7 +9933,7 @@ pub mod objects {
     ///
     /// Note: The row of the register marks it as saved; its object is read-only and not in the list of saved objects. Chosen: saved, as in the row of the register (the row states it). Manual: Registri; Salvataggio su flash; Oggetti “manufacturer specific” (lines 314, 3361-3407, 3890).
     pub const AUX16_OUT_4: ReadOnly<i16, OnCanOpenCoEModbusImageWindowIn> = ReadOnlyI16OnCanOpenCoEModbusImageWindowIn::new(
-        place_5(
+        place_2(
             rt::Object::new(0x3502, 0x00),
             rt::Object::new(0x3502, 0x00),
             rt::Register::high_first(32805, 2).sign_extended().words_per_address(2),
@@ -9991,7 +9956,7 @@ pub mod objects {
     ///
     /// Chapter Registers. Manual: Registri; Oggetti “manufacturer specific”; Descrizione degli oggetti manufacturer specific, aux\_in\_5 (lines 319-322, 3891, 4103-4104).
     pub const AUX_IN_5: ReadWrite<i32, OnCanOpenCoEModbusImageWindows> = ReadWriteI32OnCanOpenCoEModbusImageWindows::new(
-        place_2(
+        place_4(
             rt::Object::new(0x3601, 0x00),
             rt::Object::new(0x3601, 0x00),
             rt::Register::high_first(32806, 2).words_per_address(2),
@@ -10014,7 +9979,7 @@ pub mod objects {
     ///
     /// Chapter Registers. Manual: Registri; Oggetti “manufacturer specific”; Descrizione degli oggetti manufacturer specific, aux\_in\_6 (lines 324-327, 3892, 4106-4107).
     pub const AUX_IN_6: ReadWrite<i32, OnCanOpenCoEModbusImageWindows> = ReadWriteI32OnCanOpenCoEModbusImageWindows::new(
-        place_2(
+        place_4(
             rt::Object::new(0x3602, 0x00),
             rt::Object::new(0x3602, 0x00),
             rt::Register::high_first(32807, 2).words_per_address(2),
@@ -10037,7 +10002,7 @@ pub mod objects {
     ///
     /// Chapter Registers. Manual: Registri; Oggetti “manufacturer specific”; Descrizione degli oggetti manufacturer specific, aux\_in\_7 (lines 329-332, 3893, 4109-4110).
     pub const AUX_IN_7: ReadWrite<i32, OnCanOpenCoEModbusImageWindows> = ReadWriteI32OnCanOpenCoEModbusImageWindows::new(
-        place_2(
+        place_4(
             rt::Object::new(0x3603, 0x00),
             rt::Object::new(0x3603, 0x00),
             rt::Register::high_first(32808, 2).words_per_address(2),
@@ -10060,7 +10025,7 @@ pub mod objects {
     ///
     /// Chapter Registers. Manual: Registri; Oggetti “manufacturer specific”; Descrizione degli oggetti manufacturer specific, aux\_in\_8 (lines 334-337, 3894, 4112-4113).
     pub const AUX_IN_8: ReadWrite<i32, OnCanOpenCoEModbusImageWindows> = ReadWriteI32OnCanOpenCoEModbusImageWindows::new(
-        place_2(
+        place_4(
             rt::Object::new(0x3604, 0x00),
             rt::Object::new(0x3604, 0x00),
             rt::Register::high_first(32809, 2).words_per_address(2),
@@ -10085,7 +10050,7 @@ pub mod objects {
     ///
     /// Note: The register has 32-bit limits, 0x80000000 to 0x7FFFFFFF; its object 0x3701 has two bytes and is called Aux16 In 9. Chosen: 16 bits, signed (its name has 16, and its neighbors R43 to R45 have 16 bits). Manual: Registri; Oggetti “manufacturer specific” (lines 339-342, 3895).
     pub const AUX16_IN_9: ReadWrite<i16, OnCanOpenCoEModbusImageWindows> = ReadWriteI16OnCanOpenCoEModbusImageWindows::new(
-        place_2(
+        place_4(
             rt::Object::new(0x3701, 0x00),
             rt::Object::new(0x3701, 0x00),
             rt::Register::high_first(32810, 2).sign_extended().words_per_address(2),
@@ -10110,7 +10075,7 @@ pub mod objects {
     ///
     /// Note: The list of saved objects has 0x3701 for input 10, as for input 9. Chosen: 0x3702 (the table of objects has it). Manual: Salvataggio su flash; Oggetti “manufacturer specific” (lines 3397, 3896).
     pub const AUX16_IN_10: ReadWrite<i16, OnCanOpenCoEModbusImageWindows> = ReadWriteI16OnCanOpenCoEModbusImageWindows::new(
-        place_2(
+        place_4(
             rt::Object::new(0x3702, 0x00),
             rt::Object::new(0x3702, 0x00),
             rt::Register::high_first(32811, 2).sign_extended().words_per_address(2),
@@ -10135,7 +10100,7 @@ pub mod objects {
     ///
     /// Note: The list of saved objects has 0x3701 for input 11, as for input 9. Chosen: 0x3703 (the table of objects has it). Manual: Salvataggio su flash; Oggetti “manufacturer specific” (lines 3403, 3897).
     pub const AUX16_IN_11: ReadWrite<i16, OnCanOpenCoEModbusImageWindows> = ReadWriteI16OnCanOpenCoEModbusImageWindows::new(
-        place_2(
+        place_4(
             rt::Object::new(0x3703, 0x00),
             rt::Object::new(0x3703, 0x00),
             rt::Register::high_first(32812, 2).sign_extended().words_per_address(2),
@@ -10158,7 +10123,7 @@ pub mod objects {
     ///
     /// Chapter Registers. Manual: Registri; Oggetti “manufacturer specific”; Descrizione degli oggetti manufacturer specific, aux16\_in\_12 (lines 355-358, 3898, 4124-4125).
     pub const AUX16_IN_12: ReadWrite<i16, OnCanOpenCoEModbusImageWindows> = ReadWriteI16OnCanOpenCoEModbusImageWindows::new(
-        place_2(
+        place_4(
             rt::Object::new(0x3704, 0x00),
             rt::Object::new(0x3704, 0x00),
             rt::Register::high_first(32813, 2).sign_extended().words_per_address(2),
@@ -10181,7 +10146,7 @@ pub mod objects {
     ///
     /// Chapter Registers. Manual: Registri, alarm\_code (line 360).
     pub const ALARM_CODE: ReadOnly<u8, OnCanOpenWindowInCoEWindowInModbusImage> = ReadOnlyU8OnCanOpenWindowInCoEWindowInModbusImage::new(
-        place_11(
+        place_6(
             rt::Register::high_first(32814, 2).words_per_address(2),
             rt::ImageField::input(56, 8),
             0x802E,
@@ -10208,16 +10173,13 @@ pub mod objects {
         super::types::DigitalInputs,
         OnCanOpenCoEModbusImageWindowIn,
     > = ReadOnlyNamedDigitalInputsOnCanOpenCoEModbusImageWindowIn::new(
-        rt::Location::new(
+        OnCanOpenCoEModbusImageWindowIn::new(
             rt::Object::new(0x60FD, 0x00),
             rt::Object::new(0x60FD, 0x00),
             rt::Register::high_first(32816, 2).words_per_address(2),
-            rt::Absent,
-            rt::Absent,
             rt::Split::reading(
                 rt::Through::unsigned(0x8030, &super::windows::REGISTER_READ_IMAGE),
             ),
-            rt::Absent,
         ),
         "digital_inputs",
         rt::Range::Full,
@@ -10236,7 +10198,7 @@ pub mod objects {
     ///
     /// Chapter Registers. Description spelled out from the printed name. Manual: Registri, aux\_in\_13 (lines 377-380).
     pub const AUX_IN_13: ReadWrite<i32, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        place_7(rt::Register::high_first(32819, 2).words_per_address(2), 0x8033),
+        place_9(rt::Register::high_first(32819, 2).words_per_address(2), 0x8033),
         "aux_in_13",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -10254,7 +10216,7 @@ pub mod objects {
     ///
     /// Chapter Registers. Description spelled out from the printed name. Manual: Registri, aux\_in\_14 (lines 382-385).
     pub const AUX_IN_14: ReadWrite<i32, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        place_7(rt::Register::high_first(32820, 2).words_per_address(2), 0x8034),
+        place_9(rt::Register::high_first(32820, 2).words_per_address(2), 0x8034),
         "aux_in_14",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -10272,7 +10234,7 @@ pub mod objects {
     ///
     /// Chapter Registers. Description spelled out from the printed name. Manual: Registri, aux\_in\_15 (lines 387-390).
     pub const AUX_IN_15: ReadWrite<i32, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        place_7(rt::Register::high_first(32821, 2).words_per_address(2), 0x8035),
+        place_9(rt::Register::high_first(32821, 2).words_per_address(2), 0x8035),
         "aux_in_15",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -10290,7 +10252,7 @@ pub mod objects {
     ///
     /// Chapter Registers. Description spelled out from the printed name. Manual: Registri, aux\_in\_16 (lines 392-395).
     pub const AUX_IN_16: ReadWrite<i32, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        place_7(rt::Register::high_first(32822, 2).words_per_address(2), 0x8036),
+        place_9(rt::Register::high_first(32822, 2).words_per_address(2), 0x8036),
         "aux_in_16",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -10308,7 +10270,7 @@ pub mod objects {
     ///
     /// Chapter Registers. Description spelled out from the printed name. Manual: Registri, aux\_in\_17 (lines 397-400).
     pub const AUX_IN_17: ReadWrite<i32, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        place_7(rt::Register::high_first(32823, 2).words_per_address(2), 0x8037),
+        place_9(rt::Register::high_first(32823, 2).words_per_address(2), 0x8037),
         "aux_in_17",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -10326,7 +10288,7 @@ pub mod objects {
     ///
     /// Chapter Registers. Description spelled out from the printed name. Manual: Registri, aux\_in\_18 (lines 402-405).
     pub const AUX_IN_18: ReadWrite<i32, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        place_7(rt::Register::high_first(32824, 2).words_per_address(2), 0x8038),
+        place_9(rt::Register::high_first(32824, 2).words_per_address(2), 0x8038),
         "aux_in_18",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -10344,7 +10306,7 @@ pub mod objects {
     ///
     /// Chapter Registers. Description spelled out from the printed name. Manual: Registri, aux\_in\_19 (lines 407-410).
     pub const AUX_IN_19: ReadWrite<i32, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        place_7(rt::Register::high_first(32825, 2).words_per_address(2), 0x8039),
+        place_9(rt::Register::high_first(32825, 2).words_per_address(2), 0x8039),
         "aux_in_19",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -10362,7 +10324,7 @@ pub mod objects {
     ///
     /// Chapter Registers. Description spelled out from the printed name. Manual: Registri, aux\_in\_20 (lines 412-415).
     pub const AUX_IN_20: ReadWrite<i32, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        place_7(rt::Register::high_first(32826, 2).words_per_address(2), 0x803A),
+        place_9(rt::Register::high_first(32826, 2).words_per_address(2), 0x803A),
         "aux_in_20",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -10380,7 +10342,7 @@ pub mod objects {
     ///
     /// Chapter Registers. Description spelled out from the printed name. Manual: Registri, aux\_in\_21 (lines 417-420).
     pub const AUX_IN_21: ReadWrite<i32, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        place_7(rt::Register::high_first(32827, 2).words_per_address(2), 0x803B),
+        place_9(rt::Register::high_first(32827, 2).words_per_address(2), 0x803B),
         "aux_in_21",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -10398,7 +10360,7 @@ pub mod objects {
     ///
     /// Chapter Registers. Description spelled out from the printed name. Manual: Registri, aux\_in\_22 (lines 422-425).
     pub const AUX_IN_22: ReadWrite<i32, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        place_7(rt::Register::high_first(32828, 2).words_per_address(2), 0x803C),
+        place_9(rt::Register::high_first(32828, 2).words_per_address(2), 0x803C),
         "aux_in_22",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -10421,7 +10383,7 @@ pub mod objects {
         rt::PerItem<i32, 1>,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWritePerItemI32Times1Per1OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        place_7(rt::Register::high_first(32829, 2).words_per_address(2), 0x803D),
+        place_9(rt::Register::high_first(32829, 2).words_per_address(2), 0x803D),
         "target_window",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -10442,7 +10404,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        place_7(rt::Register::high_first(32830, 2).words_per_address(2), 0x803E),
+        place_9(rt::Register::high_first(32830, 2).words_per_address(2), 0x803E),
         "abs_enc_control",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -10465,7 +10427,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowInCoEWindowInModbusImageWindowIn,
     > = ReadOnlyI32OnCanOpenWindowInCoEWindowInModbusImageWindowIn::new(
-        place_9(rt::Register::high_first(32831, 2).words_per_address(2), 0x803F),
+        place_7(rt::Register::high_first(32831, 2).words_per_address(2), 0x803F),
         "abs_enc_status",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -10486,7 +10448,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        place_7(rt::Register::high_first(32832, 2).words_per_address(2), 0x8040),
+        place_9(rt::Register::high_first(32832, 2).words_per_address(2), 0x8040),
         "num_ext_enc",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -10507,7 +10469,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        place_7(rt::Register::high_first(32833, 2).words_per_address(2), 0x8041),
+        place_9(rt::Register::high_first(32833, 2).words_per_address(2), 0x8041),
         "den_ext_enc",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -10528,7 +10490,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        place_7(rt::Register::high_first(32834, 2).words_per_address(2), 0x8042),
+        place_9(rt::Register::high_first(32834, 2).words_per_address(2), 0x8042),
         "mechatronic_66",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -10549,7 +10511,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        place_7(rt::Register::high_first(32835, 2).words_per_address(2), 0x8043),
+        place_9(rt::Register::high_first(32835, 2).words_per_address(2), 0x8043),
         "mechatronic_67",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -10570,7 +10532,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        place_7(rt::Register::high_first(32836, 2).words_per_address(2), 0x8044),
+        place_9(rt::Register::high_first(32836, 2).words_per_address(2), 0x8044),
         "mechatronic_68",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -10591,7 +10553,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        place_7(rt::Register::high_first(32837, 2).words_per_address(2), 0x8045),
+        place_9(rt::Register::high_first(32837, 2).words_per_address(2), 0x8045),
         "mechatronic_69",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -10612,7 +10574,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        place_7(rt::Register::high_first(32838, 2).words_per_address(2), 0x8046),
+        place_9(rt::Register::high_first(32838, 2).words_per_address(2), 0x8046),
         "mechatronic_70",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -10633,7 +10595,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        place_7(rt::Register::high_first(32839, 2).words_per_address(2), 0x8047),
+        place_9(rt::Register::high_first(32839, 2).words_per_address(2), 0x8047),
         "mechatronic_71",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -10654,7 +10616,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        place_7(rt::Register::high_first(32840, 2).words_per_address(2), 0x8048),
+        place_9(rt::Register::high_first(32840, 2).words_per_address(2), 0x8048),
         "mechatronic_72",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -10677,7 +10639,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowInCoEWindowInModbusImageWindowIn,
     > = ReadOnlyI32OnCanOpenWindowInCoEWindowInModbusImageWindowIn::new(
-        place_9(rt::Register::high_first(32841, 2).words_per_address(2), 0x8049),
+        place_7(rt::Register::high_first(32841, 2).words_per_address(2), 0x8049),
         "velocity_rpm",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -10698,7 +10660,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        place_7(rt::Register::high_first(32842, 2).words_per_address(2), 0x804A),
+        place_9(rt::Register::high_first(32842, 2).words_per_address(2), 0x804A),
         "mechatronic_74",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -10719,7 +10681,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        place_7(rt::Register::high_first(32843, 2).words_per_address(2), 0x804B),
+        place_9(rt::Register::high_first(32843, 2).words_per_address(2), 0x804B),
         "mechatronic_75",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -10740,7 +10702,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        place_7(rt::Register::high_first(32844, 2).words_per_address(2), 0x804C),
+        place_9(rt::Register::high_first(32844, 2).words_per_address(2), 0x804C),
         "mechatronic_76",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -10761,7 +10723,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        place_7(rt::Register::high_first(32845, 2).words_per_address(2), 0x804D),
+        place_9(rt::Register::high_first(32845, 2).words_per_address(2), 0x804D),
         "mechatronic_77",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -10782,7 +10744,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        place_7(rt::Register::high_first(32846, 2).words_per_address(2), 0x804E),
+        place_9(rt::Register::high_first(32846, 2).words_per_address(2), 0x804E),
         "mechatronic_78",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -10803,7 +10765,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        place_7(rt::Register::high_first(32847, 2).words_per_address(2), 0x804F),
+        place_9(rt::Register::high_first(32847, 2).words_per_address(2), 0x804F),
         "mechatronic_79",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -10824,7 +10786,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        place_7(rt::Register::high_first(32848, 2).words_per_address(2), 0x8050),
+        place_9(rt::Register::high_first(32848, 2).words_per_address(2), 0x8050),
         "mechatronic_80",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -10845,7 +10807,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        place_7(rt::Register::high_first(32849, 2).words_per_address(2), 0x8051),
+        place_9(rt::Register::high_first(32849, 2).words_per_address(2), 0x8051),
         "mechatronic_81",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -10866,7 +10828,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        place_7(rt::Register::high_first(32850, 2).words_per_address(2), 0x8052),
+        place_9(rt::Register::high_first(32850, 2).words_per_address(2), 0x8052),
         "mechatronic_82",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -10887,7 +10849,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        place_7(rt::Register::high_first(32851, 2).words_per_address(2), 0x8053),
+        place_9(rt::Register::high_first(32851, 2).words_per_address(2), 0x8053),
         "mechatronic_83",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -10908,7 +10870,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        place_7(rt::Register::high_first(32852, 2).words_per_address(2), 0x8054),
+        place_9(rt::Register::high_first(32852, 2).words_per_address(2), 0x8054),
         "mechatronic_84",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -10929,7 +10891,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        place_7(rt::Register::high_first(32853, 2).words_per_address(2), 0x8055),
+        place_9(rt::Register::high_first(32853, 2).words_per_address(2), 0x8055),
         "mechatronic_85",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -10950,7 +10912,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        place_7(rt::Register::high_first(32854, 2).words_per_address(2), 0x8056),
+        place_9(rt::Register::high_first(32854, 2).words_per_address(2), 0x8056),
         "mechatronic_86",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -10971,7 +10933,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        place_7(rt::Register::high_first(32855, 2).words_per_address(2), 0x8057),
+        place_9(rt::Register::high_first(32855, 2).words_per_address(2), 0x8057),
         "mechatronic_87",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -10992,7 +10954,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        place_7(rt::Register::high_first(32856, 2).words_per_address(2), 0x8058),
+        place_9(rt::Register::high_first(32856, 2).words_per_address(2), 0x8058),
         "mechatronic_88",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -11013,7 +10975,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        place_7(rt::Register::high_first(32857, 2).words_per_address(2), 0x8059),
+        place_9(rt::Register::high_first(32857, 2).words_per_address(2), 0x8059),
         "mechatronic_89",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -11034,7 +10996,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        place_7(rt::Register::high_first(32858, 2).words_per_address(2), 0x805A),
+        place_9(rt::Register::high_first(32858, 2).words_per_address(2), 0x805A),
         "mechatronic_90",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -11055,7 +11017,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        place_7(rt::Register::high_first(32859, 2).words_per_address(2), 0x805B),
+        place_9(rt::Register::high_first(32859, 2).words_per_address(2), 0x805B),
         "mechatronic_91",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -11076,7 +11038,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        place_7(rt::Register::high_first(32860, 2).words_per_address(2), 0x805C),
+        place_9(rt::Register::high_first(32860, 2).words_per_address(2), 0x805C),
         "mechatronic_92",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -11097,7 +11059,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        place_7(rt::Register::high_first(32861, 2).words_per_address(2), 0x805D),
+        place_9(rt::Register::high_first(32861, 2).words_per_address(2), 0x805D),
         "mechatronic_93",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -11118,7 +11080,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        place_7(rt::Register::high_first(32862, 2).words_per_address(2), 0x805E),
+        place_9(rt::Register::high_first(32862, 2).words_per_address(2), 0x805E),
         "mechatronic_94",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -11139,7 +11101,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        place_7(rt::Register::high_first(32863, 2).words_per_address(2), 0x805F),
+        place_9(rt::Register::high_first(32863, 2).words_per_address(2), 0x805F),
         "mechatronic_95",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -11160,7 +11122,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        place_7(rt::Register::high_first(32864, 2).words_per_address(2), 0x8060),
+        place_9(rt::Register::high_first(32864, 2).words_per_address(2), 0x8060),
         "mechatronic_96",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -11181,7 +11143,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        place_7(rt::Register::high_first(32865, 2).words_per_address(2), 0x8061),
+        place_9(rt::Register::high_first(32865, 2).words_per_address(2), 0x8061),
         "mechatronic_97",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -11202,7 +11164,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        place_7(rt::Register::high_first(32866, 2).words_per_address(2), 0x8062),
+        place_9(rt::Register::high_first(32866, 2).words_per_address(2), 0x8062),
         "mechatronic_98",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -11223,7 +11185,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        place_7(rt::Register::high_first(32867, 2).words_per_address(2), 0x8063),
+        place_9(rt::Register::high_first(32867, 2).words_per_address(2), 0x8063),
         "mechatronic_99",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -11244,7 +11206,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        place_7(rt::Register::high_first(32868, 2).words_per_address(2), 0x8064),
+        place_9(rt::Register::high_first(32868, 2).words_per_address(2), 0x8064),
         "mechatronic_100",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -11265,7 +11227,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        place_7(rt::Register::high_first(32869, 2).words_per_address(2), 0x8065),
+        place_9(rt::Register::high_first(32869, 2).words_per_address(2), 0x8065),
         "mechatronic_101",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -11286,7 +11248,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        place_7(rt::Register::high_first(32870, 2).words_per_address(2), 0x8066),
+        place_9(rt::Register::high_first(32870, 2).words_per_address(2), 0x8066),
         "mechatronic_102",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -11307,7 +11269,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        place_7(rt::Register::high_first(32871, 2).words_per_address(2), 0x8067),
+        place_9(rt::Register::high_first(32871, 2).words_per_address(2), 0x8067),
         "mechatronic_103",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -11328,7 +11290,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        place_7(rt::Register::high_first(32872, 2).words_per_address(2), 0x8068),
+        place_9(rt::Register::high_first(32872, 2).words_per_address(2), 0x8068),
         "mechatronic_104",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -11349,7 +11311,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        place_7(rt::Register::high_first(32873, 2).words_per_address(2), 0x8069),
+        place_9(rt::Register::high_first(32873, 2).words_per_address(2), 0x8069),
         "mechatronic_105",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -11370,7 +11332,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        place_7(rt::Register::high_first(32874, 2).words_per_address(2), 0x806A),
+        place_9(rt::Register::high_first(32874, 2).words_per_address(2), 0x806A),
         "mechatronic_106",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -11391,7 +11353,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        place_7(rt::Register::high_first(32875, 2).words_per_address(2), 0x806B),
+        place_9(rt::Register::high_first(32875, 2).words_per_address(2), 0x806B),
         "mechatronic_107",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -11412,7 +11374,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        place_7(rt::Register::high_first(32876, 2).words_per_address(2), 0x806C),
+        place_9(rt::Register::high_first(32876, 2).words_per_address(2), 0x806C),
         "mechatronic_108",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -11433,7 +11395,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        place_7(rt::Register::high_first(32877, 2).words_per_address(2), 0x806D),
+        place_9(rt::Register::high_first(32877, 2).words_per_address(2), 0x806D),
         "mechatronic_109",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -11454,7 +11416,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        place_7(rt::Register::high_first(32878, 2).words_per_address(2), 0x806E),
+        place_9(rt::Register::high_first(32878, 2).words_per_address(2), 0x806E),
         "mechatronic_110",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -11475,7 +11437,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        place_7(rt::Register::high_first(32879, 2).words_per_address(2), 0x806F),
+        place_9(rt::Register::high_first(32879, 2).words_per_address(2), 0x806F),
         "mechatronic_111",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -11496,7 +11458,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        place_7(rt::Register::high_first(32880, 2).words_per_address(2), 0x8070),
+        place_9(rt::Register::high_first(32880, 2).words_per_address(2), 0x8070),
         "mechatronic_112",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -11517,7 +11479,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        place_7(rt::Register::high_first(32881, 2).words_per_address(2), 0x8071),
+        place_9(rt::Register::high_first(32881, 2).words_per_address(2), 0x8071),
         "mechatronic_113",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -11538,7 +11500,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        place_7(rt::Register::high_first(32882, 2).words_per_address(2), 0x8072),
+        place_9(rt::Register::high_first(32882, 2).words_per_address(2), 0x8072),
         "mechatronic_114",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -11559,7 +11521,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        place_7(rt::Register::high_first(32883, 2).words_per_address(2), 0x8073),
+        place_9(rt::Register::high_first(32883, 2).words_per_address(2), 0x8073),
         "mechatronic_115",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -11580,7 +11542,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        place_7(rt::Register::high_first(32884, 2).words_per_address(2), 0x8074),
+        place_9(rt::Register::high_first(32884, 2).words_per_address(2), 0x8074),
         "mechatronic_116",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -11601,7 +11563,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        place_7(rt::Register::high_first(32885, 2).words_per_address(2), 0x8075),
+        place_9(rt::Register::high_first(32885, 2).words_per_address(2), 0x8075),
         "mechatronic_117",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -11622,7 +11584,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        place_7(rt::Register::high_first(32886, 2).words_per_address(2), 0x8076),
+        place_9(rt::Register::high_first(32886, 2).words_per_address(2), 0x8076),
         "mechatronic_118",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -11643,7 +11605,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        place_7(rt::Register::high_first(32887, 2).words_per_address(2), 0x8077),
+        place_9(rt::Register::high_first(32887, 2).words_per_address(2), 0x8077),
         "mechatronic_119",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -11664,7 +11626,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        place_7(rt::Register::high_first(32888, 2).words_per_address(2), 0x8078),
+        place_9(rt::Register::high_first(32888, 2).words_per_address(2), 0x8078),
         "mechatronic_120",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -11685,7 +11647,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        place_7(rt::Register::high_first(32889, 2).words_per_address(2), 0x8079),
+        place_9(rt::Register::high_first(32889, 2).words_per_address(2), 0x8079),
         "mechatronic_121",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -11706,7 +11668,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        place_7(rt::Register::high_first(32890, 2).words_per_address(2), 0x807A),
+        place_9(rt::Register::high_first(32890, 2).words_per_address(2), 0x807A),
         "mechatronic_122",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -11727,7 +11689,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        place_7(rt::Register::high_first(32891, 2).words_per_address(2), 0x807B),
+        place_9(rt::Register::high_first(32891, 2).words_per_address(2), 0x807B),
         "mechatronic_123",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -11748,7 +11710,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        place_7(rt::Register::high_first(32892, 2).words_per_address(2), 0x807C),
+        place_9(rt::Register::high_first(32892, 2).words_per_address(2), 0x807C),
         "mechatronic_124",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -11769,7 +11731,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        place_7(rt::Register::high_first(32893, 2).words_per_address(2), 0x807D),
+        place_9(rt::Register::high_first(32893, 2).words_per_address(2), 0x807D),
         "mechatronic_125",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -11790,7 +11752,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        place_7(rt::Register::high_first(32894, 2).words_per_address(2), 0x807E),
+        place_9(rt::Register::high_first(32894, 2).words_per_address(2), 0x807E),
         "mechatronic_126",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -11811,7 +11773,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        place_7(rt::Register::high_first(32895, 2).words_per_address(2), 0x807F),
+        place_9(rt::Register::high_first(32895, 2).words_per_address(2), 0x807F),
         "mechatronic_127",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -11832,7 +11794,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        place_7(rt::Register::high_first(32896, 2).words_per_address(2), 0x8080),
+        place_9(rt::Register::high_first(32896, 2).words_per_address(2), 0x8080),
         "mechatronic_128",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -11853,7 +11815,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        place_7(rt::Register::high_first(32897, 2).words_per_address(2), 0x8081),
+        place_9(rt::Register::high_first(32897, 2).words_per_address(2), 0x8081),
         "mechatronic_129",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -11874,7 +11836,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        place_7(rt::Register::high_first(32898, 2).words_per_address(2), 0x8082),
+        place_9(rt::Register::high_first(32898, 2).words_per_address(2), 0x8082),
         "mechatronic_130",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -11895,7 +11857,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        place_7(rt::Register::high_first(32899, 2).words_per_address(2), 0x8083),
+        place_9(rt::Register::high_first(32899, 2).words_per_address(2), 0x8083),
         "mechatronic_131",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -11916,7 +11878,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        place_7(rt::Register::high_first(32900, 2).words_per_address(2), 0x8084),
+        place_9(rt::Register::high_first(32900, 2).words_per_address(2), 0x8084),
         "mechatronic_132",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -11937,7 +11899,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        place_7(rt::Register::high_first(32901, 2).words_per_address(2), 0x8085),
+        place_9(rt::Register::high_first(32901, 2).words_per_address(2), 0x8085),
         "mechatronic_133",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -11957,7 +11919,7 @@ pub mod objects {
     ///
     /// Note: The name has divelocità, in one word. Chosen: di velocità (a space is lost). Manual: Parametri (line 480).
     pub const D1: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        place_8(rt::Register::holding(1), 0x0001),
+        place_10(rt::Register::holding(1), 0x0001),
         "d1",
         rt::Range::Between(1, 99),
         rt::Initial::Unknown,
@@ -11975,7 +11937,7 @@ pub mod objects {
     ///
     /// Chapter Parameters. Manual: Parametri; Esempio completo di asse gestito con interpolatore, d2 (lines 481, 4511): Guadagno integrale dell'anello di velocità, KI.
     pub const D2: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        place_8(rt::Register::holding(2), 0x0002),
+        place_10(rt::Register::holding(2), 0x0002),
         "d2",
         rt::Range::Between(1, 99),
         rt::Initial::Unknown,
@@ -11993,7 +11955,7 @@ pub mod objects {
     ///
     /// Chapter Parameters. Manual: Parametri, d3 (line 482): Velocità massima del motore, Vmax.
     pub const D3: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        place_8(rt::Register::holding(3), 0x0003),
+        place_10(rt::Register::holding(3), 0x0003),
         "d3",
         rt::Range::Between(1, 99),
         rt::Initial::Unknown,
@@ -12011,7 +11973,7 @@ pub mod objects {
     ///
     /// Chapter Parameters. Manual: Parametri, d4 (line 483): Regolazione offset di velocità.
     pub const D4: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        place_8(rt::Register::holding(4), 0x0004),
+        place_10(rt::Register::holding(4), 0x0004),
         "d4",
         rt::Range::Between(1, 99),
         rt::Initial::Unknown,
@@ -12029,7 +11991,7 @@ pub mod objects {
     ///
     /// Chapter Parameters. Manual: Parametri, d5 (line 484): Corrente massima del motore.
     pub const D5: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        place_8(rt::Register::holding(5), 0x0005),
+        place_10(rt::Register::holding(5), 0x0005),
         "d5",
         rt::Range::Between(1, 99),
         rt::Initial::Unknown,
@@ -12047,7 +12009,7 @@ pub mod objects {
     ///
     /// Chapter Parameters. Manual: Parametri, d6 (line 485): Rapporto corrente di picco/corrente nominale.
     pub const D6: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        place_8(rt::Register::holding(6), 0x0006),
+        place_10(rt::Register::holding(6), 0x0006),
         "d6",
         rt::Range::Between(1, 99),
         rt::Initial::Unknown,
@@ -12065,7 +12027,7 @@ pub mod objects {
     ///
     /// Chapter Parameters. Manual: Parametri, d7 (line 486): Funzione I²T.
     pub const D7: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        place_8(rt::Register::holding(7), 0x0007),
+        place_10(rt::Register::holding(7), 0x0007),
         "d7",
         rt::Range::Between(1, 99),
         rt::Initial::Unknown,
@@ -12083,7 +12045,7 @@ pub mod objects {
     ///
     /// Chapter Parameters. Manual: Parametri; Esempio di configurazione dell’asse; Configurazione del drive per il funzionamento in CANopen; 1 more section, d8 (lines 487, 1436, 4198, 5744-5746): Selezione motore.
     pub const D8: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        place_8(rt::Register::holding(8), 0x0008),
+        place_10(rt::Register::holding(8), 0x0008),
         "d8",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -12101,7 +12063,7 @@ pub mod objects {
     ///
     /// Chapter Parameters. Manual: Parametri, E1 (line 491): Velocità nominale massima.
     pub const E1: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        place_8(rt::Register::holding(9), 0x0009),
+        place_10(rt::Register::holding(9), 0x0009),
         "E1",
         rt::Range::Between(1, 99),
         rt::Initial::Unknown,
@@ -12119,7 +12081,7 @@ pub mod objects {
     ///
     /// Chapter Parameters. Manual: Parametri, E2 (line 492): Filtro sul riferimento di entrata.
     pub const E2: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        place_8(rt::Register::holding(10), 0x000A),
+        place_10(rt::Register::holding(10), 0x000A),
         "E2",
         rt::Range::Between(1, 99),
         rt::Initial::Unknown,
@@ -12142,7 +12104,7 @@ pub mod objects {
         super::types::Exceptions,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteNamedExceptionsOnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        place_8(rt::Register::holding(58), 0x003A),
+        place_10(rt::Register::holding(58), 0x003A),
         "E3",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -12162,7 +12124,7 @@ pub mod objects {
     ///
     /// Note: The parameter is reserved, but has an address. Chosen: a hidden row (it can be reached). Manual: Parametri (line 494).
     pub const E4: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        place_8(rt::Register::holding(55), 0x0037),
+        place_10(rt::Register::holding(55), 0x0037),
         "E4",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -12180,7 +12142,7 @@ pub mod objects {
     ///
     /// Chapter Parameters. Manual: Parametri, F1 (line 498): Rampa di massima accelerazione.
     pub const F1: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        place_8(rt::Register::holding(11), 0x000B),
+        place_10(rt::Register::holding(11), 0x000B),
         "F1",
         rt::Range::Between(1, 99),
         rt::Initial::Unknown,
@@ -12198,7 +12160,7 @@ pub mod objects {
     ///
     /// Chapter Parameters. Manual: Parametri, F2 (line 499): Rampa di massima decelerazione.
     pub const F2: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        place_8(rt::Register::holding(12), 0x000C),
+        place_10(rt::Register::holding(12), 0x000C),
         "F2",
         rt::Range::Between(1, 99),
         rt::Initial::Unknown,
@@ -12216,7 +12178,7 @@ pub mod objects {
     ///
     /// Chapter Parameters. Manual: Parametri, F3 (line 500): Rampa di emergenza.
     pub const F3: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        place_8(rt::Register::holding(13), 0x000D),
+        place_10(rt::Register::holding(13), 0x000D),
         "F3",
         rt::Range::Between(1, 99),
         rt::Initial::Unknown,
@@ -12234,7 +12196,7 @@ pub mod objects {
     ///
     /// Chapter Parameters. Manual: Parametri, c1 (line 505): Selezione impulsi uscita RTE.
     pub const C1: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        place_8(rt::Register::holding(14), 0x000E),
+        place_10(rt::Register::holding(14), 0x000E),
         "c1",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -12252,7 +12214,7 @@ pub mod objects {
     ///
     /// Chapter Parameters. Manual: Parametri, c2 (line 506): Verso rotazione motore.
     pub const C2: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        place_8(rt::Register::holding(15), 0x000F),
+        place_10(rt::Register::holding(15), 0x000F),
         "c2",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -12270,7 +12232,7 @@ pub mod objects {
     ///
     /// Chapter Parameters. Manual: Parametri, c3 (line 507): Selezione tipo di controllo (velocità/coppia).
     pub const C3: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        place_8(rt::Register::holding(16), 0x0010),
+        place_10(rt::Register::holding(16), 0x0010),
         "c3",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -12288,7 +12250,7 @@ pub mod objects {
     ///
     /// Chapter Parameters. Manual: Parametri, c4 (line 508): Selezione coppie polari Resolver.
     pub const C4: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        place_8(rt::Register::holding(17), 0x0011),
+        place_10(rt::Register::holding(17), 0x0011),
         "c4",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -12306,7 +12268,7 @@ pub mod objects {
     ///
     /// Chapter Parameters. Manual: Parametri, c5 (line 509): Selezione impulsi giro Encoder.
     pub const C5: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        place_8(rt::Register::holding(18), 0x0012),
+        place_10(rt::Register::holding(18), 0x0012),
         "c5",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -12324,7 +12286,7 @@ pub mod objects {
     ///
     /// Chapter Parameters. Manual: Parametri, c6 (line 510): Selezione tipo di trasduttore.
     pub const C6: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        place_8(rt::Register::holding(19), 0x0013),
+        place_10(rt::Register::holding(19), 0x0013),
         "c6",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -12344,7 +12306,7 @@ pub mod objects {
     ///
     /// Chapter Parameters. Manual: Parametri; Configurazione della rete; Parametrizzazione EtherCAT per drive; 1 more section, c7 (lines 511, 623-626, 3415-3418, 5523-5525, 6328-6329): Numero nodo della rete.
     pub const C7: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusLimitedImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusLimitedImageWindows::new(
-        rt::Location::new(
+        OnCanOpenWindowsCoEWindowsModbusLimitedImageWindows::new(
             rt::Split::new(
                 rt::Through::unsigned(0x0014, &super::windows::PARAMETER_READ_CANOPEN_0),
                 rt::Through::unsigned(0x0014, &super::windows::PARAMETER_WRITE_CANOPEN_0),
@@ -12354,13 +12316,10 @@ pub mod objects {
                 rt::Through::unsigned(0x0014, &super::windows::PARAMETER_WRITE_COE_0),
             ),
             rt::Limited::new(rt::Register::holding(20), false, &[(1, 90)]),
-            rt::Absent,
-            rt::Absent,
             rt::Split::new(
                 rt::Through::unsigned(0x0014, &super::windows::PARAMETER_READ_IMAGE),
                 rt::Through::unsigned(0x0014, &super::windows::PARAMETER_WRITE_IMAGE),
             ),
-            rt::Absent,
         ),
         "c7",
         rt::Range::Between(1, 99),
@@ -12384,7 +12343,7 @@ pub mod objects {
         super::types::MiniInputs,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteNamedMiniInputsOnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        place_8(rt::Register::holding(21), 0x0015),
+        place_10(rt::Register::holding(21), 0x0015),
         "c8",
         rt::Range::Full,
         rt::Initial::Value(super::types::MiniInputs::from_raw(6)),
@@ -12407,7 +12366,7 @@ pub mod objects {
         super::types::Network,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteNamedNetworkOnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        place_8(rt::Register::holding(22), 0x0016),
+        place_10(rt::Register::holding(22), 0x0016),
         "c9",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -12425,7 +12384,7 @@ pub mod objects {
     ///
     /// Chapter Parameters. Manual: Parametri, I1 (line 517): Guadagno proporzionale dell'anello di spazio.
     pub const I1: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        place_8(rt::Register::holding(35), 0x0023),
+        place_10(rt::Register::holding(35), 0x0023),
         "I1",
         rt::Range::Between(1, 99),
         rt::Initial::Unknown,
@@ -12443,7 +12402,7 @@ pub mod objects {
     ///
     /// Chapter Parameters. Manual: Parametri, I2 (line 518): Guadagno integrale dell'anello di spazio.
     pub const I2: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        place_8(rt::Register::holding(36), 0x0024),
+        place_10(rt::Register::holding(36), 0x0024),
         "I2",
         rt::Range::Between(1, 99),
         rt::Initial::Unknown,
@@ -12461,7 +12420,7 @@ pub mod objects {
     ///
     /// Chapter Parameters. Manual: Parametri, I3 (line 519): Guadagno derivativo dell'anello di spazio.
     pub const I3: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        place_8(rt::Register::holding(37), 0x0025),
+        place_10(rt::Register::holding(37), 0x0025),
         "I3",
         rt::Range::Between(1, 99),
         rt::Initial::Unknown,
@@ -12479,7 +12438,7 @@ pub mod objects {
     ///
     /// Chapter Parameters. Manual: Parametri, I4 (line 520): Valore di compensazione inerzia.
     pub const I4: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        place_8(rt::Register::holding(38), 0x0026),
+        place_10(rt::Register::holding(38), 0x0026),
         "I4",
         rt::Range::Between(1, 99),
         rt::Initial::Unknown,
@@ -12500,7 +12459,7 @@ pub mod objects {
         rt::Scaled<u16, 1, 100>,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteU16Times1Per100OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        place_8(rt::Register::holding(39), 0x0027),
+        place_10(rt::Register::holding(39), 0x0027),
         "I5",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -12518,7 +12477,7 @@ pub mod objects {
     ///
     /// Chapter Parameters. Manual: Parametri, I6 (line 526): Selezione modalità encoder esterno.
     pub const I6: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        place_8(rt::Register::holding(90), 0x005A),
+        place_10(rt::Register::holding(90), 0x005A),
         "I6",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -12538,7 +12497,7 @@ pub mod objects {
     ///
     /// Note: The parameter is reserved, but has an address. Chosen: a hidden row (it can be reached). Manual: Parametri (line 527).
     pub const I7: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        place_8(rt::Register::holding(99), 0x0063),
+        place_10(rt::Register::holding(99), 0x0063),
         "I7",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -12556,7 +12515,7 @@ pub mod objects {
     ///
     /// Chapter Parameters. Manual: Parametri, O1 (line 530): Corrente istantanea.
     pub const O1: ReadOnly<u16, OnCanOpenWindowInCoEWindowInModbusImageWindowIn> = ReadOnlyU16OnCanOpenWindowInCoEWindowInModbusImageWindowIn::new(
-        place_10(rt::Register::holding(81), 0x0051),
+        place_8(rt::Register::holding(81), 0x0051),
         "O1",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -12574,7 +12533,7 @@ pub mod objects {
     ///
     /// Chapter Parameters. Manual: Parametri, O2 (line 531): Corrente efficace.
     pub const O2: ReadOnly<u16, OnCanOpenWindowInCoEWindowInModbusImageWindowIn> = ReadOnlyU16OnCanOpenWindowInCoEWindowInModbusImageWindowIn::new(
-        place_10(rt::Register::holding(82), 0x0052),
+        place_8(rt::Register::holding(82), 0x0052),
         "O2",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -12592,7 +12551,7 @@ pub mod objects {
     ///
     /// Chapter Parameters. Manual: Parametri, O3 (line 532): Sovraccarico (% di I2T).
     pub const O3: ReadOnly<u16, OnCanOpenWindowInCoEWindowInModbusImageWindowIn> = ReadOnlyU16OnCanOpenWindowInCoEWindowInModbusImageWindowIn::new(
-        place_10(rt::Register::holding(83), 0x0053),
+        place_8(rt::Register::holding(83), 0x0053),
         "O3",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -12612,7 +12571,7 @@ pub mod objects {
     ///
     /// Note: The name has a closing parenthesis without an opening one. Chosen: more significant part (as in P3 and A1). Manual: Parametri (line 536).
     pub const P1: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        place_8(rt::Register::holding(41), 0x0029),
+        place_10(rt::Register::holding(41), 0x0029),
         "P1",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -12632,7 +12591,7 @@ pub mod objects {
     ///
     /// Note: The name has an opening parenthesis without a closing one. Chosen: less significant part (as in P4 and A2). Manual: Parametri (line 537).
     pub const P2: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        place_8(rt::Register::holding(42), 0x002A),
+        place_10(rt::Register::holding(42), 0x002A),
         "P2",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -12653,7 +12612,7 @@ pub mod objects {
         rt::Scaled<u16, 100>,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteU16Times100Per1OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        place_8(rt::Register::holding(43), 0x002B),
+        place_10(rt::Register::holding(43), 0x002B),
         "P3",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -12671,7 +12630,7 @@ pub mod objects {
     ///
     /// Chapter Parameters. Manual: Parametri, P4 (lines 543-546): Massimo errore di inseguimento (gradi) (parte meno significativa).
     pub const P4: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        place_8(rt::Register::holding(44), 0x002C),
+        place_10(rt::Register::holding(44), 0x002C),
         "P4",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -12689,7 +12648,7 @@ pub mod objects {
     ///
     /// Chapter Parameters. Manual: Parametri, P5 (line 548): Rampa accelerazione (in ms/100 RPM).
     pub const P5: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        place_8(rt::Register::holding(45), 0x002D),
+        place_10(rt::Register::holding(45), 0x002D),
         "P5",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -12707,7 +12666,7 @@ pub mod objects {
     ///
     /// Chapter Parameters. Manual: Parametri, P6 (line 549): Rampa decelerazione (in ms/100 RPM).
     pub const P6: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        place_8(rt::Register::holding(46), 0x002E),
+        place_10(rt::Register::holding(46), 0x002E),
         "P6",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -12728,7 +12687,7 @@ pub mod objects {
         rt::Scaled<u16, 100>,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteU16Times100Per1OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        place_8(rt::Register::holding(47), 0x002F),
+        place_10(rt::Register::holding(47), 0x002F),
         "P7",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -12746,7 +12705,7 @@ pub mod objects {
     ///
     /// Chapter Parameters. Manual: Parametri, A1 (line 553): Tacche Encoder Master hi (parte più significativa).
     pub const A1: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        place_8(rt::Register::holding(48), 0x0030),
+        place_10(rt::Register::holding(48), 0x0030),
         "A1",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -12764,7 +12723,7 @@ pub mod objects {
     ///
     /// Chapter Parameters. Manual: Parametri, A2 (line 554): Tacche Encoder Master lo (parte meno significativa).
     pub const A2: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        place_8(rt::Register::holding(49), 0x0031),
+        place_10(rt::Register::holding(49), 0x0031),
         "A2",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -12782,7 +12741,7 @@ pub mod objects {
     ///
     /// Chapter Parameters. Manual: Parametri, A3 (line 555): Numeratore Rapporto di Riduzione.
     pub const A3: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        place_8(rt::Register::holding(50), 0x0032),
+        place_10(rt::Register::holding(50), 0x0032),
         "A3",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -12800,7 +12759,7 @@ pub mod objects {
     ///
     /// Chapter Parameters. Manual: Parametri, A4 (line 556): Denominatore Rapporto di Riduzione.
     pub const A4: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        place_8(rt::Register::holding(51), 0x0033),
+        place_10(rt::Register::holding(51), 0x0033),
         "A4",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -12821,7 +12780,7 @@ pub mod objects {
         rt::Scaled<u16, 100>,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteU16Times100Per1OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        place_8(rt::Register::holding(52), 0x0034),
+        place_10(rt::Register::holding(52), 0x0034),
         "A5",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -12839,7 +12798,7 @@ pub mod objects {
     ///
     /// Chapter Parameters. Manual: Parametri, A6 (lines 562-565): Errore inseguimento massimo (in gradi) lo (parte meno significativa).
     pub const A6: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        place_8(rt::Register::holding(53), 0x0035),
+        place_10(rt::Register::holding(53), 0x0035),
         "A6",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -12857,7 +12816,7 @@ pub mod objects {
     ///
     /// Chapter Parameters. Manual: Parametri, H1 (line 568): Metodo per effettuare lo zero assi.
     pub const H1: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        place_8(rt::Register::holding(59), 0x003B),
+        place_10(rt::Register::holding(59), 0x003B),
         "H1",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -12875,7 +12834,7 @@ pub mod objects {
     ///
     /// Chapter Parameters. Manual: Parametri, H2 (lines 569-572): Velocità di ricerca switch in % della velocità nominale.
     pub const H2: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        place_8(rt::Register::holding(60), 0x003C),
+        place_10(rt::Register::holding(60), 0x003C),
         "H2",
         rt::Range::Between(1, 99),
         rt::Initial::Unknown,
@@ -12898,7 +12857,7 @@ pub mod objects {
         rt::Scaled<u16, 1, 10>,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteU16Times1Per10OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        place_8(rt::Register::holding(61), 0x003D),
+        place_10(rt::Register::holding(61), 0x003D),
         "H3",
         rt::Range::Between(1, 99),
         rt::Initial::Unknown,
@@ -12916,7 +12875,7 @@ pub mod objects {
     ///
     /// Chapter Parameters. Manual: Parametri, H4 (lines 579-582): Tempo di rampa di accelerazione/decelerazione (in ms/100 RPM).
     pub const H4: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        place_8(rt::Register::holding(62), 0x003E),
+        place_10(rt::Register::holding(62), 0x003E),
         "H4",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -12934,7 +12893,7 @@ pub mod objects {
     ///
     /// Chapter Parameters. Manual: Parametri, H5 (line 584): Segno offset di spazio.
     pub const H5: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        place_8(rt::Register::holding(63), 0x003F),
+        place_10(rt::Register::holding(63), 0x003F),
         "H5",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -12952,7 +12911,7 @@ pub mod objects {
     ///
     /// Chapter Parameters. Manual: Parametri, H6 (lines 585-588): Offset di spazio in impulsi encoder master (hi), decine di migliaia.
     pub const H6: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        place_8(rt::Register::holding(64), 0x0040),
+        place_10(rt::Register::holding(64), 0x0040),
         "H6",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -12970,7 +12929,7 @@ pub mod objects {
     ///
     /// Chapter Parameters. Manual: Parametri, H7 (lines 590-593): Offset di spazio in impulsi encoder master (mid), centinaia.
     pub const H7: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        place_8(rt::Register::holding(65), 0x0041),
+        place_10(rt::Register::holding(65), 0x0041),
         "H7",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -12988,7 +12947,7 @@ pub mod objects {
     ///
     /// Chapter Parameters. Manual: Parametri, H8 (lines 595-598): Offset di spazio in impulsi encoder master (lo), unità.
     pub const H8: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        place_8(rt::Register::holding(66), 0x0042),
+        place_10(rt::Register::holding(66), 0x0042),
         "H8",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -13006,7 +12965,7 @@ pub mod objects {
     ///
     /// Chapter Parameters. Manual: Parametri, H9 (line 600): Utility per la taratura manuale dell'Offset di spazio.
     pub const H9: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        place_8(rt::Register::holding(67), 0x0043),
+        place_10(rt::Register::holding(67), 0x0043),
         "H9",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -13027,7 +12986,7 @@ pub mod objects {
         super::types::BitRate,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteNamedBitRateOnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        place_8(rt::Register::holding(40), 0x0028),
+        place_10(rt::Register::holding(40), 0x0028),
         "n1",
         rt::Range::Between(
             super::types::BitRate::from_raw(1),
@@ -17249,14 +17208,10 @@ pub mod objects {
         super::types::Mode,
         OnCanOpenCoEImage,
     > = ReadOnlyNamedModeOnCanOpenCoEImage::new(
-        rt::Location::new(
+        OnCanOpenCoEImage::new(
             rt::Object::new(0x6061, 0x00),
             rt::Object::new(0x6061, 0x00),
-            rt::Absent,
-            rt::Absent,
-            rt::Absent,
             rt::ImageField::input(16, 8),
-            rt::Absent,
         ),
         "Modes Of Operation Display",
         rt::Range::Full,
@@ -17328,7 +17283,7 @@ pub mod objects {
             u32,
             super::OnCanOpenCoEModbusImageWindows,
         > = super::ReadWriteU32OnCanOpenCoEModbusImageWindows::new(
-            super::place_4(
+            super::place_5(
                 rt::Object::new(0x6092, 0x01),
                 rt::Object::new(0x6092, 0x01),
                 rt::Register::high_first(32770, 2).words_per_address(2),
@@ -17432,7 +17387,7 @@ pub mod objects {
             rt::PerItem<i32, 60>,
             super::OnCanOpenCoEModbusImageWindows,
         > = super::ReadWritePerItemI32Times60Per1OnCanOpenCoEModbusImageWindows::new(
-            super::place_2(
+            super::place_4(
                 rt::Object::new(0x6099, 0x01),
                 rt::Object::new(0x6099, 0x01),
                 rt::Register::high_first(32788, 2).words_per_address(2),
@@ -17458,7 +17413,7 @@ pub mod objects {
             rt::PerItem<u32, 60>,
             super::OnCanOpenCoEModbusImageWindows,
         > = super::ReadWritePerItemU32Times60Per1OnCanOpenCoEModbusImageWindows::new(
-            super::place_4(
+            super::place_5(
                 rt::Object::new(0x6099, 0x02),
                 rt::Object::new(0x6099, 0x02),
                 rt::Register::high_first(32789, 2).words_per_address(2),
@@ -17612,7 +17567,7 @@ pub mod objects {
             u8,
             super::OnCanOpenCoEModbusImageWindows,
         > = super::ReadWriteU8OnCanOpenCoEModbusImageWindows::new(
-            super::place_4(
+            super::place_5(
                 rt::Object::new(0x60C2, 0x01),
                 rt::Object::new(0x60C2, 0x01),
                 rt::Register::high_first(32815, 2).words_per_address(2),
@@ -17725,7 +17680,7 @@ pub mod objects {
             super::super::types::DigitalOutputs,
             super::OnCanOpenCoEModbusImageWindows,
         > = super::ReadWriteNamedDigitalOutputsOnCanOpenCoEModbusImageWindows::new(
-            super::place_4(
+            super::place_5(
                 rt::Object::new(0x60FE, 0x01),
                 rt::Object::new(0x60FE, 0x01),
                 rt::Register::high_first(32818, 2).words_per_address(2),
@@ -17751,7 +17706,7 @@ pub mod objects {
             super::super::types::DigitalOutputs,
             super::OnCanOpenCoEModbusImageWindows,
         > = super::ReadWriteNamedDigitalOutputsOnCanOpenCoEModbusImageWindows::new(
-            super::place_4(
+            super::place_5(
                 rt::Object::new(0x60FE, 0x02),
                 rt::Object::new(0x60FE, 0x02),
                 rt::Register::high_first(32817, 2).words_per_address(2),

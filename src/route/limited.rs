@@ -1,10 +1,11 @@
 //! Values of which a bus takes fewer than its item.
 
-use super::{ReadRoute, WriteRoute};
-use crate::bus::Bus;
+use super::{ReadRoute, Route, WriteRoute};
+use crate::bus::{Bus, Object};
 use crate::client::{AsyncClient, Client};
 use crate::error::Error;
 use crate::pdo::{from_bytes, sign_extend};
+use crate::register::Register;
 use crate::value_error::OutOfRange;
 
 /// An integer of which one bus takes these values only, first and last of each run. What comes isn't checked.
@@ -47,6 +48,20 @@ impl<R> Limited<R> {
         };
         let is_taken = value.is_ok_and(|value| self.takes(value));
         is_taken.then_some(()).ok_or(OutOfRange)
+    }
+}
+
+impl<R: Route> Route for Limited<R> {
+    fn object(&self) -> Option<Object> {
+        self.at.object()
+    }
+
+    fn register(&self) -> Option<Register> {
+        self.at.register()
+    }
+
+    fn is_resized(&self) -> bool {
+        self.at.is_resized()
     }
 }
 

@@ -1,10 +1,11 @@
 //! Values that have another width on a bus than their item.
 
-use super::{ReadRoute, WriteRoute};
-use crate::bus::Bus;
+use super::{ReadRoute, Route, WriteRoute};
+use crate::bus::{Bus, Object};
 use crate::client::{AsyncClient, Client};
 use crate::error::Error;
 use crate::pdo::{from_bytes, mask, sign_extend};
+use crate::register::Register;
 use crate::value::byte_len;
 use crate::value_error::{LengthError, OutOfRange};
 
@@ -14,21 +15,21 @@ use crate::value_error::{LengthError, OutOfRange};
 /// Where the bus has more, it is the other way around.
 ///
 /// ```
-/// use lexibus::{Client, Error, Location, Object, Register, Resized};
-/// # use lexibus::{Absent, CanOpen, Flags, Initial, Item, OutOfRange, Range, Rw};
+/// use lexibus::{CanOpen, Client, Error, Modbus, Object, Register, Resized};
+/// # use lexibus::{Flags, Initial, Item, OutOfRange, Range, Rw};
 ///
-/// // 32 bits on Modbus, 8 bits on CANopen.
-/// type Place = Location<Resized<Object>, Absent, Register>;
-/// const PLACE: Place = Location::new(
-///     Resized::signed(Object::new(0x6060, 0), 8),
-///     Absent,
-///     Register::high_first(0x8001, 2),
-///     Absent,
-///     Absent,
-///     Absent,
-///     Absent,
-/// );
-/// const MODE: Item<i32, Rw, Place> = Item::new(PLACE, "Mode", Range::Full, Initial::Unknown, "", Flags::NONE);
+/// lexibus::location! {
+///     /// 32 bits on Modbus, 8 bits on CANopen.
+///     struct Resizing {
+///         canopen: CanOpen => Resized<Object>,
+///         modbus: Modbus => Register,
+///     }
+/// }
+/// const LOCATION: Resizing = Resizing {
+///     canopen: Resized::signed(Object::new(0x6060, 0), 8),
+///     modbus: Register::high_first(0x8001, 2),
+/// };
+/// const MODE: Item<i32, Rw, Resizing> = Item::new(LOCATION, "Mode", Range::Full, Initial::Unknown, "", Flags::NONE);
 ///
 /// # struct Node(i8);
 /// # impl Client for Node {
@@ -114,6 +115,20 @@ pub(super) fn check(expected: usize, actual: usize) -> Result<(), LengthError> {
         Ok(())
     } else {
         Err(LengthError::new(expected, actual))
+    }
+}
+
+impl<R: Route> Route for Resized<R> {
+    fn object(&self) -> Option<Object> {
+        self.at.object()
+    }
+
+    fn register(&self) -> Option<Register> {
+        self.at.register()
+    }
+
+    fn is_resized(&self) -> bool {
+        true
     }
 }
 

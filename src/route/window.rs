@@ -2,7 +2,7 @@
 
 use core::time::Duration;
 
-use super::{resized, ReadRoute, WriteRoute};
+use super::{resized, ReadRoute, Route, WriteRoute};
 use crate::bus::Bus;
 use crate::client::{AsyncClient, Client};
 use crate::error::Error;
@@ -81,8 +81,7 @@ pub struct WriteWindow<A> {
 /// A value behind a [`ReadWindow`] or a [`WriteWindow`].
 ///
 /// ```
-/// use lexibus::{Absent, Client, Error, Flags, Handshake, Initial, Item, Location, Object, Range, ReadWindow, Ro, Through};
-/// # use lexibus::CanOpen;
+/// use lexibus::{CanOpen, Client, Error, Flags, Handshake, Initial, Item, Object, Range, ReadWindow, Ro, Through};
 ///
 /// // Number to 0x2005:1, which the device clears once the value is in 0x2005:2.
 /// const WINDOW: ReadWindow<Object> = ReadWindow {
@@ -92,10 +91,14 @@ pub struct WriteWindow<A> {
 ///     value_bits: 32,
 ///     handshake: Handshake::cleared(100),
 /// };
-/// type Place = Location<Through<ReadWindow<Object>>>;
-/// const PLACE: Place =
-///     Location::new(Through::signed(0x8017, &WINDOW), Absent, Absent, Absent, Absent, Absent, Absent);
-/// const SPEED: Item<i16, Ro, Place> = Item::new(PLACE, "Master speed", Range::Full, Initial::Unknown, "", Flags::NONE);
+/// lexibus::location! {
+///     struct BehindWindow {
+///         canopen: CanOpen => Through<ReadWindow<Object>>,
+///     }
+/// }
+/// const LOCATION: BehindWindow = BehindWindow { canopen: Through::signed(0x8017, &WINDOW) };
+/// const SPEED: Item<i16, Ro, BehindWindow> =
+///     Item::new(LOCATION, "Master speed", Range::Full, Initial::Unknown, "", Flags::NONE);
 ///
 /// # struct Node(u16);
 /// # impl Client for Node {
@@ -200,6 +203,9 @@ async fn settle_async<C: AsyncClient>(
     }
     Err(Error::Timeout)
 }
+
+/// A window is no address of the value's own.
+impl<W> Route for Through<W> {}
 
 impl<B: Bus> ReadRoute<B> for Through<ReadWindow<B::Address>> {
     fn read<C: Client<Bus = B>>(&self, client: &mut C, buffer: &mut [u8]) -> Result<usize, Error<C::Error>> {

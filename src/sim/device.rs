@@ -7,8 +7,8 @@ use std::vec::Vec;
 
 use super::cells::Cells;
 use super::fault::Fault;
+use super::item_address::ItemAddress;
 use super::limits::Limits;
-use super::place::Place;
 use super::slots::Slots;
 use super::values;
 use crate::abort::AbortCode;
@@ -16,6 +16,7 @@ use crate::axes::Axes;
 use crate::bus::Object;
 use crate::emergency::Emergency;
 use crate::item::Item;
+use crate::location::Location;
 use crate::node_id::NodeId;
 use crate::table::{AccessRights, Entry};
 use crate::value::Fixed;
@@ -119,7 +120,7 @@ impl Device {
     /// # Errors
     ///
     /// Besides those of every method, [`AbortCode::LENGTH`] where the handle has another type than the table.
-    pub fn get<V: Fixed, A, L: Place>(&self, item: Item<V, A, L>) -> Result<V::Native, AbortCode> {
+    pub fn get<V: Fixed, A, L: Location>(&self, item: Item<V, A, L>) -> Result<V::Native, AbortCode> {
         self.axis_value(&item, 1)
     }
 
@@ -131,7 +132,7 @@ impl Device {
     ///
     /// Besides those of every method, [`AbortCode::LENGTH`] where the handle has another type than the table, and
     /// [`AbortCode::TOO_HIGH`] where the value doesn't fit its type.
-    pub fn set<V: Fixed, A, L: Place>(&mut self, item: Item<V, A, L>, value: V::Native) -> Result<(), AbortCode> {
+    pub fn set<V: Fixed, A, L: Location>(&mut self, item: Item<V, A, L>, value: V::Native) -> Result<(), AbortCode> {
         self.set_axis_value(&item, 1, value)
     }
 
@@ -140,8 +141,8 @@ impl Device {
     /// # Errors
     ///
     /// Those of every method.
-    pub fn bytes(&self, place: impl Place) -> Result<&[u8], AbortCode> {
-        Ok(&self.slots.get(self.slot(&place, 1)?).value)
+    pub fn bytes(&self, address: impl ItemAddress) -> Result<&[u8], AbortCode> {
+        Ok(&self.slots.get(self.slot(&address, 1)?).value)
     }
 
     /// Gives an item these bytes, as [`set`](Self::set) does.
@@ -150,8 +151,8 @@ impl Device {
     ///
     /// Besides those of every method, [`AbortCode::TOO_LONG`], [`AbortCode::TOO_SHORT`] or [`AbortCode::LENGTH`] where they
     /// don't fit the item's type.
-    pub fn set_bytes(&mut self, place: impl Place, bytes: &[u8]) -> Result<(), AbortCode> {
-        let at = self.slot(&place, 1)?;
+    pub fn set_bytes(&mut self, address: impl ItemAddress, bytes: &[u8]) -> Result<(), AbortCode> {
+        let at = self.slot(&address, 1)?;
         values::check_length(&self.slots.get(at).entry, bytes)?;
         self.store(at, bytes.to_vec());
         Ok(())
@@ -163,7 +164,7 @@ impl Device {
     /// # Errors
     ///
     /// Those of [`set`](Self::set).
-    pub fn set_initial<V: Fixed, A, L: Place>(
+    pub fn set_initial<V: Fixed, A, L: Location>(
         &mut self,
         item: Item<V, A, L>,
         value: V::Native,
@@ -178,9 +179,9 @@ impl Device {
     /// # Errors
     ///
     /// Those of [`set_bytes`](Self::set_bytes).
-    pub fn set_initial_bytes(&mut self, place: impl Place, bytes: &[u8]) -> Result<(), AbortCode> {
-        let at = self.slot(&place, 1)?;
-        self.set_bytes(place, bytes)?;
+    pub fn set_initial_bytes(&mut self, address: impl ItemAddress, bytes: &[u8]) -> Result<(), AbortCode> {
+        let at = self.slot(&address, 1)?;
+        self.set_bytes(address, bytes)?;
         self.keep(at);
         Ok(())
     }
@@ -201,7 +202,7 @@ impl Device {
     /// # Errors
     ///
     /// Those of every method.
-    pub fn on_write<V: Fixed, A, L: Place>(
+    pub fn on_write<V: Fixed, A, L: Location>(
         &mut self,
         item: Item<V, A, L>,
         reaction: impl FnMut(&mut Device, V::Native) -> Result<(), AbortCode> + Send + 'static,
@@ -280,9 +281,9 @@ impl Device {
         result
     }
 
-    fn slot(&self, place: &impl Place, axis: u8) -> Result<usize, AbortCode> {
-        let registered = place.register().filter(|_| axis == 1);
-        let Some(object) = place.object() else {
+    fn slot(&self, address: &impl ItemAddress, axis: u8) -> Result<usize, AbortCode> {
+        let registered = address.register().filter(|_| axis == 1);
+        let Some(object) = address.object() else {
             return registered.and_then(|register| self.slots.of_register(register)).ok_or(AbortCode::NO_OBJECT);
         };
         let object = match self.axes {
@@ -294,18 +295,18 @@ impl Device {
     }
 
     /// All places of an item: where it has another width on Modbus, the register is one by itself.
-    fn slots_of(&self, place: &impl Place, axis: u8) -> Result<Vec<usize>, AbortCode> {
-        let mut slots = [self.slot(place, axis)?].to_vec();
-        let registered = place.register().filter(|_| axis == 1 && place.is_resized());
+    fn slots_of(&self, address: &impl ItemAddress, axis: u8) -> Result<Vec<usize>, AbortCode> {
+        let mut slots = [self.slot(address, axis)?].to_vec();
+        let registered = address.register().filter(|_| axis == 1 && address.is_resized());
         slots.extend(registered.and_then(|register| self.slots.of_register(register)).filter(|at| !slots.contains(at)));
         Ok(slots)
     }
 
-    fn axis_value<V: Fixed, A, L: Place>(&self, item: &Item<V, A, L>, axis: u8) -> Result<V::Native, AbortCode> {
+    fn axis_value<V: Fixed, A, L: Location>(&self, item: &Item<V, A, L>, axis: u8) -> Result<V::Native, AbortCode> {
         self.value::<V>(self.slot(item, axis)?, item.is_resized())
     }
 
-    fn set_axis_value<V: Fixed, A, L: Place>(
+    fn set_axis_value<V: Fixed, A, L: Location>(
         &mut self,
         item: &Item<V, A, L>,
         axis: u8,
@@ -363,7 +364,7 @@ impl DeviceAxis<'_> {
     /// # Errors
     ///
     /// Those of [`Device::get`].
-    pub fn get<V: Fixed, A, L: Place>(&self, item: Item<V, A, L>) -> Result<V::Native, AbortCode> {
+    pub fn get<V: Fixed, A, L: Location>(&self, item: Item<V, A, L>) -> Result<V::Native, AbortCode> {
         self.device.axis_value(&item, self.number)
     }
 
@@ -372,7 +373,7 @@ impl DeviceAxis<'_> {
     /// # Errors
     ///
     /// Those of [`Device::set`].
-    pub fn set<V: Fixed, A, L: Place>(&mut self, item: Item<V, A, L>, value: V::Native) -> Result<(), AbortCode> {
+    pub fn set<V: Fixed, A, L: Location>(&mut self, item: Item<V, A, L>, value: V::Native) -> Result<(), AbortCode> {
         self.device.set_axis_value(&item, self.number, value)
     }
 
@@ -381,7 +382,7 @@ impl DeviceAxis<'_> {
     /// # Errors
     ///
     /// Those of [`Device::on_write`].
-    pub fn on_write<V: Fixed, A, L: Place>(
+    pub fn on_write<V: Fixed, A, L: Location>(
         &mut self,
         item: Item<V, A, L>,
         mut reaction: impl FnMut(&mut Device, V::Native) -> Result<(), AbortCode> + Send + 'static,

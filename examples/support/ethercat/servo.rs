@@ -1,6 +1,6 @@
 //! The application of the demo servo: the state machine of CiA 402, and a position that follows its target at once.
 
-use lexibus::sim::{Device, Place};
+use lexibus::sim::{Device, ItemAddress};
 use lexibus::{AbortCode, Emergency, Object};
 
 use super::objects::Dictionary;

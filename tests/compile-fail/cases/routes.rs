@@ -4,13 +4,30 @@
 use lexibus::modbus::RegisterClient;
 use lexibus::profinet::{Cyclic, ImageClient};
 use lexibus::{
-    Absent, CanOpen, Client, Closed, Flags, Handshake, ImageField, Initial, Item, Location, Range, ReadWindow,
+    CanOpen, Client, Closed, Flags, Handshake, ImageField, Initial, Item, Modbus, ProcessImage, Range, ReadWindow,
     Register, Rw, Split, Through,
 };
 
-type OnlyOut = Location<Absent, Absent, Absent, Absent, Absent, Split<Closed, ImageField>>;
+lexibus::location! {
+    struct OnlyOut {
+        image: ProcessImage => Split<Closed, ImageField>,
+    }
+}
+
+lexibus::location! {
+    struct OnlyIn {
+        image: ProcessImage => Split<ImageField, Closed>,
+    }
+}
+
+lexibus::location! {
+    struct Behind {
+        modbus: Modbus => Through<ReadWindow<Register>>,
+    }
+}
+
 const TARGET: Item<i32, Rw, OnlyOut> = Item::new(
-    OnlyOut::new(Absent, Absent, Absent, Absent, Absent, Split::writing(ImageField::output(0, 32)), Absent),
+    OnlyOut::new(Split::writing(ImageField::output(0, 32))),
     "Target",
     Range::Full,
     Initial::Unknown,
@@ -18,9 +35,8 @@ const TARGET: Item<i32, Rw, OnlyOut> = Item::new(
     Flags::NONE,
 );
 
-type OnlyIn = Location<Absent, Absent, Absent, Absent, Absent, Split<ImageField, Closed>>;
 const ACTUAL: Item<i32, Rw, OnlyIn> = Item::new(
-    OnlyIn::new(Absent, Absent, Absent, Absent, Absent, Split::reading(ImageField::input(0, 32)), Absent),
+    OnlyIn::new(Split::reading(ImageField::input(0, 32))),
     "Actual",
     Range::Full,
     Initial::Unknown,
@@ -35,9 +51,8 @@ const WINDOW: ReadWindow<Register> = ReadWindow {
     value_bits: 32,
     handshake: Handshake::NONE,
 };
-type Behind = Location<Absent, Absent, Through<ReadWindow<Register>>>;
 const GAIN: Item<u32, Rw, Behind> = Item::new(
-    Behind::new(Absent, Absent, Through::unsigned(0x8033, &WINDOW), Absent, Absent, Absent, Absent),
+    Behind::new(Through::unsigned(0x8033, &WINDOW)),
     "Gain",
     Range::Full,
     Initial::Unknown,

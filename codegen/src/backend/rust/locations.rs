@@ -67,7 +67,8 @@ impl Locations {
             let at = self.shared.iter().position(is_own)?;
             Some(list(&format!("{}{}(", beside_handles(outer), maker(at)), own.arguments, ")"))
         });
-        found.unwrap_or_else(|| place.code(scope, &format!("{outer}windows::")))
+        let path = self.name(place.buses(), beside_handles(outer));
+        found.unwrap_or_else(|| place.code(scope, &path, &format!("{outer}windows::")))
     }
 
     /// The name of a location's type; `outer` leads from where it stands to the device's place.
@@ -78,11 +79,11 @@ impl Locations {
         }
     }
 
-    /// The locations that the runtime has no name for: name, documentation and type.
-    pub fn own(&self) -> Vec<(String, String, Doc)> {
+    /// The locations that the runtime has no name for: name, documentation and fields.
+    pub fn own(&self) -> Vec<(String, String, Vec<Doc>)> {
         let unnamed = self.each.iter().filter(|own| own.path().is_none());
         let docs = |own: &Buses| format!("The location of what is found on {}.", own.titles());
-        unnamed.map(|own| (own.word(), docs(own), own.written_out())).collect()
+        unnamed.map(|own| (own.word(), docs(own), own.fields())).collect()
     }
 
     /// What follows the type of a value where handles of several locations exist.

@@ -43,8 +43,8 @@ pub(super) struct Model<'a> {
     pub location: String,
     /// Whether handles have several types of locations.
     pub has_locations: bool,
-    /// Locations that the runtime has no name for: name, documentation and type.
-    pub locations: Vec<(String, String, Doc)>,
+    /// Locations that the runtime has no name for: name, documentation and fields.
+    pub locations: Vec<(String, String, Vec<Doc>)>,
     /// Functions that make locations which several items have: name, parameters, type and body.
     pub makers: Vec<(String, Vec<String>, String, Doc)>,
     /// The windows through which items are found.

@@ -3,7 +3,7 @@
 use super::code::{call, generic, seq, slice, Doc};
 use crate::ir::{Limits, Value};
 
-/// The buses of a location, in the order of its fields, but for the records of PROFINET, which tables have no items in.
+/// The buses of a location, in the order of its fields, except the records of PROFINET, which tables have no items in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Net {
     CanOpen,
@@ -38,6 +38,19 @@ impl Net {
             Net::Image => "Image",
             Net::Esc => "Esc",
         }
+    }
+
+    /// The runtime's type of the bus.
+    pub fn bus(self) -> &'static str {
+        match self {
+            Net::Image => "ProcessImage",
+            _ => self.word(),
+        }
+    }
+
+    /// The field of a location.
+    pub fn field(self) -> String {
+        self.word().to_lowercase()
     }
 
     /// Its name in a sentence.
@@ -111,15 +124,15 @@ pub(super) enum Kind {
 }
 
 impl Kind {
-    /// Its type.
-    pub fn ty(self, net: Net) -> Doc {
-        match self {
-            Kind::Absent => Doc::from("rt::Absent"),
+    /// Its type, if there is a route.
+    pub fn ty(self, net: Net) -> Option<Doc> {
+        Some(match self {
+            Kind::Absent => return None,
             Kind::One(leg) => leg.ty(net, true),
             Kind::Reads(leg) => generic!("rt::Split", leg.ty(net, true), "rt::Closed"),
             Kind::Writes(leg) => generic!("rt::Split", "rt::Closed", leg.ty(net, false)),
             Kind::Both(read, write) => generic!("rt::Split", read.ty(net, true), write.ty(net, false)),
-        }
+        })
     }
 
     /// Its name as a part of another one.
@@ -218,18 +231,19 @@ impl Route<'_> {
         self.read.iter().chain(&self.write)
     }
 
-    /// The code that makes it; `address` is that of the address, `window` names a window, and `number` stands for its number.
-    pub fn code(&self, address: &str, window: impl Fn(usize) -> String, number: Option<&str>) -> Doc {
+    /// The code that makes it, if there is one; `address` is that of the address, `window` names a window, and `number` stands
+    /// for its number.
+    pub fn code(&self, address: &str, window: impl Fn(usize) -> String, number: Option<&str>) -> Option<Doc> {
         let way = |way: &Way<'_>| match way.window {
             Some((at, _)) => way.code(&window(at), number),
             None => way.code(address, None),
         };
-        match (self.kind(), &self.read, &self.write) {
+        Some(match (self.kind(), &self.read, &self.write) {
             (Kind::Reads(_), Some(read), _) => call!("rt::Split::reading", way(read)),
             (Kind::Writes(_), _, Some(write)) => call!("rt::Split::writing", way(write)),
             (Kind::Both(..), Some(read), Some(write)) => call!("rt::Split::new", way(read), way(write)),
             (Kind::One(_), Some(only), _) | (Kind::One(_), None, Some(only)) => way(only),
-            _ => Doc::from("rt::Absent"),
-        }
+            _ => return None,
+        })
     }
 }

@@ -1,6 +1,6 @@
 //! The buses of a location, which are its type.
 
-use crate::backend::rust::code::{generic, Doc};
+use crate::backend::rust::code::{seq, Doc};
 use crate::backend::rust::route::{Kind, Leg, Net, Route};
 
 /// The buses of a location, and what the route is on each.
@@ -48,14 +48,10 @@ impl Buses {
         })
     }
 
-    /// The type of the location, written out.
-    pub fn written_out(self) -> Doc {
-        let [canopen, coe, modbus, serial, image, esc] = self.types();
-        generic!("rt::Location", canopen, coe, modbus, "rt::Absent", serial, image, esc)
-    }
-
-    fn types(self) -> [Doc; 6] {
-        std::array::from_fn(|at| self.0[at].ty(Net::ALL[at]))
+    /// The fields of the location: its buses, each with its route.
+    pub fn fields(self) -> Vec<Doc> {
+        let fields = Net::ALL.iter().zip(self.0).filter_map(|(net, kind)| Some((net, kind.ty(*net)?)));
+        fields.map(|(net, ty)| seq![net.field(), ": rt::", net.bus(), " => ", ty]).collect()
     }
 
     /// Its name as a part of another one.

@@ -1,7 +1,7 @@
 //! The code that makes the location of an item.
 
 use super::Place;
-use crate::backend::rust::code::{call, seq, Doc};
+use crate::backend::rust::code::{call, list, seq, Doc};
 use crate::backend::rust::route::{Net, Route};
 use crate::backend::rust::scope::Scope;
 
@@ -61,9 +61,11 @@ impl Place<'_> {
         self.image.is_none() && self.esc.is_none() && self.buses().is_direct()
     }
 
-    /// The call that makes the location. `windows` leads to the windows of the device.
-    pub fn code(&self, scope: &Scope<'_>, windows: &str) -> Doc {
-        let Some(path) = self.buses().path() else { return self.new_location(scope, windows) };
+    /// The call that makes the location, of type `path`. `windows` leads to the windows of the device.
+    pub fn code(&self, scope: &Scope<'_>, path: &str, windows: &str) -> Doc {
+        if self.buses().path().is_none() {
+            return self.new_location(scope, path, windows);
+        }
         let Place { canopen, coe, modbus, serial, image, esc, .. } = self.routed();
         let same = canopen.is_none() || coe.is_none() || canopen == coe;
         match (canopen.or(coe), modbus, serial) {
@@ -84,29 +86,29 @@ impl Place<'_> {
             (None, None, None) => match (image, esc) {
                 (Some(field), _) => call!(seq![path, "::field"], field.code(self.is_bytes)),
                 (None, Some((address, length))) => Doc::from(format!("{path}::memory(0x{address:04X}, {length})")),
-                (None, None) => self.new_location(scope, windows),
+                (None, None) => self.new_location(scope, path, windows),
             },
             // Addresses that differ between the buses, and routes that are too rare for a name.
-            _ => self.new_location(scope, windows),
+            _ => self.new_location(scope, path, windows),
         }
     }
 
-    fn new_location(&self, scope: &Scope<'_>, windows: &str) -> Doc {
-        self.location_of(scope, windows, |net| self.address(net).unwrap_or_default(), None)
+    fn new_location(&self, scope: &Scope<'_>, path: &str, windows: &str) -> Doc {
+        self.location_of(scope, path, windows, |net| self.address(net).unwrap_or_default(), None)
     }
 
-    /// The code of a location whose addresses are `address`, and whose numbers behind windows `number`.
+    /// The code of a location of type `path` whose addresses are `address`, and whose numbers behind windows `number`.
     fn location_of(
         &self,
         scope: &Scope<'_>,
+        path: &str,
         windows: &str,
         address: impl Fn(Net) -> String,
         number: Option<&str>,
     ) -> Doc {
         let window = |at: usize| format!("{windows}{}", scope.windows.get(at).map_or("", |own| own.name.as_str()));
-        let [canopen, coe, modbus, serial, image, esc] =
-            Net::ALL.map(|net| self.routes[net as usize].code(&address(net), window, number));
-        call!("rt::Location::new", canopen, coe, modbus, "rt::Absent", serial, image, esc)
+        let route = |net: Net| self.routes[net as usize].code(&address(net), window, number);
+        list(&format!("{path}::new("), Net::ALL.into_iter().filter_map(route), ")")
     }
 
     /// The location as a function of what items differ in, for one that the runtime has no name for: `rustc` takes a third of
@@ -125,7 +127,7 @@ impl Place<'_> {
         let is_addressed = |net: &Net| self.routes[*net as usize].ways().any(|way| way.window.is_none());
         let addressed = || Net::ALL.into_iter().filter(is_addressed);
         let mut parameters: Vec<String> =
-            addressed().map(|net| format!("{}: {}", net.word().to_lowercase(), net.address())).collect();
+            addressed().map(|net| format!("{}: {}", net.field(), net.address())).collect();
         let mut arguments: Vec<String> = addressed().filter_map(|net| self.address(net)).collect();
         if let Some(number) = number {
             parameters.push("number: u32".to_owned());
@@ -134,7 +136,7 @@ impl Place<'_> {
         Some(Maker {
             parameters,
             arguments,
-            body: self.location_of(scope, windows, |net| net.word().to_lowercase(), Some("number")),
+            body: self.location_of(scope, &buses.word(), windows, Net::field, Some("number")),
         })
     }
 

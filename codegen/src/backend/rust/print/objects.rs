@@ -46,9 +46,15 @@ fn windows(code: &mut Code, windows: &[WindowModel]) {
 
 /// The types of locations that the runtime has no name for, and the functions that make those which several items have.
 fn locations(code: &mut Code, model: &Model<'_>) {
-    for (name, docs, path) in &model.locations {
+    for (name, docs, fields) in &model.locations {
+        open!(code, "rt::location! {");
         code.doc(docs);
-        line!(code, "pub type ", name, " = ", Stop, path, ";");
+        open!(code, "pub struct ", name, " {");
+        for field in fields {
+            line!(code, field, ",");
+        }
+        code.close("}");
+        code.close("}");
     }
     for (name, parameters, ty, body) in &model.makers {
         open!(code, list(&format!("const fn {name}("), parameters, ")"), " -> ", ty, " {");

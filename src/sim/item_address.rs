@@ -1,0 +1,64 @@
+//! Addresses of items of a simulated device.
+
+use crate::bus::Object;
+use crate::item::Item;
+use crate::location::Location;
+use crate::register::Register;
+use crate::route::Route;
+use crate::value::Value;
+
+/// The address of an item: a handle of the bindings, an object, or a register. Bindings need nothing else implemented.
+pub trait ItemAddress {
+    /// Its entry in the object dictionary.
+    fn object(&self) -> Option<Object>;
+
+    /// Its register on Modbus.
+    fn register(&self) -> Option<Register>;
+
+    /// Whether it has another width on some bus: then the table has it more than once.
+    fn is_resized(&self) -> bool {
+        false
+    }
+}
+
+/// The first of the addresses that `select` takes from the routes of a location.
+fn find<T>(location: &impl Location, select: impl Fn(&dyn Route) -> Option<T>) -> Option<T> {
+    let mut found = None;
+    location.for_each_route(&mut |route| found = found.take().or_else(|| select(route)));
+    found
+}
+
+impl<V: Value, A, L: Location> ItemAddress for Item<V, A, L> {
+    fn object(&self) -> Option<Object> {
+        find(self.location(), |route| route.object())
+    }
+
+    fn register(&self) -> Option<Register> {
+        find(self.location(), |route| route.register())
+    }
+
+    fn is_resized(&self) -> bool {
+        let is_simulated = |route: &dyn Route| route.object().is_some() || route.register().is_some();
+        find(self.location(), |route| (is_simulated(route) && route.is_resized()).then_some(())).is_some()
+    }
+}
+
+impl ItemAddress for Object {
+    fn object(&self) -> Option<Object> {
+        Some(*self)
+    }
+
+    fn register(&self) -> Option<Register> {
+        None
+    }
+}
+
+impl ItemAddress for Register {
+    fn object(&self) -> Option<Object> {
+        None
+    }
+
+    fn register(&self) -> Option<Register> {
+        Some(*self)
+    }
+}
