@@ -11,7 +11,7 @@ use std::time::Duration;
 
 use lexibus::profinet::parameter_access::{ParameterAccess, LOCAL};
 use lexibus::profinet::{
-    ImageClient, IoPlace, IoStatus, Plan, PnioStatus, RecordAccess, RecordAddress, RecordClient, Replacement,
+    ImageClient, IoStatus, Plan, PnioStatus, RecordAccess, RecordAddress, RecordClient, Replacement, SubmoduleIo,
 };
 use lexibus::Error;
 
@@ -72,7 +72,7 @@ fn parameters(drive: &mut Servo) -> AnyResult {
 
 /// Switches the axis on and lets it turn for some cycles.
 fn turn(plan: &Plan<8>, drive: &mut Servo) -> AnyResult {
-    let axis = plan.io_place(1, 2).ok_or("no telegram")?;
+    let axis = plan.submodule_io(1, 2).ok_or("no telegram")?;
     let (inputs_len, outputs_len) = plan.lengths();
     let (mut inputs, mut outputs) = (vec![0; inputs_len as usize], vec![0; outputs_len as usize]);
     plan.set_status(&mut outputs, IoStatus::GOOD)?;
@@ -100,7 +100,7 @@ fn turn(plan: &Plan<8>, drive: &mut Servo) -> AnyResult {
 
 /// A drive of one axis in memory. It answers a parameter request after a while.
 struct Servo {
-    axis: IoPlace,
+    axis: SubmoduleIo,
     limits: Vec<u8>,
     parameters: BTreeMap<u16, (u8, Vec<u8>)>,
     response: Vec<u8>,
@@ -112,7 +112,7 @@ impl Servo {
     fn new(plan: &Plan<8>) -> Result<Self, Box<dyn error::Error>> {
         let telegram = (6, vec![0, 1]);
         Ok(Self {
-            axis: plan.io_place(1, 2).ok_or("no telegram")?,
+            axis: plan.submodule_io(1, 2).ok_or("no telegram")?,
             limits: Vec::new(),
             parameters: BTreeMap::from([(922, telegram)]),
             response: Vec::new(),

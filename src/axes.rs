@@ -64,7 +64,7 @@ impl Axes {
         if axis == 0 || axis > self.count {
             return None;
         }
-        let contains = |own: &&AxisRange| (own.first..=own.last).contains(&object.index);
+        let contains = |range: &&AxisRange| (range.first..=range.last).contains(&object.index);
         let Some(range) = self.ranges.iter().find(contains) else { return Some(object) };
         if axis == 1 || self.shared.binary_search(&object).is_ok() {
             return Some(object);

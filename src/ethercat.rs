@@ -22,7 +22,7 @@ pub use depends_on::DependsOn;
 pub use mailbox::{Coe, InitCommand, Mailbox, Transition, Transitions};
 pub use module::{Fit, Increments, Module, PdoGroup, Slot, SlotGroup, SlotObjects, Slots};
 pub use pdo::{Direction, PdoInfo};
-pub use plan::{Place, PlanError, SlotPlan};
+pub use plan::{PlanError, SlotPdo, SlotPlan};
 pub use startup::{configure, configure_async, StartupCommand, StartupData};
 pub use sync_manager::{Fmmu, FmmuPurpose, SyncManager, SyncManagerPurpose};
 
@@ -48,8 +48,8 @@ pub struct Device {
 impl Device {
     /// The commands of the device itself on a change of state.
     pub fn init_commands(&self, transition: Transition) -> impl Iterator<Item = StartupCommand> {
-        let own = self.mailbox.coe.map_or(&[][..], |coe| coe.init_commands);
-        let due = own.iter().filter(move |command| command.transitions.contains(transition));
+        let commands = self.mailbox.coe.map_or(&[][..], |coe| coe.init_commands);
+        let due = commands.iter().filter(move |command| command.transitions.contains(transition));
         due.map(move |command| StartupCommand::of_init(command, transition, depends_on::Growth::default()))
     }
 
@@ -62,7 +62,7 @@ impl Device {
     /// The sync manager with this number.
     #[must_use]
     pub fn sync_manager(&self, number: u8) -> Option<&'static SyncManager> {
-        self.sync_managers.iter().find(|own| own.number == number)
+        self.sync_managers.iter().find(|manager| manager.number == number)
     }
 
     /// The sync manager that a PDO goes to: the one that it names, else the first for data of its direction. Where the description
@@ -74,8 +74,10 @@ impl Device {
             Direction::Input => SyncManagerPurpose::Inputs,
         };
         pdo.sync_manager.or_else(|| {
-            let free = |own: &&SyncManager| own.purpose == purpose && !pdo.excluded_sync_managers.contains(&own.number);
-            let listed = self.sync_managers.iter().find(free).map(|own| own.number);
+            let free = |manager: &&SyncManager| {
+                manager.purpose == purpose && !pdo.excluded_sync_managers.contains(&manager.number)
+            };
+            let listed = self.sync_managers.iter().find(free).map(|manager| manager.number);
             listed.or_else(|| self.named_by_others(pdo.direction).filter(|_| self.sync_managers.is_empty()))
         })
     }

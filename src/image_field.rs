@@ -112,8 +112,8 @@ impl ImageField {
             ImageOrder::BigEndian => be::number(image, at, shift, self.width()),
             ImageOrder::LittleEndian => bits::get(image, self.bit as usize, self.width()),
             ImageOrder::Bytes => {
-                let own = image.get(at..).unwrap_or_default().iter().take(self.byte_len());
-                buffer.iter_mut().zip(own).for_each(|(to, from)| *to = *from);
+                let bytes = image.get(at..).unwrap_or_default().iter().take(self.byte_len());
+                buffer.iter_mut().zip(bytes).for_each(|(to, from)| *to = *from);
                 return Ok(self.byte_len());
             }
         };
@@ -141,9 +141,9 @@ impl ImageField {
                 bits::set(image, self.bit as usize, self.width(), crate::pdo::from_bytes(data));
             }
             ImageOrder::Bytes => {
-                let own = image.get_mut(at..).unwrap_or_default().iter_mut().take(self.byte_len());
+                let bytes = image.get_mut(at..).unwrap_or_default().iter_mut().take(self.byte_len());
                 let padded = data.iter().chain(core::iter::repeat(&0));
-                own.zip(padded).for_each(|(to, from)| *to = *from);
+                bytes.zip(padded).for_each(|(to, from)| *to = *from);
             }
         }
         Ok(())
@@ -156,9 +156,9 @@ mod tests {
 
     #[track_caller]
     fn round_trip(field: ImageField, data: &[u8], image: [u8; 6]) {
-        let mut own = [0; 6];
-        assert_eq!(field.put(&mut own, data), Ok(()));
-        assert_eq!(own, image);
+        let mut frame = [0; 6];
+        assert_eq!(field.put(&mut frame, data), Ok(()));
+        assert_eq!(frame, image);
         let mut back = [0xAA; 4];
         assert_eq!(field.get(&image, &mut back[..data.len()]), Ok(data.len()));
         assert_eq!(&back[..data.len()], data);

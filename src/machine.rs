@@ -45,9 +45,10 @@ impl<C: Copy> Step<C> {
         let mut leads: u128 = 0;
         loop {
             let mut more = leads;
-            for (at, own) in transitions.iter().enumerate() {
-                let goes_on = |(next, other): (usize, &Transition<C>)| leads >> next & 1 == 1 && own.to == other.from;
-                if own.to == target || transitions.iter().enumerate().any(goes_on) {
+            for (at, transition) in transitions.iter().enumerate() {
+                let goes_on =
+                    |(next, other): (usize, &Transition<C>)| leads >> next & 1 == 1 && transition.to == other.from;
+                if transition.to == target || transitions.iter().enumerate().any(goes_on) {
                     more |= 1 << at;
                 }
             }
@@ -55,10 +56,13 @@ impl<C: Copy> Step<C> {
                 return Step::Unreachable;
             }
             leads = more;
-            let first = transitions.iter().enumerate().filter(|(at, own)| leads >> at & 1 == 1 && own.from == state);
+            let first = transitions
+                .iter()
+                .enumerate()
+                .filter(|(at, transition)| leads >> at & 1 == 1 && transition.from == state);
             let mut waits = false;
-            for (_, own) in first {
-                match own.command {
+            for (_, transition) in first {
+                match transition.command {
                     Some(command) => return Step::Command(command),
                     None => waits = true,
                 }

@@ -1,19 +1,19 @@
 //! Process data objects: their identifiers, their mapping and the words that carry them (CiA 301 7.2.2).
 
 mod cob_id;
+#[doc(hidden)]
+pub mod custom;
+mod custom_macro;
 mod field;
 mod mapping;
-#[doc(hidden)]
-pub mod own;
-mod own_macro;
 mod sdo_write;
 mod word;
 
 #[cfg(any(feature = "canopen", feature = "std"))]
 pub(crate) use cob_id::is_restricted;
 pub use cob_id::CobId;
+pub use custom::{AnyPdo, Mappable, Mapped, NoCobId, OnEtherCat, Remappable, Rpdo, Tpdo};
 pub use field::Field;
 pub use mapping::{MappedEntry, Pdo};
-pub use own::{AnyPdo, Mappable, Mapped, NoCobId, OnEtherCat, Remappable, Rpdo, Tpdo};
 pub use sdo_write::SdoWrite;
 pub use word::{from_bytes, mask, sign_extend, to_bytes};

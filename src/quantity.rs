@@ -194,12 +194,12 @@ where
     type Other = ();
 
     #[inline]
-    fn physical(raw: B::Native, (): ()) -> f64 {
+    fn physical(raw: B::Native, _: ()) -> f64 {
         (raw.real() * NUM as f64 + OFFSET as f64) / DEN as f64
     }
 
     #[inline]
-    fn raw(physical: f64, (): ()) -> Result<B::Native, OutOfRange> {
+    fn raw(physical: f64, _: ()) -> Result<B::Native, OutOfRange> {
         nearest((physical * DEN as f64 - OFFSET as f64) / NUM as f64)
     }
 }
@@ -213,12 +213,12 @@ where
     type Other = ();
 
     #[inline]
-    fn physical(raw: B::Native, (): ()) -> f64 {
+    fn physical(raw: B::Native, _: ()) -> f64 {
         NUM as f64 / (DEN as f64 * raw.real())
     }
 
     #[inline]
-    fn raw(physical: f64, (): ()) -> Result<B::Native, OutOfRange> {
+    fn raw(physical: f64, _: ()) -> Result<B::Native, OutOfRange> {
         let raw: B::Native = nearest(NUM as f64 / (DEN as f64 * physical))?;
         if raw.real() == 0.0 {
             return Err(OutOfRange);

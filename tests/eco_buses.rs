@@ -4,7 +4,7 @@
 use std::convert::Infallible;
 use std::time::Duration;
 
-use lexibus::profinet::{Cyclic, ImageClient, IoPlace, IoSpan, IoStatus};
+use lexibus::profinet::{Cyclic, ImageClient, IoSpan, IoStatus, SubmoduleIo};
 use lexibus::{Client, Error, Modbus, OutOfRange, Register};
 use lexibus_drives::eco::objects::{self, feed_constant, homing_speeds};
 use lexibus_drives::eco::types::{DriveCommand, HomingMethod, Mode, MotionProfile};
@@ -163,9 +163,9 @@ struct Cyclically {
 }
 
 /// Where the 32 bytes and their status are, in both directions.
-fn place() -> IoPlace {
+fn place() -> SubmoduleIo {
     let span = Some(IoSpan { offset: 0, length: 33 });
-    IoPlace { slot: 1, subslot: 1, inputs: span, outputs: span, inputs_consumer: None, outputs_consumer: None }
+    SubmoduleIo { slot: 1, subslot: 1, inputs: span, outputs: span, inputs_consumer: None, outputs_consumer: None }
 }
 
 /// First byte and length of each field that the drive gets (L6077 to L6098).

@@ -44,7 +44,7 @@ fn modules_follow_each_other_in_the_image() {
     let plan = plan();
     // The coupler's status takes byte 0; 16 inputs bytes 1 and 2; 2 × 16 + 2 + 2 + 4 bits bytes 3 to 7; 16 inputs the rest.
     assert_eq!((plan.bytes(2), plan.bytes(3)), (1, 10));
-    let at = |slot, index| plan.place(slot, index).map(|place| (place.index, place.sync_manager, place.bit));
+    let at = |slot, index| plan.pdo(slot, index).map(|place| (place.index, place.sync_manager, place.bit));
     assert_eq!(at(0, 0x1A00), Some((0x1A00, 3, 8)));
     assert_eq!(at(1, 0x1A00), Some((0x1A01, 3, 24)));
     assert_eq!(at(4, 0x1A00), Some((0x1A04, 3, 64)));
@@ -56,7 +56,7 @@ fn modules_follow_each_other_in_the_image() {
 fn inputs_are_read_where_they_stand() {
     let image = [0x80, 0x05, 0x80, 0xFE, 0xFF, 0x34, 0x12, 0x0B, 0x00, 0x01];
     let plan = plan();
-    let of = |slot: u16| &image[plan.place(slot, 0x1A00).unwrap().bit as usize / 8..];
+    let of = |slot: u16| &image[plan.pdo(slot, 0x1A00).unwrap().bit as usize / 8..];
     let inputs = modules::di_16::view::Inputs::new(of(0)).unwrap();
     assert!(inputs.input_1() && !inputs.input_2() && inputs.input_3() && !inputs.input_15() && inputs.input_16());
     let channels = modules::ai_2::view::Channels::new(of(1)).unwrap();
@@ -215,7 +215,7 @@ fn the_list_of_modules_goes_out_on_the_change_that_the_description_names() {
 #[test]
 fn modules_of_a_few_bits_are_read_and_written_where_the_plan_puts_them() {
     let plan = groups();
-    let bit = |slot, index| plan.place(slot, index).unwrap().bit as usize;
+    let bit = |slot, index| plan.pdo(slot, index).unwrap().bit as usize;
     assert_eq!([0, 1, 2, 3].map(|slot| bit(slot, 0x1A00)), [0, 2, 6, 10]);
     // From the last module to the first: 10, 0110, 1010, 01.
     let image = [0b1010_1001, 0b0000_1001];

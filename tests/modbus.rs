@@ -136,8 +136,8 @@ fn blocks_are_as_few_requests_as_the_device_allows() {
 
 #[test]
 fn one_value_that_is_missing_fails_its_request() {
-    type Here = Item<u16, Ro, OnModbus>;
-    const MISSING: Here = Here::register(Register::new(Input, 5, 1), "Missing", Flags::NONE);
+    type RegisterItem = Item<u16, Ro, OnModbus>;
+    const MISSING: RegisterItem = RegisterItem::register(Register::new(Input, 5, 1), "Missing", Flags::NONE);
     let (device, _server, mut inverter) = connected();
     let failed = inverter.client().read_block((objects::TEMPERATURE, MISSING));
     assert!(matches!(failed, Err(Error::Client(ModbusError::Exception(ExceptionCode::IllegalDataAddress)))));

@@ -7,7 +7,7 @@ use lexibus::modbus::{Limits, Plan, RegisterClient, Span, TableLimits};
 use lexibus::{Client, Error, Flags, Item, Modbus, OnModbus, Register, RegisterTable, Ro, Value, WordOrder};
 use proptest::prelude::*;
 
-type Here<V> = Item<V, Ro, OnModbus>;
+type RegisterItem<V> = Item<V, Ro, OnModbus>;
 
 const LIMITS: Limits = Limits {
     holding: TableLimits { max_read: 9, readable: &[Span::new(2, 9), Span::new(14, 20)], ..TableLimits::HOLDING },
@@ -69,8 +69,8 @@ impl RegisterClient for Device {
     }
 }
 
-fn item<V: Value>(register: Register) -> Here<V> {
-    Here::register(register, "", Flags::NONE)
+fn item<V: Value>(register: Register) -> RegisterItem<V> {
+    RegisterItem::register(register, "", Flags::NONE)
 }
 
 /// Somewhere in a table of words; the table of 32 bits has two to an address.
@@ -199,7 +199,7 @@ fn items_that_are_no_block() {
     assert!(matches!(read, Err(Error::Length(_))), "{read:?}");
     let read = Device::default().read_block((short,));
     assert!(matches!(read, Err(Error::Length(_))), "{read:?}");
-    let empty: [Here<u16>; 0] = [];
+    let empty: [RegisterItem<u16>; 0] = [];
     assert!(matches!(Device::default().read_block(empty), Err(Error::Length(_))));
     let mut device = Device::default();
     let long = device.read_block((item::<u64>(Register::high_first(0, 10)), item::<u16>(Register::holding(2))));

@@ -8,7 +8,7 @@ use std::pin::pin;
 use std::task::{Context, Poll, Waker};
 use std::time::Duration;
 
-use lexibus::profinet::{AsyncImageClient, Cyclic, ImageClient, IoPlace, IoSpan, IoStatus};
+use lexibus::profinet::{AsyncImageClient, Cyclic, ImageClient, IoSpan, IoStatus, SubmoduleIo};
 use lexibus::sim::Device;
 use lexibus::{
     AbortCode, AsyncClient, Axes, Axis, AxisRange, AxisStep, CanOpen, Client, CoE, Error, Esc, EscMemory, Modbus,
@@ -297,7 +297,7 @@ type Image = Cyclic<Controller, [u8; 17], [u8; 17]>;
 fn image() -> OneDrive<Image> {
     let span = Some(IoSpan { offset: 0, length: 17 });
     let place =
-        IoPlace { slot: 1, subslot: 1, inputs: span, outputs: span, inputs_consumer: None, outputs_consumer: None };
+        SubmoduleIo { slot: 1, subslot: 1, inputs: span, outputs: span, inputs_consumer: None, outputs_consumer: None };
     let mut outputs = [0; 17];
     IoStatus::GOOD.write(&mut outputs[16..]);
     OneDrive::new(Cyclic::new(Controller::default(), place, outputs, [0; 17]))

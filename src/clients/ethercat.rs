@@ -83,9 +83,9 @@ pub const PATIENCE: u32 = 10_000;
 /// Whether a SubDevice is the described one: vendor and product code are the same, as far as the description has them.
 #[must_use]
 pub fn is_a(subdevice: &SubDevice, identity: &Identity) -> bool {
-    let own = subdevice.identity();
+    let actual = subdevice.identity();
     let fits = |described: Option<u32>, found: u32| described.map_or(true, |described| described == found);
-    fits(identity.vendor_id, own.vendor_id) && fits(identity.product_code, own.product_id)
+    fits(identity.vendor_id, actual.vendor_id) && fits(identity.product_code, actual.product_id)
 }
 
 /// The objects of one SubDevice: SDO transfers through its mailbox (ETG.1000.6 5.6.2), expedited, normal and segmented.

@@ -129,22 +129,22 @@ impl<const N: usize> Assignment<N> {
         if placed.pdo.fixed || !configures {
             return Err(AssignmentError::Fixed(P::INDEX));
         }
-        (placed.mapping, placed.bits) = (P::MAPPING, crate::pdo::own::bits(P::MAPPING));
+        (placed.mapping, placed.bits) = (P::MAPPING, crate::pdo::custom::bits(P::MAPPING));
         for at in 0..self.len {
             let (before, rest) = self.placed.split_at_mut(at);
-            let Some(Some(own)) = rest.first_mut() else { continue };
-            own.bit = bits_of(before, own.sync_manager);
+            let Some(Some(moved)) = rest.first_mut() else { continue };
+            moved.bit = bits_of(before, moved.sync_manager);
         }
         self.check_lengths()?;
         Ok(self)
     }
 
     fn check_lengths(&self) -> Result<(), AssignmentError> {
-        for own in self.device.sync_managers {
-            let bytes = self.bytes(own.number);
-            let max = own.max_size.map_or(usize::MAX, usize::from);
+        for manager in self.device.sync_managers {
+            let bytes = self.bytes(manager.number);
+            let max = manager.max_size.map_or(usize::MAX, usize::from);
             if bytes > max {
-                return Err(AssignmentError::TooLong { sync_manager: own.number, bytes, max });
+                return Err(AssignmentError::TooLong { sync_manager: manager.number, bytes, max });
             }
         }
         Ok(())
@@ -196,9 +196,9 @@ impl<const N: usize> Assignment<N> {
     /// What a master writes in Pre-Operational before it asks for Safe-Operational: what the description asks for on the
     /// changes of state IP and PS, then the [`commands`](Self::commands) of the assignment.
     pub fn startup(&self) -> impl Iterator<Item = StartupCommand> + '_ {
-        let own =
+        let commands =
             [Transition::IP, Transition::PS].into_iter().flat_map(|transition| self.device.init_commands(transition));
-        own.chain(self.commands().map(|write| StartupCommand::of_write(Transition::PS, write)))
+        commands.chain(self.commands().map(|write| StartupCommand::of_write(Transition::PS, write)))
     }
 
     /// The writes that set the assignment up in Pre-Operational: clear the assignment, write each mapping that can be
@@ -207,13 +207,14 @@ impl<const N: usize> Assignment<N> {
         let coe = self.device.mailbox.coe;
         let assigns = coe.is_some_and(|coe| coe.pdo_assign);
         let configures = coe.is_some_and(|coe| coe.pdo_config);
-        let managers = move || self.device.sync_managers.iter().filter(move |own| assigns && own.carries_data());
-        let clear = managers().map(|own| SdoWrite::new_u8(own.assignment(), 0, 0));
+        let managers =
+            move || self.device.sync_managers.iter().filter(move |manager| assigns && manager.carries_data());
+        let clear = managers().map(|manager| SdoWrite::new_u8(manager.assignment(), 0, 0));
         let mappings = self.pdos().filter(move |placed| configures && placed.pdo.holds(placed.mapping));
         let mappings = mappings.flat_map(|placed| mapping_writes(placed.pdo.index, placed.mapping, Growth::default()));
-        let assign = managers().flat_map(move |own| {
-            let placed = move || self.pdos().filter(move |placed| placed.sync_manager == own.number);
-            assignment_writes(own.assignment(), move || placed().map(|placed| placed.pdo.index))
+        let assign = managers().flat_map(move |manager| {
+            let placed = move || self.pdos().filter(move |placed| placed.sync_manager == manager.number);
+            assignment_writes(manager.assignment(), move || placed().map(|placed| placed.pdo.index))
         });
         clear.chain(mappings).chain(assign)
     }
@@ -221,8 +222,8 @@ impl<const N: usize> Assignment<N> {
 
 /// Length in bits of those of `placed` that are on this sync manager.
 fn bits_of(placed: &[Option<Placed>], sync_manager: u8) -> u32 {
-    let own = placed.iter().flatten().filter(|placed| placed.sync_manager == sync_manager);
-    own.fold(0, |bits, placed| bits.saturating_add(placed.bits))
+    let pdos = placed.iter().flatten().filter(|placed| placed.sync_manager == sync_manager);
+    pdos.fold(0, |bits, placed| bits.saturating_add(placed.bits))
 }
 
 impl super::SyncManager {
@@ -305,9 +306,9 @@ mod tests {
     #[test]
     fn a_mapping_of_ones_own_takes_the_place_of_the_description_s() {
         let assignment = Assignment::<8>::by_default(&DRIVE).unwrap();
-        let own = assignment.with_mapping::<Own<0x1A00, false>>().unwrap();
-        assert_eq!((assignment.bits(3), own.bits(2), own.bits(3)), (16, 16, 21));
-        let commands: Vec<_> = own.commands().filter(|write| write.object().index == 0x1A00).collect();
+        let custom = assignment.with_mapping::<Own<0x1A00, false>>().unwrap();
+        assert_eq!((assignment.bits(3), custom.bits(2), custom.bits(3)), (16, 16, 21));
+        let commands: Vec<_> = custom.commands().filter(|write| write.object().index == 0x1A00).collect();
         assert_eq!(
             commands,
             [

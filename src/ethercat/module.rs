@@ -132,8 +132,8 @@ impl Module {
     /// What the index of an object grows with.
     #[must_use]
     pub fn depends_on(&self, index: u16) -> DependsOn {
-        let own = self.objects.iter().find(|own| (own.first..=own.last).contains(&index));
-        own.map_or(DependsOn::Nothing, |own| own.depends_on)
+        let range = self.objects.iter().find(|range| (range.first..=range.last).contains(&index));
+        range.map_or(DependsOn::Nothing, |range| range.depends_on)
     }
 }
 

@@ -20,7 +20,7 @@ const MODULE_IDENTS: u16 = 0xF030;
 /// let mut plan = SlotPlan::<16>::new(&coupler::DEVICE)?;
 /// plan.plug(0, &modules::eight_inputs::MODULE)?;
 /// plan.check()?;
-/// let place = plan.place(0, 0x1A00);                     // where the inputs of slot 0 are
+/// let placed = plan.pdo(0, 0x1A00);                     // where the inputs of slot 0 are
 /// configure(&mut client, plan.startup())?;               // in Pre-Operational
 /// ```
 #[derive(Clone, Copy, Debug)]
@@ -85,9 +85,9 @@ impl fmt::Display for PlanError {
 
 impl core::error::Error for PlanError {}
 
-/// A PDO of a modular device at its place in the process image of its sync manager.
+/// A PDO of a modular device, with its offset in the process image of its sync manager.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Place {
+pub struct SlotPdo {
     /// The slot of its module; `None` for a PDO of the device itself.
     pub slot: Option<u16>,
     /// Its index with what the slot adds.
@@ -133,7 +133,7 @@ impl<const N: usize> SlotPlan<N> {
         let mut plan = Self::new(device)?;
         for number in 0..plan.count() {
             let default = plan.slot(number).and_then(|slot| slot.default);
-            let module = default.and_then(|ident| plan.known_modules().iter().find(|own| own.ident == ident));
+            let module = default.and_then(|ident| plan.known_modules().iter().find(|module| module.ident == ident));
             if let Some(module) = module {
                 plan.plug(number, module)?;
             }
@@ -147,8 +147,8 @@ impl<const N: usize> SlotPlan<N> {
     ///
     /// Why it can't be plugged there.
     pub fn plug(&mut self, slot: u16, module: &'static Module) -> Result<(), PlanError> {
-        let place = self.slot(slot).ok_or(PlanError::NoSuchSlot(slot))?;
-        if !place.takes(module) {
+        let group = self.slot(slot).ok_or(PlanError::NoSuchSlot(slot))?;
+        if !group.takes(module) {
             return Err(PlanError::DoesNotFit { slot, ident: module.ident });
         }
         match self.modules.get_mut(usize::from(slot)) {
@@ -188,12 +188,12 @@ impl<const N: usize> SlotPlan<N> {
             }
             first = numbers.end;
         }
-        for own in self.device.sync_managers.iter().filter(|own| own.carries_data()) {
-            let (bytes, max) = (self.bytes(own.number), own.max_size.map_or(usize::MAX, usize::from));
+        for manager in self.device.sync_managers.iter().filter(|manager| manager.carries_data()) {
+            let (bytes, max) = (self.bytes(manager.number), manager.max_size.map_or(usize::MAX, usize::from));
             if bytes > max {
-                return Err(PlanError::TooLong { sync_manager: own.number, bytes, max });
+                return Err(PlanError::TooLong { sync_manager: manager.number, bytes, max });
             }
-            room_for(own.assignment(), self.places(own.number).filter(|place| place.index != 0).count())?;
+            room_for(manager.assignment(), self.pdos(manager.number).filter(|placed| placed.index != 0).count())?;
         }
         room_for(MODULE_IDENTS, self.plugged().last().map_or(0, |(_, slot)| usize::from(slot) + 1))
     }
@@ -208,38 +208,38 @@ impl<const N: usize> SlotPlan<N> {
 
     /// The PDOs of a sync manager, in the order of its data: those of the device, then those of the modules, group by
     /// group and slot by slot.
-    pub fn places(&self, sync_manager: u8) -> impl Iterator<Item = Place> + '_ {
+    pub fn pdos(&self, sync_manager: u8) -> impl Iterator<Item = SlotPdo> + '_ {
         let manager = self.device.sync_manager(sync_manager);
-        let own = manager.into_iter().flat_map(move |manager| {
+        let pdos = manager.into_iter().flat_map(move |manager| {
             let defaults = self.device.default_pdos.iter().filter_map(|&index| self.device.pdo(index));
-            let own = defaults.filter(move |pdo| self.device.sync_manager_of(pdo) == Some(manager.number));
-            let own = own.map(move |pdo| (None, pdo.index, Content::Pdo(pdo, Growth::default()), pdo.bits));
-            own.chain(self.groups().flat_map(move |group| self.group(manager, group)))
+            let pdos = defaults.filter(move |pdo| self.device.sync_manager_of(pdo) == Some(manager.number));
+            let pdos = pdos.map(move |pdo| (None, pdo.index, Content::Pdo(pdo, Growth::default()), pdo.bits));
+            pdos.chain(self.groups().flat_map(move |group| self.group(manager, group)))
         });
         let mut bit: u32 = 0;
-        own.filter_map(move |(slot, index, content, bits)| {
+        pdos.filter_map(move |(slot, index, content, bits)| {
             // What a gap carries is the alignment; its length follows from where it stands.
             let bits = if content == Content::Gap { bit.next_multiple_of(bits.max(1)) - bit } else { bits };
-            let place = Place { slot, index, sync_manager, bit, bits, content };
+            let placed = SlotPdo { slot, index, sync_manager, bit, bits, content };
             bit = bit.saturating_add(bits);
-            (bits > 0).then_some(place)
+            (bits > 0).then_some(placed)
         })
     }
 
-    /// The place of a module's PDO; `index` is that of slot 0, as the description has it.
+    /// A module's PDO; `index` is that of slot 0, as the description has it.
     #[must_use]
-    pub fn place(&self, slot: u16, index: u16) -> Option<Place> {
-        let is_it = |place: &Place| match place.content {
-            Content::Pdo(pdo, _) => place.slot == Some(slot) && pdo.index == index,
+    pub fn pdo(&self, slot: u16, index: u16) -> Option<SlotPdo> {
+        let is_it = |placed: &SlotPdo| match placed.content {
+            Content::Pdo(pdo, _) => placed.slot == Some(slot) && pdo.index == index,
             Content::Gap => false,
         };
-        self.device.sync_managers.iter().find_map(|own| self.places(own.number).find(is_it))
+        self.device.sync_managers.iter().find_map(|manager| self.pdos(manager.number).find(is_it))
     }
 
     /// Length in bytes of the data of a sync manager, the last one perhaps not full.
     #[must_use]
     pub fn bytes(&self, sync_manager: u8) -> usize {
-        let end = self.places(sync_manager).last().map_or(0, |place| place.bit + place.bits);
+        let end = self.pdos(sync_manager).last().map_or(0, |placed| placed.bit + placed.bits);
         end.div_ceil(8) as usize
     }
 
@@ -255,7 +255,7 @@ impl<const N: usize> SlotPlan<N> {
         let of_write = move |write| StartupCommand::of_write(transition, write);
         let downloads = self.device.slots.is_some_and(|slots| slots.download_idents.contains(transition));
         let idents = downloads.then(|| self.idents().map(of_write)).into_iter().flatten();
-        let own = self.device.init_commands(transition);
+        let of_device = self.device.init_commands(transition);
         let modules = self.plugged().flat_map(move |(module, slot)| {
             let growth = self.objects(slot);
             let due = module.init_commands.iter().filter(move |command| command.transitions.contains(transition));
@@ -263,7 +263,7 @@ impl<const N: usize> SlotPlan<N> {
         });
         let assigns = transition == Transition::PS;
         let assignment = assigns.then(|| self.assignment().map(of_write)).into_iter().flatten();
-        idents.chain(own).chain(modules).chain(assignment)
+        idents.chain(of_device).chain(modules).chain(assignment)
     }
 
     /// Hands every command of a change of state to `visit`, in the order of [`commands`](Self::commands).
@@ -325,8 +325,8 @@ impl<const N: usize> SlotPlan<N> {
         };
         let members = self.plugged().filter(move |(module, _)| is_member(module));
         let pdos = members.flat_map(move |(module, slot)| {
-            let own = module.pdos.iter().filter(move |pdo| self.device.sync_manager_of(pdo) == Some(manager.number));
-            own.map(move |pdo| self.in_slot(pdo, slot))
+            let pdos = module.pdos.iter().filter(move |pdo| self.device.sync_manager_of(pdo) == Some(manager.number));
+            pdos.map(move |pdo| self.in_slot(pdo, slot))
         });
         let outputs = manager.purpose == super::SyncManagerPurpose::Outputs;
         let gap = rules.filter(|rules| rules.alignment > 0).map(|rules| {
@@ -372,31 +372,31 @@ impl<const N: usize> SlotPlan<N> {
     fn assignment(&self) -> impl Iterator<Item = SdoWrite> + '_ {
         let coe = self.device.mailbox.coe;
         let (assigns, configures) = (coe.is_some_and(|coe| coe.pdo_assign), coe.is_some_and(|coe| coe.pdo_config));
-        let all = || self.device.sync_managers.iter().filter(|own| own.carries_data());
+        let all = || self.device.sync_managers.iter().filter(|manager| manager.carries_data());
         let managers = move || all().filter(move |_| assigns);
-        let clear = managers().map(|own| SdoWrite::new_u8(own.assignment(), 0, 0));
-        let mappings = all().flat_map(|own| self.places(own.number)).filter(move |_| configures);
-        let mappings = mappings.flat_map(|place| place.mapping());
-        let assign = managers().flat_map(move |own| {
-            let indices = move || self.places(own.number).map(|place| place.index).filter(|&index| index != 0);
-            assignment_writes(own.assignment(), indices)
+        let clear = managers().map(|manager| SdoWrite::new_u8(manager.assignment(), 0, 0));
+        let mappings = all().flat_map(|manager| self.pdos(manager.number)).filter(move |_| configures);
+        let mappings = mappings.flat_map(|placed| placed.mapping());
+        let assign = managers().flat_map(move |manager| {
+            let indices = move || self.pdos(manager.number).map(|placed| placed.index).filter(|&index| index != 0);
+            assignment_writes(manager.assignment(), indices)
         });
         clear.chain(mappings).chain(assign)
     }
 }
 
-impl Place {
+impl SlotPdo {
     /// The writes of its mapping, where that can be changed; a gap's follows from its length.
     fn mapping(&self) -> impl Iterator<Item = SdoWrite> {
         let (index, bits) = (self.index, self.bits);
-        let own = match self.content {
+        let writes = match self.content {
             Content::Pdo(pdo, growth) => pdo.is_writable().then_some((pdo, growth)),
             Content::Gap => None,
         };
         let gap = (self.content == Content::Gap && index != 0).then_some(bits);
-        let own = own.into_iter().flat_map(move |(pdo, growth)| mapping_writes(index, pdo.mapping, growth));
+        let writes = writes.into_iter().flat_map(move |(pdo, growth)| mapping_writes(index, pdo.mapping, growth));
         let gap = gap.into_iter().flat_map(move |bits| gap_writes(index, bits));
-        own.chain(gap)
+        writes.chain(gap)
     }
 }
 
@@ -436,7 +436,7 @@ mod tests {
     }
 
     fn places(plan: &SlotPlan<8>, manager: u8) -> Vec<(Option<u16>, u16, u32, u32)> {
-        plan.places(manager).map(|place| (place.slot, place.index, place.bit, place.bits)).collect()
+        plan.pdos(manager).map(|placed| (placed.slot, placed.index, placed.bit, placed.bits)).collect()
     }
 
     #[test]
@@ -449,7 +449,7 @@ mod tests {
             [(None, 0x1AFF, 0, 4), (None, 0x1AF0, 4, 4), (Some(1), 0x1A04, 8, 8), (Some(3), 0x1A0C, 16, 8)]
         );
         assert_eq!((plan.bytes(2), plan.bytes(3)), (2, 3));
-        assert_eq!(plan.place(3, 0x1A00).map(|place| (place.bit, place.index)), Some((16, 0x1A0C)));
+        assert_eq!(plan.pdo(3, 0x1A00).map(|placed| (placed.bit, placed.index)), Some((16, 0x1A0C)));
         let offsets = [0x6000, 0x8000, 0x9000, 0xA001, 0xF100].map(|index| plan.index_offset(3, index).unwrap());
         assert_eq!(offsets, [0x30, 0x30, 0x800, 0x830, 0]);
         assert_eq!((plan.index_offset(2, 0x6000), plan.index_offset(8, 0x6000)), (None, None));

@@ -205,8 +205,8 @@ impl Delimited {
         match decoder.state {
             State::Escaped => {
                 decoder.state = State::Data;
-                let own = byte ^ escape.xor;
-                self.needs_escape(own).map(|_| Some(own)).ok_or(FrameError::Escape)
+                let plain = byte ^ escape.xor;
+                self.needs_escape(plain).map(|_| Some(plain)).ok_or(FrameError::Escape)
             }
             _ if byte == escape.byte => {
                 decoder.state = State::Escaped;
@@ -229,9 +229,9 @@ impl Delimited {
             Ok(Some(_)) if !is_escaped && Some(byte) == self.start => {
                 return self.lost(decoder, byte, FrameError::Interrupted);
             }
-            Ok(Some(own)) => {
-                if let Some(own) = decoder.hold(own, self.check.len()) {
-                    if let Err(error) = self.store(decoder, own, data) {
+            Ok(Some(plain)) => {
+                if let Some(released) = decoder.hold(plain, self.check.len()) {
+                    if let Err(error) = self.store(decoder, released, data) {
                         return self.lost(decoder, byte, error);
                     }
                 }
@@ -252,18 +252,18 @@ impl Delimited {
         if byte == self.end && decoder.state == State::Data && self.agrees(decoder, data) {
             return self.finish(decoder, data);
         }
-        if let Some(own) = decoder.hold(byte, count) {
+        if let Some(released) = decoder.hold(byte, count) {
             let is_escaped = decoder.state == State::Escaped;
-            if !is_escaped && own == self.end {
+            if !is_escaped && released == self.end {
                 return self.lost(decoder, byte, FrameError::Check);
             }
-            if !is_escaped && Some(own) == self.start {
+            if !is_escaped && Some(released) == self.start {
                 // What is held stands behind it.
                 decoder.length = 0;
                 return Err(FrameError::Interrupted);
             }
-            let stored = self.unescape(decoder, own).and_then(|own| match own {
-                Some(own) => self.store(decoder, own, data),
+            let stored = self.unescape(decoder, released).and_then(|plain| match plain {
+                Some(plain) => self.store(decoder, plain, data),
                 None => Ok(()),
             });
             if let Err(error) = stored {

@@ -41,7 +41,7 @@ impl<'a, G: Group> List<'a, G> {
     #[must_use]
     pub fn received(bytes: &'a [u8]) -> Option<Self> {
         let mut whole = bytes.chunks(G::LENGTH.max(1));
-        let is_list = whole.all(|own| G::read(&mut Reader::new(own)).is_some());
+        let is_list = whole.all(|bytes| G::read(&mut Reader::new(bytes)).is_some());
         is_list.then_some(Self { source: Source::Received(bytes) })
     }
 
@@ -49,7 +49,7 @@ impl<'a, G: Group> List<'a, G> {
     #[must_use]
     pub fn len(&self) -> usize {
         match self.source {
-            Source::Sent(own) => own.len(),
+            Source::Sent(groups) => groups.len(),
             Source::Received(bytes) => bytes.len() / G::LENGTH.max(1),
         }
     }
@@ -72,19 +72,19 @@ impl<'a, G: Group> List<'a, G> {
     ///
     /// Where a field is outside its limits, or there is no room.
     pub fn write(&self, to: &mut Writer<'_>) -> Result<(), WriteError> {
-        self.iter().try_for_each(|own| own.write(to))
+        self.iter().try_for_each(|group| group.write(to))
     }
 }
 
 impl<'a, G> From<&'a [G]> for List<'a, G> {
-    fn from(own: &'a [G]) -> Self {
-        Self { source: Source::Sent(own) }
+    fn from(groups: &'a [G]) -> Self {
+        Self { source: Source::Sent(groups) }
     }
 }
 
 impl<'a, G, const N: usize> From<&'a [G; N]> for List<'a, G> {
-    fn from(own: &'a [G; N]) -> Self {
-        Self { source: Source::Sent(own) }
+    fn from(groups: &'a [G; N]) -> Self {
+        Self { source: Source::Sent(groups) }
     }
 }
 
@@ -114,9 +114,9 @@ impl<G: Group> Iterator for ListIter<'_, G> {
 
     fn next(&mut self) -> Option<G> {
         match &mut self.source {
-            Source::Sent(own) => {
-                let (first, rest) = own.split_first()?;
-                *own = rest;
+            Source::Sent(groups) => {
+                let (first, rest) = groups.split_first()?;
+                *groups = rest;
                 Some(*first)
             }
             Source::Received(bytes) => {
@@ -264,10 +264,10 @@ impl<'a> Settings<'a> {
     /// Those in `bytes`; `None` where these aren't whole, or name another parameter.
     #[must_use]
     pub fn received(bytes: &'a [u8], rule: SettingsRule) -> Option<Self> {
-        let own = Self { source: SettingsSource::Received(bytes), rule };
-        let mut all = own.iter();
+        let settings = Self { source: SettingsSource::Received(bytes), rule };
+        let mut all = settings.iter();
         all.by_ref().for_each(drop);
-        matches!(all.source, SettingsSource::Received([])).then_some(own)
+        matches!(all.source, SettingsSource::Received([])).then_some(settings)
     }
 
     /// Each of them.
@@ -283,8 +283,8 @@ impl<'a> Settings<'a> {
     /// [`WriteError::NoMessage`] where there is no such parameter: nobody could tell where the next one begins. Where a parameter's
     /// values have another length, or there is no room.
     pub fn write(&self, to: &mut Writer<'_>) -> Result<(), WriteError> {
-        self.iter().try_for_each(|own| match self.rule.takes(&own)? {
-            true => self.rule.put(&own, to),
+        self.iter().try_for_each(|setting| match self.rule.takes(&setting)? {
+            true => self.rule.put(&setting, to),
             false => Err(WriteError::NoMessage),
         })
     }
@@ -317,9 +317,9 @@ impl Iterator for SettingsIter<'_> {
 
     fn next(&mut self) -> Option<Setting> {
         match &mut self.source {
-            SettingsSource::Sent(own) => {
-                let (first, rest) = own.split_first()?;
-                *own = rest;
+            SettingsSource::Sent(settings) => {
+                let (first, rest) = settings.split_first()?;
+                *settings = rest;
                 Some(*first)
             }
             SettingsSource::Received(bytes) => {
@@ -388,7 +388,7 @@ mod tests {
         assert_eq!(RULE.takes(&setting(0x10C, &[1, 2])), Err(LengthError::new(4, 2)));
         assert_eq!(RULE.takes(&setting(0x106, &[1, 2])), Ok(false));
         // What the device would take for something else isn't sent.
-        let written = |own: &[Setting]| Settings::sent(own, RULE).write(&mut Writer::new(&mut [0; 16]));
+        let written = |settings: &[Setting]| Settings::sent(settings, RULE).write(&mut Writer::new(&mut [0; 16]));
         assert_eq!(written(&[setting(0x106, &[1, 2])]), Err(WriteError::NoMessage));
         assert_eq!(written(&[setting(0x10C, &[1, 2])]), Err(LengthError::new(4, 2).into()));
         let alone = RULE.write(&setting(0x105, &[1]), &mut Writer::new(&mut [0; 16]));

@@ -65,7 +65,7 @@ impl<S: PartialEq> Outcomes<S> {
     /// What happens in `state`: one of these. Nothing where the description doesn't say.
     #[must_use]
     pub fn of(&self, state: S) -> &'static [Outcome<S>] {
-        self.0.iter().find(|own| own.state == state).map_or(&[], |own| own.outcomes)
+        self.0.iter().find(|row| row.state == state).map_or(&[], |row| row.outcomes)
     }
 
     /// Whether the device accepts the message in `state`; `None` where the description doesn't say, or it depends.
@@ -73,6 +73,6 @@ impl<S: PartialEq> Outcomes<S> {
     pub fn accepts(&self, state: S) -> Option<bool> {
         let outcomes = self.of(state);
         let first = *outcomes.first()? != Outcome::Refused;
-        outcomes.iter().all(|own| (*own != Outcome::Refused) == first).then_some(first)
+        outcomes.iter().all(|outcome| (*outcome != Outcome::Refused) == first).then_some(first)
     }
 }

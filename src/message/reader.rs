@@ -16,9 +16,9 @@ pub struct Reader<'r> {
 pub(super) fn significance(order: &[u8], length: usize, at: usize) -> usize {
     let big_endian = length.saturating_sub(1).saturating_sub(at);
     let Some(missing) = order.len().checked_sub(length) else { return big_endian };
-    let mut own = order.iter().map(|&position| usize::from(position)).filter(|position| *position >= missing);
-    let own = own.nth(at).and_then(|position| order.len().checked_sub(1 + position));
-    own.unwrap_or(big_endian)
+    let mut positions = order.iter().map(|&position| usize::from(position)).filter(|position| *position >= missing);
+    let ordered = positions.nth(at).and_then(|position| order.len().checked_sub(1 + position));
+    ordered.unwrap_or(big_endian)
 }
 
 impl<'r> Reader<'r> {
@@ -60,7 +60,7 @@ impl<'r> Reader<'r> {
     /// Reads bytes that have to be those of the request from `first` on, as far as it has them.
     pub fn copy(&mut self, request: &[u8], first: usize, count: usize) -> Option<()> {
         let expected = request.get(first..).unwrap_or_default();
-        self.bytes(count)?.iter().zip(expected).all(|(own, expected)| own == expected).then_some(())
+        self.bytes(count)?.iter().zip(expected).all(|(byte, expected)| byte == expected).then_some(())
     }
 
     /// Reads bits that have to be these.
@@ -75,8 +75,8 @@ impl<'r> Reader<'r> {
 
     /// Whether `length` is the number of all bytes from `first` on.
     pub fn counted(&self, first: usize, length: u64) -> Option<()> {
-        let own = self.data.len().checked_sub(first)?;
-        (u64::try_from(own) == Ok(length)).then_some(())
+        let rest = self.data.len().checked_sub(first)?;
+        (u64::try_from(rest) == Ok(length)).then_some(())
     }
 
     /// Reads a number of `width` bits, 64 at most, the most significant first.

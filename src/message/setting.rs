@@ -37,10 +37,10 @@ impl Setting {
     #[must_use]
     pub fn new(parameter: Parameter, value: [u8; 8], length: usize) -> Self {
         let length = length.min(8);
-        let mut own = [0; 8];
-        own[..length].copy_from_slice(&value[..length]);
+        let mut bytes = [0; 8];
+        bytes[..length].copy_from_slice(&value[..length]);
         // 8 at most.
-        Self { parameter, value: own, length: length as u8 }
+        Self { parameter, value: bytes, length: length as u8 }
     }
 
     /// The value of these bytes; `None` for more than 8.

@@ -225,8 +225,11 @@ impl<'b> Writer<'b> {
     ///
     /// Where there is no room for them.
     pub fn copy(&mut self, request: &[u8], first: usize, count: usize) -> Result<(), WriteError> {
-        let own = request.get(first..).unwrap_or_default();
-        self.room(count)?.iter_mut().zip(own.iter().chain(core::iter::repeat(&0))).for_each(|(to, from)| *to = *from);
+        let copied = request.get(first..).unwrap_or_default();
+        self.room(count)?
+            .iter_mut()
+            .zip(copied.iter().chain(core::iter::repeat(&0)))
+            .for_each(|(to, from)| *to = *from);
         Ok(())
     }
 }

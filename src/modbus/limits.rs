@@ -167,8 +167,8 @@ mod tests {
     #[test]
     fn functions_that_nobody_named() {
         assert!(TableLimits::HOLDING.takes(16) && !TableLimits::HOLDING.names(22));
-        let own = TableLimits { functions: &[3, 22], ..TableLimits::HOLDING };
-        assert!(own.takes(22) && own.names(22) && !own.takes(6) && !own.names(6));
+        let limits = TableLimits { functions: &[3, 22], ..TableLimits::HOLDING };
+        assert!(limits.takes(22) && limits.names(22) && !limits.takes(6) && !limits.names(6));
     }
 
     #[test]

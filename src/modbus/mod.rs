@@ -8,10 +8,10 @@
 //! use lexibus::{Client, Error, Flags, Item, Modbus, OnModbus, Register, Ro};
 //!
 //! // What the compiler emits for three registers of a drive:
-//! type Here<V> = Item<V, Ro, OnModbus>;
-//! const STATUS: Here<u16> = Here::register(Register::holding(10), "Status", Flags::NONE);
-//! const SPEED: Here<i16> = Here::register(Register::holding(11), "Speed", Flags::NONE);
-//! const POSITION: Here<i32> = Here::register(Register::low_first(12, 2), "Position", Flags::NONE);
+//! type RegisterItem<V> = Item<V, Ro, OnModbus>;
+//! const STATUS: RegisterItem<u16> = RegisterItem::register(Register::holding(10), "Status", Flags::NONE);
+//! const SPEED: RegisterItem<i16> = RegisterItem::register(Register::holding(11), "Speed", Flags::NONE);
+//! const POSITION: RegisterItem<i32> = RegisterItem::register(Register::low_first(12, 2), "Position", Flags::NONE);
 //!
 //! // A client for a test: the device's registers, and how many requests it got.
 //! struct Registers([u16; 16], usize);

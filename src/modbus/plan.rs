@@ -1,5 +1,7 @@
 //! Which requests read several registers.
 
+use core::ops::Range;
+
 use super::limits::Limits;
 use crate::register::{Register, RegisterTable, WordOrder};
 use crate::value_error::LengthError;
@@ -46,18 +48,18 @@ impl<const N: usize> Plan<N> {
         }
         let mut plan = Self { requests: items, request_of: [N; N], len: 0 };
         while let Some(first) = plan.leftmost(&items) {
-            let own = items[first];
+            let start = items[first];
             let end = plan.reach(&items, first, limits);
             let (mut at, mut taken) = (0, 0);
             while at < N {
-                let is_within = is_alike(&items[at], &own) && end_of(&items[at]) <= end;
+                let is_within = is_alike(&items[at], &start) && end_of(&items[at]) <= end;
                 if plan.request_of[at] == N && is_within || at == first {
                     plan.request_of[at] = plan.len;
                     taken += 1;
                 }
                 at += 1;
             }
-            plan.requests[plan.len] = if taken == 1 { own } else { joined(&own, end) };
+            plan.requests[plan.len] = if taken == 1 { start } else { joined(&start, end) };
             plan.len += 1;
         }
         Ok(plan)
@@ -108,23 +110,23 @@ impl<const N: usize> Plan<N> {
     /// Where the request ends that begins with item `first`: as far as other items reach, over addresses that can be read,
     /// within the limit.
     const fn reach(&self, items: &[Register; N], first: usize, limits: &Limits) -> u32 {
-        let own = items[first];
-        let max = limits.max_read(own.table);
-        if own.count > max {
+        let start = items[first];
+        let max = limits.max_read(start.table);
+        if start.count > max {
             // What is read in pieces is read alone.
-            return own.address as u32;
+            return start.address as u32;
         }
-        let last = own.address as u32 + (max / own.step()) as u32;
-        let mut end = end_of(&own);
+        let last = start.address as u32 + (max / start.step()) as u32;
+        let mut end = end_of(&start);
         loop {
             let (mut at, mut further) = (0, end);
             while at < N {
                 let (item, item_end) = (&items[at], end_of(&items[at]));
                 if self.request_of[at] == N
-                    && is_alike(item, &own)
+                    && is_alike(item, &start)
                     && further < item_end
                     && item_end <= last
-                    && is_known(items, &own, (end, item.address as u32), limits)
+                    && is_known(items, &start, end..item.address as u32, limits)
                 {
                     further = item_end;
                 }
@@ -168,11 +170,11 @@ const fn is_alike(one: &Register, other: &Register) -> bool {
     one.table as u8 == other.table as u8 && one.step() == other.step()
 }
 
-/// Whether all addresses from `from` on, and before `to`, are of items, or such that can be read along.
-const fn is_known(items: &[Register], kind: &Register, (from, to): (u32, u32), limits: &Limits) -> bool {
+/// Whether all these addresses are of items, or such that can be read along.
+const fn is_known(items: &[Register], kind: &Register, addresses: Range<u32>, limits: &Limits) -> bool {
     let spans = limits.of(kind.table).readable;
-    let mut address = from;
-    while address < to {
+    let mut address = addresses.start;
+    while address < addresses.end {
         let (mut at, mut end) = (0, address);
         while at < items.len() {
             let item = &items[at];
@@ -223,7 +225,10 @@ mod tests {
     #[track_caller]
     fn requests<const N: usize>(items: [Register; N], limits: Limits, expected: &[(u16, u16)]) {
         let plan = Plan::new(items, &limits).unwrap();
-        assert!(plan.requests().iter().map(|own| (own.address, own.count)).eq(expected.iter().copied()), "{plan:?}");
+        assert!(
+            plan.requests().iter().map(|request| (request.address, request.count)).eq(expected.iter().copied()),
+            "{plan:?}"
+        );
     }
 
     #[test]

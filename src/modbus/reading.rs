@@ -93,6 +93,6 @@ fn take_words(answer: &[u8], first: usize, item: &Register, value: &mut [u8]) ->
         *word = u16::from_le_bytes([pair[0], pair[1]]);
     }
     let behind = first + usize::from(item.count);
-    let own = words.get(first..behind).ok_or(LengthError::new(2 * behind, answer.len()))?;
-    item.decode(own, value)
+    let part = words.get(first..behind).ok_or(LengthError::new(2 * behind, answer.len()))?;
+    item.decode(part, value)
 }

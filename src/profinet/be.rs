@@ -243,16 +243,16 @@ mod tests {
     fn fields_of_every_width_at_every_bit() {
         let data: [u8; 12] = core::array::from_fn(|at| (at as u8).wrapping_mul(73) ^ 0xA5);
         for (shift, width) in (0..8).flat_map(|shift| (1..=64).map(move |width| (shift, width))) {
-            let own = number(&data, 1, shift, width);
-            assert_eq!(own, slowly(&data, 1, shift, width), "{shift} {width}");
+            let value = number(&data, 1, shift, width);
+            assert_eq!(value, slowly(&data, 1, shift, width), "{shift} {width}");
             let mut written = data;
-            put_number(&mut written, 1, shift, width, !own);
-            assert_eq!(number(&written, 1, shift, width), !own & mask(width), "{shift} {width}");
-            put_number(&mut written, 1, shift, width, own);
+            put_number(&mut written, 1, shift, width, !value);
+            assert_eq!(number(&written, 1, shift, width), !value & mask(width), "{shift} {width}");
+            put_number(&mut written, 1, shift, width, value);
             assert_eq!(written, data, "no other bit changes: {shift} {width}");
             let short = &mut written[..((shift + width).div_ceil(8)) as usize];
             let before = short.to_vec();
-            put_number(short, 1, shift, width, !own);
+            put_number(short, 1, shift, width, !value);
             assert_eq!(short, before, "a field that isn't all there is left alone: {shift} {width}");
         }
     }

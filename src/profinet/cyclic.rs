@@ -2,7 +2,7 @@
 
 use core::time::Duration;
 
-use super::image::{AsyncImageClient, ImageClient, IoPlace, IoSpan};
+use super::image::{AsyncImageClient, ImageClient, IoSpan, SubmoduleIo};
 use super::io::IoStatus;
 use crate::abort::AbortCode;
 use crate::bus::ProcessImage;
@@ -22,7 +22,7 @@ const CYCLE: Duration = Duration::from_millis(1);
 /// that off with [`by_hand`](Self::by_hand), so that several fields go out together with [`cycle`](Self::cycle).
 ///
 /// ```
-/// use lexibus::profinet::{Cyclic, ImageClient, IoPlace, IoSpan, IoStatus};
+/// use lexibus::profinet::{Cyclic, ImageClient, SubmoduleIo, IoSpan, IoStatus};
 /// use lexibus::{Error, Flags, ImageField, Initial, Item, OnImage, Range, Ro, Wo};
 ///
 /// // What the compiler emits for two fields of an image:
@@ -44,10 +44,10 @@ const CYCLE: Duration = Duration::from_millis(1);
 /// }
 ///
 /// let span = Some(IoSpan { offset: 0, length: 33 });
-/// let place = IoPlace { slot: 1, subslot: 1, inputs: span, outputs: span, inputs_consumer: None, outputs_consumer: None };
+/// let submodule = SubmoduleIo { slot: 1, subslot: 1, inputs: span, outputs: span, inputs_consumer: None, outputs_consumer: None };
 /// let mut outputs = [0; 33];
 /// IoStatus::GOOD.write(&mut outputs[32..]);
-/// let mut drive = Cyclic::new(Quick, place, outputs, [0; 33]);
+/// let mut drive = Cyclic::new(Quick, submodule, outputs, [0; 33]);
 /// TARGET.at(&mut drive).write(60_000)?;
 /// assert_eq!(ACTUAL.at(&mut drive).read()?, 60_000);
 /// # Ok::<(), Error<core::convert::Infallible>>(())
@@ -55,16 +55,16 @@ const CYCLE: Duration = Duration::from_millis(1);
 #[derive(Clone, Debug)]
 pub struct Cyclic<I, O, N> {
     image: I,
-    place: IoPlace,
+    submodule: SubmoduleIo,
     outputs: O,
     inputs: N,
     is_by_hand: bool,
 }
 
 impl<I, O: AsRef<[u8]> + AsMut<[u8]>, N: AsRef<[u8]> + AsMut<[u8]>> Cyclic<I, O, N> {
-    /// The submodule whose data are at `place`, in the frames that `image` exchanges.
-    pub const fn new(image: I, place: IoPlace, outputs: O, inputs: N) -> Self {
-        Self { image, place, outputs, inputs, is_by_hand: false }
+    /// The submodule whose data are at `submodule`, in the frames that `image` exchanges.
+    pub const fn new(image: I, submodule: SubmoduleIo, outputs: O, inputs: N) -> Self {
+        Self { image, submodule, outputs, inputs, is_by_hand: false }
     }
 
     /// The same, where no access exchanges anything, but what has to wait: the caller calls [`cycle`](Self::cycle) or
@@ -97,8 +97,8 @@ impl<I, O: AsRef<[u8]> + AsMut<[u8]>, N: AsRef<[u8]> + AsMut<[u8]>> Cyclic<I, O,
     /// Reads a field of the frames as they are.
     fn get<E>(&self, field: ImageField, buffer: &mut [u8]) -> Result<usize, Error<E>> {
         let (span, frame) = match field.is_output {
-            true => (self.place.outputs, self.outputs.as_ref()),
-            false => (self.place.inputs, self.inputs.as_ref()),
+            true => (self.submodule.outputs, self.outputs.as_ref()),
+            false => (self.submodule.inputs, self.inputs.as_ref()),
         };
         let data = span_of(span)?.of(frame)?;
         let provider = IoStatus::from_bytes(data.get(data.len().saturating_sub(1)..).unwrap_or_default());
@@ -113,7 +113,7 @@ impl<I, O: AsRef<[u8]> + AsMut<[u8]>, N: AsRef<[u8]> + AsMut<[u8]>> Cyclic<I, O,
         if !field.is_output {
             return Err(Error::Abort(AbortCode::READ_ONLY));
         }
-        Ok(field.put(span_of(self.place.outputs)?.of_mut(self.outputs.as_mut())?, data)?)
+        Ok(field.put(span_of(self.submodule.outputs)?.of_mut(self.outputs.as_mut())?, data)?)
     }
 }
 

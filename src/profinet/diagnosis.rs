@@ -322,30 +322,30 @@ mod tests {
     #[test]
     fn every_bit_of_properties_means_something() {
         for word in 0..=u16::MAX {
-            let own = ChannelProperties(word);
-            let maintenance = match own.maintenance() {
+            let properties = ChannelProperties(word);
+            let maintenance = match properties.maintenance() {
                 Maintenance::Fault => 0,
                 Maintenance::Required => 1,
                 Maintenance::Demanded => 2,
                 Maintenance::Qualified => 3,
             };
-            let specifier = match own.specifier() {
+            let specifier = match properties.specifier() {
                 ChannelSpecifier::AllDisappear => 0,
                 ChannelSpecifier::Appears => 1,
                 ChannelSpecifier::Disappears => 2,
                 ChannelSpecifier::DisappearsOthersRemain => 3,
             };
-            let direction = match own.direction() {
+            let direction = match properties.direction() {
                 ChannelDirection::Manufacturer => 0,
                 ChannelDirection::Input => 1,
                 ChannelDirection::Output => 2,
                 ChannelDirection::Both => 3,
                 ChannelDirection::Reserved(other) => u16::from(other),
             };
-            let high = u16::from(own.is_accumulative()) | maintenance << 1 | specifier << 3 | direction << 5;
+            let high = u16::from(properties.is_accumulative()) | maintenance << 1 | specifier << 3 | direction << 5;
             assert_eq!(high, word >> 8);
             let bits = [None, Some(1), Some(2), Some(4), Some(8), Some(16), Some(32), Some(64)];
-            assert_eq!(own.bits(), bits.get(usize::from(word & 0xFF)).copied().flatten());
+            assert_eq!(properties.bits(), bits.get(usize::from(word & 0xFF)).copied().flatten());
         }
     }
 
@@ -354,8 +354,8 @@ mod tests {
         let lengths = [0x7FFF, 0x8000, 0x8001, 0x8002, 0x8003, 0xFFFF]
             .map(|identifier| UserStructure::from_identifier(identifier).channel_len());
         assert_eq!(lengths, [None, Some(6), None, Some(12), Some(16), None]);
-        let own = ChannelDiagnosis::decode(UserStructure::Manufacturer(1), &[0; 32]);
-        assert_eq!(own.count(), 0);
+        let diagnosis = ChannelDiagnosis::decode(UserStructure::Manufacturer(1), &[0; 32]);
+        assert_eq!(diagnosis.count(), 0);
     }
 
     #[test]

@@ -258,15 +258,15 @@ pub(super) mod tests {
     #[test]
     fn every_flag_is_read_as_it_is_written() {
         for (flag1, flag2) in (0..=u8::MAX).flat_map(|flag1| (0..=u8::MAX).map(move |flag2| (flag1, flag2))) {
-            let own = FParameters::from_flags(flag1, flag2);
+            let parameters = FParameters::from_flags(flag1, flag2);
             // Bits 0 and 7 of the first, and 1 and 2 of the second, mean nothing.
-            assert_eq!((own.flag1(), own.flag2()), (flag1 & 0x7E, flag2 & 0xF9));
+            assert_eq!((parameters.flag1(), parameters.flag2()), (flag1 & 0x7E, flag2 & 0xF9));
             let mut data = [0; 16];
-            let written = own.encode_with_crc(0x1234, &mut data).unwrap();
-            assert_eq!((written.len(), own.is_empty()), (own.len(), false));
-            assert_eq!(FParameters::decode(written), Ok((own, 0x1234)));
+            let written = parameters.encode_with_crc(0x1234, &mut data).unwrap();
+            assert_eq!((written.len(), parameters.is_empty()), (parameters.len(), false));
+            assert_eq!(FParameters::decode(written), Ok((parameters, 0x1234)));
             let short = &written[..written.len() - 1];
-            assert_eq!(FParameters::decode(short), Err(LengthError::new(own.len(), own.len() - 1)));
+            assert_eq!(FParameters::decode(short), Err(LengthError::new(parameters.len(), parameters.len() - 1)));
         }
         assert!(FParameters::decode(&[]).is_err());
     }

@@ -151,7 +151,7 @@ impl IoSpan {
 ///
 /// `None` where the submodule doesn't have it: then reading and writing fail, as beyond the end of a frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct IoPlace {
+pub struct SubmoduleIo {
     /// Slot.
     pub slot: u16,
     /// Subslot.
@@ -167,7 +167,7 @@ pub struct IoPlace {
     pub outputs_consumer: Option<IoSpan>,
 }
 
-impl IoPlace {
+impl SubmoduleIo {
     /// The same as the device has it, which reads outputs and writes inputs: for simulated ones.
     #[must_use]
     pub const fn of_device(self) -> Self {
@@ -218,10 +218,10 @@ impl IoPlace {
     }
 }
 
-/// The place of a `T`, which is as long as that.
-fn object<T: IoData>(place: Option<IoSpan>) -> Result<IoSpan, LengthError> {
-    let error = LengthError::new(WithStatus::<T>::LEN, place.map_or(0, |place| place.length));
-    place.filter(|place| place.length == WithStatus::<T>::LEN).ok_or(error)
+/// The span of a `T`, if it is as long as that.
+fn object<T: IoData>(span: Option<IoSpan>) -> Result<IoSpan, LengthError> {
+    let error = LengthError::new(WithStatus::<T>::LEN, span.map_or(0, |span| span.length));
+    span.filter(|span| span.length == WithStatus::<T>::LEN).ok_or(error)
 }
 
 /// The next `length` bytes of a frame.
@@ -236,10 +236,10 @@ impl<const N: usize> Plan<N> {
     ///
     /// A controller chooses the places and tells the device when it connects. These follow one another without a gap, and
     /// are as long together as [`Plan::lengths`] says.
-    pub fn layout(&self) -> impl Iterator<Item = IoPlace> + '_ {
+    pub fn layout(&self) -> impl Iterator<Item = SubmoduleIo> + '_ {
         self.expected().scan((0, 0), |(inputs, outputs), submodule| {
             let (provider, consumer) = (usize::from(submodule.provider_len), usize::from(submodule.consumer_len));
-            let mut place = IoPlace {
+            let mut io = SubmoduleIo {
                 slot: submodule.slot,
                 subslot: submodule.subslot,
                 inputs: None,
@@ -248,21 +248,21 @@ impl<const N: usize> Plan<N> {
                 outputs_consumer: None,
             };
             if submodule.input_len.is_some() || submodule.output_len.is_none() {
-                place.inputs = take(inputs, usize::from(submodule.input_len.unwrap_or(0)) + provider);
-                place.inputs_consumer = take(outputs, consumer);
+                io.inputs = take(inputs, usize::from(submodule.input_len.unwrap_or(0)) + provider);
+                io.inputs_consumer = take(outputs, consumer);
             }
             if let Some(length) = submodule.output_len {
-                place.outputs = take(outputs, usize::from(length) + provider);
-                place.outputs_consumer = take(inputs, consumer);
+                io.outputs = take(outputs, usize::from(length) + provider);
+                io.outputs_consumer = take(inputs, consumer);
             }
-            Some(place)
+            Some(io)
         })
     }
 
     /// Where the data and the status of the submodule in `subslot` of `slot` are; `None` where there is none.
     #[must_use]
-    pub fn io_place(&self, slot: u16, subslot: u16) -> Option<IoPlace> {
-        self.layout().find(|place| (place.slot, place.subslot) == (slot, subslot))
+    pub fn submodule_io(&self, slot: u16, subslot: u16) -> Option<SubmoduleIo> {
+        self.layout().find(|io| (io.slot, io.subslot) == (slot, subslot))
     }
 
     /// Writes `status` as the provider status of all outputs, and as the consumer status of all inputs, to the frame of outputs.
@@ -271,9 +271,9 @@ impl<const N: usize> Plan<N> {
     ///
     /// When the frame is too short.
     pub fn set_status(&self, outputs: &mut [u8], status: IoStatus) -> Result<(), LengthError> {
-        for (place, submodule) in self.layout().zip(self.expected()) {
-            place.set_consumer(outputs, status)?;
-            if let Some(span) = place.outputs {
+        for (io, submodule) in self.layout().zip(self.expected()) {
+            io.set_consumer(outputs, status)?;
+            if let Some(span) = io.outputs {
                 let data = span.length.saturating_sub(usize::from(submodule.provider_len));
                 let object = span.of_mut(outputs)?;
                 status.write(object.get_mut(data..).unwrap_or_default());

@@ -84,7 +84,7 @@ pub use diagnosis::{
 };
 pub use f_parameters::{FCrcLength, FParameters, FPassivation, Sil};
 pub use f_record::{FField, FLimit, FRecord};
-pub use image::{AsyncImageClient, ImageClient, IoPlace, IoSpan};
+pub use image::{AsyncImageClient, ImageClient, IoSpan, SubmoduleIo};
 pub use io::{FTrailer, IoData, IoObject, IoObjectMut, IoStatus, WithStatus};
 pub use plan::{Expected, Plan, PlanError, RecordWrite, Records, Replacement};
 pub use record::{check, NotAllowed, RecordData, RecordError};

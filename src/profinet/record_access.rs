@@ -85,9 +85,9 @@ impl<C, const N: usize> RecordAccess<C, N> {
         let at = usize::from(place.offset);
         let rest = self.filled(length)?.get(at..).unwrap_or_default();
         let count = if place.is_bytes { value.len().min(rest.len()) } else { value.len() };
-        let own = rest.get(..count).filter(|own| !own.is_empty() || value.is_empty());
-        let own = own.ok_or(LengthError::new(at + value.len().max(1), length))?;
-        copy(value, own, place.is_bytes);
+        let field = rest.get(..count).filter(|field| !field.is_empty() || value.is_empty());
+        let field = field.ok_or(LengthError::new(at + value.len().max(1), length))?;
+        copy(value, field, place.is_bytes);
         Ok(count)
     }
 

@@ -157,8 +157,8 @@ impl Cells {
     pub fn mask(&self, slots: &Slots, address: Address, which: impl Fn(&Entry) -> bool) -> u16 {
         let items = self.0.get(&address).map_or(&[][..], |cell| &cell.items);
         let entries = items.iter().map(|at| &slots.get(*at).entry).filter(|entry| which(entry));
-        let own = entries.filter_map(|entry| Some(mask_at(entry.register?, address.1)));
-        own.fold(0, |all, own| all | own)
+        let masks = entries.filter_map(|entry| Some(mask_at(entry.register?, address.1)));
+        masks.fold(0, |all, mask| all | mask)
     }
 
     /// The value that an item would have.

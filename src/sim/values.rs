@@ -39,8 +39,8 @@ pub(super) fn widened(data_type: DataType, mut bytes: Vec<u8>) -> Vec<u8> {
 
 /// The bytes of an integer of type `from` as one of type `to`.
 pub(super) fn resized(from: DataType, bytes: &[u8], to: DataType) -> Result<Vec<u8>, AbortCode> {
-    let (Some(own), Some(other)) = (byte_length(from), byte_length(to)) else { return Err(AbortCode::LENGTH) };
-    let (narrow, sign) = if own < other { (own, is_signed(from)) } else { (other, is_signed(to)) };
+    let (Some(length), Some(other)) = (byte_length(from), byte_length(to)) else { return Err(AbortCode::LENGTH) };
+    let (narrow, sign) = if length < other { (length, is_signed(from)) } else { (other, is_signed(to)) };
     let is_negative = sign && narrow.checked_sub(1).and_then(|last| bytes.get(last)).is_some_and(|last| last >> 7 == 1);
     let fill = if is_negative { 0xFF } else { 0 };
     if bytes.get(narrow..).unwrap_or_default().iter().any(|byte| *byte != fill) {

@@ -9,8 +9,8 @@ mod parameters;
 
 use device::{Async, Device, INVALID_INDEX};
 use lexibus::profinet::{
-    AsyncImageClient, FTrailer, ImageClient, IoObject, IoPlace, IoSpan, IoStatus, NotAllowed, Plan, PnioStatus,
-    RecordAccess, RecordClient, SubmoduleAddress,
+    AsyncImageClient, FTrailer, ImageClient, IoObject, IoSpan, IoStatus, NotAllowed, Plan, PnioStatus, RecordAccess,
+    RecordClient, SubmoduleAddress, SubmoduleIo,
 };
 use lexibus::{Error, Flags, Initial, Item, LengthError, OnProfinet, Range, Record, Rw, VisibleString};
 use now::now;
@@ -120,8 +120,8 @@ fn places_in_the_frames() {
     plan.plug(2, &safe::modules::safe_inputs::MODULE).unwrap();
     // Head, interface and port have a provider status each, and get a consumer status each.
     let span = |offset, length| Some(IoSpan { offset, length });
-    let module = plan.io_place(2, 1).unwrap();
-    let place = IoPlace {
+    let module = plan.submodule_io(2, 1).unwrap();
+    let place = SubmoduleIo {
         slot: 2,
         subslot: 1,
         inputs: span(3, 8),
@@ -131,7 +131,7 @@ fn places_in_the_frames() {
     };
     assert_eq!(module, place);
     assert_eq!(plan.lengths(), (12, 10));
-    assert_eq!(plan.io_place(3, 1), None);
+    assert_eq!(plan.submodule_io(3, 1), None);
 
     let mut outputs = [0; 10];
     plan.set_status(&mut outputs, IoStatus::GOOD).unwrap();
@@ -153,7 +153,7 @@ fn places_in_the_frames() {
     assert!(plan.set_status(&mut outputs[..9], IoStatus::GOOD).is_err());
     type Telegram = drive::submodules::standard_telegram_1::Inputs;
     assert_eq!(module.read::<Telegram>(&inputs), Err(LengthError::new(5, 8)));
-    let head = plan.io_place(0, 1).unwrap();
+    let head = plan.submodule_io(0, 1).unwrap();
     assert_eq!(head.write(&mut outputs, Outputs { command: 0 }, IoStatus::GOOD), Err(LengthError::new(6, 0)));
 }
 

@@ -43,8 +43,8 @@ impl CanPort for CanSocket {
             let left = end.map_or(patience, |end| end.saturating_duration_since(Instant::now()));
             match self.read_frame_timeout(left) {
                 Ok(frame) => {
-                    if let Some(own) = from_socket(&frame).filter(|own| wanted(own)) {
-                        return Ok(Some(own));
+                    if let Some(found) = from_socket(&frame).filter(|found| wanted(found)) {
+                        return Ok(Some(found));
                     }
                     waiting -= usize::from(left.is_zero());
                 }

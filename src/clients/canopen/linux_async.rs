@@ -41,8 +41,8 @@ impl AsyncCanPort for CanSocket {
             let left = end.map_or(patience, |end| end.saturating_duration_since(Instant::now()));
             match timeout(left, self.read_frame()).await {
                 Ok(frame) => {
-                    if let Some(own) = from_socket(&frame?).filter(|own| wanted(own)) {
-                        return Ok(Some(own));
+                    if let Some(found) = from_socket(&frame?).filter(|found| wanted(found)) {
+                        return Ok(Some(found));
                     }
                     waiting -= usize::from(left.is_zero());
                 }

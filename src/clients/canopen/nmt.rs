@@ -54,7 +54,7 @@ impl NmtCommand {
         let command = all.into_iter().find(|command| command.specifier() == specifier)?;
         let node = match node {
             0 => None,
-            own => Some(NodeId::new(own)?),
+            number => Some(NodeId::new(number)?),
         };
         Some((command, node))
     }

@@ -54,8 +54,8 @@ impl<C: embedded_can::nb::Can, T: FnMut() -> Duration> CanPort for Polled<C, T> 
             let is_late = (self.clock)() >= end;
             match self.can.receive() {
                 Ok(frame) => {
-                    if let Some(own) = CanFrame::from_frame(&frame).filter(|own| wanted(own)) {
-                        return Ok(Some(own));
+                    if let Some(found) = CanFrame::from_frame(&frame).filter(|found| wanted(found)) {
+                        return Ok(Some(found));
                     }
                     waiting -= usize::from(is_late);
                 }

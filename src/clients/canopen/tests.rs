@@ -233,9 +233,9 @@ fn reads_are_in_step_again_after_a_late_answer() {
 #[test]
 fn answers_to_others_dont_go_on_for_ever() {
     let other = number(0x2001, 9);
-    let own = number(0x2000, 7);
+    let answer = number(0x2000, 7);
     let mut few = std::vec![&other[..]; 200];
-    few.push(&own);
+    few.push(&answer);
     assert_eq!(SPEED.at(&mut scripted([&few])).read(), Ok(7));
     let many = std::vec![&other[..]; 1000];
     let mut node = scripted([&many]);
@@ -326,7 +326,8 @@ fn emergencies_are_the_devices_alarms() {
         let [low, high] = u16::to_le_bytes(code);
         node.port().answers.extend(CanFrame::new(id, &[low, high, 1, 0, 0, 0, 0, 0]));
     }
-    let alarm = |node: &mut Node<Bus>| node.emergency(Duration::ZERO).unwrap().map(|own| own.alarm::<Alarm>());
+    let alarm =
+        |node: &mut Node<Bus>| node.emergency(Duration::ZERO).unwrap().map(|emergency| emergency.alarm::<Alarm>());
     assert_eq!(alarm(&mut node), Some(Alarm::Blocked));
     assert_eq!(alarm(&mut node), Some(Alarm::Unknown(0x1000)));
     assert_eq!(alarm(&mut node), None);

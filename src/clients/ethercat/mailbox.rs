@@ -190,7 +190,7 @@ mod tests {
 
     #[test]
     fn answers_about_another_object_are_those_of_a_transfer_that_was_given_up() {
-        let (own, other) = (Object::new(0x6040, 0), Object::new(0x6041, 0));
+        let (object, other) = (Object::new(0x6040, 0), Object::new(0x6041, 0));
         let code = AbortCode::NO_OBJECT;
         for late in [
             Answer::Upload { object: other, size: None, data: &[1, 2] },
@@ -198,12 +198,12 @@ mod tests {
             Answer::Abort { object: other, code },
             Answer::Foreign,
         ] {
-            assert!(matches!(Sought::<()>::of(late, own), Sought::Other), "{late:?}");
+            assert!(matches!(Sought::<()>::of(late, object), Sought::Other), "{late:?}");
         }
-        let refused = Sought::<()>::of(Answer::Abort { object: own, code }, own);
+        let refused = Sought::<()>::of(Answer::Abort { object, code }, object);
         assert!(matches!(refused, Sought::Failed(Error::Abort(AbortCode::NO_OBJECT))));
-        for wrong in [Answer::Download { object: own }, Answer::UploadSegment { toggle: true, last: true, data: &[] }] {
-            assert!(matches!(Sought::<()>::of(wrong, own), Sought::Failed(Error::UnexpectedReply)), "{wrong:?}");
+        for wrong in [Answer::Download { object }, Answer::UploadSegment { toggle: true, last: true, data: &[] }] {
+            assert!(matches!(Sought::<()>::of(wrong, object), Sought::Failed(Error::UnexpectedReply)), "{wrong:?}");
         }
     }
 }

@@ -141,9 +141,9 @@ impl<'d> Answer<'d> {
         }
         let (coe, sdo) = body.split_first_chunk::<COE_HEADER>()?;
         match coe[1] >> 4 {
-            own if own == Service::Emergency as u8 => emergency(sdo),
+            service if service == Service::Emergency as u8 => emergency(sdo),
             // An abort is a request, too.
-            own if own == Service::Response as u8 || own == Service::Request as u8 => response(sdo),
+            service if service == Service::Response as u8 || service == Service::Request as u8 => response(sdo),
             _ => Some(Answer::Foreign),
         }
     }

@@ -72,11 +72,11 @@ pub(super) struct Answer {
 
 impl Answer {
     pub(super) fn new(register: Register, limits: &Limits) -> Result<Self, ModbusError> {
-        let (own, function) = (limits.of(register.table), read_function(register.table));
-        if !own.takes(function) {
+        let (table_limits, function) = (limits.of(register.table), read_function(register.table));
+        if !table_limits.takes(function) {
             return Err(ModbusError::Function { table: register.table, function });
         }
-        let pieces = Pieces::new(register, limits.max_read(register.table), own.split)?;
+        let pieces = Pieces::new(register, limits.max_read(register.table), table_limits.split)?;
         Ok(Self { pieces, words: Vec::new(), bits: Vec::new() })
     }
 
@@ -146,16 +146,17 @@ impl Writes {
             RegisterTable::Coil => (5, 15),
             RegisterTable::Input | RegisterTable::DiscreteInput => return Err(ModbusError::ReadOnly),
         };
-        let own = limits.of(table);
-        let masks = table == RegisterTable::Holding && register.part.is_some() && register.count == 1 && own.names(22);
-        let takes_several = own.takes(several);
-        let single = own.takes(one) && (single || table == RegisterTable::Coil || !takes_several);
-        let is_single = register.count == 1 || own.split;
+        let table_limits = limits.of(table);
+        let masks =
+            table == RegisterTable::Holding && register.part.is_some() && register.count == 1 && table_limits.names(22);
+        let takes_several = table_limits.takes(several);
+        let single = table_limits.takes(one) && (single || table == RegisterTable::Coil || !takes_several);
+        let is_single = register.count == 1 || table_limits.split;
         if !(masks || takes_several || single && is_single) {
             return Err(ModbusError::Function { table, function: several });
         }
         let max = if takes_several { limits.max_write(table) } else { 1 };
-        Ok(Self { pieces: Pieces::new(register, max, own.split)?, single, masks })
+        Ok(Self { pieces: Pieces::new(register, max, table_limits.split)?, single, masks })
     }
 
     /// What has to be read first, because only a part of it changes.

@@ -16,13 +16,15 @@ use tokio_modbus::Request;
 
 use crate::{Flags, Item, OnModbus, Ro, Rw};
 
-type Here<V, A> = Item<V, A, OnModbus>;
-const SPEED: Here<u32, Rw> = Here::register(Register::low_first(10, 2), "Speed", Flags::NONE);
-const TORQUE: Here<i16, Rw> = Here::register(Register::holding(12), "Torque", Flags::NONE);
-const UPPER: Here<u8, Rw> = Here::register(Register::holding(13).part(8, 8), "Upper", Flags::NONE);
-const VALVE: Here<bool, Rw> = Here::register(Register::new(RegisterTable::Coil, 3, 1), "Valve", Flags::NONE);
-const LEVEL: Here<u16, Ro> = Here::register(Register::new(RegisterTable::Input, 4, 1), "Level", Flags::NONE);
-const MISSING: Here<u16, Rw> = Here::register(Register::holding(999), "Missing", Flags::NONE);
+type RegisterItem<V, A> = Item<V, A, OnModbus>;
+const SPEED: RegisterItem<u32, Rw> = RegisterItem::register(Register::low_first(10, 2), "Speed", Flags::NONE);
+const TORQUE: RegisterItem<i16, Rw> = RegisterItem::register(Register::holding(12), "Torque", Flags::NONE);
+const UPPER: RegisterItem<u8, Rw> = RegisterItem::register(Register::holding(13).part(8, 8), "Upper", Flags::NONE);
+const VALVE: RegisterItem<bool, Rw> =
+    RegisterItem::register(Register::new(RegisterTable::Coil, 3, 1), "Valve", Flags::NONE);
+const LEVEL: RegisterItem<u16, Ro> =
+    RegisterItem::register(Register::new(RegisterTable::Input, 4, 1), "Level", Flags::NONE);
+const MISSING: RegisterItem<u16, Rw> = RegisterItem::register(Register::holding(999), "Missing", Flags::NONE);
 
 /// A device whose answers come one request late, and the first of them when the time is up.
 #[derive(Debug, Default)]
@@ -45,7 +47,7 @@ impl sync::Client for Late {
 
 #[test]
 fn a_late_answer_to_a_write_is_none_to_another() {
-    const OTHER: Here<i16, Rw> = Here::register(Register::holding(14), "Other", Flags::NONE);
+    const OTHER: RegisterItem<i16, Rw> = RegisterItem::register(Register::holding(14), "Other", Flags::NONE);
     let mut device = ModbusClient::new(Late::default());
     assert!(matches!(TORQUE.at(&mut device).write(5), Err(Error::Timeout)));
     assert!(matches!(OTHER.at(&mut device).write(5), Err(Error::UnexpectedReply)));
@@ -55,8 +57,9 @@ fn a_late_answer_to_a_write_is_none_to_another() {
 
 #[test]
 fn what_no_table_has_isnt_asked_for() {
-    const LAST: Here<u32, Rw> = Here::register(Register::high_first(0xFFFF, 2), "Last", Flags::NONE);
-    const NONE: Here<bool, Rw> = Here::register(Register::new(RegisterTable::Coil, 5, 0), "None", Flags::NONE);
+    const LAST: RegisterItem<u32, Rw> = RegisterItem::register(Register::high_first(0xFFFF, 2), "Last", Flags::NONE);
+    const NONE: RegisterItem<bool, Rw> =
+        RegisterItem::register(Register::new(RegisterTable::Coil, 5, 0), "None", Flags::NONE);
     let mut device = limited(TableLimits { max_read: 1, max_write: 1, split: true, ..TableLimits::HOLDING });
     let refused =
         [LAST.at(&mut device).write(1), LAST.at(&mut device).read().map(|_| ()), NONE.at(&mut device).write(true)];
@@ -68,8 +71,10 @@ fn what_no_table_has_isnt_asked_for() {
 
 #[test]
 fn what_bits_dont_hold_isnt_written() {
-    const NIBBLE: Here<u8, Rw> = Here::register(Register::holding(13).part(4, 4), "Nibble", Flags::NONE);
-    const BYTE: Here<u8, Rw> = Here::register(Register::new(RegisterTable::Coil, 3, 1), "Byte", Flags::NONE);
+    const NIBBLE: RegisterItem<u8, Rw> =
+        RegisterItem::register(Register::holding(13).part(4, 4), "Nibble", Flags::NONE);
+    const BYTE: RegisterItem<u8, Rw> =
+        RegisterItem::register(Register::new(RegisterTable::Coil, 3, 1), "Byte", Flags::NONE);
     let mut device = ModbusClient::new(Device::default());
     for refused in [NIBBLE.at(&mut device).write(0x1F), BYTE.at(&mut device).write(2)] {
         assert!(matches!(refused, Err(Error::OutOfRange(_))), "{refused:?}");
@@ -248,7 +253,7 @@ fn what_the_device_takes() {
 
 #[test]
 fn widths() {
-    const LONG: Here<u64, Rw> = Here::register(Register::high_first(20, 4), "Long", Flags::NONE);
+    const LONG: RegisterItem<u64, Rw> = RegisterItem::register(Register::high_first(20, 4), "Long", Flags::NONE);
     let narrow = TableLimits { max_read: 2, max_write: 3, ..TableLimits::HOLDING };
     let mut device = limited(narrow);
     SPEED.at(&mut device).write(70_000).unwrap();
@@ -277,7 +282,8 @@ fn widths() {
 
 #[test]
 fn addresses_of_32_bits_are_never_taken_apart() {
-    const WIDE: Here<u64, Rw> = Here::register(Register::high_first(20, 4).words_per_address(2), "Wide", Flags::NONE);
+    const WIDE: RegisterItem<u64, Rw> =
+        RegisterItem::register(Register::high_first(20, 4).words_per_address(2), "Wide", Flags::NONE);
     let mut device = limited(TableLimits { max_write: 3, split: true, ..TableLimits::HOLDING });
     WIDE.at(&mut device).write(0x0001_0002_0003_0004).unwrap();
     assert_eq!(device.context().requests, ["WriteMultipleRegisters(20, [1, 2])", "WriteMultipleRegisters(21, [3, 4])"]);
@@ -292,7 +298,8 @@ fn a_device_that_changes_bits_itself() {
     device.context().holding.insert(13, 0x1234);
     UPPER.at(&mut device).write(0xAB).unwrap();
     assert_eq!(device.context().holding[&13], 0xAB34);
-    const SWAPPED: Here<u8, Rw> = Here::register(Register::holding(13).swapped().part(8, 4), "Swapped", Flags::NONE);
+    const SWAPPED: RegisterItem<u8, Rw> =
+        RegisterItem::register(Register::holding(13).swapped().part(8, 4), "Swapped", Flags::NONE);
     SWAPPED.at(&mut device).write(0xC).unwrap();
     assert_eq!((device.context().holding[&13], SWAPPED.at(&mut device).read().unwrap()), (0xAB3C, 0xC));
     assert_eq!(device.context().functions, [22, 22, 3]);
@@ -300,7 +307,8 @@ fn a_device_that_changes_bits_itself() {
 
 #[test]
 fn several_coils() {
-    const VALVES: Here<u16, Rw> = Here::register(Register::new(RegisterTable::Coil, 3, 10), "Valves", Flags::NONE);
+    const VALVES: RegisterItem<u16, Rw> =
+        RegisterItem::register(Register::new(RegisterTable::Coil, 3, 10), "Valves", Flags::NONE);
     let mut device = ModbusClient::new(Device::default());
     VALVES.at(&mut device).write(0x2A5).unwrap();
     assert_eq!(device.context().functions, [15]);

@@ -90,20 +90,19 @@ impl<C> ParameterAccess<C> {
     fn changing<'b, T: ParameterValue + Copy>(
         &mut self,
         buffer: &'b mut [u8],
-        (axis, pnu, subindex): (u8, u16, u16),
+        axis: u8,
+        address: ParameterAddress,
         values: &[T],
     ) -> Result<&'b [u8], ParameterError> {
         let mut bytes = [0; BLOCK_LEN];
         let mut length = 0;
         for value in values {
-            let own = value.to_bytes();
-            let own = own.as_ref();
-            let to = bytes.get_mut(length..).and_then(|rest| rest.get_mut(..own.len()));
-            to.ok_or(ParameterError::Values(T::FORMAT))?.copy_from_slice(own);
-            length += own.len();
+            let encoded = value.to_bytes();
+            let encoded = encoded.as_ref();
+            let to = bytes.get_mut(length..).and_then(|rest| rest.get_mut(..encoded.len()));
+            to.ok_or(ParameterError::Values(T::FORMAT))?.copy_from_slice(encoded);
+            length += encoded.len();
         }
-        let elements = elements::<T>(values)?;
-        let address = ParameterAddress::values(pnu, subindex, elements);
         let change = Change::new(address, T::FORMAT, bytes.get(..length).unwrap_or_default());
         change_request(buffer, self.next_reference(), axis, &[change])
     }
@@ -183,7 +182,8 @@ impl<C: RecordClient> ParameterAccess<C> {
         values: &[T],
     ) -> Result<(), Error<C::Error>> {
         let (mut request, mut response) = ([0; BLOCK_LEN], [0; BLOCK_LEN]);
-        let request = self.changing(&mut request, (axis, pnu, subindex), values)?;
+        let address = ParameterAddress::values(pnu, subindex, elements(values)?);
+        let request = self.changing(&mut request, axis, address, values)?;
         Ok(self.request(request, &mut response)?.done()?)
     }
 
@@ -251,7 +251,8 @@ impl<C: AsyncRecordClient> ParameterAccess<C> {
         values: &[T],
     ) -> Result<(), Error<C::Error>> {
         let (mut request, mut response) = ([0; BLOCK_LEN], [0; BLOCK_LEN]);
-        let request = self.changing(&mut request, (axis, pnu, subindex), values)?;
+        let address = ParameterAddress::values(pnu, subindex, elements(values)?);
+        let request = self.changing(&mut request, axis, address, values)?;
         Ok(self.request_async(request, &mut response).await?.done()?)
     }
 

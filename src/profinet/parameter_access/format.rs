@@ -103,13 +103,13 @@ pub trait ParameterValue: Sized {
 }
 
 macro_rules! values {
-    ($($type:ident $size:literal: $own:ident $(| $other:ident)*;)*) => {$(
+    ($($type:ident $size:literal: $format:ident $(| $other:ident)*;)*) => {$(
         impl ParameterValue for $type {
-            const FORMAT: Format = Format::$own;
+            const FORMAT: Format = Format::$format;
             type Bytes = [u8; $size];
 
             fn reads(format: Format) -> bool {
-                matches!(format, Format::$own $(| Format::$other)*)
+                matches!(format, Format::$format $(| Format::$other)*)
             }
 
             fn to_bytes(self) -> [u8; $size] {

@@ -1,5 +1,6 @@
 //! When a node sends and takes PDOs (CiA 301 7.2.2.2 and 7.5.2.35 to 7.5.2.38).
 
+use core::ops::RangeInclusive;
 use core::time::Duration;
 use std::collections::BTreeMap;
 use std::vec::Vec;
@@ -10,8 +11,8 @@ use crate::abort::AbortCode;
 use crate::clients::canopen::CanFrame;
 
 /// The indices of the communication parameters.
-const RECEIVED: (u16, u16) = (0x1400, 0x15FF);
-const TRANSMITTED: (u16, u16) = (0x1800, 0x19FF);
+const RECEIVED: RangeInclusive<u16> = 0x1400..=0x15FF;
+const TRANSMITTED: RangeInclusive<u16> = 0x1800..=0x19FF;
 /// The index of a mapping is so much greater than that of the communication parameters.
 const MAPPING: u16 = 0x200;
 /// A PDO that is sent when its data change, or by its timer, has this transmission type or a greater one.
@@ -67,8 +68,8 @@ impl Communication {
     }
 
     /// Those that are used.
-    fn all(device: &Device, (first, last): (u16, u16)) -> Vec<Self> {
-        let cob_ids = device.slots.objects(first, last).filter(|object| object.sub_index == 1);
+    fn all(device: &Device, indices: RangeInclusive<u16>) -> Vec<Self> {
+        let cob_ids = device.slots.objects(*indices.start(), *indices.end()).filter(|object| object.sub_index == 1);
         cob_ids.filter_map(|object| Self::of(device, object.index)).collect()
     }
 
@@ -81,13 +82,13 @@ impl Communication {
 impl Pdos {
     /// When a timer of a PDO ends, or the time in which it may not be sent again.
     pub fn next_event(&self, device: &Device) -> Option<Duration> {
-        let events = Communication::all(device, TRANSMITTED).into_iter().filter(|own| own.kind >= EVENT);
-        let times = events.filter_map(|own| {
-            let sent = self.sent.get(&own.index)?;
+        let events = Communication::all(device, TRANSMITTED).into_iter().filter(|pdo| pdo.kind >= EVENT);
+        let times = events.filter_map(|pdo| {
+            let sent = self.sent.get(&pdo.index)?;
             let at = sent.at?;
-            let is_changed = own.data(device).is_some_and(|data| data != sent.data);
-            let inhibited = is_changed.then_some(at + own.inhibit);
-            let timer = (!own.timer.is_zero()).then(|| at + own.timer.max(own.inhibit));
+            let is_changed = pdo.data(device).is_some_and(|data| data != sent.data);
+            let inhibited = is_changed.then_some(at + pdo.inhibit);
+            let timer = (!pdo.timer.is_zero()).then(|| at + pdo.timer.max(pdo.inhibit));
             inhibited.into_iter().chain(timer).min()
         });
         times.min()
@@ -95,46 +96,46 @@ impl Pdos {
 
     /// The PDOs that are sent because their data changed, or their time has come. All are, when the node starts.
     pub fn changed(&mut self, device: &Device, now: Duration) -> Vec<CanFrame> {
-        let events = Communication::all(device, TRANSMITTED).into_iter().filter(|own| own.kind >= EVENT);
-        events.filter_map(|own| self.send_event(device, &own, now)).collect()
+        let events = Communication::all(device, TRANSMITTED).into_iter().filter(|pdo| pdo.kind >= EVENT);
+        events.filter_map(|pdo| self.send_event(device, &pdo, now)).collect()
     }
 
-    fn send_event(&mut self, device: &Device, own: &Communication, now: Duration) -> Option<CanFrame> {
-        let data = own.data(device)?;
-        let sent = self.sent.entry(own.index).or_default();
+    fn send_event(&mut self, device: &Device, pdo: &Communication, now: Duration) -> Option<CanFrame> {
+        let data = pdo.data(device)?;
+        let sent = self.sent.entry(pdo.index).or_default();
         let is_due = match sent.at {
             None => true,
-            Some(at) if now < at + own.inhibit => false,
-            Some(at) => data != sent.data || !own.timer.is_zero() && now >= at + own.timer,
+            Some(at) if now < at + pdo.inhibit => false,
+            Some(at) => data != sent.data || !pdo.timer.is_zero() && now >= at + pdo.timer,
         };
-        is_due.then(|| sent.send(own.id, data, now))?
+        is_due.then(|| sent.send(pdo.id, data, now))?
     }
 
     /// The PDOs that are sent on SYNC: each time or every so many times, or when their data changed before it.
     pub fn sampled(&mut self, device: &Device, now: Duration) -> Vec<CanFrame> {
-        let synchronous = Communication::all(device, TRANSMITTED).into_iter().filter(|own| own.kind <= SYNCHRONOUS);
-        let frames = synchronous.filter_map(|own| {
-            let data = own.data(device)?;
-            let sent = self.sent.entry(own.index).or_default();
+        let synchronous = Communication::all(device, TRANSMITTED).into_iter().filter(|pdo| pdo.kind <= SYNCHRONOUS);
+        let frames = synchronous.filter_map(|pdo| {
+            let data = pdo.data(device)?;
+            let sent = self.sent.entry(pdo.index).or_default();
             sent.syncs += 1;
-            let is_due = match own.kind {
+            let is_due = match pdo.kind {
                 0 => sent.at.is_none() || data != sent.data,
                 every => sent.syncs >= every,
             };
-            is_due.then(|| sent.send(own.id, data, now))?
+            is_due.then(|| sent.send(pdo.id, data, now))?
         });
         frames.collect()
     }
 
     /// Takes a PDO. What is synchronous waits for SYNC. Returns the mapping and the code of what is refused.
     pub fn receive(&mut self, device: &mut Device, id: u16, data: &[u8]) -> Vec<(u16, AbortCode)> {
-        let own = Communication::all(device, RECEIVED).into_iter().filter(|own| own.id == id);
+        let pdos = Communication::all(device, RECEIVED).into_iter().filter(|pdo| pdo.id == id);
         let mut refused = Vec::new();
-        for own in own {
-            if own.kind <= SYNCHRONOUS {
-                self.waiting.insert(own.index, data.to_vec());
+        for pdo in pdos {
+            if pdo.kind <= SYNCHRONOUS {
+                self.waiting.insert(pdo.index, data.to_vec());
             } else {
-                refused.extend(take(device, own.index, data));
+                refused.extend(take(device, pdo.index, data));
             }
         }
         refused

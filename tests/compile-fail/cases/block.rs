@@ -3,9 +3,9 @@
 use lexibus::modbus::RegisterClient;
 use lexibus::{Flags, Item, OnCanOpen, OnModbus, Register, Ro, Wo};
 
-type Here<V, A> = Item<V, A, OnModbus>;
-const SPEED: Here<u16, Ro> = Here::register(Register::holding(1), "Speed", Flags::NONE);
-const PASSWORD: Here<u16, Wo> = Here::register(Register::holding(2), "Password", Flags::NONE);
+type RegisterItem<V, A> = Item<V, A, OnModbus>;
+const SPEED: RegisterItem<u16, Ro> = RegisterItem::register(Register::holding(1), "Speed", Flags::NONE);
+const PASSWORD: RegisterItem<u16, Wo> = RegisterItem::register(Register::holding(2), "Password", Flags::NONE);
 const ELSEWHERE: Item<u16, Ro, OnCanOpen> = Item::object(0x6041, 0, "Statusword");
 
 fn read<C: RegisterClient>(mut client: C) {

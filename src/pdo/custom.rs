@@ -118,10 +118,10 @@ impl IsCobId<'_> for CobId {}
     label = "not on CANopen",
     note = "call `mapping_writes()` for what Pre-Operational needs"
 )]
-pub trait OnCanOpen<'a> {}
+pub trait IsOnCanOpen<'a> {}
 
-impl OnCanOpen<'_> for CobId {}
-impl OnCanOpen<'_> for NoCobId {}
+impl IsOnCanOpen<'_> for CobId {}
+impl IsOnCanOpen<'_> for NoCobId {}
 
 /// [`CobId`], [`NoCobId`] or [`OnEtherCat`].
 pub trait Identifier {

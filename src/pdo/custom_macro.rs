@@ -143,12 +143,12 @@ macro_rules! pdo {
             const INDEX: u16 = <$path as $crate::pdo::Remappable>::INDEX;
             const LEN: usize = Self::LEN;
             const MAPPING: &'static [$crate::MappedEntry] =
-                &$crate::pdo::own::entries([$($crate::pdo!(@word $path, $word)),+]);
+                &$crate::pdo::custom::entries([$($crate::pdo!(@word $path, $word)),+]);
         }
 
         impl $name {
             /// Length in bits.
-            pub const BITS: u32 = $crate::pdo::own::bits(<Self as $crate::Pdo>::MAPPING);
+            pub const BITS: u32 = $crate::pdo::custom::bits(<Self as $crate::Pdo>::MAPPING);
             /// Length in bytes.
             pub const LEN: usize = Self::BITS.div_ceil(8) as usize;
             /// The identifier by default (CiA 301 7.5.2.35).
@@ -158,7 +158,7 @@ macro_rules! pdo {
             #[inline]
             #[must_use]
             pub fn pack(&self) -> [u8; Self::LEN] {
-                $crate::pdo::own::Frame::<{ Self::LEN }>::new()
+                $crate::pdo::custom::Frame::<{ Self::LEN }>::new()
                     $(.with(self.$field, const { 0 $($at)* }, const { <$item as $crate::pdo::Mapped>::BITS }))+
                     .into_bytes()
             }
@@ -170,7 +170,7 @@ macro_rules! pdo {
             /// When `data` has fewer bytes than the PDO.
             #[inline]
             pub fn unpack(data: &[u8]) -> ::core::result::Result<Self, $crate::LengthError> {
-                match $crate::pdo::own::Fields::<{ Self::LEN }>::new(data) {
+                match $crate::pdo::custom::Fields::<{ Self::LEN }>::new(data) {
                     ::core::result::Result::Ok(fields) => ::core::result::Result::Ok(Self {
                         $($field: fields.get(
                             const { 0 $($at)* },
@@ -185,7 +185,7 @@ macro_rules! pdo {
             /// Pre-Operational, with the PDO not assigned; on CANopen the PDO has to be off meanwhile.
             #[must_use]
             pub const fn mapping_writes() -> [$crate::SdoWrite; <Self as $crate::Pdo>::MAPPING.len() + 2] {
-                $crate::pdo::own::mapping_writes::<$path, { <Self as $crate::Pdo>::MAPPING.len() + 2 }>(
+                $crate::pdo::custom::mapping_writes::<$path, { <Self as $crate::Pdo>::MAPPING.len() + 2 }>(
                     <Self as $crate::Pdo>::MAPPING,
                 )
             }
@@ -194,13 +194,13 @@ macro_rules! pdo {
             #[must_use]
             pub const fn configuration(
                 node_id: $crate::NodeId,
-            ) -> [$crate::SdoWrite; $crate::pdo::own::configuration_len::<$path>(<Self as $crate::Pdo>::MAPPING)]
+            ) -> [$crate::SdoWrite; $crate::pdo::custom::configuration_len::<$path>(<Self as $crate::Pdo>::MAPPING)]
             where
-                for<'a> <$path as $crate::pdo::Remappable>::CobId: $crate::pdo::own::IsCobId<'a>,
+                for<'a> <$path as $crate::pdo::Remappable>::CobId: $crate::pdo::custom::IsCobId<'a>,
             {
-                $crate::pdo::own::configuration::<
+                $crate::pdo::custom::configuration::<
                     $path,
-                    { $crate::pdo::own::configuration_len::<$path>(<Self as $crate::Pdo>::MAPPING) },
+                    { $crate::pdo::custom::configuration_len::<$path>(<Self as $crate::Pdo>::MAPPING) },
                 >(<Self as $crate::Pdo>::MAPPING, Self::COB_ID.resolve(node_id))
             }
 
@@ -209,13 +209,13 @@ macro_rules! pdo {
             #[must_use]
             pub const fn configuration_as(
                 cob_id: u32,
-            ) -> [$crate::SdoWrite; $crate::pdo::own::configuration_len::<$path>(<Self as $crate::Pdo>::MAPPING)]
+            ) -> [$crate::SdoWrite; $crate::pdo::custom::configuration_len::<$path>(<Self as $crate::Pdo>::MAPPING)]
             where
-                for<'a> <$path as $crate::pdo::Remappable>::CobId: $crate::pdo::own::OnCanOpen<'a>,
+                for<'a> <$path as $crate::pdo::Remappable>::CobId: $crate::pdo::custom::IsOnCanOpen<'a>,
             {
-                $crate::pdo::own::configuration::<
+                $crate::pdo::custom::configuration::<
                     $path,
-                    { $crate::pdo::own::configuration_len::<$path>(<Self as $crate::Pdo>::MAPPING) },
+                    { $crate::pdo::custom::configuration_len::<$path>(<Self as $crate::Pdo>::MAPPING) },
                 >(<Self as $crate::Pdo>::MAPPING, cob_id)
             }
         }
@@ -225,42 +225,42 @@ macro_rules! pdo {
             #[allow(non_camel_case_types)]
             const _: () = {
                 type MappedObject = $item;
-                type Granularity = $crate::pdo::own::Check<
-                    { $crate::pdo::own::check::is_multiple::<$path>(<$item as $crate::pdo::Mapped>::BITS) },
+                type Granularity = $crate::pdo::custom::Check<
+                    { $crate::pdo::custom::check::is_multiple::<$path>(<$item as $crate::pdo::Mapped>::BITS) },
                 >;
                 {
                     type $field = MappedObject;
                     type Direction = <$path as $crate::pdo::Remappable>::Direction;
-                    <$field as $crate::pdo::own::MappableInto<Direction>>::HOLDS
+                    <$field as $crate::pdo::custom::MappableInto<Direction>>::HOLDS
                 }
                 {
                     type $field = Granularity;
-                    <$field as $crate::pdo::own::FitsGranularity>::HOLDS
+                    <$field as $crate::pdo::custom::FitsGranularity>::HOLDS
                 }
             };
         )+
         const _: () = {
             let mapping = <$name as $crate::Pdo>::MAPPING;
             ::core::assert!(
-                $crate::pdo::own::check::has_gaps(mapping),
+                $crate::pdo::custom::check::has_gaps(mapping),
                 ::core::concat!(
                     "`", ::core::stringify!($name), "` has a gap `_` that the device can't map: it has no dummy entry ",
                     "of that many bits for this PDO, or for such a PDO none at all"
                 )
             );
             ::core::assert!(
-                $crate::pdo::own::check::fits_entries::<$path>(mapping),
+                $crate::pdo::custom::check::fits_entries::<$path>(mapping),
                 ::core::concat!("`", ::core::stringify!($name), "` has more entries than the device maps into this PDO")
             );
             ::core::assert!(
-                $crate::pdo::own::check::fits_bits::<$path>(mapping),
+                $crate::pdo::custom::check::fits_bits::<$path>(mapping),
                 ::core::concat!(
                     "`", ::core::stringify!($name), "` has more bits than this PDO can have: 64 on CANopen, what the ",
                     "sync manager takes on EtherCAT"
                 )
             );
             ::core::assert!(
-                $crate::pdo::own::check::keeps_fixed::<$path>(mapping),
+                $crate::pdo::custom::check::keeps_fixed::<$path>(mapping),
                 ::core::concat!(
                     "`", ::core::stringify!($name), "` leaves out an entry that the device doesn't let anyone take out ",
                     "of this PDO"
@@ -270,7 +270,7 @@ macro_rules! pdo {
     };
 
     (@word $path:ty, { gap $gap:literal }) => {
-        $crate::pdo::own::gap::<$path>($gap)
+        $crate::pdo::custom::gap::<$path>($gap)
     };
     (@word $path:ty, { item $item:ty }) => {
         <$item as $crate::pdo::Mapped>::WORD

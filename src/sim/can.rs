@@ -193,7 +193,7 @@ impl CanNode {
             self.heartbeat = None;
             return;
         }
-        let heartbeat = self.heartbeat.filter(|own| own.period == period);
+        let heartbeat = self.heartbeat.filter(|heartbeat| heartbeat.period == period);
         let mut heartbeat = heartbeat.unwrap_or(Heartbeat { period, due: self.now + period });
         while heartbeat.due <= self.now {
             self.emit(self.state.heartbeat(self.device.node_id()));
@@ -236,8 +236,8 @@ impl CanNode {
 
     /// A command of network management to this node, or to all.
     fn command(&mut self, frame: &CanFrame) {
-        let own = |node: Option<NodeId>| node.map_or(true, |node| node == self.device.node_id());
-        match NmtCommand::of(frame).filter(|(_, node)| own(*node)).map(|(command, _)| command) {
+        let is_addressed = |node: Option<NodeId>| node.map_or(true, |node| node == self.device.node_id());
+        match NmtCommand::of(frame).filter(|(_, node)| is_addressed(*node)).map(|(command, _)| command) {
             Some(NmtCommand::Start) => self.enter(NmtState::Operational),
             Some(NmtCommand::Stop) => self.enter(NmtState::Stopped),
             Some(NmtCommand::EnterPreOperational) => self.enter(NmtState::PreOperational),
