@@ -14,67 +14,34 @@ pub trait Bus {
     const NAME: &'static str;
 }
 
-/// CANopen: SDO transfers over CAN (CiA 301 7.2.4).
-#[derive(Clone, Copy, Debug)]
-pub enum CanOpen {}
+macro_rules! buses {
+    ($($(#[$attribute:meta])* $bus:ident: $address:ident, $name:literal;)*) => {$(
+        $(#[$attribute])*
+        #[derive(Clone, Copy, Debug)]
+        pub enum $bus {}
 
-/// CANopen over EtherCAT: SDO transfers in the mailbox.
-#[derive(Clone, Copy, Debug)]
-pub enum CoE {}
-
-/// Modbus RTU or TCP: registers and single bits.
-#[derive(Clone, Copy, Debug)]
-pub enum Modbus {}
-
-/// PROFINET: acyclic records.
-#[derive(Clone, Copy, Debug)]
-pub enum Profinet {}
-
-/// A serial protocol that numbers its parameters.
-#[derive(Clone, Copy, Debug)]
-pub enum Serial {}
-
-/// A fixed process image, as PROFINET carries it in each cycle: fields at fixed bits.
-#[derive(Clone, Copy, Debug)]
-pub enum ProcessImage {}
-
-/// The memory of an EtherCAT slave controller (ETG.1000.4), which a master reads and writes by addresses, without a mailbox.
-#[derive(Clone, Copy, Debug)]
-pub enum Esc {}
-
-impl Bus for CanOpen {
-    type Address = Object;
-    const NAME: &'static str = "CANopen";
+        impl Bus for $bus {
+            type Address = $address;
+            const NAME: &'static str = $name;
+        }
+    )*};
 }
 
-impl Bus for CoE {
-    type Address = Object;
-    const NAME: &'static str = "CANopen over EtherCAT";
-}
-
-impl Bus for Modbus {
-    type Address = Register;
-    const NAME: &'static str = "Modbus";
-}
-
-impl Bus for Profinet {
-    type Address = Record;
-    const NAME: &'static str = "PROFINET";
-}
-
-impl Bus for Serial {
-    type Address = Parameter;
-    const NAME: &'static str = "serial";
-}
-
-impl Bus for ProcessImage {
-    type Address = ImageField;
-    const NAME: &'static str = "process image";
-}
-
-impl Bus for Esc {
-    type Address = EscMemory;
-    const NAME: &'static str = "EtherCAT slave controller";
+buses! {
+    /// CANopen: SDO transfers over CAN (CiA 301 7.2.4).
+    CanOpen: Object, "CANopen";
+    /// CANopen over EtherCAT: SDO transfers in the mailbox.
+    CoE: Object, "CANopen over EtherCAT";
+    /// Modbus RTU or TCP: registers and single bits.
+    Modbus: Register, "Modbus";
+    /// PROFINET: acyclic records.
+    Profinet: Record, "PROFINET";
+    /// A serial protocol that numbers its parameters.
+    Serial: Parameter, "serial";
+    /// A fixed process image, as PROFINET carries it in each cycle: fields at fixed bits.
+    ProcessImage: ImageField, "process image";
+    /// The memory of an EtherCAT slave controller (ETG.1000.4), which a master reads and writes by addresses, without a mailbox.
+    Esc: EscMemory, "EtherCAT slave controller";
 }
 
 /// An entry of an object dictionary. `Display` writes it as `0x6040:00`, both parts in hexadecimal.

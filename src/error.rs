@@ -5,6 +5,7 @@ use core::fmt;
 
 use crate::abort::AbortCode;
 use crate::bus::Object;
+use crate::from::from;
 use crate::profinet::parameter_access::ParameterError;
 use crate::profinet::{NotAllowed, RecordError};
 use crate::value_error::{LengthError, OutOfRange, TextError};
@@ -80,22 +81,12 @@ impl<E: error::Error> error::Error for Error<E> {
     }
 }
 
-macro_rules! from {
-    ($($error:ident => $variant:ident,)*) => {$(
-        impl<E> From<$error> for Error<E> {
-            fn from(error: $error) -> Self {
-                Self::$variant(error)
-            }
-        }
-    )*};
-}
-
 from! {
-    AbortCode => Abort,
-    OutOfRange => OutOfRange,
-    LengthError => Length,
-    TextError => Text,
-    NotAllowed => NotAllowed,
+    AbortCode => Error::Abort<E>;
+    OutOfRange => Error::OutOfRange<E>;
+    LengthError => Error::Length<E>;
+    TextError => Error::Text<E>;
+    NotAllowed => Error::NotAllowed<E>;
 }
 
 impl<E> From<RecordError> for Error<E> {

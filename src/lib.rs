@@ -120,6 +120,7 @@ pub mod ethercat;
 mod exchange;
 mod flags;
 pub mod framing;
+mod from;
 mod identity;
 mod image_field;
 mod initial;

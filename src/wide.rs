@@ -113,32 +113,27 @@ impl<const BITS: u32> Int<BITS> {
     }
 }
 
-impl<const BITS: u32> TryFrom<u64> for Uint<BITS> {
-    type Error = OutOfRange;
+macro_rules! conversions {
+    ($($wide:ident, $native:ty;)*) => {$(
+        impl<const BITS: u32> TryFrom<$native> for $wide<BITS> {
+            type Error = OutOfRange;
 
-    fn try_from(value: u64) -> Result<Self, OutOfRange> {
-        Self::new(value).ok_or(OutOfRange)
-    }
+            fn try_from(value: $native) -> Result<Self, OutOfRange> {
+                Self::new(value).ok_or(OutOfRange)
+            }
+        }
+
+        impl<const BITS: u32> From<$wide<BITS>> for $native {
+            fn from(value: $wide<BITS>) -> Self {
+                value.get()
+            }
+        }
+    )*};
 }
 
-impl<const BITS: u32> From<Uint<BITS>> for u64 {
-    fn from(value: Uint<BITS>) -> Self {
-        value.get()
-    }
-}
-
-impl<const BITS: u32> TryFrom<i64> for Int<BITS> {
-    type Error = OutOfRange;
-
-    fn try_from(value: i64) -> Result<Self, OutOfRange> {
-        Self::new(value).ok_or(OutOfRange)
-    }
-}
-
-impl<const BITS: u32> From<Int<BITS>> for i64 {
-    fn from(value: Int<BITS>) -> Self {
-        value.get()
-    }
+conversions! {
+    Uint, u64;
+    Int, i64;
 }
 
 macro_rules! wide {

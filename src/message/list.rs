@@ -36,6 +36,25 @@ enum Source<'a, G> {
     Received(&'a [u8]),
 }
 
+impl<G: Copy> Source<'_, G> {
+    /// Takes the next one; `read` reads one that was received.
+    fn take_next(&mut self, read: impl FnOnce(&mut Reader<'_>) -> Option<G>) -> Option<G> {
+        match self {
+            Source::Sent(groups) => {
+                let (first, rest) = groups.split_first()?;
+                *groups = rest;
+                Some(*first)
+            }
+            Source::Received(bytes) => {
+                let mut reader = Reader::new(bytes);
+                let next = read(&mut reader)?;
+                *bytes = reader.but(0)?;
+                Some(next)
+            }
+        }
+    }
+}
+
 impl<'a, G: Group> List<'a, G> {
     /// The occurrences in `bytes`; `None` where these aren't whole, or contain something else.
     #[must_use]
@@ -113,19 +132,7 @@ impl<G: Group> Iterator for ListIter<'_, G> {
     type Item = G;
 
     fn next(&mut self) -> Option<G> {
-        match &mut self.source {
-            Source::Sent(groups) => {
-                let (first, rest) = groups.split_first()?;
-                *groups = rest;
-                Some(*first)
-            }
-            Source::Received(bytes) => {
-                let mut reader = Reader::new(bytes);
-                let next = G::read(&mut reader)?;
-                *bytes = reader.but(0)?;
-                Some(next)
-            }
-        }
+        self.source.take_next(G::read)
     }
 }
 
@@ -135,14 +142,8 @@ impl<G: Group> FusedIterator for ListIter<'_, G> {}
 /// received them.
 #[derive(Clone, Copy, Debug)]
 pub struct Settings<'a> {
-    source: SettingsSource<'a>,
+    source: Source<'a, Setting>,
     rule: SettingsRule,
-}
-
-#[derive(Clone, Copy, Debug)]
-enum SettingsSource<'a> {
-    Sent(&'a [Setting]),
-    Received(&'a [u8]),
 }
 
 /// How settings stand in a message.
@@ -258,16 +259,16 @@ impl<'a> Settings<'a> {
     /// Those that are sent.
     #[must_use]
     pub const fn sent(settings: &'a [Setting], rule: SettingsRule) -> Self {
-        Self { source: SettingsSource::Sent(settings), rule }
+        Self { source: Source::Sent(settings), rule }
     }
 
     /// Those in `bytes`; `None` where these aren't whole, or name another parameter.
     #[must_use]
     pub fn received(bytes: &'a [u8], rule: SettingsRule) -> Option<Self> {
-        let settings = Self { source: SettingsSource::Received(bytes), rule };
+        let settings = Self { source: Source::Received(bytes), rule };
         let mut all = settings.iter();
         all.by_ref().for_each(drop);
-        matches!(all.source, SettingsSource::Received([])).then_some(settings)
+        matches!(all.source, Source::Received([])).then_some(settings)
     }
 
     /// Each of them.
@@ -308,7 +309,7 @@ impl PartialEq for Settings<'_> {
 /// Each of [`Settings`].
 #[derive(Clone, Debug)]
 pub struct SettingsIter<'a> {
-    source: SettingsSource<'a>,
+    source: Source<'a, Setting>,
     rule: SettingsRule,
 }
 
@@ -316,19 +317,8 @@ impl Iterator for SettingsIter<'_> {
     type Item = Setting;
 
     fn next(&mut self) -> Option<Setting> {
-        match &mut self.source {
-            SettingsSource::Sent(settings) => {
-                let (first, rest) = settings.split_first()?;
-                *settings = rest;
-                Some(*first)
-            }
-            SettingsSource::Received(bytes) => {
-                let mut reader = Reader::new(bytes);
-                let next = self.rule.read(&mut reader)?;
-                *bytes = reader.but(0)?;
-                Some(next)
-            }
-        }
+        let rule = self.rule;
+        self.source.take_next(|reader| rule.read(reader))
     }
 }
 

@@ -4,6 +4,7 @@ use core::error;
 use core::fmt;
 
 use crate::error::Error;
+use crate::from::from;
 use crate::range::Range;
 use crate::value::Fixed;
 use crate::value_error::{LengthError, OutOfRange};
@@ -29,16 +30,9 @@ pub enum WriteError {
     NoMessage,
 }
 
-impl From<OutOfRange> for WriteError {
-    fn from(error: OutOfRange) -> Self {
-        Self::OutOfRange(error)
-    }
-}
-
-impl From<LengthError> for WriteError {
-    fn from(error: LengthError) -> Self {
-        Self::Length(error)
-    }
+from! {
+    OutOfRange => WriteError::OutOfRange;
+    LengthError => WriteError::Length;
 }
 
 impl<E> From<WriteError> for Error<E> {

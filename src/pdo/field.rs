@@ -36,93 +36,39 @@ pub trait Field: Copy {
     }
 }
 
-impl Field for bool {
-    #[inline]
-    fn to_word(self) -> u64 {
-        self.into()
-    }
-
-    #[inline]
-    fn from_word(word: u64, _: u32) -> Self {
-        word != 0
-    }
-}
-
-macro_rules! numbers {
-    ($($unsigned:ident $signed:ident)*) => {$(
-        impl Field for $unsigned {
+macro_rules! fields {
+    ($([$($generics:tt)*] $field:ty: $value:ident => $to_word:expr, $word:ident $bits:ident => $from_word:expr;)*) => {$(
+        impl<$($generics)*> Field for $field {
             #[inline]
             fn to_word(self) -> u64 {
-                self.into()
+                let $value = self;
+                $to_word
             }
 
             #[inline]
-            fn from_word(word: u64, _: u32) -> Self {
-                word as Self
-            }
-        }
-
-        impl Field for $signed {
-            #[inline]
-            fn to_word(self) -> u64 {
-                self as u64
-            }
-
-            #[inline]
-            fn from_word(word: u64, bits: u32) -> Self {
-                sign_extend(word, bits) as Self
+            fn from_word($word: u64, $bits: u32) -> Self {
+                $from_word
             }
         }
     )*};
 }
 
-numbers! { u8 i8 u16 i16 u32 i32 u64 i64 }
-
-impl Field for f32 {
-    #[inline]
-    fn to_word(self) -> u64 {
-        self.to_bits().into()
-    }
-
-    #[inline]
-    fn from_word(word: u64, _: u32) -> Self {
-        f32::from_bits(word as u32)
-    }
-}
-
-impl Field for f64 {
-    #[inline]
-    fn to_word(self) -> u64 {
-        self.to_bits()
-    }
-
-    #[inline]
-    fn from_word(word: u64, _: u32) -> Self {
-        f64::from_bits(word)
-    }
-}
-
-macro_rules! raw {
-    ($([$($generics:tt)*] $ty:ty;)*) => {$(
-        impl<$($generics)*> Field for $ty {
-            #[inline]
-            fn to_word(self) -> u64 {
-                self.raw()
-            }
-
-            #[inline]
-            fn from_word(word: u64, _: u32) -> Self {
-                Self::from_raw(word)
-            }
-        }
-    )*};
-}
-
-raw! {
-    [const BITS: u32] Uint<BITS>;
-    [const BITS: u32] Int<BITS>;
-    [] TimeOfDay;
-    [] TimeDifference;
+fields! {
+    [] bool: value => value.into(), word _bits => word != 0;
+    [] u8: value => value.into(), word _bits => word as u8;
+    [] u16: value => value.into(), word _bits => word as u16;
+    [] u32: value => value.into(), word _bits => word as u32;
+    [] u64: value => value, word _bits => word;
+    [] i8: value => value as u64, word bits => sign_extend(word, bits) as i8;
+    [] i16: value => value as u64, word bits => sign_extend(word, bits) as i16;
+    [] i32: value => value as u64, word bits => sign_extend(word, bits) as i32;
+    [] i64: value => value as u64, word bits => sign_extend(word, bits);
+    [] f32: value => value.to_bits().into(), word _bits => f32::from_bits(word as u32);
+    [] f64: value => value.to_bits(), word _bits => f64::from_bits(word);
+    [const BITS: u32] Uint<BITS>: value => value.raw(), word _bits => Self::from_raw(word);
+    [const BITS: u32] Int<BITS>: value => value.raw(), word _bits => Self::from_raw(word);
+    [] TimeOfDay: value => value.raw(), word _bits => Self::from_raw(word);
+    [] TimeDifference: value => value.raw(), word _bits => Self::from_raw(word);
 }
 
 impl<E: Enumeration> Field for E

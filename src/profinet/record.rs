@@ -3,6 +3,7 @@
 use core::error;
 use core::fmt;
 
+use crate::from::from;
 use crate::value_error::LengthError;
 
 /// A parameter record as a struct of its fields. Implemented by generated code.
@@ -52,16 +53,9 @@ impl fmt::Display for RecordError {
 
 impl error::Error for RecordError {}
 
-impl From<NotAllowed> for RecordError {
-    fn from(error: NotAllowed) -> Self {
-        Self::NotAllowed(error)
-    }
-}
-
-impl From<LengthError> for RecordError {
-    fn from(error: LengthError) -> Self {
-        Self::Length(error)
-    }
+from! {
+    NotAllowed => RecordError::NotAllowed;
+    LengthError => RecordError::Length;
 }
 
 /// A field of a record has a value that the description of the device doesn't allow.

@@ -4,6 +4,7 @@ use core::error;
 use core::fmt;
 
 use crate::abort::AbortCode;
+use crate::from::from;
 
 /// What an access to a simulated device ends in, other than in a value.
 ///
@@ -32,16 +33,9 @@ impl fmt::Display for Fault {
 
 impl error::Error for Fault {}
 
-impl From<AbortCode> for Fault {
-    fn from(code: AbortCode) -> Self {
-        Self::Abort(code)
-    }
-}
-
-impl From<Exception> for Fault {
-    fn from(exception: Exception) -> Self {
-        Self::Exception(exception)
-    }
+from! {
+    AbortCode => Fault::Abort;
+    Exception => Fault::Exception;
 }
 
 /// Why a device refuses a request of Modbus (MODBUS Application Protocol 7, exception codes).

@@ -71,22 +71,22 @@ pub(super) fn check_range(entry: &Entry, data: &[u8]) -> Result<(), AbortCode> {
         data_type => {
             let raw = from_bytes(data);
             if is_signed(data_type) {
-                return check_integer(entry, sign_extend(raw, bits).into());
+                return check_limits(integer(entry.low), integer(entry.high), sign_extend(raw, bits).into());
             }
             // A number of 3 bits takes a byte.
             if raw > mask(bits) {
                 return Err(AbortCode::TOO_HIGH);
             }
-            check_integer(entry, raw.into())
+            check_limits(integer(entry.low), integer(entry.high), raw.into())
         }
     }
 }
 
-fn check_integer(entry: &Entry, value: i128) -> Result<(), AbortCode> {
-    if integer(entry.low).is_some_and(|low| value < low) {
+fn check_limits<T: PartialOrd>(low: Option<T>, high: Option<T>, value: T) -> Result<(), AbortCode> {
+    if low.is_some_and(|low| value < low) {
         return Err(AbortCode::TOO_LOW);
     }
-    if integer(entry.high).is_some_and(|high| value > high) {
+    if high.is_some_and(|high| value > high) {
         return Err(AbortCode::TOO_HIGH);
     }
     Ok(())
@@ -101,17 +101,11 @@ fn integer(bound: Bound) -> Option<i128> {
 }
 
 fn check_real(entry: &Entry, value: f64) -> Result<(), AbortCode> {
-    let is_limited = real(entry.low).is_some() || real(entry.high).is_some();
-    if value.is_nan() && is_limited {
+    let (low, high) = (real(entry.low), real(entry.high));
+    if value.is_nan() && (low.is_some() || high.is_some()) {
         return Err(AbortCode::INVALID_VALUE);
     }
-    if real(entry.low).is_some_and(|low| value < low) {
-        return Err(AbortCode::TOO_LOW);
-    }
-    if real(entry.high).is_some_and(|high| value > high) {
-        return Err(AbortCode::TOO_HIGH);
-    }
-    Ok(())
+    check_limits(low, high, value)
 }
 
 fn real(bound: Bound) -> Option<f64> {
