@@ -1,4 +1,4 @@
-//! State machines: the way from one state to another.
+//! State machines: the path from one state to another.
 
 /// A change of state of a device's state machine. States go by their numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -33,7 +33,7 @@ pub enum Step<C> {
 const MAX_TRANSITIONS: usize = 128;
 
 impl<C: Copy> Step<C> {
-    /// The first step of the shortest way from `state` to `target`. Of ways of one length, one that begins with a command
+    /// The first step of the shortest path from `state` to `target`. Of paths of one length, one that begins with a command
     /// counts.
     #[must_use]
     pub fn toward(transitions: &[Transition<C>], state: u8, target: u8) -> Self {

@@ -1,4 +1,4 @@
-//! How an item's value travels on one bus: directly to its address, or some other way.
+//! Routes: how an item's value travels on one bus, directly to its address or otherwise.
 
 mod limited;
 mod resized;
@@ -59,25 +59,25 @@ pub trait Direct<B: Bus>: Copy {
     fn address(self) -> B::Address;
 }
 
-/// A way on which a value can be read. An address is the direct one; [`Split`], [`Resized`], [`Limited`] and [`Through`] are made
-/// of addresses, and of each other.
+/// A route on which a value can be read. An address is the direct one; [`Split`], [`Resized`], [`Limited`] and [`Through`] are
+/// made of addresses, and of each other.
 #[diagnostic::on_unimplemented(
     message = "this item can't be read on `{B}`",
-    label = "the client's bus has no way to read this item"
+    label = "the client's bus has no route that reads this item"
 )]
 pub trait ReadRoute<B: Bus>: Copy {
     /// Reads the value to the start of `buffer` and returns its length, as [`Client::read`] does.
     ///
     /// # Errors
     ///
-    /// Those of the client, and what the way adds to them.
+    /// Those of the client and of the route.
     fn read<C: Client<Bus = B>>(&self, client: &mut C, buffer: &mut [u8]) -> Result<usize, Error<C::Error>>;
 
     /// The same without blocking.
     ///
     /// # Errors
     ///
-    /// Those of the client, and what the way adds to them.
+    /// Those of the client and of the route.
     #[allow(async_fn_in_trait)]
     async fn read_async<C: AsyncClient<Bus = B>>(
         &self,
@@ -86,24 +86,24 @@ pub trait ReadRoute<B: Bus>: Copy {
     ) -> Result<usize, Error<C::Error>>;
 }
 
-/// A way on which a value can be written.
+/// A route on which a value can be written.
 #[diagnostic::on_unimplemented(
     message = "this item can't be written on `{B}`",
-    label = "the client's bus has no way to write this item"
+    label = "the client's bus has no route that writes this item"
 )]
 pub trait WriteRoute<B: Bus>: Copy {
     /// Writes the value, as [`Client::write`] does.
     ///
     /// # Errors
     ///
-    /// Those of the client, and what the way adds to them.
+    /// Those of the client and of the route.
     fn write<C: Client<Bus = B>>(&self, client: &mut C, data: &[u8]) -> Result<(), Error<C::Error>>;
 
     /// The same without blocking.
     ///
     /// # Errors
     ///
-    /// Those of the client, and what the way adds to them.
+    /// Those of the client and of the route.
     #[allow(async_fn_in_trait)]
     async fn write_async<C: AsyncClient<Bus = B>>(&self, client: &mut C, data: &[u8]) -> Result<(), Error<C::Error>>;
 }
@@ -154,7 +154,7 @@ direct!(Object, Register, Record, Parameter, ImageField, EscMemory);
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Closed;
 
-/// Reads on one way, writes on another. A side that is [`Closed`] doesn't compile.
+/// Reads on one route, writes on another. A side that is [`Closed`] doesn't compile.
 ///
 /// ```
 /// use lexibus::{CanOpen, Closed, Object, ReadRoute, Split, WriteRoute};
@@ -171,9 +171,9 @@ pub struct Closed;
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Split<R, W> {
-    /// The way on which the value is read.
+    /// The route on which the value is read.
     pub read: R,
-    /// The way on which it is written.
+    /// The route on which it is written.
     pub write: W,
 }
 

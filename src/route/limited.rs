@@ -19,7 +19,7 @@ use crate::value_error::OutOfRange;
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Limited<R> {
-    /// The way to the value.
+    /// The route to the value.
     pub at: R,
     /// Whether the value is in two's complement.
     pub is_signed: bool,
@@ -28,7 +28,7 @@ pub struct Limited<R> {
 }
 
 impl<R> Limited<R> {
-    /// On the way `at`, these values only.
+    /// These values only, on the route `at`.
     #[must_use]
     pub const fn new(at: R, is_signed: bool, values: &'static [(i64, i64)]) -> Self {
         Self { at, is_signed, values }
