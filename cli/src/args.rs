@@ -29,7 +29,7 @@ pub(super) enum Command {
     Export(Export),
     /// Write a site of documentation: pages that open from disk, with a search.
     Docs(Docs),
-    /// Tell what changed between two versions of a description, and what of it breaks code that was written for the old one.
+    /// Compare two versions of a description. The exit code is 1 if a change breaks Rust code or the communication.
     Diff(Diff),
     /// Read and check device descriptions.
     Check(Check),
@@ -145,9 +145,12 @@ pub(super) struct Diff {
     pub old: PathBuf,
     /// The new one.
     pub new: PathBuf,
-    /// How the changes are told.
+    /// The format of the report.
     #[arg(long, value_enum, value_name = "FORMAT", default_value_t = DiffFormat::Text)]
     pub format: DiffFormat,
+    /// The changes to show. The summary and the exit code count all of them.
+    #[arg(long, value_enum, value_name = "CHANGES", default_value_t = Shown::All)]
+    pub show: Shown,
     /// The file to write; standard output where it isn't given.
     #[arg(short, long, value_name = "FILE")]
     pub out: Option<PathBuf>,
@@ -161,12 +164,24 @@ pub(super) struct Diff {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(super) enum DiffFormat {
-    /// A line a change.
+    /// One line per change, and a summary.
     Text,
-    /// One JSON object a line.
+    /// One JSON object per change, each on a line.
     Json,
     /// A page.
     Html,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(super) enum Shown {
+    /// All changes.
+    All,
+    /// Changes that break something, and compatible ones: all except those of texts.
+    Compatible,
+    /// Changes that break Rust code, the communication or the behavior.
+    Behavior,
+    /// Changes that break Rust code or the communication.
+    Breaking,
 }
 
 #[derive(Debug, Args)]

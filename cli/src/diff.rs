@@ -7,9 +7,9 @@ use askama::Template;
 use lexibus_codegen::compile::{self, Compilation, Options};
 use lexibus_codegen::output::write_if_changed;
 use lexibus_codegen::source::Source;
-use lexibus_site::compare::{compare, Change, Judgement};
+use lexibus_site::compare::{compare, Change, Class, Summary};
 
-use super::args::{Colour, Diff, DiffFormat, MessageFormat};
+use super::args::{Colour, Diff, DiffFormat, MessageFormat, Shown};
 use super::report::Reporter;
 use super::Failure;
 
@@ -19,28 +19,40 @@ struct Report<'c> {
     old: String,
     new: String,
     changes: &'c [Change],
-    breaking: usize,
+    summary: Summary,
 }
 
-/// Whether nothing is breaking.
+/// Whether neither Rust code nor the communication breaks.
 pub(super) fn run(diff: &Diff) -> Result<bool, Failure> {
     let options = Options { choices: diff.option.clone(), no_profiles: diff.no_profiles, ..Options::default() };
     let (Some(old), Some(new)) = (read(&diff.old, &options)?, read(&diff.new, &options)?) else { return Ok(false) };
-    let changes = match (&old.catalog, &new.catalog) {
+    let mut changes = match (&old.catalog, &new.catalog) {
         (Some(old), Some(new)) => compare(old, new),
         _ => return Ok(false),
     };
-    let breaking = changes.iter().filter(|own| own.judgement == Judgement::Breaking).count();
-    let text = written(diff, &changes, breaking)?;
+    let summary = Summary::of(&changes);
+    let last = last_class(diff.show);
+    changes.retain(|change| change.judgement.class() <= last);
+    let text = report(diff, &changes, summary)?;
     match &diff.out {
         Some(path) => write_if_changed(path, &text)
             .map_err(|error| Failure::Usage(format!("can't write {}: {error}", path.display())))?,
         None => std::io::stdout().lock().write_all(text.as_bytes())?,
     }
-    Ok(breaking == 0)
+    Ok(summary.api == 0 && summary.wire == 0)
 }
 
-/// A description; `None` where it has errors, which are told.
+/// The last class of changes that is shown.
+fn last_class(shown: Shown) -> Class {
+    match shown {
+        Shown::Breaking => Class::Breaking,
+        Shown::Behavior => Class::Behavior,
+        Shown::Compatible => Class::Compatible,
+        Shown::All => Class::None,
+    }
+}
+
+/// Reads a description; `None` if it has errors, which are reported.
 fn read(path: &Path, options: &Options) -> Result<Option<Compilation>, Failure> {
     let source =
         Source::read(path).map_err(|error| Failure::Usage(format!("can't read {}: {error}", path.display())))?;
@@ -52,16 +64,11 @@ fn read(path: &Path, options: &Options) -> Result<Option<Compilation>, Failure> 
     Ok(None)
 }
 
-fn written(diff: &Diff, changes: &[Change], breaking: usize) -> Result<String, Failure> {
+fn report(diff: &Diff, changes: &[Change], summary: Summary) -> Result<String, Failure> {
     match diff.format {
         DiffFormat::Text => {
-            let mut text: String = changes.iter().map(|own| format!("{own}\n")).collect();
-            text += &match (changes.len(), breaking) {
-                (0, _) => "no changes\n".to_owned(),
-                (1, _) => format!("1 change, {breaking} breaking\n"),
-                (count, _) => format!("{count} changes, {breaking} breaking\n"),
-            };
-            Ok(text)
+            let lines = changes.iter().map(|change| format!("{change}\n"));
+            Ok(lines.chain([format!("{summary}\n")]).collect())
         }
         DiffFormat::Json => {
             let lines: Result<Vec<String>, _> = changes.iter().map(serde_json::to_string).collect();
@@ -71,7 +78,7 @@ fn written(diff: &Diff, changes: &[Change], breaking: usize) -> Result<String, F
         DiffFormat::Html => {
             let name =
                 |path: &Path| path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
-            let report = Report { old: name(&diff.old), new: name(&diff.new), changes, breaking };
+            let report = Report { old: name(&diff.old), new: name(&diff.new), changes, summary };
             Ok(report.render().map_err(std::io::Error::other)?)
         }
     }

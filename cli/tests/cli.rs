@@ -218,9 +218,9 @@ fn control_characters_stay_out_of_what_is_printed() {
     let hostile = "G\u{1b}[2Jain\u{7}\u{202e}";
     let quirky = QUIRKY.replace("Gain", hostile).replace("Quirky", "Quir\u{1b}[31mky");
     let old = file(&folder, "a\u{1b}[31m.eds", &quirky);
-    let new = file(&folder, "b\nbreaking: all.eds", &quirky.replace("rw", "ro"));
+    let new = file(&folder, "b\nbreaks api: all.eds", &quirky.replace("rw", "ro"));
     let esi = std::fs::read_to_string(COUPLER).expect("the coupler");
-    let esi = esi.replace("CP-32 coupler", "Cou&#10;breaking: pler\u{9b}");
+    let esi = esi.replace("CP-32 coupler", "Cou&#10;breaks api: pler\u{9b}");
     let modular = file(&folder, "c\u{1b}c.xml", &esi);
     let missing = folder.join("no\u{1b}[2J\nerror: file.eds").to_string_lossy().into_owned();
     // With a part of the text that is in question.
@@ -229,7 +229,7 @@ fn control_characters_stay_out_of_what_is_printed() {
         (&["diff", &modular, &old], "pler"),
         (&["info", &old], "ky"),
         (&["info", &modular], "pler"),
-        (&["check", &new], "breaking: all"),
+        (&["check", &new], "breaks api: all"),
         (&["export", "--format", "gsdml", &old], "31m"),
         (&["check", &missing], "error: file"),
         (&["diff", &missing, &old], "error: file"),
@@ -241,7 +241,7 @@ fn control_characters_stay_out_of_what_is_printed() {
         let steers = |c: char| c != '\n' && (c.is_control() || c == '\u{202e}');
         assert!(!text.contains(steers), "{call:?}: {text:?}");
         assert!(
-            !text.lines().any(|line| line.starts_with("breaking: all") || line.starts_with("breaking: pler")),
+            !text.lines().any(|line| line.starts_with("breaks api: all") || line.starts_with("breaks api: pler")),
             "{text}"
         );
         assert!(!text.lines().any(|line| line.starts_with("error: file")), "{text}");
@@ -657,20 +657,33 @@ fn changes_between_two_versions() {
     let output = lexibus(&["diff", &old, &old]);
     assert_eq!((code(&output), out(&output).as_str()), (0, "no changes\n"));
     let output = lexibus(&["diff", &old, &wider]);
-    assert_eq!((code(&output), out(&output).lines().last()), (0, Some("1 change, 0 breaking")));
+    assert_eq!(
+        (code(&output), out(&output).as_str()),
+        (
+            0,
+            "breaks behavior: 0x2000:00 Gain: default 10, now 5\n\
+             1 change; breaking: api 0, wire 0, behavior 1; compatible: 0; no effect: 0\n"
+        )
+    );
+    let output = lexibus(&["diff", &old, &wider, "--show", "breaking"]);
+    assert_eq!(out(&output).lines().count(), 1, "the summary counts what is not shown");
     let output = lexibus(&["diff", &old, &other]);
     assert_eq!(code(&output), 1);
     assert!(
-        out(&output).starts_with("breaking: 0x2000:00 Gain: type UNSIGNED16, now UNSIGNED32\n"),
+        out(&output).starts_with("breaks api, wire: 0x2000:00 Gain: type UNSIGNED16, now UNSIGNED32\n"),
         "{}",
         out(&output)
     );
     let output = lexibus(&["diff", &old, &other, "--format", "json"]);
     let line: serde_json::Value = serde_json::from_str(out(&output).lines().next().expect("a change")).expect("JSON");
-    assert_eq!((&line["fact"], &line["judgement"]), (&"type".into(), &"breaking".into()));
+    let judgement = [&line["api"], &line["wire"], &line["behavior"]];
+    assert_eq!(
+        (&line["fact"], judgement),
+        (&"type".into(), [&"breaking".into(), &"breaking".into(), &"unaffected".into()])
+    );
     let page = folder.join("page.html");
     lexibus(&["diff", &old, &other, "--format", "html", "--out", &page.to_string_lossy()]);
-    assert!(std::fs::read_to_string(page).expect("a page").contains("<td><b>breaking</b>"));
+    assert!(std::fs::read_to_string(page).expect("a page").contains("<td><b>breaks api, wire</b>"));
     assert_eq!(code(&lexibus(&["diff", &old, "nowhere.eds"])), 2);
     let broken = file(&folder, "broken.toml", "lexibus = 1\n[device]\n");
     assert_eq!(code(&lexibus(&["diff", &old, &broken])), 1);

@@ -6,6 +6,7 @@ use super::anchor::Names;
 use super::entry::{self, Doubt, Known, Row, Rows};
 use super::findings::Finding;
 use super::words::{self, PLAIN};
+use lexibus_codegen::facts::address;
 use lexibus_codegen::ir::{Group, GroupKind, Item, TypeDef};
 
 /// So many items are on a page.
@@ -144,7 +145,7 @@ fn section(group: &Group, items: &[Item], rows: &mut Rows<'_>) -> Section {
     let GroupKind::Object { index, code, .. } = group.kind else {
         let modbus = rows.known.modbus;
         let number =
-            |item: &Item| words::addresses(item, modbus).first().map_or_else(String::new, |own| own.number.clone());
+            |item: &Item| address::addresses(item, modbus).first().map_or_else(String::new, |own| own.number.clone());
         let rows = items.iter().map(|item| rows.row(item, number(item), true)).collect();
         return Section::plain(rows);
     };

@@ -4,6 +4,7 @@ use std::collections::BTreeSet;
 
 use super::cell::Cell;
 use super::words;
+use lexibus_codegen::facts::types;
 use lexibus_codegen::ir::owner::Owner;
 use lexibus_codegen::ir::{BitFieldEntry, BitMeaning, EnumValue, Shape, Trigger, Type, TypeDef};
 
@@ -60,7 +61,7 @@ pub(super) struct Label {
 pub(super) fn of_type(types: &[TypeDef], ty: Type) -> (Option<Bits>, Vec<Label>) {
     match Owner::of_types(types).definition(ty).map(|definition| &definition.shape) {
         Some(Shape::BitField { base, fields }) => {
-            let bits = words::basic(types, *base).bits().unwrap_or(8);
+            let bits = types::basic(types, *base).bits().unwrap_or(8);
             (Some(drawing(types, fields, bits)), Vec::new())
         }
         Some(Shape::Enumeration { values, .. }) => (None, labels(values)),
@@ -144,7 +145,7 @@ fn labels(values: &[EnumValue]) -> Vec<Label> {
         facts.extend(words::PLAIN.description(own.documentation.as_deref()));
         facts.extend(own.availability.as_ref().map(|own| words::PLAIN.availability(own)));
         Label {
-            number: words::numbers(own.value, own.last),
+            number: types::numbers(own.value, own.last),
             name: own.name.to_string(),
             names: words::names(&own.names),
             facts: facts.join(" "),

@@ -6,11 +6,9 @@ use super::anchor::Names;
 use super::bits::{self, Bits, Label};
 use super::findings::{Finding, Findings};
 use super::words::{self, PLAIN};
-use lexibus_codegen::facts::physical::{shown_unit, Physical};
-use lexibus_codegen::facts::words::{capital, row_of, sentence};
-use lexibus_codegen::ir::{
-    Item, Manual, ModbusTable, Quantity, Scale, Severity, Subject, SubjectKind, Type, TypeDef, Value,
-};
+use lexibus_codegen::facts::words::{capital, row_of, sentence, ALLOWED_SHOWN};
+use lexibus_codegen::facts::{address, item, types};
+use lexibus_codegen::ir::{Item, Manual, ModbusTable, Severity, Subject, SubjectKind, Type, TypeDef};
 
 /// An item, ready to be written.
 #[derive(Debug)]
@@ -117,7 +115,6 @@ impl Rows<'_> {
     /// A row; `number` is by what it is looked up, and its address, where the name isn't.
     pub fn row(&mut self, item: &Item, number: String, by_name: bool) -> Row {
         let anchor = self.names.anchor(if by_name && !item.name.is_empty() { &item.name } else { &number });
-        let basic = words::basic(self.types, item.ty);
         let (mut drawn, mut labels, mut same_as) = (None, Vec::new(), None);
         match self.shown.iter().find(|(ty, ..)| *ty == item.ty) {
             Some((_, anchor, name)) => same_as = Some((anchor.clone(), name.clone())),
@@ -130,24 +127,23 @@ impl Rows<'_> {
             }
         }
         // The first row with a type shows the facts about it.
-        let definition = words::definition(self.types, item.ty).filter(|_| same_as.is_none());
-        let addresses = words::addresses(item, self.known.modbus);
+        let definition = types::definition(self.types, item.ty).filter(|_| same_as.is_none());
+        let addresses = address::addresses(item, self.known.modbus);
         let lookups: Vec<String> =
             addresses.iter().map(|own| own.lookup.clone()).filter(|own| !own.is_empty()).collect();
         let addresses = addresses.into_iter().filter(|own| own.text != number);
         let elsewhere = addresses.map(|own| format!("{}: {}", own.bus, own.text)).collect();
-        let shown = |value: &Value| PLAIN.of_item(item, value, &|value| raw(item, value, basic));
         Row {
             anchor,
             number,
             addresses: lookups,
             name: item.name.to_string(),
             names: words::names(&item.names),
-            ty: words::type_name(self.types, item.ty),
+            ty: types::name(self.types, item.ty),
             access: item.access_name(),
-            default: item.default.as_ref().map(shown).unwrap_or_default(),
-            range: range(item, basic),
-            unit: unit(item),
+            default: item::default(item, self.types),
+            range: item::range(item, &item.limits, self.types, ALLOWED_SHOWN),
+            unit: item::unit(item).to_owned(),
             description: PLAIN.description(item.documentation.as_deref()).into_iter().next().unwrap_or_default(),
             facts: self.facts(item, definition),
             translations: words::translations(item.documentation.as_deref()),
@@ -169,13 +165,8 @@ impl Rows<'_> {
         let of_type = PLAIN.description(definition.and_then(|own| own.documentation.as_deref()));
         facts.extend(of_type.into_iter().filter(|own| !facts.contains(own)).collect::<Vec<_>>());
         facts.extend(PLAIN.access(item));
-        facts.extend(match (item.mappable.rpdo, item.mappable.tpdo) {
-            (true, true) => Some("Mappable into any PDO.".to_owned()),
-            (true, false) => Some("Mappable into RPDOs.".to_owned()),
-            (false, true) => Some("Mappable into TPDOs.".to_owned()),
-            (false, false) => None,
-        });
-        facts.extend(PLAIN.meaning_from(words::definition(self.types, item.ty)));
+        facts.extend(item::mappable(item.mappable).map(|pdos| format!("Mappable into {pdos}.")));
+        facts.extend(PLAIN.meaning_from(types::definition(self.types, item.ty)));
         if let Some(quantity) = &item.quantity {
             let scale = quantity.scale.as_ref().map(|_| PLAIN.quantity(quantity));
             facts.extend(scale.map(|own| sentence(&capital(own.trim_start_matches([',', ' '])))));
@@ -221,29 +212,4 @@ pub(super) fn doubts<'d>(
     let mut ready: Vec<Doubt> = doubts.into_iter().map(doubt).collect();
     ready.sort_by_key(|own| own.severity);
     ready
-}
-
-/// A raw value: decimal if it has a unit or a scale.
-fn raw(item: &Item, value: &Value, ty: Type) -> String {
-    match item.quantity {
-        Some(_) => PLAIN.value(value),
-        None => words::value(value, ty),
-    }
-}
-
-fn range(item: &Item, ty: Type) -> String {
-    let physical = Physical::of(item.quantity.as_deref());
-    let raw = |value: &Value| raw(item, value, ty);
-    match item.limits.allowed.is_empty() {
-        true => PLAIN.range(&item.limits, physical.as_ref(), &raw),
-        false => PLAIN.allowed(&item.limits, physical.as_ref(), &raw),
-    }
-}
-
-/// The unit of the physical value; empty if the raw value of the row isn't that and no physical one is shown.
-fn unit(item: &Item) -> String {
-    match item.quantity.as_deref() {
-        Some(Quantity { scale: Some(Scale::Exponent { .. }), .. }) | None => String::new(),
-        Some(own) => shown_unit(own).to_owned(),
-    }
 }

@@ -6,6 +6,7 @@ use super::entry::{Calls, Known, Rows};
 use super::findings::Findings;
 use super::process::{self, About, Frame};
 use super::words::{self, PLAIN};
+use lexibus_codegen::facts::address;
 use lexibus_codegen::ir::{
     Catalog, Device, Fit, Group, GroupKind, IoData, Manual, Module, ObjectBuses, Submodule, TypeDef,
 };
@@ -118,7 +119,7 @@ fn section(group: &Group, rows: &mut Rows<'_>) -> (String, Section) {
     let parts = [place.as_str(), group.name.as_str()].into_iter().filter(|part| !part.is_empty());
     let title = parts.collect::<Vec<_>>().join(": ");
     let number = |item: &lexibus_codegen::ir::Item| {
-        words::addresses(item, &[]).first().map_or_else(String::new, |own| own.number.clone())
+        address::addresses(item, &[]).first().map_or_else(String::new, |own| own.number.clone())
     };
     let items = group.items.iter().map(|item| rows.row(item, number(item), false)).collect();
     (title, Section::plain(items))

@@ -4,7 +4,7 @@ use super::anchor::Names;
 use super::cell::Cell;
 use super::words;
 use lexibus_codegen::facts::cob_id::{self, CobId};
-use lexibus_codegen::facts::pdo;
+use lexibus_codegen::facts::{address, pdo, types};
 use lexibus_codegen::ir::{
     Direction, Manual, ObjectBuses, Pdo, PdoEntry, PdoEntryKind, ProcessData, ProcessImage, SubjectKind, TypeDef,
 };
@@ -147,11 +147,11 @@ fn drawn(entries: &[PdoEntry], bits: u32, types: &[TypeDef]) -> Frame {
     let bytes = bits.div_ceil(8);
     let rows: Vec<Row> = (0..bytes.div_ceil(ROW)).take(MOST_ROWS).map(|at| row(entries, at)).collect();
     let list = entries.iter().filter(|own| own.kind != PdoEntryKind::Padding).map(|own| Entry {
-        place: words::span(own.bit_offset, own.bits),
+        place: address::bits_of(own.bit_offset, own.bits),
         object: if own.index == 0 { String::new() } else { format!("0x{:04X}:{:02X}", own.index, own.sub_index) },
         name: own.name.to_string(),
         names: words::names(&own.names),
-        ty: words::type_name(types, own.ty),
+        ty: types::name(types, own.ty),
         bits: own.bits,
     });
     Frame {

@@ -5,6 +5,7 @@ use super::bits::{self, Bits, Label};
 use super::entry::{self, Doubt};
 use super::words::{self, PLAIN};
 use lexibus_codegen::facts::physical::Physical;
+use lexibus_codegen::facts::types;
 use lexibus_codegen::ir::Manual;
 use lexibus_codegen::ir::{Completion, Device, Framing, Message, MessageField, MessageValue, TypeDef};
 
@@ -197,9 +198,9 @@ impl Parts<'_> {
     fn value(&mut self, own: &MessageValue, depth: usize) -> Part {
         let item = &own.item;
         self.doubts.extend(item.doubts.iter().cloned());
-        let basic = words::basic(self.types, item.ty);
+        let basic = types::basic(self.types, item.ty);
         let (bits, labels) = bits::of_type(self.types, item.ty);
-        let mut facts = vec![format!("{}.", words::type_name(self.types, item.ty))];
+        let mut facts = vec![format!("{}.", types::name(self.types, item.ty))];
         facts.extend(
             PLAIN.limits(&item.limits, Physical::of(item.quantity.as_deref()).as_ref()).map(|own| format!("{own}.")),
         );

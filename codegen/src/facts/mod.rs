@@ -2,20 +2,26 @@
 //!
 //! | file | subject |
 //! |---|---|
+//! | `address` | addresses of items on every bus |
 //! | `cob_id` | the identifier of a CAN frame and its flags |
 //! | `code` | codes as their source prints them |
+//! | `item` | default, range and unit of an item |
 //! | `markdown` | texts within Markdown |
 //! | `pattern` | bits that have to be 0 or 1 |
 //! | `pdo` | names of PDOs on CANopen and EtherCAT |
 //! | `physical` | physical values next to the raw ones |
 //! | `register` | printed and wire addresses on Modbus |
+//! | `types` | types of values |
 //! | `words` | sentences about elements, for documentation of any kind |
 
+pub mod address;
 pub mod cob_id;
 pub mod code;
+pub mod item;
 pub mod markdown;
 pub mod pattern;
 pub mod pdo;
 pub mod physical;
 pub mod register;
+pub mod types;
 pub mod words;

@@ -34,10 +34,18 @@ pub fn printed(register: &RegisterBinding) -> String {
 
 /// `101–102`, `0x8001`: the addresses on the wire, counted from 0; hexadecimal if they have more than four digits.
 pub fn wire(register: &RegisterBinding) -> String {
-    let text = |address: u16| if address > 9999 { format!("0x{address:04X}") } else { address.to_string() };
     match register.last() {
-        last if last == register.address => text(last),
-        last => format!("{}–{}", text(register.address), text(last)),
+        last if last == register.address => wire_address(last),
+        last => format!("{}–{}", wire_address(register.address), wire_address(last)),
+    }
+}
+
+/// One address on the wire: hexadecimal if it has more than four digits.
+pub fn wire_address(address: u16) -> String {
+    if address > 9999 {
+        format!("0x{address:04X}")
+    } else {
+        address.to_string()
     }
 }
 

@@ -44,6 +44,9 @@ pub fn row_of(item: &Item) -> &str {
     ascii.or_else(|| item.bindings.iter().any(is_row).then_some(item.name.as_str())).unwrap_or_default()
 }
 
+/// At most so many allowed values are listed.
+pub const ALLOWED_SHOWN: usize = 16;
+
 /// At most so many sections are named in one citation.
 const SECTIONS_NAMED: usize = 3;
 
@@ -146,14 +149,7 @@ impl Words<'_> {
     /// What is known of storage, side effects and conditions of writing.
     pub fn behaviour(&self, behaviour: &Behaviour) -> Vec<String> {
         let mut sentences = Vec::new();
-        match &behaviour.storage {
-            Storage::Unknown => {}
-            Storage::Volatile => sentences.push("Volatile.".to_owned()),
-            Storage::Immediate => sentences.push("Non-volatile.".to_owned()),
-            Storage::OnCommand(command) => {
-                sentences.push(format!("Non-volatile: stored by {}.", self.name(command)));
-            }
-        }
+        sentences.extend(self.storage(&behaviour.storage).map(|storage| sentence(&capital(&storage))));
         if let Some(access) = behaviour.pdi_access {
             sentences.push(format!("Access rights of the device's own processor: {}.", access.name()));
         }
@@ -174,6 +170,16 @@ impl Words<'_> {
         }
         sentences.extend(behaviour.side_effects.iter().map(|effect| sentence(&self.escaped(effect))));
         sentences
+    }
+
+    /// `volatile`, `non-volatile: stored by Save`; `None` if the source doesn't say.
+    pub fn storage(&self, storage: &Storage) -> Option<String> {
+        match storage {
+            Storage::Unknown => None,
+            Storage::Volatile => Some("volatile".to_owned()),
+            Storage::Immediate => Some("non-volatile".to_owned()),
+            Storage::OnCommand(command) => Some(format!("non-volatile: stored by {}", self.name(command))),
+        }
     }
 
     /// `Mode is 1 or 2`, `Status & 0x6F is 0x21`: hexadecimal where bits are compared.
@@ -297,8 +303,7 @@ impl Words<'_> {
 
     /// The only values and ranges of values, `1, 3 to 7`; of many, the first.
     pub fn allowed(&self, limits: &Limits, physical: Option<&Physical<'_>>, raw: &dyn Fn(&Value) -> String) -> String {
-        const SHOWN: usize = 16;
-        self.first_allowed(limits, physical, raw, SHOWN)
+        self.first_allowed(limits, physical, raw, ALLOWED_SHOWN)
     }
 
     /// The first so many of them.
@@ -417,38 +422,37 @@ impl Words<'_> {
 
     /// `, in 0.01 rev/s`: unit and scale as a part of a sentence.
     pub fn quantity(&self, quantity: &Quantity) -> String {
-        let unit = self.escaped(shown_unit(quantity));
-        let behind = if unit.is_empty() { String::new() } else { format!(" {unit}") };
         match &quantity.scale {
-            None if unit.is_empty() => String::new(),
-            None => format!(", in {unit}"),
-            Some(scale) => self.scaled(scale, &behind),
+            None if shown_unit(quantity).is_empty() => String::new(),
+            None => format!(", in {}", self.escaped(shown_unit(quantity))),
+            Some(scale) => format!(", {}", self.scale(scale, shown_unit(quantity))),
         }
     }
 
-    /// The same for a scale, with the unit behind it.
-    fn scaled(&self, scale: &Scale, behind: &str) -> String {
+    /// `1 LSB = 0.01 rev/s`: a scale with the unit of the physical value.
+    pub fn scale(&self, scale: &Scale, unit: &str) -> String {
+        let unit = if unit.is_empty() { String::new() } else { format!(" {}", self.escaped(unit)) };
         match scale {
-            Scale::Linear { factor, offset } if *offset == 0.0 => format!(", 1 LSB = {factor}{behind}"),
+            Scale::Linear { factor, offset } if *offset == 0.0 => format!("1 LSB = {factor}{unit}"),
             Scale::Linear { factor, offset } => {
                 let sign = if *offset < 0.0 { '−' } else { '+' };
-                format!(", physical value = raw × {factor} {sign} {}{behind}", offset.abs())
+                format!("physical value = raw × {factor} {sign} {}{unit}", offset.abs())
             }
-            Scale::Reciprocal { numerator } => format!(", physical value = {numerator} / raw{behind}"),
+            Scale::Reciprocal { numerator } => format!("physical value = {numerator} / raw{unit}"),
             Scale::Fraction { bits, base } => {
-                format!(", physical value = raw / 2^{bits} × {}{behind}", self.escaped(base))
+                format!("physical value = raw / 2^{bits} × {}{unit}", self.escaped(base))
             }
             Scale::Exponent { exponent, base, fraction } => {
                 let part = if *fraction == 0 { String::new() } else { format!(" / 2^{fraction}") };
-                format!(", physical value = raw{part} × {base}^{}{behind}", self.name(exponent))
+                format!("physical value = raw{part} × {base}^{}{unit}", self.name(exponent))
             }
             Scale::ByItem { item, factor } => {
                 let factor = if *factor == 1.0 { String::new() } else { format!(" × {factor}") };
-                format!(", physical value = raw{factor} / {}{behind}", self.name(item))
+                format!("physical value = raw{factor} / {}{unit}", self.name(item))
             }
             Scale::TimesItem { item, factor } => {
                 let factor = if *factor == 1.0 { String::new() } else { format!(" × {factor}") };
-                format!(", physical value = raw{factor} × {}{behind}", self.name(item))
+                format!("physical value = raw{factor} × {}{unit}", self.name(item))
             }
         }
     }
@@ -498,8 +502,6 @@ impl Words<'_> {
             Some(own) => own.value(value, &raw, &|unit| self.escaped(unit)),
             None => raw(value),
         };
-        let unit = self.escaped(own_unit);
-        let behind = if unit.is_empty() { unit } else { format!(" {unit}") };
         let who = match (variant.models.is_empty(), variant.buses.is_empty()) {
             (false, true) => format!("Of {}", self.list(&variant.models)),
             (false, false) => format!("Of {} on {}", self.list(&variant.models), self.list(&variant.buses)),
@@ -511,9 +513,7 @@ impl Words<'_> {
         facts.extend(variant.default.as_ref().map(|value| format!("default {}", shown(value))));
         facts.extend(self.limits(&variant.limits, physical().as_ref()));
         facts.extend(variant.step.as_ref().map(|step| format!("rounded to {}", self.step_of(step, physical()))));
-        facts.extend(
-            variant.scale.as_ref().map(|scale| self.scaled(scale, &behind).trim_start_matches(", ").to_owned()),
-        );
+        facts.extend(variant.scale.as_ref().map(|scale| self.scale(scale, own_unit)));
         let mut sentences = vec![format!("{who}: {}.", facts.join(", "))];
         sentences.extend(self.description(variant.documentation.as_deref()));
         sentences.join(" ")

@@ -7,7 +7,7 @@ use lexibus_codegen::source::Source;
 use lexibus_export::eds::{self, Flavour, Reals};
 use lexibus_export::{esi, gsdml, json, Export, Refusal};
 use lexibus_import::import;
-use lexibus_site::compare::{compare, Judgement};
+use lexibus_site::compare::{compare, Summary};
 use lexibus_site::{Format, Page, Site};
 
 use crate::case::{ending, put_diagnostics, Case, Outputs};
@@ -154,9 +154,8 @@ fn export(case: &Case, name: &str, compilation: &Compilation) -> Result<Result<E
 fn difference(case: &Case, compilations: &[Compilation]) -> Result<String, String> {
     let [old, new] = compilations else { return Err(format!("{}: `diff` needs two inputs", case.name())) };
     let changes = compare(usable(old)?, usable(new)?);
-    let breaking = changes.iter().filter(|change| change.judgement == Judgement::Breaking).count();
     let lines: String = changes.iter().map(|change| format!("{change}\n")).collect();
-    Ok(format!("{lines}{} changes, {breaking} breaking\n", changes.len()))
+    Ok(format!("{lines}{}\n", Summary::of(&changes)))
 }
 
 /// The register tables of lists, as `lexibus import` makes them.

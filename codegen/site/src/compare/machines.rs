@@ -1,46 +1,125 @@
 //! State machines and procedures.
 
-use super::types::named;
-use super::{by_name, Changes, Judgement};
+use super::change::Judgement;
+use super::comparison::{
+    compare_fields, fact, fact_as, ignored, judged, list, text, Comparison, Elements, COMPARED, KEY, POSITION,
+};
+use super::item::availability;
+use super::texts::{documentation, renamed};
 use lexibus_codegen::facts::words::PLAIN;
-use lexibus_codegen::ir::{Device, Pattern, Procedure, StateMachine};
+use lexibus_codegen::ir::{CommandOutcomes, Outcome, Pattern, Procedure, StateMachine, StateOutcome, Step, Transition};
 
-pub(super) fn compare(old: &Device, new: &Device, changes: &mut Changes) {
-    by_name("machine", (&old.machines, &new.machines), |own| &own.name, changes, machine);
-    by_name("procedure", (&old.procedures, &new.procedures), |own| &own.name, changes, procedure);
+pub(super) fn compare(old: &StateMachine, new: &StateMachine, comparison: &mut Comparison<'_>) {
+    compare_fields!(StateMachine, old, new, comparison, {
+        name: ignored(KEY),
+        status_item: fact("status", Judgement::API_AND_WIRE),
+        control_item: fact("control", Judgement::API_AND_WIRE),
+        state_type: fact("enumeration of the states", Judgement::API),
+        // Code may match all variants of an enumeration.
+        states: list(patterns(|own| format!("state {}", own.name)), pattern),
+        initial: fact("state after power-on", Judgement::BEHAVIOR),
+        commands: list(patterns(|own| format!("command {}", own.name)), pattern),
+        transitions: list(transitions(), transition),
+        outcomes: list(
+            Elements::titled(|own: &CommandOutcomes| format!("command {} by state", own.name))
+                .judged(|_| Judgement::BEHAVIOR_COMPATIBLE, |_| Judgement::BEHAVIOR),
+            command_outcomes,
+        ),
+        documentation: documentation,
+    });
 }
 
-fn machine((was, is): (&StateMachine, &StateMachine), element: &str, changes: &mut Changes) {
-    let item = |own: &StateMachine| (own.status_item.to_string(), own.control_item.to_string());
-    let ((status, control), (new_status, new_control)) = (item(was), item(is));
-    changes.fact(element, "status", (status, new_status), Judgement::Breaking);
-    changes.fact(element, "control", (control, new_control), Judgement::Breaking);
-    // A further state: whoever matched all of them has one to add. Commands are only given.
-    for (kind, old, new, of_new) in [
-        ("state", &was.states, &is.states, Judgement::Breaking),
-        ("command", &was.commands, &is.commands, Judgement::Compatible),
-    ] {
-        let key = |own: &Pattern| (format!("{kind} {}", own.name), own.name.to_string());
-        named(old.iter().map(key), new.iter().map(key), element, of_new, changes);
-        for (one, other) in old.iter().filter_map(|one| Some((one, new.iter().find(|other| other.name == one.name)?))) {
-            let bits = |own: &Pattern| format!("0x{:X} of 0x{:X}", own.value, own.mask);
-            let what = format!("{element}, {kind} {}", one.name);
-            changes.fact(&what, "bits", (bits(one), bits(other)), Judgement::Compatible);
-        }
+/// States and commands are variants of enumerations, and code may match all of them.
+fn patterns(title: fn(&Pattern) -> String) -> Elements<Pattern> {
+    Elements {
+        name: |own| own.name.to_string(),
+        place: |own| bits(own),
+        ..Elements::titled(title).judged(|_| Judgement::API, |_| Judgement::API)
     }
-    let ways = |own: &StateMachine| {
-        let way = |own: &lexibus_codegen::ir::Transition| {
-            let from = own.from.as_deref().unwrap_or("any state");
-            format!("{from} to {} by {}", own.to, own.command.as_deref().unwrap_or("itself"))
-        };
-        own.transitions.iter().map(way).collect::<Vec<_>>().join("; ")
-    };
-    changes.fact(element, "transitions", (ways(was), ways(is)), Judgement::Compatible);
 }
 
-fn procedure((was, is): (&Procedure, &Procedure), element: &str, changes: &mut Changes) {
-    let arguments = |own: &Procedure| own.arguments.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ");
-    changes.fact(element, "arguments", (arguments(was), arguments(is)), Judgement::Breaking);
-    let steps = |own: &Procedure| own.steps.iter().map(|own| PLAIN.step(own)).collect::<Vec<_>>().join(" ");
-    changes.fact(element, "steps", (steps(was), steps(is)), Judgement::Compatible);
+fn bits(own: &Pattern) -> String {
+    format!("0x{:X} of 0x{:X}", own.value, own.mask)
+}
+
+fn pattern(old: &Pattern, new: &Pattern, comparison: &mut Comparison<'_>) {
+    comparison.texts("bits", bits(old), bits(new), Judgement::WIRE);
+    compare_fields!(Pattern, old, new, comparison, {
+        name: judged("name", renamed),
+        mask: ignored(COMPARED),
+        value: ignored(COMPARED),
+        names: text("name in other languages"),
+        documentation: documentation,
+    });
+}
+
+fn transitions() -> Elements<Transition> {
+    Elements::titled(|own: &Transition| {
+        let from = own.from.as_deref().unwrap_or("any state");
+        format!("transition from {from} to {} by {}", own.to, own.command.as_deref().unwrap_or("itself"))
+    })
+    .judged(|_| Judgement::BEHAVIOR, |_| Judgement::BEHAVIOR)
+}
+
+fn transition(old: &Transition, new: &Transition, comparison: &mut Comparison<'_>) {
+    compare_fields!(Transition, old, new, comparison, {
+        number: text("number"),
+        from: fact("from", Judgement::BEHAVIOR),
+        to: ignored(KEY),
+        command: fact("command", Judgement::BEHAVIOR),
+        documentation: documentation,
+    });
+}
+
+fn command_outcomes(old: &CommandOutcomes, new: &CommandOutcomes, comparison: &mut Comparison<'_>) {
+    compare_fields!(CommandOutcomes, old, new, comparison, {
+        name: ignored(KEY),
+        commands: fact("commands", Judgement::BEHAVIOR),
+        availability: availability,
+        cells: list(
+            Elements::titled(|own: &StateOutcome| format!("in state {}", own.state))
+                .judged(|_| Judgement::BEHAVIOR, |_| Judgement::BEHAVIOR),
+            state_outcome,
+        ),
+        documentation: documentation,
+        origin: ignored(POSITION),
+    });
+}
+
+fn state_outcome(old: &StateOutcome, new: &StateOutcome, comparison: &mut Comparison<'_>) {
+    let outcome = |own: &Outcome| match own {
+        Outcome::Unchanged => "state unchanged".to_owned(),
+        Outcome::Refused => "refused".to_owned(),
+        Outcome::States(states) => states.join(", then "),
+    };
+    compare_fields!(StateOutcome, old, new, comparison, {
+        state: ignored(KEY),
+        outcomes: fact_as("outcome", Judgement::BEHAVIOR, |own: &Vec<Outcome>| {
+            own.iter().map(outcome).collect::<Vec<_>>().join(" or ")
+        }),
+        documentation: documentation,
+    });
+}
+
+/// Compares the writes of a procedure, which are constants in Rust.
+pub(super) fn procedure(old: &Procedure, new: &Procedure, comparison: &mut Comparison<'_>) {
+    compare_fields!(Procedure, old, new, comparison, {
+        name: ignored(KEY),
+        names: text("name in other languages"),
+        arguments: fact("arguments", Judgement::API),
+        steps: fact_as("steps", Judgement::BEHAVIOR, |steps: &Vec<Step>| {
+            steps.iter().map(step).collect::<Vec<_>>().join(" ")
+        }),
+        step_spans: ignored(POSITION),
+        documentation: documentation,
+        origin: ignored(POSITION),
+    });
+}
+
+/// A step, with the difference between a value and an argument that is written.
+fn step(own: &Step) -> String {
+    match own {
+        Step::WriteArgument(item, argument) => format!("Write the argument {argument} to {item}."),
+        _ => PLAIN.step(own),
+    }
 }

@@ -1,34 +1,123 @@
-//! Messages of a command protocol.
+//! The command protocol: messages, parameter spaces, framing.
 
-use super::{by_name, Changes, Judgement};
-use lexibus_codegen::ir::{Device, Message, MessageField, TypeDef};
+use super::change::{Effect, Judgement};
+use super::comparison::{
+    compare_fields, fact, fact_as, ignored, list, positioned, text, Comparison, Elements, KEY, POSITION,
+};
+use super::item::{self, availability, conditions, restricted};
+use super::names::identifier;
+use super::show::bytes;
+use super::texts::{described, documentation, doubts};
+use lexibus_codegen::facts::words::PLAIN;
+use lexibus_codegen::ir::{
+    CompactString, Completion, Framing, Message, MessageExample, MessageField, MessageValue, ParameterSpace,
+};
 
-pub(super) fn compare(old: &Device, new: &Device, changes: &mut Changes) {
-    let both = |(was, is): (&Message, &Message), element: &str, changes: &mut Changes| {
-        for (fact, one, other) in [("request", &was.request, &is.request), ("reply", &was.reply, &is.reply)] {
-            let layouts = (layout(one, &old.types), layout(other, &new.types));
-            changes.fact(element, fact, layouts, Judgement::Breaking);
-        }
-        let states = |own: &Message| own.accepted_in.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ");
-        changes.fact(element, "accepted in", (states(was), states(is)), Judgement::Compatible);
+pub(super) fn compare(old: &[Message], new: &[Message], comparison: &mut Comparison<'_>) {
+    let elements = Elements::titled(|own: &Message| format!("message {}", own.name));
+    super::comparison::slices(old, new, &elements, message, comparison);
+}
+
+fn message(old: &Message, new: &Message, comparison: &mut Comparison<'_>) {
+    compare_fields!(Message, old, new, comparison, {
+        name: ignored(KEY),
+        request: |old: &Vec<MessageField>, new: &Vec<MessageField>, comparison: &mut Comparison<'_>| {
+            frame("request", old, new, comparison);
+        },
+        reply: |old: &Vec<MessageField>, new: &Vec<MessageField>, comparison: &mut Comparison<'_>| {
+            frame("reply", old, new, comparison);
+        },
+        completion: fact_as("carried out", Judgement::BEHAVIOR, completion),
+        reply_time: fact("time of the reply in ms", Judgement::BEHAVIOR),
+        after: fact("after the message", Judgement::API),
+        by_default: fact("answered so after power-on", Judgement::BEHAVIOR),
+        error: fact("message that refuses it", Judgement::API_AND_WIRE),
+        side_effects: fact_as("side effects", Judgement::BEHAVIOR, |effects: &Vec<CompactString>| effects.join("; ")),
+        accepted_when: conditions("accepted while"),
+        names: text("name in other languages"),
+        availability: availability,
+        accepted_in: restricted("accepted in"),
+        examples: positioned("examples", Judgement::NONE, |own: &Vec<MessageExample>| examples(own)),
+        documentation: documentation,
+        doubts: doubts,
+        origin: ignored(POSITION),
+    });
+}
+
+/// Frames that a source prints, without their positions.
+pub(super) fn examples(examples: &[MessageExample]) -> String {
+    let example = |own: &MessageExample| {
+        let text = described(own.documentation.as_deref());
+        format!("{} → {} {text}", bytes(&own.request), bytes(&own.reply)).trim_end().to_owned()
     };
-    by_name("message", (&old.messages, &new.messages), |own| &own.name, changes, both);
+    examples.iter().map(example).collect::<Vec<_>>().join("; ")
+}
+
+fn completion(own: &Completion) -> String {
+    match own {
+        Completion::Immediate => "before the reply".to_owned(),
+        Completion::Reply => "when the reply comes".to_owned(),
+        Completion::Polled { item, mask, value, in_reply } => {
+            let mask = mask.map(|mask| format!(" & 0x{mask:X}")).unwrap_or_default();
+            let value = value.as_ref().map_or_else(|| "not 0".to_owned(), |value| PLAIN.value(value));
+            let reply = if *in_reply { ", from the reply on" } else { "" };
+            format!("when {item}{mask} is {value}{reply}")
+        }
+        Completion::Delayed(milliseconds) => format!("after {milliseconds} ms"),
+    }
+}
+
+/// Compares the layout of a frame, and the values in it.
+fn frame(name: &'static str, old: &[MessageField], new: &[MessageField], comparison: &mut Comparison<'_>) {
+    comparison.texts(name, layout(old, true), layout(new, true), frame_effects(old, new));
+    let title = |own: &&MessageValue| own.item.name.to_string();
+    for (old, new) in super::pairing::pairs(&values(old), &values(new), title, |_| String::new()) {
+        // Additions and removals are differences of the layout.
+        if let (Some(old), Some(new)) = (old, new) {
+            comparison.within(&format!("{name} {}", new.item.name), |comparison| value(old, new, comparison));
+        }
+    }
+}
+
+fn values(fields: &[MessageField]) -> Vec<&MessageValue> {
+    let mut all = Vec::new();
+    for field in fields {
+        match field {
+            MessageField::Value(value) => all.push(value.as_ref()),
+            MessageField::Repeat { fields, .. } => all.extend(values(fields)),
+            _ => {}
+        }
+    }
+    all
+}
+
+fn value(old: &MessageValue, new: &MessageValue, comparison: &mut Comparison<'_>) {
+    compare_fields!(MessageValue, old, new, comparison, {
+        item: item::compare,
+        byte_order: fact("order of the bytes", Judgement::WIRE),
+        counts: fact("counts the bytes from", Judgement::WIRE),
+    });
+}
+
+/// Names of fields are those of a struct in Rust; their types are compared with the values.
+fn frame_effects(old: &[MessageField], new: &[MessageField]) -> Judgement {
+    let names = |fields| values(fields).iter().map(|own| identifier(&own.item.name)).collect::<Vec<_>>();
+    let effect = |breaks: bool| if breaks { Effect::Breaking } else { Effect::Unaffected };
+    let is_wire = layout(old, false) != layout(new, false);
+    Judgement { api: effect(names(old) != names(new)), wire: effect(is_wire), behavior: Effect::Unaffected }
 }
 
 /// The fields one after the other.
-fn layout(fields: &[MessageField], types: &[TypeDef]) -> String {
-    fields.iter().map(|own| field(own, types)).collect::<Vec<_>>().join(", ")
+fn layout(fields: &[MessageField], with_names: bool) -> String {
+    fields.iter().map(|own| field(own, with_names)).collect::<Vec<_>>().join(", ")
 }
 
-fn field(own: &MessageField, types: &[TypeDef]) -> String {
-    let hexadecimal = |bytes: &[u8]| bytes.iter().map(|byte| format!("{byte:02X}")).collect::<Vec<_>>().join(" ");
+fn field(own: &MessageField, with_names: bool) -> String {
     match own {
-        MessageField::Constant(bytes) => hexadecimal(bytes),
+        MessageField::Constant(constant) => bytes(constant),
         MessageField::FixedBits { bits, value } => format!("{value} in {bits} bits"),
-        MessageField::Value(value) => {
-            let order = if value.byte_order.is_empty() { String::new() } else { format!(" {:?}", value.byte_order) };
-            format!("{} {}{order}", super::types::written(types, value.item.ty), value.item.name)
-        }
+        MessageField::Value(value) if with_names => value.item.name.to_string(),
+        MessageField::Value(_) => "a value".to_owned(),
         MessageField::Echo { field, bytes } => match bytes {
             Some((first, last)) => format!("bytes {first} to {last} of {field}"),
             None => format!("{field} of the request"),
@@ -38,9 +127,48 @@ fn field(own: &MessageField, types: &[TypeDef]) -> String {
         MessageField::ItemValue { space } => format!("value of {space}"),
         MessageField::ItemPadding { space } => format!("zeros of {space}"),
         MessageField::Padding(bytes) => format!("{bytes} bytes without meaning"),
-        MessageField::Repeat { count, fields, .. } => {
-            format!("{} times ({})", count.as_deref().unwrap_or("any"), layout(fields, types))
+        MessageField::Repeat { count, max, fields } => {
+            let max = max.map(|max| format!(", at most {max}")).unwrap_or_default();
+            format!("{} times{max} ({})", count.as_deref().unwrap_or("any"), layout(fields, with_names))
         }
         MessageField::Rest => "the rest".to_owned(),
     }
+}
+
+/// Compares the numbers by which the protocol addresses items.
+pub(super) fn space(old: &ParameterSpace, new: &ParameterSpace, comparison: &mut Comparison<'_>) {
+    compare_fields!(ParameterSpace, old, new, comparison, {
+        name: ignored(KEY),
+        read: fact("read by", Judgement::WIRE),
+        write: fact("written by", Judgement::WIRE),
+        store: fact("stored by", Judgement::WIRE),
+        byte_order: fact("order of the bytes", Judgement::WIRE),
+        documentation: documentation,
+        origin: ignored(POSITION),
+    });
+}
+
+/// Spaces belong together by their names.
+pub(super) fn spaces() -> impl Fn(&Vec<ParameterSpace>, &Vec<ParameterSpace>, &mut Comparison<'_>) {
+    list(Elements::titled(|own: &ParameterSpace| format!("parameter space {}", own.name)), space)
+}
+
+/// Compares how frames are delimited and checked.
+pub(super) fn framing(old: &Framing, new: &Framing, comparison: &mut Comparison<'_>) {
+    let byte = |own: &Option<u8>| own.map(|own| format!("0x{own:02X}")).unwrap_or_default();
+    compare_fields!(Framing, old, new, comparison, {
+        start: fact_as("first byte", Judgement::WIRE, byte),
+        end: fact_as("last byte", Judgement::WIRE, byte),
+        escape: fact_as("escape byte", Judgement::WIRE, byte),
+        escape_xor: fact_as("escaped bytes are combined with", Judgement::WIRE, |own| format!("0x{own:02X}")),
+        escaped: fact_as("escaped bytes", Judgement::WIRE, |own: &Vec<u8>| bytes(own)),
+        check: fact("check", Judgement::WIRE),
+        check_from: fact("check counts from", Judgement::WIRE),
+        check_escaped: fact("check is escaped", Judgement::WIRE),
+        check_seed: fact_as("start value of the check", Judgement::WIRE, |own| format!("0x{own:X}")),
+        max_data: fact("maximum number of data bytes", Judgement::BEHAVIOR),
+        address: fact("field of the device's number", Judgement::API_AND_WIRE),
+        documentation: documentation,
+        origin: ignored(POSITION),
+    });
 }

@@ -1,100 +1,288 @@
-//! Layouts of process data.
+//! Cyclic data: PDOs, sync managers and process images.
 
-use super::{pairs, types, Changes, Judgement, Scope};
-use lexibus_codegen::facts;
+use super::change::{Effect, Judgement};
+use super::comparison::{
+    compare_fields, fact, fact_as, ignored, judged, list, or_default, slice, text, Comparison, Elements, COMPARED, KEY,
+    POSITION,
+};
+use super::names::identifier;
+use super::pairing::{Key, Matching};
+use super::show::index;
+use super::texts::{documentation, doubts, extensions, renamed};
+use super::types;
+use lexibus_codegen::facts::address;
 use lexibus_codegen::facts::cob_id::{self, CobId};
+use lexibus_codegen::facts::pdo::title;
 use lexibus_codegen::facts::words::PLAIN;
-use lexibus_codegen::ir::{Direction, Pdo, PdoEntry, PdoEntryKind, ProcessImage, TypeDef};
+use lexibus_codegen::ir::{
+    Direction, ObjectBuses, Pdo, PdoCommunication, PdoEntry, PdoEntryKind, ProcessData, ProcessImage, SyncManager,
+    SyncManagerPurpose, Type, TypeDef, Value,
+};
 
-pub(super) fn compare(old: &Scope<'_>, new: &Scope<'_>, changes: &mut Changes) {
-    let key = |own: &Pdo| (own.mapping_index, own.buses.map(|buses| (buses.canopen, buses.coe)));
-    for (was, is) in pairs(old.pdos, new.pdos, key, false) {
-        let Some(own) = was.or(is) else { continue };
-        let buses = if is.is_some() { new.buses } else { old.buses };
-        let element = format!("{} {}", facts::pdo::title(own, buses), own.name).trim().to_owned();
-        let (Some(was), Some(is)) = (was, is) else {
-            changes.existence(&element, was.is_some(), is.is_some());
-            continue;
-        };
-        let layouts = layouts((&was.entries, old.types), (&is.entries, new.types));
-        if layouts.0 == layouts.1 {
-            // Padding at the end has no place in the layout.
-            let length = |own: &Pdo| format!("{} bits", own.bits());
-            changes.fact(&element, "length", (length(was), length(is)), Judgement::Breaking);
-        }
-        changes.fact(&element, "layout", layouts, Judgement::Breaking);
-        let fixed = |own: &Pdo| if own.fixed { "fixed" } else { "variable" }.to_owned();
-        let judgement = if is.fixed { Judgement::Breaking } else { Judgement::Compatible };
-        changes.fact(&element, "mapping", (fixed(was), fixed(is)), judgement);
-        let cob_id = |own: &Pdo| {
-            let id = own.communication.as_ref().and_then(|own| own.cob_id.as_ref());
-            id.map(|id| cob_id::text(id, CobId::of_pdo(own.direction)).unwrap_or_else(|| PLAIN.value(id)))
-                .unwrap_or_default()
-        };
-        changes.fact(&element, "COB-ID", (cob_id(was), cob_id(is)), Judgement::Compatible);
-        let manager = |own: &Pdo| own.sync_manager.map(|own| own.to_string()).unwrap_or_default();
-        changes.fact(&element, "sync manager", (manager(was), manager(is)), Judgement::Compatible);
-        let excludes = |own: &Pdo| own.excludes.iter().map(|own| format!("0x{own:04X}")).collect::<Vec<_>>().join(", ");
-        let fewer = was.excludes.iter().all(|own| is.excludes.contains(own)) && was.excludes.len() < is.excludes.len();
-        let judgement = if fewer { Judgement::Breaking } else { Judgement::Compatible };
-        changes.fact(&element, "excludes", (excludes(was), excludes(is)), judgement);
-    }
-    images(old, new, changes);
+/// Compares the cyclic data of a device or a module, whose objects are on `buses`.
+pub(super) fn compare(old: &ProcessData, new: &ProcessData, buses: ObjectBuses, comparison: &mut Comparison<'_>) {
+    compare_fields!(ProcessData, old, new, comparison, {
+        pdos: |old: &Vec<Pdo>, new: &Vec<Pdo>, comparison: &mut Comparison<'_>| pdos(old, new, buses, comparison),
+        sync_managers: list(Elements::titled(|own: &SyncManager| format!("sync manager {}", own.number))
+            .judged(|_| Judgement::WIRE, |_| Judgement::WIRE), sync_manager),
+        images: list(images(), image),
+    });
 }
 
-fn images(old: &Scope<'_>, new: &Scope<'_>, changes: &mut Changes) {
-    let same = |one: &ProcessImage, other: &ProcessImage| one.direction == other.direction && one.name == other.name;
-    for was in &old.images {
-        let element = format!("image {}", name(was));
-        match new.images.iter().find(|own| same(own, was)) {
-            Some(is) => {
-                let lengths = (was.length.to_string(), is.length.to_string());
-                changes.fact(&element, "length", lengths, Judgement::Breaking);
-                let layouts = layouts((&was.fields, old.types), (&is.fields, new.types));
-                changes.fact(&element, "layout", layouts, Judgement::Breaking);
+/// PDOs belong together by their mapping object and buses.
+fn pdos(old: &[Pdo], new: &[Pdo], buses: ObjectBuses, comparison: &mut Comparison<'_>) {
+    let key = |own: &Pdo| format!("{:?} {} {:?}", own.direction, own.mapping_index, own.buses);
+    for (old, new) in super::pairing::pairs(old, new, key, |_| String::new()) {
+        let Some(own) = new.or(old) else { continue };
+        let title = format!("{} {}", title(own, buses), own.name);
+        comparison.within(title.trim(), |comparison| match (old, new) {
+            (Some(old), Some(new)) => pdo(old, new, comparison),
+            (Some(_), None) => comparison.removed(Judgement::API_AND_WIRE),
+            _ => comparison.added(Judgement::ADDITION),
+        });
+    }
+}
+
+fn pdo(old: &Pdo, new: &Pdo, comparison: &mut Comparison<'_>) {
+    compare_fields!(Pdo, old, new, comparison, {
+        direction: ignored(KEY),
+        number: fact("number", Judgement::WIRE),
+        name: judged("name", renamed),
+        mapping_index: ignored(KEY),
+        communication: or_default(|one, other, comparison: &mut Comparison<'_>| {
+            communication(one, other, new.direction, comparison);
+        }),
+        entries: slice(entries),
+        fixed: fact_as("mapping", if new.fixed { Judgement::API } else { Judgement::API_COMPATIBLE }, |fixed| {
+            if *fixed { "fixed" } else { "variable" }.to_owned()
+        }),
+        mandatory: fact("has to be assigned", Judgement::BEHAVIOR),
+        sync_manager: fact("sync manager", Judgement::WIRE),
+        excludes: |old: &Vec<u16>, new: &Vec<u16>, comparison: &mut Comparison<'_>| excludes(old, new, comparison),
+        excluded_sync_managers: fact("excluded sync managers", Judgement::BEHAVIOR),
+        sync_unit: fact("sync unit", Judgement::WIRE),
+        depends_on_slot: fact("index grows with the slot", Judgement::WIRE),
+        depends_on_slot_group: fact("index grows with the slot group", Judgement::WIRE),
+        is_virtual: fact("carries no data", Judgement::API_AND_WIRE),
+        overwritten_by_module: fact("replaced by that of a module", Judgement::WIRE),
+        oversampling: fact("oversampling", Judgement::WIRE),
+        names: text("name in other languages"),
+        max_bytes: fact("maximum length in bytes", Judgement::BEHAVIOR),
+        documentation: documentation,
+        doubts: doubts,
+        extensions: extensions,
+        buses: ignored(KEY),
+        implicit: fact("follows from the number of PDOs", Judgement::NONE),
+        origin: ignored(POSITION),
+    });
+}
+
+fn excludes(old: &[u16], new: &[u16], comparison: &mut Comparison<'_>) {
+    let text = |own: &[u16]| own.iter().map(index).collect::<Vec<_>>().join(", ");
+    let is_more = new.iter().any(|own| !old.contains(own));
+    let judgement = if is_more { Judgement::BEHAVIOR } else { Judgement::BEHAVIOR_COMPATIBLE };
+    comparison.texts("excludes", text(old), text(new), judgement);
+}
+
+fn communication(
+    old: &PdoCommunication,
+    new: &PdoCommunication,
+    direction: Direction,
+    comparison: &mut Comparison<'_>,
+) {
+    let cob_id = |id: &Option<Value>| {
+        let text = |id| cob_id::text(id, CobId::of_pdo(direction)).unwrap_or_else(|| PLAIN.value(id));
+        id.as_ref().map(text).unwrap_or_default()
+    };
+    compare_fields!(PdoCommunication, old, new, comparison, {
+        index: fact_as("index", Judgement::WIRE, index),
+        cob_id: fact_as("COB-ID", Judgement::WIRE, cob_id),
+        transmission_type: fact("transmission type", Judgement::BEHAVIOR),
+        inhibit_time: fact("inhibit time in 100 µs", Judgement::BEHAVIOR),
+        event_timer: fact("event timer in ms", Judgement::BEHAVIOR),
+        sync_start: fact("SYNC start value", Judgement::BEHAVIOR),
+        writable: fact("writable sub-indices", Judgement::BEHAVIOR),
+    });
+}
+
+/// Compares layouts as a whole: an inserted entry moves all that follow.
+fn entries(old: &[PdoEntry], new: &[PdoEntry], comparison: &mut Comparison<'_>) {
+    let (old_types, new_types) = comparison.types;
+    let layouts = [Layout { entries: old, types: old_types }, Layout { entries: new, types: new_types }];
+    let [mut old_text, mut new_text] = [layouts[0].texts(), layouts[1].texts()];
+    if old_text != new_text {
+        shorten(&mut old_text, &mut new_text);
+        comparison.push("layout", old_text.join(", "), new_text.join(", "), layouts[0].effects_of(&layouts[1]));
+    } else {
+        lengths(old, new, comparison);
+    }
+    objects(old, new, comparison);
+    // Entries at one place are compared further, and paddings in their order.
+    let matching = Matching::of(&entry_keys(old), &entry_keys(new));
+    for (old, other) in old.iter().zip(matching.new_of_old) {
+        if let Some(new) = other.map(|at| &new[at]) {
+            comparison.within(&entry_title(new), |comparison| entry(old, new, comparison));
+        }
+    }
+}
+
+/// Entries with the types that they name.
+struct Layout<'a> {
+    entries: &'a [PdoEntry],
+    types: &'a [TypeDef],
+}
+
+impl Layout<'_> {
+    fn fields(&self) -> impl Iterator<Item = &PdoEntry> {
+        self.entries.iter().filter(|own| own.kind != PdoEntryKind::Padding)
+    }
+
+    /// `0: UNSIGNED16 Controlword`, `16: INTEGER32 Target position`.
+    fn texts(&self) -> Vec<String> {
+        let text = |own: &PdoEntry| format!("{}: {} {}", own.bit_offset, types::name(self.types, own.ty), own.name);
+        self.fields().map(text).collect()
+    }
+
+    /// The effects of another layout. Names and types of fields are those of a struct in Rust.
+    fn effects_of(&self, new: &Layout<'_>) -> Judgement {
+        let fields = |own: &Layout<'_>| -> Vec<(String, String)> {
+            own.fields().map(|entry| (identifier(&entry.name), types::name(own.types, entry.ty))).collect()
+        };
+        let places = |own: &Layout<'_>| own.entries.iter().map(|own| (own.bit_offset, own.bits)).collect::<Vec<_>>();
+        let effect = |breaks: bool| if breaks { Effect::Breaking } else { Effect::Unaffected };
+        let api = effect(fields(self) != fields(new));
+        Judgement { api, wire: effect(places(self) != places(new)), ..Judgement::NONE }
+    }
+}
+
+/// Entries belong together by name and place, and paddings by their order.
+fn entry_keys(entries: &[PdoEntry]) -> Vec<Key> {
+    let mut paddings = 0_u32..;
+    let name = |own: &PdoEntry| match own.kind {
+        PdoEntryKind::Padding => format!("padding {}", paddings.next().unwrap_or_default()),
+        _ => entry_title(own),
+    };
+    entries.iter().map(name).map(|name| Key { name, place: String::new() }).collect()
+}
+
+/// Padding has no place in the layout.
+fn lengths(old: &[PdoEntry], new: &[PdoEntry], comparison: &mut Comparison<'_>) {
+    let length = |own: &[PdoEntry]| own.iter().fold(0_u32, |bits, entry| bits.saturating_add(entry.bits));
+    let of_all = |own: &[PdoEntry]| format!("{} bits", length(own));
+    let of_each = |own: &[PdoEntry]| own.iter().map(|own| own.bits.to_string()).collect::<Vec<_>>().join(", ");
+    if length(old) != length(new) {
+        comparison.push("length", of_all(old), of_all(new), Judgement::WIRE);
+    } else {
+        comparison.texts("lengths of entries in bits", of_each(old), of_each(new), Judgement::WIRE);
+    }
+}
+
+/// `Status at bit 16`.
+fn entry_title(own: &PdoEntry) -> String {
+    format!("{} at bit {}", own.name, own.bit_offset).trim_start().to_owned()
+}
+
+fn entry(old: &PdoEntry, new: &PdoEntry, comparison: &mut Comparison<'_>) {
+    compare_fields!(PdoEntry, old, new, comparison, {
+        index: ignored(COMPARED),
+        sub_index: ignored(COMPARED),
+        // Only those of paddings differ here.
+        bit_offset: fact("first bit", Judgement::NONE),
+        bits: ignored(COMPARED),
+        kind: fact_as("kind", Judgement::API, |kind| kind_name(*kind).to_owned()),
+        name: text("name"),
+        ty: |one: &Type, other: &Type, comparison: &mut Comparison<'_>| match new.kind {
+            PdoEntryKind::Padding => {
+                let (old_types, new_types) = comparison.types;
+                let (old, new) = (types::name(old_types, *one), types::name(new_types, *other));
+                comparison.texts("type", old, new, Judgement::NONE);
             }
-            None => changes.existence(&element, true, false),
-        }
-    }
-    for is in new.images.iter().filter(|own| !old.images.iter().any(|other| same(own, other))) {
-        changes.existence(&format!("image {}", name(is)), false, true);
+            // The layout has the types.
+            _ => types::compare_definitions(*one, *other, comparison),
+        },
+        fixed: fact("part of every mapping", Judgement::BEHAVIOR),
+        depends_on_slot: fact("index grows with the slot", Judgement::WIRE),
+        depends_on_slot_group: fact("index grows with the slot group", Judgement::WIRE),
+        names: text("name in other languages"),
+        origin: ignored(POSITION),
+    });
+}
+
+fn kind_name(kind: PdoEntryKind) -> &'static str {
+    match kind {
+        PdoEntryKind::Item => "an item",
+        PdoEntryKind::Unknown => "an object without a description",
+        PdoEntryKind::Unnumbered => "data without an object",
+        PdoEntryKind::Padding => "padding",
     }
 }
 
-fn name(own: &ProcessImage) -> &str {
-    match (own.name.as_str(), own.direction) {
-        ("", Direction::Receive) => "to the device",
-        ("", Direction::Transmit) => "from the device",
-        (name, _) => name,
+/// The mapped objects, if other ones are at the same places.
+fn objects(old: &[PdoEntry], new: &[PdoEntry], comparison: &mut Comparison<'_>) {
+    let objects = |own: &[PdoEntry]| -> Vec<String> {
+        own.iter().map(|entry| address::object(entry.index, entry.sub_index)).collect()
+    };
+    let (mut old, mut new) = (objects(old), objects(new));
+    if old != new {
+        shorten(&mut old, &mut new);
+        comparison.push("mapped objects", old.join(", "), new.join(", "), Judgement::WIRE);
     }
 }
 
-/// What stands where, of both: `0: UNSIGNED16 Controlword, 16: INTEGER32 Target position`. What both begin or end with is left out of
-/// long ones.
-fn layouts(
-    (old, old_types): (&[PdoEntry], &[TypeDef]),
-    (new, new_types): (&[PdoEntry], &[TypeDef]),
-) -> (String, String) {
-    let (mut old, mut new) = (layout(old, old_types), layout(new, new_types));
-    if old == new {
-        return (String::new(), String::new());
-    }
-    let first = old.iter().zip(&new).take_while(|(one, other)| one == other).count();
+/// Replaces what both lists begin and end with.
+fn shorten(old: &mut Vec<String>, new: &mut Vec<String>) {
+    let first = old.iter().zip(&*new).take_while(|(one, other)| one == other).count();
     let rest = (old.len() - first).min(new.len() - first);
     let last = old.iter().rev().zip(new.iter().rev()).take(rest).take_while(|(one, other)| one == other).count();
-    let shorten = |list: &mut Vec<String>| {
+    for list in [old, new] {
         if last > 1 {
             list.splice(list.len() - last.., ["…".to_owned()]);
         }
         if first > 1 {
             list.splice(..first, ["…".to_owned()]);
         }
-        list.join(", ")
-    };
-    (shorten(&mut old), shorten(&mut new))
+    }
 }
 
-fn layout(entries: &[PdoEntry], types: &[TypeDef]) -> Vec<String> {
-    let own = entries.iter().filter(|own| own.kind != PdoEntryKind::Padding);
-    own.map(|own| format!("{}: {} {}", own.bit_offset, types::written(types, own.ty), own.name)).collect()
+fn sync_manager(old: &SyncManager, new: &SyncManager, comparison: &mut Comparison<'_>) {
+    compare_fields!(SyncManager, old, new, comparison, {
+        number: ignored(KEY),
+        purpose: fact_as("purpose", Judgement::WIRE, |purpose: &SyncManagerPurpose| purpose.label().to_owned()),
+        label: text("name of the purpose"),
+        start_address: fact_as("start address", Judgement::WIRE, index),
+        default_size: fact("length in bytes", Judgement::WIRE),
+        size_range: fact("minimum and maximum length", Judgement::BEHAVIOR),
+        control: fact_as("control register", Judgement::WIRE, |control| format!("0x{control:02X}")),
+        enable: fact("enabled", Judgement::WIRE),
+        op_only: fact("in Op only", Judgement::BEHAVIOR),
+        is_virtual: fact("exists in the description only", Judgement::WIRE),
+        origin: ignored(POSITION),
+    });
+}
+
+/// Images belong together by direction and name.
+fn images() -> Elements<ProcessImage> {
+    Elements { name: |own| format!("{:?} {}", own.direction, own.name), ..Elements::titled(image_title) }
+}
+
+fn image_title(own: &ProcessImage) -> String {
+    let name = match (own.name.as_str(), own.direction) {
+        ("", Direction::Receive) => "to the device",
+        ("", Direction::Transmit) => "from the device",
+        (name, _) => name,
+    };
+    format!("image {name}")
+}
+
+pub(super) fn image(old: &ProcessImage, new: &ProcessImage, comparison: &mut Comparison<'_>) {
+    compare_fields!(ProcessImage, old, new, comparison, {
+        name: judged("name", renamed),
+        direction: fact("direction", Judgement::API_AND_WIRE),
+        length: fact("length", Judgement::API_AND_WIRE),
+        overhead: fact("further bytes", Judgement::WIRE),
+        big_endian: fact_as("byte order", Judgement::WIRE, |big_endian| {
+            if *big_endian { "big-endian" } else { "little-endian" }.to_owned()
+        }),
+        fields: slice(entries),
+    });
 }

@@ -1,137 +1,325 @@
-//! Types with names for bits and values, and tables of codes.
+//! Types of values, with their names for bits and values.
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::HashSet;
 
-use super::{by_name, renamed, Changes, Judgement};
-use lexibus_codegen::facts::code;
+use super::change::{Effect, Judgement};
+use super::comparison::{
+    compare_fields, fact, fact_as, ignored, judged, slices, text, Comparison, Elements, COMPARED, POSITION,
+};
+use super::show::Show;
+use super::texts::{documentation, renamed};
+use lexibus_codegen::facts::types::{self, definition};
 use lexibus_codegen::facts::words::PLAIN;
-use lexibus_codegen::ir::owner::Owner;
-use lexibus_codegen::ir::{BitMeaning, CodeRow, CodeTable, EnumValue, Shape, Type, TypeDef};
+use lexibus_codegen::ir::{BitFieldEntry, BitMeaning, EnumValue, Field, Shape, Type, TypeDef, TypeId};
 
-/// The type that generated code has: of what has names, whose names they are.
-pub(super) fn written(types: &[TypeDef], ty: Type) -> String {
-    let owner = Owner::of_types(types);
-    let basic = owner.basic(ty);
-    let named = owner.definition(ty).and_then(|own| match own.shape {
-        Shape::BitField { .. } => Some(format!("bits {} of {}", own.name, plain(basic))),
-        Shape::Enumeration { .. } => Some(format!("values {} of {}", own.name, plain(basic))),
-        Shape::Array { .. } | Shape::Record(_) => Some(own.name.to_string()),
-        Shape::Alias(_) | Shape::Scaled { .. } => None,
-    });
-    named.unwrap_or_else(|| plain(basic))
+/// Compares the types of the current element, and the definitions of named types once for each pair.
+pub(super) fn compare(old: &Type, new: &Type, comparison: &mut Comparison<'_>) {
+    let (old_types, new_types) = comparison.types;
+    let (old_text, new_text) = (name(old_types, *old), name(new_types, *new));
+    let judgement = effects(basic_of(old_types, *old), basic_of(new_types, *new));
+    comparison.texts("type", old_text, new_text, judgement);
+    compare_definitions(*old, *new, comparison);
 }
 
-/// A type without a name of its own, with the length of a text.
-fn plain(ty: Type) -> String {
-    match ty {
-        Type::Named(_) => Type::Opaque(None).to_string(),
-        other => other.with_length(),
-    }
-}
-
-/// Names of bits and values of a type that an element has.
-pub(super) fn compare(
-    (old_types, old): (&[TypeDef], Type),
-    (new_types, new): (&[TypeDef], Type),
-    element: &str,
-    changes: &mut Changes,
-) {
-    let (Some(old), Some(new)) =
-        (Owner::of_types(old_types).definition(old), Owner::of_types(new_types).definition(new))
-    else {
-        return;
-    };
-    match (&old.shape, &new.shape) {
-        (Shape::Enumeration { values: old, .. }, Shape::Enumeration { values: new, .. }) => {
-            values(old, new, element, changes);
+/// Compares the definitions of named types once for each pair.
+pub(super) fn compare_definitions(old: Type, new: Type, comparison: &mut Comparison<'_>) {
+    let (old_types, new_types) = comparison.types;
+    match (definition(old_types, old), definition(new_types, new)) {
+        (Some(one), Some(other)) if comparison.is_first_comparison(old, new) => {
+            let is_same_type = name(old_types, old) == name(new_types, new);
+            definitions(one, other, is_same_type, comparison);
         }
-        (Shape::BitField { fields: old, .. }, Shape::BitField { fields: new, .. }) => {
-            let key = |own: &lexibus_codegen::ir::BitFieldEntry| {
-                let is_reserved = matches!(own.meaning, BitMeaning::Reserved { .. });
-                (!is_reserved).then(|| (bits(own), own.name.to_string()))
-            };
-            named(old.iter().filter_map(key), new.iter().filter_map(key), element, Judgement::Compatible, changes);
-            for (one, other) in old
-                .iter()
-                .filter_map(|one| Some((one, new.iter().find(|own| own.offset == one.offset && own.name == one.name)?)))
-            {
-                let what = format!("{element}, {}", bits(other));
-                let meanings = (meaning(one, old_types), meaning(other, new_types));
-                changes.fact(&what, "meaning", meanings, Judgement::Breaking);
-                if let (BitMeaning::Enumeration(one), BitMeaning::Enumeration(other)) = (&one.meaning, &other.meaning) {
-                    compare((old_types, Type::Named(*one)), (new_types, Type::Named(*other)), element, changes);
-                }
-            }
+        (Some(_), Some(_)) | (None, None) => {}
+        // A name of a basic type; another definition has another text.
+        (one, other) if name(old_types, old) == name(new_types, new) => {
+            let text = |own: Option<&TypeDef>| own.map(|own| own.name.to_string()).unwrap_or_default();
+            comparison.push("name of the type", text(one), text(other), Judgement::NONE);
         }
         _ => {}
     }
 }
 
-/// What the getter of the bits gives.
-fn meaning(own: &lexibus_codegen::ir::BitFieldEntry, types: &[TypeDef]) -> String {
-    match own.meaning {
-        BitMeaning::Flag { inverted: false } => "a flag".to_owned(),
-        BitMeaning::Flag { inverted: true } => "a flag that is set by 0".to_owned(),
-        BitMeaning::Number => "a number".to_owned(),
-        BitMeaning::Enumeration(id) => {
-            let definition = Owner::of_types(types).definition(Type::Named(id));
-            definition.map_or_else(|| "a number".to_owned(), |own| format!("values {}", own.name))
-        }
-        BitMeaning::Reserved { .. } => "reserved".to_owned(),
-    }
-}
-
-/// `bit 4`, `bits 7 to 4 while Mode is 1`.
-fn bits(own: &lexibus_codegen::ir::BitFieldEntry) -> String {
-    let last = u32::from(own.offset) + u32::from(own.bits).max(1) - 1;
-    let bits = if own.bits > 1 { format!("bits {last} to {}", own.offset) } else { format!("bit {last}") };
-    let when = own.when.as_ref().map(|own| format!(" while {}", PLAIN.holds(own)));
-    bits + &when.unwrap_or_default()
-}
-
-fn values(old: &[EnumValue], new: &[EnumValue], element: &str, changes: &mut Changes) {
-    let key = |own: &EnumValue| (format!("value {}", own.value), own.name.to_string());
-    // A further variant: whoever matched all of them has one to add.
-    named(old.iter().map(key), new.iter().map(key), element, Judgement::Breaking, changes);
-}
-
-/// Names by what they stand for.
-pub(super) fn named(
-    old: impl Iterator<Item = (String, String)>,
-    new: impl Iterator<Item = (String, String)>,
-    element: &str,
-    of_new: Judgement,
-    changes: &mut Changes,
-) {
-    let (old, new): (BTreeMap<_, _>, BTreeMap<_, _>) = (old.collect(), new.collect());
-    for (key, was) in &old {
-        let what = format!("{element}, {key}");
-        match new.get(key) {
-            Some(is) => changes.fact(&what, "name", (was.clone(), is.clone()), renamed(was, is)),
-            None => changes.push(&what, "removed", (was.clone(), String::new()), Judgement::Breaking),
+/// Compares a type that may be missing.
+pub(super) fn compare_optional(
+    fact: &'static str,
+    judgement: Judgement,
+) -> impl Fn(&Option<Type>, &Option<Type>, &mut Comparison<'_>) {
+    move |old, new, comparison| match (old, new) {
+        (Some(old), Some(new)) => comparison.within(fact, |comparison| compare(old, new, comparison)),
+        (old, new) => {
+            let (old_types, new_types) = comparison.types;
+            let text = |types, ty: &Option<Type>| ty.map(|ty| name(types, ty)).unwrap_or_default();
+            comparison.texts(fact, text(old_types, old), text(new_types, new), judgement);
         }
     }
-    for (key, is) in new.iter().filter(|(key, _)| !old.contains_key(*key)) {
-        changes.push(&format!("{element}, {key}"), "added", (String::new(), is.clone()), of_new);
-    }
 }
 
-/// Tables of codes, which are enumerations in Rust.
-pub(super) fn codes(old: &[CodeTable], new: &[CodeTable], changes: &mut Changes) {
-    by_name(
-        "codes",
-        (old, new),
-        |own| &own.name,
-        changes,
-        |(was, is), element, changes| {
-            // The number identifies a code; its notation is the one of the new table.
-            let rows = was.rows.iter().chain(is.rows.iter());
-            let texts: HashMap<i128, String> = rows.map(|row| (row.code, code::text(row))).collect();
-            let key = |row: &CodeRow| {
-                let last = row.last.map(|last| format!(" (to {last:#X})")).unwrap_or_default();
-                (format!("code {}", texts[&row.code]), format!("{}{last}", row.name))
-            };
-            named(was.rows.iter().map(key), is.rows.iter().map(key), element, Judgement::Breaking, changes);
+/// Compares the types that no compared element has, by their names.
+pub(super) fn compare_unused(comparison: &mut Comparison<'_>) {
+    let (old_types, new_types) = comparison.types;
+    let unused = |types: &[TypeDef], compared: HashSet<Type>| -> Vec<(TypeId, String)> {
+        let ids = (0..types.len()).map(|at| TypeId(at as u32)).zip(types);
+        let unused = ids.filter(|(id, _)| !compared.contains(&Type::Named(*id)));
+        unused.map(|(id, own)| (id, own.name.to_string())).collect()
+    };
+    let (old_compared, new_compared) = comparison.compared_types();
+    let (old, new) = (unused(old_types, old_compared), unused(new_types, new_compared));
+    let elements = Elements::<(TypeId, String)>::titled(|own| format!("type {}", own.1))
+        .judged(|_| Judgement::API_COMPATIBLE, |_| Judgement::API);
+    slices(
+        &old,
+        &new,
+        &elements,
+        |(old, _), (new, _), comparison: &mut Comparison<'_>| {
+            compare(&Type::Named(*old), &Type::Named(*new), comparison);
         },
+        comparison,
     );
+}
+
+/// `UNSIGNED16`, `values of UNSIGNED16`, `array of 4 × INTEGER16`.
+pub(super) fn name(types: &[TypeDef], ty: Type) -> String {
+    let shape = lexibus_codegen::ir::owner::Owner::of_types(types).definition(ty).map(|own| &own.shape);
+    match shape {
+        Some(Shape::BitField { .. }) => format!("bits of {}", types::name(types, ty)),
+        Some(Shape::Enumeration { .. }) => format!("values of {}", types::name(types, ty)),
+        Some(Shape::Array { element, dimensions }) => {
+            let bounds: Vec<String> = dimensions.iter().map(|(low, count)| format!("{count} from {low}")).collect();
+            format!("array [{}] of {}", bounds.join("; "), types::name(types, *element))
+        }
+        Some(Shape::Record(fields)) => format!("record of {} fields", fields.len()),
+        Some(Shape::Scaled { .. }) => format!("scaled {}", types::name(types, ty)),
+        Some(Shape::Alias(_)) | None => types::name(types, ty),
+    }
+}
+
+/// The basic type below; `None` for arrays and records.
+fn basic_of(types: &[TypeDef], ty: Type) -> Option<Type> {
+    Some(types::basic(types, ty)).filter(|basic| *basic != Type::Opaque(None))
+}
+
+/// The effects of another type.
+fn effects(old: Option<Type>, new: Option<Type>) -> Judgement {
+    let (Some(old), Some(new)) = (old, new) else { return Judgement::API_AND_WIRE };
+    match (old, new) {
+        // Names for bits and values are a type in Rust.
+        (old, new) if old == new => Judgement::API,
+        // The type in Rust has no length.
+        (Type::VisibleString(_), Type::VisibleString(_))
+        | (Type::OctetString(_), Type::OctetString(_))
+        | (Type::UnicodeString(_), Type::UnicodeString(_)) => Judgement::BEHAVIOR,
+        // The same bits, with another meaning of the highest one.
+        (Type::Integer(old), Type::Unsigned(new)) | (Type::Unsigned(old), Type::Integer(new)) if old == new => {
+            Judgement { wire: Effect::Compatible, ..Judgement::API }
+        }
+        _ => Judgement::API_AND_WIRE,
+    }
+}
+
+/// Compares two definitions. `is_same_type`: another type has not been reported already.
+fn definitions(old: &TypeDef, new: &TypeDef, is_same_type: bool, comparison: &mut Comparison<'_>) {
+    compare_fields!(TypeDef, old, new, comparison, {
+        name: judged("name of the type", renamed),
+        code: fact("number of the type", Judgement::NONE),
+        shape: shapes,
+        bits: |old: &Option<u32>, new: &Option<u32>, comparison: &mut Comparison<'_>| {
+            if is_same_type {
+                fact("length of the type in bits", Judgement::WIRE)(old, new, comparison);
+            }
+        },
+        documentation: documentation,
+        origin: ignored(POSITION),
+    });
+}
+
+fn shapes(old: &Shape, new: &Shape, comparison: &mut Comparison<'_>) {
+    match (old, new) {
+        (Shape::Alias(old), Shape::Alias(new)) => compare(old, new, comparison),
+        (Shape::Array { element: old, .. }, Shape::Array { element: new, .. }) => {
+            comparison.within("element", |comparison| compare(old, new, comparison));
+        }
+        (Shape::Record(old), Shape::Record(new)) => fields(old, new, comparison),
+        (Shape::BitField { fields: old, base: old_base }, Shape::BitField { fields: new, base: new_base }) => {
+            base(old_base, new_base, comparison);
+            bit_fields(old, new, comparison);
+        }
+        (
+            Shape::Enumeration { values: old, base: old_base, closed: was_closed },
+            Shape::Enumeration { values: new, base: new_base, closed },
+        ) => {
+            base(old_base, new_base, comparison);
+            fact("only listed values", Judgement::API)(was_closed, closed, comparison);
+            values(old, new, comparison);
+        }
+        (Shape::Scaled { scale: old, base: old_base }, Shape::Scaled { scale: new, base: new_base }) => {
+            base(old_base, new_base, comparison);
+            fact_as("scale", Judgement::API_AND_BEHAVIOR, |scale| PLAIN.scale(scale, ""))(old, new, comparison);
+        }
+        // The name of the type says it, except if both are names of it.
+        _ => comparison.push("kind of the type", kind(old).to_owned(), kind(new).to_owned(), Judgement::API),
+    }
+}
+
+/// The text of the type has the basic type below; its names are those of another definition.
+fn base(old: &Type, new: &Type, comparison: &mut Comparison<'_>) {
+    if matches!((old, new), (Type::Named(_), Type::Named(_))) {
+        comparison.within("base", |comparison| compare(old, new, comparison));
+    }
+}
+
+fn kind(shape: &Shape) -> &'static str {
+    match shape {
+        Shape::Alias(_) => "another name",
+        Shape::Array { .. } => "array",
+        Shape::Record(_) => "record",
+        Shape::BitField { .. } => "bits",
+        Shape::Enumeration { .. } => "values",
+        Shape::Scaled { .. } => "scaled number",
+    }
+}
+
+fn fields(old: &[Field], new: &[Field], comparison: &mut Comparison<'_>) {
+    let elements = Elements::<Field> {
+        title: |own| format!("field {}", own.name),
+        name: |own| own.name.to_string(),
+        place: |own| own.bit_offset.to_string(),
+        added: |_| Judgement::API_AND_WIRE,
+        removed: |_| Judgement::API_AND_WIRE,
+    };
+    let compare_field = |old: &Field, new: &Field, comparison: &mut Comparison<'_>| {
+        compare_fields!(Field, old, new, comparison, {
+            name: judged("name", renamed),
+            sub_index: fact("sub-index", Judgement::WIRE),
+            ty: compare,
+            bits: fact("length in bits", Judgement::WIRE),
+            bit_offset: fact("first bit", Judgement::WIRE),
+        });
+    };
+    slices(old, new, &elements, compare_field, comparison);
+}
+
+fn bit_fields(old: &[BitFieldEntry], new: &[BitFieldEntry], comparison: &mut Comparison<'_>) {
+    let is_reserved = |own: &BitFieldEntry| matches!(own.meaning, BitMeaning::Reserved { .. });
+    let judge = move |own: &BitFieldEntry, judgement| if is_reserved(own) { Judgement::NONE } else { judgement };
+    let elements = Elements::<BitFieldEntry> {
+        title: bits,
+        name: |own| match own.when.is_some() {
+            true => format!("{} {}", own.name, bits(own)),
+            false => own.name.to_string(),
+        },
+        place: bits,
+        added: |_| Judgement::NONE,
+        removed: |_| Judgement::NONE,
+    };
+    for (old, new) in super::pairing::pairs(old, new, elements.name, elements.place) {
+        let Some(own) = new.or(old) else { continue };
+        comparison.within(&bits(own), |comparison| match (old, new) {
+            (Some(old), Some(new)) => bit_field(old, new, comparison),
+            (Some(old), None) => {
+                comparison.push("removed", old.name.to_string(), String::new(), judge(old, Judgement::API));
+            }
+            _ => {
+                let judgement = judge(own, Judgement::API_COMPATIBLE);
+                comparison.push("added", String::new(), own.name.to_string(), judgement);
+            }
+        });
+    }
+}
+
+fn bit_field(old: &BitFieldEntry, new: &BitFieldEntry, comparison: &mut Comparison<'_>) {
+    comparison.texts("position", place(old), place(new), Judgement::WIRE);
+    compare_fields!(BitFieldEntry, old, new, comparison, {
+        name: judged("name", renamed),
+        names: text("name in other languages"),
+        offset: ignored(COMPARED),
+        bits: ignored(COMPARED),
+        meaning: meanings,
+        when: fact("applies while", Judgement::API_AND_BEHAVIOR),
+        trigger: fact("acts on", Judgement::BEHAVIOR),
+        access: fact("access", Judgement::API),
+        availability: super::item::availability,
+        documentation: documentation,
+        at: ignored(POSITION),
+    });
+}
+
+/// `bit 4`, `bits 7 to 4`.
+fn place(own: &BitFieldEntry) -> String {
+    let last = u32::from(own.offset) + u32::from(own.bits).max(1) - 1;
+    match own.bits {
+        1 => format!("bit {last}"),
+        0 => format!("no bit at {last}"),
+        _ => format!("bits {last} to {}", own.offset),
+    }
+}
+
+/// The bits, and when they have their meaning: `bits 7 to 4 while Mode is 1`.
+fn bits(own: &BitFieldEntry) -> String {
+    let when = own.when.as_ref().map(|condition| format!(" while {}", condition.show()));
+    place(own) + &when.unwrap_or_default()
+}
+
+/// What the getter of the bits returns.
+fn meanings(old: &BitMeaning, new: &BitMeaning, comparison: &mut Comparison<'_>) {
+    let judgement = match (old, new) {
+        (BitMeaning::Reserved { .. }, BitMeaning::Reserved { .. }) => Judgement::BEHAVIOR,
+        // The methods are the same, and the bit is the opposite one.
+        (BitMeaning::Flag { .. }, BitMeaning::Flag { .. }) => Judgement::WIRE,
+        (BitMeaning::Reserved { .. }, _) => Judgement::API_COMPATIBLE,
+        _ => Judgement::API,
+    };
+    comparison.texts("meaning", meaning(old).to_owned(), meaning(new).to_owned(), judgement);
+    if let (BitMeaning::Enumeration(old), BitMeaning::Enumeration(new)) = (old, new) {
+        compare(&Type::Named(*old), &Type::Named(*new), comparison);
+    }
+}
+
+fn meaning(own: &BitMeaning) -> &'static str {
+    match own {
+        BitMeaning::Flag { inverted: false } => "a flag",
+        BitMeaning::Flag { inverted: true } => "a flag that is set by 0",
+        BitMeaning::Number => "a number",
+        BitMeaning::Enumeration(_) => "named values",
+        BitMeaning::Reserved { write: None } => "reserved",
+        BitMeaning::Reserved { write: Some(false) } => "reserved, written as 0",
+        BitMeaning::Reserved { write: Some(true) } => "reserved, written as 1",
+    }
+}
+
+fn values(old: &[EnumValue], new: &[EnumValue], comparison: &mut Comparison<'_>) {
+    // A generated enumeration has a variant for each value, and code may match all of them.
+    let is_variant = |own: &EnumValue| own.last.is_none();
+    let judge = move |own: &EnumValue| if is_variant(own) { Judgement::API } else { Judgement::NONE };
+    let key = |own: &EnumValue| match own.when.as_ref() {
+        Some(condition) => format!("{} while {}", own.name, condition.show()),
+        None => own.name.to_string(),
+    };
+    for (old, new) in super::pairing::pairs(old, new, key, |own| own.value.to_string()) {
+        let Some(own) = new.or(old) else { continue };
+        comparison.within(&format!("value {}", number(own)), |comparison| match (old, new) {
+            (Some(old), Some(new)) => value(old, new, comparison),
+            (Some(old), None) => comparison.push("removed", old.name.to_string(), String::new(), judge(old)),
+            _ => comparison.push("added", String::new(), own.name.to_string(), judge(own)),
+        });
+    }
+}
+
+fn number(own: &EnumValue) -> String {
+    types::numbers(own.value, own.last)
+}
+
+fn value(old: &EnumValue, new: &EnumValue, comparison: &mut Comparison<'_>) {
+    let judgement = if old.value == new.value { Judgement::API } else { Judgement::WIRE };
+    comparison.texts("number", number(old), number(new), judgement);
+    compare_fields!(EnumValue, old, new, comparison, {
+        name: judged("name", renamed),
+        value: ignored(COMPARED),
+        last: ignored(COMPARED),
+        zone: fact("zone", Judgement::BEHAVIOR),
+        names: text("name in other languages"),
+        when: fact("applies while", Judgement::BEHAVIOR),
+        availability: super::item::availability,
+        documentation: documentation,
+        at: ignored(POSITION),
+    });
 }

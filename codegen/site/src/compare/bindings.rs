@@ -1,0 +1,134 @@
+//! Addresses of an item on every bus.
+
+use std::mem::discriminant;
+
+use super::change::Judgement;
+use super::comparison::{compare_fields, fact, fact_as, ignored, part, text, Comparison, COMPARED};
+use super::show::Show;
+use super::types;
+use lexibus_codegen::facts::address;
+use lexibus_codegen::facts::words::bus_name;
+use lexibus_codegen::ir::{Binding, CompactString, ImageBinding, IndirectBinding, RegisterBinding, WindowSide};
+
+/// Compares the addresses, those of one kind in their order.
+pub(super) fn compare(old: &[Binding], new: &[Binding], comparison: &mut Comparison<'_>) {
+    buses(old, new, comparison);
+    let mut left: Vec<&Binding> = new.iter().collect();
+    for own in old {
+        match left.iter().position(|other| discriminant(*other) == discriminant(own)) {
+            Some(at) => binding(own, left.remove(at), comparison),
+            None if is_reached(own, new) => {
+                comparison.push("further address", address::number(own), String::new(), Judgement::WIRE);
+            }
+            None => {}
+        }
+    }
+    for own in left.into_iter().filter(|own| is_reached(own, old)) {
+        comparison.push("further address", String::new(), address::number(own), Judgement::WIRE_COMPATIBLE);
+    }
+}
+
+/// Whether the others have the buses of an address as well, so that the comparison of buses says nothing about it.
+fn is_reached(own: &Binding, others: &[Binding]) -> bool {
+    let names = names_of(others);
+    buses_of(own).iter().all(|bus| names.contains(bus))
+}
+
+/// The buses on which the item can be reached. A bus on which it does not exist is a compile error.
+fn buses(old: &[Binding], new: &[Binding], comparison: &mut Comparison<'_>) {
+    let (old, new) = (names_of(old), names_of(new));
+    let is_lost = old.iter().any(|bus| !new.contains(bus));
+    let judgement = if is_lost { Judgement::API_AND_WIRE } else { Judgement::ADDITION };
+    comparison.texts("buses", old.join(", "), new.join(", "), judgement);
+}
+
+fn names_of(bindings: &[Binding]) -> Vec<String> {
+    let mut all: Vec<String> = bindings.iter().flat_map(buses_of).collect();
+    all.sort_unstable();
+    all.dedup();
+    all
+}
+
+fn buses_of(binding: &Binding) -> Vec<String> {
+    match binding {
+        Binding::Indirect(own) => own.buses.iter().map(|bus| format!("{} (window)", bus_name(bus))).collect(),
+        Binding::Object { buses, .. } => buses.show().split(", ").map(str::to_owned).collect(),
+        _ => address::bus(binding).split(", ").map(str::to_owned).collect(),
+    }
+}
+
+fn binding(old: &Binding, new: &Binding, comparison: &mut Comparison<'_>) {
+    comparison.texts("address", address::number(old), address::number(new), Judgement::WIRE);
+    let bits = fact("length in bits", Judgement::WIRE);
+    match (old, new) {
+        (Binding::Register(old), Binding::Register(new)) => register(old, new, comparison),
+        (Binding::Record { bits: old, .. }, Binding::Record { bits: new, .. }) => bits(old, new, comparison),
+        (Binding::Image(old), Binding::Image(new)) => image(old, new, comparison),
+        (Binding::EscMemory { length: old, .. }, Binding::EscMemory { length: new, .. }) => {
+            fact("length in bytes", Judgement::WIRE)(old, new, comparison);
+        }
+        (Binding::Indirect(old), Binding::Indirect(new)) => window(old, new, comparison),
+        // The address is all that they have, and the buses have been compared.
+        _ => {}
+    }
+}
+
+fn register(old: &RegisterBinding, new: &RegisterBinding, comparison: &mut Comparison<'_>) {
+    // A single register has no order of words.
+    let word_order = if old.count.max(new.count) > 1 { Judgement::WIRE } else { Judgement::NONE };
+    compare_fields!(RegisterBinding, old, new, comparison, {
+        space: ignored(COMPARED),
+        address: ignored(COMPARED),
+        // The number that the source prints moves with the address and length.
+        printed: |one: &CompactString, other: &CompactString, comparison: &mut Comparison<'_>| {
+            if (old.address, old.count) == (new.address, new.count) {
+                text("printed address")(one, other, comparison);
+            }
+        },
+        is_order_assumed: fact("word order is an assumption", Judgement::NONE),
+        count: fact("number of registers", Judgement::WIRE),
+        low_word_first: fact_as("word order", word_order, |low_word_first| {
+            if *low_word_first { "low word first" } else { "high word first" }.to_owned()
+        }),
+        bytes_swapped: fact_as("byte order", Judgement::WIRE, |swapped| {
+            if *swapped { "low byte first" } else { "high byte first" }.to_owned()
+        }),
+        bit_offset: ignored(COMPARED),
+        words_per_address: fact("registers of one address", Judgement::WIRE),
+        extended: fact("extended to the length of the registers", Judgement::WIRE),
+    });
+}
+
+fn image(old: &ImageBinding, new: &ImageBinding, comparison: &mut Comparison<'_>) {
+    compare_fields!(ImageBinding, old, new, comparison, {
+        image: ignored(COMPARED),
+        bit_offset: ignored(COMPARED),
+        bits: fact("length in bits", Judgement::WIRE),
+        ty: types::compare_optional("type in the image", Judgement::WIRE),
+    });
+}
+
+fn window(old: &IndirectBinding, new: &IndirectBinding, comparison: &mut Comparison<'_>) {
+    compare_fields!(IndirectBinding, old, new, comparison, {
+        space: ignored(COMPARED),
+        window: fact("number of the window", Judgement::WIRE),
+        buses: ignored(COMPARED),
+        number: ignored(COMPARED),
+        read: part("read through the window", side),
+        write: part("written through the window", side),
+    });
+}
+
+fn side(old: &Option<WindowSide>, new: &Option<WindowSide>, comparison: &mut Comparison<'_>) {
+    super::comparison::or_default(|old, new, comparison: &mut Comparison<'_>| {
+        compare_fields!(WindowSide, old, new, comparison, {
+            number: fact("item of the number", Judgement::WIRE),
+            value: fact("item of the value", Judgement::WIRE),
+            number_first: fact("number is written first", Judgement::WIRE),
+            clears: fact("the device clears the number", Judgement::BEHAVIOR),
+            wait: fact("wait in ms", Judgement::BEHAVIOR),
+            timeout: fact("timeout in ms", Judgement::BEHAVIOR),
+            procedure: fact("procedure", Judgement::BEHAVIOR),
+        });
+    })(old, new, comparison);
+}

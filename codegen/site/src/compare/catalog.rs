@@ -1,0 +1,101 @@
+//! Catalogs: devices, modules and submodules with what they share.
+
+use super::change::{Change, Judgement};
+use super::comparison::{
+    compare_fields, fact_as, ignored, list, part, text, Comparison, Elements, COMPARED, KEY, POSITION,
+};
+use super::pairing::pairs;
+use super::show::Show;
+use super::texts::extensions;
+use super::{codes, devices, modules, profinet, types};
+use lexibus_codegen::ir::{Catalog, Device, Family, Graphic, LocalText, Module, Submodule};
+
+/// Compares two versions of a description. The changes that break Rust code or the communication come first, then those that break the behavior,
+/// then the others, each in the order of the old description.
+pub fn compare(old: &Catalog, new: &Catalog) -> Vec<Change> {
+    let mut comparison = Comparison::new(old, new);
+    compare_devices(&old.devices, &new.devices, &mut comparison);
+    compare_modules(&old.modules, &new.modules, &mut comparison);
+    compare_submodules(&old.submodules, &new.submodules, &mut comparison);
+    shared(old, new, &mut comparison);
+    types::compare_unused(&mut comparison);
+    let mut changes = comparison.changes;
+    changes.sort_by_key(|change| change.judgement.class());
+    changes
+}
+
+/// Compares what devices, modules and submodules share.
+fn shared(old: &Catalog, new: &Catalog, comparison: &mut Comparison<'_>) {
+    compare_fields!(Catalog, old, new, comparison, {
+        files: ignored("the files that are compared"),
+        devices: ignored(COMPARED),
+        modules: ignored(COMPARED),
+        submodules: ignored(COMPARED),
+        types: ignored(COMPARED),
+        code_tables: codes::tables(),
+        unit_diagnoses: profinet::unit_diagnoses(),
+        families: list(Elements::titled(|own: &Family| format!("family {}", own.id))
+            .judged(|_| Judgement::NONE, |_| Judgement::NONE), family),
+        graphics: part("the catalog", fact_as("pictures", Judgement::NONE, |own: &Vec<Graphic>| {
+            own.iter().map(|own| format!("{} {}", own.id, own.file)).collect::<Vec<_>>().join("; ")
+        })),
+        extensions: part("the catalog", extensions),
+    });
+}
+
+/// The only devices of two descriptions belong together, others by product code, name and identifier.
+fn compare_devices<'a>(old: &'a [Device], new: &'a [Device], comparison: &mut Comparison<'a>) {
+    let is_one = old.len() == 1 && new.len() == 1;
+    let key = |own: &Device| format!("{:?} {} {}", own.identity.product_code, devices::title(own), own.id);
+    let key = |own: &Device| if is_one { String::new() } else { key(own) };
+    let place = |own: &Device| if is_one { String::new() } else { devices::title(own) };
+    for (old, new) in pairs(old, new, key, place) {
+        let owner = old.or(new).filter(|_| !is_one).map(devices::title).unwrap_or_default();
+        owned(owner, "device", (old, new), comparison, |old, new, comparison| {
+            comparison.in_types(&old.types, &new.types, |comparison| devices::compare(old, new, comparison));
+        });
+    }
+}
+
+fn compare_modules<'a>(old: &'a [Module], new: &'a [Module], comparison: &mut Comparison<'a>) {
+    for (old, new) in pairs(old, new, modules::key, |_| String::new()) {
+        let owner = old.or(new).map(|own| format!("module {}", own.name)).unwrap_or_default();
+        owned(owner, "module", (old, new), comparison, |old, new, comparison| {
+            comparison.in_types(&old.types, &new.types, |comparison| modules::compare(old, new, comparison));
+        });
+    }
+}
+
+fn compare_submodules<'a>(old: &'a [Submodule], new: &'a [Submodule], comparison: &mut Comparison<'a>) {
+    for (old, new) in pairs(old, new, profinet::submodule_key, |_| String::new()) {
+        let owner = old.or(new).map(|own| format!("submodule {}", own.name)).unwrap_or_default();
+        owned(owner, "submodule", (old, new), comparison, profinet::submodule);
+    }
+}
+
+/// Compares what has elements of its own, which reports name.
+fn owned<'a, T>(
+    owner: String,
+    kind: &str,
+    pair: (Option<&'a T>, Option<&'a T>),
+    comparison: &mut Comparison<'a>,
+    compare: impl Fn(&'a T, &'a T, &mut Comparison<'a>),
+) {
+    comparison.owner = owner;
+    match pair {
+        (Some(old), Some(new)) => compare(old, new, comparison),
+        (Some(_), None) => comparison.within(kind, |comparison| comparison.removed(Judgement::API_AND_WIRE)),
+        _ => comparison.within(kind, |comparison| comparison.added(Judgement::ADDITION)),
+    }
+    comparison.owner.clear();
+}
+
+fn family(old: &Family, new: &Family, comparison: &mut Comparison<'_>) {
+    compare_fields!(Family, old, new, comparison, {
+        id: ignored(KEY),
+        name: text("name"),
+        names: text("name in other languages"),
+        descriptions: fact_as("description", Judgement::NONE, |own: &Vec<LocalText>| own.show()),
+        origin: ignored(POSITION),
+    });
+}

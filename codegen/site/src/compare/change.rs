@@ -1,0 +1,208 @@
+//! A difference between two descriptions, and what it means for programs, frames and the behavior of the device.
+
+use std::fmt;
+
+use lexibus_codegen::text::printable;
+use serde::Serialize;
+
+/// The effect of a change on one aspect.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Effect {
+    /// The change does not concern this aspect.
+    #[default]
+    Unaffected,
+    /// What was valid for the old description is valid for the new one, with the same meaning.
+    Compatible,
+    /// What was valid for the old description is invalid for the new one, or has another meaning.
+    Breaking,
+}
+
+/// The effects of a change on the three aspects of a description.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize)]
+pub struct Judgement {
+    /// Rust code that was written for the old version: whether it compiles and means the same.
+    pub api: Effect,
+    /// The bytes on the bus: addresses, layouts, encodings and frames.
+    pub wire: Effect,
+    /// The behavior of the device: range, default, storage, conditions, effects, availability.
+    pub behavior: Effect,
+}
+
+impl Judgement {
+    /// No effect: texts, and facts about the file.
+    pub const NONE: Judgement = Judgement::new(Effect::Unaffected, Effect::Unaffected, Effect::Unaffected);
+    /// Breaks Rust code only.
+    pub const API: Judgement = Judgement::new(Effect::Breaking, Effect::Unaffected, Effect::Unaffected);
+    /// Breaks the communication only.
+    pub const WIRE: Judgement = Judgement::new(Effect::Unaffected, Effect::Breaking, Effect::Unaffected);
+    /// Breaks the behavior only.
+    pub const BEHAVIOR: Judgement = Judgement::new(Effect::Unaffected, Effect::Unaffected, Effect::Breaking);
+    /// Breaks Rust code and the communication.
+    pub const API_AND_WIRE: Judgement = Judgement::new(Effect::Breaking, Effect::Breaking, Effect::Unaffected);
+    /// Breaks Rust code and the behavior.
+    pub const API_AND_BEHAVIOR: Judgement = Judgement::new(Effect::Breaking, Effect::Unaffected, Effect::Breaking);
+    /// Adds something to the Rust code.
+    pub const API_COMPATIBLE: Judgement = Judgement::new(Effect::Compatible, Effect::Unaffected, Effect::Unaffected);
+    /// Adds something to the Rust code and to the bus.
+    pub const ADDITION: Judgement = Judgement::new(Effect::Compatible, Effect::Compatible, Effect::Unaffected);
+    /// Adds something to the bus.
+    pub const WIRE_COMPATIBLE: Judgement = Judgement::new(Effect::Unaffected, Effect::Compatible, Effect::Unaffected);
+    /// Changes the behavior so that everything remains possible.
+    pub const BEHAVIOR_COMPATIBLE: Judgement =
+        Judgement::new(Effect::Unaffected, Effect::Unaffected, Effect::Compatible);
+
+    /// Combines the effects on the three aspects.
+    pub const fn new(api: Effect, wire: Effect, behavior: Effect) -> Self {
+        Judgement { api, wire, behavior }
+    }
+
+    /// Whether Rust code or the communication breaks.
+    pub fn is_breaking(self) -> bool {
+        self.api == Effect::Breaking || self.wire == Effect::Breaking
+    }
+
+    /// The class of the change, by its worst effect.
+    pub fn class(self) -> Class {
+        match [self.api, self.wire, self.behavior].into_iter().max() {
+            _ if self.is_breaking() => Class::Breaking,
+            Some(Effect::Breaking) => Class::Behavior,
+            Some(Effect::Compatible) => Class::Compatible,
+            _ => Class::None,
+        }
+    }
+
+    /// The aspects with this effect, in the words of reports.
+    fn aspects(self, effect: Effect) -> String {
+        let all = [("api", self.api), ("wire", self.wire), ("behavior", self.behavior)];
+        all.into_iter().filter(|(_, own)| *own == effect).map(|(name, _)| name).collect::<Vec<_>>().join(", ")
+    }
+}
+
+impl fmt::Display for Judgement {
+    /// `breaks api, wire`, `compatible`, `no effect`.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.class() {
+            Class::Breaking | Class::Behavior => write!(f, "breaks {}", self.aspects(Effect::Breaking)),
+            Class::Compatible => f.write_str("compatible"),
+            Class::None => f.write_str("no effect"),
+        }
+    }
+}
+
+/// Changes by their worst effect, in the order of reports.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Class {
+    /// Rust code or the communication breaks.
+    Breaking,
+    /// Only the behavior breaks.
+    Behavior,
+    /// Nothing breaks.
+    Compatible,
+    /// Nothing is affected.
+    None,
+}
+
+/// A difference between two descriptions.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct Change {
+    /// The device or module, if there are several.
+    #[serde(skip_serializing_if = "String::is_empty")]
+    pub owner: String,
+    /// The element that changed: address and name.
+    pub element: String,
+    /// The fact of the element: `access`, `type`, `range`, `layout`; `added`, `removed`.
+    pub fact: &'static str,
+    /// The old value; empty if there is none.
+    pub old: String,
+    /// The new value; empty if there is none.
+    pub new: String,
+    /// The effects of the change.
+    #[serde(flatten)]
+    pub judgement: Judgement,
+}
+
+impl fmt::Display for Change {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Change { owner, element, fact, old, new, judgement } = self;
+        let (old, new) = excerpts(old, new);
+        // They are texts of the descriptions, and this is for a terminal.
+        let [owner, element, old, new] = [owner, element, &old, &new].map(|text| printable(text));
+        let of = if owner.is_empty() { String::new() } else { format!("{owner}: ") };
+        write!(f, "{judgement}: {of}{element}")?;
+        match (old.is_empty(), new.is_empty()) {
+            (true, true) => write!(f, ": {fact}"),
+            (true, false) => write!(f, ": {fact}, {new}"),
+            (false, true) => write!(f, ": {fact}, was {old}"),
+            (false, false) => write!(f, ": {fact} {old}, now {new}"),
+        }
+    }
+}
+
+/// Long texts from the word on in which they differ.
+fn excerpts(old: &str, new: &str) -> (String, String) {
+    /// So many characters of a text are shown as they are.
+    const LONG: usize = 240;
+    /// So many characters of a longer text are shown.
+    const SHOWN: usize = 80;
+    if old.chars().count().max(new.chars().count()) <= LONG {
+        return (old.to_owned(), new.to_owned());
+    }
+    let equal = old.char_indices().zip(new.chars()).take_while(|((_, one), other)| one == other);
+    let same = equal.last().map_or(0, |((at, letter), _)| at + letter.len_utf8());
+    let start = old[..same].rfind(' ').map_or(0, |at| at + 1);
+    let excerpt = |text: &str| {
+        let rest = text.get(start..).unwrap_or_default();
+        let cut: String = rest.chars().take(SHOWN).collect();
+        let before = if start > 0 && !text.is_empty() { "… " } else { "" };
+        let after = if cut.len() < rest.len() { " …" } else { "" };
+        format!("{before}{cut}{after}")
+    };
+    (excerpt(old), excerpt(new))
+}
+
+/// How many changes there are of each kind.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Summary {
+    /// All changes.
+    pub changes: usize,
+    /// Changes that break Rust code.
+    pub api: usize,
+    /// Changes that break the communication.
+    pub wire: usize,
+    /// Changes that break the behavior.
+    pub behavior: usize,
+    /// Changes that break nothing.
+    pub compatible: usize,
+    /// Changes without an effect.
+    pub none: usize,
+}
+
+impl Summary {
+    /// Counts changes.
+    pub fn of(changes: &[Change]) -> Self {
+        let count = |wanted: &dyn Fn(Judgement) -> bool| changes.iter().filter(|own| wanted(own.judgement)).count();
+        Summary {
+            changes: changes.len(),
+            api: count(&|own| own.api == Effect::Breaking),
+            wire: count(&|own| own.wire == Effect::Breaking),
+            behavior: count(&|own| own.behavior == Effect::Breaking),
+            compatible: count(&|own| own.class() == Class::Compatible),
+            none: count(&|own| own.class() == Class::None),
+        }
+    }
+}
+
+impl fmt::Display for Summary {
+    /// `3 changes; breaking: api 1, wire 2, behavior 0; compatible: 1; no effect: 0`.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Summary { changes, api, wire, behavior, compatible, none } = self;
+        let count = match changes {
+            0 => return f.write_str("no changes"),
+            1 => "1 change".to_owned(),
+            _ => format!("{changes} changes"),
+        };
+        let breaking = format!("breaking: api {api}, wire {wire}, behavior {behavior}");
+        write!(f, "{count}; {breaking}; compatible: {compatible}; no effect: {none}")
+    }
+}

@@ -1,0 +1,59 @@
+//! Tables of codes, which are enumerations in Rust.
+
+use super::change::Judgement;
+use super::comparison::{
+    compare_fields, fact, ignored, judged, list, text, Comparison, Elements, COMPARED, KEY, POSITION,
+};
+use super::item::{availability, restricted};
+use super::texts::{documentation, renamed};
+use lexibus_codegen::facts::code;
+use lexibus_codegen::ir::{CodeRow, CodeTable};
+
+/// Tables belong together by their names.
+pub(super) fn tables() -> impl Fn(&Vec<CodeTable>, &Vec<CodeTable>, &mut Comparison<'_>) {
+    let elements = Elements::titled(|own: &CodeTable| format!("codes {}", own.name));
+    list(elements.judged(|_| Judgement::API_COMPATIBLE, |_| Judgement::API), table)
+}
+
+fn table(old: &CodeTable, new: &CodeTable, comparison: &mut Comparison<'_>) {
+    compare_fields!(CodeTable, old, new, comparison, {
+        name: ignored(KEY),
+        columns: fact("columns", Judgement::API),
+        rows: list(rows(), row),
+        buses: restricted("only on"),
+        documentation: documentation,
+        origin: ignored(POSITION),
+    });
+}
+
+/// Code may match all codes.
+fn rows() -> Elements<CodeRow> {
+    Elements {
+        title: |own| format!("code {} {}", code::text(own), own.name),
+        name: |own| own.name.to_string(),
+        place: |own| own.code.to_string(),
+        added: |_| Judgement::API,
+        removed: |_| Judgement::API,
+    }
+}
+
+fn row(old: &CodeRow, new: &CodeRow, comparison: &mut Comparison<'_>) {
+    let number = |own: &CodeRow| match own.last {
+        Some(last) => format!("{} to {last}", own.code),
+        None => own.code.to_string(),
+    };
+    // The notation is no fact of the code.
+    let judgement = if old.code == new.code { Judgement::API } else { Judgement::WIRE };
+    comparison.texts("code", number(old), number(new), judgement);
+    compare_fields!(CodeRow, old, new, comparison, {
+        printed: text("printed code"),
+        printed_cells: text("printed cells"),
+        code: ignored(COMPARED),
+        last: ignored(COMPARED),
+        name: judged("name", renamed),
+        names: text("name in other languages"),
+        availability: availability,
+        documentation: documentation,
+        cells: fact("further columns", Judgement::BEHAVIOR),
+    });
+}

@@ -1,0 +1,297 @@
+//! The state of a comparison, and the rules by which fields are compared.
+
+use std::borrow::Borrow;
+use std::collections::HashSet;
+use std::fmt::Debug;
+use std::ops::Deref;
+
+use super::change::{Change, Judgement};
+use super::pairing;
+use super::show::Show;
+use lexibus_codegen::ir::{Catalog, Type, TypeDef};
+
+/// Changes that were found so far, and the element that is compared.
+pub(super) struct Comparison<'a> {
+    /// The old catalog and the new one.
+    pub catalogs: (&'a Catalog, &'a Catalog),
+    /// The old types and the new ones of the device, module or submodules that are compared.
+    pub types: (&'a [TypeDef], &'a [TypeDef]),
+    /// Pairs of types that were compared, by their owner.
+    compared_types: HashSet<(usize, Type, Type)>,
+    /// The owner of the types; 0 is the catalog.
+    types_owner: usize,
+    /// How many owners of types there are.
+    types_owners: usize,
+    pub owner: String,
+    pub changes: Vec<Change>,
+    element: String,
+}
+
+impl<'a> Comparison<'a> {
+    pub fn new(old: &'a Catalog, new: &'a Catalog) -> Self {
+        Comparison {
+            catalogs: (old, new),
+            types: (&old.types, &new.types),
+            compared_types: HashSet::new(),
+            types_owner: 0,
+            types_owners: 1,
+            owner: String::new(),
+            changes: Vec::new(),
+            element: String::new(),
+        }
+    }
+
+    /// Compares what has types of its own.
+    pub fn in_types(&mut self, old: &'a [TypeDef], new: &'a [TypeDef], compare: impl FnOnce(&mut Self)) {
+        let outer = (self.types, self.types_owner);
+        (self.types, self.types_owner) = ((old, new), self.types_owners);
+        self.types_owners += 1;
+        compare(self);
+        (self.types, self.types_owner) = outer;
+    }
+
+    /// Compares what names types of the catalog.
+    pub fn in_types_of_catalog(&mut self, compare: impl FnOnce(&mut Self)) {
+        let outer = (self.types, self.types_owner);
+        let (old, new) = self.catalogs;
+        (self.types, self.types_owner) = ((old.types.as_slice(), new.types.as_slice()), 0);
+        compare(self);
+        (self.types, self.types_owner) = outer;
+    }
+
+    /// Whether a pair of types has not been compared before.
+    pub fn is_first_comparison(&mut self, old: Type, new: Type) -> bool {
+        self.compared_types.insert((self.types_owner, old, new))
+    }
+
+    /// The types of the current owner that were compared: the old ones and the new ones.
+    pub fn compared_types(&self) -> (HashSet<Type>, HashSet<Type>) {
+        let own = self.compared_types.iter().filter(|(owner, ..)| *owner == self.types_owner);
+        own.map(|(_, old, new)| (*old, *new)).unzip()
+    }
+
+    /// Compares a part of the current element.
+    pub fn within(&mut self, part: &str, compare: impl FnOnce(&mut Self)) {
+        let length = self.element.len();
+        if length > 0 {
+            self.element.push_str(", ");
+        }
+        self.element.push_str(part);
+        compare(self);
+        self.element.truncate(length);
+    }
+
+    /// Reports a change of a fact of the current element.
+    pub fn push(&mut self, fact: &'static str, old: String, new: String, judgement: Judgement) {
+        let (owner, element) = (self.owner.clone(), self.element.clone());
+        self.changes.push(Change { owner, element, fact, old, new, judgement });
+    }
+
+    /// Reports a fact whose values differ.
+    pub fn values<T: PartialEq + Debug>(
+        &mut self,
+        fact: &'static str,
+        [old, new]: [&T; 2],
+        [old_text, new_text]: [String; 2],
+        judgement: Judgement,
+    ) {
+        // A number that is none (NaN) differs from itself, which is no change.
+        if old != new && format!("{old:?}") != format!("{new:?}") {
+            self.push(fact, old_text, new_text, judgement);
+        }
+    }
+
+    /// Reports a fact whose texts differ.
+    pub fn texts(&mut self, fact: &'static str, old: String, new: String, judgement: Judgement) {
+        if old != new {
+            self.push(fact, old, new, judgement);
+        }
+    }
+
+    /// Reports that the current element is gone.
+    pub fn removed(&mut self, judgement: Judgement) {
+        self.push("removed", String::new(), String::new(), judgement);
+    }
+
+    /// Reports that the current element is new.
+    pub fn added(&mut self, judgement: Judgement) {
+        self.push("added", String::new(), String::new(), judgement);
+    }
+}
+
+/// Compares all fields of a type by a rule each. A field without a rule does not compile.
+macro_rules! compare_fields {
+    ($type:ident, $old:expr, $new:expr, $comparison:expr, { $($field:ident: $rule:expr),* $(,)? }) => {{
+        let (old, new, comparison): (&$type, &$type, &mut Comparison<'_>) = ($old, $new, $comparison);
+        let $type { $($field: _),* } = old;
+        $(($rule)(&old.$field, &new.$field, comparison);)*
+    }};
+}
+pub(super) use compare_fields;
+
+/// The field is no fact of the device, for this reason.
+pub(super) fn ignored<T>(_reason: &'static str) -> impl Fn(&T, &T, &mut Comparison<'_>) {
+    |_, _, _| {}
+}
+
+/// A position in the source file.
+pub(super) const POSITION: &str = "a position in the source file";
+/// A page, line or clause of a manual.
+pub(super) const CITATION: &str = "a position in the manual";
+/// The elements are paired by it.
+pub(super) const KEY: &str = "a key; a change is reported as a removal and an addition";
+/// Another field is compared with it.
+pub(super) const COMPARED: &str = "compared together with another field";
+
+/// A fact that affects always the same aspects.
+pub(super) fn fact<T: PartialEq + Debug + Show>(
+    name: &'static str,
+    judgement: Judgement,
+) -> impl Fn(&T, &T, &mut Comparison<'_>) {
+    fact_as(name, judgement, T::show)
+}
+
+/// The same with a text of its own.
+pub(super) fn fact_as<T: PartialEq + Debug>(
+    name: &'static str,
+    judgement: Judgement,
+    show: impl Fn(&T) -> String,
+) -> impl Fn(&T, &T, &mut Comparison<'_>) {
+    move |old, new, comparison| {
+        if old != new {
+            comparison.values(name, [old, new], [show(old), show(new)], judgement);
+        }
+    }
+}
+
+/// A text without an effect.
+pub(super) fn text<T: PartialEq + Debug + Show>(name: &'static str) -> impl Fn(&T, &T, &mut Comparison<'_>) {
+    fact(name, Judgement::NONE)
+}
+
+/// A value with positions in the source, which is compared by its text.
+pub(super) fn positioned<T: PartialEq>(
+    name: &'static str,
+    judgement: Judgement,
+    show: impl Fn(&T) -> String,
+) -> impl Fn(&T, &T, &mut Comparison<'_>) {
+    move |old, new, comparison| {
+        if old != new {
+            comparison.texts(name, show(old), show(new), judgement);
+        }
+    }
+}
+
+/// A fact whose effects depend on the values.
+pub(super) fn judged<T: PartialEq + Debug + Show>(
+    name: &'static str,
+    judge: impl Fn(&T, &T) -> Judgement,
+) -> impl Fn(&T, &T, &mut Comparison<'_>) {
+    move |old, new, comparison| {
+        if old != new {
+            comparison.values(name, [old, new], [old.show(), new.show()], judge(old, new));
+        }
+    }
+}
+
+/// A part with a name.
+pub(super) fn part<T>(
+    name: &'static str,
+    compare: impl Fn(&T, &T, &mut Comparison<'_>),
+) -> impl Fn(&T, &T, &mut Comparison<'_>) {
+    move |old, new, comparison| comparison.within(name, |comparison| compare(old, new, comparison))
+}
+
+/// A part that may be missing, with the effects of its addition and of its removal.
+pub(super) fn optional<T, B: Borrow<T>>(
+    name: &'static str,
+    added: Judgement,
+    removed: Judgement,
+    compare: impl Fn(&T, &T, &mut Comparison<'_>),
+) -> impl Fn(&Option<B>, &Option<B>, &mut Comparison<'_>) {
+    move |old, new, comparison| {
+        comparison.within(name, |comparison| match (old, new) {
+            (Some(old), Some(new)) => compare(old.borrow(), new.borrow(), comparison),
+            (Some(_), None) => comparison.removed(removed),
+            (None, Some(_)) => comparison.added(added),
+            (None, None) => {}
+        });
+    }
+}
+
+/// A part whose absence is the same as its default.
+pub(super) fn or_default<T: Default, B: Borrow<T>>(
+    compare: impl Fn(&T, &T, &mut Comparison<'_>),
+) -> impl Fn(&Option<B>, &Option<B>, &mut Comparison<'_>) {
+    move |old, new, comparison| {
+        if old.is_some() || new.is_some() {
+            let (missing_old, missing_new) = (T::default(), T::default());
+            let old = old.as_ref().map_or(&missing_old, B::borrow);
+            compare(old, new.as_ref().map_or(&missing_new, B::borrow), comparison);
+        }
+    }
+}
+
+/// A list that is compared as a slice.
+pub(super) fn slice<T, L: Deref<Target = [T]>>(
+    compare: impl Fn(&[T], &[T], &mut Comparison<'_>),
+) -> impl Fn(&L, &L, &mut Comparison<'_>) {
+    move |old, new, comparison| compare(old, new, comparison)
+}
+
+/// How the elements of a list are named, and the effects of additions and removals.
+pub(super) struct Elements<T> {
+    /// The text that names an element in reports.
+    pub title: fn(&T) -> String,
+    /// Pairs elements first, unless it is empty.
+    pub name: fn(&T) -> String,
+    /// Pairs the elements that have no name in common.
+    pub place: fn(&T) -> String,
+    pub added: fn(&T) -> Judgement,
+    pub removed: fn(&T) -> Judgement,
+}
+
+impl<T> Elements<T> {
+    /// Elements with a title by which they are paired.
+    pub fn titled(title: fn(&T) -> String) -> Self {
+        Elements {
+            title,
+            name: title,
+            place: |_| String::new(),
+            added: |_| Judgement::ADDITION,
+            removed: |_| Judgement::API_AND_WIRE,
+        }
+    }
+
+    /// The effects of every addition and of every removal.
+    pub fn judged(self, added: fn(&T) -> Judgement, removed: fn(&T) -> Judgement) -> Self {
+        Elements { added, removed, ..self }
+    }
+}
+
+/// A list of elements.
+pub(super) fn list<T, L: Deref<Target = [T]>>(
+    elements: Elements<T>,
+    compare: impl Fn(&T, &T, &mut Comparison<'_>),
+) -> impl Fn(&L, &L, &mut Comparison<'_>) {
+    move |old, new, comparison| slices(old, new, &elements, &compare, comparison)
+}
+
+/// Compares two lists.
+pub(super) fn slices<T>(
+    old: &[T],
+    new: &[T],
+    elements: &Elements<T>,
+    compare: impl Fn(&T, &T, &mut Comparison<'_>),
+    comparison: &mut Comparison<'_>,
+) {
+    for (old, new) in pairing::pairs(old, new, elements.name, elements.place) {
+        let Some(title) = new.or(old).map(elements.title) else { continue };
+        comparison.within(&title, |comparison| match (old, new) {
+            (Some(old), Some(new)) => compare(old, new, comparison),
+            (Some(old), None) => comparison.removed((elements.removed)(old)),
+            (None, Some(new)) => comparison.added((elements.added)(new)),
+            (None, None) => {}
+        });
+    }
+}

@@ -1,0 +1,272 @@
+//! Devices: identity, file header, settings of CANopen and Modbus, models and axes.
+
+use super::change::{Effect, Judgement};
+use super::comparison::{
+    compare_fields, fact, fact_as, ignored, judged, list, optional, or_default, part, positioned, slice, text,
+    Comparison, Elements, COMPARED, KEY, POSITION,
+};
+use super::item::restricted;
+use super::show::{ident, index, Show};
+use super::texts::{documentation, doubts, extensions, manual, renamed};
+use super::{codes, ethercat, groups, machines, messages, modules, pdos, profinet, types};
+use lexibus_codegen::facts;
+use lexibus_codegen::ir::{
+    AxisRange, AxisRule, CanOpenSettings, Commissioning, CompactString, Composite, Device, DynamicChannel, GivenNumber,
+    Group, Header, Identity, MessageExample, ModbusTable, Procedure, ProcessData, StateMachine, Value, Variant,
+};
+
+/// What a device is called.
+pub(super) fn title(device: &Device) -> String {
+    let names = [&device.name, &device.identity.product_name, &device.identity.order_code, &device.id];
+    names.into_iter().find(|name| !name.is_empty()).map(ToString::to_string).unwrap_or_default()
+}
+
+/// Compares all facts of a device.
+pub(super) fn compare(old: &Device, new: &Device, comparison: &mut Comparison<'_>) {
+    comparison.within("the device", |comparison| own_facts(old, new, comparison));
+    compare_fields!(Device, old, new, comparison, {
+        name: ignored(COMPARED),
+        names: ignored(COMPARED),
+        id: ignored(COMPARED),
+        dictionary_only: ignored(COMPARED),
+        identity: ignored(COMPARED),
+        header: part("the file", header),
+        canopen: optional("CANopen", Judgement::ADDITION, Judgement::API_AND_WIRE, canopen),
+        ethercat: optional("EtherCAT", Judgement::ADDITION, Judgement::API_AND_WIRE, ethercat::compare),
+        profinet: optional("PROFINET", Judgement::ADDITION, Judgement::API_AND_WIRE, profinet::settings),
+        modbus: slice(modbus_tables),
+        modbus_examples: ignored(COMPARED),
+        node_ids: ignored(COMPARED),
+        profiles: ignored(COMPARED),
+        commissioning: part("commissioning", or_default(commissioning)),
+        types: ignored(COMPARED),
+        groups: |old: &Vec<Group>, new: &Vec<Group>, comparison: &mut Comparison<'_>| {
+            groups::compare(&old.iter().collect::<Vec<_>>(), &new.iter().collect::<Vec<_>>(), comparison);
+        },
+        process_data: |one: &ProcessData, other: &ProcessData, comparison: &mut Comparison<'_>| {
+            pdos::compare(one, other, facts::pdo::buses(new), comparison);
+        },
+        slots: list(modules::slots(), modules::slot),
+        modules: slice(modules::compare_uses),
+        submodules: slice(profinet::compare_uses),
+        messages: slice(messages::compare),
+        parameter_spaces: messages::spaces(),
+        framing: optional("framing", Judgement::ADDITION, Judgement::API_AND_WIRE, messages::framing),
+        given: list(Elements::titled(|own: &GivenNumber| format!("number of the machine {}", own.name))
+            .judged(|_| Judgement::API, |_| Judgement::API), given),
+        code_tables: codes::tables(),
+        machines: list(Elements::titled(|own: &StateMachine| format!("machine {}", own.name))
+            .judged(|_| Judgement::API_COMPATIBLE, |_| Judgement::API), machines::compare),
+        procedures: list(Elements::titled(|own: &Procedure| format!("procedure {}", own.name))
+            .judged(|_| Judgement::API_COMPATIBLE, |_| Judgement::API), machines::procedure),
+        composites: list(Elements::titled(|own: &Composite| format!("composite {}", own.name))
+            .judged(|_| Judgement::API_COMPATIBLE, |_| Judgement::API), composite),
+        variants: list(Elements::titled(|own: &Variant| format!("model {}", own.name))
+            .judged(|_| Judgement::API_COMPATIBLE, |_| Judgement::API), model),
+        axes: optional("axes", Judgement::API_COMPATIBLE, Judgement::API, axes),
+        documentation: ignored(COMPARED),
+        manual: part("the manual", manual),
+        doubts: ignored(COMPARED),
+        extensions: ignored(COMPARED),
+        origin: ignored(POSITION),
+    });
+    types::compare_unused(comparison);
+}
+
+/// What is true of the device as a whole.
+fn own_facts(old: &Device, new: &Device, comparison: &mut Comparison<'_>) {
+    judged("name", renamed)(&title(old), &title(new), comparison);
+    if title(old) == title(new) {
+        text("name in the file")(&old.name, &new.name, comparison);
+    }
+    text("name in other languages")(&old.names, &new.names, comparison);
+    text("identifier in the file")(&old.id, &new.id, comparison);
+    fact("dictionary without a device", Judgement::API)(&old.dictionary_only, &new.dictionary_only, comparison);
+    identity(&old.identity, &new.identity, comparison);
+    positioned("examples of frames", Judgement::NONE, |own: &Vec<MessageExample>| messages::examples(own))(
+        &old.modbus_examples,
+        &new.modbus_examples,
+        comparison,
+    );
+    fact_as("node-IDs", Judgement::BEHAVIOR, node_ids)(&old.node_ids, &new.node_ids, comparison);
+    fact("profiles", Judgement::BEHAVIOR)(&old.profiles, &new.profiles, comparison);
+    documentation(&old.documentation, &new.documentation, comparison);
+    doubts(&old.doubts, &new.doubts, comparison);
+    extensions(&old.extensions, &new.extensions, comparison);
+}
+
+fn node_ids(range: &Option<(u8, u8)>) -> String {
+    range.map(|(first, last)| format!("{first} to {last}")).unwrap_or_default()
+}
+
+/// Compares identities. A program may check them; they change no other bytes.
+pub(super) fn identity(old: &Identity, new: &Identity, comparison: &mut Comparison<'_>) {
+    compare_fields!(Identity, old, new, comparison, {
+        vendor_id: fact_as("vendor-ID", Judgement::BEHAVIOR, ident),
+        vendor_name: text("name of the vendor"),
+        product_code: fact_as("product code", Judgement::BEHAVIOR, ident),
+        product_name: text("name of the product"),
+        revision_number: fact_as("revision", Judgement::BEHAVIOR, ident),
+        order_code: text("order code"),
+        serial_number: fact_as("serial number", Judgement::BEHAVIOR, ident),
+        others: fact_as("further identity", Judgement::BEHAVIOR, |others: &Vec<(CompactString, u32)>| {
+            others.iter().map(|(name, number)| format!("{name} 0x{number:08X}")).collect::<Vec<_>>().join(", ")
+        }),
+    });
+}
+
+/// Compares what a file says about itself.
+fn header(old: &Header, new: &Header, comparison: &mut Comparison<'_>) {
+    compare_fields!(Header, old, new, comparison, {
+        file_name: text("name of the file"),
+        file_version: text("version of the file"),
+        file_revision: text("revision of the file"),
+        format_version: text("version of the format"),
+        description: text("description of the file"),
+        creation_time: text("time of creation"),
+        creation_date: text("date of creation"),
+        created_by: text("created by"),
+        modification_time: text("time of modification"),
+        modification_date: text("date of modification"),
+        modified_by: text("modified by"),
+        last_eds: text("made from"),
+        comments: text("comments"),
+    });
+}
+
+fn canopen(old: &CanOpenSettings, new: &CanOpenSettings, comparison: &mut Comparison<'_>) {
+    compare_fields!(CanOpenSettings, old, new, comparison, {
+        bit_rates: judged("bit rates in kbit/s", |old: &Vec<u16>, new: &Vec<u16>| {
+            let is_lost = old.iter().any(|own| !new.contains(own));
+            if is_lost { Judgement::BEHAVIOR } else { Judgement::BEHAVIOR_COMPATIBLE }
+        }),
+        auto_bit_rate: fact("detects the bit rate", Judgement::BEHAVIOR),
+        boot_up_master: fact("boot-up master", Judgement::BEHAVIOR),
+        boot_up_slave: fact("boot-up slave", Judgement::BEHAVIOR),
+        granularity: fact("granularity of mappings in bits", Judgement::BEHAVIOR),
+        dynamic_channels_supported: fact("support of dynamic channels", Judgement::BEHAVIOR),
+        group_messaging: fact("multiplexed PDOs", Judgement::BEHAVIOR),
+        rx_pdos: fact("number of RPDOs", Judgement::BEHAVIOR),
+        tx_pdos: fact("number of TPDOs", Judgement::BEHAVIOR),
+        lss: fact("layer setting services", Judgement::BEHAVIOR),
+        compact_pdo: fact("sub-indices of implicit PDOs", Judgement::BEHAVIOR),
+        dummies: fact("dummy entries", Judgement::BEHAVIOR),
+        dummies_given: fact("list of dummy entries", Judgement::NONE),
+        dynamic_channels: fact_as("dynamic channels", Judgement::BEHAVIOR, |own: &Vec<DynamicChannel>| {
+            own.iter().map(dynamic_channel).collect::<Vec<_>>().join("; ")
+        }),
+        at: ignored(POSITION),
+    });
+}
+
+fn dynamic_channel(own: &DynamicChannel) -> String {
+    let DynamicChannel { data_type, direction, range, offset, difference, max_number } = own;
+    let further = [difference.show(), max_number.show()].join(" ");
+    format!("type {data_type:#X} {direction} {range} at {offset} {further}").trim_end().to_owned()
+}
+
+/// Compares the requests that the tables of Modbus accept.
+fn modbus_tables(old: &[ModbusTable], new: &[ModbusTable], comparison: &mut Comparison<'_>) {
+    let missing = |own: &ModbusTable| ModbusTable {
+        space: own.space,
+        functions: Vec::new(),
+        max_read: None,
+        max_write: None,
+        split: false,
+    };
+    for (old, new) in super::pairing::pairs(old, new, |own| own.space.title().to_owned(), |_| String::new()) {
+        let Some(own) = new.or(old) else { continue };
+        let missing = missing(own);
+        comparison.within(&format!("Modbus table {}", own.space.title()), |comparison| {
+            modbus_table(old.unwrap_or(&missing), new.unwrap_or(&missing), comparison);
+        });
+    }
+}
+
+fn modbus_table(old: &ModbusTable, new: &ModbusTable, comparison: &mut Comparison<'_>) {
+    compare_fields!(ModbusTable, old, new, comparison, {
+        space: ignored(KEY),
+        // Without a list, all functions are accepted. A driver that uses one that is left speaks another way.
+        functions: judged("function codes", |old: &Vec<u8>, new: &Vec<u8>| {
+            let is_lost = !new.is_empty() && (old.is_empty() || old.iter().any(|own| !new.contains(own)));
+            if is_lost { Judgement::WIRE } else { Judgement::WIRE_COMPATIBLE }
+        }),
+        max_read: judged("longest read", shorter),
+        max_write: judged("longest write", shorter),
+        split: judged("longer values in several requests", |old: &bool, _: &bool| {
+            if *old { Judgement::WIRE } else { Judgement::WIRE_COMPATIBLE }
+        }),
+    });
+}
+
+/// The effects of another maximum length of requests.
+fn shorter(old: &Option<u16>, new: &Option<u16>) -> Judgement {
+    let is_shorter = new.is_some_and(|new| old.is_none_or(|old| new < old));
+    let wire = if is_shorter { Effect::Breaking } else { Effect::Compatible };
+    Judgement { wire, ..Judgement::NONE }
+}
+
+fn commissioning(old: &Commissioning, new: &Commissioning, comparison: &mut Comparison<'_>) {
+    compare_fields!(Commissioning, old, new, comparison, {
+        node_id: fact("node-ID", Judgement::WIRE),
+        node_name: text("name of the node"),
+        bit_rate: fact("bit rate in kbit/s", Judgement::WIRE),
+        net_number: fact("number of the network", Judgement::BEHAVIOR),
+        network_name: text("name of the network"),
+        manager: fact("CANopen manager", Judgement::BEHAVIOR),
+        lss_serial_number: fact("serial number for layer setting services", Judgement::BEHAVIOR),
+        connected_modules: fact("connected modules", Judgement::BEHAVIOR),
+    });
+}
+
+fn given(old: &GivenNumber, new: &GivenNumber, comparison: &mut Comparison<'_>) {
+    compare_fields!(GivenNumber, old, new, comparison, {
+        name: ignored(KEY),
+        unit: fact("unit", Judgement::API),
+        models: fact_as("numbers of models", Judgement::BEHAVIOR, constants),
+        documentation: documentation,
+        doubts: doubts,
+        origin: ignored(POSITION),
+    });
+}
+
+/// `Small 5, Large 10`.
+fn constants(own: &Vec<(CompactString, Value)>) -> String {
+    own.show()
+}
+
+fn composite(old: &Composite, new: &Composite, comparison: &mut Comparison<'_>) {
+    compare_fields!(Composite, old, new, comparison, {
+        name: ignored(KEY),
+        names: text("name in other languages"),
+        parts: fact("parts", Judgement::API_AND_WIRE),
+        base: fact("base", Judgement::WIRE),
+        sign: fact("sign", Judgement::API_AND_WIRE),
+        unit: fact("unit", Judgement::API_AND_BEHAVIOR),
+        documentation: documentation,
+        origin: ignored(POSITION),
+    });
+}
+
+fn model(old: &Variant, new: &Variant, comparison: &mut Comparison<'_>) {
+    compare_fields!(Variant, old, new, comparison, {
+        name: ignored(KEY),
+        identity: identity,
+        constants: fact_as("constants", Judgement::BEHAVIOR, constants),
+        documentation: documentation,
+        origin: ignored(POSITION),
+    });
+}
+
+fn axes(old: &AxisRule, new: &AxisRule, comparison: &mut Comparison<'_>) {
+    compare_fields!(AxisRule, old, new, comparison, {
+        axes: judged("number of axes", |old: &u8, new: &u8| {
+            if new < old { Judgement::API_AND_WIRE } else { Judgement::ADDITION }
+        }),
+        models: restricted("models"),
+        rules: fact_as("addresses of further axes", Judgement::WIRE, |rules: &Vec<AxisRange>| {
+            let rule = |own: &AxisRange| format!("{} to {}: {}", index(&own.indices.0), index(&own.indices.1), own.step.show());
+            rules.iter().map(rule).collect::<Vec<_>>().join("; ")
+        }),
+    });
+}

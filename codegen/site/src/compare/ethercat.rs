@@ -1,0 +1,194 @@
+//! EtherCAT: the settings by which a master sets up a slave.
+
+use super::change::Judgement;
+use super::comparison::{
+    compare_fields, fact, fact_as, ignored, list, optional, text, Comparison, Elements, KEY, POSITION,
+};
+use super::show::{bytes, index, Show};
+use lexibus_codegen::facts::address;
+use lexibus_codegen::ir::{
+    ClockMode, ClockSyncManager, ClockTime, Coe, CompactString, DistributedClocks, Eeprom, EtherCatSettings, Fmmu,
+    InitCommand, Mailbox, ModulePdoGroup, Protocol, SlotRules, SyncUnit,
+};
+
+pub(super) fn compare(old: &EtherCatSettings, new: &EtherCatSettings, comparison: &mut Comparison<'_>) {
+    compare_fields!(EtherCatSettings, old, new, comparison, {
+        physics: fact("ports", Judgement::BEHAVIOR),
+        group: text("family"),
+        hides: fact_as("hidden revisions", Judgement::NONE, |own: &Vec<(Option<u32>, Option<u32>)>| own.show()),
+        invisible: fact("hidden in lists of devices", Judgement::NONE),
+        fmmus: fact_as("FMMUs", Judgement::WIRE, |own: &Vec<Fmmu>| joined(own, fmmu)),
+        sync_units: fact_as("sync units", Judgement::WIRE, |own: &Vec<SyncUnit>| joined(own, sync_unit)),
+        mailbox: optional("mailbox", Judgement::ADDITION, Judgement::API_AND_WIRE, mailbox),
+        clocks: optional("distributed clocks", Judgement::ADDITION, Judgement::API_AND_WIRE, clocks),
+        slots: optional("slots", Judgement::ADDITION, Judgement::API_AND_WIRE, slots),
+        registers: fact_as("registers of the slave controller", Judgement::WIRE, |own: &Vec<(u16, u32)>| {
+            joined(own, |(address, value)| format!("0x{address:04X} = 0x{value:X}"))
+        }),
+        eeprom: optional("EEPROM", Judgement::BEHAVIOR_COMPATIBLE, Judgement::BEHAVIOR, eeprom),
+        timeouts: fact("time limits in ms", Judgement::BEHAVIOR),
+    });
+}
+
+/// The texts of a list.
+pub(super) fn joined<T>(list: &[T], show: impl Fn(&T) -> String) -> String {
+    list.iter().map(show).collect::<Vec<_>>().join("; ")
+}
+
+/// Names of the flags that are set, behind a text.
+fn with_flags(text: String, flags: &[(bool, &str)]) -> String {
+    let set = flags.iter().filter(|(is_set, _)| *is_set).map(|(_, name)| *name);
+    std::iter::once(text.as_str()).chain(set).collect::<Vec<_>>().join(" ")
+}
+
+fn fmmu(own: &Fmmu) -> String {
+    let Fmmu { purpose, sync_manager, sync_unit, op_only } = own;
+    let number = |name: &str, number: &Option<u8>| number.map(|own| format!(" {name} {own}")).unwrap_or_default();
+    let text = format!("{purpose}{}{}", number("sync manager", sync_manager), number("sync unit", sync_unit));
+    with_flags(text, &[(*op_only, "(in Op only)")])
+}
+
+fn sync_unit(own: &SyncUnit) -> String {
+    let SyncUnit { name, separate, separate_frame, depends_on_input_state, frame_repeat } = own;
+    let flags = [
+        (*separate, "(separate)"),
+        (*separate_frame, "(separate frame)"),
+        (*depends_on_input_state, "(depends on the input state)"),
+        (*frame_repeat, "(frames may be repeated)"),
+    ];
+    with_flags(format!("unit {name}"), &flags)
+}
+
+fn mailbox(old: &Mailbox, new: &Mailbox, comparison: &mut Comparison<'_>) {
+    let optional_protocol = |name: &'static str| {
+        optional::<Protocol, Protocol>(name, Judgement::ADDITION, Judgement::API_AND_WIRE, protocol)
+    };
+    compare_fields!(Mailbox, old, new, comparison, {
+        data_link_layer: fact("repeat requests", Judgement::WIRE),
+        real_time: fact("real-time mode", Judgement::BEHAVIOR),
+        aoe: optional_protocol("AoE"),
+        eoe: optional_protocol("EoE"),
+        coe: optional::<Coe, Coe>("CoE", Judgement::ADDITION, Judgement::API_AND_WIRE, coe),
+        foe: optional_protocol("FoE"),
+        soe: optional_protocol("SoE"),
+        voe: optional_protocol("VoE"),
+    });
+}
+
+fn protocol(old: &Protocol, new: &Protocol, comparison: &mut Comparison<'_>) {
+    compare_fields!(Protocol, old, new, comparison, {
+        attributes: fact("attributes", Judgement::BEHAVIOR),
+        init_commands: init_commands(),
+    });
+}
+
+fn coe(old: &Coe, new: &Coe, comparison: &mut Comparison<'_>) {
+    compare_fields!(Coe, old, new, comparison, {
+        sdo_info: fact("SDO information", Judgement::BEHAVIOR),
+        pdo_assign: fact("writable PDO assignment", Judgement::WIRE),
+        pdo_config: fact("writable PDO mapping", Judgement::WIRE),
+        pdo_upload: fact("the master reads the assignment", Judgement::WIRE),
+        complete_access: fact("complete access", Judgement::WIRE),
+        segmented_sdo: fact("segmented SDO transfer", Judgement::WIRE),
+        diag_history: fact("diagnosis history", Judgement::BEHAVIOR),
+        attributes: fact("attributes", Judgement::BEHAVIOR),
+        init_commands: init_commands(),
+    });
+}
+
+/// What a master sends at start-up. Commands belong together by their objects.
+pub(super) fn init_commands() -> impl Fn(&Vec<InitCommand>, &Vec<InitCommand>, &mut Comparison<'_>) {
+    let title = |own: &InitCommand| format!("start-up write to {}", address::object(own.index, own.sub_index));
+    list(Elements::titled(title).judged(|_| Judgement::WIRE, |_| Judgement::WIRE), init_command)
+}
+
+fn init_command(old: &InitCommand, new: &InitCommand, comparison: &mut Comparison<'_>) {
+    compare_fields!(InitCommand, old, new, comparison, {
+        transitions: fact("transitions", Judgement::WIRE),
+        index: ignored(KEY),
+        sub_index: ignored(KEY),
+        data: fact_as("data", Judgement::WIRE, |data: &Vec<u8>| bytes(data)),
+        depends_on_slot: fact("index grows with the slot", Judgement::WIRE),
+        depends_on_slot_group: fact("index grows with the slot group", Judgement::WIRE),
+        complete_access: fact("complete access", Judgement::WIRE),
+        fixed: fact("fixed", Judgement::NONE),
+        adapt: fact("adapted by the master", Judgement::WIRE),
+        overwritten_by_module: fact("replaced by that of a module", Judgement::WIRE),
+        comment: text("comment"),
+        origin: ignored(POSITION),
+    });
+}
+
+fn clocks(old: &DistributedClocks, new: &DistributedClocks, comparison: &mut Comparison<'_>) {
+    compare_fields!(DistributedClocks, old, new, comparison, {
+        attributes: fact("attributes", Judgement::BEHAVIOR),
+        modes: list(Elements::titled(|own: &ClockMode| format!("mode {}", own.name)), clock_mode),
+    });
+}
+
+fn clock_mode(old: &ClockMode, new: &ClockMode, comparison: &mut Comparison<'_>) {
+    compare_fields!(ClockMode, old, new, comparison, {
+        name: ignored(KEY),
+        description: text("description"),
+        assign_activate: fact_as("AssignActivate", Judgement::WIRE, |own| format!("0x{own:X}")),
+        cycle_sync0: fact_as("cycle of Sync0", Judgement::WIRE, clock_time),
+        shift_sync0: fact_as("shift of Sync0", Judgement::WIRE, clock_time),
+        cycle_sync1: fact_as("cycle of Sync1", Judgement::WIRE, clock_time),
+        shift_sync1: fact_as("shift of Sync1", Judgement::WIRE, clock_time),
+        sync_managers: fact_as("sync managers", Judgement::WIRE, |own: &Vec<ClockSyncManager>| {
+            joined(own, clock_sync_manager)
+        }),
+    });
+}
+
+fn clock_time(own: &ClockTime) -> String {
+    let ClockTime { nanoseconds, factor, input } = own;
+    let factor = factor.map(|factor| format!(" × {factor}")).unwrap_or_default();
+    with_flags(format!("{nanoseconds} ns{factor}"), &[(*input, "(relative to the inputs)")])
+}
+
+fn clock_sync_manager(own: &ClockSyncManager) -> String {
+    let ClockSyncManager { number, sync_type, pdos } = own;
+    let sync_type = sync_type.map(|own| format!(" type {own}")).unwrap_or_default();
+    let pdo = |(index, factor): &(u16, Option<u16>)| format!(" 0x{index:04X} × {}", factor.show());
+    format!("{number}{sync_type}{}", joined(pdos, pdo))
+}
+
+fn slots(old: &SlotRules, new: &SlotRules, comparison: &mut Comparison<'_>) {
+    compare_fields!(SlotRules, old, new, comparison, {
+        max_slots: fact("maximum number of slots", Judgement::BEHAVIOR),
+        max_groups: fact("maximum number of slot groups", Judgement::BEHAVIOR),
+        index_increment: fact_as("index increment of a slot", Judgement::WIRE, index),
+        pdo_increment: fact("PDO increment of a slot", Judgement::WIRE),
+        group_index_increment: fact_as("index increment of a slot group", Judgement::WIRE, index),
+        group_pdo_increment: fact("PDO increment of a slot group", Judgement::WIRE),
+        download_idents: fact("the master writes module idents", Judgement::WIRE),
+        download_addresses: fact("the master writes module addresses", Judgement::WIRE),
+        download_transition: fact("transition of these writes", Judgement::WIRE),
+        pdo_groups: fact_as("module PDO groups", Judgement::WIRE, |own: &Vec<ModulePdoGroup>| joined(own, pdo_group)),
+        groups: text("names of slot groups"),
+        selections: fact_as("arrangements of modules", Judgement::NONE, |own: &Vec<(CompactString, Vec<u32>)>| {
+            joined(own, |(name, modules)| format!("{name}: {}", modules.show()))
+        }),
+    });
+}
+
+fn pdo_group(own: &ModulePdoGroup) -> String {
+    let ModulePdoGroup { alignment, rx_pdo, tx_pdo } = own;
+    let pdo = |name: &str, pdo: &Option<u16>| pdo.map(|own| format!(", {name} 0x{own:04X}")).unwrap_or_default();
+    format!("alignment {alignment}{}{}", pdo("RxPDO", rx_pdo), pdo("TxPDO", tx_pdo))
+}
+
+fn eeprom(old: &Eeprom, new: &Eeprom, comparison: &mut Comparison<'_>) {
+    let block = |data: &Vec<u8>| bytes(data);
+    compare_fields!(Eeprom, old, new, comparison, {
+        data: fact_as("content", Judgement::BEHAVIOR, block),
+        byte_size: fact("size in bytes", Judgement::BEHAVIOR),
+        config_data: fact_as("configuration", Judgement::BEHAVIOR, block),
+        boot_strap: fact_as("bootstrap mailbox", Judgement::WIRE, block),
+        categories: fact_as("categories", Judgement::BEHAVIOR, |own: &Vec<(u16, Vec<u8>)>| {
+            joined(own, |(number, data)| format!("{number}: {}", bytes(data)))
+        }),
+        assign_to_pdi: fact("assigned to the process data interface", Judgement::BEHAVIOR),
+    });
+}

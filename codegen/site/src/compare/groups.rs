@@ -1,0 +1,226 @@
+//! Objects, chapters, records and images, and the items that they hold.
+
+use std::ops::Range;
+
+use super::change::Judgement;
+use super::comparison::{compare_fields, fact, fact_as, ignored, text, Comparison, COMPARED, POSITION};
+use super::item;
+use super::names::{is_module, Identifiers};
+use super::pairing::{Key, Matching};
+use super::show::{bytes, index};
+use super::texts::{documentation, doubts, extensions};
+use lexibus_codegen::facts::address;
+use lexibus_codegen::ir::{CompactString, Group, GroupKind, Item, Record};
+
+/// Compares groups and their items. Items are paired across groups.
+pub(super) fn compare(old: &[&Group], new: &[&Group], comparison: &mut Comparison<'_>) {
+    let (old, new) = (Side::of(old), Side::of(new));
+    let groups = Matching::of(&old.group_keys(), &new.group_keys());
+    let items = Matching::of(&old.item_keys(), &new.item_keys());
+    for (at, group) in old.groups.iter().enumerate() {
+        let entries = old.entries_of(at);
+        match groups.new_of_old[at] {
+            Some(other) => comparison.within(&title(new.groups[other]), |comparison| {
+                facts(group, new.groups[other], [old.identifier(at), new.identifier(other)], comparison);
+            }),
+            None => {
+                let is_whole = entries.clone().all(|entry| items.new_of_old[entry].is_none());
+                let judgement = if is_whole { Judgement::API_AND_WIRE } else { Judgement::NONE };
+                comparison.within(&title(group), |comparison| comparison.removed(judgement));
+                if is_whole {
+                    continue;
+                }
+            }
+        }
+        for entry in entries {
+            let own = &old.entries[entry];
+            match items.new_of_old[entry] {
+                Some(other) => pair(own, &new.entries[other], comparison),
+                None => comparison.within(&own.title(), |comparison| comparison.removed(Judgement::API_AND_WIRE)),
+            }
+        }
+    }
+    for (at, group) in new.groups.iter().enumerate() {
+        let entries = new.entries_of(at);
+        if !groups.is_new_paired[at] {
+            let is_whole = entries.clone().all(|entry| !items.is_new_paired[entry]);
+            let judgement = if is_whole { Judgement::ADDITION } else { Judgement::NONE };
+            comparison.within(&title(group), |comparison| comparison.added(judgement));
+            if is_whole {
+                continue;
+            }
+        }
+        for entry in entries.filter(|entry| !items.is_new_paired[*entry]) {
+            comparison.within(&new.entries[entry].title(), |comparison| comparison.added(Judgement::ADDITION));
+        }
+    }
+}
+
+/// The groups of one description, and their items in one list.
+struct Side<'a> {
+    groups: &'a [&'a Group],
+    identifiers: Identifiers,
+    entries: Vec<Entry<'a>>,
+    /// The entries of each group.
+    ranges: Vec<Range<usize>>,
+}
+
+/// An item with the group that has it.
+struct Entry<'a> {
+    group: &'a Group,
+    item: &'a Item,
+    /// Its identifier; empty for the value of an object without entries.
+    identifier: String,
+}
+
+impl<'a> Side<'a> {
+    fn of(groups: &'a [&'a Group]) -> Self {
+        let mut identifiers = Identifiers::of(groups);
+        let (mut entries, mut ranges) = (Vec::new(), Vec::new());
+        for (group, names) in groups.iter().zip(std::mem::take(&mut identifiers.items)) {
+            let start = entries.len();
+            entries.extend(group.items.iter().zip(names).map(|(item, identifier)| Entry { group, item, identifier }));
+            ranges.push(start..entries.len());
+        }
+        Side { groups, identifiers, entries, ranges }
+    }
+
+    fn identifier(&self, group: usize) -> &str {
+        &self.identifiers.groups[group]
+    }
+
+    fn entries_of(&self, group: usize) -> Range<usize> {
+        self.ranges[group].clone()
+    }
+
+    fn group_keys(&self) -> Vec<Key> {
+        self.groups.iter().map(|group| Key { name: group.name.to_string(), place: place(group) }).collect()
+    }
+
+    fn item_keys(&self) -> Vec<Key> {
+        self.entries.iter().map(Entry::key).collect()
+    }
+}
+
+impl Entry<'_> {
+    fn key(&self) -> Key {
+        let name = match self.item.name.as_str() {
+            "" => String::new(),
+            name => format!("{}/{name}", self.group.name),
+        };
+        Key { name, place: self.place() }
+    }
+
+    fn place(&self) -> String {
+        self.item.bindings.first().map(address::number).unwrap_or_default()
+    }
+
+    /// What a report calls an item: its address and name.
+    fn title(&self) -> String {
+        let name = if self.item.name.is_empty() { &self.group.name } else { &self.item.name };
+        format!("{} {name}", self.place()).trim().to_owned()
+    }
+}
+
+/// By what a group is found.
+fn place(group: &Group) -> String {
+    match &group.kind {
+        GroupKind::Object { index, .. } => format!("0x{index:04X}"),
+        GroupKind::Chapter => "chapter".to_owned(),
+        GroupKind::Record(record) => format!("record 0x{:04X}", record.index),
+        GroupKind::Image { .. } => "image".to_owned(),
+    }
+}
+
+fn title(group: &Group) -> String {
+    format!("{} {}", place(group), group.name).trim().to_owned()
+}
+
+/// Compares two items, whose identifiers depend on the names of others.
+fn pair(old: &Entry<'_>, new: &Entry<'_>, comparison: &mut Comparison<'_>) {
+    let name = |one: &CompactString, other: &CompactString, comparison: &mut Comparison<'_>| {
+        // The name of an object's only value is the object's.
+        let is_of_group = old.identifier.is_empty() && (one, other) == (&old.group.name, &new.group.name);
+        if !is_of_group {
+            names([one, other], [&old.identifier, &new.identifier], comparison);
+        }
+    };
+    comparison.within(&new.title(), |comparison| item::compare_named(old.item, new.item, name, comparison));
+}
+
+/// Compares names, and the identifiers that follow from them.
+fn names(names: [&CompactString; 2], identifiers: [&str; 2], comparison: &mut Comparison<'_>) {
+    let [old, new] = names.map(CompactString::to_string);
+    let [old_identifier, new_identifier] = identifiers.map(str::to_owned);
+    let judgement = if old_identifier == new_identifier { Judgement::NONE } else { Judgement::API };
+    if old != new {
+        comparison.push("name", old, new, judgement);
+    } else {
+        comparison.texts("identifier", old_identifier, new_identifier, judgement);
+    }
+}
+
+/// Compares the facts of a group itself.
+fn facts(old: &Group, new: &Group, identifiers: [&str; 2], comparison: &mut Comparison<'_>) {
+    compare_fields!(Group, old, new, comparison, {
+        name: |one: &CompactString, other: &CompactString, comparison: &mut Comparison<'_>| {
+            names([one, other], identifiers, comparison);
+        },
+        names: text("name in other languages"),
+        kind: |_: &GroupKind, _: &GroupKind, comparison: &mut Comparison<'_>| kind(old, new, comparison),
+        items: ignored(COMPARED),
+        links: fact_as("linked objects", Judgement::NONE, |links: &Vec<u16>| {
+            links.iter().map(index).collect::<Vec<_>>().join(", ")
+        }),
+        flags: fact_as("flags of the object", Judgement::BEHAVIOR, |flags| format!("0x{flags:X}")),
+        depends_on_slot: fact("index grows with the slot", Judgement::WIRE),
+        depends_on_slot_group: fact("index grows with the slot group", Judgement::WIRE),
+        described: fact("number of described entries", Judgement::NONE),
+        documentation: documentation,
+        doubts: doubts,
+        extensions: extensions,
+        origin: ignored(POSITION),
+        name_at: ignored(POSITION),
+    });
+}
+
+fn kind(old: &Group, new: &Group, comparison: &mut Comparison<'_>) {
+    match (&old.kind, &new.kind) {
+        (
+            GroupKind::Object { index: one, code: old_code, category: old_category },
+            GroupKind::Object { index: other, code, category },
+        ) => {
+            // The addresses of the items contain the index.
+            if !(has_index_of_items(old) && has_index_of_items(new)) {
+                fact_as("index", Judgement::WIRE, index)(one, other, comparison);
+            }
+            // An object with entries is a module, another one a constant.
+            let judgement = if is_module(old) == is_module(new) { Judgement::NONE } else { Judgement::API };
+            fact("object code", judgement)(old_code, code, comparison);
+            fact("category", Judgement::NONE)(old_category, category, comparison);
+        }
+        (GroupKind::Record(old), GroupKind::Record(new)) => record(old, new, comparison),
+        (GroupKind::Image { length: old }, GroupKind::Image { length: new }) => {
+            fact("length in bytes", Judgement::WIRE)(old, new, comparison);
+        }
+        _ => comparison.texts("kind", place(old), place(new), Judgement::API_AND_WIRE),
+    }
+}
+
+/// Whether an object has items, all of which are at its index.
+fn has_index_of_items(group: &Group) -> bool {
+    let is_at_index = |item: &Item| item.object().map(|(index, _)| index) == group.index();
+    !group.items.is_empty() && group.items.iter().all(is_at_index)
+}
+
+fn record(old: &Record, new: &Record, comparison: &mut Comparison<'_>) {
+    compare_fields!(Record, old, new, comparison, {
+        index: fact_as("index", Judgement::WIRE, index),
+        length: fact("length in bytes", Judgement::API_AND_WIRE),
+        transfer_sequence: fact("order of transfer", Judgement::WIRE),
+        changeable_with_bump: fact("a change disturbs operation", Judgement::BEHAVIOR),
+        constants: fact_as("fixed bytes", Judgement::WIRE, |constants: &Vec<(u32, Vec<u8>)>| {
+            constants.iter().map(|(offset, own)| format!("{offset}: {}", bytes(own))).collect::<Vec<_>>().join("; ")
+        }),
+    });
+}

@@ -1,0 +1,318 @@
+//! Facts of an item: value, range, access rights, behavior.
+
+use std::fmt::Debug;
+
+use super::bindings;
+use super::change::{Effect, Judgement};
+use super::comparison::{
+    compare_fields, fact, fact_as, ignored, judged, list, or_default, positioned, slice, text, Comparison, Elements,
+    POSITION,
+};
+use super::show::Show;
+use super::texts::{described, documentation, doubts, extensions, renamed};
+use super::types;
+use lexibus_codegen::facts;
+use lexibus_codegen::facts::words::PLAIN;
+use lexibus_codegen::ir::{
+    Access, Availability, Behaviour, CompactString, Condition, Configured, Conversion, Item, ItemVariant, Limits,
+    MachineUnit, Mappable, Quantity, Scale, Storage, TypeDef, Value,
+};
+
+/// Compares all facts of an item.
+pub(super) fn compare(old: &Item, new: &Item, comparison: &mut Comparison<'_>) {
+    compare_named(old, new, judged("name", renamed), comparison);
+}
+
+/// Compares all facts of an item, its name by `name`.
+pub(super) fn compare_named(
+    old: &Item,
+    new: &Item,
+    name: impl Fn(&CompactString, &CompactString, &mut Comparison<'_>),
+    comparison: &mut Comparison<'_>,
+) {
+    let access = new.access;
+    compare_fields!(Item, old, new, comparison, {
+        name: name,
+        names: text("name in other languages"),
+        ty: types::compare,
+        bindings: slice(bindings::compare),
+        is_meaning_absent: fact("names of bits and values are stated to be absent", Judgement::NONE),
+        access: judged("access", access_effects),
+        is_access_assumed: fact("access is an assumption", Judgement::NONE),
+        mappable: mappable,
+        default: |_: &_, _: &_, comparison: &mut Comparison<'_>| default(old, new, comparison),
+        limits: |one: &Limits, other: &Limits, comparison: &mut Comparison<'_>| {
+            range([old, new], [one, other], access, comparison);
+        },
+        variants: list(variants(), |one: &ItemVariant, other: &ItemVariant, comparison: &mut Comparison<'_>| {
+            variant([old, new], one, other, comparison);
+        }),
+        configured: or_default(configured),
+        quantity: or_default(quantity),
+        behaviour: or_default(behaviour),
+        availability: availability,
+        shared_by_axes: fact("shared by all axes", Judgement::API),
+        flags: fact_as("flags of the object", Judgement::BEHAVIOR, |flags| format!("0x{flags:X}")),
+        documentation: documentation,
+        doubts: doubts,
+        extensions: extensions,
+        origin: ignored(POSITION),
+        at: ignored(POSITION),
+    });
+}
+
+/// The effects of other access rights.
+fn access_effects(old: &Access, new: &Access) -> Judgement {
+    let lost = old.readable() && !new.readable() || old.writable() && !new.writable();
+    let gained = !old.readable() && new.readable() || !old.writable() && new.writable();
+    let api = match (lost, gained) {
+        (true, _) => Effect::Breaking,
+        (false, true) => Effect::Compatible,
+        (false, false) => Effect::Unaffected,
+    };
+    let behavior = match (old, new) {
+        (Access::Constant, _) => Effect::Breaking,
+        (_, Access::Constant) => Effect::Compatible,
+        _ => Effect::Unaffected,
+    };
+    Judgement { api, behavior, ..Judgement::NONE }
+}
+
+fn mappable(old: &Mappable, new: &Mappable, comparison: &mut Comparison<'_>) {
+    let lost = old.rpdo && !new.rpdo || old.tpdo && !new.tpdo;
+    let judgement = if lost { Judgement::API } else { Judgement::API_COMPATIBLE };
+    let text = |own: &Mappable| facts::item::mappable(*own).unwrap_or("none").to_owned();
+    comparison.texts("mappable into", text(old), text(new), judgement);
+}
+
+fn default(old: &Item, new: &Item, comparison: &mut Comparison<'_>) {
+    if old.default != new.default {
+        let (old_types, new_types) = comparison.types;
+        let texts = [facts::item::default(old, old_types), facts::item::default(new, new_types)];
+        comparison.values("default", [&old.default, &new.default], texts, stated_effects(&old.default, &new.default));
+    }
+}
+
+/// The effects of another value on the behavior. A value that was not stated before contradicts nothing.
+fn stated_effects<T>(old: &Option<T>, _: &Option<T>) -> Judgement {
+    match old {
+        None => Judgement::BEHAVIOR_COMPATIBLE,
+        Some(_) => Judgement::BEHAVIOR,
+    }
+}
+
+/// Compares the limits of an item, or of a variant of it.
+fn range(items: [&Item; 2], limits: [&Limits; 2], access: Access, comparison: &mut Comparison<'_>) {
+    if limits[0] != limits[1] {
+        let (old_types, new_types) = comparison.types;
+        let text = |side: usize, types: &[TypeDef]| facts::item::range(items[side], limits[side], types, usize::MAX);
+        let texts = [text(0, old_types), text(1, new_types)];
+        comparison.values("range", limits, texts, range_effects(limits[0], limits[1], access));
+    }
+}
+
+/// A value that can be written must not be refused. Of a value that can only be read, no other numbers must come.
+fn range_effects(old: &Limits, new: &Limits, access: Access) -> Judgement {
+    let is_broken = if access.writable() { is_narrower(old, new) } else { is_narrower(new, old) };
+    if is_broken {
+        Judgement::BEHAVIOR
+    } else {
+        Judgement::BEHAVIOR_COMPATIBLE
+    }
+}
+
+/// Whether some value was allowed that isn't any more.
+fn is_narrower(old: &Limits, new: &Limits) -> bool {
+    let real = |own: &Option<Value>| own.as_ref().and_then(Value::as_real);
+    let is_beyond = |old: Option<f64>, new: Option<f64>, beyond: fn(f64, f64) -> bool| match (old, new) {
+        (None, Some(_)) => true,
+        (Some(old), Some(new)) => beyond(new, old),
+        _ => false,
+    };
+    let below = is_beyond(real(&old.low), real(&new.low), |new, old| new > old);
+    let above = is_beyond(real(&old.high), real(&new.high), |new, old| new < old);
+    let is_allowed = |value: f64| {
+        new.allowed.iter().any(|(first, last)| {
+            first.as_real().is_some_and(|first| first <= value) && last.as_real().is_some_and(|last| value <= last)
+        })
+    };
+    let mut ends = old.allowed.iter().flat_map(|(first, last)| [first.as_real(), last.as_real()]).flatten();
+    let is_unlisted = !new.allowed.is_empty() && (old.allowed.is_empty() || !ends.all(is_allowed));
+    below || above || is_unlisted
+}
+
+/// Variants are paired by the models and buses that they are about.
+fn variants() -> Elements<ItemVariant> {
+    Elements::titled(|own: &ItemVariant| {
+        let all: Vec<&str> = own.models.iter().chain(&own.buses).map(CompactString::as_str).collect();
+        format!("on {}", all.join(", "))
+    })
+    .judged(|_| Judgement::BEHAVIOR, |_| Judgement::BEHAVIOR)
+}
+
+/// Compares what differs on some models or buses, of two versions of an item.
+fn variant(items: [&Item; 2], old: &ItemVariant, new: &ItemVariant, comparison: &mut Comparison<'_>) {
+    let access = new.access.unwrap_or(items[1].access);
+    compare_fields!(ItemVariant, old, new, comparison, {
+        models: fact("models", Judgement::BEHAVIOR),
+        buses: fact("buses", Judgement::BEHAVIOR),
+        ty: types::compare_optional("type", Judgement::API_AND_WIRE),
+        access: judged("access", |old: &Option<Access>, new: &Option<Access>| {
+            access_effects(&old.unwrap_or(items[0].access), &new.unwrap_or(items[1].access))
+        }),
+        default: |old: &Option<Value>, new: &Option<Value>, comparison: &mut Comparison<'_>| {
+            if old != new {
+                let (old_types, new_types) = comparison.types;
+                let texts = [value(items[0], old, old_types), value(items[1], new, new_types)];
+                comparison.values("default", [old, new], texts, stated_effects(old, new));
+            }
+        },
+        limits: |old: &Limits, new: &Limits, comparison: &mut Comparison<'_>| {
+            range(items, [old, new], access, comparison);
+        },
+        step: judged("rounded to steps of", stated_effects),
+        scale: fact_as("scale", Judgement::API_AND_BEHAVIOR, |scale: &Option<Scale>| {
+            scale.as_ref().map(|scale| PLAIN.scale(scale, "")).unwrap_or_default()
+        }),
+        documentation: documentation,
+        at: ignored(POSITION),
+    });
+}
+
+/// The text of a value that may be missing.
+fn value(item: &Item, value: &Option<Value>, types: &[TypeDef]) -> String {
+    value.as_ref().map(|value| facts::item::value(item, value, types)).unwrap_or_default()
+}
+
+fn configured(old: &Configured, new: &Configured, comparison: &mut Comparison<'_>) {
+    compare_fields!(Configured, old, new, comparison, {
+        value: judged("configured value", stated_effects),
+        denotation: text("denotation"),
+        upload_file: text("upload file"),
+        download_file: fact("download file", Judgement::BEHAVIOR),
+    });
+}
+
+fn quantity(old: &Quantity, new: &Quantity, comparison: &mut Comparison<'_>) {
+    compare_fields!(Quantity, old, new, comparison, {
+        // A unit that was not stated before contradicts nothing.
+        unit: judged("unit", |old: &CompactString, _: &CompactString| match old.is_empty() {
+            true => Judgement::API_COMPATIBLE,
+            false => Judgement::API_AND_BEHAVIOR,
+        }),
+        units: text("unit in other languages"),
+        scale: |_: &_, _: &_, comparison: &mut Comparison<'_>| scale(old, new, comparison),
+        sentinels: slice(sentinels),
+        step: judged("rounded to steps of", stated_effects),
+        machine: or_default(machine_unit),
+        conversions: positioned("examples of conversions", Judgement::NONE, |examples: &Vec<Conversion>| {
+            examples.iter().map(conversion).collect::<Vec<_>>().join("; ")
+        }),
+        standard: text("standard of the unit"),
+    });
+}
+
+/// The type in Rust has the scale.
+fn scale(old: &Quantity, new: &Quantity, comparison: &mut Comparison<'_>) {
+    if old.scale != new.scale {
+        let text = |own: &Quantity| {
+            own.scale.as_ref().map(|scale| PLAIN.scale(scale, facts::physical::shown_unit(own))).unwrap_or_default()
+        };
+        comparison.values("scale", [&old.scale, &new.scale], [text(old), text(new)], Judgement::API_AND_BEHAVIOR);
+    }
+}
+
+/// Raw values that are no numbers, which the type in Rust excludes.
+fn sentinels(old: &[(Value, CompactString)], new: &[(Value, CompactString)], comparison: &mut Comparison<'_>) {
+    let numbers = |own: &[(Value, CompactString)]| own.iter().map(|(raw, _)| raw.clone()).collect::<Vec<_>>();
+    fact("no number", Judgement::API_AND_BEHAVIOR)(&numbers(old), &numbers(new), comparison);
+    let meanings =
+        |own: &[(Value, CompactString)]| own.iter().map(|(_, name)| name.show()).collect::<Vec<_>>().join("; ");
+    comparison.texts("meaning of values that are no number", meanings(old), meanings(new), Judgement::NONE);
+}
+
+fn machine_unit(old: &MachineUnit, new: &MachineUnit, comparison: &mut Comparison<'_>) {
+    compare_fields!(MachineUnit, old, new, comparison, {
+        unit: fact("unit of the machine", Judgement::API),
+        times: fact("multiplied by", Judgement::API),
+        over: fact("divided by", Judgement::API),
+    });
+}
+
+/// `250 = 25 °C`, without its position.
+fn conversion(own: &Conversion) -> String {
+    let Conversion { raw, value, unit, given, model, by, documentation, at: _ } = own;
+    let given: Vec<String> = given.iter().map(|(name, number)| format!(", {name} {number}")).collect();
+    let text = described(documentation.as_deref());
+    let (unit, model, by) = (unit.show(), model.show(), by.show());
+    format!("{} = {} {unit}{} {model} {by} {text}", raw.show(), value.show(), given.concat())
+}
+
+fn behaviour(old: &Behaviour, new: &Behaviour, comparison: &mut Comparison<'_>) {
+    compare_fields!(Behaviour, old, new, comparison, {
+        storage: storage,
+        effective: judged("takes effect", stated_effects),
+        write_when: conditions("writable while"),
+        writable_values: restricted("writable values"),
+        side_effects: fact_as("side effects", Judgement::BEHAVIOR, |effects: &Vec<CompactString>| effects.join("; ")),
+        self_clearing: fact("cleared by the device", Judgement::BEHAVIOR),
+        write_once: fact("writable only once", Judgement::BEHAVIOR),
+        backup: fact("part of a backup", Judgement::BEHAVIOR),
+        setting: fact("setting of the application", Judgement::NONE),
+        safety: fact("role in functional safety", Judgement::BEHAVIOR),
+        hidden: fact("hidden by tools", Judgement::NONE),
+        pdi_access: fact("access of the device's own processor", Judgement::BEHAVIOR),
+        read_states: restricted("readable in states"),
+        write_states: restricted("writable in states"),
+    });
+}
+
+fn storage(old: &Storage, new: &Storage, comparison: &mut Comparison<'_>) {
+    let judgement = if *old == Storage::Unknown { Judgement::BEHAVIOR_COMPATIBLE } else { Judgement::BEHAVIOR };
+    let text = |own: &Storage| PLAIN.storage(own).unwrap_or_default();
+    comparison.texts("storage", text(old), text(new), judgement);
+}
+
+/// A list that restricts what is possible unless it is empty.
+pub(super) fn restricted<T: PartialEq + Debug + Show>(
+    name: &'static str,
+) -> impl Fn(&Vec<T>, &Vec<T>, &mut Comparison<'_>) {
+    judged(name, |old: &Vec<T>, new: &Vec<T>| {
+        let is_narrower = !new.is_empty() && (old.is_empty() || old.iter().any(|own| !new.contains(own)));
+        if is_narrower {
+            Judgement::BEHAVIOR
+        } else {
+            Judgement::BEHAVIOR_COMPATIBLE
+        }
+    })
+}
+
+/// Conditions that all have to hold.
+pub(super) fn conditions(name: &'static str) -> impl Fn(&Vec<Condition>, &Vec<Condition>, &mut Comparison<'_>) {
+    move |old, new, comparison| {
+        let text = |own: &[Condition]| own.iter().map(Condition::show).collect::<Vec<_>>().join(" and ");
+        if old != new {
+            let is_weaker = new.iter().all(|own| old.contains(own));
+            let judgement = if is_weaker { Judgement::BEHAVIOR_COMPATIBLE } else { Judgement::BEHAVIOR };
+            comparison.values(name, [old, new], [text(old), text(new)], judgement);
+        }
+    }
+}
+
+/// Models, firmware versions, options and buses that have an element.
+pub(super) fn availability(
+    old: &Option<Box<Availability>>,
+    new: &Option<Box<Availability>>,
+    comparison: &mut Comparison<'_>,
+) {
+    or_default(|old, new, comparison: &mut Comparison<'_>| {
+        compare_fields!(Availability, old, new, comparison, {
+            models: restricted("models"),
+            since: fact("since firmware", Judgement::BEHAVIOR),
+            until: fact("until firmware", Judgement::BEHAVIOR),
+            replaced_by: text("replaced by"),
+            options: fact("needs", Judgement::BEHAVIOR),
+            buses: restricted("only on"),
+        });
+    })(old, new, comparison);
+}

@@ -1,0 +1,122 @@
+//! Modular devices: slots, and modules that can be plugged into them.
+
+use super::change::Judgement;
+use super::comparison::{
+    compare_fields, fact, fact_as, ignored, judged, list, part, slice, slices, text, Comparison, Elements, KEY,
+    POSITION,
+};
+use super::devices::identity;
+use super::ethercat::init_commands;
+use super::show::index;
+use super::texts::{documentation, extensions, renamed};
+use super::{groups, item, pdos, profinet, types};
+use lexibus_codegen::ir::{
+    Catalog, Group, Module, ModuleUse, ObjectBuses, Places, ProcessData, Slot, SubExtension, SubslotName,
+};
+
+/// Slots belong together by their numbers.
+pub(super) fn slots() -> Elements<Slot> {
+    Elements::titled(|own: &Slot| format!("slot {}", own.number))
+}
+
+pub(super) fn slot(old: &Slot, new: &Slot, comparison: &mut Comparison<'_>) {
+    compare_fields!(Slot, old, new, comparison, {
+        number: ignored(KEY),
+        name: text("name"),
+        instances: fact("minimum and maximum number of modules", Judgement::BEHAVIOR),
+        names: text("name in other languages"),
+        fits: item::restricted("fitting modules"),
+        default: fact("module by default", Judgement::BEHAVIOR),
+        group: fact("slot group", Judgement::WIRE),
+        index_increment: fact_as("index increment", Judgement::WIRE, index),
+        pdo_increment: fact("PDO increment", Judgement::WIRE),
+        group_index_increment: fact_as("index increment of the group", Judgement::WIRE, index),
+        group_pdo_increment: fact("PDO increment of the group", Judgement::WIRE),
+    });
+}
+
+/// Modules belong together by number, or ident number, and identifier.
+pub(super) fn key(own: &Module) -> String {
+    format!("{:08X} {}", own.number, own.id)
+}
+
+/// Compares the modules of a device, and their slots.
+pub(super) fn compare_uses(old: &[ModuleUse], new: &[ModuleUse], comparison: &mut Comparison<'_>) {
+    let uses = |catalog: &Catalog, uses: &[ModuleUse]| -> Vec<Use> {
+        let title = |own: &ModuleUse| match catalog.modules.get(own.module.0 as usize) {
+            Some(module) => format!("module {} ({})", module.name, key(module)),
+            None => format!("module number {}", own.module.0),
+        };
+        uses.iter().map(|own| Use { title: title(own), places: own.places.clone() }).collect()
+    };
+    let (old_catalog, new_catalog) = comparison.catalogs;
+    places(&uses(old_catalog, old), &uses(new_catalog, new), comparison);
+}
+
+/// What can be plugged into a device or module.
+pub(super) struct Use {
+    pub title: String,
+    pub places: Places,
+}
+
+/// Compares what can be plugged in, and into which slots or subslots.
+pub(super) fn places(old: &[Use], new: &[Use], comparison: &mut Comparison<'_>) {
+    let elements = Elements::titled(|own: &Use| own.title.clone())
+        .judged(|_| Judgement::BEHAVIOR_COMPATIBLE, |_| Judgement::BEHAVIOR);
+    let compare = |old: &Use, new: &Use, comparison: &mut Comparison<'_>| {
+        fact("slots", Judgement::BEHAVIOR)(&old.places, &new.places, comparison);
+    };
+    slices(old, new, &elements, compare, comparison);
+}
+
+/// Compares all facts of a module.
+pub(super) fn compare(old: &Module, new: &Module, comparison: &mut Comparison<'_>) {
+    let all =
+        |module: &'_ Module| -> Vec<Group> { module.fixed_objects.iter().chain(&module.groups).cloned().collect() };
+    compare_fields!(Module, old, new, comparison, {
+        number: ignored(KEY),
+        id: ignored(KEY),
+        class: part("module", fact("class", Judgement::BEHAVIOR)),
+        name: part("module", judged("name", renamed)),
+        names: part("module", text("name in other languages")),
+        version: part("module", text("version")),
+        revision: part("module", text("revision")),
+        identity: part("module", identity),
+        comments: part("module", text("comments")),
+        documentation: part("module", documentation),
+        types: ignored(super::comparison::COMPARED),
+        fixed_objects: |_: &_, _: &_, comparison: &mut Comparison<'_>| {
+            let (old, new) = (all(old), all(new));
+            groups::compare(&old.iter().collect::<Vec<_>>(), &new.iter().collect::<Vec<_>>(), comparison);
+        },
+        sub_extensions: list(
+            Elements::titled(|own: &SubExtension| format!("entries added to {}", index(&own.index))),
+            sub_extension,
+        ),
+        groups: ignored(super::comparison::COMPARED),
+        process_data: |old: &ProcessData, new: &ProcessData, comparison: &mut Comparison<'_>| {
+            pdos::compare(old, new, ObjectBuses::COE, comparison);
+        },
+        pdo_group: part("module", fact("module PDO group", Judgement::WIRE)),
+        init_commands: init_commands(),
+        submodules: part("module", slice(profinet::compare_uses)),
+        subslots: part("module", fact("subslots", Judgement::BEHAVIOR)),
+        subslot_names: part("module", fact_as("names of subslots", Judgement::NONE, |own: &Vec<SubslotName>| {
+            profinet::subslot_names(own)
+        })),
+        profiles: part("module", fact("profiles", Judgement::BEHAVIOR)),
+        extensions: part("module", extensions),
+        origin: ignored(POSITION),
+    });
+    types::compare_unused(comparison);
+}
+
+fn sub_extension(old: &SubExtension, new: &SubExtension, comparison: &mut Comparison<'_>) {
+    compare_fields!(SubExtension, old, new, comparison, {
+        index: ignored(KEY),
+        count: fact("number of entries", Judgement::WIRE),
+        per: fact("modules of one entry", Judgement::WIRE),
+        extends_object: fact("goes on at the next index", Judgement::WIRE),
+        template: item::compare,
+    });
+}

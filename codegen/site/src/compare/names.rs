@@ -1,0 +1,62 @@
+//! Identifiers in Rust of the elements of a description.
+
+use lexibus_codegen::facts::address;
+use lexibus_codegen::ir::{Group, GroupKind, Item, ObjectCode};
+use lexibus_codegen::passes::names_unique::{unique, Case, Wish};
+
+/// The identifier of a name that no other element has.
+pub(super) fn identifier(name: &str) -> String {
+    unique(&[Wish::new(name, "item", "")], &[], Case::Snake).remove(0)
+}
+
+/// Identifiers of the groups and items of a device or module.
+pub(super) struct Identifiers {
+    /// Those of objects; empty for other groups.
+    pub groups: Vec<String>,
+    /// Those of registers and of the entries of objects, by group; empty for the value of an object without entries.
+    pub items: Vec<Vec<String>>,
+}
+
+impl Identifiers {
+    /// The identifiers in these groups: names, which get an address if several elements share them.
+    pub fn of(groups: &[&Group]) -> Self {
+        let wishes: Vec<Wish<'_>> = groups.iter().flat_map(|group| wishes(group)).collect();
+        let mut names = unique(&wishes, &[], Case::Snake).into_iter();
+        let mut identifiers = Identifiers { groups: Vec::new(), items: Vec::new() };
+        for group in groups {
+            let (own, items) = match group.index() {
+                Some(_) => (names.next().unwrap_or_default(), entries(group)),
+                None => (String::new(), names.by_ref().take(group.items.len()).collect()),
+            };
+            identifiers.groups.push(own);
+            identifiers.items.push(items);
+        }
+        identifiers
+    }
+}
+
+/// An object is one element, and a chapter or image one for each of its registers.
+fn wishes(group: &Group) -> Vec<Wish<'_>> {
+    match group.kind {
+        GroupKind::Object { index, .. } => vec![Wish::new(&group.name, "object", format!("{index:04X}"))],
+        _ => group.items.iter().map(|item| Wish::new(&item.name, "register", suffix(item))).collect(),
+    }
+}
+
+fn entries(group: &Group) -> Vec<String> {
+    if !is_module(group) {
+        return vec![String::new(); group.items.len()];
+    }
+    let sub_index = |item: &Item| item.object().map_or(0, |(_, sub_index)| sub_index);
+    let wishes: Vec<Wish<'_>> = group.items.iter().map(|item| Wish::new(&item.name, "sub", sub_index(item))).collect();
+    unique(&wishes, &[], Case::Snake)
+}
+
+/// Whether an object is a module of several values in Rust.
+pub(super) fn is_module(group: &Group) -> bool {
+    group.object_code().is_some_and(ObjectCode::has_subs) || group.items.len() != 1
+}
+
+fn suffix(item: &Item) -> String {
+    item.bindings.first().map(address::number).unwrap_or_default()
+}

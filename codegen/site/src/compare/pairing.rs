@@ -1,0 +1,116 @@
+//! Which element of the old description is which of the new one.
+
+use std::collections::HashMap;
+use std::hash::Hash;
+
+/// An element of the old description with the same one of the new description.
+pub(super) type Pair<'a, T> = (Option<&'a T>, Option<&'a T>);
+
+/// Pairs elements, in the order of the old list, followed by the new elements.
+///
+/// Elements belong together if they have the same name and place, else if no others have this name, and else if they have the same place. An
+/// empty name or place alone pairs nothing.
+pub(super) fn pairs<'a, T>(
+    old: &'a [T],
+    new: &'a [T],
+    name: impl Fn(&T) -> String,
+    place: impl Fn(&T) -> String,
+) -> Vec<Pair<'a, T>> {
+    let keys = |list: &[T]| list.iter().map(|own| Key { name: name(own), place: place(own) }).collect::<Vec<_>>();
+    let matching = Matching::of(&keys(old), &keys(new));
+    let paired = old.iter().zip(&matching.new_of_old).map(|(own, other)| (Some(own), other.map(|at| &new[at])));
+    let added = new.iter().zip(&matching.is_new_paired).filter(|(_, is_paired)| !**is_paired);
+    paired.chain(added.map(|(own, _)| (None, Some(own)))).collect()
+}
+
+/// By what an element is paired.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub(super) struct Key {
+    pub name: String,
+    pub place: String,
+}
+
+/// Which elements of two lists belong together.
+pub(super) struct Matching {
+    /// The position in the new list of each element of the old one.
+    pub new_of_old: Vec<Option<usize>>,
+    /// Whether each element of the new list is one of the old list.
+    pub is_new_paired: Vec<bool>,
+}
+
+impl Matching {
+    /// Matches the elements with these keys.
+    pub fn of(old: &[Key], new: &[Key]) -> Self {
+        let mut matching = Matching { new_of_old: vec![None; old.len()], is_new_paired: vec![false; new.len()] };
+        matching.stage(old, new, Some, true);
+        matching.stage(old, new, |own| Some(&own.name).filter(|name| !name.is_empty()), false);
+        matching.stage(old, new, |own| Some(&own.place).filter(|place| !place.is_empty()), true);
+        matching
+    }
+    /// Pairs elements of equal keys, in their order. Keys that several elements share count if `is_repeatable`.
+    fn stage<'k, Q: Hash + Eq + 'k>(
+        &mut self,
+        old: &'k [Key],
+        new: &'k [Key],
+        key: impl Fn(&'k Key) -> Option<&'k Q>,
+        is_repeatable: bool,
+    ) {
+        let mut left: HashMap<&Q, Vec<usize>> = HashMap::new();
+        for (position, own) in new.iter().enumerate().rev().filter(|(position, _)| !self.is_new_paired[*position]) {
+            if let Some(key) = key(own) {
+                left.entry(key).or_default().push(position);
+            }
+        }
+        let unpaired: Vec<(usize, &'k Q)> = (0..old.len())
+            .filter(|&position| self.new_of_old[position].is_none())
+            .filter_map(|position| Some((position, key(&old[position])?)))
+            .collect();
+        let mut count: HashMap<&Q, usize> = HashMap::new();
+        unpaired.iter().for_each(|(_, key)| *count.entry(key).or_default() += 1);
+        for (at, key) in unpaired {
+            let Some(positions) = left.get_mut(key) else { continue };
+            if is_repeatable || count[key] == 1 && positions.len() == 1 {
+                self.new_of_old[at] = positions.pop();
+                self.new_of_old[at].into_iter().for_each(|position| self.is_new_paired[position] = true);
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Names are letters, places are digits.
+    fn paired(old: &[&str], new: &[&str]) -> Vec<(String, String)> {
+        let part = |text: &&str, wanted: fn(char) -> bool| text.chars().filter(|letter| wanted(*letter)).collect();
+        let name = |text: &&str| part(text, |letter| letter.is_alphabetic());
+        let place = |text: &&str| part(text, |letter| letter.is_numeric());
+        let all = pairs(old, new, name, place);
+        let shown = |own: Option<&&str>| own.map(|own| (*own).to_owned()).unwrap_or_default();
+        all.into_iter().map(|(old, new)| (shown(old), shown(new))).collect()
+    }
+
+    #[track_caller]
+    fn is(old: &[&str], new: &[&str], expected: &[(&str, &str)]) {
+        let expected: Vec<_> = expected.iter().map(|(old, new)| ((*old).to_owned(), (*new).to_owned())).collect();
+        assert_eq!(paired(old, new), expected);
+    }
+
+    #[test]
+    fn elements_are_paired_by_name_and_then_by_place() {
+        is(&["a1", "b2"], &["a1", "b2"], &[("a1", "a1"), ("b2", "b2")]);
+        is(&["a1", "b2"], &["a2", "b1"], &[("a1", "a2"), ("b2", "b1")]);
+        is(&["a1"], &["b1", "a2"], &[("a1", "a2"), ("", "b1")]);
+        is(&["a1"], &["b1"], &[("a1", "b1")]);
+        is(&["a1"], &["b2"], &[("a1", ""), ("", "b2")]);
+        is(&["1", "2"], &["2", "3"], &[("1", ""), ("2", "2"), ("", "3")]);
+    }
+
+    #[test]
+    fn names_that_several_have_count_with_their_place_only() {
+        is(&["a1", "a2"], &["a2", "a3"], &[("a1", "a3"), ("a2", "a2")]);
+        is(&["a1", "a2", "a3"], &["a4", "a2"], &[("a1", ""), ("a2", "a2"), ("a3", ""), ("", "a4")]);
+        is(&["a1", "a1"], &["a1", "a1"], &[("a1", "a1"), ("a1", "a1")]);
+    }
+}

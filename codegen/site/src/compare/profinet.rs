@@ -1,0 +1,216 @@
+//! PROFINET: device access points, submodules, records and diagnosis.
+
+use super::change::Judgement;
+use super::comparison::{
+    compare_fields, fact, fact_as, ignored, judged, list, optional, part, text, Comparison, Elements, KEY, POSITION,
+};
+use super::devices::identity;
+use super::ethercat::joined;
+use super::modules::{places, Use};
+use super::show::{index, Show};
+use super::texts::{documentation, extensions, renamed};
+use super::{groups, pdos, types};
+use lexibus_codegen::facts;
+use lexibus_codegen::ir::{
+    Catalog, FParameter, FParameters, Group, IoChannel, IoData, IoItem, IoLengths, Menu, ProfinetSettings, Submodule,
+    SubmoduleKind, SubmoduleUse, SubslotName, Type, TypeId, UnitDiagnosis, UnitDiagnosisField, VendorBlock,
+};
+
+pub(super) fn settings(old: &ProfinetSettings, new: &ProfinetSettings, comparison: &mut Comparison<'_>) {
+    compare_fields!(ProfinetSettings, old, new, comparison, {
+        ident: fact_as("ident number", Judgement::WIRE, |ident| format!("0x{ident:08X}")),
+        device_id: fact_as("device ID", Judgement::WIRE, index),
+        family: text("family"),
+        pnio_version: text("version of PROFINET"),
+        slots: fact("slots", Judgement::BEHAVIOR),
+        dns_name: fact("name of a new device", Judgement::BEHAVIOR),
+        min_device_interval: fact("minimum interval in 31.25 µs", Judgement::BEHAVIOR),
+        max_record_size: fact("maximum length of a record", Judgement::BEHAVIOR),
+        relations: fact("maximum number of application relations", Judgement::BEHAVIOR),
+        startup_modes: fact("start-up modes", Judgement::BEHAVIOR),
+        max_lengths: fact_as("maximum lengths", Judgement::BEHAVIOR, lengths),
+        send_clocks: fact("send clock factors", Judgement::BEHAVIOR),
+        reduction_ratios: fact("reduction ratios", Judgement::BEHAVIOR),
+        places: fact("slots of the device access point", Judgement::BEHAVIOR),
+        subslot_names: fact_as("names of subslots", Judgement::NONE, |own: &Vec<SubslotName>| subslot_names(own)),
+        vendor_blocks: list(
+            Elements::titled(|own: &VendorBlock| format!("vendor block {:X}/{:04X}", own.api, own.identifier)),
+            vendor_block,
+        ),
+        attributes: fact("attributes", Judgement::BEHAVIOR),
+    });
+}
+
+fn lengths(own: &IoLengths) -> String {
+    let IoLengths { input, output, data } = own;
+    format!("input {}, output {}, both {}", input.show(), output.show(), data.show())
+}
+
+/// Names of subslots with their numbers.
+pub(super) fn subslot_names(own: &[SubslotName]) -> String {
+    joined(own, |own| {
+        let SubslotName { number, name, names } = own;
+        format!("{number} {name} {}", names.show()).trim_end().to_owned()
+    })
+}
+
+fn vendor_block(old: &VendorBlock, new: &VendorBlock, comparison: &mut Comparison<'_>) {
+    compare_fields!(VendorBlock, old, new, comparison, {
+        api: ignored(KEY),
+        identifier: ignored(KEY),
+        record: |old: &Group, new: &Group, comparison: &mut Comparison<'_>| {
+            comparison.in_types_of_catalog(|comparison| groups::compare(&[old], &[new], comparison));
+        },
+        menus: fact_as("menus", Judgement::NONE, |own: &Vec<Menu>| menus(own)),
+    });
+}
+
+fn menus(own: &[Menu]) -> String {
+    joined(own, |own| {
+        let Menu { id, name, names, targets } = own;
+        format!("{id} {name} ({}): {}", names.show(), targets.show())
+    })
+}
+
+/// Submodules belong together by ident number and identifier.
+pub(super) fn submodule_key(own: &Submodule) -> String {
+    format!("{:08X} {}", own.ident, own.id)
+}
+
+pub(super) fn submodule(old: &Submodule, new: &Submodule, comparison: &mut Comparison<'_>) {
+    compare_fields!(Submodule, old, new, comparison, {
+        id: ignored(KEY),
+        ident: ignored(KEY),
+        kind: part("submodule", fact_as("kind", Judgement::WIRE, |kind: &SubmoduleKind| kind_name(*kind).to_owned())),
+        api: part("submodule", fact_as("API", Judgement::WIRE, |api| format!("0x{api:04X}"))),
+        name: part("submodule", judged("name", renamed)),
+        names: part("submodule", text("name in other languages")),
+        documentation: part("submodule", documentation),
+        identity: part("submodule", identity),
+        input: optional("input", Judgement::API_AND_WIRE, Judgement::API_AND_WIRE, io_data),
+        output: optional("output", Judgement::API_AND_WIRE, Judgement::API_AND_WIRE, io_data),
+        status_lengths: part("submodule", fact("lengths of provider and consumer status", Judgement::WIRE)),
+        records: |old: &Vec<Group>, new: &Vec<Group>, comparison: &mut Comparison<'_>| {
+            groups::compare(&old.iter().collect::<Vec<_>>(), &new.iter().collect::<Vec<_>>(), comparison);
+        },
+        f_parameters: optional("F-parameters", Judgement::API_AND_WIRE, Judgement::API_AND_WIRE, f_parameters),
+        menus: part("submodule", fact_as("menus", Judgement::NONE, |own: &Vec<Menu>| menus(own))),
+        graphics: part("submodule", fact("pictures", Judgement::NONE)),
+        attributes: part("submodule", fact("attributes", Judgement::BEHAVIOR)),
+        extensions: part("submodule", extensions),
+        origin: ignored(POSITION),
+    });
+}
+
+fn kind_name(kind: SubmoduleKind) -> &'static str {
+    match kind {
+        SubmoduleKind::Virtual => "virtual",
+        SubmoduleKind::Pluggable => "pluggable",
+        SubmoduleKind::Interface => "interface",
+        SubmoduleKind::Port => "port",
+    }
+}
+
+fn io_data(old: &IoData, new: &IoData, comparison: &mut Comparison<'_>) {
+    compare_fields!(IoData, old, new, comparison, {
+        image: pdos::image,
+        consistent: fact("consistent as a whole", Judgement::BEHAVIOR),
+        items: fact_as("data items", Judgement::NONE, |own: &Vec<IoItem>| joined(own, io_item)),
+        channels: fact_as("channels", Judgement::BEHAVIOR, |own: &Vec<IoChannel>| joined(own, channel)),
+    });
+}
+
+fn io_item(own: &IoItem) -> String {
+    let IoItem { name, names, data_type, bit_offset, bits, first_field, fields, subordinate } = own;
+    let place = facts::address::bits_of(*bit_offset, *bits);
+    let subordinate = if *subordinate { ", subordinate" } else { "" };
+    let names = names.show();
+    format!("{data_type} {name} {names} in {place} ({bit_offset} + {bits}), {fields} fields from {first_field}{subordinate}")
+}
+
+fn channel(own: &IoChannel) -> String {
+    let IoChannel { number, data, quality, quality_format, attributes } = own;
+    let bits = |own: &Option<(u32, u32)>| own.map(|(first, bits)| format!("{first} + {bits}")).unwrap_or_default();
+    format!("{number}: {}, quality {} {quality_format} {}", bits(data), bits(quality), attributes.show())
+        .trim_end()
+        .to_owned()
+}
+
+fn f_parameters(old: &FParameters, new: &FParameters, comparison: &mut Comparison<'_>) {
+    compare_fields!(FParameters, old, new, comparison, {
+        index: fact_as("index", Judgement::WIRE, index),
+        transfer_sequence: fact("order of transfer", Judgement::WIRE),
+        description_crc: fact_as("checksum of the description", Judgement::WIRE, |crc: &Option<u16>| {
+            crc.as_ref().map(index).unwrap_or_default()
+        }),
+        parameters: list(Elements::titled(|own: &FParameter| own.name.to_string())
+            .judged(|_| Judgement::API_AND_WIRE, |_| Judgement::API_AND_WIRE), f_parameter),
+        origin: ignored(POSITION),
+    });
+}
+
+fn f_parameter(old: &FParameter, new: &FParameter, comparison: &mut Comparison<'_>) {
+    compare_fields!(FParameter, old, new, comparison, {
+        name: ignored(KEY),
+        default: fact("default", Judgement::BEHAVIOR),
+        label: text("name of the default"),
+        allowed: fact_as("range", Judgement::BEHAVIOR, |own: &Vec<(i128, i128)>| {
+            joined(own, |(first, last)| facts::types::numbers(*first, Some(*last)))
+        }),
+        allowed_labels: fact("names of the range", Judgement::NONE),
+        changeable: fact("changeable", Judgement::BEHAVIOR),
+        visible: fact("shown by tools", Judgement::NONE),
+    });
+}
+
+/// Compares the submodules of a device or module, and their subslots.
+pub(super) fn compare_uses(old: &[SubmoduleUse], new: &[SubmoduleUse], comparison: &mut Comparison<'_>) {
+    let uses = |catalog: &Catalog, uses: &[SubmoduleUse]| -> Vec<Use> {
+        let title = |own: &SubmoduleUse| match catalog.submodules.get(own.submodule.0 as usize) {
+            Some(submodule) => format!("submodule {} ({})", submodule.name, submodule_key(submodule)),
+            None => format!("submodule number {}", own.submodule.0),
+        };
+        uses.iter().map(|own| Use { title: title(own), places: own.places.clone() }).collect()
+    };
+    let (old_catalog, new_catalog) = comparison.catalogs;
+    places(&uses(old_catalog, old), &uses(new_catalog, new), comparison);
+}
+
+/// User structures of diagnosis belong together by API and identifier.
+pub(super) fn unit_diagnoses() -> impl Fn(&Vec<UnitDiagnosis>, &Vec<UnitDiagnosis>, &mut Comparison<'_>) {
+    list(Elements::titled(|own: &UnitDiagnosis| format!("diagnosis {:X}/{:04X}", own.api, own.identifier)), diagnosis)
+}
+
+fn diagnosis(old: &UnitDiagnosis, new: &UnitDiagnosis, comparison: &mut Comparison<'_>) {
+    compare_fields!(UnitDiagnosis, old, new, comparison, {
+        api: ignored(KEY),
+        identifier: ignored(KEY),
+        name: judged("name", renamed),
+        names: text("name in other languages"),
+        documentation: documentation,
+        fields: list(Elements {
+            title: |own: &UnitDiagnosisField| format!("field {}", own.name),
+            name: |own| own.name.to_string(),
+            place: |own| own.bit_offset.to_string(),
+            added: |_| Judgement::API_AND_WIRE,
+            removed: |_| Judgement::API_AND_WIRE,
+        }, diagnosis_field),
+        extensions: extensions,
+        origin: ignored(POSITION),
+    });
+}
+
+fn diagnosis_field(old: &UnitDiagnosisField, new: &UnitDiagnosisField, comparison: &mut Comparison<'_>) {
+    compare_fields!(UnitDiagnosisField, old, new, comparison, {
+        name: judged("name", renamed),
+        names: text("name in other languages"),
+        bit_offset: fact("first bit", Judgement::WIRE),
+        bits: fact("length in bits", Judgement::WIRE),
+        ty: types::compare,
+        values: |old: &Option<TypeId>, new: &Option<TypeId>, comparison: &mut Comparison<'_>| {
+            let named = |own: &Option<TypeId>| own.map(Type::Named);
+            types::compare_optional("values", Judgement::API)(&named(old), &named(new), comparison);
+        },
+        default: fact("default", Judgement::BEHAVIOR),
+    });
+}

@@ -1,0 +1,133 @@
+//! Texts of values in reports.
+
+use lexibus_codegen::facts::words::PLAIN;
+use lexibus_codegen::ir::{
+    Access, Availability, AxisStep, Category, CompactString, Condition, Direction, Fit, LocalText, Numbers,
+    ObjectBuses, ObjectCode, Oversampling, Places, SharedList, Trigger, Value, Zone,
+};
+
+/// A text for reports. Values that differ have different texts.
+pub(super) trait Show {
+    fn show(&self) -> String;
+}
+
+/// Values that are printed as they are.
+macro_rules! show_as_text {
+    ($($type:ty),*) => {
+        $(impl Show for $type {
+            fn show(&self) -> String {
+                self.to_string()
+            }
+        })*
+    };
+}
+
+show_as_text!(u8, u16, u32, u64, i32, i64, i128, f64, CompactString, String, Value);
+
+/// Names of alternatives.
+macro_rules! show_as_name {
+    ($($type:ident { $($pattern:pat => $name:expr),* $(,)? })*) => {
+        $(impl Show for $type {
+            fn show(&self) -> String {
+                match self { $($pattern => ($name).to_string()),* }
+            }
+        })*
+    };
+}
+
+show_as_name! {
+    bool { true => "yes", false => "no" }
+    Access { access => access.name() }
+    ObjectCode { code => code.name() }
+    Direction { Direction::Receive => "received by the device", Direction::Transmit => "sent by the device" }
+    Trigger {
+        Trigger::Rising => "rising edge",
+        Trigger::Falling => "falling edge",
+        Trigger::Toggle => "both edges",
+        Trigger::SelfClearing => "cleared by the device",
+    }
+    Zone { Zone::Reserved => "reserved", Zone::Vendor => "left to the vendor" }
+    Category {
+        Category::Mandatory => "mandatory",
+        Category::Optional => "optional",
+        Category::Conditional => "conditional",
+        Category::Manufacturer => "manufacturer-specific",
+    }
+    Condition { condition => PLAIN.holds(condition) }
+    Availability { availability => PLAIN.availability(availability) }
+    LocalText { text => format!("{}: {}", text.language, text.text) }
+    Fit {
+        Fit::Ident(ident) => format!("module 0x{ident:08X}"),
+        Fit::Class(class) => format!("class {class}"),
+        Fit::Name(name) => name,
+    }
+    AxisStep {
+        AxisStep::Index(step) => format!("index + 0x{step:X}"),
+        AxisStep::SubIndex => "sub-index = axis",
+        AxisStep::SubIndexStride(stride) => format!("sub-index + {stride}"),
+    }
+    ObjectBuses { buses => [("CANopen", buses.canopen), ("EtherCAT", buses.coe)].into_iter().filter(|own| own.1)
+        .map(|own| own.0).collect::<Vec<_>>().join(", ") }
+    Numbers { numbers => numbers.0.iter().map(|(first, last)| match first == last {
+        true => first.to_string(),
+        false => format!("{first} to {last}"),
+    }).collect::<Vec<_>>().join(", ") }
+    Places { places => [("allowed", &places.allowed), ("fixed", &places.fixed), ("used", &places.used)].into_iter()
+        .filter(|own| !own.1.is_empty()).map(|(kind, own)| format!("{kind} {}", own.show())).collect::<Vec<_>>().join("; ") }
+    Oversampling { own => {
+        let Oversampling { factor, min, max, index_increment } = own;
+        let all = [("factor", factor), ("minimum", min), ("maximum", max), ("index increment", index_increment)];
+        all.into_iter().filter_map(|(name, number)| Some(format!("{name} {}", (*number)?))).collect::<Vec<_>>().join(", ")
+    } }
+}
+
+impl<T: Show> Show for Option<T> {
+    fn show(&self) -> String {
+        self.as_ref().map(T::show).unwrap_or_default()
+    }
+}
+
+impl<T: Show> Show for Box<T> {
+    fn show(&self) -> String {
+        T::show(self)
+    }
+}
+
+impl<T: Show> Show for [T] {
+    fn show(&self) -> String {
+        self.iter().map(T::show).collect::<Vec<_>>().join(", ")
+    }
+}
+
+impl<T: Show> Show for Vec<T> {
+    fn show(&self) -> String {
+        self.as_slice().show()
+    }
+}
+
+impl<T: Show> Show for SharedList<T> {
+    fn show(&self) -> String {
+        (**self).show()
+    }
+}
+
+impl<A: Show, B: Show> Show for (A, B) {
+    fn show(&self) -> String {
+        format!("{} {}", self.0.show(), self.1.show())
+    }
+}
+
+/// `0x1A00`.
+pub(super) fn index(number: &u16) -> String {
+    format!("0x{number:04X}")
+}
+
+/// `0x00000539`; empty if there is none.
+pub(super) fn ident(number: &Option<u32>) -> String {
+    number.map(|number| format!("0x{number:08X}")).unwrap_or_default()
+}
+
+/// `02 1B FF`.
+pub(super) fn bytes(bytes: &[u8]) -> String {
+    bytes.iter().map(|byte| format!("{byte:02X}")).collect::<Vec<_>>().join(" ")
+}

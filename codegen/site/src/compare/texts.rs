@@ -1,0 +1,79 @@
+//! What a source says about an element in words, which has no effect.
+
+use super::change::Judgement;
+use super::comparison::{compare_fields, ignored, or_default, positioned, text, Comparison, CITATION};
+use super::names::identifier;
+use super::show::Show;
+use lexibus_codegen::facts::words::PLAIN;
+use lexibus_codegen::ir::{Documentation, Doubt, Doubts, Extensions, Manual, ManualSection};
+
+/// Descriptions of an element.
+pub(super) fn documentation(
+    old: &Option<Box<Documentation>>,
+    new: &Option<Box<Documentation>>,
+    comparison: &mut Comparison<'_>,
+) {
+    or_default(|old, new, comparison: &mut Comparison<'_>| {
+        compare_fields!(Documentation, old, new, comparison, {
+            text: text("description"),
+            translations: text("description in other languages"),
+            cite: ignored(CITATION),
+            text_from: text("origin of the description"),
+        });
+    })(old, new, comparison);
+}
+
+/// The words of a description in one text.
+pub(super) fn described(documentation: Option<&Documentation>) -> String {
+    let Some(Documentation { text, translations, text_from, cite: _ }) = documentation else { return String::new() };
+    let parts = [text.clone(), translations.show(), text_from.to_string()];
+    parts.into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join(" ")
+}
+
+/// Ambiguities of the source, with what was assumed.
+pub(super) fn doubts(old: &Doubts, new: &Doubts, comparison: &mut Comparison<'_>) {
+    positioned("assumptions", Judgement::NONE, |doubts: &Doubts| {
+        doubts.iter().map(doubt).collect::<Vec<_>>().join(" ")
+    })(old, new, comparison);
+}
+
+fn doubt(own: &Doubt) -> String {
+    let subject = own.subject.as_deref().map(|subject| {
+        let element = if subject.element.is_empty() { String::new() } else { format!(", {}", subject.element) };
+        format!(", {:?} {}{element}", subject.kind, subject.name)
+    });
+    let without_citation = Doubt { cite: None, subject: None, ..own.clone() };
+    let text = PLAIN.doubt(&Manual::default(), &without_citation);
+    format!("({}{}) {text}", own.severity.name(), subject.unwrap_or_default())
+}
+
+/// Facts of the source for which the intermediate representation has no field.
+pub(super) fn extensions(old: &Extensions, new: &Extensions, comparison: &mut Comparison<'_>) {
+    positioned("further keys", Judgement::NONE, |extensions: &Extensions| {
+        extensions.iter().map(|own| format!("{} = {}", own.key, own.value)).collect::<Vec<_>>().join("; ")
+    })(old, new, comparison);
+}
+
+/// The manual that a description was transcribed from.
+pub(super) fn manual(old: &Option<Box<Manual>>, new: &Option<Box<Manual>>, comparison: &mut Comparison<'_>) {
+    or_default(|old, new, comparison: &mut Comparison<'_>| {
+        compare_fields!(Manual, old, new, comparison, {
+            title: text("title"),
+            edition: text("edition"),
+            language: text("language"),
+            counts: ignored(CITATION),
+            documentation: text("description"),
+            sections: positioned("sections", Judgement::NONE, |sections: &Vec<ManualSection>| {
+                sections.iter().map(|own| own.title.as_str()).collect::<Vec<_>>().join("; ")
+            }),
+        });
+    })(old, new, comparison);
+}
+
+/// The effects of another name of an element with a method, field or constant: `snake_case`.
+pub(super) fn renamed<T: AsRef<str>>(old: &T, new: &T) -> Judgement {
+    match identifier(old.as_ref()) == identifier(new.as_ref()) {
+        true => Judgement::NONE,
+        false => Judgement::API,
+    }
+}

@@ -1,0 +1,117 @@
+//! Addresses of items on every bus.
+
+use super::register;
+use super::words::bus_name;
+use crate::ir::{Binding, Item, ModbusTable, ObjectBuses, RegisterBinding, RegisterSpace};
+
+/// An address of an item.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Address {
+    /// The bus, or the buses.
+    pub bus: &'static str,
+    /// The address in a few characters, as the source prints it.
+    pub number: String,
+    /// By what a search finds it: printed and wire address; empty if it only repeats another address.
+    pub lookup: String,
+    /// The address with all its facts.
+    pub text: String,
+}
+
+/// The addresses of an item, the one that it is named by first. `tables` are the requests that the device takes on Modbus.
+pub fn addresses(item: &Item, tables: &[ModbusTable]) -> Vec<Address> {
+    item.bindings.iter().map(|binding| address(binding, item, tables)).collect()
+}
+
+fn address(binding: &Binding, item: &Item, tables: &[ModbusTable]) -> Address {
+    let text = match binding {
+        Binding::Register(register) => return register_address(register, item, tables),
+        Binding::Record { index, bit_offset, bits } => format!("record 0x{index:04X}, {}", bits_of(*bit_offset, *bits)),
+        Binding::EscMemory { address, length } => format!("0x{address:04X}, {length} bytes"),
+        Binding::Indirect(window) => {
+            let buses: Vec<&str> = window.buses.iter().map(|bus| bus_name(bus)).collect();
+            format!("{} on {}", number(binding), buses.join(", "))
+        }
+        Binding::Image(image) => format!("{}, {}", image.image, bits_of(image.bit_offset, image.bits)),
+        Binding::Object { .. } | Binding::Parameter { .. } | Binding::Ascii(_) => number(binding),
+    };
+    // A window takes the number of a register or parameter, which is found anyway.
+    let lookup = if matches!(binding, Binding::Indirect(_)) { String::new() } else { text.clone() };
+    Address { bus: bus(binding), number: text.clone(), lookup, text }
+}
+
+fn register_address(register: &RegisterBinding, item: &Item, tables: &[ModbusTable]) -> Address {
+    let number = format!("{} {}", table(register.space), register::printed(register));
+    let is_wire = register::printed(register) == register::wire(register);
+    let wire = if is_wire { String::new() } else { format!(" (wire {})", register::wire(register)) };
+    let text = register::text(register, item, tables);
+    Address { bus: "Modbus", lookup: format!("{number}{wire}"), number, text }
+}
+
+/// An element of a Modbus table.
+fn table(space: RegisterSpace) -> &'static str {
+    match space {
+        RegisterSpace::Coil => "coil",
+        RegisterSpace::DiscreteInput => "discrete input",
+        RegisterSpace::Input => "input register",
+        RegisterSpace::Holding => "register",
+    }
+}
+
+/// The address on the wire alone: `0x6040:00`, `register 101.3`, `record 0x0001 bit 8`.
+pub fn number(binding: &Binding) -> String {
+    match binding {
+        Binding::Object { index, sub_index, .. } => object(*index, *sub_index),
+        Binding::Register(register) => {
+            let bit = register.bit_offset.map(|bit| format!(".{bit}")).unwrap_or_default();
+            format!("{} {}{bit}", table(register.space), register::wire_address(register.address))
+        }
+        Binding::Record { index, bit_offset, .. } => format!("record 0x{index:04X} bit {bit_offset}"),
+        Binding::Image(image) => format!("{} bit {}", image.image, image.bit_offset),
+        Binding::Parameter { space, code } => format!("{space} 0x{code:04X}"),
+        Binding::Ascii(name) => name.to_string(),
+        Binding::EscMemory { address, .. } => format!("memory 0x{address:04X}"),
+        Binding::Indirect(window) => format!("{} 0x{:04X}", window.space, window.number),
+    }
+}
+
+/// `0x6040:00`: index and sub-index.
+pub fn object(index: u16, sub_index: u8) -> String {
+    format!("0x{index:04X}:{sub_index:02X}")
+}
+
+/// The bus of an address, or its buses.
+pub fn bus(binding: &Binding) -> &'static str {
+    match binding {
+        Binding::Object { buses, .. } => object_bus(*buses),
+        Binding::Register(_) => "Modbus",
+        Binding::Record { .. } => "PROFINET",
+        Binding::Image(_) => "Process image",
+        Binding::Parameter { .. } => "Serial",
+        Binding::Ascii(_) => "ASCII",
+        Binding::EscMemory { .. } => "Slave controller",
+        Binding::Indirect(_) => "Window",
+    }
+}
+
+/// The buses of an object.
+pub fn object_bus(buses: ObjectBuses) -> &'static str {
+    match (buses.canopen, buses.coe) {
+        (true, true) => "CANopen, EtherCAT",
+        (false, true) => "EtherCAT",
+        _ => "CANopen",
+    }
+}
+
+/// `byte 3`, `byte 3 bit 4`, `bytes 2–5`.
+pub fn bits_of(first: u32, bits: u32) -> String {
+    let last = first.saturating_add(bits.max(1) - 1);
+    let (byte, last_byte) = (first / 8, last / 8);
+    if first.is_multiple_of(8) && bits.is_multiple_of(8) {
+        return if byte == last_byte { format!("byte {byte}") } else { format!("bytes {byte}–{last_byte}") };
+    }
+    match (byte == last_byte, bits) {
+        (true, 1) => format!("byte {byte} bit {}", first % 8),
+        (true, _) => format!("byte {byte} bits {}–{}", last % 8, first % 8),
+        (false, _) => format!("bits {first}–{last}"),
+    }
+}

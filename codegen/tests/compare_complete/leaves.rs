@@ -1,0 +1,166 @@
+//! Leaves of a JSON value, and changes of them.
+
+use std::collections::HashMap;
+
+use lexibus_codegen::ir::Catalog;
+use serde::Deserialize;
+use serde_json::Value;
+
+/// A value within a larger one.
+pub struct Leaf {
+    path: Vec<Key>,
+}
+
+#[derive(Clone)]
+enum Key {
+    Field(String),
+    Position(usize),
+}
+
+impl Leaf {
+    /// Every value within `root`: numbers, texts and truth values, and also what has parts, since it may be missing.
+    pub fn all(root: &Value) -> Vec<Leaf> {
+        let mut leaves = Vec::new();
+        collect(root, &mut Vec::new(), &mut leaves);
+        leaves
+    }
+
+    /// The JSON pointer.
+    pub fn pointer(&self) -> String {
+        let escaped = |own: &Key| match own {
+            Key::Field(name) => format!("/{}", name.replace('~', "~0").replace('/', "~1")),
+            Key::Position(position) => format!("/{position}"),
+        };
+        self.path.iter().map(escaped).collect()
+    }
+
+    /// The pointer without positions.
+    pub fn pattern(&self) -> String {
+        let name = |own: &Key| match own {
+            Key::Field(name) => format!("/{name}"),
+            Key::Position(_) => "/*".to_owned(),
+        };
+        self.path.iter().map(name).collect()
+    }
+
+    /// The value itself.
+    pub fn value<'r>(&self, root: &'r Value) -> &'r Value {
+        root.pointer(&self.pointer()).expect("a leaf")
+    }
+
+    /// Whether it is a number, a text or a truth value.
+    pub fn is_value(&self, root: &Value) -> bool {
+        !matches!(self.value(root), Value::Object(_) | Value::Array(_))
+    }
+
+    /// Puts another value in its place.
+    pub fn replace(&self, root: &mut Value, value: Value) -> Value {
+        std::mem::replace(root.pointer_mut(&self.pointer()).expect("a leaf"), value)
+    }
+}
+
+fn collect(value: &Value, path: &mut Vec<Key>, leaves: &mut Vec<Leaf>) {
+    match value {
+        // What is missing has no value to change; the removal of what is there is the same change the other way.
+        Value::Null => return,
+        Value::Array(list) => {
+            for (position, own) in list.iter().enumerate() {
+                path.push(Key::Position(position));
+                collect(own, path, leaves);
+                path.pop();
+            }
+        }
+        Value::Object(fields) => {
+            for (name, own) in fields {
+                path.push(Key::Field(name.clone()));
+                collect(own, path, leaves);
+                path.pop();
+            }
+        }
+        _ => {}
+    }
+    leaves.push(Leaf { path: path.clone() });
+}
+
+/// Makes other values of leaves.
+#[derive(Default)]
+pub struct Mutator {
+    /// The names of the alternatives at each path.
+    variants: HashMap<String, Vec<String>>,
+}
+
+impl Mutator {
+    /// Other values of a leaf. Some of them are none of its type.
+    pub fn mutations(&mut self, leaf: &Leaf, root: &mut Value) -> Vec<Value> {
+        let own = leaf.value(root).clone();
+        let mut others = self.candidates(&own, leaf, root);
+        others.retain(|other| *other != own);
+        others
+    }
+
+    fn candidates(&mut self, own: &Value, leaf: &Leaf, root: &mut Value) -> Vec<Value> {
+        match own {
+            Value::Bool(own) => vec![Value::Bool(!own)],
+            Value::Number(number) => numbers(number),
+            Value::String(text) => texts(text, self.variants(leaf, root)),
+            Value::Array(list) => shorter(list),
+            Value::Object(fields) => {
+                let mut others = vec![Value::Null];
+                if let [content] = fields.values().collect::<Vec<_>>().as_slice() {
+                    others.extend(alternatives(content, self.variants(leaf, root)));
+                }
+                others
+            }
+            Value::Null => Vec::new(),
+        }
+    }
+
+    /// The names of the alternatives that a place may have; none if it is no alternative.
+    fn variants(&mut self, leaf: &Leaf, root: &mut Value) -> &[String] {
+        self.variants.entry(leaf.pattern()).or_insert_with(|| variants(&leaf.pointer(), root))
+    }
+}
+
+fn numbers(number: &serde_json::Number) -> Vec<Value> {
+    match (number.as_i64(), number.as_u64()) {
+        (Some(number), _) => vec![Value::from(number.wrapping_add(1)), Value::from(number.wrapping_sub(1))],
+        (_, Some(number)) => vec![Value::from(number.wrapping_sub(1))],
+        _ => vec![Value::from(number.as_f64().unwrap_or_default() / 2.0 + 1.5)],
+    }
+}
+
+/// Another text, or the other names of an alternative.
+fn texts(text: &str, variants: &[String]) -> Vec<Value> {
+    match variants.is_empty() {
+        // A real number that is none is a text.
+        true => vec![Value::from(format!("{text}x")), Value::from(2.5)],
+        false => variants.iter().map(|other| Value::from(other.as_str())).collect(),
+    }
+}
+
+/// What the reader expects instead of a name that no alternative has.
+fn variants(pointer: &str, root: &mut Value) -> Vec<String> {
+    let place = root.pointer_mut(pointer).expect("a leaf");
+    let before = std::mem::replace(place, Value::from("no alternative"));
+    let error = Catalog::deserialize(&*root).err().map(|error| error.to_string()).unwrap_or_default();
+    *root.pointer_mut(pointer).expect("a leaf") = before;
+    match error.split_once("unknown variant") {
+        Some((_, list)) => list.split('`').skip(3).step_by(2).map(str::to_owned).collect(),
+        None => Vec::new(),
+    }
+}
+
+/// A list without its first element, and without its last one.
+fn shorter(list: &[Value]) -> Vec<Value> {
+    match list {
+        [] => Vec::new(),
+        [_] => vec![Value::Array(Vec::new()), Value::Null],
+        [_, rest @ ..] => vec![Value::from(rest.to_vec()), Value::from(list[..list.len() - 1].to_vec()), Value::Null],
+    }
+}
+
+/// The other alternatives, those without a content and those with the same one.
+fn alternatives(content: &Value, variants: &[String]) -> Vec<Value> {
+    let with_content = variants.iter().map(|name| Value::from_iter([(name.clone(), content.clone())]));
+    with_content.chain(variants.iter().map(|name| Value::from(name.as_str()))).collect()
+}
