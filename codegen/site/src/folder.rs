@@ -9,11 +9,11 @@ use super::assumptions::{Places, Ranked};
 use super::codes::{self, Codes};
 use super::entry::{Known, Row};
 use super::findings::Findings;
-use super::format::{Around, Catalogue, Frameset, List, Listed, Pages};
 use super::links::Links;
 use super::machines;
 use super::modules::{self, ModuleModel};
 use super::overview::{self, Contents, Overview};
+use super::pages::{Around, Catalogue, Frameset, List, Listed, Pages, FIRST};
 use super::process::{self, About, Frame};
 use super::protocol::{self, Protocol};
 use super::search::{Entry, Index};
@@ -22,9 +22,6 @@ use lexibus_codegen::backend::rust;
 use lexibus_codegen::facts::pdo;
 use lexibus_codegen::facts::words;
 use lexibus_codegen::ir::{Catalog, Device, Documentation, Group, Manual, Texts};
-
-/// The name of the first page of a folder, without ending.
-pub(super) const FIRST: &str = "index";
 
 /// The folder of a catalogue.
 pub(super) struct Folder {
@@ -49,7 +46,6 @@ struct Parts {
     protocol: Option<(String, Protocol)>,
     behaviour: Option<(String, machines::Behaviour)>,
     codes: Option<(String, Vec<Codes>)>,
-    assumptions: Option<String>,
 }
 
 impl Parts {
@@ -127,15 +123,18 @@ impl Folder {
         let prefix = if is_alone { String::new() } else { format!("{own}-") };
         let manual = words::manual(device);
         let overview = overview::overview(device, catalog.files.first(), &manual);
-        let (parts, pages) = self.parts(device, overview, &manual, &prefix);
+        let (parts, mut pages) = self.parts(device, overview, &manual, &prefix);
+        let ranked = parts.assumptions(&first);
+        let assumptions = (!ranked.is_empty()).then(|| self.file(&format!("{prefix}Assumptions")));
+        pages.extend(assumptions.clone().map(|file| (file, "Assumptions".to_owned())));
         let mut links = vec![(first.clone(), "Overview".to_owned())];
         links.extend(pages.iter().cloned());
         self.last = Rc::new(Links::new(links, 1..1 + parts.areas.len()));
         let languages = languages(std::slice::from_ref(device), spoken);
         let set = Frameset { title: title.clone(), own: self.last.clone(), shared: self.shared.clone(), languages };
         let text = format.overview(Around { set: &set, file: &first }, &parts.overview, &contents(device, &parts));
-        if let Some(file) = &parts.assumptions {
-            self.page(file, format.assumptions(Around { set: &set, file }, &parts.assumptions(&first)));
+        if let Some(file) = &assumptions {
+            self.page(file, format.assumptions(Around { set: &set, file }, &ranked));
         }
         self.page(&first, text);
         self.index.page(&first, &title);
@@ -177,7 +176,7 @@ impl Folder {
         let protocol = protocol::protocol(device, manual);
         let behaviour = machines::behaviour(device, manual);
         let tables = codes::tables(device, manual);
-        let mut parts = Parts {
+        let parts = Parts {
             overview,
             process: further(!frames.is_empty() || !device.process_data.sync_managers.is_empty(), "Process data"),
             protocol: further(protocol.is_some(), "Messages").zip(protocol),
@@ -185,11 +184,7 @@ impl Folder {
             codes: further(!tables.is_empty(), "Codes").map(|file| (file, tables)),
             areas,
             frames,
-            assumptions: None,
         };
-        if !parts.assumptions("").is_empty() {
-            parts.assumptions = further(true, "Assumptions");
-        }
         (parts, pages)
     }
 

@@ -37,6 +37,7 @@ mod machines;
 mod markdown;
 mod modules;
 mod overview;
+mod pages;
 mod process;
 mod protocol;
 mod search;
@@ -46,9 +47,9 @@ use anchor::Names;
 use findings::Findings;
 use folder::Folder;
 pub use format::Format;
-use format::{Around, Catalogue, Frameset, List, Listed};
 use lexibus_codegen::compile::Compilation;
 use lexibus_codegen::ir::Catalog;
+use pages::{Around, Catalogue, Frameset, List, Listed};
 use search::Index;
 
 /// A file of the site.

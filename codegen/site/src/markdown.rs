@@ -9,11 +9,10 @@ use super::area::Area;
 use super::assumptions::Ranked;
 use super::codes::Codes;
 use super::findings::Finding;
-use super::folder::FIRST;
-use super::format::{Around, Catalogue, List, Listed, Pages};
 use super::machines::{Machine, Sequence, ANY_STATE};
 use super::modules::ModuleModel;
 use super::overview::{Contents, Overview};
+use super::pages::{Around, Catalogue, List, Listed, Pages, FIRST};
 use super::process::{Frame, SyncManager};
 use super::protocol::Protocol;
 use super::Page;
@@ -235,8 +234,8 @@ mod tests {
 
     use askama::filters::Escaper;
 
-    use super::super::format::Frameset;
     use super::super::links::Links;
+    use super::super::pages::Frameset;
     use super::*;
 
     fn shown(text: &str) -> String {

@@ -14,24 +14,24 @@ use lexibus_codegen::ir::{Binding, CompactString, ImageBinding, IndirectBinding,
 pub(super) fn compare(old: &[Binding], new: &[Binding], comparison: &mut Comparison<'_>) {
     buses(old, new, comparison);
     let mut left: Vec<&Binding> = new.iter().collect();
-    for own in old {
-        match left.iter().position(|other| discriminant(*other) == discriminant(own)) {
-            Some(at) => binding(own, left.remove(at), comparison),
-            None if is_reached(own, new) => {
-                comparison.push("further address", address::number(own), String::new(), Judgement::WIRE);
+    for one in old {
+        match left.iter().position(|other| discriminant(*other) == discriminant(one)) {
+            Some(at) => binding(one, left.remove(at), comparison),
+            None if is_reached(one, new) => {
+                comparison.push("further address", address::number(one), String::new(), Judgement::WIRE);
             }
             None => {}
         }
     }
-    for own in left.into_iter().filter(|own| is_reached(own, old)) {
-        comparison.push("further address", String::new(), address::number(own), Judgement::WIRE_COMPATIBLE);
+    for one in left.into_iter().filter(|binding| is_reached(binding, old)) {
+        comparison.push("further address", String::new(), address::number(one), Judgement::WIRE_COMPATIBLE);
     }
 }
 
 /// Whether the others have the buses of an address as well, so that the comparison of buses says nothing about it.
-fn is_reached(own: &Binding, others: &[Binding]) -> bool {
+fn is_reached(binding: &Binding, others: &[Binding]) -> bool {
     let names = names_of(others);
-    buses_of(own).iter().all(|bus| names.contains(bus))
+    buses_of(binding).iter().all(|bus| names.contains(bus))
 }
 
 /// The buses on which the item can be reached. A bus on which it does not exist is a compile error.
@@ -51,7 +51,7 @@ fn names_of(bindings: &[Binding]) -> Vec<String> {
 
 fn buses_of(binding: &Binding) -> Vec<String> {
     match binding {
-        Binding::Indirect(own) => own.buses.iter().map(|bus| format!("{} (window)", bus_name(bus))).collect(),
+        Binding::Indirect(window) => window.buses.iter().map(|bus| format!("{} (window)", bus_name(bus))).collect(),
         Binding::Object { buses, .. } => buses.show().split(", ").map(str::to_owned).collect(),
         _ => address::bus(binding).split(", ").map(str::to_owned).collect(),
     }

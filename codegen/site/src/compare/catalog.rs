@@ -34,10 +34,10 @@ fn shared(old: &Catalog, new: &Catalog, comparison: &mut Comparison<'_>) {
         types: ignored(COMPARED),
         code_tables: codes::tables(),
         unit_diagnoses: profinet::unit_diagnoses(),
-        families: list(Elements::titled(|own: &Family| format!("family {}", own.id))
+        families: list(Elements::titled(|family: &Family| format!("family {}", family.id))
             .judged(|_| Judgement::NONE, |_| Judgement::NONE), family),
-        graphics: part("the catalog", fact_as("pictures", Judgement::NONE, |own: &Vec<Graphic>| {
-            own.iter().map(|own| format!("{} {}", own.id, own.file)).collect::<Vec<_>>().join("; ")
+        graphics: part("the catalog", fact_as("pictures", Judgement::NONE, |list: &Vec<Graphic>| {
+            list.iter().map(|graphic| format!("{} {}", graphic.id, graphic.file)).collect::<Vec<_>>().join("; ")
         })),
         extensions: part("the catalog", extensions),
     });
@@ -46,9 +46,9 @@ fn shared(old: &Catalog, new: &Catalog, comparison: &mut Comparison<'_>) {
 /// The only devices of two descriptions belong together, others by product code, name and identifier.
 fn compare_devices<'a>(old: &'a [Device], new: &'a [Device], comparison: &mut Comparison<'a>) {
     let is_one = old.len() == 1 && new.len() == 1;
-    let key = |own: &Device| format!("{:?} {} {}", own.identity.product_code, devices::title(own), own.id);
-    let key = |own: &Device| if is_one { String::new() } else { key(own) };
-    let place = |own: &Device| if is_one { String::new() } else { devices::title(own) };
+    let key = |device: &Device| format!("{:?} {} {}", device.identity.product_code, devices::title(device), device.id);
+    let key = |device: &Device| if is_one { String::new() } else { key(device) };
+    let place = |device: &Device| if is_one { String::new() } else { devices::title(device) };
     for (old, new) in pairs(old, new, key, place) {
         let owner = old.or(new).filter(|_| !is_one).map(devices::title).unwrap_or_default();
         owned(owner, "device", (old, new), comparison, |old, new, comparison| {
@@ -59,7 +59,7 @@ fn compare_devices<'a>(old: &'a [Device], new: &'a [Device], comparison: &mut Co
 
 fn compare_modules<'a>(old: &'a [Module], new: &'a [Module], comparison: &mut Comparison<'a>) {
     for (old, new) in pairs(old, new, modules::key, |_| String::new()) {
-        let owner = old.or(new).map(|own| format!("module {}", own.name)).unwrap_or_default();
+        let owner = old.or(new).map(|module| format!("module {}", module.name)).unwrap_or_default();
         owned(owner, "module", (old, new), comparison, |old, new, comparison| {
             comparison.in_types(&old.types, &new.types, |comparison| modules::compare(old, new, comparison));
         });
@@ -68,12 +68,12 @@ fn compare_modules<'a>(old: &'a [Module], new: &'a [Module], comparison: &mut Co
 
 fn compare_submodules<'a>(old: &'a [Submodule], new: &'a [Submodule], comparison: &mut Comparison<'a>) {
     for (old, new) in pairs(old, new, profinet::submodule_key, |_| String::new()) {
-        let owner = old.or(new).map(|own| format!("submodule {}", own.name)).unwrap_or_default();
+        let owner = old.or(new).map(|submodule| format!("submodule {}", submodule.name)).unwrap_or_default();
         owned(owner, "submodule", (old, new), comparison, profinet::submodule);
     }
 }
 
-/// Compares what has elements of its own, which reports name.
+/// Compares two owners of elements, whose name reports show.
 fn owned<'a, T>(
     owner: String,
     kind: &str,
@@ -95,7 +95,7 @@ fn family(old: &Family, new: &Family, comparison: &mut Comparison<'_>) {
         id: ignored(KEY),
         name: text("name"),
         names: text("name in other languages"),
-        descriptions: fact_as("description", Judgement::NONE, |own: &Vec<LocalText>| own.show()),
+        descriptions: fact_as("description", Judgement::NONE, |list: &Vec<LocalText>| list.show()),
         origin: ignored(POSITION),
     });
 }

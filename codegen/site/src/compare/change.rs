@@ -75,7 +75,7 @@ impl Judgement {
     /// The aspects with this effect, in the words of reports.
     fn aspects(self, effect: Effect) -> String {
         let all = [("api", self.api), ("wire", self.wire), ("behavior", self.behavior)];
-        all.into_iter().filter(|(_, own)| *own == effect).map(|(name, _)| name).collect::<Vec<_>>().join(", ")
+        all.into_iter().filter(|(_, other)| *other == effect).map(|(name, _)| name).collect::<Vec<_>>().join(", ")
     }
 }
 
@@ -181,14 +181,15 @@ pub struct Summary {
 impl Summary {
     /// Counts changes.
     pub fn of(changes: &[Change]) -> Self {
-        let count = |wanted: &dyn Fn(Judgement) -> bool| changes.iter().filter(|own| wanted(own.judgement)).count();
+        let count =
+            |wanted: &dyn Fn(Judgement) -> bool| changes.iter().filter(|change| wanted(change.judgement)).count();
         Summary {
             changes: changes.len(),
-            api: count(&|own| own.api == Effect::Breaking),
-            wire: count(&|own| own.wire == Effect::Breaking),
-            behavior: count(&|own| own.behavior == Effect::Breaking),
-            compatible: count(&|own| own.class() == Class::Compatible),
-            none: count(&|own| own.class() == Class::None),
+            api: count(&|judgement| judgement.api == Effect::Breaking),
+            wire: count(&|judgement| judgement.wire == Effect::Breaking),
+            behavior: count(&|judgement| judgement.behavior == Effect::Breaking),
+            compatible: count(&|judgement| judgement.class() == Class::Compatible),
+            none: count(&|judgement| judgement.class() == Class::None),
         }
     }
 }

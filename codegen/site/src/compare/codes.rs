@@ -4,14 +4,14 @@ use super::change::Judgement;
 use super::comparison::{
     compare_fields, fact, ignored, judged, list, text, Comparison, Elements, COMPARED, KEY, POSITION,
 };
-use super::item::{availability, restricted};
+use super::conditions::{availability, restricted};
 use super::texts::{documentation, renamed};
 use lexibus_codegen::facts::code;
 use lexibus_codegen::ir::{CodeRow, CodeTable};
 
 /// Tables belong together by their names.
 pub(super) fn tables() -> impl Fn(&Vec<CodeTable>, &Vec<CodeTable>, &mut Comparison<'_>) {
-    let elements = Elements::titled(|own: &CodeTable| format!("codes {}", own.name));
+    let elements = Elements::titled(|table: &CodeTable| format!("codes {}", table.name));
     list(elements.judged(|_| Judgement::API_COMPATIBLE, |_| Judgement::API), table)
 }
 
@@ -29,18 +29,18 @@ fn table(old: &CodeTable, new: &CodeTable, comparison: &mut Comparison<'_>) {
 /// Code may match all codes.
 fn rows() -> Elements<CodeRow> {
     Elements {
-        title: |own| format!("code {} {}", code::text(own), own.name),
-        name: |own| own.name.to_string(),
-        place: |own| own.code.to_string(),
+        title: |row| format!("code {} {}", code::text(row), row.name),
+        name: |row| row.name.to_string(),
+        place: |row| row.code.to_string(),
         added: |_| Judgement::API,
         removed: |_| Judgement::API,
     }
 }
 
 fn row(old: &CodeRow, new: &CodeRow, comparison: &mut Comparison<'_>) {
-    let number = |own: &CodeRow| match own.last {
-        Some(last) => format!("{} to {last}", own.code),
-        None => own.code.to_string(),
+    let number = |row: &CodeRow| match row.last {
+        Some(last) => format!("{} to {last}", row.code),
+        None => row.code.to_string(),
     };
     // The notation is no fact of the code.
     let judgement = if old.code == new.code { Judgement::API } else { Judgement::WIRE };

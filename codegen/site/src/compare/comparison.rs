@@ -41,7 +41,7 @@ impl<'a> Comparison<'a> {
         }
     }
 
-    /// Compares what has types of its own.
+    /// Compares an owner of types.
     pub fn in_types(&mut self, old: &'a [TypeDef], new: &'a [TypeDef], compare: impl FnOnce(&mut Self)) {
         let outer = (self.types, self.types_owner);
         (self.types, self.types_owner) = ((old, new), self.types_owners);
@@ -66,8 +66,8 @@ impl<'a> Comparison<'a> {
 
     /// The types of the current owner that were compared: the old ones and the new ones.
     pub fn compared_types(&self) -> (HashSet<Type>, HashSet<Type>) {
-        let own = self.compared_types.iter().filter(|(owner, ..)| *owner == self.types_owner);
-        own.map(|(_, old, new)| (*old, *new)).unzip()
+        let of_owner = self.compared_types.iter().filter(|(owner, ..)| *owner == self.types_owner);
+        of_owner.map(|(_, old, new)| (*old, *new)).unzip()
     }
 
     /// Compares a part of the current element.
@@ -151,7 +151,7 @@ pub(super) fn fact<T: PartialEq + Debug + Show>(
     fact_as(name, judgement, T::show)
 }
 
-/// The same with a text of its own.
+/// A fact whose texts are those of `show`.
 pub(super) fn fact_as<T: PartialEq + Debug>(
     name: &'static str,
     judgement: Judgement,

@@ -5,14 +5,15 @@ use super::comparison::{
     compare_fields, fact, fact_as, ignored, judged, list, optional, or_default, part, positioned, slice, text,
     Comparison, Elements, COMPARED, KEY, POSITION,
 };
-use super::item::restricted;
-use super::show::{ident, index, Show};
+use super::conditions::restricted;
+use super::identity::identity;
+use super::show::{index, Show};
 use super::texts::{documentation, doubts, extensions, manual, renamed};
 use super::{codes, ethercat, groups, machines, messages, modules, pdos, profinet, types};
 use lexibus_codegen::facts;
 use lexibus_codegen::ir::{
     AxisRange, AxisRule, CanOpenSettings, Commissioning, CompactString, Composite, Device, DynamicChannel, GivenNumber,
-    Group, Header, Identity, MessageExample, ModbusTable, Procedure, ProcessData, StateMachine, Value, Variant,
+    Group, Header, MessageExample, ModbusTable, Procedure, ProcessData, StateMachine, Value, Variant,
 };
 
 /// What a device is called.
@@ -23,7 +24,7 @@ pub(super) fn title(device: &Device) -> String {
 
 /// Compares all facts of a device.
 pub(super) fn compare(old: &Device, new: &Device, comparison: &mut Comparison<'_>) {
-    comparison.within("the device", |comparison| own_facts(old, new, comparison));
+    comparison.within("the device", |comparison| facts_of_device(old, new, comparison));
     compare_fields!(Device, old, new, comparison, {
         name: ignored(COMPARED),
         names: ignored(COMPARED),
@@ -52,16 +53,16 @@ pub(super) fn compare(old: &Device, new: &Device, comparison: &mut Comparison<'_
         messages: slice(messages::compare),
         parameter_spaces: messages::spaces(),
         framing: optional("framing", Judgement::ADDITION, Judgement::API_AND_WIRE, messages::framing),
-        given: list(Elements::titled(|own: &GivenNumber| format!("number of the machine {}", own.name))
+        given: list(Elements::titled(|number: &GivenNumber| format!("number of the machine {}", number.name))
             .judged(|_| Judgement::API, |_| Judgement::API), given),
         code_tables: codes::tables(),
-        machines: list(Elements::titled(|own: &StateMachine| format!("machine {}", own.name))
+        machines: list(Elements::titled(|machine: &StateMachine| format!("machine {}", machine.name))
             .judged(|_| Judgement::API_COMPATIBLE, |_| Judgement::API), machines::compare),
-        procedures: list(Elements::titled(|own: &Procedure| format!("procedure {}", own.name))
+        procedures: list(Elements::titled(|procedure: &Procedure| format!("procedure {}", procedure.name))
             .judged(|_| Judgement::API_COMPATIBLE, |_| Judgement::API), machines::procedure),
-        composites: list(Elements::titled(|own: &Composite| format!("composite {}", own.name))
+        composites: list(Elements::titled(|composite: &Composite| format!("composite {}", composite.name))
             .judged(|_| Judgement::API_COMPATIBLE, |_| Judgement::API), composite),
-        variants: list(Elements::titled(|own: &Variant| format!("model {}", own.name))
+        variants: list(Elements::titled(|model: &Variant| format!("model {}", model.name))
             .judged(|_| Judgement::API_COMPATIBLE, |_| Judgement::API), model),
         axes: optional("axes", Judgement::API_COMPATIBLE, Judgement::API, axes),
         documentation: ignored(COMPARED),
@@ -74,7 +75,7 @@ pub(super) fn compare(old: &Device, new: &Device, comparison: &mut Comparison<'_
 }
 
 /// What is true of the device as a whole.
-fn own_facts(old: &Device, new: &Device, comparison: &mut Comparison<'_>) {
+fn facts_of_device(old: &Device, new: &Device, comparison: &mut Comparison<'_>) {
     judged("name", renamed)(&title(old), &title(new), comparison);
     if title(old) == title(new) {
         text("name in the file")(&old.name, &new.name, comparison);
@@ -83,7 +84,7 @@ fn own_facts(old: &Device, new: &Device, comparison: &mut Comparison<'_>) {
     text("identifier in the file")(&old.id, &new.id, comparison);
     fact("dictionary without a device", Judgement::API)(&old.dictionary_only, &new.dictionary_only, comparison);
     identity(&old.identity, &new.identity, comparison);
-    positioned("examples of frames", Judgement::NONE, |own: &Vec<MessageExample>| messages::examples(own))(
+    positioned("examples of frames", Judgement::NONE, |examples: &Vec<MessageExample>| messages::examples(examples))(
         &old.modbus_examples,
         &new.modbus_examples,
         comparison,
@@ -97,22 +98,6 @@ fn own_facts(old: &Device, new: &Device, comparison: &mut Comparison<'_>) {
 
 fn node_ids(range: &Option<(u8, u8)>) -> String {
     range.map(|(first, last)| format!("{first} to {last}")).unwrap_or_default()
-}
-
-/// Compares identities. A program may check them; they change no other bytes.
-pub(super) fn identity(old: &Identity, new: &Identity, comparison: &mut Comparison<'_>) {
-    compare_fields!(Identity, old, new, comparison, {
-        vendor_id: fact_as("vendor-ID", Judgement::BEHAVIOR, ident),
-        vendor_name: text("name of the vendor"),
-        product_code: fact_as("product code", Judgement::BEHAVIOR, ident),
-        product_name: text("name of the product"),
-        revision_number: fact_as("revision", Judgement::BEHAVIOR, ident),
-        order_code: text("order code"),
-        serial_number: fact_as("serial number", Judgement::BEHAVIOR, ident),
-        others: fact_as("further identity", Judgement::BEHAVIOR, |others: &Vec<(CompactString, u32)>| {
-            others.iter().map(|(name, number)| format!("{name} 0x{number:08X}")).collect::<Vec<_>>().join(", ")
-        }),
-    });
 }
 
 /// Compares what a file says about itself.
@@ -137,7 +122,7 @@ fn header(old: &Header, new: &Header, comparison: &mut Comparison<'_>) {
 fn canopen(old: &CanOpenSettings, new: &CanOpenSettings, comparison: &mut Comparison<'_>) {
     compare_fields!(CanOpenSettings, old, new, comparison, {
         bit_rates: judged("bit rates in kbit/s", |old: &Vec<u16>, new: &Vec<u16>| {
-            let is_lost = old.iter().any(|own| !new.contains(own));
+            let is_lost = old.iter().any(|value| !new.contains(value));
             if is_lost { Judgement::BEHAVIOR } else { Judgement::BEHAVIOR_COMPATIBLE }
         }),
         auto_bit_rate: fact("detects the bit rate", Judgement::BEHAVIOR),
@@ -152,32 +137,32 @@ fn canopen(old: &CanOpenSettings, new: &CanOpenSettings, comparison: &mut Compar
         compact_pdo: fact("sub-indices of implicit PDOs", Judgement::BEHAVIOR),
         dummies: fact("dummy entries", Judgement::BEHAVIOR),
         dummies_given: fact("list of dummy entries", Judgement::NONE),
-        dynamic_channels: fact_as("dynamic channels", Judgement::BEHAVIOR, |own: &Vec<DynamicChannel>| {
-            own.iter().map(dynamic_channel).collect::<Vec<_>>().join("; ")
+        dynamic_channels: fact_as("dynamic channels", Judgement::BEHAVIOR, |list: &Vec<DynamicChannel>| {
+            list.iter().map(dynamic_channel).collect::<Vec<_>>().join("; ")
         }),
         at: ignored(POSITION),
     });
 }
 
-fn dynamic_channel(own: &DynamicChannel) -> String {
-    let DynamicChannel { data_type, direction, range, offset, difference, max_number } = own;
+fn dynamic_channel(channel: &DynamicChannel) -> String {
+    let DynamicChannel { data_type, direction, range, offset, difference, max_number } = channel;
     let further = [difference.show(), max_number.show()].join(" ");
     format!("type {data_type:#X} {direction} {range} at {offset} {further}").trim_end().to_owned()
 }
 
 /// Compares the requests that the tables of Modbus accept.
 fn modbus_tables(old: &[ModbusTable], new: &[ModbusTable], comparison: &mut Comparison<'_>) {
-    let missing = |own: &ModbusTable| ModbusTable {
-        space: own.space,
+    let missing = |table: &ModbusTable| ModbusTable {
+        space: table.space,
         functions: Vec::new(),
         max_read: None,
         max_write: None,
         split: false,
     };
-    for (old, new) in super::pairing::pairs(old, new, |own| own.space.title().to_owned(), |_| String::new()) {
-        let Some(own) = new.or(old) else { continue };
-        let missing = missing(own);
-        comparison.within(&format!("Modbus table {}", own.space.title()), |comparison| {
+    for (old, new) in super::pairing::pairs(old, new, |table| table.space.title().to_owned(), |_| String::new()) {
+        let Some(table) = new.or(old) else { continue };
+        let missing = missing(table);
+        comparison.within(&format!("Modbus table {}", table.space.title()), |comparison| {
             modbus_table(old.unwrap_or(&missing), new.unwrap_or(&missing), comparison);
         });
     }
@@ -188,7 +173,7 @@ fn modbus_table(old: &ModbusTable, new: &ModbusTable, comparison: &mut Compariso
         space: ignored(KEY),
         // Without a list, all functions are accepted. A driver that uses one that is left speaks another way.
         functions: judged("function codes", |old: &Vec<u8>, new: &Vec<u8>| {
-            let is_lost = !new.is_empty() && (old.is_empty() || old.iter().any(|own| !new.contains(own)));
+            let is_lost = !new.is_empty() && (old.is_empty() || old.iter().any(|value| !new.contains(value)));
             if is_lost { Judgement::WIRE } else { Judgement::WIRE_COMPATIBLE }
         }),
         max_read: judged("longest read", shorter),
@@ -231,8 +216,8 @@ fn given(old: &GivenNumber, new: &GivenNumber, comparison: &mut Comparison<'_>) 
 }
 
 /// `Small 5, Large 10`.
-fn constants(own: &Vec<(CompactString, Value)>) -> String {
-    own.show()
+fn constants(constants: &Vec<(CompactString, Value)>) -> String {
+    constants.show()
 }
 
 fn composite(old: &Composite, new: &Composite, comparison: &mut Comparison<'_>) {
@@ -265,7 +250,7 @@ fn axes(old: &AxisRule, new: &AxisRule, comparison: &mut Comparison<'_>) {
         }),
         models: restricted("models"),
         rules: fact_as("addresses of further axes", Judgement::WIRE, |rules: &Vec<AxisRange>| {
-            let rule = |own: &AxisRange| format!("{} to {}: {}", index(&own.indices.0), index(&own.indices.1), own.step.show());
+            let rule = |rule: &AxisRange| format!("{} to {}: {}", index(&rule.indices.0), index(&rule.indices.1), rule.step.show());
             rules.iter().map(rule).collect::<Vec<_>>().join("; ")
         }),
     });

@@ -15,15 +15,15 @@ pub(super) fn compare(old: &EtherCatSettings, new: &EtherCatSettings, comparison
     compare_fields!(EtherCatSettings, old, new, comparison, {
         physics: fact("ports", Judgement::BEHAVIOR),
         group: text("family"),
-        hides: fact_as("hidden revisions", Judgement::NONE, |own: &Vec<(Option<u32>, Option<u32>)>| own.show()),
+        hides: fact_as("hidden revisions", Judgement::NONE, |list: &Vec<(Option<u32>, Option<u32>)>| list.show()),
         invisible: fact("hidden in lists of devices", Judgement::NONE),
-        fmmus: fact_as("FMMUs", Judgement::WIRE, |own: &Vec<Fmmu>| joined(own, fmmu)),
-        sync_units: fact_as("sync units", Judgement::WIRE, |own: &Vec<SyncUnit>| joined(own, sync_unit)),
+        fmmus: fact_as("FMMUs", Judgement::WIRE, |list: &Vec<Fmmu>| joined(list, fmmu)),
+        sync_units: fact_as("sync units", Judgement::WIRE, |list: &Vec<SyncUnit>| joined(list, sync_unit)),
         mailbox: optional("mailbox", Judgement::ADDITION, Judgement::API_AND_WIRE, mailbox),
         clocks: optional("distributed clocks", Judgement::ADDITION, Judgement::API_AND_WIRE, clocks),
         slots: optional("slots", Judgement::ADDITION, Judgement::API_AND_WIRE, slots),
-        registers: fact_as("registers of the slave controller", Judgement::WIRE, |own: &Vec<(u16, u32)>| {
-            joined(own, |(address, value)| format!("0x{address:04X} = 0x{value:X}"))
+        registers: fact_as("registers of the slave controller", Judgement::WIRE, |list: &Vec<(u16, u32)>| {
+            joined(list, |(address, value)| format!("0x{address:04X} = 0x{value:X}"))
         }),
         eeprom: optional("EEPROM", Judgement::BEHAVIOR_COMPATIBLE, Judgement::BEHAVIOR, eeprom),
         timeouts: fact("time limits in ms", Judgement::BEHAVIOR),
@@ -41,15 +41,15 @@ fn with_flags(text: String, flags: &[(bool, &str)]) -> String {
     std::iter::once(text.as_str()).chain(set).collect::<Vec<_>>().join(" ")
 }
 
-fn fmmu(own: &Fmmu) -> String {
-    let Fmmu { purpose, sync_manager, sync_unit, op_only } = own;
-    let number = |name: &str, number: &Option<u8>| number.map(|own| format!(" {name} {own}")).unwrap_or_default();
+fn fmmu(fmmu: &Fmmu) -> String {
+    let Fmmu { purpose, sync_manager, sync_unit, op_only } = fmmu;
+    let number = |name: &str, number: &Option<u8>| number.map(|number| format!(" {name} {number}")).unwrap_or_default();
     let text = format!("{purpose}{}{}", number("sync manager", sync_manager), number("sync unit", sync_unit));
     with_flags(text, &[(*op_only, "(in Op only)")])
 }
 
-fn sync_unit(own: &SyncUnit) -> String {
-    let SyncUnit { name, separate, separate_frame, depends_on_input_state, frame_repeat } = own;
+fn sync_unit(sync_unit: &SyncUnit) -> String {
+    let SyncUnit { name, separate, separate_frame, depends_on_input_state, frame_repeat } = sync_unit;
     let flags = [
         (*separate, "(separate)"),
         (*separate_frame, "(separate frame)"),
@@ -98,7 +98,8 @@ fn coe(old: &Coe, new: &Coe, comparison: &mut Comparison<'_>) {
 
 /// What a master sends at start-up. Commands belong together by their objects.
 pub(super) fn init_commands() -> impl Fn(&Vec<InitCommand>, &Vec<InitCommand>, &mut Comparison<'_>) {
-    let title = |own: &InitCommand| format!("start-up write to {}", address::object(own.index, own.sub_index));
+    let title =
+        |command: &InitCommand| format!("start-up write to {}", address::object(command.index, command.sub_index));
     list(Elements::titled(title).judged(|_| Judgement::WIRE, |_| Judgement::WIRE), init_command)
 }
 
@@ -122,7 +123,7 @@ fn init_command(old: &InitCommand, new: &InitCommand, comparison: &mut Compariso
 fn clocks(old: &DistributedClocks, new: &DistributedClocks, comparison: &mut Comparison<'_>) {
     compare_fields!(DistributedClocks, old, new, comparison, {
         attributes: fact("attributes", Judgement::BEHAVIOR),
-        modes: list(Elements::titled(|own: &ClockMode| format!("mode {}", own.name)), clock_mode),
+        modes: list(Elements::titled(|mode: &ClockMode| format!("mode {}", mode.name)), clock_mode),
     });
 }
 
@@ -130,26 +131,26 @@ fn clock_mode(old: &ClockMode, new: &ClockMode, comparison: &mut Comparison<'_>)
     compare_fields!(ClockMode, old, new, comparison, {
         name: ignored(KEY),
         description: text("description"),
-        assign_activate: fact_as("AssignActivate", Judgement::WIRE, |own| format!("0x{own:X}")),
+        assign_activate: fact_as("AssignActivate", Judgement::WIRE, |value| format!("0x{value:X}")),
         cycle_sync0: fact_as("cycle of Sync0", Judgement::WIRE, clock_time),
         shift_sync0: fact_as("shift of Sync0", Judgement::WIRE, clock_time),
         cycle_sync1: fact_as("cycle of Sync1", Judgement::WIRE, clock_time),
         shift_sync1: fact_as("shift of Sync1", Judgement::WIRE, clock_time),
-        sync_managers: fact_as("sync managers", Judgement::WIRE, |own: &Vec<ClockSyncManager>| {
-            joined(own, clock_sync_manager)
+        sync_managers: fact_as("sync managers", Judgement::WIRE, |list: &Vec<ClockSyncManager>| {
+            joined(list, clock_sync_manager)
         }),
     });
 }
 
-fn clock_time(own: &ClockTime) -> String {
-    let ClockTime { nanoseconds, factor, input } = own;
+fn clock_time(time: &ClockTime) -> String {
+    let ClockTime { nanoseconds, factor, input } = time;
     let factor = factor.map(|factor| format!(" × {factor}")).unwrap_or_default();
     with_flags(format!("{nanoseconds} ns{factor}"), &[(*input, "(relative to the inputs)")])
 }
 
-fn clock_sync_manager(own: &ClockSyncManager) -> String {
-    let ClockSyncManager { number, sync_type, pdos } = own;
-    let sync_type = sync_type.map(|own| format!(" type {own}")).unwrap_or_default();
+fn clock_sync_manager(sync_manager: &ClockSyncManager) -> String {
+    let ClockSyncManager { number, sync_type, pdos } = sync_manager;
+    let sync_type = sync_type.map(|number| format!(" type {number}")).unwrap_or_default();
     let pdo = |(index, factor): &(u16, Option<u16>)| format!(" 0x{index:04X} × {}", factor.show());
     format!("{number}{sync_type}{}", joined(pdos, pdo))
 }
@@ -165,17 +166,17 @@ fn slots(old: &SlotRules, new: &SlotRules, comparison: &mut Comparison<'_>) {
         download_idents: fact("the master writes module idents", Judgement::WIRE),
         download_addresses: fact("the master writes module addresses", Judgement::WIRE),
         download_transition: fact("transition of these writes", Judgement::WIRE),
-        pdo_groups: fact_as("module PDO groups", Judgement::WIRE, |own: &Vec<ModulePdoGroup>| joined(own, pdo_group)),
+        pdo_groups: fact_as("module PDO groups", Judgement::WIRE, |list: &Vec<ModulePdoGroup>| joined(list, pdo_group)),
         groups: text("names of slot groups"),
-        selections: fact_as("arrangements of modules", Judgement::NONE, |own: &Vec<(CompactString, Vec<u32>)>| {
-            joined(own, |(name, modules)| format!("{name}: {}", modules.show()))
+        selections: fact_as("arrangements of modules", Judgement::NONE, |list: &Vec<(CompactString, Vec<u32>)>| {
+            joined(list, |(name, modules)| format!("{name}: {}", modules.show()))
         }),
     });
 }
 
-fn pdo_group(own: &ModulePdoGroup) -> String {
-    let ModulePdoGroup { alignment, rx_pdo, tx_pdo } = own;
-    let pdo = |name: &str, pdo: &Option<u16>| pdo.map(|own| format!(", {name} 0x{own:04X}")).unwrap_or_default();
+fn pdo_group(group: &ModulePdoGroup) -> String {
+    let ModulePdoGroup { alignment, rx_pdo, tx_pdo } = group;
+    let pdo = |name: &str, pdo: &Option<u16>| pdo.map(|index| format!(", {name} 0x{index:04X}")).unwrap_or_default();
     format!("alignment {alignment}{}{}", pdo("RxPDO", rx_pdo), pdo("TxPDO", tx_pdo))
 }
 
@@ -186,8 +187,8 @@ fn eeprom(old: &Eeprom, new: &Eeprom, comparison: &mut Comparison<'_>) {
         byte_size: fact("size in bytes", Judgement::BEHAVIOR),
         config_data: fact_as("configuration", Judgement::BEHAVIOR, block),
         boot_strap: fact_as("bootstrap mailbox", Judgement::WIRE, block),
-        categories: fact_as("categories", Judgement::BEHAVIOR, |own: &Vec<(u16, Vec<u8>)>| {
-            joined(own, |(number, data)| format!("{number}: {}", bytes(data)))
+        categories: fact_as("categories", Judgement::BEHAVIOR, |list: &Vec<(u16, Vec<u8>)>| {
+            joined(list, |(number, data)| format!("{number}: {}", bytes(data)))
         }),
         assign_to_pdi: fact("assigned to the process data interface", Judgement::BEHAVIOR),
     });

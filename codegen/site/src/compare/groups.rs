@@ -33,10 +33,10 @@ pub(super) fn compare(old: &[&Group], new: &[&Group], comparison: &mut Compariso
             }
         }
         for entry in entries {
-            let own = &old.entries[entry];
+            let old_entry = &old.entries[entry];
             match items.new_of_old[entry] {
-                Some(other) => pair(own, &new.entries[other], comparison),
-                None => comparison.within(&own.title(), |comparison| comparison.removed(Judgement::API_AND_WIRE)),
+                Some(other) => pair(old_entry, &new.entries[other], comparison),
+                None => comparison.within(&old_entry.title(), |comparison| comparison.removed(Judgement::API_AND_WIRE)),
             }
         }
     }
@@ -220,7 +220,7 @@ fn record(old: &Record, new: &Record, comparison: &mut Comparison<'_>) {
         transfer_sequence: fact("order of transfer", Judgement::WIRE),
         changeable_with_bump: fact("a change disturbs operation", Judgement::BEHAVIOR),
         constants: fact_as("fixed bytes", Judgement::WIRE, |constants: &Vec<(u32, Vec<u8>)>| {
-            constants.iter().map(|(offset, own)| format!("{offset}: {}", bytes(own))).collect::<Vec<_>>().join("; ")
+            constants.iter().map(|(offset, constant)| format!("{offset}: {}", bytes(constant))).collect::<Vec<_>>().join("; ")
         }),
     });
 }

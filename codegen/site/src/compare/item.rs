@@ -1,21 +1,20 @@
 //! Facts of an item: value, range, access rights, behavior.
 
-use std::fmt::Debug;
-
 use super::bindings;
 use super::change::{Effect, Judgement};
 use super::comparison::{
     compare_fields, fact, fact_as, ignored, judged, list, or_default, positioned, slice, text, Comparison, Elements,
     POSITION,
 };
+use super::conditions::{availability, conditions, restricted};
 use super::show::Show;
 use super::texts::{described, documentation, doubts, extensions, renamed};
 use super::types;
 use lexibus_codegen::facts;
 use lexibus_codegen::facts::words::PLAIN;
 use lexibus_codegen::ir::{
-    Access, Availability, Behaviour, CompactString, Condition, Configured, Conversion, Item, ItemVariant, Limits,
-    MachineUnit, Mappable, Quantity, Scale, Storage, TypeDef, Value,
+    Access, Behaviour, CompactString, Configured, Conversion, Item, ItemVariant, Limits, MachineUnit, Mappable,
+    Quantity, Scale, Storage, TypeDef, Value,
 };
 
 /// Compares all facts of an item.
@@ -81,7 +80,7 @@ fn access_effects(old: &Access, new: &Access) -> Judgement {
 fn mappable(old: &Mappable, new: &Mappable, comparison: &mut Comparison<'_>) {
     let lost = old.rpdo && !new.rpdo || old.tpdo && !new.tpdo;
     let judgement = if lost { Judgement::API } else { Judgement::API_COMPATIBLE };
-    let text = |own: &Mappable| facts::item::mappable(*own).unwrap_or("none").to_owned();
+    let text = |mappable: &Mappable| facts::item::mappable(*mappable).unwrap_or("none").to_owned();
     comparison.texts("mappable into", text(old), text(new), judgement);
 }
 
@@ -123,7 +122,7 @@ fn range_effects(old: &Limits, new: &Limits, access: Access) -> Judgement {
 
 /// Whether some value was allowed that isn't any more.
 fn is_narrower(old: &Limits, new: &Limits) -> bool {
-    let real = |own: &Option<Value>| own.as_ref().and_then(Value::as_real);
+    let real = |value: &Option<Value>| value.as_ref().and_then(Value::as_real);
     let is_beyond = |old: Option<f64>, new: Option<f64>, beyond: fn(f64, f64) -> bool| match (old, new) {
         (None, Some(_)) => true,
         (Some(old), Some(new)) => beyond(new, old),
@@ -143,8 +142,8 @@ fn is_narrower(old: &Limits, new: &Limits) -> bool {
 
 /// Variants are paired by the models and buses that they are about.
 fn variants() -> Elements<ItemVariant> {
-    Elements::titled(|own: &ItemVariant| {
-        let all: Vec<&str> = own.models.iter().chain(&own.buses).map(CompactString::as_str).collect();
+    Elements::titled(|variant: &ItemVariant| {
+        let all: Vec<&str> = variant.models.iter().chain(&variant.buses).map(CompactString::as_str).collect();
         format!("on {}", all.join(", "))
     })
     .judged(|_| Judgement::BEHAVIOR, |_| Judgement::BEHAVIOR)
@@ -215,8 +214,12 @@ fn quantity(old: &Quantity, new: &Quantity, comparison: &mut Comparison<'_>) {
 /// The type in Rust has the scale.
 fn scale(old: &Quantity, new: &Quantity, comparison: &mut Comparison<'_>) {
     if old.scale != new.scale {
-        let text = |own: &Quantity| {
-            own.scale.as_ref().map(|scale| PLAIN.scale(scale, facts::physical::shown_unit(own))).unwrap_or_default()
+        let text = |quantity: &Quantity| {
+            quantity
+                .scale
+                .as_ref()
+                .map(|scale| PLAIN.scale(scale, facts::physical::shown_unit(quantity)))
+                .unwrap_or_default()
         };
         comparison.values("scale", [&old.scale, &new.scale], [text(old), text(new)], Judgement::API_AND_BEHAVIOR);
     }
@@ -224,10 +227,10 @@ fn scale(old: &Quantity, new: &Quantity, comparison: &mut Comparison<'_>) {
 
 /// Raw values that are no numbers, which the type in Rust excludes.
 fn sentinels(old: &[(Value, CompactString)], new: &[(Value, CompactString)], comparison: &mut Comparison<'_>) {
-    let numbers = |own: &[(Value, CompactString)]| own.iter().map(|(raw, _)| raw.clone()).collect::<Vec<_>>();
+    let numbers = |list: &[(Value, CompactString)]| list.iter().map(|(raw, _)| raw.clone()).collect::<Vec<_>>();
     fact("no number", Judgement::API_AND_BEHAVIOR)(&numbers(old), &numbers(new), comparison);
     let meanings =
-        |own: &[(Value, CompactString)]| own.iter().map(|(_, name)| name.show()).collect::<Vec<_>>().join("; ");
+        |list: &[(Value, CompactString)]| list.iter().map(|(_, name)| name.show()).collect::<Vec<_>>().join("; ");
     comparison.texts("meaning of values that are no number", meanings(old), meanings(new), Judgement::NONE);
 }
 
@@ -240,8 +243,8 @@ fn machine_unit(old: &MachineUnit, new: &MachineUnit, comparison: &mut Compariso
 }
 
 /// `250 = 25 °C`, without its position.
-fn conversion(own: &Conversion) -> String {
-    let Conversion { raw, value, unit, given, model, by, documentation, at: _ } = own;
+fn conversion(conversion: &Conversion) -> String {
+    let Conversion { raw, value, unit, given, model, by, documentation, at: _ } = conversion;
     let given: Vec<String> = given.iter().map(|(name, number)| format!(", {name} {number}")).collect();
     let text = described(documentation.as_deref());
     let (unit, model, by) = (unit.show(), model.show(), by.show());
@@ -269,50 +272,6 @@ fn behaviour(old: &Behaviour, new: &Behaviour, comparison: &mut Comparison<'_>) 
 
 fn storage(old: &Storage, new: &Storage, comparison: &mut Comparison<'_>) {
     let judgement = if *old == Storage::Unknown { Judgement::BEHAVIOR_COMPATIBLE } else { Judgement::BEHAVIOR };
-    let text = |own: &Storage| PLAIN.storage(own).unwrap_or_default();
+    let text = |storage: &Storage| PLAIN.storage(storage).unwrap_or_default();
     comparison.texts("storage", text(old), text(new), judgement);
-}
-
-/// A list that restricts what is possible unless it is empty.
-pub(super) fn restricted<T: PartialEq + Debug + Show>(
-    name: &'static str,
-) -> impl Fn(&Vec<T>, &Vec<T>, &mut Comparison<'_>) {
-    judged(name, |old: &Vec<T>, new: &Vec<T>| {
-        let is_narrower = !new.is_empty() && (old.is_empty() || old.iter().any(|own| !new.contains(own)));
-        if is_narrower {
-            Judgement::BEHAVIOR
-        } else {
-            Judgement::BEHAVIOR_COMPATIBLE
-        }
-    })
-}
-
-/// Conditions that all have to hold.
-pub(super) fn conditions(name: &'static str) -> impl Fn(&Vec<Condition>, &Vec<Condition>, &mut Comparison<'_>) {
-    move |old, new, comparison| {
-        let text = |own: &[Condition]| own.iter().map(Condition::show).collect::<Vec<_>>().join(" and ");
-        if old != new {
-            let is_weaker = new.iter().all(|own| old.contains(own));
-            let judgement = if is_weaker { Judgement::BEHAVIOR_COMPATIBLE } else { Judgement::BEHAVIOR };
-            comparison.values(name, [old, new], [text(old), text(new)], judgement);
-        }
-    }
-}
-
-/// Models, firmware versions, options and buses that have an element.
-pub(super) fn availability(
-    old: &Option<Box<Availability>>,
-    new: &Option<Box<Availability>>,
-    comparison: &mut Comparison<'_>,
-) {
-    or_default(|old, new, comparison: &mut Comparison<'_>| {
-        compare_fields!(Availability, old, new, comparison, {
-            models: restricted("models"),
-            since: fact("since firmware", Judgement::BEHAVIOR),
-            until: fact("until firmware", Judgement::BEHAVIOR),
-            replaced_by: text("replaced by"),
-            options: fact("needs", Judgement::BEHAVIOR),
-            buses: restricted("only on"),
-        });
-    })(old, new, comparison);
 }

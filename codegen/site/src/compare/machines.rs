@@ -4,7 +4,7 @@ use super::change::Judgement;
 use super::comparison::{
     compare_fields, fact, fact_as, ignored, judged, list, text, Comparison, Elements, COMPARED, KEY, POSITION,
 };
-use super::item::availability;
+use super::conditions::availability;
 use super::texts::{documentation, renamed};
 use lexibus_codegen::facts::words::PLAIN;
 use lexibus_codegen::ir::{CommandOutcomes, Outcome, Pattern, Procedure, StateMachine, StateOutcome, Step, Transition};
@@ -16,12 +16,12 @@ pub(super) fn compare(old: &StateMachine, new: &StateMachine, comparison: &mut C
         control_item: fact("control", Judgement::API_AND_WIRE),
         state_type: fact("enumeration of the states", Judgement::API),
         // Code may match all variants of an enumeration.
-        states: list(patterns(|own| format!("state {}", own.name)), pattern),
+        states: list(patterns(|state| format!("state {}", state.name)), pattern),
         initial: fact("state after power-on", Judgement::BEHAVIOR),
-        commands: list(patterns(|own| format!("command {}", own.name)), pattern),
+        commands: list(patterns(|command| format!("command {}", command.name)), pattern),
         transitions: list(transitions(), transition),
         outcomes: list(
-            Elements::titled(|own: &CommandOutcomes| format!("command {} by state", own.name))
+            Elements::titled(|outcomes: &CommandOutcomes| format!("command {} by state", outcomes.name))
                 .judged(|_| Judgement::BEHAVIOR_COMPATIBLE, |_| Judgement::BEHAVIOR),
             command_outcomes,
         ),
@@ -32,14 +32,14 @@ pub(super) fn compare(old: &StateMachine, new: &StateMachine, comparison: &mut C
 /// States and commands are variants of enumerations, and code may match all of them.
 fn patterns(title: fn(&Pattern) -> String) -> Elements<Pattern> {
     Elements {
-        name: |own| own.name.to_string(),
-        place: |own| bits(own),
+        name: |pattern| pattern.name.to_string(),
+        place: bits,
         ..Elements::titled(title).judged(|_| Judgement::API, |_| Judgement::API)
     }
 }
 
-fn bits(own: &Pattern) -> String {
-    format!("0x{:X} of 0x{:X}", own.value, own.mask)
+fn bits(pattern: &Pattern) -> String {
+    format!("0x{:X} of 0x{:X}", pattern.value, pattern.mask)
 }
 
 fn pattern(old: &Pattern, new: &Pattern, comparison: &mut Comparison<'_>) {
@@ -54,9 +54,9 @@ fn pattern(old: &Pattern, new: &Pattern, comparison: &mut Comparison<'_>) {
 }
 
 fn transitions() -> Elements<Transition> {
-    Elements::titled(|own: &Transition| {
-        let from = own.from.as_deref().unwrap_or("any state");
-        format!("transition from {from} to {} by {}", own.to, own.command.as_deref().unwrap_or("itself"))
+    Elements::titled(|transition: &Transition| {
+        let from = transition.from.as_deref().unwrap_or("any state");
+        format!("transition from {from} to {} by {}", transition.to, transition.command.as_deref().unwrap_or("itself"))
     })
     .judged(|_| Judgement::BEHAVIOR, |_| Judgement::BEHAVIOR)
 }
@@ -77,7 +77,7 @@ fn command_outcomes(old: &CommandOutcomes, new: &CommandOutcomes, comparison: &m
         commands: fact("commands", Judgement::BEHAVIOR),
         availability: availability,
         cells: list(
-            Elements::titled(|own: &StateOutcome| format!("in state {}", own.state))
+            Elements::titled(|outcome: &StateOutcome| format!("in state {}", outcome.state))
                 .judged(|_| Judgement::BEHAVIOR, |_| Judgement::BEHAVIOR),
             state_outcome,
         ),
@@ -87,15 +87,15 @@ fn command_outcomes(old: &CommandOutcomes, new: &CommandOutcomes, comparison: &m
 }
 
 fn state_outcome(old: &StateOutcome, new: &StateOutcome, comparison: &mut Comparison<'_>) {
-    let outcome = |own: &Outcome| match own {
+    let outcome = |outcome: &Outcome| match outcome {
         Outcome::Unchanged => "state unchanged".to_owned(),
         Outcome::Refused => "refused".to_owned(),
         Outcome::States(states) => states.join(", then "),
     };
     compare_fields!(StateOutcome, old, new, comparison, {
         state: ignored(KEY),
-        outcomes: fact_as("outcome", Judgement::BEHAVIOR, |own: &Vec<Outcome>| {
-            own.iter().map(outcome).collect::<Vec<_>>().join(" or ")
+        outcomes: fact_as("outcome", Judgement::BEHAVIOR, |list: &Vec<Outcome>| {
+            list.iter().map(outcome).collect::<Vec<_>>().join(" or ")
         }),
         documentation: documentation,
     });
@@ -117,9 +117,9 @@ pub(super) fn procedure(old: &Procedure, new: &Procedure, comparison: &mut Compa
 }
 
 /// A step, with the difference between a value and an argument that is written.
-fn step(own: &Step) -> String {
-    match own {
+fn step(step: &Step) -> String {
+    match step {
         Step::WriteArgument(item, argument) => format!("Write the argument {argument} to {item}."),
-        _ => PLAIN.step(own),
+        _ => PLAIN.step(step),
     }
 }

@@ -4,7 +4,8 @@ use super::change::{Effect, Judgement};
 use super::comparison::{
     compare_fields, fact, fact_as, ignored, list, positioned, text, Comparison, Elements, KEY, POSITION,
 };
-use super::item::{self, availability, conditions, restricted};
+use super::conditions::{availability, conditions, restricted};
+use super::item;
 use super::names::identifier;
 use super::show::bytes;
 use super::texts::{described, documentation, doubts};
@@ -14,7 +15,7 @@ use lexibus_codegen::ir::{
 };
 
 pub(super) fn compare(old: &[Message], new: &[Message], comparison: &mut Comparison<'_>) {
-    let elements = Elements::titled(|own: &Message| format!("message {}", own.name));
+    let elements = Elements::titled(|message: &Message| format!("message {}", message.name));
     super::comparison::slices(old, new, &elements, message, comparison);
 }
 
@@ -37,7 +38,7 @@ fn message(old: &Message, new: &Message, comparison: &mut Comparison<'_>) {
         names: text("name in other languages"),
         availability: availability,
         accepted_in: restricted("accepted in"),
-        examples: positioned("examples", Judgement::NONE, |own: &Vec<MessageExample>| examples(own)),
+        examples: positioned("examples", Judgement::NONE, |list: &Vec<MessageExample>| examples(list)),
         documentation: documentation,
         doubts: doubts,
         origin: ignored(POSITION),
@@ -46,15 +47,15 @@ fn message(old: &Message, new: &Message, comparison: &mut Comparison<'_>) {
 
 /// Frames that a source prints, without their positions.
 pub(super) fn examples(examples: &[MessageExample]) -> String {
-    let example = |own: &MessageExample| {
-        let text = described(own.documentation.as_deref());
-        format!("{} → {} {text}", bytes(&own.request), bytes(&own.reply)).trim_end().to_owned()
+    let example = |example: &MessageExample| {
+        let text = described(example.documentation.as_deref());
+        format!("{} → {} {text}", bytes(&example.request), bytes(&example.reply)).trim_end().to_owned()
     };
     examples.iter().map(example).collect::<Vec<_>>().join("; ")
 }
 
-fn completion(own: &Completion) -> String {
-    match own {
+fn completion(completion: &Completion) -> String {
+    match completion {
         Completion::Immediate => "before the reply".to_owned(),
         Completion::Reply => "when the reply comes".to_owned(),
         Completion::Polled { item, mask, value, in_reply } => {
@@ -70,7 +71,7 @@ fn completion(own: &Completion) -> String {
 /// Compares the layout of a frame, and the values in it.
 fn frame(name: &'static str, old: &[MessageField], new: &[MessageField], comparison: &mut Comparison<'_>) {
     comparison.texts(name, layout(old, true), layout(new, true), frame_effects(old, new));
-    let title = |own: &&MessageValue| own.item.name.to_string();
+    let title = |value: &&MessageValue| value.item.name.to_string();
     for (old, new) in super::pairing::pairs(&values(old), &values(new), title, |_| String::new()) {
         // Additions and removals are differences of the layout.
         if let (Some(old), Some(new)) = (old, new) {
@@ -101,7 +102,7 @@ fn value(old: &MessageValue, new: &MessageValue, comparison: &mut Comparison<'_>
 
 /// Names of fields are those of a struct in Rust; their types are compared with the values.
 fn frame_effects(old: &[MessageField], new: &[MessageField]) -> Judgement {
-    let names = |fields| values(fields).iter().map(|own| identifier(&own.item.name)).collect::<Vec<_>>();
+    let names = |fields| values(fields).iter().map(|value| identifier(&value.item.name)).collect::<Vec<_>>();
     let effect = |breaks: bool| if breaks { Effect::Breaking } else { Effect::Unaffected };
     let is_wire = layout(old, false) != layout(new, false);
     Judgement { api: effect(names(old) != names(new)), wire: effect(is_wire), behavior: Effect::Unaffected }
@@ -109,11 +110,11 @@ fn frame_effects(old: &[MessageField], new: &[MessageField]) -> Judgement {
 
 /// The fields one after the other.
 fn layout(fields: &[MessageField], with_names: bool) -> String {
-    fields.iter().map(|own| field(own, with_names)).collect::<Vec<_>>().join(", ")
+    fields.iter().map(|one| field(one, with_names)).collect::<Vec<_>>().join(", ")
 }
 
-fn field(own: &MessageField, with_names: bool) -> String {
-    match own {
+fn field(field: &MessageField, with_names: bool) -> String {
+    match field {
         MessageField::Constant(constant) => bytes(constant),
         MessageField::FixedBits { bits, value } => format!("{value} in {bits} bits"),
         MessageField::Value(value) if with_names => value.item.name.to_string(),
@@ -150,22 +151,22 @@ pub(super) fn space(old: &ParameterSpace, new: &ParameterSpace, comparison: &mut
 
 /// Spaces belong together by their names.
 pub(super) fn spaces() -> impl Fn(&Vec<ParameterSpace>, &Vec<ParameterSpace>, &mut Comparison<'_>) {
-    list(Elements::titled(|own: &ParameterSpace| format!("parameter space {}", own.name)), space)
+    list(Elements::titled(|space: &ParameterSpace| format!("parameter space {}", space.name)), space)
 }
 
 /// Compares how frames are delimited and checked.
 pub(super) fn framing(old: &Framing, new: &Framing, comparison: &mut Comparison<'_>) {
-    let byte = |own: &Option<u8>| own.map(|own| format!("0x{own:02X}")).unwrap_or_default();
+    let byte = |value: &Option<u8>| value.map(|value| format!("0x{value:02X}")).unwrap_or_default();
     compare_fields!(Framing, old, new, comparison, {
         start: fact_as("first byte", Judgement::WIRE, byte),
         end: fact_as("last byte", Judgement::WIRE, byte),
         escape: fact_as("escape byte", Judgement::WIRE, byte),
-        escape_xor: fact_as("escaped bytes are combined with", Judgement::WIRE, |own| format!("0x{own:02X}")),
-        escaped: fact_as("escaped bytes", Judgement::WIRE, |own: &Vec<u8>| bytes(own)),
+        escape_xor: fact_as("escaped bytes are combined with", Judgement::WIRE, |value| format!("0x{value:02X}")),
+        escaped: fact_as("escaped bytes", Judgement::WIRE, |escaped: &Vec<u8>| bytes(escaped)),
         check: fact("check", Judgement::WIRE),
         check_from: fact("check counts from", Judgement::WIRE),
         check_escaped: fact("check is escaped", Judgement::WIRE),
-        check_seed: fact_as("start value of the check", Judgement::WIRE, |own| format!("0x{own:X}")),
+        check_seed: fact_as("start value of the check", Judgement::WIRE, |value| format!("0x{value:X}")),
         max_data: fact("maximum number of data bytes", Judgement::BEHAVIOR),
         address: fact("field of the device's number", Judgement::API_AND_WIRE),
         documentation: documentation,

@@ -2,21 +2,22 @@
 
 use super::change::Judgement;
 use super::comparison::{
-    compare_fields, fact, fact_as, ignored, judged, list, part, slice, slices, text, Comparison, Elements, KEY,
-    POSITION,
+    compare_fields, fact, fact_as, ignored, judged, list, part, slice, text, Comparison, Elements, KEY, POSITION,
 };
-use super::devices::identity;
+use super::conditions::restricted;
 use super::ethercat::init_commands;
+use super::identity::identity;
 use super::show::index;
+use super::slots::{places, Use};
 use super::texts::{documentation, extensions, renamed};
 use super::{groups, item, pdos, profinet, types};
 use lexibus_codegen::ir::{
-    Catalog, Group, Module, ModuleUse, ObjectBuses, Places, ProcessData, Slot, SubExtension, SubslotName,
+    Catalog, Group, Module, ModuleUse, ObjectBuses, ProcessData, Slot, SubExtension, SubslotName,
 };
 
 /// Slots belong together by their numbers.
 pub(super) fn slots() -> Elements<Slot> {
-    Elements::titled(|own: &Slot| format!("slot {}", own.number))
+    Elements::titled(|slot: &Slot| format!("slot {}", slot.number))
 }
 
 pub(super) fn slot(old: &Slot, new: &Slot, comparison: &mut Comparison<'_>) {
@@ -25,7 +26,7 @@ pub(super) fn slot(old: &Slot, new: &Slot, comparison: &mut Comparison<'_>) {
         name: text("name"),
         instances: fact("minimum and maximum number of modules", Judgement::BEHAVIOR),
         names: text("name in other languages"),
-        fits: item::restricted("fitting modules"),
+        fits: restricted("fitting modules"),
         default: fact("module by default", Judgement::BEHAVIOR),
         group: fact("slot group", Judgement::WIRE),
         index_increment: fact_as("index increment", Judgement::WIRE, index),
@@ -36,37 +37,21 @@ pub(super) fn slot(old: &Slot, new: &Slot, comparison: &mut Comparison<'_>) {
 }
 
 /// Modules belong together by number, or ident number, and identifier.
-pub(super) fn key(own: &Module) -> String {
-    format!("{:08X} {}", own.number, own.id)
+pub(super) fn key(module: &Module) -> String {
+    format!("{:08X} {}", module.number, module.id)
 }
 
 /// Compares the modules of a device, and their slots.
 pub(super) fn compare_uses(old: &[ModuleUse], new: &[ModuleUse], comparison: &mut Comparison<'_>) {
     let uses = |catalog: &Catalog, uses: &[ModuleUse]| -> Vec<Use> {
-        let title = |own: &ModuleUse| match catalog.modules.get(own.module.0 as usize) {
+        let title = |one: &ModuleUse| match catalog.modules.get(one.module.0 as usize) {
             Some(module) => format!("module {} ({})", module.name, key(module)),
-            None => format!("module number {}", own.module.0),
+            None => format!("module number {}", one.module.0),
         };
-        uses.iter().map(|own| Use { title: title(own), places: own.places.clone() }).collect()
+        uses.iter().map(|one| Use { title: title(one), places: one.places.clone() }).collect()
     };
     let (old_catalog, new_catalog) = comparison.catalogs;
     places(&uses(old_catalog, old), &uses(new_catalog, new), comparison);
-}
-
-/// What can be plugged into a device or module.
-pub(super) struct Use {
-    pub title: String,
-    pub places: Places,
-}
-
-/// Compares what can be plugged in, and into which slots or subslots.
-pub(super) fn places(old: &[Use], new: &[Use], comparison: &mut Comparison<'_>) {
-    let elements = Elements::titled(|own: &Use| own.title.clone())
-        .judged(|_| Judgement::BEHAVIOR_COMPATIBLE, |_| Judgement::BEHAVIOR);
-    let compare = |old: &Use, new: &Use, comparison: &mut Comparison<'_>| {
-        fact("slots", Judgement::BEHAVIOR)(&old.places, &new.places, comparison);
-    };
-    slices(old, new, &elements, compare, comparison);
 }
 
 /// Compares all facts of a module.
@@ -90,7 +75,7 @@ pub(super) fn compare(old: &Module, new: &Module, comparison: &mut Comparison<'_
             groups::compare(&old.iter().collect::<Vec<_>>(), &new.iter().collect::<Vec<_>>(), comparison);
         },
         sub_extensions: list(
-            Elements::titled(|own: &SubExtension| format!("entries added to {}", index(&own.index))),
+            Elements::titled(|extension: &SubExtension| format!("entries added to {}", index(&extension.index))),
             sub_extension,
         ),
         groups: ignored(super::comparison::COMPARED),
@@ -101,8 +86,8 @@ pub(super) fn compare(old: &Module, new: &Module, comparison: &mut Comparison<'_
         init_commands: init_commands(),
         submodules: part("module", slice(profinet::compare_uses)),
         subslots: part("module", fact("subslots", Judgement::BEHAVIOR)),
-        subslot_names: part("module", fact_as("names of subslots", Judgement::NONE, |own: &Vec<SubslotName>| {
-            profinet::subslot_names(own)
+        subslot_names: part("module", fact_as("names of subslots", Judgement::NONE, |list: &Vec<SubslotName>| {
+            profinet::subslot_names(list)
         })),
         profiles: part("module", fact("profiles", Judgement::BEHAVIOR)),
         extensions: part("module", extensions),

@@ -24,11 +24,11 @@ impl Identifiers {
         let mut names = unique(&wishes, &[], Case::Snake).into_iter();
         let mut identifiers = Identifiers { groups: Vec::new(), items: Vec::new() };
         for group in groups {
-            let (own, items) = match group.index() {
+            let (name, items) = match group.index() {
                 Some(_) => (names.next().unwrap_or_default(), entries(group)),
                 None => (String::new(), names.by_ref().take(group.items.len()).collect()),
             };
-            identifiers.groups.push(own);
+            identifiers.groups.push(name);
             identifiers.items.push(items);
         }
         identifiers

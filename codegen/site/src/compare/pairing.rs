@@ -16,11 +16,12 @@ pub(super) fn pairs<'a, T>(
     name: impl Fn(&T) -> String,
     place: impl Fn(&T) -> String,
 ) -> Vec<Pair<'a, T>> {
-    let keys = |list: &[T]| list.iter().map(|own| Key { name: name(own), place: place(own) }).collect::<Vec<_>>();
+    let keys =
+        |list: &[T]| list.iter().map(|element| Key { name: name(element), place: place(element) }).collect::<Vec<_>>();
     let matching = Matching::of(&keys(old), &keys(new));
-    let paired = old.iter().zip(&matching.new_of_old).map(|(own, other)| (Some(own), other.map(|at| &new[at])));
+    let paired = old.iter().zip(&matching.new_of_old).map(|(one, other)| (Some(one), other.map(|at| &new[at])));
     let added = new.iter().zip(&matching.is_new_paired).filter(|(_, is_paired)| !**is_paired);
-    paired.chain(added.map(|(own, _)| (None, Some(own)))).collect()
+    paired.chain(added.map(|(one, _)| (None, Some(one)))).collect()
 }
 
 /// By what an element is paired.
@@ -43,8 +44,8 @@ impl Matching {
     pub fn of(old: &[Key], new: &[Key]) -> Self {
         let mut matching = Matching { new_of_old: vec![None; old.len()], is_new_paired: vec![false; new.len()] };
         matching.stage(old, new, Some, true);
-        matching.stage(old, new, |own| Some(&own.name).filter(|name| !name.is_empty()), false);
-        matching.stage(old, new, |own| Some(&own.place).filter(|place| !place.is_empty()), true);
+        matching.stage(old, new, |key| Some(&key.name).filter(|name| !name.is_empty()), false);
+        matching.stage(old, new, |key| Some(&key.place).filter(|place| !place.is_empty()), true);
         matching
     }
     /// Pairs elements of equal keys, in their order. Keys that several elements share count if `is_repeatable`.
@@ -56,8 +57,8 @@ impl Matching {
         is_repeatable: bool,
     ) {
         let mut left: HashMap<&Q, Vec<usize>> = HashMap::new();
-        for (position, own) in new.iter().enumerate().rev().filter(|(position, _)| !self.is_new_paired[*position]) {
-            if let Some(key) = key(own) {
+        for (position, one) in new.iter().enumerate().rev().filter(|(position, _)| !self.is_new_paired[*position]) {
+            if let Some(key) = key(one) {
                 left.entry(key).or_default().push(position);
             }
         }
@@ -87,7 +88,7 @@ mod tests {
         let name = |text: &&str| part(text, |letter| letter.is_alphabetic());
         let place = |text: &&str| part(text, |letter| letter.is_numeric());
         let all = pairs(old, new, name, place);
-        let shown = |own: Option<&&str>| own.map(|own| (*own).to_owned()).unwrap_or_default();
+        let shown = |value: Option<&&str>| value.map(|value| (*value).to_owned()).unwrap_or_default();
         all.into_iter().map(|(old, new)| (shown(old), shown(new))).collect()
     }
 

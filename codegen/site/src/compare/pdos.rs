@@ -23,7 +23,7 @@ use lexibus_codegen::ir::{
 pub(super) fn compare(old: &ProcessData, new: &ProcessData, buses: ObjectBuses, comparison: &mut Comparison<'_>) {
     compare_fields!(ProcessData, old, new, comparison, {
         pdos: |old: &Vec<Pdo>, new: &Vec<Pdo>, comparison: &mut Comparison<'_>| pdos(old, new, buses, comparison),
-        sync_managers: list(Elements::titled(|own: &SyncManager| format!("sync manager {}", own.number))
+        sync_managers: list(Elements::titled(|sync_manager: &SyncManager| format!("sync manager {}", sync_manager.number))
             .judged(|_| Judgement::WIRE, |_| Judgement::WIRE), sync_manager),
         images: list(images(), image),
     });
@@ -31,10 +31,10 @@ pub(super) fn compare(old: &ProcessData, new: &ProcessData, buses: ObjectBuses, 
 
 /// PDOs belong together by their mapping object and buses.
 fn pdos(old: &[Pdo], new: &[Pdo], buses: ObjectBuses, comparison: &mut Comparison<'_>) {
-    let key = |own: &Pdo| format!("{:?} {} {:?}", own.direction, own.mapping_index, own.buses);
+    let key = |pdo: &Pdo| format!("{:?} {} {:?}", pdo.direction, pdo.mapping_index, pdo.buses);
     for (old, new) in super::pairing::pairs(old, new, key, |_| String::new()) {
-        let Some(own) = new.or(old) else { continue };
-        let title = format!("{} {}", title(own, buses), own.name);
+        let Some(either) = new.or(old) else { continue };
+        let title = format!("{} {}", title(either, buses), either.name);
         comparison.within(title.trim(), |comparison| match (old, new) {
             (Some(old), Some(new)) => pdo(old, new, comparison),
             (Some(_), None) => comparison.removed(Judgement::API_AND_WIRE),
@@ -78,8 +78,8 @@ fn pdo(old: &Pdo, new: &Pdo, comparison: &mut Comparison<'_>) {
 }
 
 fn excludes(old: &[u16], new: &[u16], comparison: &mut Comparison<'_>) {
-    let text = |own: &[u16]| own.iter().map(index).collect::<Vec<_>>().join(", ");
-    let is_more = new.iter().any(|own| !old.contains(own));
+    let text = |list: &[u16]| list.iter().map(index).collect::<Vec<_>>().join(", ");
+    let is_more = new.iter().any(|index| !old.contains(index));
     let judgement = if is_more { Judgement::BEHAVIOR } else { Judgement::BEHAVIOR_COMPATIBLE };
     comparison.texts("excludes", text(old), text(new), judgement);
 }
@@ -134,21 +134,23 @@ struct Layout<'a> {
 
 impl Layout<'_> {
     fn fields(&self) -> impl Iterator<Item = &PdoEntry> {
-        self.entries.iter().filter(|own| own.kind != PdoEntryKind::Padding)
+        self.entries.iter().filter(|entry| entry.kind != PdoEntryKind::Padding)
     }
 
     /// `0: UNSIGNED16 Controlword`, `16: INTEGER32 Target position`.
     fn texts(&self) -> Vec<String> {
-        let text = |own: &PdoEntry| format!("{}: {} {}", own.bit_offset, types::name(self.types, own.ty), own.name);
+        let text =
+            |entry: &PdoEntry| format!("{}: {} {}", entry.bit_offset, types::name(self.types, entry.ty), entry.name);
         self.fields().map(text).collect()
     }
 
     /// The effects of another layout. Names and types of fields are those of a struct in Rust.
     fn effects_of(&self, new: &Layout<'_>) -> Judgement {
-        let fields = |own: &Layout<'_>| -> Vec<(String, String)> {
-            own.fields().map(|entry| (identifier(&entry.name), types::name(own.types, entry.ty))).collect()
+        let fields = |layout: &Layout<'_>| -> Vec<(String, String)> {
+            layout.fields().map(|entry| (identifier(&entry.name), types::name(layout.types, entry.ty))).collect()
         };
-        let places = |own: &Layout<'_>| own.entries.iter().map(|own| (own.bit_offset, own.bits)).collect::<Vec<_>>();
+        let places =
+            |layout: &Layout<'_>| layout.entries.iter().map(|entry| (entry.bit_offset, entry.bits)).collect::<Vec<_>>();
         let effect = |breaks: bool| if breaks { Effect::Breaking } else { Effect::Unaffected };
         let api = effect(fields(self) != fields(new));
         Judgement { api, wire: effect(places(self) != places(new)), ..Judgement::NONE }
@@ -158,18 +160,19 @@ impl Layout<'_> {
 /// Entries belong together by name and place, and paddings by their order.
 fn entry_keys(entries: &[PdoEntry]) -> Vec<Key> {
     let mut paddings = 0_u32..;
-    let name = |own: &PdoEntry| match own.kind {
+    let name = |entry: &PdoEntry| match entry.kind {
         PdoEntryKind::Padding => format!("padding {}", paddings.next().unwrap_or_default()),
-        _ => entry_title(own),
+        _ => entry_title(entry),
     };
     entries.iter().map(name).map(|name| Key { name, place: String::new() }).collect()
 }
 
 /// Padding has no place in the layout.
 fn lengths(old: &[PdoEntry], new: &[PdoEntry], comparison: &mut Comparison<'_>) {
-    let length = |own: &[PdoEntry]| own.iter().fold(0_u32, |bits, entry| bits.saturating_add(entry.bits));
-    let of_all = |own: &[PdoEntry]| format!("{} bits", length(own));
-    let of_each = |own: &[PdoEntry]| own.iter().map(|own| own.bits.to_string()).collect::<Vec<_>>().join(", ");
+    let length = |entries: &[PdoEntry]| entries.iter().fold(0_u32, |bits, entry| bits.saturating_add(entry.bits));
+    let of_all = |entries: &[PdoEntry]| format!("{} bits", length(entries));
+    let of_each =
+        |entries: &[PdoEntry]| entries.iter().map(|entry| entry.bits.to_string()).collect::<Vec<_>>().join(", ");
     if length(old) != length(new) {
         comparison.push("length", of_all(old), of_all(new), Judgement::WIRE);
     } else {
@@ -178,8 +181,8 @@ fn lengths(old: &[PdoEntry], new: &[PdoEntry], comparison: &mut Comparison<'_>) 
 }
 
 /// `Status at bit 16`.
-fn entry_title(own: &PdoEntry) -> String {
-    format!("{} at bit {}", own.name, own.bit_offset).trim_start().to_owned()
+fn entry_title(entry: &PdoEntry) -> String {
+    format!("{} at bit {}", entry.name, entry.bit_offset).trim_start().to_owned()
 }
 
 fn entry(old: &PdoEntry, new: &PdoEntry, comparison: &mut Comparison<'_>) {
@@ -219,8 +222,8 @@ fn kind_name(kind: PdoEntryKind) -> &'static str {
 
 /// The mapped objects, if other ones are at the same places.
 fn objects(old: &[PdoEntry], new: &[PdoEntry], comparison: &mut Comparison<'_>) {
-    let objects = |own: &[PdoEntry]| -> Vec<String> {
-        own.iter().map(|entry| address::object(entry.index, entry.sub_index)).collect()
+    let objects = |entries: &[PdoEntry]| -> Vec<String> {
+        entries.iter().map(|entry| address::object(entry.index, entry.sub_index)).collect()
     };
     let (mut old, mut new) = (objects(old), objects(new));
     if old != new {
@@ -262,11 +265,11 @@ fn sync_manager(old: &SyncManager, new: &SyncManager, comparison: &mut Compariso
 
 /// Images belong together by direction and name.
 fn images() -> Elements<ProcessImage> {
-    Elements { name: |own| format!("{:?} {}", own.direction, own.name), ..Elements::titled(image_title) }
+    Elements { name: |image| format!("{:?} {}", image.direction, image.name), ..Elements::titled(image_title) }
 }
 
-fn image_title(own: &ProcessImage) -> String {
-    let name = match (own.name.as_str(), own.direction) {
+fn image_title(image: &ProcessImage) -> String {
+    let name = match (image.name.as_str(), image.direction) {
         ("", Direction::Receive) => "to the device",
         ("", Direction::Transmit) => "from the device",
         (name, _) => name,

@@ -4,10 +4,10 @@ use super::change::Judgement;
 use super::comparison::{
     compare_fields, fact, fact_as, ignored, judged, list, optional, part, text, Comparison, Elements, KEY, POSITION,
 };
-use super::devices::identity;
 use super::ethercat::joined;
-use super::modules::{places, Use};
+use super::identity::identity;
 use super::show::{index, Show};
+use super::slots::{places, Use};
 use super::texts::{documentation, extensions, renamed};
 use super::{groups, pdos, types};
 use lexibus_codegen::facts;
@@ -32,24 +32,24 @@ pub(super) fn settings(old: &ProfinetSettings, new: &ProfinetSettings, compariso
         send_clocks: fact("send clock factors", Judgement::BEHAVIOR),
         reduction_ratios: fact("reduction ratios", Judgement::BEHAVIOR),
         places: fact("slots of the device access point", Judgement::BEHAVIOR),
-        subslot_names: fact_as("names of subslots", Judgement::NONE, |own: &Vec<SubslotName>| subslot_names(own)),
+        subslot_names: fact_as("names of subslots", Judgement::NONE, |list: &Vec<SubslotName>| subslot_names(list)),
         vendor_blocks: list(
-            Elements::titled(|own: &VendorBlock| format!("vendor block {:X}/{:04X}", own.api, own.identifier)),
+            Elements::titled(|block: &VendorBlock| format!("vendor block {:X}/{:04X}", block.api, block.identifier)),
             vendor_block,
         ),
         attributes: fact("attributes", Judgement::BEHAVIOR),
     });
 }
 
-fn lengths(own: &IoLengths) -> String {
-    let IoLengths { input, output, data } = own;
+fn lengths(lengths: &IoLengths) -> String {
+    let IoLengths { input, output, data } = lengths;
     format!("input {}, output {}, both {}", input.show(), output.show(), data.show())
 }
 
 /// Names of subslots with their numbers.
-pub(super) fn subslot_names(own: &[SubslotName]) -> String {
-    joined(own, |own| {
-        let SubslotName { number, name, names } = own;
+pub(super) fn subslot_names(subslots: &[SubslotName]) -> String {
+    joined(subslots, |subslot| {
+        let SubslotName { number, name, names } = subslot;
         format!("{number} {name} {}", names.show()).trim_end().to_owned()
     })
 }
@@ -61,20 +61,20 @@ fn vendor_block(old: &VendorBlock, new: &VendorBlock, comparison: &mut Compariso
         record: |old: &Group, new: &Group, comparison: &mut Comparison<'_>| {
             comparison.in_types_of_catalog(|comparison| groups::compare(&[old], &[new], comparison));
         },
-        menus: fact_as("menus", Judgement::NONE, |own: &Vec<Menu>| menus(own)),
+        menus: fact_as("menus", Judgement::NONE, |list: &Vec<Menu>| menus(list)),
     });
 }
 
-fn menus(own: &[Menu]) -> String {
-    joined(own, |own| {
-        let Menu { id, name, names, targets } = own;
+fn menus(menus: &[Menu]) -> String {
+    joined(menus, |menu| {
+        let Menu { id, name, names, targets } = menu;
         format!("{id} {name} ({}): {}", names.show(), targets.show())
     })
 }
 
 /// Submodules belong together by ident number and identifier.
-pub(super) fn submodule_key(own: &Submodule) -> String {
-    format!("{:08X} {}", own.ident, own.id)
+pub(super) fn submodule_key(submodule: &Submodule) -> String {
+    format!("{:08X} {}", submodule.ident, submodule.id)
 }
 
 pub(super) fn submodule(old: &Submodule, new: &Submodule, comparison: &mut Comparison<'_>) {
@@ -94,7 +94,7 @@ pub(super) fn submodule(old: &Submodule, new: &Submodule, comparison: &mut Compa
             groups::compare(&old.iter().collect::<Vec<_>>(), &new.iter().collect::<Vec<_>>(), comparison);
         },
         f_parameters: optional("F-parameters", Judgement::API_AND_WIRE, Judgement::API_AND_WIRE, f_parameters),
-        menus: part("submodule", fact_as("menus", Judgement::NONE, |own: &Vec<Menu>| menus(own))),
+        menus: part("submodule", fact_as("menus", Judgement::NONE, |list: &Vec<Menu>| menus(list))),
         graphics: part("submodule", fact("pictures", Judgement::NONE)),
         attributes: part("submodule", fact("attributes", Judgement::BEHAVIOR)),
         extensions: part("submodule", extensions),
@@ -115,22 +115,22 @@ fn io_data(old: &IoData, new: &IoData, comparison: &mut Comparison<'_>) {
     compare_fields!(IoData, old, new, comparison, {
         image: pdos::image,
         consistent: fact("consistent as a whole", Judgement::BEHAVIOR),
-        items: fact_as("data items", Judgement::NONE, |own: &Vec<IoItem>| joined(own, io_item)),
-        channels: fact_as("channels", Judgement::BEHAVIOR, |own: &Vec<IoChannel>| joined(own, channel)),
+        items: fact_as("data items", Judgement::NONE, |list: &Vec<IoItem>| joined(list, io_item)),
+        channels: fact_as("channels", Judgement::BEHAVIOR, |list: &Vec<IoChannel>| joined(list, channel)),
     });
 }
 
-fn io_item(own: &IoItem) -> String {
-    let IoItem { name, names, data_type, bit_offset, bits, first_field, fields, subordinate } = own;
+fn io_item(item: &IoItem) -> String {
+    let IoItem { name, names, data_type, bit_offset, bits, first_field, fields, subordinate } = item;
     let place = facts::address::bits_of(*bit_offset, *bits);
     let subordinate = if *subordinate { ", subordinate" } else { "" };
     let names = names.show();
     format!("{data_type} {name} {names} in {place} ({bit_offset} + {bits}), {fields} fields from {first_field}{subordinate}")
 }
 
-fn channel(own: &IoChannel) -> String {
-    let IoChannel { number, data, quality, quality_format, attributes } = own;
-    let bits = |own: &Option<(u32, u32)>| own.map(|(first, bits)| format!("{first} + {bits}")).unwrap_or_default();
+fn channel(channel: &IoChannel) -> String {
+    let IoChannel { number, data, quality, quality_format, attributes } = channel;
+    let bits = |bits: &Option<(u32, u32)>| bits.map(|(first, bits)| format!("{first} + {bits}")).unwrap_or_default();
     format!("{number}: {}, quality {} {quality_format} {}", bits(data), bits(quality), attributes.show())
         .trim_end()
         .to_owned()
@@ -143,7 +143,7 @@ fn f_parameters(old: &FParameters, new: &FParameters, comparison: &mut Compariso
         description_crc: fact_as("checksum of the description", Judgement::WIRE, |crc: &Option<u16>| {
             crc.as_ref().map(index).unwrap_or_default()
         }),
-        parameters: list(Elements::titled(|own: &FParameter| own.name.to_string())
+        parameters: list(Elements::titled(|parameter: &FParameter| parameter.name.to_string())
             .judged(|_| Judgement::API_AND_WIRE, |_| Judgement::API_AND_WIRE), f_parameter),
         origin: ignored(POSITION),
     });
@@ -154,8 +154,8 @@ fn f_parameter(old: &FParameter, new: &FParameter, comparison: &mut Comparison<'
         name: ignored(KEY),
         default: fact("default", Judgement::BEHAVIOR),
         label: text("name of the default"),
-        allowed: fact_as("range", Judgement::BEHAVIOR, |own: &Vec<(i128, i128)>| {
-            joined(own, |(first, last)| facts::types::numbers(*first, Some(*last)))
+        allowed: fact_as("range", Judgement::BEHAVIOR, |list: &Vec<(i128, i128)>| {
+            joined(list, |(first, last)| facts::types::numbers(*first, Some(*last)))
         }),
         allowed_labels: fact("names of the range", Judgement::NONE),
         changeable: fact("changeable", Judgement::BEHAVIOR),
@@ -166,11 +166,11 @@ fn f_parameter(old: &FParameter, new: &FParameter, comparison: &mut Comparison<'
 /// Compares the submodules of a device or module, and their subslots.
 pub(super) fn compare_uses(old: &[SubmoduleUse], new: &[SubmoduleUse], comparison: &mut Comparison<'_>) {
     let uses = |catalog: &Catalog, uses: &[SubmoduleUse]| -> Vec<Use> {
-        let title = |own: &SubmoduleUse| match catalog.submodules.get(own.submodule.0 as usize) {
+        let title = |one: &SubmoduleUse| match catalog.submodules.get(one.submodule.0 as usize) {
             Some(submodule) => format!("submodule {} ({})", submodule.name, submodule_key(submodule)),
-            None => format!("submodule number {}", own.submodule.0),
+            None => format!("submodule number {}", one.submodule.0),
         };
-        uses.iter().map(|own| Use { title: title(own), places: own.places.clone() }).collect()
+        uses.iter().map(|one| Use { title: title(one), places: one.places.clone() }).collect()
     };
     let (old_catalog, new_catalog) = comparison.catalogs;
     places(&uses(old_catalog, old), &uses(new_catalog, new), comparison);
@@ -178,7 +178,12 @@ pub(super) fn compare_uses(old: &[SubmoduleUse], new: &[SubmoduleUse], compariso
 
 /// User structures of diagnosis belong together by API and identifier.
 pub(super) fn unit_diagnoses() -> impl Fn(&Vec<UnitDiagnosis>, &Vec<UnitDiagnosis>, &mut Comparison<'_>) {
-    list(Elements::titled(|own: &UnitDiagnosis| format!("diagnosis {:X}/{:04X}", own.api, own.identifier)), diagnosis)
+    list(
+        Elements::titled(|diagnosis: &UnitDiagnosis| {
+            format!("diagnosis {:X}/{:04X}", diagnosis.api, diagnosis.identifier)
+        }),
+        diagnosis,
+    )
 }
 
 fn diagnosis(old: &UnitDiagnosis, new: &UnitDiagnosis, comparison: &mut Comparison<'_>) {
@@ -189,9 +194,9 @@ fn diagnosis(old: &UnitDiagnosis, new: &UnitDiagnosis, comparison: &mut Comparis
         names: text("name in other languages"),
         documentation: documentation,
         fields: list(Elements {
-            title: |own: &UnitDiagnosisField| format!("field {}", own.name),
-            name: |own| own.name.to_string(),
-            place: |own| own.bit_offset.to_string(),
+            title: |field: &UnitDiagnosisField| format!("field {}", field.name),
+            name: |field| field.name.to_string(),
+            place: |field| field.bit_offset.to_string(),
             added: |_| Judgement::API_AND_WIRE,
             removed: |_| Judgement::API_AND_WIRE,
         }, diagnosis_field),
@@ -208,7 +213,7 @@ fn diagnosis_field(old: &UnitDiagnosisField, new: &UnitDiagnosisField, compariso
         bits: fact("length in bits", Judgement::WIRE),
         ty: types::compare,
         values: |old: &Option<TypeId>, new: &Option<TypeId>, comparison: &mut Comparison<'_>| {
-            let named = |own: &Option<TypeId>| own.map(Type::Named);
+            let named = |value: &Option<TypeId>| value.map(Type::Named);
             types::compare_optional("values", Judgement::API)(&named(old), &named(new), comparison);
         },
         default: fact("default", Judgement::BEHAVIOR),

@@ -66,16 +66,16 @@ show_as_name! {
         AxisStep::SubIndex => "sub-index = axis",
         AxisStep::SubIndexStride(stride) => format!("sub-index + {stride}"),
     }
-    ObjectBuses { buses => [("CANopen", buses.canopen), ("EtherCAT", buses.coe)].into_iter().filter(|own| own.1)
-        .map(|own| own.0).collect::<Vec<_>>().join(", ") }
+    ObjectBuses { buses => [("CANopen", buses.canopen), ("EtherCAT", buses.coe)].into_iter().filter(|(_, is_on)| *is_on)
+        .map(|(name, _)| name).collect::<Vec<_>>().join(", ") }
     Numbers { numbers => numbers.0.iter().map(|(first, last)| match first == last {
         true => first.to_string(),
         false => format!("{first} to {last}"),
     }).collect::<Vec<_>>().join(", ") }
     Places { places => [("allowed", &places.allowed), ("fixed", &places.fixed), ("used", &places.used)].into_iter()
-        .filter(|own| !own.1.is_empty()).map(|(kind, own)| format!("{kind} {}", own.show())).collect::<Vec<_>>().join("; ") }
-    Oversampling { own => {
-        let Oversampling { factor, min, max, index_increment } = own;
+        .filter(|(_, numbers)| !numbers.is_empty()).map(|(kind, numbers)| format!("{kind} {}", numbers.show())).collect::<Vec<_>>().join("; ") }
+    Oversampling { oversampling => {
+        let Oversampling { factor, min, max, index_increment } = oversampling;
         let all = [("factor", factor), ("minimum", min), ("maximum", max), ("index increment", index_increment)];
         all.into_iter().filter_map(|(name, number)| Some(format!("{name} {}", (*number)?))).collect::<Vec<_>>().join(", ")
     } }

@@ -37,20 +37,24 @@ pub(super) fn doubts(old: &Doubts, new: &Doubts, comparison: &mut Comparison<'_>
     })(old, new, comparison);
 }
 
-fn doubt(own: &Doubt) -> String {
-    let subject = own.subject.as_deref().map(|subject| {
+fn doubt(doubt: &Doubt) -> String {
+    let subject = doubt.subject.as_deref().map(|subject| {
         let element = if subject.element.is_empty() { String::new() } else { format!(", {}", subject.element) };
         format!(", {:?} {}{element}", subject.kind, subject.name)
     });
-    let without_citation = Doubt { cite: None, subject: None, ..own.clone() };
+    let without_citation = Doubt { cite: None, subject: None, ..doubt.clone() };
     let text = PLAIN.doubt(&Manual::default(), &without_citation);
-    format!("({}{}) {text}", own.severity.name(), subject.unwrap_or_default())
+    format!("({}{}) {text}", doubt.severity.name(), subject.unwrap_or_default())
 }
 
 /// Facts of the source for which the intermediate representation has no field.
 pub(super) fn extensions(old: &Extensions, new: &Extensions, comparison: &mut Comparison<'_>) {
     positioned("further keys", Judgement::NONE, |extensions: &Extensions| {
-        extensions.iter().map(|own| format!("{} = {}", own.key, own.value)).collect::<Vec<_>>().join("; ")
+        extensions
+            .iter()
+            .map(|extension| format!("{} = {}", extension.key, extension.value))
+            .collect::<Vec<_>>()
+            .join("; ")
     })(old, new, comparison);
 }
 
@@ -64,7 +68,7 @@ pub(super) fn manual(old: &Option<Box<Manual>>, new: &Option<Box<Manual>>, compa
             counts: ignored(CITATION),
             documentation: text("description"),
             sections: positioned("sections", Judgement::NONE, |sections: &Vec<ManualSection>| {
-                sections.iter().map(|own| own.title.as_str()).collect::<Vec<_>>().join("; ")
+                sections.iter().map(|section| section.title.as_str()).collect::<Vec<_>>().join("; ")
             }),
         });
     })(old, new, comparison);

@@ -6,10 +6,12 @@ use super::change::{Effect, Judgement};
 use super::comparison::{
     compare_fields, fact, fact_as, ignored, judged, slices, text, Comparison, Elements, COMPARED, POSITION,
 };
+use super::pairing::pairs;
 use super::show::Show;
 use super::texts::{documentation, renamed};
 use lexibus_codegen::facts::types::{self, definition};
 use lexibus_codegen::facts::words::PLAIN;
+use lexibus_codegen::ir::owner::Owner;
 use lexibus_codegen::ir::{BitFieldEntry, BitMeaning, EnumValue, Field, Shape, Type, TypeDef, TypeId};
 
 /// Compares the types of the current element, and the definitions of named types once for each pair.
@@ -32,7 +34,7 @@ pub(super) fn compare_definitions(old: Type, new: Type, comparison: &mut Compari
         (Some(_), Some(_)) | (None, None) => {}
         // A name of a basic type; another definition has another text.
         (one, other) if name(old_types, old) == name(new_types, new) => {
-            let text = |own: Option<&TypeDef>| own.map(|own| own.name.to_string()).unwrap_or_default();
+            let text = |value: Option<&TypeDef>| value.map(|value| value.name.to_string()).unwrap_or_default();
             comparison.push("name of the type", text(one), text(other), Judgement::NONE);
         }
         _ => {}
@@ -60,11 +62,11 @@ pub(super) fn compare_unused(comparison: &mut Comparison<'_>) {
     let unused = |types: &[TypeDef], compared: HashSet<Type>| -> Vec<(TypeId, String)> {
         let ids = (0..types.len()).map(|at| TypeId(at as u32)).zip(types);
         let unused = ids.filter(|(id, _)| !compared.contains(&Type::Named(*id)));
-        unused.map(|(id, own)| (id, own.name.to_string())).collect()
+        unused.map(|(id, definition)| (id, definition.name.to_string())).collect()
     };
     let (old_compared, new_compared) = comparison.compared_types();
     let (old, new) = (unused(old_types, old_compared), unused(new_types, new_compared));
-    let elements = Elements::<(TypeId, String)>::titled(|own| format!("type {}", own.1))
+    let elements = Elements::<(TypeId, String)>::titled(|(_, name)| format!("type {name}"))
         .judged(|_| Judgement::API_COMPATIBLE, |_| Judgement::API);
     slices(
         &old,
@@ -79,7 +81,7 @@ pub(super) fn compare_unused(comparison: &mut Comparison<'_>) {
 
 /// `UNSIGNED16`, `values of UNSIGNED16`, `array of 4 × INTEGER16`.
 pub(super) fn name(types: &[TypeDef], ty: Type) -> String {
-    let shape = lexibus_codegen::ir::owner::Owner::of_types(types).definition(ty).map(|own| &own.shape);
+    let shape = Owner::of_types(types).definition(ty).map(|definition| &definition.shape);
     match shape {
         Some(Shape::BitField { .. }) => format!("bits of {}", types::name(types, ty)),
         Some(Shape::Enumeration { .. }) => format!("values of {}", types::name(types, ty)),
@@ -180,9 +182,9 @@ fn kind(shape: &Shape) -> &'static str {
 
 fn fields(old: &[Field], new: &[Field], comparison: &mut Comparison<'_>) {
     let elements = Elements::<Field> {
-        title: |own| format!("field {}", own.name),
-        name: |own| own.name.to_string(),
-        place: |own| own.bit_offset.to_string(),
+        title: |field| format!("field {}", field.name),
+        name: |field| field.name.to_string(),
+        place: |field| field.bit_offset.to_string(),
         added: |_| Judgement::API_AND_WIRE,
         removed: |_| Judgement::API_AND_WIRE,
     };
@@ -199,28 +201,22 @@ fn fields(old: &[Field], new: &[Field], comparison: &mut Comparison<'_>) {
 }
 
 fn bit_fields(old: &[BitFieldEntry], new: &[BitFieldEntry], comparison: &mut Comparison<'_>) {
-    let is_reserved = |own: &BitFieldEntry| matches!(own.meaning, BitMeaning::Reserved { .. });
-    let judge = move |own: &BitFieldEntry, judgement| if is_reserved(own) { Judgement::NONE } else { judgement };
-    let elements = Elements::<BitFieldEntry> {
-        title: bits,
-        name: |own| match own.when.is_some() {
-            true => format!("{} {}", own.name, bits(own)),
-            false => own.name.to_string(),
-        },
-        place: bits,
-        added: |_| Judgement::NONE,
-        removed: |_| Judgement::NONE,
+    let is_reserved = |field: &BitFieldEntry| matches!(field.meaning, BitMeaning::Reserved { .. });
+    let judge = move |field: &BitFieldEntry, judgement| if is_reserved(field) { Judgement::NONE } else { judgement };
+    let name = |field: &BitFieldEntry| match field.when.is_some() {
+        true => format!("{} {}", field.name, bits(field)),
+        false => field.name.to_string(),
     };
-    for (old, new) in super::pairing::pairs(old, new, elements.name, elements.place) {
-        let Some(own) = new.or(old) else { continue };
-        comparison.within(&bits(own), |comparison| match (old, new) {
+    for (old, new) in pairs(old, new, name, bits) {
+        let Some(field) = new.or(old) else { continue };
+        comparison.within(&bits(field), |comparison| match (old, new) {
             (Some(old), Some(new)) => bit_field(old, new, comparison),
             (Some(old), None) => {
                 comparison.push("removed", old.name.to_string(), String::new(), judge(old, Judgement::API));
             }
             _ => {
-                let judgement = judge(own, Judgement::API_COMPATIBLE);
-                comparison.push("added", String::new(), own.name.to_string(), judgement);
+                let judgement = judge(field, Judgement::API_COMPATIBLE);
+                comparison.push("added", String::new(), field.name.to_string(), judgement);
             }
         });
     }
@@ -237,26 +233,26 @@ fn bit_field(old: &BitFieldEntry, new: &BitFieldEntry, comparison: &mut Comparis
         when: fact("applies while", Judgement::API_AND_BEHAVIOR),
         trigger: fact("acts on", Judgement::BEHAVIOR),
         access: fact("access", Judgement::API),
-        availability: super::item::availability,
+        availability: super::conditions::availability,
         documentation: documentation,
         at: ignored(POSITION),
     });
 }
 
 /// `bit 4`, `bits 7 to 4`.
-fn place(own: &BitFieldEntry) -> String {
-    let last = u32::from(own.offset) + u32::from(own.bits).max(1) - 1;
-    match own.bits {
+fn place(field: &BitFieldEntry) -> String {
+    let last = u32::from(field.offset) + u32::from(field.bits).max(1) - 1;
+    match field.bits {
         1 => format!("bit {last}"),
         0 => format!("no bit at {last}"),
-        _ => format!("bits {last} to {}", own.offset),
+        _ => format!("bits {last} to {}", field.offset),
     }
 }
 
 /// The bits, and when they have their meaning: `bits 7 to 4 while Mode is 1`.
-fn bits(own: &BitFieldEntry) -> String {
-    let when = own.when.as_ref().map(|condition| format!(" while {}", condition.show()));
-    place(own) + &when.unwrap_or_default()
+fn bits(field: &BitFieldEntry) -> String {
+    let when = field.when.as_ref().map(|condition| format!(" while {}", condition.show()));
+    place(field) + &when.unwrap_or_default()
 }
 
 /// What the getter of the bits returns.
@@ -274,8 +270,8 @@ fn meanings(old: &BitMeaning, new: &BitMeaning, comparison: &mut Comparison<'_>)
     }
 }
 
-fn meaning(own: &BitMeaning) -> &'static str {
-    match own {
+fn meaning(bit_meaning: &BitMeaning) -> &'static str {
+    match bit_meaning {
         BitMeaning::Flag { inverted: false } => "a flag",
         BitMeaning::Flag { inverted: true } => "a flag that is set by 0",
         BitMeaning::Number => "a number",
@@ -288,24 +284,24 @@ fn meaning(own: &BitMeaning) -> &'static str {
 
 fn values(old: &[EnumValue], new: &[EnumValue], comparison: &mut Comparison<'_>) {
     // A generated enumeration has a variant for each value, and code may match all of them.
-    let is_variant = |own: &EnumValue| own.last.is_none();
-    let judge = move |own: &EnumValue| if is_variant(own) { Judgement::API } else { Judgement::NONE };
-    let key = |own: &EnumValue| match own.when.as_ref() {
-        Some(condition) => format!("{} while {}", own.name, condition.show()),
-        None => own.name.to_string(),
+    let is_variant = |value: &EnumValue| value.last.is_none();
+    let judge = move |value: &EnumValue| if is_variant(value) { Judgement::API } else { Judgement::NONE };
+    let key = |value: &EnumValue| match value.when.as_ref() {
+        Some(condition) => format!("{} while {}", value.name, condition.show()),
+        None => value.name.to_string(),
     };
-    for (old, new) in super::pairing::pairs(old, new, key, |own| own.value.to_string()) {
-        let Some(own) = new.or(old) else { continue };
-        comparison.within(&format!("value {}", number(own)), |comparison| match (old, new) {
+    for (old, new) in pairs(old, new, key, |value| value.value.to_string()) {
+        let Some(either) = new.or(old) else { continue };
+        comparison.within(&format!("value {}", number(either)), |comparison| match (old, new) {
             (Some(old), Some(new)) => value(old, new, comparison),
             (Some(old), None) => comparison.push("removed", old.name.to_string(), String::new(), judge(old)),
-            _ => comparison.push("added", String::new(), own.name.to_string(), judge(own)),
+            _ => comparison.push("added", String::new(), either.name.to_string(), judge(either)),
         });
     }
 }
 
-fn number(own: &EnumValue) -> String {
-    types::numbers(own.value, own.last)
+fn number(value: &EnumValue) -> String {
+    types::numbers(value.value, value.last)
 }
 
 fn value(old: &EnumValue, new: &EnumValue, comparison: &mut Comparison<'_>) {
@@ -318,7 +314,7 @@ fn value(old: &EnumValue, new: &EnumValue, comparison: &mut Comparison<'_>) {
         zone: fact("zone", Judgement::BEHAVIOR),
         names: text("name in other languages"),
         when: fact("applies while", Judgement::BEHAVIOR),
-        availability: super::item::availability,
+        availability: super::conditions::availability,
         documentation: documentation,
         at: ignored(POSITION),
     });

@@ -1,0 +1,52 @@
+//! What restricts an element: conditions, models, firmware versions, options and buses.
+
+use std::fmt::Debug;
+
+use super::change::Judgement;
+use super::comparison::{compare_fields, fact, judged, or_default, text, Comparison};
+use super::show::Show;
+use lexibus_codegen::ir::{Availability, Condition};
+
+/// A list that restricts what is possible unless it is empty.
+pub(super) fn restricted<T: PartialEq + Debug + Show>(
+    name: &'static str,
+) -> impl Fn(&Vec<T>, &Vec<T>, &mut Comparison<'_>) {
+    judged(name, |old: &Vec<T>, new: &Vec<T>| {
+        let is_narrower = !new.is_empty() && (old.is_empty() || old.iter().any(|value| !new.contains(value)));
+        if is_narrower {
+            Judgement::BEHAVIOR
+        } else {
+            Judgement::BEHAVIOR_COMPATIBLE
+        }
+    })
+}
+
+/// Conditions that all have to hold.
+pub(super) fn conditions(name: &'static str) -> impl Fn(&Vec<Condition>, &Vec<Condition>, &mut Comparison<'_>) {
+    move |old, new, comparison| {
+        let text = |list: &[Condition]| list.iter().map(Condition::show).collect::<Vec<_>>().join(" and ");
+        if old != new {
+            let is_weaker = new.iter().all(|condition| old.contains(condition));
+            let judgement = if is_weaker { Judgement::BEHAVIOR_COMPATIBLE } else { Judgement::BEHAVIOR };
+            comparison.values(name, [old, new], [text(old), text(new)], judgement);
+        }
+    }
+}
+
+/// Models, firmware versions, options and buses that have an element.
+pub(super) fn availability(
+    old: &Option<Box<Availability>>,
+    new: &Option<Box<Availability>>,
+    comparison: &mut Comparison<'_>,
+) {
+    or_default(|old, new, comparison: &mut Comparison<'_>| {
+        compare_fields!(Availability, old, new, comparison, {
+            models: restricted("models"),
+            since: fact("since firmware", Judgement::BEHAVIOR),
+            until: fact("until firmware", Judgement::BEHAVIOR),
+            replaced_by: text("replaced by"),
+            options: fact("needs", Judgement::BEHAVIOR),
+            buses: restricted("only on"),
+        });
+    })(old, new, comparison);
+}

@@ -1,0 +1,22 @@
+//! Vendor, product and revision of devices, modules and submodules.
+
+use super::change::Judgement;
+use super::comparison::{compare_fields, fact_as, text, Comparison};
+use super::show::ident;
+use lexibus_codegen::ir::{CompactString, Identity};
+
+/// Compares identities. A program may check them; they change no other bytes.
+pub(super) fn identity(old: &Identity, new: &Identity, comparison: &mut Comparison<'_>) {
+    compare_fields!(Identity, old, new, comparison, {
+        vendor_id: fact_as("vendor-ID", Judgement::BEHAVIOR, ident),
+        vendor_name: text("name of the vendor"),
+        product_code: fact_as("product code", Judgement::BEHAVIOR, ident),
+        product_name: text("name of the product"),
+        revision_number: fact_as("revision", Judgement::BEHAVIOR, ident),
+        order_code: text("order code"),
+        serial_number: fact_as("serial number", Judgement::BEHAVIOR, ident),
+        others: fact_as("further identity", Judgement::BEHAVIOR, |others: &Vec<(CompactString, u32)>| {
+            others.iter().map(|(name, number)| format!("{name} 0x{number:08X}")).collect::<Vec<_>>().join(", ")
+        }),
+    });
+}
