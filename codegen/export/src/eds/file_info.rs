@@ -4,8 +4,8 @@
 //! perhaps no version at all: these are made to fit.
 
 use super::extras::Header;
-use super::header::Section;
 use super::note::{NoteKind, Place};
+use super::section::Section;
 use super::{Context, Flavour};
 use lexibus_codegen::ir;
 

@@ -3,12 +3,10 @@
 use super::extras::{Extra, Header};
 use super::note::{NoteKind, Place};
 use super::object;
+use super::section::{comment_lines, indices, Section, BIT_RATES};
 use super::writer::Writer;
 use super::{file_info, Context, Flavour};
 use lexibus_codegen::ir::{CanOpenSettings, Catalog, Commissioning, CompactString, DynamicChannel, Group};
-
-/// The bit rates of CiA 306 in kbit/s.
-pub(super) const BIT_RATES: [u16; 8] = [10, 20, 50, 125, 250, 500, 800, 1000];
 
 /// Writes a section of the header, if there is anything in it; an object list with its objects.
 pub(super) fn write<'e>(
@@ -19,7 +17,7 @@ pub(super) fn write<'e>(
     extras: impl Iterator<Item = Extra<'e>> + Clone,
     objects: &[&Group],
 ) {
-    let mut out = Section { writer, header, is_open: false };
+    let mut out = Section::new(writer, header);
     if extras.clone().next().is_some() {
         out.open();
     }
@@ -39,24 +37,6 @@ pub(super) fn write<'e>(
     }
     let own = objects.iter().filter(|group| list_of(group) == Some(header));
     object::all(writer, context, own);
-}
-
-/// A section that begins with its first entry.
-pub(super) struct Section<'w> {
-    writer: &'w mut Writer,
-    header: Header,
-    is_open: bool,
-}
-
-impl Section<'_> {
-    /// The writer, within the section.
-    pub(super) fn open(&mut self) -> &mut Writer {
-        if !self.is_open {
-            self.is_open = true;
-            self.writer.section(self.header.name());
-        }
-        self.writer
-    }
 }
 
 fn device_info(writer: &mut Writer, context: &Context<'_>, objects: &[&Group]) {
@@ -140,15 +120,6 @@ fn dummy_usage(out: &mut Section<'_>, context: &Context<'_>) {
 fn comments(out: &mut Section<'_>, lines: &[CompactString]) {
     if !lines.is_empty() {
         comment_lines(out.open(), lines);
-    }
-}
-
-/// `Lines` and `LineN`.
-pub(super) fn comment_lines(writer: &mut Writer, lines: &[CompactString]) {
-    writer.entry("Lines", lines.len());
-    for (line, number) in lines.iter().zip(1..) {
-        let line = writer.one_line(line, Place::Named("Comments"));
-        writer.numbered(format_args!("Line{number}"), line);
     }
 }
 
@@ -240,12 +211,4 @@ fn list_of(group: &Group) -> Option<Header> {
 fn list(writer: &mut Writer, header: Header, objects: &[&Group]) {
     let own = || objects.iter().filter(|group| list_of(group) == Some(header)).filter_map(|group| group.index());
     indices(writer, "SupportedObjects", own().count(), own());
-}
-
-/// How many there are, and each by number.
-pub(super) fn indices(writer: &mut Writer, key: &'static str, count: usize, list: impl Iterator<Item = u16>) {
-    writer.entry(key, count);
-    for (index, number) in list.zip(1..) {
-        writer.numbered(number, format_args!("0x{index:04X}"));
-    }
 }

@@ -1,9 +1,9 @@
 //! Facts that CiA 306 has no place for.
 
-use super::header::BIT_RATES;
 use super::mapping;
 use super::note::{self, NoteKind, Notes, Place};
 use super::registers;
+use super::section::BIT_RATES;
 use super::{is_coe_only, Context, Flavour};
 use lexibus_codegen::ir::{Binding, Catalog, Device, Group, GroupKind, Item, Module, ObjectBuses};
 

@@ -25,6 +25,7 @@ mod losses;
 mod mapping;
 mod modules;
 mod object;
+mod section;
 mod value;
 mod writer;
 

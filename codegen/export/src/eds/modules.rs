@@ -1,9 +1,9 @@
 //! Modules that add to the dictionary (CiA 306, "modular devices").
 
-use super::header::{comment_lines, indices};
 use super::losses;
 use super::note::{NoteKind, Place};
 use super::object;
+use super::section::{comment_lines, indices};
 use super::writer::Writer;
 use super::Context;
 use lexibus_codegen::ir::{Catalog, Group, Module, SubExtension};

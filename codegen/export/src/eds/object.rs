@@ -4,9 +4,9 @@ use std::collections::HashMap;
 
 use super::compact;
 use super::data_type::{data_type, DataType};
-use super::header;
 use super::losses;
 use super::note::{NoteKind, Place};
+use super::section::indices;
 use super::value::{self, Form, Role};
 use super::writer::Writer;
 use super::{Context, Flavour};
@@ -37,7 +37,7 @@ pub(super) fn object(writer: &mut Writer, context: &Context<'_>, group: &Group, 
     out.refinements(writer, refinements);
     if !group.links.is_empty() {
         writer.section(format_args!("{before}{index:04X}ObjectLinks"));
-        header::indices(writer, "ObjectLinks", group.links.len(), group.links.iter().copied());
+        indices(writer, "ObjectLinks", group.links.len(), group.links.iter().copied());
     }
 }
 

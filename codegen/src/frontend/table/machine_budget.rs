@@ -8,7 +8,7 @@ use super::at::{At, TextOr};
 use super::format::{MachineTable, MatrixTable};
 use super::machines::enumeration;
 use super::repeats::length;
-use super::tree::{number_or_text, Reader};
+use super::tree::Reader;
 use crate::diagnostics::{codes, Diagnostic};
 use crate::ir::Device;
 use crate::limits::{MAX_MACHINE_ROWS, ROW_BYTES_PER_ITEM};
@@ -71,7 +71,7 @@ fn of_matrix(table: &MatrixTable) -> usize {
     let long: HashMap<&str, usize> = notes.filter(|(_, length)| *length > 0).collect();
     let cells = table.rows.iter().flat_map(|(_, row)| &row.value.cells);
     let copied = cells.filter(|_| !long.is_empty()).filter_map(|cell| match &cell.value {
-        TextOr::Table(own) => long.get(number_or_text(&own.note.as_ref()?.value).as_str()),
+        TextOr::Table(own) => long.get(own.note.as_ref()?.value.to_string().as_str()),
         TextOr::Text(_) => None,
     });
     rows.saturating_add(table.states.len()).saturating_add(table.notes.iter().count()).saturating_add(copied.sum())

@@ -350,7 +350,7 @@ impl Fields<'_, '_, '_> {
 
     /// First and last of some bytes.
     fn bytes<T: TryFrom<i128> + PartialOrd>(&mut self, given: &At<NumberOrText>) -> Option<(T, T)> {
-        let range = place::range(&super::tree::number_or_text(&given.value));
+        let range = place::range(&given.value.to_string());
         let found = range.and_then(|(first, last)| Some((T::try_from(first).ok()?, T::try_from(last).ok()?)));
         let found = found.filter(|(first, last)| first <= last);
         if found.is_none() {

@@ -5,7 +5,7 @@ use std::collections::HashSet;
 use super::at::{At, TextOr};
 use super::format::{MatrixCell, MatrixRow, MatrixTable};
 use super::references::References;
-use super::tree::{about, cited, number_or_text, Reader};
+use super::tree::{about, cited, Reader};
 use crate::diagnostics::{codes, Diagnostic};
 use crate::ir::{
     Availability, CommandOutcomes, CompactString, Device, Documentation, Doubts, Outcome, Pattern, StateOutcome,
@@ -141,7 +141,7 @@ fn cell(
     };
     let mut words: Vec<&str> = own.doc.as_deref().into_iter().collect();
     if let Some(note) = &own.note {
-        let key = number_or_text(&note.value);
+        let key = note.value.to_string();
         match table.notes.iter().find(|(name, _)| name.value == key) {
             Some((_, text)) => words.push(&text.value),
             None => {

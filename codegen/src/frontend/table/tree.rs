@@ -287,15 +287,7 @@ pub(super) fn about(doubts: Doubts, kind: SubjectKind, name: &str, element: &str
 
 /// Pages or lines as one text.
 pub(super) fn cited(list: &super::at::OneOrMany<NumberOrText>) -> String {
-    list.0.iter().map(number_or_text).collect::<Vec<_>>().join(", ")
-}
-
-/// A number or a text as a text.
-pub(super) fn number_or_text(given: &NumberOrText) -> String {
-    match given {
-        NumberOrText::Number(number) => number.to_string(),
-        NumberOrText::Text(text) => text.clone(),
-    }
+    list.0.iter().map(NumberOrText::to_string).collect::<Vec<_>>().join(", ")
 }
 
 /// The most similar of the names that exist, if any is similar at all.
