@@ -232,7 +232,7 @@ impl fmt::Display for Place<'_> {
         match self {
             Place::Device => f.write_str("the device"),
             Place::Object(index) => write!(f, "0x{index:04X}"),
-            Place::Entry(index, sub) => write!(f, "0x{index:04X}:{sub:02X}"),
+            Place::Entry(index, sub) => f.write_str(&lexibus_codegen::facts::address::object(*index, *sub)),
             // A name may have anything in it, and a note is one line.
             Place::Named(name) => name.chars().try_for_each(|letter| {
                 let letter = if letter.is_control() { ' ' } else { letter };

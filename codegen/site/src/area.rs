@@ -160,7 +160,7 @@ fn section(group: &Group, items: &[Item], rows: &mut Rows<'_>) -> Section {
     let mut facts = PLAIN.description(group.documentation.as_deref());
     facts.extend(PLAIN.place(rows.known.manual, "", group.documentation.as_deref(), &group.names));
     let anchor = rows.names.anchor(&number);
-    let sub = |item: &Item| item.object().map_or_else(String::new, |(index, sub)| format!("0x{index:04X}:{sub:02X}"));
+    let sub = |item: &Item| item.object().map_or_else(String::new, |(index, sub)| address::object(index, sub));
     Section {
         anchor: Some(anchor),
         number,

@@ -19,8 +19,7 @@ use super::protocol::{self, Protocol};
 use super::search::{Entry, Index};
 use super::Page;
 use lexibus_codegen::backend::rust;
-use lexibus_codegen::facts::pdo;
-use lexibus_codegen::facts::words;
+use lexibus_codegen::facts::{self, pdo, words};
 use lexibus_codegen::ir::{Catalog, Device, Documentation, Group, Manual, Texts};
 
 /// The folder of a catalogue.
@@ -308,8 +307,10 @@ fn index_rows(index: &mut Index, rows: &[Row]) {
 }
 
 fn title(device: &Device) -> String {
-    let names = [&device.name, &device.identity.product_name, &device.identity.order_code, &device.id];
-    names.into_iter().find(|name| !name.trim().is_empty()).map_or_else(|| "Device".to_owned(), ToString::to_string)
+    match facts::device::title(device) {
+        "" => "Device".to_owned(),
+        title => title.to_owned(),
+    }
 }
 
 /// The languages of names and descriptions: of these devices, and those that their modules have, which are on pages of all devices.

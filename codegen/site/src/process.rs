@@ -148,7 +148,7 @@ fn drawn(entries: &[PdoEntry], bits: u32, types: &[TypeDef]) -> Frame {
     let rows: Vec<Row> = (0..bytes.div_ceil(ROW)).take(MOST_ROWS).map(|at| row(entries, at)).collect();
     let list = entries.iter().filter(|own| own.kind != PdoEntryKind::Padding).map(|own| Entry {
         place: address::bits_of(own.bit_offset, own.bits),
-        object: if own.index == 0 { String::new() } else { format!("0x{:04X}:{:02X}", own.index, own.sub_index) },
+        object: if own.index == 0 { String::new() } else { address::object(own.index, own.sub_index) },
         name: own.name.to_string(),
         names: words::names(&own.names),
         ty: types::name(types, own.ty),

@@ -54,9 +54,17 @@ fn raw(item: &Item, value: &Value, ty: Type) -> String {
 }
 
 /// A value in a table: numbers of unsigned types that look like bit patterns in hexadecimal.
-pub fn number(value: &Value, ty: Type) -> String {
-    match (value, ty) {
-        (Value::Int(number @ 0x1_0000..), Type::Unsigned(_)) => format!("0x{number:X}"),
+fn number(value: &Value, ty: Type) -> String {
+    match value {
+        Value::Int(number) => integer(*number, matches!(ty, Type::Unsigned(_))),
         _ => PLAIN.value(value),
+    }
+}
+
+/// A number; large unsigned ones in hexadecimal: most of them are bit patterns, addresses and signatures.
+pub fn integer(number: i128, is_unsigned: bool) -> String {
+    match number {
+        0x1_0000.. if is_unsigned => format!("0x{number:X}"),
+        _ => number.to_string(),
     }
 }

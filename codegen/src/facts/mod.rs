@@ -5,6 +5,7 @@
 //! | `address` | addresses of items on every bus |
 //! | `cob_id` | the identifier of a CAN frame and its flags |
 //! | `code` | codes as their source prints them |
+//! | `device` | what a device is called |
 //! | `item` | default, range and unit of an item |
 //! | `markdown` | texts within Markdown |
 //! | `pattern` | bits that have to be 0 or 1 |
@@ -17,6 +18,7 @@
 pub mod address;
 pub mod cob_id;
 pub mod code;
+pub mod device;
 pub mod item;
 pub mod markdown;
 pub mod pattern;

@@ -8,6 +8,7 @@ use super::pairing::pairs;
 use super::show::Show;
 use super::texts::extensions;
 use super::{codes, devices, modules, profinet, types};
+use lexibus_codegen::facts::device::title;
 use lexibus_codegen::ir::{Catalog, Device, Family, Graphic, LocalText, Module, Submodule};
 
 /// Compares two versions of a description. The changes that break Rust code or the communication come first, then those that break the behavior,
@@ -46,11 +47,11 @@ fn shared(old: &Catalog, new: &Catalog, comparison: &mut Comparison<'_>) {
 /// The only devices of two descriptions belong together, others by product code, name and identifier.
 fn compare_devices<'a>(old: &'a [Device], new: &'a [Device], comparison: &mut Comparison<'a>) {
     let is_one = old.len() == 1 && new.len() == 1;
-    let key = |device: &Device| format!("{:?} {} {}", device.identity.product_code, devices::title(device), device.id);
+    let key = |device: &Device| format!("{:?} {} {}", device.identity.product_code, title(device), device.id);
     let key = |device: &Device| if is_one { String::new() } else { key(device) };
-    let place = |device: &Device| if is_one { String::new() } else { devices::title(device) };
+    let place = |device: &Device| if is_one { String::new() } else { title(device).to_owned() };
     for (old, new) in pairs(old, new, key, place) {
-        let owner = old.or(new).filter(|_| !is_one).map(devices::title).unwrap_or_default();
+        let owner = old.or(new).filter(|_| !is_one).map(title).unwrap_or_default().to_owned();
         owned(owner, "device", (old, new), comparison, |old, new, comparison| {
             comparison.in_types(&old.types, &new.types, |comparison| devices::compare(old, new, comparison));
         });

@@ -16,12 +16,6 @@ use lexibus_codegen::ir::{
     Group, Header, MessageExample, ModbusTable, Procedure, ProcessData, StateMachine, Value, Variant,
 };
 
-/// What a device is called.
-pub(super) fn title(device: &Device) -> String {
-    let names = [&device.name, &device.identity.product_name, &device.identity.order_code, &device.id];
-    names.into_iter().find(|name| !name.is_empty()).map(ToString::to_string).unwrap_or_default()
-}
-
 /// Compares all facts of a device.
 pub(super) fn compare(old: &Device, new: &Device, comparison: &mut Comparison<'_>) {
     comparison.within("the device", |comparison| facts_of_device(old, new, comparison));
@@ -76,8 +70,9 @@ pub(super) fn compare(old: &Device, new: &Device, comparison: &mut Comparison<'_
 
 /// What is true of the device as a whole.
 fn facts_of_device(old: &Device, new: &Device, comparison: &mut Comparison<'_>) {
-    judged("name", renamed)(&title(old), &title(new), comparison);
-    if title(old) == title(new) {
+    let titles = [old, new].map(|device| facts::device::title(device).to_owned());
+    judged("name", renamed)(&titles[0], &titles[1], comparison);
+    if titles[0] == titles[1] {
         text("name in the file")(&old.name, &new.name, comparison);
     }
     text("name in other languages")(&old.names, &new.names, comparison);

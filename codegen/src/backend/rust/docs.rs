@@ -6,13 +6,12 @@ use super::links::Here;
 use super::literal;
 use super::place::Place;
 use super::scope::Scope;
-use super::value_type;
 use super::variant;
-use crate::facts::markdown;
 use crate::facts::physical::Physical;
 pub(super) use crate::facts::words::sentence;
 use crate::facts::words::{capital, row_of};
 use crate::facts::words::{Words, NO_LINK};
+use crate::facts::{self, markdown};
 use crate::ir::{Binding, Condition, Documentation, Doubt, Item, Manual, SubjectKind, Type, TypeId, Value};
 
 /// Sentences for doc comments.
@@ -155,11 +154,8 @@ fn facts(item: &Item, scope: &Scope<'_>, words: &Words<'_>) -> String {
         let _ = write!(line, "{}, ", capital(&place));
     }
     let _ = write!(line, "{base}, {}", item.access_name());
-    match (item.mappable.rpdo, item.mappable.tpdo) {
-        (true, true) => line.push_str(", mappable into any PDO"),
-        (true, false) => line.push_str(", mappable into RPDOs"),
-        (false, true) => line.push_str(", mappable into TPDOs"),
-        (false, false) => {}
+    if let Some(pdos) = facts::item::mappable(item.mappable) {
+        let _ = write!(line, ", mappable into {pdos}");
     }
     let raw = |own: &Value| if item.quantity.is_some() { value(own) } else { typed(own, base) };
     let shown = |value: &Value| WORDS.of_item(item, value, &raw);
@@ -182,7 +178,7 @@ fn facts(item: &Item, scope: &Scope<'_>, words: &Words<'_>) -> String {
 /// A value of this type.
 pub(super) fn typed(shown: &Value, ty: Type) -> String {
     match shown {
-        Value::Int(number) => value_type::number(*number, matches!(ty, Type::Unsigned(_))),
+        Value::Int(number) => facts::item::integer(*number, matches!(ty, Type::Unsigned(_))),
         other => value(other),
     }
 }

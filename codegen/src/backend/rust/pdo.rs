@@ -356,7 +356,7 @@ fn field(scope: &Scope<'_>, entry: &PdoEntry, name: &str, text: &str, options: &
     let kind = field_type(scope, entry.ty, entry.bits);
     let ty = kind.path("super::");
     let cut = kind.cut(entry.bits);
-    let address = format!("0x{:04X}:{:02X}", entry.index, entry.sub_index);
+    let address = crate::facts::address::object(entry.index, entry.sub_index);
     let object = match (entry.kind, scope.links.object((entry.index, entry.sub_index))) {
         (PdoEntryKind::Unnumbered, _) => String::new(),
         (PdoEntryKind::Item, Some(path)) => Here::PDO.text(&address, path),

@@ -4,13 +4,13 @@ use super::{Field, Place};
 use crate::backend::rust::docs;
 use crate::backend::rust::route::{Net, Route};
 use crate::backend::rust::scope::Scope;
-use crate::facts::register;
+use crate::facts::{address, register};
 use crate::ir::{Item, RegisterSpace};
 
 impl Place<'_> {
     /// What the documentation calls the places of an item.
     pub fn facts(&self, scope: &Scope<'_>, item: &Item) -> String {
-        let object = |(index, sub): (u16, u8)| format!("0x{index:04X}:{sub:02X}");
+        let object = |(index, sub)| address::object(index, sub);
         let mut facts = Vec::new();
         match (self.canopen, self.coe) {
             (Some(canopen), Some(coe)) if canopen != coe => {
@@ -29,7 +29,7 @@ impl Place<'_> {
 
     /// The place in a few words.
     pub fn heading(&self) -> String {
-        let object = self.canopen.or(self.coe).map(|(index, sub)| format!("0x{index:04X}:{sub:02X}"));
+        let object = self.canopen.or(self.coe).map(|(index, sub)| address::object(index, sub));
         let register = self.modbus.map(|own| match own.bit_offset {
             Some(bit) => format!("register {} from bit {bit}", docs::escape(&register::printed(own))),
             None => format!("register {}", docs::escape(&register::printed(own))),
