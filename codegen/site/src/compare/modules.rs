@@ -44,11 +44,14 @@ pub(super) fn key(module: &Module) -> String {
 /// Compares the modules of a device, and their slots.
 pub(super) fn compare_uses(old: &[ModuleUse], new: &[ModuleUse], comparison: &mut Comparison<'_>) {
     let uses = |catalog: &Catalog, uses: &[ModuleUse]| -> Vec<Use> {
-        let title = |one: &ModuleUse| match catalog.modules.get(one.module.0 as usize) {
-            Some(module) => format!("module {} ({})", module.name, key(module)),
-            None => format!("module number {}", one.module.0),
+        let used = |one: &ModuleUse| {
+            let (title, key) = match catalog.modules.get(one.module.0 as usize) {
+                Some(module) => (format!("module {} ({})", module.name, key(module)), key(module)),
+                None => (format!("module number {}", one.module.0), one.module.0.to_string()),
+            };
+            Use { title, key, places: one.places.clone() }
         };
-        uses.iter().map(|one| Use { title: title(one), places: one.places.clone() }).collect()
+        uses.iter().map(used).collect()
     };
     let (old_catalog, new_catalog) = comparison.catalogs;
     places(&uses(old_catalog, old), &uses(new_catalog, new), comparison);

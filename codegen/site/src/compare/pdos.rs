@@ -149,11 +149,20 @@ impl Layout<'_> {
         let fields = |layout: &Layout<'_>| -> Vec<(String, String)> {
             layout.fields().map(|entry| (identifier(&entry.name), types::name(layout.types, entry.ty))).collect()
         };
+        let api = if fields(self) != fields(new) { Effect::Breaking } else { Effect::Unaffected };
+        Judgement { api, wire: self.wire_effect_of(new), ..Judgement::NONE }
+    }
+
+    /// Entries at other positions break the communication, and so do other types at the same ones.
+    fn wire_effect_of(&self, new: &Layout<'_>) -> Effect {
         let places =
             |layout: &Layout<'_>| layout.entries.iter().map(|entry| (entry.bit_offset, entry.bits)).collect::<Vec<_>>();
-        let effect = |breaks: bool| if breaks { Effect::Breaking } else { Effect::Unaffected };
-        let api = effect(fields(self) != fields(new));
-        Judgement { api, wire: effect(places(self) != places(new)), ..Judgement::NONE }
+        if places(self) != places(new) {
+            return Effect::Breaking;
+        }
+        let types = self.entries.iter().zip(new.entries);
+        let effects = types.map(|(one, other)| types::wire_effect(self.types, one.ty, new.types, other.ty));
+        effects.max().unwrap_or_default()
     }
 }
 

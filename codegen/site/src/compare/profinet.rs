@@ -166,11 +166,16 @@ fn f_parameter(old: &FParameter, new: &FParameter, comparison: &mut Comparison<'
 /// Compares the submodules of a device or module, and their subslots.
 pub(super) fn compare_uses(old: &[SubmoduleUse], new: &[SubmoduleUse], comparison: &mut Comparison<'_>) {
     let uses = |catalog: &Catalog, uses: &[SubmoduleUse]| -> Vec<Use> {
-        let title = |one: &SubmoduleUse| match catalog.submodules.get(one.submodule.0 as usize) {
-            Some(submodule) => format!("submodule {} ({})", submodule.name, submodule_key(submodule)),
-            None => format!("submodule number {}", one.submodule.0),
+        let used = |one: &SubmoduleUse| {
+            let (title, key) = match catalog.submodules.get(one.submodule.0 as usize) {
+                Some(submodule) => {
+                    (format!("submodule {} ({})", submodule.name, submodule_key(submodule)), submodule_key(submodule))
+                }
+                None => (format!("submodule number {}", one.submodule.0), one.submodule.0.to_string()),
+            };
+            Use { title, key, places: one.places.clone() }
         };
-        uses.iter().map(|one| Use { title: title(one), places: one.places.clone() }).collect()
+        uses.iter().map(used).collect()
     };
     let (old_catalog, new_catalog) = comparison.catalogs;
     places(&uses(old_catalog, old), &uses(new_catalog, new), comparison);

@@ -118,6 +118,14 @@ fn effects(old: Option<Type>, new: Option<Type>) -> Judgement {
     }
 }
 
+/// The effect of another type on the bytes.
+pub(super) fn wire_effect(old_types: &[TypeDef], old: Type, new_types: &[TypeDef], new: Type) -> Effect {
+    match (basic_of(old_types, old), basic_of(new_types, new)) {
+        (old, new) if old == new => Effect::Unaffected,
+        (old, new) => effects(old, new).wire,
+    }
+}
+
 /// Compares two definitions. `is_same_type`: another type has not been reported already.
 fn definitions(old: &TypeDef, new: &TypeDef, is_same_type: bool, comparison: &mut Comparison<'_>) {
     compare_fields!(TypeDef, old, new, comparison, {
