@@ -15,7 +15,7 @@
 //! assert_eq!(changes[0].to_string(), "breaks api: 0x2000:00 Gain: access rw, now ro");
 //! ```
 //!
-//! Every field of the intermediate representation is compared, or has a reason why it is not ([`comparison`]).
+//! Every field of the intermediate representation is compared, or has a reason why it is not (`comparison.rs`).
 
 mod bindings;
 mod catalog;
