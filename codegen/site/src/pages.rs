@@ -107,7 +107,7 @@ pub(super) trait Pages {
     fn findings(&self, around: Around<'_>, findings: &[Finding]) -> String;
     fn list(&self, around: Around<'_>, list: List<'_>) -> String;
 
-    /// What the pages of one catalogue share, beside them.
+    /// Further pages that those of one catalogue share.
     fn of_catalog(&self, search: &dyn Fn() -> String) -> Vec<Page>;
     /// What all pages share. `search` is the index of all, where a catalogue's isn't enough.
     fn of_site(&self, catalogs: &[Catalogue], search: Option<&dyn Fn() -> String>) -> Vec<Page>;

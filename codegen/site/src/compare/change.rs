@@ -207,3 +207,48 @@ impl fmt::Display for Summary {
         write!(f, "{count}; {breaking}; compatible: {compatible}; no effect: {none}")
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_change_is_named_by_its_worst_effects() {
+        let text = |judgement: Judgement| judgement.to_string();
+        assert_eq!(text(Judgement::API_AND_WIRE), "breaks api, wire");
+        assert_eq!(text(Judgement { behavior: Effect::Breaking, ..Judgement::WIRE }), "breaks wire, behavior");
+        assert_eq!(text(Judgement { behavior: Effect::Breaking, ..Judgement::ADDITION }), "breaks behavior");
+        assert_eq!(text(Judgement::BEHAVIOR_COMPATIBLE), "compatible");
+        assert_eq!(text(Judgement::NONE), "no effect");
+        let classes =
+            [Judgement::WIRE, Judgement::BEHAVIOR, Judgement::ADDITION, Judgement::NONE].map(Judgement::class);
+        assert!(classes.is_sorted());
+    }
+
+    #[test]
+    fn long_texts_are_shown_from_the_word_in_which_they_differ() {
+        let same = "word ".repeat(60);
+        let (old, new) = excerpts(&format!("{same}sheep here"), &format!("{same}ship {same}"));
+        assert_eq!(old, "… sheep here");
+        assert!(new.starts_with("… ship word") && new.ends_with(" …") && new.chars().count() < 90, "{new}");
+        let (old, new) = excerpts("", &format!("Ü{same}"));
+        assert!(old.is_empty() && new.starts_with("Üword"));
+        assert_eq!(excerpts("short", "text"), ("short".to_owned(), "text".to_owned()));
+    }
+
+    #[test]
+    fn every_judgement_is_counted() {
+        let change = |judgement| Change {
+            owner: String::new(),
+            element: String::new(),
+            fact: "fact",
+            old: String::new(),
+            new: String::new(),
+            judgement,
+        };
+        let changes = [Judgement::API_AND_WIRE, Judgement::BEHAVIOR, Judgement::ADDITION, Judgement::NONE].map(change);
+        let text = Summary::of(&changes).to_string();
+        assert_eq!(text, "4 changes; breaking: api 1, wire 1, behavior 1; compatible: 1; no effect: 1");
+        assert_eq!(Summary::of(&[]).to_string(), "no changes");
+    }
+}

@@ -2,8 +2,8 @@
 
 use lexibus_codegen::facts::words::PLAIN;
 use lexibus_codegen::ir::{
-    Access, Availability, AxisStep, Category, CompactString, Condition, Direction, Fit, LocalText, Numbers,
-    ObjectBuses, ObjectCode, Oversampling, Places, SharedList, Trigger, Value, Zone,
+    Access, AxisStep, Category, CompactString, Condition, Direction, Fit, LocalText, Numbers, ObjectBuses, ObjectCode,
+    Oversampling, Places, SharedList, Trigger, Value, Zone,
 };
 
 /// A text for reports. Values that differ have different texts.
@@ -54,7 +54,6 @@ show_as_name! {
         Category::Manufacturer => "manufacturer-specific",
     }
     Condition { condition => PLAIN.holds(condition) }
-    Availability { availability => PLAIN.availability(availability) }
     LocalText { text => format!("{}: {}", text.language, text.text) }
     Fit {
         Fit::Ident(ident) => format!("module 0x{ident:08X}"),
