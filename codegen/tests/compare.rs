@@ -352,3 +352,10 @@ fn two_elements_that_swap_their_addresses_keep_their_names() {
         ]
     );
 }
+
+#[test]
+fn another_spelling_of_the_same_identifier_breaks_nothing() {
+    let one = |old: &str, new: &str| changes(&[(old, new)]).join("\n");
+    assert_eq!(one("name = \"Go\"", "name = \"go\""), "no effect: message go: name Go, now go");
+    assert_eq!(one("[codes.alarm.rows]", "[codes.Alarm.rows]"), "no effect: codes Alarm: name alarm, now Alarm");
+}

@@ -1,23 +1,23 @@
 //! Tables of codes, which are enumerations in Rust.
 
 use super::change::Judgement;
-use super::comparison::{
-    compare_fields, fact, ignored, judged, list, text, Comparison, Elements, COMPARED, KEY, POSITION,
-};
+use super::comparison::{compare_fields, fact, ignored, judged, list, text, Comparison, Elements, COMPARED, POSITION};
 use super::conditions::{availability, restricted};
+use super::names::identifier;
 use super::texts::{documentation, renamed};
 use lexibus_codegen::facts::code;
 use lexibus_codegen::ir::{CodeRow, CodeTable};
 
 /// Tables belong together by their names.
 pub(super) fn tables() -> impl Fn(&Vec<CodeTable>, &Vec<CodeTable>, &mut Comparison<'_>) {
-    let elements = Elements::titled(|table: &CodeTable| format!("codes {}", table.name));
+    let elements = Elements::titled(|table: &CodeTable| format!("codes {}", table.name))
+        .paired_by(|table| identifier(&table.name));
     list(elements.judged(|_| Judgement::API_COMPATIBLE, |_| Judgement::API), table)
 }
 
 fn table(old: &CodeTable, new: &CodeTable, comparison: &mut Comparison<'_>) {
     compare_fields!(CodeTable, old, new, comparison, {
-        name: ignored(KEY),
+        name: judged("name", renamed),
         columns: fact("columns", Judgement::API),
         rows: list(rows(), row),
         buses: restricted("only on"),

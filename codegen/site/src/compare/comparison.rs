@@ -263,6 +263,11 @@ impl<T> Elements<T> {
         }
     }
 
+    /// Pairs elements by this text.
+    pub fn paired_by(self, name: fn(&T) -> String) -> Self {
+        Elements { name, ..self }
+    }
+
     /// The effects of every addition and of every removal.
     pub fn judged(self, added: fn(&T) -> Judgement, removed: fn(&T) -> Judgement) -> Self {
         Elements { added, removed, ..self }

@@ -7,6 +7,7 @@ use super::comparison::{
 };
 use super::conditions::restricted;
 use super::identity::identity;
+use super::names::identifier;
 use super::show::{index, Show};
 use super::texts::{documentation, doubts, extensions, manual, renamed};
 use super::{codes, ethercat, groups, machines, messages, modules, pdos, profinet, types};
@@ -48,15 +49,20 @@ pub(super) fn compare(old: &Device, new: &Device, comparison: &mut Comparison<'_
         parameter_spaces: messages::spaces(),
         framing: optional("framing", Judgement::ADDITION, Judgement::API_AND_WIRE, messages::framing),
         given: list(Elements::titled(|number: &GivenNumber| format!("number of the machine {}", number.name))
+            .paired_by(|number| identifier(&number.name))
             .judged(|_| Judgement::API, |_| Judgement::API), given),
         code_tables: codes::tables(),
         machines: list(Elements::titled(|machine: &StateMachine| format!("machine {}", machine.name))
+            .paired_by(|machine| identifier(&machine.name))
             .judged(|_| Judgement::API_COMPATIBLE, |_| Judgement::API), machines::compare),
         procedures: list(Elements::titled(|procedure: &Procedure| format!("procedure {}", procedure.name))
+            .paired_by(|procedure| identifier(&procedure.name))
             .judged(|_| Judgement::API_COMPATIBLE, |_| Judgement::API), machines::procedure),
         composites: list(Elements::titled(|composite: &Composite| format!("composite {}", composite.name))
+            .paired_by(|composite| identifier(&composite.name))
             .judged(|_| Judgement::API_COMPATIBLE, |_| Judgement::API), composite),
         variants: list(Elements::titled(|model: &Variant| format!("model {}", model.name))
+            .paired_by(|model| identifier(&model.name))
             .judged(|_| Judgement::API_COMPATIBLE, |_| Judgement::API), model),
         axes: optional("axes", Judgement::API_COMPATIBLE, Judgement::API, axes),
         documentation: ignored(COMPARED),
@@ -201,7 +207,7 @@ fn commissioning(old: &Commissioning, new: &Commissioning, comparison: &mut Comp
 
 fn given(old: &GivenNumber, new: &GivenNumber, comparison: &mut Comparison<'_>) {
     compare_fields!(GivenNumber, old, new, comparison, {
-        name: ignored(KEY),
+        name: judged("name", renamed),
         unit: fact("unit", Judgement::API),
         models: fact_as("numbers of models", Judgement::BEHAVIOR, constants),
         documentation: documentation,
@@ -217,7 +223,7 @@ fn constants(constants: &Vec<(CompactString, Value)>) -> String {
 
 fn composite(old: &Composite, new: &Composite, comparison: &mut Comparison<'_>) {
     compare_fields!(Composite, old, new, comparison, {
-        name: ignored(KEY),
+        name: judged("name", renamed),
         names: text("name in other languages"),
         parts: fact("parts", Judgement::API_AND_WIRE),
         base: fact("base", Judgement::WIRE),
@@ -230,7 +236,7 @@ fn composite(old: &Composite, new: &Composite, comparison: &mut Comparison<'_>) 
 
 fn model(old: &Variant, new: &Variant, comparison: &mut Comparison<'_>) {
     compare_fields!(Variant, old, new, comparison, {
-        name: ignored(KEY),
+        name: judged("name", renamed),
         identity: identity,
         constants: fact_as("constants", Judgement::BEHAVIOR, constants),
         documentation: documentation,

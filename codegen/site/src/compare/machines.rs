@@ -11,7 +11,7 @@ use lexibus_codegen::ir::{CommandOutcomes, Outcome, Pattern, Procedure, StateMac
 
 pub(super) fn compare(old: &StateMachine, new: &StateMachine, comparison: &mut Comparison<'_>) {
     compare_fields!(StateMachine, old, new, comparison, {
-        name: ignored(KEY),
+        name: judged("name", renamed),
         status_item: fact("status", Judgement::API_AND_WIRE),
         control_item: fact("control", Judgement::API_AND_WIRE),
         state_type: fact("enumeration of the states", Judgement::API),
@@ -104,7 +104,7 @@ fn state_outcome(old: &StateOutcome, new: &StateOutcome, comparison: &mut Compar
 /// Compares the writes of a procedure, which are constants in Rust.
 pub(super) fn procedure(old: &Procedure, new: &Procedure, comparison: &mut Comparison<'_>) {
     compare_fields!(Procedure, old, new, comparison, {
-        name: ignored(KEY),
+        name: judged("name", renamed),
         names: text("name in other languages"),
         arguments: fact("arguments", Judgement::API),
         steps: fact_as("steps", Judgement::BEHAVIOR, |steps: &Vec<Step>| {

@@ -2,26 +2,27 @@
 
 use super::change::{Effect, Judgement};
 use super::comparison::{
-    compare_fields, fact, fact_as, ignored, list, positioned, text, Comparison, Elements, KEY, POSITION,
+    compare_fields, fact, fact_as, ignored, judged, list, positioned, text, Comparison, Elements, KEY, POSITION,
 };
 use super::conditions::{availability, conditions, restricted};
 use super::item;
 use super::names::identifier;
 use super::show::bytes;
-use super::texts::{described, documentation, doubts};
+use super::texts::{described, documentation, doubts, renamed};
 use lexibus_codegen::facts::words::PLAIN;
 use lexibus_codegen::ir::{
     CompactString, Completion, Framing, Message, MessageExample, MessageField, MessageValue, ParameterSpace,
 };
 
 pub(super) fn compare(old: &[Message], new: &[Message], comparison: &mut Comparison<'_>) {
-    let elements = Elements::titled(|message: &Message| format!("message {}", message.name));
+    let elements = Elements::titled(|message: &Message| format!("message {}", message.name))
+        .paired_by(|message| identifier(&message.name));
     super::comparison::slices(old, new, &elements, message, comparison);
 }
 
 fn message(old: &Message, new: &Message, comparison: &mut Comparison<'_>) {
     compare_fields!(Message, old, new, comparison, {
-        name: ignored(KEY),
+        name: judged("name", renamed),
         request: |old: &Vec<MessageField>, new: &Vec<MessageField>, comparison: &mut Comparison<'_>| {
             frame("request", old, new, comparison);
         },
