@@ -100,16 +100,16 @@ fn g01_all_encodings_give_one_ir() {
     }
 }
 
-/// The terminal shows no line for an empty place.
+/// There is nothing between the quotation marks to point at.
 #[test]
 fn g06_an_empty_default_is_reported_at_its_place() {
     let parameter = "<Ref ByteOffset=\"0\" TextId=\"T_Speed\" DataType=\"Unsigned8\" DefaultValue=\"\"/>";
     let text = file(&record(16, parameter), "");
     let compilation = read(text.as_bytes());
     assert_eq!(codes(&compilation), ["GSD013"]);
-    let place = compilation.diagnostics.list()[0].span;
-    let expected = text.find("DefaultValue=\"\"").expect("the attribute") + "DefaultValue=\"".len();
-    assert_eq!(place.start as usize, expected);
+    let span = compilation.diagnostics.list()[0].span;
+    let expected = text.find("DefaultValue=\"\"").expect("the attribute") + "DefaultValue=".len();
+    assert_eq!((span.start as usize, &text[span.range()]), (expected, "\"\""));
 }
 
 #[test]

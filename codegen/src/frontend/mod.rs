@@ -13,3 +13,7 @@ pub mod gsdml;
 pub mod table;
 #[cfg(feature = "xdd")]
 pub mod xdd;
+// Each format uses a part of the base.
+#[cfg(feature = "xml")]
+#[cfg_attr(not(all(feature = "esi", feature = "gsdml", feature = "xdd")), allow(dead_code, unused_imports))]
+mod xml;

@@ -1,7 +1,7 @@
 //! The two surface syntaxes of description files, without any knowledge of a bus.
 //!
 //! - [`ini`]: sections, keys and values of EDS and DCF files, each with its span.
-//! - [`xml`]: a cursor over `quick-xml`'s events with positions and the breadcrumb of open elements.
+//! - [`xml`]: a cursor over the events of a document, with positions and the path of open elements.
 
 pub mod ini;
 #[cfg(feature = "xml")]

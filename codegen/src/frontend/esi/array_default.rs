@@ -3,10 +3,11 @@
 use std::borrow::Cow;
 use std::collections::HashMap;
 
-use super::items::Entry;
-use super::object::{Form, RawSub, RawValue};
-use super::reader::Given;
+use super::entries::Entry;
+use super::info_value::{Form, RawValue};
+use super::object::RawSub;
 use super::types::Types;
+use crate::frontend::xml::Given;
 
 /// Takes it apart: the first element keeps its part, and the others' parts come back by their position in `entries`.
 ///

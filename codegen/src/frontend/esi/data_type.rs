@@ -1,12 +1,16 @@
-//! Data types as they stand in the file: read, not yet resolved.
+//! Data types as written, not yet resolved.
+
+use compact_str::format_compact;
 
 use super::flags::{self, Flags};
-use super::object::{self, RawInfo};
-use super::reader::{Given, Names, Read, Reader};
+use super::info_value::{self, RawInfo};
+use super::reader::{Names, Reader};
 use crate::diagnostics::codes;
-use crate::ir::{EnumValue, Extensions};
+use crate::frontend::xml::{Given, Read};
+use crate::ir::EnumValue;
 use crate::source::Origin;
 use crate::syntax::xml::Tag;
+use crate::text::brief;
 
 /// A DataType.
 #[derive(Default)]
@@ -20,7 +24,6 @@ pub(super) struct RawType<'a> {
     pub fields: Vec<RawField<'a>>,
     pub values: Vec<EnumValue>,
     pub comment: Names<'a>,
-    pub extensions: Extensions,
     pub origin: Origin,
 }
 
@@ -43,7 +46,6 @@ pub(super) struct RawField<'a> {
     pub flags: Flags,
     pub info: RawInfo<'a>,
     pub comment: Names<'a>,
-    pub extensions: Extensions,
     pub origin: Origin,
     /// Bytes of text that every item made from it copies.
     pub weight: usize,
@@ -51,67 +53,62 @@ pub(super) struct RawField<'a> {
 
 /// Reads a DataType.
 pub(super) fn read<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, raw: &mut RawType<'a>) -> Read<()> {
-    raw.origin = reader.cursor.origin(parent);
-    while let Some(tag) = reader.cursor.child(parent)? {
+    let start = reader.extensions.len();
+    raw.origin = reader.origin(parent);
+    while let Some(tag) = reader.child(parent)? {
         match tag.name {
-            "Name" => raw.name = reader.leaf(&tag, &mut raw.extensions)?,
-            "Index" => raw.code = reader.number(&tag, "number of a data type", &mut raw.extensions)?,
-            "BaseType" => raw.base = reader.leaf(&tag, &mut raw.extensions)?,
-            "BitSize" => raw.bits = reader.number(&tag, "size in bits", &mut raw.extensions)?,
-            "Comment" => reader.name(&tag, &mut raw.comment, &mut raw.extensions)?,
-            "ArrayInfo" => {
-                let dimension = dimension(reader, &tag, &mut raw.extensions)?;
-                raw.dimensions.push(dimension);
-            }
+            "Name" => raw.name = reader.text(&tag)?,
+            "Index" => raw.code = reader.number(&tag, "number of a data type")?,
+            "BaseType" => raw.base = reader.text(&tag)?,
+            "BitSize" => raw.bits = reader.number(&tag, "size in bits")?,
+            "Comment" => reader.name(&tag, &mut raw.comment)?,
+            "ArrayInfo" => raw.dimensions.push(dimension(reader, &tag)?),
             "SubItem" => {
-                // Filled where it stands: it is too large to be moved about.
+                // Filled in place: it is too large to be moved.
                 raw.fields.push(RawField::default());
                 if let Some(last) = raw.fields.last_mut() {
                     field(reader, &tag, last)?;
                 }
             }
-            "EnumInfo" => {
-                let value = enum_value(reader, &tag, &mut raw.extensions)?;
-                raw.values.extend(value);
-            }
-            "Properties" => object::properties(reader, &tag, &mut raw.extensions)?,
-            "Xml" => reader.keep(&tag, &mut raw.extensions)?,
-            _ => reader.unknown(&tag, &mut raw.extensions)?,
+            "EnumInfo" => raw.values.extend(enum_value(reader, &tag)?),
+            "Properties" => info_value::properties(reader, &tag)?,
+            "Xml" => reader.keep(&tag)?,
+            _ => reader.unknown(&tag)?,
         }
+    }
+    // Those of a dictionary are told apart by the types that they are about.
+    for extension in reader.extensions.iter_mut().skip(start) {
+        extension.key = format_compact!("{}/{}", brief(&raw.name.text), extension.key);
     }
     Ok(())
 }
 
-fn dimension<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, extensions: &mut Extensions) -> Read<Dimension> {
-    let mut dimension = Dimension { origin: reader.cursor.origin(parent), ..Dimension::default() };
-    while let Some(tag) = reader.cursor.child(parent)? {
+fn dimension<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>) -> Read<Dimension> {
+    let mut dimension = Dimension { origin: reader.origin(parent), ..Dimension::default() };
+    while let Some(tag) = reader.child(parent)? {
         match tag.name {
-            "LBound" => dimension.lower = reader.number(&tag, "lower bound", extensions)?.unwrap_or(0),
-            "Elements" => dimension.elements = reader.number(&tag, "number of elements", extensions)?,
-            _ => reader.unknown(&tag, extensions)?,
+            "LBound" => dimension.lower = reader.number(&tag, "lower bound")?.unwrap_or(0),
+            "Elements" => dimension.elements = reader.number(&tag, "number of elements")?,
+            _ => reader.unknown(&tag)?,
         }
     }
     Ok(dimension)
 }
 
 fn field<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, raw: &mut RawField<'a>) -> Read<()> {
-    raw.origin = reader.cursor.origin(parent);
-    while let Some(tag) = reader.cursor.child(parent)? {
+    raw.origin = reader.origin(parent);
+    while let Some(tag) = reader.child(parent)? {
         match tag.name {
-            "SubIdx" => raw.sub_index = reader.number(&tag, "sub-index", &mut raw.extensions)?,
-            "Name" => raw.name = reader.leaf(&tag, &mut raw.extensions)?,
-            "Type" => raw.ty = reader.leaf(&tag, &mut raw.extensions)?,
-            "BitSize" => raw.bits = reader.number(&tag, "size in bits", &mut raw.extensions)?,
-            "BitOffs" => raw.offset = reader.number(&tag, "bit offset", &mut raw.extensions)?,
-            "Flags" => raw.flags = flags::read(reader, &tag, &mut raw.extensions)?,
-            "Comment" => reader.name(&tag, &mut raw.comment, &mut raw.extensions)?,
-            "Property" => object::property(reader, &tag, &mut raw.extensions)?,
-            "Xml" => reader.keep(&tag, &mut raw.extensions)?,
-            _ => {
-                if !raw.info.read(reader, &tag, &mut raw.extensions)? {
-                    reader.unknown(&tag, &mut raw.extensions)?;
-                }
-            }
+            "SubIdx" => raw.sub_index = reader.number(&tag, "sub-index")?,
+            "Name" => raw.name = reader.text(&tag)?,
+            "Type" => raw.ty = reader.text(&tag)?,
+            "BitSize" => raw.bits = reader.number(&tag, "size in bits")?,
+            "BitOffs" => raw.offset = reader.number(&tag, "bit offset")?,
+            "Flags" => raw.flags = flags::read(reader, &tag)?,
+            "Comment" => reader.name(&tag, &mut raw.comment)?,
+            "Property" => info_value::property(reader, &tag)?,
+            "Xml" => reader.keep(&tag)?,
+            _ => raw.info.read(reader, &tag)?,
         }
     }
     raw.weight = raw.name.text.len() + raw.comment.weight() + raw.info.weight() + raw.flags.weight();
@@ -119,19 +116,15 @@ fn field<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, raw: &mut RawField<'
 }
 
 /// Reads a value of an enumeration: EnumInfo, or one of the lists of a diagnosis.
-pub(super) fn enum_value<'a>(
-    reader: &mut Reader<'a, '_>,
-    parent: &Tag<'a>,
-    extensions: &mut Extensions,
-) -> Read<Option<EnumValue>> {
+pub(super) fn enum_value<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>) -> Read<Option<EnumValue>> {
     let (mut names, mut comment) = (Names::default(), Names::default());
     let mut value = None;
-    while let Some(tag) = reader.cursor.child(parent)? {
+    while let Some(tag) = reader.child(parent)? {
         match tag.name {
-            "Text" => reader.name(&tag, &mut names, extensions)?,
-            "Enum" => value = reader.number::<i128>(&tag, "value of an enumeration", extensions)?,
-            "Comment" => reader.name(&tag, &mut comment, extensions)?,
-            _ => reader.unknown(&tag, extensions)?,
+            "Text" => reader.name(&tag, &mut names)?,
+            "Enum" => value = reader.number::<i128>(&tag, "value of an enumeration")?,
+            "Comment" => reader.name(&tag, &mut comment)?,
+            _ => reader.unknown(&tag)?,
         }
     }
     let Some(value) = value else {

@@ -1,19 +1,15 @@
 //! What Info says of a device: time limits, ports, electrical data.
 
-use super::reader::{Read, Reader};
-use crate::ir::{EtherCatSettings, Extensions};
+use super::reader::Reader;
+use crate::frontend::xml::Read;
+use crate::ir::EtherCatSettings;
 use crate::syntax::xml::Tag;
 
 /// Reads Info.
-pub(super) fn read<'a>(
-    reader: &mut Reader<'a, '_>,
-    parent: &Tag<'a>,
-    settings: &mut EtherCatSettings,
-    extensions: &mut Extensions,
-) -> Read<()> {
-    while let Some(tag) = reader.cursor.child(parent)? {
+pub(super) fn read<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, settings: &mut EtherCatSettings) -> Read<()> {
+    while let Some(tag) = reader.child(parent)? {
         match tag.name {
-            "StateMachine" | "Mailbox" => timeouts(reader, &tag, settings, extensions)?,
+            "StateMachine" | "Mailbox" => timeouts(reader, &tag, settings)?,
             "Electrical"
             | "EtherCATController"
             | "Port"
@@ -21,30 +17,25 @@ pub(super) fn read<'a>(
             | "StationAliasSupported"
             | "IdentificationAdo"
             | "IdentificationReg134"
-            | "DeviceFeature" => reader.keep(&tag, extensions)?,
-            "VendorSpecific" => reader.vendor_specific(&tag, extensions)?,
-            _ => reader.unknown(&tag, extensions)?,
+            | "DeviceFeature" => reader.keep(&tag)?,
+            "VendorSpecific" => reader.vendor_specific(&tag)?,
+            _ => reader.unknown(&tag)?,
         }
     }
     Ok(())
 }
 
-fn timeouts<'a>(
-    reader: &mut Reader<'a, '_>,
-    parent: &Tag<'a>,
-    settings: &mut EtherCatSettings,
-    extensions: &mut Extensions,
-) -> Read<()> {
-    while let Some(tag) = reader.cursor.child(parent)? {
+fn timeouts<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, settings: &mut EtherCatSettings) -> Read<()> {
+    while let Some(tag) = reader.child(parent)? {
         match tag.name {
             "Timeout" => {
-                while let Some(inner) = reader.cursor.child(&tag)? {
-                    let limit = reader.number(&inner, "time in milliseconds", extensions)?;
+                while let Some(inner) = reader.child(&tag)? {
+                    let limit = reader.number(&inner, "time in milliseconds")?;
                     settings.timeouts.extend(limit.map(|limit| (inner.name.into(), limit)));
                 }
             }
-            "Behavior" => reader.keep(&tag, extensions)?,
-            _ => reader.unknown(&tag, extensions)?,
+            "Behavior" => reader.keep(&tag)?,
+            _ => reader.unknown(&tag)?,
         }
     }
     Ok(())

@@ -4,10 +4,12 @@ use std::collections::{BTreeSet, HashMap};
 
 use compact_str::CompactString;
 
+use super::budget::Cost;
 use super::data_type::enum_value;
-use super::reader::{Names, Read, Reader};
+use super::reader::{Names, Reader};
 use crate::diagnostics::codes;
-use crate::ir::{CodeRow, CodeTable, Documentation, Extensions, LocalText, SharedList, Value};
+use crate::frontend::xml::Read;
+use crate::ir::{CodeRow, CodeTable, Documentation, LocalText, SharedList, Value};
 use crate::source::Span;
 use crate::syntax::xml::Tag;
 
@@ -15,12 +17,8 @@ use crate::syntax::xml::Tag;
 const COLUMNS: [&str; 4] = ["DiagClass", "DiagReset", "DiagReaction", "DiagType"];
 
 /// Reads DiagMessages: a table of the messages, and one of each list of numbers that their flags use.
-pub(super) fn read<'a>(
-    reader: &mut Reader<'a, '_>,
-    parent: &Tag<'a>,
-    extensions: &mut Extensions,
-) -> Read<Vec<CodeTable>> {
-    let origin = reader.cursor.origin(parent);
+pub(super) fn read<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>) -> Read<Vec<CodeTable>> {
+    let origin = reader.origin(parent);
     let table = |name: &'static str, columns: &[&'static str]| CodeTable {
         name: CompactString::const_new(name),
         columns: columns.iter().map(|name| CompactString::const_new(name)).collect(),
@@ -31,12 +29,12 @@ pub(super) fn read<'a>(
     };
     let mut messages = table("DiagMessages", &COLUMNS);
     let mut lists = [table("DiagReset", &[]), table("DiagReaction", &[]), table("DiagType", &[])];
-    while let Some(tag) = reader.cursor.child(parent)? {
+    while let Some(tag) = reader.child(parent)? {
         if tag.name == "DiagMessage" {
-            let row = message(reader, &tag, extensions)?;
+            let row = message(reader, &tag)?;
             messages.rows.to_mut().extend(row);
         } else if let Some(list) = lists.iter_mut().find(|list| list.name == tag.name) {
-            list.rows.to_mut().extend(enum_value(reader, &tag, extensions)?.map(|value| CodeRow {
+            list.rows.to_mut().extend(enum_value(reader, &tag)?.map(|value| CodeRow {
                 printed: CompactString::default(),
                 printed_cells: Vec::new(),
                 code: value.value,
@@ -48,36 +46,36 @@ pub(super) fn read<'a>(
                 cells: Vec::new(),
             }));
         } else {
-            reader.unknown(&tag, extensions)?;
+            reader.unknown(&tag)?;
         }
     }
     let lists = lists.into_iter().filter(|list| !list.rows.is_empty());
     Ok(std::iter::once(messages).chain(lists).collect())
 }
 
-fn message<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, extensions: &mut Extensions) -> Read<Option<CodeRow>> {
+fn message<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>) -> Read<Option<CodeRow>> {
     let (mut names, mut paragraphs, mut descriptions, mut number) = (Names::default(), Vec::new(), Vec::new(), None);
     let mut cells: [CompactString; COLUMNS.len()] = Default::default();
-    while let Some(tag) = reader.cursor.child(parent)? {
+    while let Some(tag) = reader.child(parent)? {
         match tag.name {
             "TextId" => {
-                let given = reader.leaf(&tag, extensions)?;
+                let given = reader.text(&tag)?;
                 number =
                     reader.int::<i128>(&given, "number of a message").map(|code| (code, printed(&given.text, code)));
             }
-            "MessageText" => reader.name(&tag, &mut names, extensions)?,
-            "Description" => paragraph(reader, &tag, (&mut descriptions, 0), extensions)?,
+            "MessageText" => reader.name(&tag, &mut names)?,
+            "Description" => paragraph(reader, &tag, &mut descriptions, 0)?,
             "Flags" => {
-                while let Some(flag) = reader.cursor.child(&tag)? {
+                while let Some(flag) = reader.child(&tag)? {
                     match COLUMNS.iter().zip(&mut cells).find(|(column, _)| **column == flag.name) {
-                        Some((_, cell)) => *cell = reader.leaf(&flag, extensions)?.compact(),
-                        None => reader.unknown(&flag, extensions)?,
+                        Some((_, cell)) => *cell = reader.text(&flag)?.compact(),
+                        None => reader.unknown(&flag)?,
                     }
                 }
             }
-            "CauseRemedy" => cause(reader, &tag, &mut paragraphs, extensions)?,
-            "Info" | "Hint" | "URL" => paragraph(reader, &tag, (&mut paragraphs, 0), extensions)?,
-            _ => reader.unknown(&tag, extensions)?,
+            "CauseRemedy" => cause(reader, &tag, &mut paragraphs)?,
+            "Info" | "Hint" | "URL" => paragraph(reader, &tag, &mut paragraphs, 0)?,
+            _ => reader.unknown(&tag)?,
         }
     }
     let Some((code, printed)) = number else {
@@ -107,19 +105,14 @@ const NEIGHBOURS: usize = 16;
 /// A title, and the text in the languages of the source.
 type Paragraph<'a> = (&'a str, Names<'a>);
 
-fn cause<'a>(
-    reader: &mut Reader<'a, '_>,
-    parent: &Tag<'a>,
-    paragraphs: &mut Vec<Paragraph<'a>>,
-    extensions: &mut Extensions,
-) -> Read<()> {
+fn cause<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, paragraphs: &mut Vec<Paragraph<'a>>) -> Read<()> {
     // The number of a cause only tells it from the others.
-    reader.fields(parent, &["Idx"], extensions)?;
+    reader.attributes(parent, ["Idx"])?;
     let first = paragraphs.len();
-    while let Some(tag) = reader.cursor.child(parent)? {
+    while let Some(tag) = reader.child(parent)? {
         match tag.name {
-            "Cause" | "Remedy" => paragraph(reader, &tag, (paragraphs, first), extensions)?,
-            _ => reader.unknown(&tag, extensions)?,
+            "Cause" | "Remedy" => paragraph(reader, &tag, paragraphs, first)?,
+            _ => reader.unknown(&tag)?,
         }
     }
     Ok(())
@@ -128,11 +121,11 @@ fn cause<'a>(
 fn paragraph<'a>(
     reader: &mut Reader<'a, '_>,
     tag: &Tag<'a>,
-    (paragraphs, first): (&mut Vec<Paragraph<'a>>, usize),
-    extensions: &mut Extensions,
+    paragraphs: &mut Vec<Paragraph<'a>>,
+    first: usize,
 ) -> Read<()> {
     let mut names = Names::default();
-    reader.name(tag, &mut names, extensions)?;
+    reader.name(tag, &mut names)?;
     // Elements of one name are one text in several languages.
     let is_other = |(title, own): &&mut Paragraph<'_>| *title == tag.name && !own.shares_language(&names);
     let first = first.max(paragraphs.len().saturating_sub(NEIGHBOURS));
@@ -166,7 +159,7 @@ fn documentation(
     };
     let texts: Vec<_> = paragraphs.iter().map(by_language).collect();
     // What a language doesn't have is in each of them.
-    let affordable = reader.derive((0, languages.len().saturating_mul(text.len())), message);
+    let affordable = reader.derive(Cost::text(languages.len().saturating_mul(text.len())), message);
     let in_language = |language: &CompactString| {
         let own = texts.iter().zip(&main).map(|(own, main)| own.get(language).unwrap_or(main).clone());
         LocalText { language: language.clone(), text: join(&own.collect::<Vec<_>>()).into() }

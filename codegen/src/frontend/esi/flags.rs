@@ -1,10 +1,12 @@
 //! Flags of objects and sub-items: access, mapping, backup.
 
-use super::reader::{Given, Read, Reader};
+use super::reader::Reader;
 use crate::diagnostics::codes;
-use crate::ir::{Access, Behaviour, Category, CompactString, Extensions, Mappable};
+use crate::frontend::xml::{Given, Read};
+use crate::ir::{Access, Behaviour, Category, CompactString, Mappable};
 use crate::source::Span;
 use crate::syntax::xml::Tag;
+use crate::text::brief;
 
 /// What the element Flags says.
 #[derive(Clone, Debug, Default)]
@@ -30,46 +32,46 @@ pub(super) struct MoreFlags {
 }
 
 /// Reads the element Flags.
-pub(super) fn read<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, extensions: &mut Extensions) -> Read<Flags> {
+pub(super) fn read<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>) -> Read<Flags> {
     let mut flags = Flags { given: true, ..Flags::default() };
-    while let Some(tag) = reader.cursor.child(parent)? {
+    while let Some(tag) = reader.child(parent)? {
         match tag.name {
-            "Access" => access(reader, &tag, &mut flags, extensions)?,
+            "Access" => access(reader, &tag, &mut flags)?,
             "Category" => {
-                let given = reader.leaf(&tag, extensions)?;
+                let given = reader.text(&tag)?;
                 flags.category = category(reader, &given);
             }
             "PdoMapping" => {
-                let given = reader.leaf(&tag, extensions)?;
+                let given = reader.text(&tag)?;
                 flags.mappable = mapping(reader, &given);
                 flags.mappable_at = given.span;
             }
             "SafetyMapping" => {
-                let given = reader.leaf(&tag, extensions)?;
+                let given = reader.text(&tag)?;
                 let text = given.text.to_ascii_lowercase();
                 if !matches!(text.as_str(), "" | "si" | "so" | "sio" | "sp") {
                     unknown(reader, &given, "safety mapping", "kept as it is; expected si, so, sio or sp");
                 }
                 flags.more().safety = (!text.is_empty()).then(|| text.into());
             }
-            "Backup" => flags.backup = number_as_flag(reader, &tag, extensions)?,
-            "Setting" => flags.setting = number_as_flag(reader, &tag, extensions)?,
-            "SdoAccess" | "Transition" | "Attribute" => reader.note(&tag, extensions)?,
-            _ => reader.unknown(&tag, extensions)?,
+            "Backup" => flags.backup = number_as_flag(reader, &tag)?,
+            "Setting" => flags.setting = number_as_flag(reader, &tag)?,
+            "SdoAccess" | "Transition" | "Attribute" => reader.note_text(&tag)?,
+            _ => reader.unknown(&tag)?,
         }
     }
     Ok(flags)
 }
 
-fn access<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, flags: &mut Flags, extensions: &mut Extensions) -> Read<()> {
-    let [read, write] = reader.fields(tag, &["ReadRestrictions", "WriteRestrictions"], extensions)?;
+fn access<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, flags: &mut Flags) -> Read<()> {
+    let [read, write] = reader.attributes(tag, ["ReadRestrictions", "WriteRestrictions"])?;
     if !read.is_empty() {
         flags.more().read_states = states(&read);
     }
     if !write.is_empty() {
         flags.more().write_states = states(&write);
     }
-    let given = reader.content(extensions)?;
+    let given = reader.content()?;
     flags.access_at = given.span;
     flags.access = match given.text.as_ref() {
         "ro" => Some(Access::ReadOnly),
@@ -123,13 +125,13 @@ fn mapping(reader: &mut Reader<'_, '_>, given: &Given<'_>) -> Option<Mappable> {
     Some(mappable).filter(|_| !given.is_empty())
 }
 
-fn number_as_flag<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, extensions: &mut Extensions) -> Read<Option<bool>> {
-    let given = reader.leaf(tag, extensions)?;
+fn number_as_flag<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>) -> Read<Option<bool>> {
+    let given = reader.text(tag)?;
     Ok((!given.is_empty()).then(|| reader.flag(&given)))
 }
 
 fn unknown(reader: &mut Reader<'_, '_>, given: &Given<'_>, what: &str, label: &str) {
-    let message = format!("`{}` is no {what} of ETG.2000", super::reader::shortened(&given.text));
+    let message = format!("`{}` is no {what} of ETG.2000", brief(&given.text));
     reader.report(&codes::UNKNOWN_FLAG, given.span, message, label);
 }
 

@@ -4,41 +4,43 @@ use std::collections::{BTreeMap, HashMap};
 
 use compact_str::format_compact;
 
-use super::device::lower;
-use super::pdo::{self, Pdos};
+use super::description::Elsewhere;
+use super::dictionary::missing_index;
+use super::lower::lower;
+use super::mailbox;
+use super::pdos::Pdos;
 use super::profile::Profiles;
-use super::reader::{note, Names, Read, Reader};
-use super::references::Elsewhere;
-use super::{dictionary::missing_index, mailbox};
+use super::reader::{Names, Reader};
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
+use crate::frontend::xml::Read;
 use crate::ir::{
-    Catalog, CompactString, Device, Extension, Extensions, Fit, Mailbox, Module, ModuleId, ModuleUse, Numbers, Places,
+    Catalog, CompactString, Device, Extension, Fit, Mailbox, Module, ModuleId, ModuleUse, Numbers, Places,
 };
 use crate::limits;
 use crate::syntax::xml::Tag;
 
 /// Reads a Module, and the files that it refers to.
 pub(super) fn read<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>) -> Read<(Module, Elsewhere)> {
-    let mut module = Module { origin: reader.cursor.origin(parent), ..Module::default() };
-    reader.fields(parent, &[], &mut module.extensions)?;
+    let start = reader.extensions.len();
+    let mut module = Module { origin: reader.origin(parent), ..Module::default() };
+    let [] = reader.attributes(parent, [])?;
     let (mut names, mut pdos, mut profiles) = (Names::default(), Pdos::default(), Profiles::default());
     let mut has_type = false;
-    while let Some(tag) = reader.cursor.child(parent)? {
-        let extensions = &mut module.extensions;
+    while let Some(tag) = reader.child(parent)? {
         match tag.name {
             "Type" => {
                 has_type = true;
                 module_type(reader, &tag, &mut module)?;
             }
-            "Name" => reader.name(&tag, &mut names, extensions)?,
-            "RxPdo" | "TxPdo" => pdo::read(reader, &tag, &mut pdos)?,
+            "Name" => reader.name(&tag, &mut names)?,
+            "RxPdo" | "TxPdo" => pdos.read(reader, &tag)?,
             "Mailbox" => settings(reader, &tag, &mut module)?,
-            "Profile" => profiles.read(reader, &tag, extensions)?,
-            "SafetyParaMapping" => reader.keep(&tag, extensions)?,
-            "DcOpModeName" => reader.note(&tag, extensions)?,
-            "Image16x14" | "ImageFile16x14" | "ImageData16x14" => reader.image(&tag, extensions)?,
-            "VendorSpecific" => reader.vendor_specific(&tag, extensions)?,
-            _ => reader.unknown(&tag, extensions)?,
+            "Profile" => profiles.read(reader, &tag)?,
+            "SafetyParaMapping" => reader.keep(&tag)?,
+            "DcOpModeName" => reader.note_text(&tag)?,
+            "Image16x14" | "ImageFile16x14" | "ImageData16x14" => reader.image(&tag)?,
+            "VendorSpecific" => reader.vendor_specific(&tag)?,
+            _ => reader.unknown(&tag)?,
         }
     }
     if !has_type {
@@ -46,7 +48,7 @@ pub(super) fn read<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>) -> Read<(M
     }
     (module.name, module.names) = (names.name(), names.others());
     module.profiles = profiles.numbers;
-    module.extensions.append(&mut profiles.dictionary.take_extensions());
+    module.extensions = reader.extensions_since(start);
     let lowered = lower(reader, profiles.dictionary, pdos, &mut module.process_data, &mut profiles.elsewhere);
     (module.types, module.groups) = lowered;
     profiles.elsewhere.messages = profiles.code_tables;
@@ -55,7 +57,7 @@ pub(super) fn read<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>) -> Read<(M
 
 fn module_type<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, module: &mut Module) -> Read<()> {
     const NAMES: [&str; 3] = ["ModuleIdent", "ModuleClass", "ModulePdoGroup"];
-    let fields = reader.fields(tag, &NAMES, &mut module.extensions)?;
+    let fields = reader.attributes(tag, NAMES)?;
     let [ident, class, group] = &fields;
     match reader.int(ident, "ident number of a module") {
         Some(ident) => module.number = ident,
@@ -64,18 +66,21 @@ fn module_type<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, module: &mut Modu
     }
     module.class = class.compact();
     module.pdo_group = reader.int(group, "number of a group");
-    let given = reader.content(&mut module.extensions)?;
+    let given = reader.content()?;
     module.id = given.compact();
     module.identity.order_code = given.compact();
     Ok(())
 }
 
-/// What a master sends when such a module is there. What its protocol supports is kept beside it.
+/// What a master sends when such a module is there. What its protocols support becomes extensions.
 fn settings<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, module: &mut Module) -> Read<()> {
-    let mailbox = mailbox::read(reader, tag, &mut module.extensions)?;
-    beside_coe(&mailbox, tag, &mut module.extensions);
+    let mailbox = mailbox::read(reader, tag)?;
+    let mut keep = |key: CompactString, value: &str| {
+        reader.extensions.push(Extension { key, value: value.into(), span: tag.span });
+    };
+    protocols(&mailbox, &mut keep);
     let Some(coe) = mailbox.coe else { return Ok(()) };
-    module.extensions.push(Extension { key: "Mailbox/CoE".into(), value: "true".into(), span: tag.span });
+    keep("Mailbox/CoE".into(), "true");
     module.init_commands = coe.init_commands;
     let flags = [
         ("DiagHistory", coe.diag_history),
@@ -86,28 +91,20 @@ fn settings<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, module: &mut Module)
         ("CompleteAccess", coe.complete_access),
         ("SegmentedSdo", coe.segmented_sdo),
     ];
-    for (name, set) in flags {
-        if set {
-            let given = super::reader::Given { text: "true".into(), span: tag.span };
-            note(&format_compact!("CoE@{name}"), &given, &mut module.extensions);
-        }
+    for (name, _) in flags.into_iter().filter(|(_, is_set)| *is_set) {
+        keep(format_compact!("CoE@{name}"), "true");
     }
-    for (name, value) in coe.attributes {
-        let given = super::reader::Given { text: value.as_str().into(), span: tag.span };
-        note(&format_compact!("CoE@{name}"), &given, &mut module.extensions);
+    for (name, value) in &coe.attributes {
+        keep(format_compact!("CoE@{name}"), value);
     }
     Ok(())
 }
 
-/// Keeps what a mailbox has beside CoE.
-fn beside_coe(mailbox: &Mailbox, tag: &Tag<'_>, extensions: &mut Extensions) {
-    let mut keep = |key: CompactString, value: &str| {
-        extensions.push(Extension { key, value: value.into(), span: tag.span });
-    };
-    for (name, set) in [("DataLinkLayer", mailbox.data_link_layer), ("RealTimeMode", mailbox.real_time)] {
-        if set {
-            keep(format_compact!("Mailbox@{name}"), "true");
-        }
+/// Keeps what a mailbox has except CoE.
+fn protocols(mailbox: &Mailbox, keep: &mut impl FnMut(CompactString, &str)) {
+    let flags = [("DataLinkLayer", mailbox.data_link_layer), ("RealTimeMode", mailbox.real_time)];
+    for (name, _) in flags.into_iter().filter(|(_, is_set)| *is_set) {
+        keep(format_compact!("Mailbox@{name}"), "true");
     }
     let Mailbox { aoe, eoe, foe, soe, voe, .. } = mailbox;
     for (name, protocol) in [("AoE", aoe), ("EoE", eoe), ("FoE", foe), ("SoE", soe), ("VoE", voe)] {
@@ -117,10 +114,8 @@ fn beside_coe(mailbox: &Mailbox, tag: &Tag<'_>, extensions: &mut Extensions) {
         for command in &protocol.init_commands {
             let data: String = command.data.iter().map(|byte| format!("{byte:02X}")).collect();
             let when = command.transitions.join(", ");
-            keep(
-                format_compact!("{name}/InitCmd"),
-                &format!("{when}: {}:{} = {data}", command.index, command.sub_index),
-            );
+            let value = format!("{when}: {}:{} = {data}", command.index, command.sub_index);
+            keep(format_compact!("{name}/InitCmd"), &value);
         }
     }
 }

@@ -1,5 +1,11 @@
 //! Numbers of ETG.2000 (HexDecValue), and the spellings that real files have for them.
 
+use super::reader::Reader;
+use crate::diagnostics::{codes, Diagnostic};
+use crate::frontend::xml::{Given, Read};
+use crate::syntax::xml::Tag;
+use crate::text::brief;
+
 /// A number, and whether it was written as a bit pattern.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Number {
@@ -84,6 +90,79 @@ pub(super) fn nibble(digit: u8) -> Option<u8> {
         b'a'..=b'f' => Some(digit - b'a' + 10),
         b'A'..=b'F' => Some(digit - b'A' + 10),
         _ => None,
+    }
+}
+
+impl<'a> Reader<'a, '_> {
+    /// A number, however it is written; what is none is left to the caller to report.
+    pub fn parse(&mut self, given: &Given<'_>) -> Option<Number> {
+        let number = parse(&given.text)?;
+        if let Some(fault) = number.fault {
+            let text = brief(&given.text);
+            let (code, message, fix) = match fault {
+                Fault::Bare => {
+                    (&codes::BARE_HEX, format!("`{text}` has hexadecimal digits"), format!("#x{}", given.text))
+                }
+                Fault::TwoPrefixes => {
+                    (&codes::ESI_VALUE, format!("`{text}` has two prefixes"), format!("#x{}", &given.text[4..]))
+                }
+            };
+            let found = Diagnostic::new(code, given.span, message).label(format!("read as {:#x}", number.value));
+            self.diagnostics.push(found.fix(fix));
+        }
+        Some(number)
+    }
+
+    /// A number that fits `T`; anything else is reported.
+    pub fn int<T: TryFrom<i128>>(&mut self, given: &Given<'_>, what: &str) -> Option<T> {
+        if given.is_empty() {
+            return None;
+        }
+        let Some(number) = self.parse(given) else {
+            self.bad(given, what, "left out; expected a decimal number or `#x` and hexadecimal digits");
+            return None;
+        };
+        let value = T::try_from(number.value).ok();
+        if value.is_none() {
+            self.bad(given, what, "left out; the number is too large or negative");
+        }
+        value
+    }
+
+    /// The number in an element.
+    pub fn number<T: TryFrom<i128>>(&mut self, tag: &Tag<'a>, what: &str) -> Read<Option<T>> {
+        let given = self.text(tag)?;
+        Ok(self.int(&given, what))
+    }
+
+    /// Pairs of hexadecimal digits, blanks between them allowed.
+    pub fn octets(&mut self, given: &Given<'_>) -> Option<Vec<u8>> {
+        let digits = given.text.bytes().filter(|byte| !byte.is_ascii_whitespace());
+        let count = digits.clone().count();
+        let mut octets = Vec::with_capacity(count / 2 + 1);
+        let mut high = None;
+        // Of an odd number of digits the first stands for a byte of its own.
+        if count % 2 == 1 {
+            high = Some(0);
+        }
+        for digit in digits {
+            let Some(digit) = nibble(digit) else {
+                self.bad(given, "row of hexadecimal digits", "left out");
+                return None;
+            };
+            match high.take() {
+                Some(high) => octets.push(high << 4 | digit),
+                None => high = Some(digit),
+            }
+        }
+        if count % 2 == 1 {
+            self.diagnostics.push(
+                Diagnostic::new(&codes::ODD_HEX, given.span, "the number of hexadecimal digits is odd")
+                    .label("a zero was put in front")
+                    .fix(format!("0{}", given.text)),
+            );
+        }
+        Some(octets)
     }
 }
 

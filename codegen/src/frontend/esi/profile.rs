@@ -2,11 +2,12 @@
 
 use std::collections::HashSet;
 
+use super::description::{Elsewhere, Reference, Target};
 use super::diagnosis;
 use super::dictionary::Dictionary;
-use super::reader::{note, Read, Reader};
-use super::references::{Elsewhere, Reference, Target};
-use crate::ir::{CodeTable, Extensions};
+use super::reader::Reader;
+use crate::frontend::xml::Read;
+use crate::ir::CodeTable;
 use crate::syntax::xml::Tag;
 
 /// What the profiles of a device or module say.
@@ -23,57 +24,51 @@ pub(super) struct Profiles<'a> {
 
 impl<'a> Profiles<'a> {
     /// Reads a Profile.
-    pub fn read(&mut self, reader: &mut Reader<'a, '_>, parent: &Tag<'a>, extensions: &mut Extensions) -> Read<()> {
-        let [channel] = reader.fields(parent, &["Channel"], extensions)?;
-        note("Profile@Channel", &channel, extensions);
-        while let Some(tag) = reader.cursor.child(parent)? {
+    pub fn read(&mut self, reader: &mut Reader<'a, '_>, parent: &Tag<'a>) -> Read<()> {
+        let [channel] = reader.attributes(parent, ["Channel"])?;
+        reader.note("Profile@Channel", &channel);
+        while let Some(tag) = reader.child(parent)? {
             match tag.name {
-                "ProfileNo" => self.number(reader, &tag, extensions)?,
-                "AddInfo" | "SubAddInfo" | "ChannelCount" => reader.note(&tag, extensions)?,
-                "ChannelInfo" => self.channel(reader, &tag, extensions)?,
+                "ProfileNo" => self.number(reader, &tag)?,
+                "AddInfo" | "SubAddInfo" | "ChannelCount" => reader.note_text(&tag)?,
+                "ChannelInfo" => self.channel(reader, &tag)?,
                 "Dictionary" => self.dictionary.read(reader, &tag)?,
-                "DictionaryFile" => self.file(reader, &tag, Target::Dictionary, extensions)?,
-                "DiagFile" => self.file(reader, &tag, Target::Diagnosis, extensions)?,
-                "DiagMessages" => self.code_tables.extend(diagnosis::read(reader, &tag, extensions)?),
-                "VendorSpecific" => reader.vendor_specific(&tag, extensions)?,
-                _ => reader.unknown(&tag, extensions)?,
+                "DictionaryFile" => self.file(reader, &tag, Target::Dictionary)?,
+                "DiagFile" => self.file(reader, &tag, Target::Diagnosis)?,
+                "DiagMessages" => self.code_tables.extend(diagnosis::read(reader, &tag)?),
+                "VendorSpecific" => reader.vendor_specific(&tag)?,
+                _ => reader.unknown(&tag)?,
             }
         }
         Ok(())
     }
 
-    fn number(&mut self, reader: &mut Reader<'a, '_>, tag: &Tag<'a>, extensions: &mut Extensions) -> Read<()> {
-        let number = reader.number(tag, "number of a profile", extensions)?;
+    fn number(&mut self, reader: &mut Reader<'a, '_>, tag: &Tag<'a>) -> Read<()> {
+        let number = reader.number(tag, "number of a profile")?;
         self.numbers.extend(number.filter(|&number| self.seen.insert(number)));
         Ok(())
     }
 
     /// A channel follows a profile of its own.
-    fn channel(&mut self, reader: &mut Reader<'a, '_>, parent: &Tag<'a>, extensions: &mut Extensions) -> Read<()> {
-        let fields = reader.fields(parent, &["OverwrittenByModule", "ChannelGroup"], extensions)?;
+    fn channel(&mut self, reader: &mut Reader<'a, '_>, parent: &Tag<'a>) -> Read<()> {
+        let fields = reader.attributes(parent, ["OverwrittenByModule", "ChannelGroup"])?;
         let [overwritten, group] = &fields;
-        note("ChannelInfo@OverwrittenByModule", overwritten, extensions);
-        note("ChannelInfo@ChannelGroup", group, extensions);
-        while let Some(tag) = reader.cursor.child(parent)? {
+        reader.note("ChannelInfo@OverwrittenByModule", overwritten);
+        reader.note("ChannelInfo@ChannelGroup", group);
+        while let Some(tag) = reader.child(parent)? {
             match tag.name {
-                "ProfileNo" => self.number(reader, &tag, extensions)?,
-                "AddInfo" | "SubAddInfo" | "DisplayName" => reader.keep(&tag, extensions)?,
-                _ => reader.unknown(&tag, extensions)?,
+                "ProfileNo" => self.number(reader, &tag)?,
+                "AddInfo" | "SubAddInfo" | "DisplayName" => reader.keep(&tag)?,
+                _ => reader.unknown(&tag)?,
             }
         }
         Ok(())
     }
 
-    fn file(
-        &mut self,
-        reader: &mut Reader<'a, '_>,
-        tag: &Tag<'a>,
-        target: Target,
-        extensions: &mut Extensions,
-    ) -> Read<()> {
-        let given = reader.leaf(tag, extensions)?;
+    fn file(&mut self, reader: &mut Reader<'a, '_>, tag: &Tag<'a>, target: Target) -> Read<()> {
+        let given = reader.text(tag)?;
         if !given.is_empty() {
-            note(tag.name, &given, extensions);
+            reader.note(tag.name, &given);
             self.elsewhere.files.push(Reference::new(&given, target));
         }
         Ok(())

@@ -3,76 +3,21 @@
 use std::collections::{HashMap, HashSet, VecDeque};
 use std::path::Path;
 
-use super::device::check_length;
-use super::reader::{Budget, Given};
+use super::budget::Budget;
+use super::budget::Cost;
+use super::description::{Description, EntryType, Owner, Reference, Target};
+use super::document::document;
+use super::lower::check_length;
 use super::types::guessed;
-use super::{document, Description};
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
-use crate::ir::{Catalog, CodeTable, Device, Extension, Group, PdoEntry, Shape, Type, TypeDef, TypeId};
+use crate::ir::{Catalog, CodeTable, Device, Extension, Group, Shape, Type, TypeDef, TypeId};
 use crate::source::{References, Source, Span};
-
-/// What a file is expected to contain.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub(super) enum Target {
-    /// Devices or modules (InfoReference).
-    Info,
-    /// Data types and objects (DictionaryFile).
-    Dictionary,
-    /// Messages (DiagFile).
-    Diagnosis,
-}
-
-/// To what the content of a file belongs.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub(super) enum Owner {
-    Catalog,
-    Device(usize),
-    Module(usize),
-}
-
-/// A file that the description refers to.
-#[derive(Clone, Debug)]
-pub(super) struct Reference {
-    name: String,
-    span: Span,
-    pub target: Target,
-}
-
-impl Reference {
-    pub fn new(given: &Given<'_>, target: Target) -> Self {
-        Reference { name: given.text.to_string(), span: given.span, target }
-    }
-}
-
-/// What a device or module leaves to other files.
-#[derive(Default)]
-pub(super) struct Elsewhere {
-    pub files: Vec<Reference>,
-    pub types: Vec<EntryType>,
-    /// Messages of a module, which are those of all.
-    pub messages: Vec<CodeTable>,
-}
-
-/// The type of an entry of a PDO that the dictionary beside it doesn't have.
-#[derive(Debug)]
-pub(super) struct EntryType {
-    /// Where the entry stands.
-    entry: Span,
-    name: String,
-    span: Span,
-}
-
-impl EntryType {
-    pub fn new(entry: &PdoEntry, given: &Given<'_>) -> Self {
-        EntryType { entry: entry.origin.span, name: given.text.to_string(), span: given.span }
-    }
-}
 
 /// A file that was read, and what a copy of it costs.
 struct Content {
     catalog: Catalog,
-    dictionary: (usize, usize),
-    messages: (usize, usize),
+    dictionary: Cost,
+    messages: Cost,
     /// Whether it was copied: the first copy takes no more than the file itself.
     is_copied: bool,
     /// Who has it.
@@ -82,9 +27,9 @@ struct Content {
 impl Content {
     fn new(catalog: Catalog, length: usize) -> Self {
         let dictionary = catalog.devices.iter().find(|device| device.dictionary_only);
-        let dictionary = dictionary.map_or((0, 0), |device| cost_of(device, length));
-        let rows = catalog.code_tables.iter().map(|table| table.rows.len()).sum();
-        let messages = (rows, length + catalog.code_tables.len() * size_of::<CodeTable>());
+        let dictionary = dictionary.map_or(Cost::text(0), |device| cost_of(device, length));
+        let items = catalog.code_tables.iter().map(|table| table.rows.len()).sum();
+        let messages = Cost { items, bytes: length + catalog.code_tables.len() * size_of::<CodeTable>() };
         Content { catalog, dictionary, messages, is_copied: false, owners: HashSet::new() }
     }
 }
@@ -159,18 +104,18 @@ fn entry_types(description: &mut Description, diagnostics: &mut Diagnostics) {
         let waiting: HashMap<Span, &EntryType> = of_owner.iter().map(|(_, own)| (own.entry, own)).collect();
         for entry in data.pdos.iter_mut().flat_map(|pdo| &mut pdo.entries) {
             let Some(own) = waiting.get(&entry.origin.span) else { continue };
-            let (ty, bits) = match by_name.get(own.name.as_str()) {
+            let (ty, bits) = match by_name.get(own.name.text.as_ref()) {
                 Some((id, def)) => match def.shape {
                     Shape::Alias(ty) => (ty, def.bits),
                     _ => (Type::Named(*id), def.bits),
                 },
                 None => {
-                    let ty = guessed(diagnostics, &own.name, own.span);
+                    let ty = guessed(diagnostics, &own.name);
                     (ty, ty.bits())
                 }
             };
             entry.ty = ty;
-            check_length(diagnostics, entry, (&own.name, own.span), bits);
+            check_length(diagnostics, entry, &own.name, bits);
         }
     }
 }
@@ -268,7 +213,7 @@ fn attach(
     if !is_dictionary {
         let (tables, extensions) = match owner {
             Owner::Device(at) => match catalog.devices.get_mut(at) {
-                Some(own) => (&mut own.code_tables, &mut own.extensions),
+                Some(device) => (&mut device.code_tables, &mut device.extensions),
                 None => return,
             },
             _ => (&mut catalog.code_tables, &mut catalog.extensions),
@@ -293,7 +238,7 @@ fn attach(
 }
 
 /// What a copy of a dictionary adds: items and what types are made of, and bytes of a file of so many.
-fn cost_of(dictionary: &Device, length: usize) -> (usize, usize) {
+fn cost_of(dictionary: &Device, length: usize) -> Cost {
     let parts = |shape: &Shape| match shape {
         Shape::Record(fields) => fields.len(),
         Shape::Enumeration { values, .. } => values.len(),
@@ -306,11 +251,11 @@ fn cost_of(dictionary: &Device, length: usize) -> (usize, usize) {
         group.items.iter().map(|item| item.extensions.len()).chain(std::iter::once(group.extensions.len()))
     });
     let extensions: usize = of_groups.sum::<usize>() + dictionary.extensions.len();
-    (items, length + extensions * size_of::<Extension>())
+    Cost { items, bytes: length + extensions * size_of::<Extension>() }
 }
 
 /// Whether so much may be copied: many devices may refer to one large file.
-fn affordable(budget: &mut Budget, cost: (usize, usize), reference: &Reference, diagnostics: &mut Diagnostics) -> bool {
+fn affordable(budget: &mut Budget, cost: Cost, reference: &Reference, diagnostics: &mut Diagnostics) -> bool {
     let affordable = budget.take(cost);
     if !affordable {
         let message = "files that are referred to would make the description many times longer";

@@ -1,31 +1,27 @@
 //! Slots of a modular device.
 
-use super::reader::{note, Given, Names, Read, Reader};
-use crate::ir::{CompactString, Extension, Extensions, Fit, ModulePdoGroup, Slot, SlotRules};
+use super::reader::{Names, Reader};
+use crate::frontend::xml::{Given, Read};
+use crate::ir::{CompactString, Extension, Fit, ModulePdoGroup, Slot, SlotRules};
 use crate::syntax::xml::Tag;
 
 /// Reads Slots. Slots are numbered from 0; one that takes several modules stands for as many.
-pub(super) fn read<'a>(
-    reader: &mut Reader<'a, '_>,
-    parent: &Tag<'a>,
-    slots: &mut Vec<Slot>,
-    extensions: &mut Extensions,
-) -> Read<SlotRules> {
-    let mut rules = rules(reader, parent, extensions)?;
+pub(super) fn read<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, slots: &mut Vec<Slot>) -> Read<SlotRules> {
+    let mut rules = rules(reader, parent)?;
     let first = slots.len();
     // Increments that a slot gives itself are noted, so that 0 isn't taken for none.
     let mut own = Vec::new();
-    while let Some(tag) = reader.cursor.child(parent)? {
+    while let Some(tag) = reader.child(parent)? {
         match tag.name {
             "Slot" => {
-                let (slot, increments) = slot(reader, &tag, extensions)?;
+                let (slot, increments) = slot(reader, &tag)?;
                 slots.push(slot);
                 own.push(increments);
             }
-            "SlotGroupData" => group(reader, &tag, &mut rules, extensions)?,
-            "ModulePdoGroup" => rules.pdo_groups.push(pdo_group(reader, &tag, extensions)?),
-            "SlotSelections" => rules.selections.push(selection(reader, &tag, extensions)?),
-            _ => reader.unknown(&tag, extensions)?,
+            "SlotGroupData" => group(reader, &tag, &mut rules)?,
+            "ModulePdoGroup" => rules.pdo_groups.push(pdo_group(reader, &tag)?),
+            "SlotSelections" => rules.selections.push(selection(reader, &tag)?),
+            _ => reader.unknown(&tag)?,
         }
     }
     let mut number = slots.get(..first).and_then(<[Slot]>::last).map_or(0, after);
@@ -45,7 +41,7 @@ fn after(slot: &Slot) -> u16 {
     slot.number.saturating_add(slot.instances.1.max(1))
 }
 
-fn rules<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, extensions: &mut Extensions) -> Read<SlotRules> {
+fn rules<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>) -> Read<SlotRules> {
     const NAMES: [&str; 10] = [
         "MaxSlotCount",
         "MaxSlotGroupCount",
@@ -58,9 +54,9 @@ fn rules<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, extensions: &mut Extens
         "DownloadModuleListTransition",
         "IdentifyModuleBy",
     ];
-    let fields = reader.fields(tag, &NAMES, extensions)?;
+    let fields = reader.attributes(tag, NAMES)?;
     let [slots, groups, index, pdo, group_index, group_pdo, idents, addresses, transition, identify] = &fields;
-    note("IdentifyModuleBy", identify, extensions);
+    reader.note("IdentifyModuleBy", identify);
     let transition = if transition.is_empty() { CompactString::const_new("PS") } else { transition.compact() };
     Ok(SlotRules {
         max_slots: reader.int(slots, "number of slots"),
@@ -83,7 +79,7 @@ fn increment(reader: &mut Reader<'_, '_>, given: &Given<'_>) -> Option<u16> {
 /// The increments that a slot gives itself: for indices of objects and of PDOs, from slot to slot and from group to group.
 type Increments = [Option<u16>; 4];
 
-fn slot<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, extensions: &mut Extensions) -> Read<(Slot, Increments)> {
+fn slot<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>) -> Read<(Slot, Increments)> {
     const NAMES: [&str; 10] = [
         "MinInstances",
         "MaxInstances",
@@ -96,10 +92,10 @@ fn slot<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, extensions: &mut Exte
         "Fallback",
         "TreeView",
     ];
-    let fields = reader.fields(parent, &NAMES, extensions)?;
+    let fields = reader.attributes(parent, NAMES)?;
     let [min, max, group, index, pdo, group_index, group_pdo, default, fallback, view] = &fields;
-    note("Slot@Fallback", fallback, extensions);
-    note("Slot@TreeView", view, extensions);
+    reader.note("Slot@Fallback", fallback);
+    reader.note("Slot@TreeView", view);
     let least = reader.int(min, "number of modules").unwrap_or(0);
     let mut slot = Slot {
         instances: (least, reader.int(max, "number of modules").unwrap_or(least.max(1))),
@@ -109,28 +105,23 @@ fn slot<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, extensions: &mut Exte
     };
     let increments = [index, pdo, group_index, group_pdo].map(|given| increment(reader, given));
     let mut names = Names::default();
-    while let Some(tag) = reader.cursor.child(parent)? {
+    while let Some(tag) = reader.child(parent)? {
         match tag.name {
-            "Name" => reader.name(&tag, &mut names, extensions)?,
-            "ModuleIdent" => module_ident(reader, &tag, &mut slot, extensions)?,
-            "ModuleClass" => module_class(reader, &tag, &mut slot, extensions)?,
-            "Image16x14" | "ImageFile16x14" | "ImageData16x14" => reader.image(&tag, extensions)?,
-            _ => reader.unknown(&tag, extensions)?,
+            "Name" => reader.name(&tag, &mut names)?,
+            "ModuleIdent" => module_ident(reader, &tag, &mut slot)?,
+            "ModuleClass" => module_class(reader, &tag, &mut slot)?,
+            "Image16x14" | "ImageFile16x14" | "ImageData16x14" => reader.image(&tag)?,
+            _ => reader.unknown(&tag)?,
         }
     }
     (slot.name, slot.names) = (names.name(), names.others());
     Ok((slot, increments))
 }
 
-fn module_ident<'a>(
-    reader: &mut Reader<'a, '_>,
-    tag: &Tag<'a>,
-    slot: &mut Slot,
-    extensions: &mut Extensions,
-) -> Read<()> {
-    let [default] = reader.fields(tag, &["Default"], extensions)?;
+fn module_ident<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, slot: &mut Slot) -> Read<()> {
+    let [default] = reader.attributes(tag, ["Default"])?;
     let is_default = reader.int::<u32>(&default, "number").is_some_and(|value| value != 0);
-    let given = reader.content(extensions)?;
+    let given = reader.content()?;
     if let Some(ident) = reader.int(&given, "ident number of a module") {
         slot.fits.push(Fit::Ident(ident));
         if is_default {
@@ -140,44 +131,34 @@ fn module_ident<'a>(
     Ok(())
 }
 
-fn module_class<'a>(
-    reader: &mut Reader<'a, '_>,
-    parent: &Tag<'a>,
-    slot: &mut Slot,
-    extensions: &mut Extensions,
-) -> Read<()> {
-    while let Some(tag) = reader.cursor.child(parent)? {
+fn module_class<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, slot: &mut Slot) -> Read<()> {
+    while let Some(tag) = reader.child(parent)? {
         match tag.name {
             "Class" => {
-                let given = reader.leaf(&tag, extensions)?;
+                let given = reader.text(&tag)?;
                 slot.fits.push(Fit::Class(given.compact()));
             }
-            "VendorId" | "Name" => reader.keep(&tag, extensions)?,
-            "Image16x14" | "ImageFile16x14" | "ImageData16x14" => reader.image(&tag, extensions)?,
-            _ => reader.unknown(&tag, extensions)?,
+            "VendorId" | "Name" => reader.keep(&tag)?,
+            "Image16x14" | "ImageFile16x14" | "ImageData16x14" => reader.image(&tag)?,
+            _ => reader.unknown(&tag)?,
         }
     }
     Ok(())
 }
 
-fn group<'a>(
-    reader: &mut Reader<'a, '_>,
-    parent: &Tag<'a>,
-    rules: &mut SlotRules,
-    extensions: &mut Extensions,
-) -> Read<()> {
-    let [number] = reader.fields(parent, &["SlotGroup"], extensions)?;
+fn group<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, rules: &mut SlotRules) -> Read<()> {
+    let [number] = reader.attributes(parent, ["SlotGroup"])?;
     let number = reader.int(&number, "number of a slot group").unwrap_or(0);
     let mut names = Names::default();
-    while let Some(tag) = reader.cursor.child(parent)? {
+    while let Some(tag) = reader.child(parent)? {
         match tag.name {
-            "Name" => reader.name(&tag, &mut names, extensions)?,
-            "ImageFile16x14" | "ImageData16x14" => reader.image(&tag, extensions)?,
-            _ => reader.unknown(&tag, extensions)?,
+            "Name" => reader.name(&tag, &mut names)?,
+            "ImageFile16x14" | "ImageData16x14" => reader.image(&tag)?,
+            _ => reader.unknown(&tag)?,
         }
     }
     let others = names.others();
-    extensions.extend(others.iter().map(|text| {
+    reader.extensions.extend(others.iter().map(|text| {
         let key = compact_str::format_compact!("SlotGroupData {number}/Name@{}", text.language);
         Extension { key, value: text.text.clone(), span: parent.span }
     }));
@@ -185,33 +166,29 @@ fn group<'a>(
     Ok(())
 }
 
-fn pdo_group<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, extensions: &mut Extensions) -> Read<ModulePdoGroup> {
-    let fields = reader.fields(tag, &["Alignment", "RxPdo", "TxPdo"], extensions)?;
+fn pdo_group<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>) -> Read<ModulePdoGroup> {
+    let fields = reader.attributes(tag, ["Alignment", "RxPdo", "TxPdo"])?;
     let [alignment, receive, transmit] = &fields;
     let group = ModulePdoGroup {
         alignment: reader.int(alignment, "alignment in bytes").unwrap_or(0),
         rx_pdo: reader.int(receive, "index"),
         tx_pdo: reader.int(transmit, "index"),
     };
-    let given = reader.content(extensions)?;
-    note("ModulePdoGroup", &given, extensions);
+    let given = reader.content()?;
+    reader.note("ModulePdoGroup", &given);
     Ok(group)
 }
 
-fn selection<'a>(
-    reader: &mut Reader<'a, '_>,
-    parent: &Tag<'a>,
-    extensions: &mut Extensions,
-) -> Read<(CompactString, Vec<u32>)> {
+fn selection<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>) -> Read<(CompactString, Vec<u32>)> {
     let (mut names, mut idents) = (Names::default(), Vec::new());
-    while let Some(tag) = reader.cursor.child(parent)? {
+    while let Some(tag) = reader.child(parent)? {
         match tag.name {
-            "Name" => reader.name(&tag, &mut names, extensions)?,
+            "Name" => reader.name(&tag, &mut names)?,
             "ModuleIdent" => {
-                let ident: Option<u32> = reader.number(&tag, "ident number of a module", extensions)?;
+                let ident: Option<u32> = reader.number(&tag, "ident number of a module")?;
                 idents.extend(ident);
             }
-            _ => reader.unknown(&tag, extensions)?,
+            _ => reader.unknown(&tag)?,
         }
     }
     Ok((names.name(), idents))

@@ -1,43 +1,35 @@
 //! FMMUs, sync managers and sync units.
 
-use super::reader::{shortened, Given, Read, Reader};
+use super::reader::Reader;
 use crate::diagnostics::codes;
-use crate::ir::{Direction, EtherCatSettings, Extensions, Fmmu, Pdo, SyncManager, SyncManagerPurpose, SyncUnit};
+use crate::frontend::xml::{Given, Read};
+use crate::ir::{Direction, EtherCatSettings, Fmmu, Pdo, SyncManager, SyncManagerPurpose, SyncUnit};
 use crate::syntax::xml::Tag;
+use crate::text::brief;
 
 /// Reads a Fmmu.
-pub(super) fn fmmu<'a>(
-    reader: &mut Reader<'a, '_>,
-    tag: &Tag<'a>,
-    settings: &mut EtherCatSettings,
-    extensions: &mut Extensions,
-) -> Read<()> {
-    let [op_only, sm, su] = reader.fields(tag, &["OpOnly", "Sm", "Su"], extensions)?;
+pub(super) fn fmmu<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, settings: &mut EtherCatSettings) -> Read<()> {
+    let [op_only, sm, su] = reader.attributes(tag, ["OpOnly", "Sm", "Su"])?;
     let fmmu = Fmmu {
         op_only: reader.flag(&op_only),
         sync_manager: reader.int(&sm, "number of a sync manager"),
         sync_unit: reader.int(&su, "number of a sync unit"),
-        purpose: reader.content(extensions)?.compact(),
+        purpose: reader.content()?.compact(),
     };
     settings.fmmus.push(fmmu);
     Ok(())
 }
 
 /// Reads a Su.
-pub(super) fn sync_unit<'a>(
-    reader: &mut Reader<'a, '_>,
-    tag: &Tag<'a>,
-    settings: &mut EtherCatSettings,
-    extensions: &mut Extensions,
-) -> Read<()> {
+pub(super) fn sync_unit<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, settings: &mut EtherCatSettings) -> Read<()> {
     const NAMES: [&str; 4] = ["SeparateSu", "SeparateFrame", "DependOnInputState", "FrameRepeatSupport"];
-    let [separate, frame, state, repeat] = reader.fields(tag, &NAMES, extensions)?;
+    let [separate, frame, state, repeat] = reader.attributes(tag, NAMES)?;
     let unit = SyncUnit {
         separate: reader.flag(&separate),
         separate_frame: reader.flag(&frame),
         depends_on_input_state: reader.flag(&state),
         frame_repeat: reader.flag(&repeat),
-        name: reader.content(extensions)?.compact(),
+        name: reader.content()?.compact(),
     };
     settings.sync_units.push(unit);
     Ok(())
@@ -48,14 +40,13 @@ pub(super) fn sync_manager<'a>(
     reader: &mut Reader<'a, '_>,
     tag: &Tag<'a>,
     list: &mut Vec<(SyncManager, Given<'a>)>,
-    extensions: &mut Extensions,
 ) -> Read<()> {
     const NAMES: [&str; 8] =
         ["MinSize", "MaxSize", "DefaultSize", "StartAddress", "ControlByte", "Enable", "OpOnly", "Virtual"];
-    let origin = reader.cursor.origin(tag);
-    let fields = reader.fields(tag, &NAMES, extensions)?;
+    let origin = reader.origin(tag);
+    let fields = reader.attributes(tag, NAMES)?;
     let [min, max, size, start, control, enable, op_only, is_virtual] = &fields;
-    let given = reader.content(extensions)?;
+    let given = reader.content()?;
     let number = u8::try_from(list.len()).unwrap_or(u8::MAX);
     if list.len() > usize::from(number) {
         reader.report(&codes::ESI_VALUE, tag.span, "no controller has so many sync managers", "left out");
@@ -107,7 +98,7 @@ pub(super) fn settle(
         if by_text.is_none() {
             let message = match given.text.as_ref() {
                 "" => "nothing says what this sync manager is for".to_owned(),
-                text => format!("`{}` doesn't say what this sync manager is for", shortened(text)),
+                text => format!("`{}` doesn't say what this sync manager is for", brief(text)),
             };
             let reason = if by_pdos.is_some() { "as the PDOs that name it" } else { "by its control byte or position" };
             let label = format!("read as {}, {reason}", manager.purpose.label());

@@ -7,12 +7,14 @@ use compact_str::format_compact;
 use smallvec::SmallVec;
 
 use super::data_type::{Dimension, RawField, RawType};
-use super::reader::{shortened, Given, Reader};
-use super::type_name::{self, Basic, Spelling};
+use super::reader::Reader;
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
+use crate::etg::type_name::{self, Basic, Spelling};
+use crate::frontend::xml::Given;
 use crate::ir::{BitFieldEntry, BitMeaning, CompactString, Field, Shape, Type, TypeDef, TypeId};
 use crate::limits;
 use crate::source::{Origin, Span};
+use crate::text::brief;
 
 /// The types of one device, module or dictionary.
 #[derive(Default)]
@@ -155,7 +157,7 @@ impl<'t, 'a> Types<'t, 'a> {
         }
         let first = *self.by_name.entry(ty.name.text.as_ref()).or_insert(at as u32) as usize;
         if let Some(first) = self.raw.get(first).filter(|_| first != at) {
-            let message = format!("the data type `{}` is defined twice", shortened(&ty.name.text));
+            let message = format!("the data type `{}` is defined twice", brief(&ty.name.text));
             reader.diagnostics.push(
                 Diagnostic::new(&codes::DUPLICATE_TYPE, ty.name.span, message)
                     .label("references mean the first one")
@@ -200,7 +202,7 @@ impl<'t, 'a> Types<'t, 'a> {
         match known {
             Some((Basic::Type(basic), Spelling::Prefix)) if ty.bits.is_some() && bits(basic) != ty.bits => {}
             Some((Basic::Type(basic), spelling)) => {
-                spelled(reader.diagnostics, spelling, (&ty.name.text, ty.name.span), basic);
+                spelled(reader.diagnostics, spelling, &ty.name, basic);
                 let basic = self.sized(reader, basic, ty);
                 return (Shape::Alias(basic), ty.bits.or(basic.bits()));
             }
@@ -211,7 +213,7 @@ impl<'t, 'a> Types<'t, 'a> {
             }
             None => {}
         }
-        let message = format!("nothing says what the data type `{}` is", shortened(&ty.name.text));
+        let message = format!("nothing says what the data type `{}` is", brief(&ty.name.text));
         reader.diagnostics.push(
             Diagnostic::new(&codes::UNRESOLVED_TYPE, ty.name.span.or(ty.origin.span), message)
                 .label("kept as raw bytes")
@@ -250,7 +252,7 @@ impl<'t, 'a> Types<'t, 'a> {
 
     fn array(&mut self, reader: &mut Reader<'_, '_>, at: usize, ty: &RawType<'_>) -> (Shape, Option<u32>) {
         let element = if ty.base.is_empty() {
-            let message = format!("the array `{}` has no BaseType", shortened(&ty.name.text));
+            let message = format!("the array `{}` has no BaseType", brief(&ty.name.text));
             reader.report(&codes::MISSING_BASE_TYPE, ty.name.span.or(ty.origin.span), message, "kept as raw bytes");
             Type::Opaque(None)
         } else {
@@ -277,7 +279,7 @@ impl<'t, 'a> Types<'t, 'a> {
         if count < 2 || size % element != 0 || !ty.name.text.ends_with("ARR") {
             return None;
         }
-        let message = format!("`{}` is as long as {count} elements and has no ArrayInfo", shortened(&ty.name.text));
+        let message = format!("`{}` is as long as {count} elements and has no ArrayInfo", brief(&ty.name.text));
         let label = format!("read as an array of {count} elements");
         reader.report(&codes::ARRAY_BOUNDS, ty.name.span.or(ty.origin.span), message, label);
         Some(Shape::Array { element: base, dimensions: vec![(1, count)] })
@@ -296,7 +298,7 @@ impl<'t, 'a> Types<'t, 'a> {
         let sensible = ty.bits.filter(|bits| (1..=64).contains(bits));
         if ty.base.is_empty() {
             let unsigned = by_size(sensible);
-            let message = format!("the enumeration `{}` has no BaseType", shortened(&ty.name.text));
+            let message = format!("the enumeration `{}` has no BaseType", brief(&ty.name.text));
             let label = format!("read as {unsigned}, by its BitSize");
             reader.report(&codes::MISSING_BASE_TYPE, ty.name.span.or(ty.origin.span), message, label);
             return unsigned;
@@ -307,7 +309,7 @@ impl<'t, 'a> Types<'t, 'a> {
             return base;
         }
         let unsigned = by_size(sensible);
-        let message = format!("the values of an enumeration are numbers, and `{}` is none", shortened(&ty.base.text));
+        let message = format!("the values of an enumeration are numbers, and `{}` is none", brief(&ty.base.text));
         reader.report(&codes::MISSING_BASE_TYPE, ty.base.span, message, format!("read as {unsigned}"));
         unsigned
     }
@@ -315,7 +317,7 @@ impl<'t, 'a> Types<'t, 'a> {
     /// A part of a type; what would make it endless is cut off.
     fn part(&mut self, reader: &mut Reader<'_, '_>, at: usize, part: u32, given: &Given<'_>) -> Type {
         if self.links.is_endless(at) && self.links.is_endless(part as usize) {
-            let message = format!("`{}` is made of itself, or of too many layers", shortened(&given.text));
+            let message = format!("`{}` is made of itself, or of too many layers", brief(&given.text));
             reader.report(&codes::ENDLESS_TYPE, given.span, message, "kept as raw bytes");
             return Type::Opaque(None);
         }
@@ -365,12 +367,12 @@ impl<'t, 'a> Types<'t, 'a> {
     fn basic(&mut self, reader: &mut Reader<'_, '_>, given: &Given<'_>) -> Type {
         match type_name::basic(&given.text) {
             Some((Basic::Type(ty), spelling)) => {
-                spelled(reader.diagnostics, spelling, (&given.text, given.span), ty);
+                spelled(reader.diagnostics, spelling, given, ty);
                 ty
             }
             Some((known, _)) => self.make(&given.text, known),
             None => {
-                unresolved(reader.diagnostics, &given.text, given.span);
+                unresolved(reader.diagnostics, given);
                 Type::Opaque(None)
             }
         }
@@ -446,15 +448,15 @@ impl<'t, 'a> Types<'t, 'a> {
 }
 
 /// Reports a name that isn't in the tables.
-fn spelled(diagnostics: &mut Diagnostics, spelling: Spelling, (name, span): (&str, Span), ty: Type) {
+fn spelled(diagnostics: &mut Diagnostics, spelling: Spelling, name: &Given<'_>, ty: Type) {
     let code = match spelling {
         Spelling::Standard => return,
         Spelling::Alias => &codes::TYPE_ALIAS,
         Spelling::Prefix => &codes::GUESSED_TYPE,
     };
     if diagnostics.wants(code) {
-        let message = format!("`{}` is no type of ETG.1000.6", shortened(name));
-        diagnostics.push(Diagnostic::new(code, span, message).label(format!("read as {ty}")));
+        let message = format!("`{}` is no type of ETG.1000.6", brief(&name.text));
+        diagnostics.push(Diagnostic::new(code, name.span, message).label(format!("read as {ty}")));
     }
 }
 
@@ -466,7 +468,7 @@ fn field_names(reader: &mut Reader<'_, '_>, fields: &[RawField<'_>]) {
             let label = "it goes by its sub-index";
             reader.report(&codes::SUB_ITEM_NAME, field.origin.span, "this sub-item has no name", label);
         } else if let Some(earlier) = seen.insert(&field.name) {
-            let message = format!("two sub-items are called `{}`", shortened(&field.name.text));
+            let message = format!("two sub-items are called `{}`", brief(&field.name.text));
             reader.diagnostics.push(
                 Diagnostic::new(&codes::SUB_ITEM_NAME, field.name.span, message)
                     .label("told apart by their sub-indices")
@@ -512,7 +514,7 @@ fn places(reader: &mut Reader<'_, '_>, ty: &RawType<'_>, fields: &[Field]) {
     order.sort_by_key(|(field, _)| field.bit_offset);
     let shared = order.windows(2).find(|pair| matches!(pair, [one, other] if end(one.0) > other.0.bit_offset));
     if let Some([one, other]) = shared {
-        let (first, second) = (shortened(&one.0.name), shortened(&other.0.name));
+        let (first, second) = (brief(&one.0.name), brief(&other.0.name));
         let message = format!("the sub-items `{first}` and `{second}` share bits: {}", extents(one.0, other.0));
         let found = Diagnostic::new(&codes::SUB_ITEM_PLACE, other.1.origin.span, message).label("both are kept");
         let found = found.note_at(one.1.origin.span, "the other one");
@@ -520,7 +522,7 @@ fn places(reader: &mut Reader<'_, '_>, ty: &RawType<'_>, fields: &[Field]) {
     }
     let Some(bits) = ty.bits else { return };
     if let Some((field, raw)) = order.iter().find(|(field, _)| end(field) > bits) {
-        let name = shortened(&field.name);
+        let name = brief(&field.name);
         let message = format!("the sub-item `{name}` reaches to bit {} of a data type of {bits} bits", end(field));
         let found = Diagnostic::new(&codes::SUB_ITEM_PLACE, raw.origin.span, message).label("kept as it is");
         reader
@@ -581,24 +583,24 @@ fn bit_array(width: u8) -> Shape {
 }
 
 /// The basic type that a name nearly is, where no data type has it.
-pub(super) fn guessed(diagnostics: &mut Diagnostics, name: &str, span: Span) -> Type {
-    match type_name::basic(name) {
+pub(super) fn guessed(diagnostics: &mut Diagnostics, name: &Given<'_>) -> Type {
+    match type_name::basic(&name.text) {
         Some((Basic::Type(ty), spelling)) => {
-            spelled(diagnostics, spelling, (name, span), ty);
+            spelled(diagnostics, spelling, name, ty);
             ty
         }
         _ => {
-            unresolved(diagnostics, name, span);
+            unresolved(diagnostics, name);
             Type::Opaque(None)
         }
     }
 }
 
 /// Reports a name that is no type's.
-fn unresolved(diagnostics: &mut Diagnostics, name: &str, span: Span) {
-    let message = format!("no data type is called `{}`", shortened(name));
+fn unresolved(diagnostics: &mut Diagnostics, name: &Given<'_>) {
+    let message = format!("no data type is called `{}`", brief(&name.text));
     diagnostics.push(
-        Diagnostic::new(&codes::UNRESOLVED_TYPE, span, message)
+        Diagnostic::new(&codes::UNRESOLVED_TYPE, name.span, message)
             .label("kept as raw bytes")
             .help("define it in DataTypes, or use the name of a basic type such as UINT"),
     );

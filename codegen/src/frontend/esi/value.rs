@@ -2,11 +2,12 @@
 
 use std::cmp::Ordering;
 
+use super::info_value::{Form, RawValue};
 use super::number;
-use super::object::{Form, RawValue};
-use super::reader::{shortened, Reader};
+use super::reader::Reader;
 use crate::diagnostics::{codes, Diagnostic};
 use crate::ir::{CompactString, Type, Value};
+use crate::text::brief;
 
 /// Whether a value is a default or a limit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -125,8 +126,7 @@ fn integer(reader: &mut Reader<'_, '_>, raw: &RawValue<'_>, ty: Type, role: Role
     }
     if reader.diagnostics.wants(&codes::ESI_OUT_OF_TYPE) {
         let what = if role == Role::Limit { "limit" } else { "default" };
-        let message =
-            format!("the {what} {} doesn't fit {ty}, which goes from {low} to {high}", shortened(&given.text));
+        let message = format!("the {what} {} doesn't fit {ty}, which goes from {low} to {high}", brief(&given.text));
         reader.report(&codes::ESI_OUT_OF_TYPE, given.span, message, "kept as it is");
     }
     Value::Int(value)
@@ -145,7 +145,7 @@ fn fraction(reader: &mut Reader<'_, '_>, raw: &RawValue<'_>, ty: Type) -> Value 
         );
         return Value::Int(number.value);
     }
-    let message = format!("`{}` is no {ty}", shortened(&given.text));
+    let message = format!("`{}` is no {ty}", brief(&given.text));
     reader.report(&codes::VALUE_FORM, given.span, message, "kept as text");
     Value::Raw(given.compact())
 }
@@ -159,7 +159,7 @@ fn real(reader: &mut Reader<'_, '_>, raw: &RawValue<'_>, ty: Type) -> Value {
         return Value::Real(value);
     }
     let Some(number) = reader.parse(given) else {
-        let message = format!("`{}` is no {ty}", shortened(&given.text));
+        let message = format!("`{}` is no {ty}", brief(&given.text));
         reader.report(&codes::VALUE_FORM, given.span, message, "kept as text");
         return Value::Raw(given.compact());
     };
@@ -171,7 +171,7 @@ fn real(reader: &mut Reader<'_, '_>, raw: &RawValue<'_>, ty: Type) -> Value {
         return Value::Real(value);
     }
     let value = number.value as f64;
-    let message = format!("{} doesn't have the {} digits of a {ty}'s bits", shortened(&given.text), bits / 4);
+    let message = format!("{} doesn't have the {} digits of a {ty}'s bits", brief(&given.text), bits / 4);
     reader.report(&codes::VALUE_FORM, given.span, message, format!("read as the number {value}"));
     Value::Real(value)
 }

@@ -1,12 +1,15 @@
 //! Device access points: what a device can, and what can be plugged into it.
 
+use compact_str::format_compact;
+
 use super::links::{Kind, Owner};
-use super::module::{named_graphic, Info};
-use super::reader::{attribute, Attributes, Given, Read, Reader};
+use super::module_info::{named_graphic, Info};
+use super::reader::Reader;
 use super::submodule::Holder;
+use crate::frontend::xml::{Attributes, Given, Read};
 use crate::ir::{
-    Catalog, CompactString, Device, Extensions, Group, GroupKind, IoLengths, Numbers, ObjectCode, ProfinetSettings,
-    Record, Slot, Submodule, VendorBlock,
+    Catalog, Device, Group, GroupKind, IoLengths, Numbers, ObjectCode, ProfinetSettings, Record, Slot, Submodule,
+    VendorBlock,
 };
 use crate::syntax::xml::Tag;
 
@@ -19,25 +22,21 @@ const SEND_CLOCK: u16 = 32;
 impl<'a> Reader<'a, '_> {
     /// Reads DeviceAccessPointList.
     pub fn device_list(&mut self, list: &Tag<'a>, catalog: &mut Catalog) -> Read<()> {
-        while let Some(tag) = self.cursor.child(list)? {
-            match tag.name {
-                "DeviceAccessPointItem" => {
-                    let device = self.device(&tag, catalog)?;
-                    catalog.devices.push(device);
-                }
-                _ => self.unknown(&tag, &mut catalog.extensions)?,
-            }
-        }
-        Ok(())
+        self.each(list, "DeviceAccessPointItem", |reader, tag| {
+            let device = reader.device(tag, catalog)?;
+            catalog.devices.push(device);
+            Ok(())
+        })
     }
 
     fn device(&mut self, parent: &Tag<'a>, catalog: &mut Catalog) -> Read<Device> {
-        let mut device = Device { origin: self.cursor.origin(parent), ..Device::default() };
+        let start = self.extensions.len();
+        let mut device = Device { origin: self.origin(parent), ..Device::default() };
         let mut settings = self.settings(parent, catalog.devices.len(), &mut device)?;
         let mut info = None;
-        while let Some(tag) = self.cursor.child(parent)? {
+        while let Some(tag) = self.child(parent)? {
             match tag.name {
-                "ModuleInfo" => info = Some(self.module_info(&tag, &mut device.extensions)?),
+                "ModuleInfo" => info = Some(self.module_info(&tag)?),
                 _ => self.device_child(&tag, catalog, &mut device, &mut settings)?,
             }
         }
@@ -53,6 +52,7 @@ impl<'a> Reader<'a, '_> {
         }
         settings.relations = settings.relations.max(1);
         device.profinet = Some(Box::new(settings));
+        device.extensions = self.extensions_since(start);
         Ok(device)
     }
 
@@ -71,17 +71,16 @@ impl<'a> Reader<'a, '_> {
         ];
         let mut settings = ProfinetSettings::default();
         let [id, ident, version, slots, interval, dns, allowed, fixed, record] =
-            self.fields_of(tag, &NAMES, &mut settings.attributes)?;
-        let text = |given: Option<Given<'a>>| given.map_or_else(CompactString::default, |given| given.text.into());
-        self.register(tag, Kind::AccessPoint, id.as_ref(), position);
-        device.id = text(id);
-        settings.ident = self.required_ident(tag, ident.as_ref(), "ModuleIdentNumber");
-        settings.pnio_version = text(version);
-        settings.slots = self.numbers(slots.as_ref());
-        settings.min_device_interval = self.unsigned16(interval.as_ref(), "multiple of 31.25 µs");
-        settings.dns_name = text(dns);
-        settings.places = self.places([allowed, fixed, None]);
-        settings.max_record_size = self.unsigned(record.as_ref(), u32::MAX, "length in bytes").unwrap_or(RECORD_SIZE);
+            self.attributes_and_others(tag, NAMES, &mut settings.attributes)?;
+        self.register(tag, Kind::AccessPoint, &id, position);
+        device.id = id.compact();
+        settings.ident = self.required_ident(tag, &ident, "ModuleIdentNumber");
+        settings.pnio_version = version.compact();
+        settings.slots = self.numbers(&slots);
+        settings.min_device_interval = self.unsigned16(&interval, "multiple of 31.25 µs");
+        settings.dns_name = dns.compact();
+        settings.places = self.places([allowed, fixed, Given::missing()]);
+        settings.max_record_size = self.unsigned(&record, u32::MAX, "length in bytes").unwrap_or(RECORD_SIZE);
         device.identity.others.push(("module_ident".into(), settings.ident));
         Ok(settings)
     }
@@ -96,21 +95,20 @@ impl<'a> Reader<'a, '_> {
         let owner = catalog.devices.len();
         match tag.name {
             "VirtualSubmoduleList" | "SystemDefinedSubmoduleList" => {
-                let (uses, extensions) = (&mut device.submodules, &mut device.extensions);
-                let submodules = &mut catalog.submodules;
-                self.built_in(tag, &mut Holder { submodules, uses, settings: Some(settings), extensions })
+                let (submodules, uses) = (&mut catalog.submodules, &mut device.submodules);
+                self.built_in(tag, &mut Holder { submodules, uses, settings: Some(settings) })
             }
-            "UseableModules" => self.useable_modules(tag, owner, &mut device.extensions),
-            "UseableSubmodules" => self.useable_submodules(tag, Owner::Device(owner), &mut device.extensions),
+            "UseableModules" => self.useable_modules(tag, owner),
+            "UseableSubmodules" => self.useable_submodules(tag, Owner::Device(owner)),
             "IOConfigData" => self.io_config_data(tag, settings),
             "SubslotList" => {
-                settings.subslot_names = self.subslot_list(tag, &mut device.extensions)?;
+                settings.subslot_names = self.subslot_list(tag)?;
                 Ok(())
             }
             "SlotList" => self.slot_list(tag, device),
-            "ARVendorBlock" => self.vendor_blocks(tag, settings, &mut device.extensions),
+            "ARVendorBlock" => self.vendor_blocks(tag, settings),
             "Graphics" => {
-                let graphics = self.graphics(tag, &mut device.extensions)?;
+                let graphics = self.graphics(tag)?;
                 settings.attributes.extend(graphics.into_iter().map(named_graphic));
                 Ok(())
             }
@@ -119,106 +117,85 @@ impl<'a> Reader<'a, '_> {
                 let mut kept = Submodule::default();
                 self.application_relations(tag, Some(settings), &mut kept)?;
                 settings.attributes.append(&mut kept.attributes);
-                device.extensions.append(&mut kept.extensions);
                 Ok(())
             }
             "CertificationInfo"
             | "AssetManagement"
             | "SystemRedundancy"
             | "SlotGroups"
-            | "FieldbusIntegrationSlots" => self.keep_attributes(tag, &mut settings.attributes),
-            _ => self.unknown(tag, &mut device.extensions),
+            | "FieldbusIntegrationSlots" => self.keep_as_attributes(tag, &mut settings.attributes),
+            _ => self.unknown(tag),
         }
     }
 
-    fn useable_modules(&mut self, list: &Tag<'a>, device: usize, rest: &mut Extensions) -> Read<()> {
+    fn useable_modules(&mut self, list: &Tag<'a>, device: usize) -> Read<()> {
         let names = ["ModuleItemTarget", "AllowedInSlots", "FixedInSlots", "UsedInSlots"];
-        while let Some(tag) = self.cursor.child(list)? {
-            if tag.name != "ModuleItemRef" {
-                self.unknown(&tag, rest)?;
-                continue;
+        self.each(list, "ModuleItemRef", |reader, tag| {
+            let [target, allowed, fixed, used] = reader.attributes(tag, names)?;
+            let places = reader.places([allowed, fixed, used]);
+            if reader.require(tag, &target, "ModuleItemTarget", "left out") {
+                reader.format.links.module(device, target, places);
             }
-            let [target, allowed, fixed, used] = self.fields(&tag, &names, rest)?;
-            let places = self.places([allowed, fixed, used]);
-            match target {
-                Some(target) => self.links.module(device, target, places),
-                None => self.missing(&tag, "ModuleItemTarget", "left out"),
-            }
-            self.no_children(&tag, rest)?;
-        }
-        Ok(())
+            reader.no_children(tag)
+        })
     }
 
     fn io_config_data(&mut self, tag: &Tag<'a>, settings: &mut ProfinetSettings) -> Read<()> {
         let mut others = Attributes::new();
         let names = ["MaxInputLength", "MaxOutputLength", "MaxDataLength"];
-        let [input, output, data] = self.fields_of(tag, &names, &mut others)?;
+        let [input, output, data] = self.attributes_and_others(tag, names, &mut others)?;
         settings.max_lengths = IoLengths {
-            input: self.unsigned16(input.as_ref(), "length in bytes"),
-            output: self.unsigned16(output.as_ref(), "length in bytes"),
-            data: self.unsigned16(data.as_ref(), "length in bytes"),
+            input: self.unsigned16(&input, "length in bytes"),
+            output: self.unsigned16(&output, "length in bytes"),
+            data: self.unsigned16(&data, "length in bytes"),
         };
-        settings.attributes.extend(others.into_iter().map(|(key, value)| {
-            let mut own = CompactString::from("IOConfigData@");
-            own.push_str(&key);
-            (own, value)
-        }));
-        self.cursor.skip(tag)?;
-        Ok(())
+        let named = others.into_iter().map(|(key, value)| (format_compact!("IOConfigData@{key}"), value));
+        settings.attributes.extend(named);
+        self.no_children(tag)
     }
 
     fn slot_list(&mut self, list: &Tag<'a>, device: &mut Device) -> Read<()> {
-        while let Some(tag) = self.cursor.child(list)? {
-            if tag.name != "SlotItem" {
-                self.unknown(&tag, &mut device.extensions)?;
-                continue;
-            }
-            let [number, text] = self.fields(&tag, &["SlotNumber", "TextId"], &mut device.extensions)?;
-            let name = self.name(&tag, text);
-            if number.is_none() {
-                self.missing(&tag, "SlotNumber", "left out");
-            }
-            if let Some(number) = self.unsigned16(number.as_ref(), "number of a slot") {
+        self.each(list, "SlotItem", |reader, tag| {
+            let [number, text] = reader.attributes(tag, ["SlotNumber", "TextId"])?;
+            let name = reader.name(tag, text);
+            reader.require(tag, &number, "SlotNumber", "left out");
+            if let Some(number) = reader.unsigned16(&number, "number of a slot") {
                 device.slots.push(Slot { number, name, instances: (0, 1), ..Slot::default() });
             }
-            self.no_children(&tag, &mut device.extensions)?;
-        }
-        Ok(())
+            reader.no_children(tag)
+        })
     }
 
-    fn vendor_blocks(&mut self, list: &Tag<'a>, settings: &mut ProfinetSettings, rest: &mut Extensions) -> Read<()> {
-        while let Some(tag) = self.cursor.child(list)? {
-            if tag.name != "Request" {
-                self.unknown(&tag, rest)?;
-                continue;
-            }
+    fn vendor_blocks(&mut self, list: &Tag<'a>, settings: &mut ProfinetSettings) -> Read<()> {
+        self.each(list, "Request", |reader, tag| {
+            let start = reader.extensions.len();
             let mut group = Group::object(0, ObjectCode::Record);
-            group.origin = self.cursor.origin(&tag);
+            group.origin = reader.origin(tag);
             let names = ["Length", "API", "APStructureIdentifier"];
-            let [length, api, identifier] = self.fields(&tag, &names, &mut group.extensions)?;
-            let identifier = self.unsigned16(identifier.as_ref(), "structure identifier").unwrap_or(0);
-            let length = self.record_length(&tag, length.as_ref());
+            let [length, api, identifier] = reader.attributes(tag, names)?;
+            let identifier = reader.unsigned16(&identifier, "structure identifier").unwrap_or(0);
+            let length = reader.record_length(tag, &length);
             let mut record = Record { index: identifier, length, ..Record::default() };
             let mut menus = Vec::new();
-            self.record_body(&tag, &mut record, &mut group, &mut menus)?;
+            reader.record_body(tag, &mut record, &mut group, &mut menus)?;
             group.kind = GroupKind::Record(Box::new(record));
-            let api = self.unsigned(api.as_ref(), u32::MAX, "API number").unwrap_or(0);
+            group.extensions = reader.extensions_since(start);
+            let api = reader.unsigned(&api, u32::MAX, "API number").unwrap_or(0);
             settings.vendor_blocks.push(VendorBlock { api, identifier, record: group, menus });
-        }
-        Ok(())
+            Ok(())
+        })
     }
 }
 
 impl Info<'_> {
     /// What ModuleInfo says of a device access point.
     fn of_device(self, device: &mut Device, attributes: &mut Attributes) {
-        let text = |given: Option<Given<'_>>| given.map_or_else(CompactString::default, |given| given.text.into());
         device.name = self.name;
         device.documentation = self.documentation;
-        device.identity.vendor_name = text(self.vendor);
-        device.identity.order_code = text(self.order);
-        attribute("HardwareRelease", self.hardware.as_ref(), attributes);
-        attribute("SoftwareRelease", self.software.as_ref(), attributes);
+        device.identity.vendor_name = self.vendor.compact();
+        device.identity.order_code = self.order.compact();
+        attributes.extend(self.hardware.attribute("HardwareRelease"));
+        attributes.extend(self.software.attribute("SoftwareRelease"));
         attributes.extend(self.attributes);
     }
 }

@@ -1,9 +1,10 @@
 //! What a file says about itself and its family of devices: its name, the version of the schema, the vendor.
 
-use super::reader::{Given, Read, Reader};
+use super::reader::Reader;
 use super::resolve::Resolver;
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
-use crate::ir::{Catalog, CompactString, Documentation, Extension, Extensions};
+use crate::frontend::xml::Read;
+use crate::ir::{Catalog, CompactString, Documentation, Extension};
 use crate::source::{FileId, Span};
 use crate::syntax::xml::Tag;
 
@@ -35,31 +36,28 @@ impl Header {
     }
 
     /// Reads DeviceIdentity.
-    pub fn identity<'a>(&mut self, reader: &mut Reader<'a, '_>, tag: &Tag<'a>, rest: &mut Extensions) -> Read<()> {
-        let [vendor, device] = reader.fields(tag, &["VendorID", "DeviceID"], rest)?;
+    pub fn identity<'a>(&mut self, reader: &mut Reader<'a, '_>, tag: &Tag<'a>) -> Read<()> {
+        let [vendor, device] = reader.attributes(tag, ["VendorID", "DeviceID"])?;
         for (given, name) in [(&vendor, "VendorID"), (&device, "DeviceID")] {
-            if given.is_none() {
-                reader.missing(tag, name, "devices are left without it");
-            }
+            reader.require(tag, given, name, "devices are left without it");
         }
-        self.vendor_id = reader.ident(vendor.as_ref(), u16::MAX.into(), "number of a vendor");
-        self.device_id = reader.ident(device.as_ref(), u16::MAX.into(), "number of a device");
-        while let Some(child) = reader.cursor.child(tag)? {
+        self.vendor_id = reader.ident(&vendor, u16::MAX.into(), "number of a vendor");
+        self.device_id = reader.ident(&device, u16::MAX.into(), "number of a device");
+        while let Some(child) = reader.child(tag)? {
             match child.name {
                 "InfoText" => self.description = reader.documentation(&child)?,
-                "VendorName" => self.vendor_name = reader.single(&child, "Value")?,
-                _ => reader.unknown(&child, rest)?,
+                "VendorName" => self.vendor_name = reader.single(&child, "Value")?.compact(),
+                _ => reader.unknown(&child)?,
             }
         }
         Ok(())
     }
 
     /// Reads the child `Family` of DeviceFunction.
-    pub fn family<'a>(&mut self, reader: &mut Reader<'a, '_>, tag: &Tag<'a>, rest: &mut Extensions) -> Read<()> {
-        let [main, product] = reader.fields(tag, &["MainFamily", "ProductFamily"], rest)?;
-        let text = |given: Option<Given<'a>>| given.map_or_else(CompactString::default, |given| given.text.into());
-        self.family = (text(main), text(product));
-        reader.no_children(tag, rest)
+    pub fn family<'a>(&mut self, reader: &mut Reader<'a, '_>, tag: &Tag<'a>) -> Read<()> {
+        let [main, product] = reader.attributes(tag, ["MainFamily", "ProductFamily"])?;
+        self.family = (main.compact(), product.compact());
+        reader.no_children(tag)
     }
 
     /// Gives every device its share.

@@ -3,12 +3,11 @@
 use compact_str::CompactString;
 
 use super::data_type::DataType;
-use super::reader::{attribute, Given, Read, Reader};
-use super::texts::with_suffix;
-use crate::diagnostics::{codes, Diagnostic};
-use crate::ir::{
-    Direction, Extensions, IoChannel, IoData, IoItem, PdoEntry, PdoEntryKind, ProcessImage, Submodule, Type,
-};
+use super::reader::Reader;
+use super::text_references::with_suffix;
+use crate::diagnostics::codes;
+use crate::frontend::xml::{Given, Read};
+use crate::ir::{Direction, IoChannel, IoData, IoItem, PdoEntry, PdoEntryKind, ProcessImage, Submodule, Type};
 use crate::source::Origin;
 use crate::syntax::xml::Tag;
 
@@ -16,52 +15,45 @@ impl<'a> Reader<'a, '_> {
     /// Reads IOData.
     pub fn io_data(&mut self, parent: &Tag<'a>, submodule: &mut Submodule) -> Read<()> {
         let names = ["IOPS_Length", "IOCS_Length", "F_IO_StructureDescVersion", "F_IO_StructureDescCRC"];
-        let [provider, consumer, version, crc] = self.fields(parent, &names, &mut submodule.extensions)?;
-        let mut length = |given: Option<&Given<'a>>| {
+        let [provider, consumer, version, crc] = self.attributes(parent, names)?;
+        let mut length = |given: &Given<'a>| {
             self.unsigned(given, u8::MAX.into(), "length in bytes").and_then(|length| u8::try_from(length).ok())
         };
-        submodule.status_lengths = (length(provider.as_ref()).unwrap_or(1), length(consumer.as_ref()).unwrap_or(1));
-        attribute("IOData@F_IO_StructureDescVersion", version.as_ref(), &mut submodule.attributes);
-        attribute("IOData@F_IO_StructureDescCRC", crc.as_ref(), &mut submodule.attributes);
-        while let Some(tag) = self.cursor.child(parent)? {
+        submodule.status_lengths = (length(&provider).unwrap_or(1), length(&consumer).unwrap_or(1));
+        submodule.attributes.extend(version.attribute("IOData@F_IO_StructureDescVersion"));
+        submodule.attributes.extend(crc.attribute("IOData@F_IO_StructureDescCRC"));
+        while let Some(tag) = self.child(parent)? {
             let direction = match tag.name {
                 "Input" => Direction::Transmit,
                 "Output" => Direction::Receive,
                 _ => {
-                    self.unknown(&tag, &mut submodule.extensions)?;
+                    self.unknown(&tag)?;
                     continue;
                 }
             };
-            let data = self.direction(&tag, direction, &mut submodule.extensions)?;
-            let place = if direction == Direction::Transmit { &mut submodule.input } else { &mut submodule.output };
-            if place.replace(Box::new(data)).is_some() {
+            let data = self.direction(&tag, direction)?;
+            let target = if direction == Direction::Transmit { &mut submodule.input } else { &mut submodule.output };
+            if target.replace(Box::new(data)).is_some() {
                 let message = format!("<{}> occurs twice", tag.name);
-                let diagnostic = Diagnostic::new(&codes::DUPLICATE_ID, tag.span, message);
-                self.diagnostics.push(diagnostic.label("takes the place of the one before"));
+                self.report(&codes::DUPLICATE_ID, tag.span, message, "takes the place of the one before");
             }
         }
         Ok(())
     }
 
-    fn direction(&mut self, parent: &Tag<'a>, direction: Direction, rest: &mut Extensions) -> Read<IoData> {
-        let [consistency] = self.fields(parent, &["Consistency"], rest)?;
-        let consistent = match consistency.as_ref().map(|given| given.text.as_ref()) {
-            Some("All items consistency") => true,
-            Some("Item consistency") | None => false,
-            Some(_) => {
-                if let Some(given) = &consistency {
-                    self.bad(given, "kind of consistency", "read as `Item consistency`");
-                }
-                false
-            }
-        };
+    fn direction(&mut self, parent: &Tag<'a>, direction: Direction) -> Read<IoData> {
+        let [consistency] = self.attributes(parent, ["Consistency"])?;
+        let consistent = consistency.text == "All items consistency";
+        if !consistent && !consistency.is_missing() && consistency.text != "Item consistency" {
+            self.bad(&consistency, "kind of consistency", "read as `Item consistency`");
+        }
         let mut layout = Layout::default();
         let mut channels = Vec::new();
-        while let Some(tag) = self.cursor.child(parent)? {
+        while let Some(tag) = self.child(parent)? {
             match tag.name {
-                "DataItem" => self.data_item(&tag, &mut layout, rest)?,
-                "Channel" => channels.push(self.channel(&tag, rest)?),
-                _ => self.unknown(&tag, rest)?,
+                "DataItem" => self.data_item(&tag, &mut layout)?,
+                "Channel" => channels.push(self.channel(&tag)?),
+                _ => self.unknown(&tag)?,
             }
         }
         let Layout { fields, items, at, overhead, .. } = layout;
@@ -70,90 +62,81 @@ impl<'a> Reader<'a, '_> {
         Ok(IoData { image, consistent, items, channels })
     }
 
-    fn data_item(&mut self, tag: &Tag<'a>, layout: &mut Layout, rest: &mut Extensions) -> Read<()> {
-        let origin = self.cursor.origin(tag);
+    fn data_item(&mut self, tag: &Tag<'a>, layout: &mut Layout) -> Read<()> {
+        let origin = self.origin(tag);
         let names = ["DataType", "TextId", "Length", "UseAsBits", "Subordinate"];
-        let [given, text, length, use_as_bits, subordinate] = self.fields(tag, &names, rest)?;
+        let [given, text, length, use_as_bits, subordinate] = self.attributes(tag, names)?;
         let mut item = DataItem {
             name: self.name(tag, text),
-            subordinate: self.flag(subordinate.as_ref(), false),
-            found: self.data_type(tag, given.as_ref()),
-            data_type: given.map_or_else(CompactString::default, |given| given.text.into()),
+            subordinate: self.flag_or(&subordinate, false),
+            found: self.data_type(tag, &given),
+            data_type: given.compact(),
             length: None,
             bits: Vec::new(),
             origin,
         };
-        item.length = self.item_length(tag, &item, length.as_ref());
-        let use_as_bits = self.flag(use_as_bits.as_ref(), false);
-        if !tag.empty {
-            self.bit_data_items(tag, &mut item, rest)?;
-        }
+        item.length = self.item_length(tag, &item, &length);
+        let use_as_bits = self.flag_or(&use_as_bits, false);
+        self.bit_data_items(tag, &mut item)?;
         if !item.bits.is_empty() && !use_as_bits {
             let message = "the bits of this item have names, but UseAsBits isn't true";
-            let diagnostic = Diagnostic::new(&codes::BIT_DATA_ITEM, tag.name_span(), message);
-            self.diagnostics.push(diagnostic.label("read as bits"));
+            self.report(&codes::BIT_DATA_ITEM, tag.name_span(), message, "read as bits");
         }
         layout.add(item, self);
         Ok(())
     }
 
     /// The length beside the data type, where there is one.
-    fn item_length(&mut self, tag: &Tag<'a>, item: &DataItem, given: Option<&Given<'a>>) -> Option<u32> {
+    fn item_length(&mut self, tag: &Tag<'a>, item: &DataItem, given: &Given<'a>) -> Option<u32> {
         let length = self.unsigned(given, u16::MAX.into(), "length in bytes");
         let fixed = item.found.and_then(DataType::bytes);
-        match (fixed, length, given) {
-            (Some(fixed), Some(length), Some(given)) if fixed != length => {
+        match (fixed, length) {
+            (Some(fixed), Some(length)) if fixed != length => {
                 let message = format!("a {} has {fixed} bytes, not {length}", item.data_type);
-                let diagnostic = Diagnostic::new(&codes::GSDML_VALUE, given.span, message);
-                self.diagnostics.push(diagnostic.label(format!("read as {fixed}")));
+                self.report(&codes::GSDML_VALUE, given.span, message, format!("read as {fixed}"));
             }
-            (None, None, None) => self.missing(tag, "Length", "taken for 0 bytes: what follows may stand elsewhere"),
+            (None, None) if given.is_missing() => {
+                self.missing(tag, "Length", "taken for 0 bytes: what follows may stand elsewhere");
+            }
             _ => {}
         }
         length
     }
 
-    fn bit_data_items(&mut self, parent: &Tag<'a>, item: &mut DataItem, rest: &mut Extensions) -> Read<()> {
-        while let Some(tag) = self.cursor.child(parent)? {
-            if tag.name != "BitDataItem" {
-                self.unknown(&tag, rest)?;
-                continue;
-            }
-            let origin = self.cursor.origin(&tag);
-            let [offset, text] = self.fields(&tag, &["BitOffset", "TextId"], rest)?;
-            let name = self.name(&tag, text);
-            if offset.is_none() {
-                self.missing(&tag, "BitOffset", "left out");
-            }
-            if let Some(offset) = self.unsigned(offset.as_ref(), u16::MAX.into(), "number of a bit") {
+    fn bit_data_items(&mut self, parent: &Tag<'a>, item: &mut DataItem) -> Read<()> {
+        self.each(parent, "BitDataItem", |reader, tag| {
+            let origin = reader.origin(tag);
+            let [offset, text] = reader.attributes(tag, ["BitOffset", "TextId"])?;
+            let name = reader.name(tag, text);
+            reader.require(tag, &offset, "BitOffset", "left out");
+            if let Some(offset) = reader.unsigned(&offset, u16::MAX.into(), "number of a bit") {
                 item.bits.push(Bit { offset, name, origin });
             }
-            self.no_children(&tag, rest)?;
-        }
-        Ok(())
+            reader.no_children(tag)
+        })
     }
 
-    fn channel(&mut self, parent: &Tag<'a>, rest: &mut Extensions) -> Read<IoChannel> {
+    fn channel(&mut self, parent: &Tag<'a>) -> Read<IoChannel> {
         let mut channel = IoChannel::default();
-        let [number] = self.fields_of(parent, &["Number"], &mut channel.attributes)?;
-        channel.number = self.unsigned16(number.as_ref(), "number of a channel").unwrap_or(0);
-        while let Some(tag) = self.cursor.child(parent)? {
+        let [number] = self.attributes_and_others(parent, ["Number"], &mut channel.attributes)?;
+        channel.number = self.unsigned16(&number, "number of a channel").unwrap_or(0);
+        while let Some(tag) = self.child(parent)? {
             if !matches!(tag.name, "Data" | "Quality") {
-                self.unknown(&tag, rest)?;
+                self.unknown(&tag)?;
                 continue;
             }
             let names = ["BitOffset", "BitLength", "Format"];
-            let [offset, bits, format] = self.fields_of(&tag, &names, &mut channel.attributes)?;
-            let offset = self.unsigned(offset.as_ref(), u16::MAX.into(), "number of a bit");
-            let bits = self.unsigned(bits.as_ref(), u16::MAX.into(), "number of bits");
+            let [offset, bits, format] = self.attributes_and_others(&tag, names, &mut channel.attributes)?;
+            let offset = self.unsigned(&offset, u16::MAX.into(), "number of a bit");
+            let bits = self.unsigned(&bits, u16::MAX.into(), "number of bits");
             if tag.name == "Data" {
                 channel.data = offset.map(|offset| (offset, bits.unwrap_or(1)));
             } else {
-                channel.quality_format = format.map_or_else(CompactString::default, |given| given.text.into());
+                channel.quality_format = format.compact();
                 let bits = bits.unwrap_or_else(|| quality_bits(&channel.quality_format));
                 channel.quality = offset.map(|offset| (offset, bits));
             }
-            self.no_children(&tag, rest)?;
+            self.no_children(&tag)?;
         }
         Ok(channel)
     }
@@ -219,7 +202,7 @@ impl Layout {
                 self.field(&item, with_suffix(&item.name, "status"), Type::Unsigned(8), bits - 8, 8);
             }
             Some(found) => {
-                let (ty, _) = found.lower(item.length, &mut reader.types);
+                let (ty, _) = found.lower(item.length, &mut reader.format.types);
                 self.field(&item, item.name.clone(), ty, 0, bits);
             }
             None => self.field(&item, item.name.clone(), Type::Opaque(None), 0, bits),
@@ -244,13 +227,13 @@ impl Layout {
         }
     }
 
-    /// What stands before other data is data, too: the trailer of a safety message is the end of it.
+    /// What comes before other data is data, too: the trailer of a safety message is the end of it.
     fn go_on(&mut self, reader: &mut Reader<'_, '_>) {
         for (at, origin) in std::mem::take(&mut self.trailers) {
             let Some(item) = self.items.get_mut(at) else { continue };
             let message = "the trailer of a safety message isn't the end of the data";
-            let diagnostic = Diagnostic::new(&codes::GSDML_VALUE, origin.span, message);
-            reader.diagnostics.push(diagnostic.label("read as data, as there are items behind it"));
+            let label = "read as data, as there are items behind it";
+            reader.report(&codes::GSDML_VALUE, origin.span, message, label);
             (item.first_field, item.fields) = (u32::try_from(self.fields.len()).unwrap_or(u32::MAX), 1);
             let (name, ty) = (item.name.clone(), Type::OctetString(Some(item.bits / 8)));
             let entry = PdoEntry::new(0, 0, item.bits);
@@ -290,8 +273,7 @@ impl Layout {
                     true => format!("bit {} of this item has a name already", bit.offset),
                     false => format!("the item has {length} bits; there is no bit {}", bit.offset),
                 };
-                let diagnostic = Diagnostic::new(&codes::BIT_DATA_ITEM, bit.origin.span, message);
-                reader.diagnostics.push(diagnostic.label("left out"));
+                reader.report(&codes::BIT_DATA_ITEM, bit.origin.span, message, "left out");
                 continue;
             }
             self.padding(item, next, at);

@@ -1,13 +1,13 @@
-//! Elements by their identifiers, and references to them, which may stand in front of what they refer to.
+//! Elements by their identifiers, and references to them, which may come first.
 
 use std::borrow::Cow;
 use std::collections::HashMap;
 
-use super::reader::{shortened, Given, Reader};
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
+use crate::frontend::xml::Given;
 use crate::ir::{Catalog, ModuleId, ModuleUse, Places, SubmoduleId, SubmoduleUse};
 use crate::source::Span;
-use crate::syntax::xml::Tag;
+use crate::text::brief;
 
 /// Kinds of elements: an identifier is unique among those of one kind.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -16,7 +16,7 @@ pub(super) enum Kind {
     Module,
     /// VirtualSubmoduleItem, InterfaceSubmoduleItem, and ports that can't be pulled.
     BuiltIn,
-    /// What stands in SubmoduleList.
+    /// An element of SubmoduleList.
     Pluggable,
     Value,
     Graphic,
@@ -57,6 +57,13 @@ pub(super) struct Links<'a> {
 }
 
 impl<'a> Links<'a> {
+    /// Registers the identifier of an element at `position`. Returns the identifier of an earlier element if it has the same.
+    pub fn register(&mut self, kind: Kind, id: &Given<'a>, position: usize) -> Option<Span> {
+        let element = (u32::try_from(position).unwrap_or(u32::MAX), id.span);
+        let (_, first) = *self.ids.entry((kind, id.text.clone())).or_insert(element);
+        (first != id.span).then_some(first)
+    }
+
     /// A module that can be plugged into the device at `device`.
     pub fn module(&mut self, device: usize, target: Given<'a>, places: Places) {
         self.modules.push((device, target, places));
@@ -106,32 +113,10 @@ impl<'a> Links<'a> {
 
 /// Reports a reference that leads nowhere.
 pub(super) fn unresolved(element: &str, target: &Given<'_>, diagnostics: &mut Diagnostics) {
-    let message = format!("no {element} has the ID `{}`", shortened(&target.text));
+    let message = format!("no {element} has the ID `{}`", brief(&target.text));
     diagnostics.push(
         Diagnostic::new(&codes::UNRESOLVED_TARGET, target.span, message)
             .label("the reference leads nowhere")
             .help("identifiers are compared letter by letter, in their case"),
     );
-}
-
-impl<'a> Reader<'a, '_> {
-    /// Notes the identifier of the element `tag` of this kind, which stands at `position` in the catalogue; the first element
-    /// with an identifier counts.
-    pub fn register(&mut self, tag: &Tag<'a>, kind: Kind, id: Option<&Given<'a>>, position: usize) {
-        let Some(given) = id else {
-            // Interfaces and ports of V2.0 have none, and nothing refers to them.
-            if kind != Kind::BuiltIn || tag.name == "VirtualSubmoduleItem" {
-                self.missing(tag, "ID", "nothing can refer to it");
-            }
-            return;
-        };
-        let own = (u32::try_from(position).unwrap_or(u32::MAX), given.span);
-        let (_, first) = *self.links.ids.entry((kind, given.text.clone())).or_insert(own);
-        if first != given.span {
-            let message =
-                format!("a <{}> with the ID `{}` exists already", shortened(tag.name), shortened(&given.text));
-            let diagnostic = Diagnostic::new(&codes::DUPLICATE_ID, given.span, message);
-            self.diagnostics.push(diagnostic.label("references lead to the first one").note_at(first, "the first one"));
-        }
-    }
 }

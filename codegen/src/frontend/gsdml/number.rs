@@ -2,15 +2,18 @@
 
 use smallvec::SmallVec;
 
-use super::reader::{Given, Read, Reader};
+use super::reader::Reader;
 use crate::diagnostics::{codes, Diagnostic};
-use crate::ir::{CompactString, Numbers};
+use crate::frontend::xml::Given;
+use crate::ir::Numbers;
 use crate::syntax::xml::Tag;
 
 impl<'a> Reader<'a, '_> {
     /// A decimal number up to `max`; anything else is reported.
-    pub fn unsigned(&mut self, given: Option<&Given<'_>>, max: u32, what: &str) -> Option<u32> {
-        let given = given?;
+    pub fn unsigned(&mut self, given: &Given<'_>, max: u32, what: &str) -> Option<u32> {
+        if given.is_missing() {
+            return None;
+        }
         let fits = |value: u64| u32::try_from(value).ok().filter(|&value| value <= max);
         if let Ok(value) = given.text.parse::<u64>() {
             let value = fits(value);
@@ -35,13 +38,15 @@ impl<'a> Reader<'a, '_> {
     }
 
     /// A decimal number of 16 bits.
-    pub fn unsigned16(&mut self, given: Option<&Given<'_>>, what: &str) -> Option<u16> {
+    pub fn unsigned16(&mut self, given: &Given<'_>, what: &str) -> Option<u16> {
         self.unsigned(given, u16::MAX.into(), what).and_then(|value| u16::try_from(value).ok())
     }
 
     /// An ident number (`0x0000430A`, of any number of digits); without its prefix it is reported, and read all the same.
-    pub fn ident(&mut self, given: Option<&Given<'_>>, max: u32, what: &str) -> Option<u32> {
-        let given = given?;
+    pub fn ident(&mut self, given: &Given<'_>, max: u32, what: &str) -> Option<u32> {
+        if given.is_missing() {
+            return None;
+        }
         let fits = |value: u64| u32::try_from(value).ok().filter(|&value| value <= max);
         if let Some(value) = hex(&given.text).and_then(fits) {
             return Some(value);
@@ -63,29 +68,13 @@ impl<'a> Reader<'a, '_> {
     }
 
     /// The ident number that `tag` has to have; 0 where it has none.
-    pub fn required_ident(&mut self, tag: &Tag<'_>, given: Option<&Given<'_>>, name: &str) -> u32 {
-        if given.is_none() {
-            self.missing(tag, name, "taken for 0");
-        }
+    pub fn required_ident(&mut self, tag: &Tag<'_>, given: &Given<'_>, name: &str) -> u32 {
+        self.require(tag, given, name, "taken for 0");
         self.ident(given, u32::MAX, "ident number").unwrap_or(0)
     }
 
-    /// `true` or `false`, also as 1 or 0; `default` where it isn't given.
-    pub fn flag(&mut self, given: Option<&Given<'_>>, default: bool) -> bool {
-        let Some(given) = given else { return default };
-        match given.text.as_ref() {
-            "true" | "1" => return true,
-            "false" | "0" => return false,
-            _ => {}
-        }
-        let value = ["true", "yes"].iter().any(|word| word.eq_ignore_ascii_case(&given.text));
-        self.bad(given, "`true` or `false`", format!("read as {value}"));
-        value
-    }
-
     /// A list of numbers and ranges (`1..3 7`); what of it is no number is reported and left out.
-    pub fn numbers(&mut self, given: Option<&Given<'_>>) -> Numbers {
-        let Some(given) = given else { return Numbers::default() };
+    pub fn numbers(&mut self, given: &Given<'_>) -> Numbers {
         let mut list = SmallVec::new();
         let mut broken = None;
         for part in given.text.split_ascii_whitespace() {
@@ -104,15 +93,6 @@ impl<'a> Reader<'a, '_> {
             self.diagnostics.push(Diagnostic::new(&codes::GSDML_VALUE, given.span, message).label(label));
         }
         Numbers(list)
-    }
-
-    /// Reads the attribute `name` of an element that has nothing else to say.
-    pub fn single(&mut self, tag: &Tag<'a>, name: &str) -> Read<CompactString> {
-        let given = self.field(tag, name)?;
-        if given.is_none() {
-            self.missing(tag, name, "left empty");
-        }
-        Ok(given.map_or_else(CompactString::default, |given| given.text.into()))
     }
 }
 

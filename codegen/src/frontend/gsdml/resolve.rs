@@ -1,19 +1,21 @@
-//! Texts in the place of the references to them, in everything that has a name.
+//! Texts in the place of placeholders, in everything that has a name.
 
 use std::borrow::Cow;
 use std::collections::{HashMap, HashSet};
 
 use compact_str::{format_compact, CompactString};
 
-use super::reader::{shortened, Given};
-use super::texts::{Names, TextList};
+use super::text_list::TextList;
+use super::text_references::TextReferences;
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
+use crate::frontend::xml::Given;
 use crate::ir::{
     Catalog, Device, Documentation, Group, IoData, LocalText, Menu, Module, Shape, Submodule, SubslotName, Texts,
     TypeDef, UnitDiagnosis,
 };
 use crate::limits;
 use crate::source::Span;
+use crate::text::brief;
 
 /// Resolves every name and description of a catalogue.
 pub(super) fn catalog(catalog: &mut Catalog, resolver: &mut Resolver<'_, '_>) {
@@ -110,7 +112,7 @@ fn unit_diagnosis(diagnosis: &mut UnitDiagnosis, resolver: &mut Resolver<'_, '_>
 /// Puts texts in the place of the numbers that stand for them.
 pub(super) struct Resolver<'a, 'd> {
     pub list: TextList<'a>,
-    names: Names<'a>,
+    references: TextReferences<'a>,
     pub diagnostics: &'d mut Diagnostics,
     /// Texts with a suffix, by identifier and suffix.
     suffixed: HashMap<(Cow<'a, str>, CompactString), (CompactString, Texts)>,
@@ -122,20 +124,25 @@ pub(super) struct Resolver<'a, 'd> {
 
 impl<'a, 'd> Resolver<'a, 'd> {
     /// A resolver for a file of `length` bytes.
-    pub fn new(list: TextList<'a>, names: Names<'a>, length: usize, diagnostics: &'d mut Diagnostics) -> Self {
+    pub fn new(
+        list: TextList<'a>,
+        references: TextReferences<'a>,
+        length: usize,
+        diagnostics: &'d mut Diagnostics,
+    ) -> Self {
         let budget = limits::MAX_TEXT_COPIES_PER_BYTE.saturating_mul(length).max(limits::MIN_TEXT_COPIES);
-        Resolver { list, names, diagnostics, suffixed: HashMap::new(), missing: HashSet::new(), budget }
+        Resolver { list, references, diagnostics, suffixed: HashMap::new(), missing: HashSet::new(), budget }
     }
 
     /// Resolves a name.
     pub fn name(&mut self, name: &mut CompactString, names: &mut Texts) {
-        let (mark, suffix) = name.split_once(' ').unwrap_or((name.as_str(), ""));
-        if mark.is_empty() {
+        let (placeholder, suffix) = name.split_once(' ').unwrap_or((name.as_str(), ""));
+        if placeholder.is_empty() {
             *name = suffix.into();
             return;
         }
-        let Some(at) = mark.parse::<usize>().ok() else { return };
-        let Some(given) = self.names.get(at).cloned() else { return };
+        let Some(at) = placeholder.parse::<usize>().ok() else { return };
+        let Some(given) = self.references.get(at).cloned() else { return };
         let found = match suffix {
             "" => self.list.find(&given.text),
             _ => self.with_suffix(&given, suffix.into()),
@@ -146,7 +153,7 @@ impl<'a, 'd> Resolver<'a, 'd> {
                 return;
             }
         } else if self.missing.insert(at) {
-            let message = format!("the text list has no `{}`", shortened(&given.text));
+            let message = format!("the text list has no `{}`", brief(&given.text));
             let diagnostic = Diagnostic::new(&codes::MISSING_TEXT, given.span, message);
             self.diagnostics.push(diagnostic.label("its identifier is used as the name"));
         }
@@ -203,7 +210,7 @@ impl<'a, 'd> Resolver<'a, 'd> {
             self.name(&mut text, &mut texts);
             descriptions.push(LocalText { language: "en".into(), text });
             // Here every translation is a copy of its own.
-            let given = mark.parse().ok().and_then(|at: usize| self.names.get(at)).cloned();
+            let given = mark.parse().ok().and_then(|at: usize| self.references.get(at)).cloned();
             let length = texts.iter().map(|local| local.text.len() + std::mem::size_of::<LocalText>()).sum();
             if given.is_some_and(|given| self.spend(length, &given)) {
                 descriptions.extend(texts.iter().cloned());

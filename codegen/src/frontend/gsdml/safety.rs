@@ -1,8 +1,9 @@
 //! Parameters of functional safety (PROFIsafe).
 
 use super::number;
-use super::reader::{attribute, Given, Read, Reader};
-use crate::diagnostics::{codes, Diagnostic};
+use super::reader::Reader;
+use crate::diagnostics::codes;
+use crate::frontend::xml::{Given, Read};
 use crate::ir::{FParameter, FParameters, Submodule};
 use crate::syntax::xml::Tag;
 
@@ -63,36 +64,32 @@ static KNOWN: [Known; 12] = [
 impl<'a> Reader<'a, '_> {
     /// Reads F_ParameterRecordDataItem.
     pub fn f_record(&mut self, parent: &Tag<'a>, submodule: &mut Submodule) -> Read<()> {
-        let origin = self.cursor.origin(parent);
+        let origin = self.origin(parent);
         let names = ["Index", "TransferSequence", "F_ParamDescCRC", "F_SupportedParameters", "ChangeableWithBump"];
-        let fields = self.fields(parent, &names, &mut submodule.extensions)?;
+        let fields = self.attributes(parent, names)?;
         let [index, sequence, crc, supported, bump] = fields;
-        attribute("F_ParameterRecordDataItem@F_SupportedParameters", supported.as_ref(), &mut submodule.attributes);
-        attribute("F_ParameterRecordDataItem@ChangeableWithBump", bump.as_ref(), &mut submodule.attributes);
-        if index.is_none() {
-            self.missing(parent, "Index", "taken for 0");
-        }
+        submodule.attributes.extend(supported.attribute("F_ParameterRecordDataItem@F_SupportedParameters"));
+        submodule.attributes.extend(bump.attribute("F_ParameterRecordDataItem@ChangeableWithBump"));
+        self.require(parent, &index, "Index", "taken for 0");
         let mut found = FParameters {
-            index: self.unsigned16(index.as_ref(), "record index").unwrap_or(0),
-            transfer_sequence: self.unsigned16(sequence.as_ref(), "order of transfer").unwrap_or(0),
-            description_crc: self.unsigned16(crc.as_ref(), "checksum of 16 bits"),
+            index: self.unsigned16(&index, "record index").unwrap_or(0),
+            transfer_sequence: self.unsigned16(&sequence, "order of transfer").unwrap_or(0),
+            description_crc: self.unsigned16(&crc, "checksum of 16 bits"),
             parameters: Vec::new(),
             origin,
         };
-        while let Some(tag) = self.cursor.child(parent)? {
+        while let Some(tag) = self.child(parent)? {
             match KNOWN.iter().find(|known| known.name == tag.name) {
                 Some(known) => {
-                    let parameter = self.f_parameter(&tag, known, submodule)?;
-                    found.parameters.push(parameter);
+                    found.parameters.push(self.f_parameter(&tag, known)?);
                 }
-                None => self.unknown(&tag, &mut submodule.extensions)?,
+                None => self.unknown(&tag)?,
             }
         }
         self.add_missing(parent, &mut found.parameters);
         if submodule.f_parameters.is_some() {
             let message = "a submodule has one F-parameter record";
-            let diagnostic = Diagnostic::new(&codes::DUPLICATE_ID, parent.span, message);
-            self.diagnostics.push(diagnostic.label("takes the place of the one before"));
+            self.report(&codes::DUPLICATE_ID, parent.span, message, "takes the place of the one before");
         }
         submodule.f_parameters = Some(Box::new(found));
         Ok(())
@@ -110,25 +107,25 @@ impl<'a> Reader<'a, '_> {
         parameters.sort_by_key(place);
     }
 
-    fn f_parameter(&mut self, tag: &Tag<'a>, known: &Known, submodule: &mut Submodule) -> Read<FParameter> {
+    fn f_parameter(&mut self, tag: &Tag<'a>, known: &Known) -> Read<FParameter> {
         let names = ["DefaultValue", "AllowedValues", "Changeable", "Visible"];
-        let [default, allowed, changeable, visible] = self.fields(tag, &names, &mut submodule.extensions)?;
+        let [default, allowed, changeable, visible] = self.attributes(tag, names)?;
         let mut parameter = by_schema(known);
-        if let Some(given) = default {
-            self.f_default(&given, known, &mut parameter);
+        if !default.is_missing() {
+            self.f_default(&default, known, &mut parameter);
         }
-        if let Some(given) = allowed {
-            self.f_allowed(&given, known, &mut parameter);
+        if !allowed.is_missing() {
+            self.f_allowed(&allowed, known, &mut parameter);
         }
-        parameter.changeable = self.flag(changeable.as_ref(), known.changeable);
-        parameter.visible = self.flag(visible.as_ref(), known.visible);
-        self.no_children(tag, &mut submodule.extensions)?;
+        parameter.changeable = self.flag_or(&changeable, known.changeable);
+        parameter.visible = self.flag_or(&visible, known.visible);
+        self.no_children(tag)?;
         Ok(parameter)
     }
 
     fn f_default(&mut self, given: &Given<'a>, known: &Known, parameter: &mut FParameter) {
         if known.labels.is_empty() {
-            match self.unsigned(Some(given), u32::MAX, "value of an F-parameter") {
+            match self.unsigned(given, u32::MAX, "value of an F-parameter") {
                 Some(value) => parameter.default = value.into(),
                 None => parameter.label = given.text.as_ref().into(),
             }

@@ -1,13 +1,13 @@
 //! Submodules of all kinds: virtual and pluggable ones, interfaces and ports.
 
+use compact_str::format_compact;
+
 use super::links::{Kind, Owner};
-use super::module::Info;
+use super::module_info::Info;
 use super::number::tokens;
-use super::reader::{attribute, Given, Read, Reader};
-use crate::ir::{
-    CompactString, Extensions, Numbers, Places, ProfinetSettings, Submodule, SubmoduleId, SubmoduleKind, SubmoduleUse,
-    SubslotName,
-};
+use super::reader::Reader;
+use crate::frontend::xml::{Attributes, Given, Read};
+use crate::ir::{Numbers, Places, ProfinetSettings, Submodule, SubmoduleId, SubmoduleKind, SubmoduleUse, SubslotName};
 use crate::syntax::xml::Tag;
 
 /// Subslot of the first interface.
@@ -21,7 +21,6 @@ pub(super) struct Holder<'h> {
     pub uses: &'h mut Vec<SubmoduleUse>,
     /// What an interface says of the device as a whole.
     pub settings: Option<&'h mut ProfinetSettings>,
-    pub extensions: &'h mut Extensions,
 }
 
 /// The kind of submodule that an element stands for.
@@ -38,11 +37,11 @@ fn kind_of(element: &str) -> Option<SubmoduleKind> {
 impl<'a> Reader<'a, '_> {
     /// Reads VirtualSubmoduleList or SystemDefinedSubmoduleList.
     pub fn built_in(&mut self, list: &Tag<'a>, holder: &mut Holder<'_>) -> Read<()> {
-        while let Some(tag) = self.cursor.child(list)? {
+        while let Some(tag) = self.child(list)? {
             let kind = match kind_of(tag.name) {
                 Some(kind) if kind != SubmoduleKind::Pluggable => kind,
                 _ => {
-                    self.unknown(&tag, holder.extensions)?;
+                    self.unknown(&tag)?;
                     continue;
                 }
             };
@@ -58,19 +57,14 @@ impl<'a> Reader<'a, '_> {
     }
 
     /// Reads SubmoduleList.
-    pub fn submodule_list(
-        &mut self,
-        list: &Tag<'a>,
-        submodules: &mut Vec<Submodule>,
-        rest: &mut Extensions,
-    ) -> Read<()> {
-        while let Some(tag) = self.cursor.child(list)? {
+    pub fn submodule_list(&mut self, list: &Tag<'a>, submodules: &mut Vec<Submodule>) -> Read<()> {
+        while let Some(tag) = self.child(list)? {
             match kind_of(tag.name) {
                 Some(kind) => {
                     let (submodule, _) = self.submodule(&tag, kind, Kind::Pluggable, submodules.len(), None)?;
                     submodules.push(submodule);
                 }
-                None => self.unknown(&tag, rest)?,
+                None => self.unknown(&tag)?,
             }
         }
         Ok(())
@@ -85,29 +79,30 @@ impl<'a> Reader<'a, '_> {
         position: usize,
         mut settings: Option<&mut ProfinetSettings>,
     ) -> Read<(Submodule, Numbers)> {
-        let origin = self.cursor.origin(parent);
+        let (origin, start) = (self.origin(parent), self.extensions.len());
         let mut submodule = Submodule { kind, origin, status_lengths: (1, 1), ..Submodule::default() };
         let names = ["ID", "SubmoduleIdentNumber", "API", "FixedInSubslots", "SubslotNumber", "TextId"];
-        let [id, ident, api, fixed, subslot, text] = self.fields_of(parent, &names, &mut submodule.attributes)?;
-        self.register(parent, ids, id.as_ref(), position);
-        submodule.id = id.map_or_else(CompactString::default, |id| id.text.into());
-        submodule.ident = self.required_ident(parent, ident.as_ref(), "SubmoduleIdentNumber");
-        submodule.api = self.unsigned(api.as_ref(), u32::MAX, "API number").unwrap_or(0);
-        if let Some(text) = text {
-            submodule.name = self.names.hold(text);
+        let [id, ident, api, fixed, subslot, text] =
+            self.attributes_and_others(parent, names, &mut submodule.attributes)?;
+        self.register(parent, ids, &id, position);
+        submodule.id = id.compact();
+        submodule.ident = self.required_ident(parent, &ident, "SubmoduleIdentNumber");
+        submodule.api = self.unsigned(&api, u32::MAX, "API number").unwrap_or(0);
+        if !text.is_missing() {
+            submodule.name = self.format.texts.hold(text);
         }
         let mut info = Info::default();
-        while let Some(tag) = self.cursor.child(parent)? {
+        while let Some(tag) = self.child(parent)? {
             match tag.name {
                 "IOData" => self.io_data(&tag, &mut submodule)?,
                 "RecordDataList" => self.record_data_list(&tag, &mut submodule)?,
-                "ModuleInfo" => info = self.module_info(&tag, &mut submodule.extensions)?,
-                "Graphics" => submodule.graphics = self.graphics(&tag, &mut submodule.extensions)?,
+                "ModuleInfo" => info = self.module_info(&tag)?,
+                "Graphics" => submodule.graphics = self.graphics(&tag)?,
                 "ApplicationRelations" => {
                     self.application_relations(&tag, settings.as_deref_mut(), &mut submodule)?;
                 }
-                name if is_kept(name) => self.keep_attributes(&tag, &mut submodule.attributes)?,
-                _ => self.unknown(&tag, &mut submodule.extensions)?,
+                name if is_kept(name) => self.keep_as_attributes(&tag, &mut submodule.attributes)?,
+                _ => self.unknown(&tag)?,
             }
         }
         // Virtual submodules of V1.0 have no name.
@@ -116,8 +111,9 @@ impl<'a> Reader<'a, '_> {
             self.missing(parent, "name", "its name is left empty");
         }
         info.of_submodule(&mut submodule);
-        let mut fixed = self.numbers(fixed.as_ref());
-        if let Some(number) = self.unsigned16(subslot.as_ref(), "number of a subslot") {
+        submodule.extensions = self.extensions_since(start);
+        let mut fixed = self.numbers(&fixed);
+        if let Some(number) = self.unsigned16(&subslot, "number of a subslot") {
             fixed.0.push((number, number));
         }
         Ok((submodule, fixed))
@@ -132,72 +128,60 @@ impl<'a> Reader<'a, '_> {
     ) -> Read<()> {
         // Of a further interface, everything is kept as it is written.
         let Some(settings) = settings.filter(|settings| settings.startup_modes.is_empty()) else {
-            return self.keep_attributes(parent, &mut submodule.attributes);
+            return self.keep_as_attributes(parent, &mut submodule.attributes);
         };
-        let mut others = Vec::new();
-        let [startup, relations] = self.fields_of(parent, &["StartupMode", "NumberOfAR"], &mut others)?;
+        let mut others = Attributes::new();
+        let [startup, relations] = self.attributes_and_others(parent, ["StartupMode", "NumberOfAR"], &mut others)?;
         add("ApplicationRelations", others, submodule);
-        let startup = startup.as_ref().map_or("Legacy", |given| given.text.as_ref());
+        let startup = if startup.is_missing() { "Legacy" } else { startup.text.as_ref() };
         settings.startup_modes = tokens(startup).map(Into::into).collect();
-        settings.relations = self.unsigned16(relations.as_ref(), "number of application relations").unwrap_or(1);
-        while let Some(tag) = self.cursor.child(parent)? {
+        settings.relations = self.unsigned16(&relations, "number of application relations").unwrap_or(1);
+        while let Some(tag) = self.child(parent)? {
             if tag.name != "TimingProperties" {
-                self.keep_attributes(&tag, &mut submodule.attributes)?;
+                self.keep_as_attributes(&tag, &mut submodule.attributes)?;
                 continue;
             }
-            let mut others = Vec::new();
-            let [clock, ratio] = self.fields_of(&tag, &["SendClock", "ReductionRatio"], &mut others)?;
+            let mut others = Attributes::new();
+            let [clock, ratio] = self.attributes_and_others(&tag, ["SendClock", "ReductionRatio"], &mut others)?;
             add("TimingProperties", others, submodule);
-            settings.send_clocks = self.numbers(clock.as_ref());
-            settings.reduction_ratios = self.numbers(ratio.as_ref());
-            self.no_children(&tag, &mut submodule.extensions)?;
+            settings.send_clocks = self.numbers(&clock);
+            settings.reduction_ratios = self.numbers(&ratio);
+            self.no_children(&tag)?;
         }
         Ok(())
     }
 
     /// Reads UseableSubmodules.
-    pub fn useable_submodules(&mut self, list: &Tag<'a>, owner: Owner, rest: &mut Extensions) -> Read<()> {
+    pub fn useable_submodules(&mut self, list: &Tag<'a>, owner: Owner) -> Read<()> {
         let names = ["SubmoduleItemTarget", "AllowedInSubslots", "FixedInSubslots", "UsedInSubslots"];
-        while let Some(tag) = self.cursor.child(list)? {
-            if tag.name != "SubmoduleItemRef" {
-                self.unknown(&tag, rest)?;
-                continue;
+        self.each(list, "SubmoduleItemRef", |reader, tag| {
+            let [target, allowed, fixed, used] = reader.attributes(tag, names)?;
+            let places = reader.places([allowed, fixed, used]);
+            if reader.require(tag, &target, "SubmoduleItemTarget", "left out") {
+                reader.format.links.submodule(owner, target, places);
             }
-            let [target, allowed, fixed, used] = self.fields(&tag, &names, rest)?;
-            let places = self.places([allowed, fixed, used]);
-            match target {
-                Some(target) => self.links.submodule(owner, target, places),
-                None => self.missing(&tag, "SubmoduleItemTarget", "left out"),
-            }
-            self.no_children(&tag, rest)?;
-        }
-        Ok(())
+            reader.no_children(tag)
+        })
     }
 
     /// The places that the attributes Allowed…, Fixed… and Used… list.
-    pub fn places(&mut self, given: [Option<Given<'a>>; 3]) -> Places {
-        let [allowed, fixed, used] = given.map(|given| self.numbers(given.as_ref()));
+    pub fn places(&mut self, given: [Given<'a>; 3]) -> Places {
+        let [allowed, fixed, used] = given.map(|given| self.numbers(&given));
         Places { allowed, fixed, used }
     }
 
     /// Reads SubslotList.
-    pub fn subslot_list(&mut self, list: &Tag<'a>, rest: &mut Extensions) -> Read<Vec<SubslotName>> {
+    pub fn subslot_list(&mut self, list: &Tag<'a>) -> Read<Vec<SubslotName>> {
         let mut subslots = Vec::new();
-        while let Some(tag) = self.cursor.child(list)? {
-            if tag.name != "SubslotItem" {
-                self.unknown(&tag, rest)?;
-                continue;
-            }
-            let [number, text] = self.fields(&tag, &["SubslotNumber", "TextId"], rest)?;
-            if number.is_none() {
-                self.missing(&tag, "SubslotNumber", "left out");
-            }
-            let name = self.name(&tag, text);
-            if let Some(number) = self.unsigned16(number.as_ref(), "number of a subslot") {
+        self.each(list, "SubslotItem", |reader, tag| {
+            let [number, text] = reader.attributes(tag, ["SubslotNumber", "TextId"])?;
+            reader.require(tag, &number, "SubslotNumber", "left out");
+            let name = reader.name(tag, text);
+            if let Some(number) = reader.unsigned16(&number, "number of a subslot") {
                 subslots.push(SubslotName { number, name, ..SubslotName::default() });
             }
-            self.no_children(&tag, rest)?;
-        }
+            reader.no_children(tag)
+        })?;
         Ok(subslots)
     }
 }
@@ -230,14 +214,9 @@ fn default_subslot(kind: SubmoduleKind) -> u16 {
 }
 
 /// Adds attributes of an element within a submodule.
-fn add(element: &str, others: Vec<(CompactString, CompactString)>, submodule: &mut Submodule) {
-    let named = |(key, value): (CompactString, CompactString)| {
-        let mut own = CompactString::from(element);
-        own.push('@');
-        own.push_str(&key);
-        (own, value)
-    };
-    submodule.attributes.extend(others.into_iter().map(named));
+fn add(element: &str, others: Attributes, submodule: &mut Submodule) {
+    let named = others.into_iter().map(|(key, value)| (format_compact!("{element}@{key}"), value));
+    submodule.attributes.extend(named);
 }
 
 impl Info<'_> {
@@ -247,12 +226,10 @@ impl Info<'_> {
             submodule.name = self.name;
         }
         submodule.documentation = self.documentation;
-        submodule.identity.vendor_name =
-            self.vendor.as_ref().map_or_else(Default::default, |given| given.text.as_ref().into());
-        submodule.identity.order_code =
-            self.order.as_ref().map_or_else(Default::default, |given| given.text.as_ref().into());
-        attribute("HardwareRelease", self.hardware.as_ref(), &mut submodule.attributes);
-        attribute("SoftwareRelease", self.software.as_ref(), &mut submodule.attributes);
+        submodule.identity.vendor_name = self.vendor.compact();
+        submodule.identity.order_code = self.order.compact();
+        submodule.attributes.extend(self.hardware.attribute("HardwareRelease"));
+        submodule.attributes.extend(self.software.attribute("SoftwareRelease"));
         submodule.attributes.extend(self.attributes);
     }
 }

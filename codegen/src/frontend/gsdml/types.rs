@@ -4,13 +4,12 @@ use std::borrow::Cow;
 use std::collections::HashMap;
 
 use super::data_type::{DataType, NumberType, PairType, StringType};
-use super::links::{unresolved, Kind};
-use super::reader::{Given, Read, Reader};
+use super::links::unresolved;
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
-use crate::ir::{Documentation, EnumValue, Extensions, Field, Scale, Shape, Type, TypeDef, TypeId};
+use crate::frontend::xml::Given;
+use crate::ir::{CompactString, Documentation, EnumValue, Field, Scale, Shape, Type, TypeDef, TypeId};
 use crate::limits;
 use crate::source::Origin;
-use crate::syntax::xml::Tag;
 
 #[derive(Default)]
 pub(super) struct Types<'a> {
@@ -22,16 +21,17 @@ pub(super) struct Types<'a> {
     /// The first reference to each of them.
     wanted: Vec<(Given<'a>, Type, TypeId)>,
     items: Vec<ValueItem>,
-    places: HashMap<Cow<'a, str>, usize>,
+    by_id: HashMap<Cow<'a, str>, usize>,
 }
 
 /// An element of the value list.
-struct ValueItem {
-    id: compact_str::CompactString,
-    documentation: Option<Box<Documentation>>,
-    values: Vec<EnumValue>,
+#[derive(Default)]
+pub(super) struct ValueItem {
+    pub id: CompactString,
+    pub documentation: Option<Box<Documentation>>,
+    pub values: Vec<EnumValue>,
+    pub origin: Origin,
     used: bool,
-    origin: Origin,
 }
 
 impl<'a> Types<'a> {
@@ -80,6 +80,19 @@ impl<'a> Types<'a> {
         })
     }
 
+    /// How many elements of the value list were read.
+    pub fn value_items(&self) -> usize {
+        self.items.len()
+    }
+
+    /// Adds an element of the value list. References lead to the first one with an identifier.
+    pub fn add_values(&mut self, id: &Given<'a>, item: ValueItem) {
+        if !id.is_missing() {
+            self.by_id.entry(id.text.clone()).or_insert(self.items.len());
+        }
+        self.items.push(item);
+    }
+
     /// The enumeration of the ValueItem that `target` names, over `base`.
     pub fn enumeration(&mut self, target: Given<'a>, base: Type) -> Type {
         let key = (target.text.clone(), base);
@@ -96,7 +109,7 @@ impl<'a> Types<'a> {
     pub fn finish(mut self, diagnostics: &mut Diagnostics) -> Vec<TypeDef> {
         let mut budget = limits::MAX_DERIVED_ITEMS;
         for (target, base, TypeId(id)) in std::mem::take(&mut self.wanted) {
-            let item = self.places.get(&target.text).and_then(|&at| self.items.get_mut(at));
+            let item = self.by_id.get(&target.text).and_then(|&at| self.items.get_mut(at));
             let Some(item) = item else {
                 unresolved("ValueItem", &target, diagnostics);
                 continue;
@@ -138,92 +151,8 @@ fn narrowest(values: &[EnumValue]) -> Type {
     all.into_iter().find(fits).unwrap_or(if least < 0 { Type::Integer(64) } else { Type::Unsigned(64) })
 }
 
-impl<'a> Reader<'a, '_> {
-    /// Reads ValueList.
-    pub fn value_list(&mut self, list: &Tag<'a>, rest: &mut Extensions) -> Read<()> {
-        while let Some(tag) = self.cursor.child(list)? {
-            match tag.name {
-                "ValueItem" => self.value_item(&tag, rest)?,
-                _ => self.unknown(&tag, rest)?,
-            }
-        }
-        Ok(())
-    }
-
-    fn value_item(&mut self, parent: &Tag<'a>, rest: &mut Extensions) -> Read<()> {
-        let origin = self.cursor.origin(parent);
-        let [id] = self.fields(parent, &["ID"], rest)?;
-        let position = self.types.items.len();
-        self.register(parent, Kind::Value, id.as_ref(), position);
-        let (mut values, mut documentation) = (Vec::new(), None);
-        while let Some(tag) = self.cursor.child(parent)? {
-            match tag.name {
-                "Help" => documentation = self.documentation(&tag)?,
-                "Assignments" => {
-                    while let Some(tag) = self.cursor.child(&tag)? {
-                        match tag.name {
-                            "Assign" => self.assign(&tag, &mut values, rest)?,
-                            _ => self.unknown(&tag, rest)?,
-                        }
-                    }
-                }
-                _ => self.unknown(&tag, rest)?,
-            }
-        }
-        let name = id.as_ref().map_or_else(Default::default, |id| id.text.as_ref().into());
-        if let Some(id) = id {
-            self.types.places.entry(id.text).or_insert(position);
-        }
-        self.types.items.push(ValueItem { id: name, documentation, values, used: false, origin });
-        Ok(())
-    }
-
-    fn assign(&mut self, tag: &Tag<'a>, values: &mut Vec<EnumValue>, rest: &mut Extensions) -> Read<()> {
-        let [text, content] = self.fields(tag, &["TextId", "Content"], rest)?;
-        let name = self.name(tag, text);
-        let Some(content) = content else {
-            self.missing(tag, "Content", "left out");
-            return Ok(());
-        };
-        let Some((value, last)) = span_of_values(&content.text) else {
-            self.bad(&content, "whole number or range of whole numbers", "left out of the enumeration");
-            super::reader::note("Assign@Content", Some(&content), rest);
-            return Ok(());
-        };
-        values.push(EnumValue { last, ..EnumValue::new(name, value) });
-        Ok(())
-    }
-}
-
-/// `7` or `0..3`.
-fn span_of_values(text: &str) -> Option<(i128, Option<i128>)> {
-    match text.split_once("..") {
-        Some((first, last)) => {
-            let (first, last) = (whole(first)?, whole(last)?);
-            (first <= last).then_some((first, (first != last).then_some(last)))
-        }
-        None => whole(text).map(|value| (value, None)),
-    }
-}
-
-/// A whole number, perhaps with a fraction of zero or in hexadecimal.
-fn whole(text: &str) -> Option<i128> {
-    let text = text.trim();
-    if let Ok(value) = text.parse::<i64>() {
-        return Some(value.into());
-    }
-    if let Some(digits) = text.strip_prefix("0x").or_else(|| text.strip_prefix("0X")) {
-        return u64::from_str_radix(digits, 16).ok().map(i128::from);
-    }
-    if let Ok(value) = text.parse::<u64>() {
-        return Some(value.into());
-    }
-    let value = text.parse::<f64>().ok()?;
-    (value.fract() == 0.0 && value.abs() < 9e15).then_some(value as i128)
-}
-
 impl DataType {
-    /// The type of one value, where there is one, and its length in bytes; `length` is what stands beside the name.
+    /// The type of one value, where there is one, and its length in bytes; `length` is the one next to the name.
     pub fn lower(self, length: Option<u32>, types: &mut Types<'_>) -> (Type, u32) {
         let bytes = self.bytes().or(length).unwrap_or(0);
         let ty = match self {

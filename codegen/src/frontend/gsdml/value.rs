@@ -1,8 +1,10 @@
 //! Defaults and allowed values of parameters.
 
-use super::reader::{shortened, Given, Reader};
+use super::reader::Reader;
 use crate::diagnostics::{codes, Diagnostic};
-use crate::ir::{Extensions, Limits, Type, Value};
+use crate::frontend::xml::Given;
+use crate::ir::{Limits, Type, Value};
+use crate::text::brief;
 
 impl<'a> Reader<'a, '_> {
     /// The default of a parameter of type `ty`; what is no value of it is reported and kept as text.
@@ -27,7 +29,7 @@ impl<'a> Reader<'a, '_> {
                 Type::OctetString(_) => "octets such as `0x00,0x1F`",
                 _ => "a value of a form that Lexibus knows",
             };
-            let message = format!("the default `{}` isn't {what}", shortened(text));
+            let message = format!("the default `{}` isn't {what}", brief(text));
             self.diagnostics.push(Diagnostic::new(&codes::GSDML_DEFAULT, given.span, message).label("kept as text"));
         }
         Some(value.unwrap_or_else(|| Value::Raw(text.into())))
@@ -65,15 +67,17 @@ impl<'a> Reader<'a, '_> {
     }
 
     /// The values that a parameter of type `ty` may have.
-    pub fn allowed_values(&mut self, given: Option<&Given<'_>>, ty: Type, rest: &mut Extensions) -> Limits {
-        let Some(given) = given else { return Limits::default() };
+    pub fn allowed_values(&mut self, given: &Given<'_>, ty: Type) -> Limits {
         let mut limits = Limits::default();
+        if given.is_missing() {
+            return limits;
+        }
         let parse = match ty {
             Type::Boolean | Type::Integer(_) | Type::Unsigned(_) => integer_range,
             Type::Real32 | Type::Real64 => real_range,
             // A string has no numbers to compare with.
             _ => {
-                super::reader::note("AllowedValues", Some(given), rest);
+                self.note("AllowedValues", given);
                 return limits;
             }
         };
@@ -96,7 +100,7 @@ impl<'a> Reader<'a, '_> {
     }
 
     fn bad_part(&mut self, given: &Given<'_>, part: &str, why: &str, label: &str) {
-        let message = format!("`{}` among the allowed values: {why}", shortened(part));
+        let message = format!("`{}` among the allowed values: {why}", brief(part));
         self.diagnostics.push(Diagnostic::new(&codes::ALLOWED_VALUES, given.span, message).label(label));
     }
 }

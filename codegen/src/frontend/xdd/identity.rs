@@ -1,7 +1,9 @@
 //! What the file says about itself, and which device it describes.
 
-use super::reader::{integer, note, Given, Read, Reader, Texts};
-use crate::ir::{CompactString, Device, Extension, Extensions};
+use super::number::integer;
+use super::reader::Reader;
+use crate::frontend::xml::{Given, Read};
+use crate::ir::{CompactString, Device, Extension};
 use crate::syntax::xml::Tag;
 
 /// The attributes of a profile body. Both bodies of a file have them; the first that says something counts.
@@ -20,7 +22,7 @@ pub(super) fn body<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, device: &mut 
         "supportedLanguages",
         "deviceClass",
     ];
-    let fields = reader.fields(tag, &NAMES, &mut device.extensions)?;
+    let fields = reader.attributes(tag, NAMES)?;
     let header = &mut device.header;
     let targets = [
         &mut header.file_name,
@@ -33,79 +35,73 @@ pub(super) fn body<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, device: &mut 
         &mut header.modified_by,
     ];
     for (target, given) in targets.into_iter().zip(&fields) {
-        match given {
-            Some(given) if target.is_empty() => *target = given.text.as_ref().into(),
-            _ => {}
+        if target.is_empty() {
+            *target = given.compact();
         }
     }
     // The version of CiA 311 isn't one of CiA 306, of which the header has a field.
     for (name, given) in NAMES.iter().zip(&fields).skip(9) {
-        note(name, given.as_ref(), &mut device.extensions);
+        reader.note(name, given);
     }
     Ok(())
 }
 
 /// DeviceIdentity, or the identity of the communication profile, which repeats a part of it.
 pub(super) fn read<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, device: &mut Device) -> Read<()> {
-    while let Some(tag) = reader.cursor.child(parent)? {
+    while let Some(tag) = reader.child(parent)? {
         match tag.name {
             "vendorName" => name(reader, &tag, &mut device.identity.vendor_name)?,
             "productName" => name(reader, &tag, &mut device.identity.product_name)?,
             "orderNumber" => order_number(reader, &tag, device)?,
-            "vendorID" => number(reader, &tag, &mut device.identity.vendor_id, &mut device.extensions)?,
-            "productID" => number(reader, &tag, &mut device.identity.product_code, &mut device.extensions)?,
+            "vendorID" => number(reader, &tag, &mut device.identity.vendor_id)?,
+            "productID" => number(reader, &tag, &mut device.identity.product_code)?,
             // The second spelling is that of a schema in use.
-            "revisionNumber" | "revisionNumer" => {
-                number(reader, &tag, &mut device.identity.revision_number, &mut device.extensions)?;
-            }
+            "revisionNumber" | "revisionNumer" => number(reader, &tag, &mut device.identity.revision_number)?,
             "version" => {
-                let kind = reader.field(&tag, "versionType")?;
-                let key = format!("version/{}", kind.map_or_else(String::new, |kind| kind.text.into_owned()));
-                let content = reader.content(&tag)?;
-                note(&key, content.as_ref(), &mut device.extensions);
+                let kind = reader.attribute(&tag, "versionType")?;
+                let content = reader.content()?;
+                reader.note(&format!("version/{}", kind.text), &content);
             }
             "productText" => product_text(reader, &tag, device)?,
-            _ => reader.keep(&tag, &mut device.extensions)?,
+            _ => reader.keep(&tag)?,
         }
     }
     Ok(())
 }
 
 fn name<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, name: &mut CompactString) -> Read<()> {
-    let content = reader.content(tag)?;
-    if let (Some(given), true) = (content, name.is_empty()) {
-        *name = given.text.into();
+    let content = reader.text(tag)?;
+    if name.is_empty() {
+        *name = content.compact();
     }
     Ok(())
 }
 
 /// The first order number is that of the device; further ones are of its variants.
 fn order_number<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, device: &mut Device) -> Read<()> {
-    let Some(given) = reader.content(tag)? else { return Ok(()) };
+    let given = reader.text(tag)?;
     if device.identity.order_code.is_empty() {
-        device.identity.order_code = given.text.as_ref().into();
+        device.identity.order_code = given.compact();
     } else if device.identity.order_code != given.text {
-        note("orderNumber", Some(&given), &mut device.extensions);
+        reader.note("orderNumber", &given);
     }
     Ok(())
 }
 
 /// A number in decimal or with `0x`. Other profiles of ISO 15745 have texts here; such a one is kept.
-fn number<'a>(
-    reader: &mut Reader<'a, '_>,
-    tag: &Tag<'a>,
-    number: &mut Option<u32>,
-    extensions: &mut Extensions,
-) -> Read<()> {
-    let Some(given) = reader.content(tag)? else { return Ok(()) };
+fn number<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, number: &mut Option<u32>) -> Read<()> {
+    let given = reader.text(tag)?;
+    if given.is_missing() {
+        return Ok(());
+    }
     let value = parse(&given).and_then(|value| u32::try_from(value).ok());
     match value {
         Some(value) if number.is_none() => *number = Some(value),
         Some(value) if *number == Some(value) => {}
-        Some(_) => note(tag.name, Some(&given), extensions),
+        Some(_) => reader.note(tag.name, &given),
         None => {
             reader.bad(&given, tag.name, "kept as an extension attribute; expected a number of 32 bits");
-            note(tag.name, Some(&given), extensions);
+            reader.note(tag.name, &given);
         }
     }
     Ok(())
@@ -122,16 +118,11 @@ fn parse(given: &Given<'_>) -> Option<i128> {
 
 /// The first description of the product, preferably in English, is what an EDS calls the description.
 fn product_text<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, device: &mut Device) -> Read<()> {
-    let mut texts = Texts::default();
-    while let Some(tag) = reader.cursor.child(parent)? {
-        if !reader.texts(&tag, &mut texts)? {
-            reader.keep(&tag, &mut device.extensions)?;
-        }
-    }
-    let documentation = texts.documentation().unwrap_or_default();
+    let texts = reader.texts(parent)?;
+    let documentation = texts.descriptions.documentation().unwrap_or_default();
     device.header.description = documentation.text.into();
-    let others = documentation.translations.iter().cloned().chain(texts.labels);
-    device.extensions.extend(others.map(|text| {
+    let others = documentation.translations.iter().cloned().chain(texts.labels.all());
+    reader.extensions.extend(others.map(|text| {
         let key = compact_str::format_compact!("productText/{}", text.language);
         Extension { key, value: text.text, span: parent.span }
     }));

@@ -1,15 +1,19 @@
 //! From an object or sub-object, and the parameter to which it refers, to an item.
 
-use super::application::{span_of, Allowed, AllowedRange, View};
+use super::application::{Allowed, AllowedRange, View};
+use super::data_type::enum_value;
+use super::number::integer;
 use super::objects::{Builder, Key, Raw};
-use super::reader::{integer, Given, Texts};
-use super::types::{enum_value, underlying};
+use super::reader::Texts;
+use super::types::underlying;
 use crate::diagnostics::{codes, Diagnostic};
 use crate::frontend::canopen::value::Role;
+use crate::frontend::xml::Given;
 use crate::ir::{
     Access, Behaviour, Binding, CompactString, Configured, Extension, Extensions, Item, Limits, Mappable, ObjectCode,
     Quantity, Scale, Shape, Storage, Type, TypeDef, TypeId, Value,
 };
+use crate::source::Span;
 use crate::text::brief;
 
 /// What a sub-object takes from its object: the parameter of the whole, and the type of this component.
@@ -41,7 +45,7 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
             item.access = Access::ReadOnly;
         }
         item.mappable = self.mappable(raw, item.access, &mut item);
-        let default = raw.get(Key::DefaultValue).or_else(|| view.find(|parameter| parameter.default.as_ref()));
+        let default = raw.get(Key::DefaultValue).or_else(|| view.find(|parameter| parameter.default.non_empty()));
         item.default = self.typed(default, base, Role::Value);
         item.at.default = span_of(default);
         // An enumeration of the allowed values says all of them.
@@ -69,7 +73,7 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
         let parameter = view.find(|parameter| parameter.ty.as_ref());
         if let Some(given) = raw.get(Key::DataType) {
             item.at.ty = given.span;
-            let Some(number) = self.reader.hex(Some(given), u32::MAX, "data type") else {
+            let Some(number) = self.reader.hex(given, u32::MAX, "data type") else {
                 return Some(Type::Opaque(None));
             };
             let ty = self.type_by_code(number, item);
@@ -115,7 +119,7 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
             0x0E | 0x17 | 0x1C..=0x1F => (&codes::COMPLEX_DATA_TYPE, format!("the data type {code:#06x} is reserved")),
             _ => (&codes::UNKNOWN_DATA_TYPE, format!("{code:#06x} is no data type of CiA 301 or of this file")),
         };
-        self.reader.diagnostics.push(Diagnostic::new(kind, item.at.ty, message).label("kept as raw bytes"));
+        self.reader.report(kind, item.at.ty, message, "kept as raw bytes");
         Type::Opaque(Some(code))
     }
 
@@ -137,24 +141,23 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
             return access;
         }
         let of_parent = parent.filter(|_| !view.exists()).map(|(parent, _)| parent);
-        let given = view.find(|parameter| parameter.access.as_ref());
-        let given = given.or_else(|| of_parent.and_then(|parent| parent.find(|parameter| parameter.access.as_ref())));
+        let given = view.find(|parameter| parameter.access.non_empty());
+        let given =
+            given.or_else(|| of_parent.and_then(|parent| parent.find(|parameter| parameter.access.non_empty())));
         if let Some(given) = given {
             item.at.access = given.span;
             return self.parameter_access(given);
         }
         item.at.access = raw.origin.span;
         // What a parameter doesn't say is `read` by the schema of CiA 311.
-        let is_read = view.own().is_some_and(|parameter| !parameter.is_variable);
+        let is_read = view.parameter().is_some_and(|parameter| !parameter.is_variable);
         match code {
             ObjectCode::Domain if !is_read => return Access::ReadWrite,
             ObjectCode::DefType | ObjectCode::DefStruct | ObjectCode::Null => {}
             _ if is_read => {}
             _ => {
                 let message = "neither the object nor a parameter has an access type";
-                self.reader
-                    .diagnostics
-                    .push(Diagnostic::new(&codes::MISSING_ACCESS, raw.origin.span, message).label("kept read-only"));
+                self.reader.report(&codes::MISSING_ACCESS, raw.origin.span, message, "kept read-only");
             }
         }
         Access::ReadOnly
@@ -170,9 +173,7 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
             "const" => Access::Constant,
             "noAccess" => {
                 let message = "an object refers to a parameter that the bus has no access to";
-                self.reader
-                    .diagnostics
-                    .push(Diagnostic::new(&codes::XDD_VALUE, given.span, message).label("kept read-only"));
+                self.reader.report(&codes::XDD_VALUE, given.span, message, "kept read-only");
                 Access::ReadOnly
             }
             _ => {
@@ -219,12 +220,12 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
             let is_same = matches!(&self.types[known.0 as usize].shape, Shape::Enumeration { base, .. } if *base == ty);
             return if is_same { Type::Named(known) } else { ty };
         }
-        let value = |(given, texts): &(Given<'a>, Texts)| Some(enum_value(integer(&given.text)?, texts));
+        let value = |(given, texts): &(Given<'a>, Texts<'a>)| Some(enum_value(integer(&given.text)?, texts));
         let Some(values) = allowed.values.iter().map(value).collect::<Option<Vec<_>>>() else { return ty };
         let id = TypeId(self.types.len() as u32);
         self.enumerations.insert(position, id);
         self.types.push(TypeDef {
-            name: view.texts().label(),
+            name: view.texts().labels.name(),
             code: None,
             shape: Shape::Enumeration { base: ty, values, closed: false },
             bits: ty.bits(),
@@ -245,9 +246,10 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
             return keep_allowed(allowed, &mut item.extensions);
         }
         if let ([range], []) = (allowed.ranges.as_slice(), allowed.values.as_slice()) {
-            (item.at.low, item.at.high) = (span_of(range.low.as_ref()), span_of(range.high.as_ref()));
-            let low = self.typed(range.low.as_ref(), ty, Role::Limit);
-            item.limits = Limits { low, high: self.typed(range.high.as_ref(), ty, Role::Limit), ..Limits::default() };
+            (item.at.low, item.at.high) = (span_of(range.low.non_empty()), span_of(range.high.non_empty()));
+            let low = self.typed(range.low.non_empty(), ty, Role::Limit);
+            item.limits =
+                Limits { low, high: self.typed(range.high.non_empty(), ty, Role::Limit), ..Limits::default() };
             return;
         }
         item.limits = self.hull(allowed, ty);
@@ -257,7 +259,7 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
     /// The least and the greatest of several ranges and values.
     fn hull(&mut self, allowed: &'p Allowed<'a>, ty: Type) -> Limits {
         let single = allowed.values.iter().map(|(given, _)| (Some(given), Some(given)));
-        let ranges = allowed.ranges.iter().map(|range| (range.low.as_ref(), range.high.as_ref()));
+        let ranges = allowed.ranges.iter().map(|range| (range.low.non_empty(), range.high.non_empty()));
         let mut limits: Option<(Value, Value)> = None;
         for (low, high) in ranges.chain(single) {
             let low = self.typed(low, ty, Role::Limit);
@@ -282,10 +284,10 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
 
     /// What an XDC adds to an item.
     fn configured(&mut self, raw: &Raw<'a>, view: &View<'p, 'a>, ty: Type, item: &mut Item) {
-        let actual = raw.get(Key::ActualValue).or_else(|| view.find(|parameter| parameter.actual.as_ref()));
+        let actual = raw.get(Key::ActualValue).or_else(|| view.find(|parameter| parameter.actual.non_empty()));
         let denotation = match raw.get(Key::Denotation) {
             Some(given) => Some(CompactString::from(given.text.as_ref())),
-            None => view.find(|parameter| parameter.denotation.as_deref()).map(Texts::label),
+            None => view.find(|parameter| parameter.denotation.as_deref()).map(|texts| texts.labels.name()),
         };
         let configured = Configured {
             value: self.typed(actual, ty, Role::Value),
@@ -301,24 +303,25 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
     /// Unit and scale: engineering value = (raw + offset) × multiplier, in units of the unit's multiplier.
     fn quantity(&mut self, view: &View<'p, 'a>, allowed: Option<&'p Allowed<'a>>, ty: Type, item: &mut Item) {
         let unit = view.find(|parameter| parameter.unit.as_deref());
-        let multiplier = view.find(|parameter| parameter.multiplier.as_ref());
-        let offset = view.find(|parameter| parameter.offset.as_ref());
-        let of_unit = unit.and_then(|unit| unit.multiplier.as_ref());
+        let multiplier = view.find(|parameter| parameter.multiplier.non_empty());
+        let offset = view.find(|parameter| parameter.offset.non_empty());
+        let of_unit = unit.and_then(|unit| unit.multiplier.non_empty());
         let step = allowed.and_then(|allowed| match allowed.ranges.as_slice() {
-            [range] => range.step.as_ref(),
+            [range] => range.step.non_empty(),
             _ => None,
         });
         let mut quantity = Quantity { step: self.typed(step, ty, Role::Limit), ..Quantity::default() };
         let given = multiplier.or(of_unit).or(offset).is_some();
-        let factors = [multiplier, of_unit].map(|given| self.reader.real(given, "multiplier").unwrap_or(1.0));
-        let (factor, offset) = (factors[0] * factors[1], self.reader.real(offset, "offset").unwrap_or(0.0));
+        let [of_value, of_unit] = [multiplier, of_unit].map(|given| self.reader.real(given?, "multiplier"));
+        let factor = of_value.unwrap_or(1.0) * of_unit.unwrap_or(1.0);
+        let offset = offset.and_then(|given| self.reader.real(given, "offset")).unwrap_or(0.0);
         if given && (factor != 1.0 || offset != 0.0) && (factor * offset).is_finite() && factor.is_finite() {
             quantity.scale = Some(Scale::Linear { factor, offset: offset * factor });
         }
         if let Some(unit) = unit {
-            quantity.unit = unit.texts.label();
-            quantity.units = unit.texts.names(&quantity.unit);
-            super::reader::note("unitURI", unit.uri.as_ref(), &mut item.extensions);
+            quantity.unit = unit.texts.labels.name();
+            quantity.units = unit.texts.labels.except(&quantity.unit);
+            item.extensions.extend(unit.uri.extension("unitURI"));
         }
         if quantity != Quantity::default() {
             item.quantity = Some(Box::new(quantity));
@@ -326,8 +329,8 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
     }
 
     fn behaviour(&mut self, view: &View<'p, 'a>, item: &mut Item) {
-        let Some(given) = view.find(|parameter| parameter.persistent.as_ref()) else { return };
-        let storage = if self.reader.flag(Some(given)) { Storage::Immediate } else { Storage::Volatile };
+        let Some(given) = view.find(|parameter| parameter.persistent.non_empty()) else { return };
+        let storage = if self.reader.flag(given) { Storage::Immediate } else { Storage::Volatile };
         item.behaviour = Some(Box::new(Behaviour { storage, ..Behaviour::default() }));
     }
 }
@@ -335,12 +338,16 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
 /// The exact list, of which limits are only the outline.
 fn keep_allowed(allowed: &Allowed<'_>, extensions: &mut Extensions) {
     let text = |given: Option<&Given<'_>>| given.map_or_else(String::new, |given| given.text.to_string());
-    let range = |range: &AllowedRange<'_>| format!("{}..{}", text(range.low.as_ref()), text(range.high.as_ref()));
+    let range = |range: &AllowedRange<'_>| format!("{}..{}", text(range.low.non_empty()), text(range.high.non_empty()));
     let ranges = allowed.ranges.iter().map(range);
     let list: Vec<String> = ranges.chain(allowed.values.iter().map(|(given, _)| text(Some(given)))).collect();
-    let first = allowed.ranges.first().and_then(|range| range.low.as_ref());
+    let first = allowed.ranges.first().and_then(|range| range.low.non_empty());
     let span = span_of(first.or(allowed.values.first().map(|(given, _)| given)));
     if !list.is_empty() {
         extensions.push(Extension { key: "allowedValues".into(), value: list.join(" ").into(), span });
     }
+}
+
+fn span_of(given: Option<&Given<'_>>) -> Span {
+    given.map_or(Span::default(), |given| given.span)
 }

@@ -2,168 +2,39 @@
 //!
 //! A file has two profiles: one of the device (identity, application process), one of the communication network (object
 //! list, bit rates, network management). An object may carry all of its facts, or refer to a parameter of the
-//! application process, which may stand behind it. So [`read`] goes through the file once, where it reads everything but
-//! the objects and notes where those stand, and then reads the objects in the order of their indices.
+//! application process, which may follow it. So [`read`] goes through the file once, where it reads everything but
+//! the objects and notes the positions of those, and then reads the objects in the order of their indices.
 //!
 //! The IR is that of the same device described by an EDS. A version 1.0 differs from 1.1 in its namespace and in what an
 //! object may leave to a parameter, neither of which needs a case of its own here.
 //!
 //! | file | subject |
 //! |---|---|
-//! | `reader` | reading single attributes, labels, and what has no place in the IR |
+//! | `document` | a file with its profiles |
+//! | `reader`, `number` | the state of reading; labels and numbers |
 //! | `identity` | file, vendor, product |
 //! | `network` | bit rates, network management, dummy entries, dynamic channels, commissioning |
 //! | `modules` | slots of modular devices |
-//! | `application` | the parameters and templates of the application process |
-//! | `types` | its data types |
-//! | `objects` | objects and their sub-objects |
+//! | `process`, `parameter`, `data_type_list`, `data_type` | reading the application process |
+//! | `application` | its parameters, templates and data types by their identifiers |
+//! | `types` | its data types to types |
+//! | `object_list`, `objects` | objects and their sub-objects |
 //! | `item` | from an object and the parameter it refers to, to an item |
 
 mod application;
+mod data_type;
+mod data_type_list;
+mod document;
 mod identity;
 mod item;
 mod modules;
 mod network;
+mod number;
+mod object_list;
 mod objects;
+mod parameter;
+mod process;
 mod reader;
 mod types;
 
-use crate::diagnostics::{codes, Diagnostic, Diagnostics};
-use crate::frontend::declared_encoding;
-use crate::ir::{CanOpenSettings, Catalog, Device};
-use crate::source::{FileId, Source, Span};
-use crate::syntax::xml::{Attribute, Cursor, Tag};
-use application::Application;
-use objects::ObjectList;
-use reader::{Read, Reader};
-
-/// Reads the device that `source` describes. Everything that had to be repaired goes to `diagnostics`.
-///
-/// Returns `None`, with one error, for a file that isn't well formed, describes a POWERLINK device, or no device.
-pub fn read(source: &Source, file: FileId, aliases: &[String], diagnostics: &mut Diagnostics) -> Option<Catalog> {
-    declared_encoding::report(source, file, diagnostics);
-    let text = source.text();
-    let mut reader = Reader { cursor: Cursor::new(text, file), text, diagnostics, aliases };
-    match container(&mut reader) {
-        Ok(device) => Some(Catalog::of_device(device, Vec::new())),
-        Err(stop) => {
-            reader.diagnostics.push(*stop);
-            None
-        }
-    }
-}
-
-/// What the profiles of a file say.
-struct Profiles<'a> {
-    device: Device,
-    canopen: CanOpenSettings,
-    application: Application<'a>,
-    objects: ObjectList,
-    /// Whether there is anything of CANopen.
-    canopen_seen: bool,
-}
-
-fn container<'a>(reader: &mut Reader<'a, '_>) -> Read<Device> {
-    let root = reader.cursor.root()?;
-    let mut profiles = Profiles {
-        device: Device { origin: reader.cursor.origin(&root), ..Device::default() },
-        canopen: CanOpenSettings::default(),
-        application: Application::default(),
-        objects: ObjectList::default(),
-        canopen_seen: false,
-    };
-    match root.name {
-        "ISO15745ProfileContainer" => {
-            while let Some(tag) = reader.cursor.child(&root)? {
-                match tag.name {
-                    "ISO15745Profile" => profile(reader, &tag, &mut profiles)?,
-                    _ => reader.unknown(&tag, &mut profiles.device.extensions)?,
-                }
-            }
-        }
-        "ISO15745Profile" => profile(reader, &root, &mut profiles)?,
-        _ => return Err(not_canopen(&root)),
-    }
-    // What follows the root element has to be well formed, too.
-    while reader.cursor.read()?.is_some() {}
-    if !profiles.canopen_seen {
-        return Err(not_canopen(&root));
-    }
-    let Profiles { mut device, mut canopen, mut application, objects, .. } = profiles;
-    canopen.bit_rates.sort_unstable();
-    canopen.bit_rates.dedup();
-    device.name = device.identity.product_name.clone();
-    device.canopen = Some(Box::new(canopen));
-    device.types = types::lower(reader, &mut application);
-    objects::build(reader, &application, objects, &mut device)?;
-    Ok(device)
-}
-
-fn not_canopen(root: &Tag<'_>) -> Box<Diagnostic> {
-    let message = "this XML describes no CANopen device";
-    Box::new(Diagnostic::new(&codes::NOT_A_CANOPEN_XDD, root.name_span(), message).help(
-        "an XDD or XDC has the root element ISO15745ProfileContainer, and profile bodies of the types \
-         ProfileBody_Device_CANopen and ProfileBody_CommunicationNetwork_CANopen",
-    ))
-}
-
-fn profile<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, profiles: &mut Profiles<'a>) -> Read<()> {
-    while let Some(tag) = reader.cursor.child(parent)? {
-        match tag.name {
-            "ProfileHeader" => reader.keep(&tag, &mut profiles.device.extensions)?,
-            "ProfileBody" => body(reader, &tag, profiles)?,
-            _ => reader.unknown(&tag, &mut profiles.device.extensions)?,
-        }
-    }
-    Ok(())
-}
-
-fn body<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, profiles: &mut Profiles<'a>) -> Read<()> {
-    // The one attribute of the schema instance namespace that matters, under whatever prefix.
-    let is_kind = |attribute: &Attribute<'_>| attribute.name == "type" && !attribute.prefix.is_empty();
-    let kind = parent.attributes().find(|attribute| attribute.as_ref().map_or(true, is_kind)).transpose()?;
-    let kind = kind.map(|attribute| (attribute.value(reader.diagnostics), attribute.span));
-    if let Some((kind, span)) = &kind {
-        let kind = kind.to_ascii_lowercase();
-        if kind.contains("powerlink") {
-            return Err(powerlink(*span));
-        }
-        if !kind.contains("canopen") {
-            // A profile of another technology in the same container.
-            return reader.keep(parent, &mut profiles.device.extensions);
-        }
-        profiles.canopen_seen = true;
-        if kind.contains("modular") {
-            let (key, value) = ("ProfileBody@type".into(), kind.as_str().into());
-            profiles.device.extensions.push(crate::ir::Extension { key, value, span: *span });
-        }
-    }
-    identity::body(reader, parent, &mut profiles.device)?;
-    let Profiles { device, canopen, application, objects, canopen_seen } = profiles;
-    while let Some(tag) = reader.cursor.child(parent)? {
-        match tag.name {
-            "DeviceIdentity" => identity::read(reader, &tag, device)?,
-            "DeviceManager" => modules::device_manager(reader, &tag, device)?,
-            "ApplicationProcess" => application.read(reader, &tag, device)?,
-            "ApplicationLayers" => {
-                *canopen_seen = true;
-                network::application_layers(reader, &tag, device, canopen, objects)?;
-            }
-            "TransportLayers" => network::transport_layers(reader, &tag, device, canopen)?,
-            "NetworkManagement" => network::management(reader, &tag, device, canopen)?,
-            "DeviceFunction" | "ExternalProfileHandle" => reader.keep(&tag, &mut device.extensions)?,
-            _ => reader.unknown(&tag, &mut device.extensions)?,
-        }
-    }
-    Ok(())
-}
-
-fn powerlink(span: Span) -> Box<Diagnostic> {
-    Box::new(
-        Diagnostic::new(&codes::POWERLINK_XDD, span, "this is an XDD of Ethernet POWERLINK, not of CANopen")
-            .label("a profile of EPSG 311")
-            .help(
-                "both kinds of file share the ending .xdd and the outer elements; ask the vendor for the CANopen XDD",
-            ),
-    )
-}
+pub use document::read;

@@ -2,17 +2,18 @@
 //!
 //! The modules themselves have files of their own, which are read as devices.
 
-use super::reader::{note, Read, Reader, Texts};
+use super::reader::{Reader, Texts};
+use crate::frontend::xml::Read;
 use crate::ir::{Device, Fit, Slot};
 use crate::syntax::xml::Tag;
 
 /// DeviceManager: its interfaces become slots, everything else extensions.
 pub(super) fn device_manager<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, device: &mut Device) -> Read<()> {
-    while let Some(tag) = reader.cursor.child(parent)? {
+    while let Some(tag) = reader.child(parent)? {
         match tag.name {
             "moduleManagement" | "moduleInterfaceList" => device_manager(reader, &tag, device)?,
             "interface" => interface(reader, &tag, device)?,
-            _ => reader.keep(&tag, &mut device.extensions)?,
+            _ => reader.keep(&tag)?,
         }
     }
     Ok(())
@@ -21,34 +22,29 @@ pub(super) fn device_manager<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, 
 fn interface<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, device: &mut Device) -> Read<()> {
     const NAMES: [&str; 6] =
         ["uniqueID", "maxChilds", "unusedSlots", "multipleChilds", "identityIDRef", "moduleAddressing"];
-    let fields = reader.fields(parent, &NAMES, &mut device.extensions)?;
+    let fields = reader.attributes(parent, NAMES)?;
     let [id, max, rest @ ..] = &fields;
-    let max = reader.unsigned(max.as_ref(), 0xFFFF, "number of modules").map_or(0, |max| max as u16);
+    let max = reader.unsigned(max, 0xFFFF, "number of modules").map_or(0, |max| max as u16);
     let number = u16::try_from(device.slots.len() + 1).unwrap_or(u16::MAX);
     let mut slot = Slot { number, instances: (0, max), ..Slot::default() };
     for (name, given) in NAMES.iter().skip(2).zip(rest) {
-        note(&format!("interface@{name}"), given.as_ref(), &mut device.extensions);
+        reader.note(&format!("interface@{name}"), given);
     }
     let mut texts = Texts::default();
-    while let Some(tag) = reader.cursor.child(parent)? {
-        if tag.name == "moduleTypeList" {
-            while let Some(kind) = reader.cursor.child(&tag)? {
-                let [name] = reader.fields(&kind, &["type"], &mut device.extensions)?;
-                slot.fits.extend(name.map(|given| Fit::Name(given.text.into())));
-            }
-        } else if !reader.texts(&tag, &mut texts)? {
-            reader.keep(&tag, &mut device.extensions)?;
+    while let Some(tag) = reader.child(parent)? {
+        if tag.name != "moduleTypeList" {
+            reader.text_or_keep(&tag, &mut texts)?;
+            continue;
+        }
+        while let Some(kind) = reader.child(&tag)? {
+            let [name] = reader.attributes(&kind, ["type"])?;
+            slot.fits.extend(name.non_empty().map(|name| Fit::Name(name.compact())));
         }
     }
-    slot.name = texts.label();
+    slot.name = texts.labels.name();
     if slot.name.is_empty() {
-        slot.name = id.as_ref().map_or_else(Default::default, |id| id.text.as_ref().into());
+        slot.name = id.compact();
     }
     device.slots.push(slot);
     Ok(())
-}
-
-/// The ranges of indices that modules take, of which the IR knows nothing.
-pub(super) fn ranges<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, device: &mut Device) -> Read<()> {
-    reader.keep(tag, &mut device.extensions)
 }

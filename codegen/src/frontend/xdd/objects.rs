@@ -3,48 +3,18 @@
 use std::collections::BTreeMap;
 
 use super::application::{Application, View};
-use super::reader::{integer, note, Given, Read, Reader};
+use super::number::integer;
+use super::object_list::{missing_index, ObjectList};
+use super::reader::Reader;
 use super::types::underlying;
 use crate::diagnostics::{codes, Diagnostic};
 use crate::frontend::canopen::deftype::defined_type;
 use crate::frontend::canopen::number;
+use crate::frontend::xml::{Given, Read};
 use crate::ir::{Category, Device, Extensions, Group, GroupKind, ObjectCode, Shape, Type, TypeDef, TypeId};
 use crate::limits;
 use crate::source::{Origin, Span};
 use crate::syntax::xml::{Cursor, Tag};
-
-/// Where the objects stand, in the order of the file.
-#[derive(Default)]
-pub(super) struct ObjectList {
-    places: Vec<(u16, Origin)>,
-}
-
-impl ObjectList {
-    /// Notes the objects of a CANopenObjectList.
-    pub fn note<'a>(&mut self, reader: &mut Reader<'a, '_>, parent: &Tag<'a>, device: &mut Device) -> Read<()> {
-        // The numbers of objects say nothing that the objects don't.
-        const NAMES: [&str; 3] = ["mandatoryObjects", "optionalObjects", "manufacturerObjects"];
-        reader.fields(parent, &NAMES, &mut device.extensions)?;
-        while let Some(tag) = reader.cursor.child(parent)? {
-            match tag.name {
-                "CANopenObject" => {
-                    let given = reader.field(&tag, "index")?;
-                    match reader.hex(given.as_ref(), 0xFFFF, "index") {
-                        Some(index) => self.places.push((index as u16, reader.cursor.origin(&tag))),
-                        None => missing_index(reader, &tag, "this object has no index"),
-                    }
-                }
-                "CANopenSubObject" => missing_index(reader, &tag, "this sub-object stands outside of an object"),
-                _ => reader.unknown(&tag, &mut device.extensions)?,
-            }
-        }
-        Ok(())
-    }
-}
-
-fn missing_index(reader: &mut Reader<'_, '_>, tag: &Tag<'_>, message: &str) {
-    reader.diagnostics.push(Diagnostic::new(&codes::MISSING_INDEX, tag.span, message).label("left out"));
-}
 
 /// Reads the objects by index and adds them to `device`.
 pub(super) fn build<'a>(
@@ -53,10 +23,10 @@ pub(super) fn build<'a>(
     list: ObjectList,
     device: &mut Device,
 ) -> Read<()> {
-    let mut places = list.places;
+    let ObjectList(mut places) = list;
     places.sort_by_key(|&(index, _)| index);
     let mut builder = Builder {
-        copies_left: reader.text.len().saturating_mul(limits::MAX_COPIES_PER_BYTE),
+        copies_left: reader.cursor.text().len().saturating_mul(limits::MAX_COPIES_PER_BYTE),
         reader,
         application,
         types: std::mem::take(&mut device.types),
@@ -70,7 +40,7 @@ pub(super) fn build<'a>(
             builder.duplicate(later.span, origin.span, &format!("object 0x{index:04X}"));
             continue;
         }
-        builder.reader.cursor = Cursor::resume(builder.reader.text, origin);
+        builder.reader.cursor = Cursor::resume(builder.reader.cursor.text(), origin);
         let tag = builder.reader.cursor.root()?;
         let group = builder.object(index, &tag)?;
         builder.define_type(&group);
@@ -139,18 +109,25 @@ const OF_A_VALUE: [Key; 8] = [
 
 /// What an object or sub-object itself says.
 pub(super) struct Raw<'a> {
-    fields: [Option<Given<'a>>; OBJECT.len()],
+    fields: [Given<'a>; OBJECT.len()],
     pub extensions: Extensions,
     pub origin: Origin,
 }
 
 impl<'a> Raw<'a> {
-    pub fn get(&self, key: Key) -> Option<&Given<'a>> {
-        self.fields[key as usize].as_ref()
+    /// The attribute, missing or not.
+    pub fn field(&self, key: Key) -> &Given<'a> {
+        &self.fields[key as usize]
     }
 
+    /// The attribute, if it is given.
+    pub fn get(&self, key: Key) -> Option<&Given<'a>> {
+        self.field(key).non_empty()
+    }
+
+    /// The span of the attribute, or else of the element.
     pub fn span(&self, key: Key) -> Span {
-        self.get(key).map_or(self.origin.span, |given| given.span)
+        self.field(key).span.or(self.origin.span)
     }
 }
 
@@ -173,27 +150,29 @@ pub(super) struct Builder<'a, 'd, 'p> {
 }
 
 impl<'a, 'p> Builder<'a, '_, 'p> {
-    fn raw(&mut self, tag: &Tag<'a>, names: &[&str; OBJECT.len()]) -> Read<Raw<'a>> {
-        let mut extensions = Extensions::new();
-        let origin = self.reader.cursor.origin(tag);
-        let fields = self.reader.fields(tag, names, &mut extensions)?;
-        let raw = Raw { fields, extensions, origin };
-        let mut extensions = Extensions::new();
-        note("rangeSelector", raw.get(Key::RangeSelector), &mut extensions);
-        extensions.extend(raw.extensions);
-        Ok(Raw { extensions, ..raw })
+    /// Reads the attributes of an object or sub-object, and its children with `child`.
+    fn raw(
+        &mut self,
+        tag: &Tag<'a>,
+        names: [&str; OBJECT.len()],
+        mut child: impl FnMut(&mut Self, &Tag<'a>) -> Read<()>,
+    ) -> Read<Raw<'a>> {
+        let start = self.reader.extensions.len();
+        let origin = self.reader.origin(tag);
+        let fields = self.reader.attributes(tag, names)?;
+        self.reader.note("rangeSelector", &fields[Key::RangeSelector as usize]);
+        while let Some(tag) = self.reader.child(tag)? {
+            child(self, &tag)?;
+        }
+        Ok(Raw { fields, extensions: self.reader.extensions_since(start), origin })
     }
 
     fn object(&mut self, index: u16, tag: &Tag<'a>) -> Read<Group> {
-        let mut raw = self.raw(tag, &OBJECT)?;
         let mut subs: BTreeMap<u8, Raw<'a>> = BTreeMap::new();
-        while let Some(child) = self.reader.cursor.child(tag)? {
-            if child.name == "CANopenSubObject" {
-                self.sub_object(&child, &mut subs)?;
-            } else {
-                self.reader.unknown(&child, &mut raw.extensions)?;
-            }
-        }
+        let mut raw = self.raw(tag, OBJECT, |builder, child| match child.name {
+            "CANopenSubObject" => builder.sub_object(child, &mut subs),
+            _ => builder.reader.unknown(child),
+        })?;
         let view = self.view(&raw);
         let mut group = Group::object(index, ObjectCode::Record);
         group.origin = raw.origin;
@@ -203,9 +182,9 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
         group.extensions.append(&mut raw.extensions);
         group.extensions.extend(view.extensions().cloned());
         let texts = view.texts();
-        group.names = texts.names(&group.name);
+        group.names = texts.labels.except(&group.name);
         if code.has_subs() || (!subs.is_empty() && code != ObjectCode::Var) {
-            group.documentation = texts.documentation();
+            group.documentation = texts.descriptions.documentation();
             self.subs(&mut group, index, &raw, &view, subs);
         } else {
             self.unused(&raw, &[Key::SubNumber], &mut group.extensions);
@@ -213,17 +192,15 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
             item.name = group.name.clone();
             item.at.name = group.name_at;
             item.names = group.names.clone();
-            item.documentation = texts.documentation();
+            item.documentation = texts.descriptions.documentation();
             group.items.push(item);
         }
         Ok(group)
     }
 
     fn sub_object(&mut self, tag: &Tag<'a>, subs: &mut BTreeMap<u8, Raw<'a>>) -> Read<()> {
-        let mut raw = self.raw(tag, &SUB_OBJECT)?;
-        self.reader.no_children(tag, &mut raw.extensions)?;
-        let given = raw.get(Key::Index).cloned();
-        let Some(sub) = self.reader.hex(given.as_ref(), 0xFF, "sub-index") else {
+        let raw = self.raw(tag, SUB_OBJECT, |builder, child| builder.reader.unknown(child))?;
+        let Some(sub) = self.reader.hex(raw.field(Key::Index), 0xFF, "sub-index") else {
             missing_index(self.reader, tag, "this sub-object has no sub-index");
             return Ok(());
         };
@@ -254,8 +231,8 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
             let mut item = self.item(index, sub, &raw, &view, code, Some((parent, component)));
             self.name(&raw, &view, &mut item.name, &mut item.at.name);
             let texts = view.texts();
-            item.names = texts.names(&item.name);
-            item.documentation = texts.documentation();
+            item.names = texts.labels.except(&item.name);
+            item.documentation = texts.descriptions.documentation();
             self.unused(&raw, &[Key::SubNumber], &mut item.extensions);
             item.extensions.append(&mut raw.extensions);
             item.extensions.extend(view.extensions().cloned());
@@ -290,12 +267,9 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
             let name = OBJECT[key as usize];
             if self.reader.diagnostics.wants(&codes::NOT_ALLOWED_ENTRY) {
                 let message = format!("{name} has no meaning here");
-                self.reader.diagnostics.push(
-                    Diagnostic::new(&codes::NOT_ALLOWED_ENTRY, given.span, message)
-                        .label("kept as an extension attribute"),
-                );
+                self.reader.report(&codes::NOT_ALLOWED_ENTRY, given.span, message, "kept as an extension attribute");
             }
-            note(name, Some(given), extensions);
+            extensions.extend(given.extension(name));
         }
     }
 
@@ -307,9 +281,7 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
             Some(7) => ObjectCode::Var,
             _ => {
                 let message = format!("`{}` is no object type of a sub-object", given.text);
-                self.reader
-                    .diagnostics
-                    .push(Diagnostic::new(&codes::UNKNOWN_OBJECT_TYPE, given.span, message).label("read as VAR"));
+                self.reader.report(&codes::UNKNOWN_OBJECT_TYPE, given.span, message, "read as VAR");
                 ObjectCode::Var
             }
         }
@@ -318,7 +290,7 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
     /// The parameter of an object, unless such have been copied too often.
     fn view(&mut self, raw: &Raw<'a>) -> View<'p, 'a> {
         let application = self.application;
-        let view = application.view(self.reader, raw.get(Key::UniqueIdRef));
+        let view = application.view(self.reader, raw.field(Key::UniqueIdRef));
         if self.charge(view.weight(), raw.span(Key::UniqueIdRef)) {
             view
         } else {
@@ -334,9 +306,7 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
         }
         if !std::mem::replace(&mut self.copies_exceeded, true) {
             let message = "references to the same parameters would make the description many times longer";
-            self.reader
-                .diagnostics
-                .push(Diagnostic::new(&codes::INPUT_TOO_LARGE, span, message).label("not resolved from here on"));
+            self.reader.report(&codes::INPUT_TOO_LARGE, span, message, "not resolved from here on");
         }
         false
     }
@@ -344,7 +314,7 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
     fn name(&mut self, raw: &Raw<'a>, view: &View<'p, 'a>, name: &mut crate::ir::CompactString, at: &mut Span) {
         match raw.get(Key::Name) {
             Some(given) => (*name, *at) = (given.text.as_ref().into(), given.span),
-            None => *name = view.texts().label(),
+            None => *name = view.texts().labels.name(),
         }
     }
 
@@ -357,10 +327,8 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
             Some(code) => code,
             None => {
                 let message = format!("`{}` is no object type", given.text);
-                self.reader.diagnostics.push(
-                    Diagnostic::new(&codes::UNKNOWN_OBJECT_TYPE, given.span, message)
-                        .label(format!("read as {}", by_content.name())),
-                );
+                let label = format!("read as {}", by_content.name());
+                self.reader.report(&codes::UNKNOWN_OBJECT_TYPE, given.span, message, label);
                 by_content
             }
         }
@@ -380,7 +348,7 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
     }
 
     fn category(&mut self, view: &View<'p, 'a>) -> Option<Category> {
-        let given = view.find(|parameter| parameter.support.as_ref())?;
+        let given = view.find(|parameter| parameter.support.non_empty())?;
         match given.text.as_ref() {
             "mandatory" => Some(Category::Mandatory),
             "optional" => Some(Category::Optional),
@@ -394,7 +362,7 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
 
     /// objFlags: four hexadecimal digits.
     pub(super) fn flags(&mut self, raw: &Raw<'a>) -> u32 {
-        self.reader.hex(raw.get(Key::ObjFlags), u32::MAX, "objFlags").unwrap_or(0)
+        self.reader.hex(raw.field(Key::ObjFlags), u32::MAX, "objFlags").unwrap_or(0)
     }
 
     /// The type of a component, from that of the whole object.
@@ -409,7 +377,7 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
 
     /// A sub-object that refers to a variable of a structure tells the sub-index of that field.
     fn note_field(&mut self, view: &View<'p, 'a>, sub: u8) {
-        let Some((structure, field)) = view.own().and_then(|parameter| parameter.field) else { return };
+        let Some((structure, field)) = view.parameter().and_then(|parameter| parameter.field) else { return };
         if let Some(Shape::Record(fields)) = self.types.get_mut(structure).map(|def| &mut def.shape) {
             if let Some(field) = fields.get_mut(field) {
                 field.sub_index = Some(u16::from(sub));

@@ -1,233 +1,11 @@
-//! The data types of the application process (CiA 311, dataTypeList).
+//! From the data types of the application process to types of the device.
 
-use super::application::{dangling, insert, Application};
-use super::reader::{integer, note, Given, Read, Reader, Texts};
-use crate::diagnostics::{codes, Diagnostic};
-use crate::ir::{CompactString, Device, EnumValue, Field, Shape, Type, TypeDef, TypeId};
+use super::application::{dangling, Application};
+use super::data_type::{Kind, TypeRef};
+use super::reader::Reader;
+use crate::diagnostics::codes;
+use crate::ir::{Field, Shape, Type, TypeDef, TypeId};
 use crate::limits;
-use crate::source::{Origin, Span};
-use crate::syntax::xml::Tag;
-
-/// The type of a parameter, element or field.
-#[derive(Clone, Debug)]
-pub(super) enum TypeRef<'a> {
-    /// `<UDINT/>`
-    Basic(Type, Span),
-    /// `<dataTypeIDRef uniqueIDRef="…"/>`
-    Named(Given<'a>),
-}
-
-impl TypeRef<'_> {
-    pub fn span(&self) -> Span {
-        match self {
-            TypeRef::Basic(_, span) => *span,
-            TypeRef::Named(given) => given.span,
-        }
-    }
-}
-
-/// A type as the file has it.
-pub(super) struct RawType<'a> {
-    name: CompactString,
-    texts: Texts,
-    kind: Kind<'a>,
-    origin: Origin,
-}
-
-enum Kind<'a> {
-    Array {
-        dimensions: Vec<(i32, u32)>,
-        element: Option<TypeRef<'a>>,
-    },
-    /// Positions of the variables among the parameters.
-    Struct(Vec<usize>),
-    Enum {
-        base: Option<TypeRef<'a>>,
-        values: Vec<EnumValue>,
-    },
-    Derived {
-        base: Option<TypeRef<'a>>,
-        count: Option<u32>,
-    },
-}
-
-/// The basic types of IEC 61131-3 as CiA 311 maps them to those of CiA 301.
-fn basic(name: &str) -> Option<Type> {
-    Some(match name {
-        "BOOL" => Type::Boolean,
-        "SINT" => Type::Integer(8),
-        "INT" => Type::Integer(16),
-        "DINT" => Type::Integer(32),
-        "LINT" => Type::Integer(64),
-        "USINT" | "BYTE" | "CHAR" => Type::Unsigned(8),
-        "UINT" | "WORD" => Type::Unsigned(16),
-        "UDINT" | "DWORD" => Type::Unsigned(32),
-        "ULINT" | "LWORD" => Type::Unsigned(64),
-        "REAL" => Type::Real32,
-        "LREAL" => Type::Real64,
-        "STRING" => Type::VisibleString(None),
-        "WSTRING" => Type::UnicodeString(None),
-        "BITSTRING" => Type::OctetString(None),
-        _ => return None,
-    })
-}
-
-/// The type that an element names, where it names one.
-pub(super) fn reference<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>) -> Read<Option<TypeRef<'a>>> {
-    if let Some(ty) = basic(tag.name) {
-        return Ok(Some(TypeRef::Basic(ty, tag.span)));
-    }
-    if tag.name == "dataTypeIDRef" {
-        return Ok(reader.field(tag, "uniqueIDRef")?.map(TypeRef::Named));
-    }
-    Ok(None)
-}
-
-/// Reads an element of dataTypeList.
-pub(super) fn read<'a>(
-    reader: &mut Reader<'a, '_>,
-    tag: &Tag<'a>,
-    application: &mut Application<'a>,
-    device: &mut Device,
-) -> Read<()> {
-    if !matches!(tag.name, "array" | "struct" | "enum" | "derived") {
-        return reader.unknown(tag, &mut device.extensions);
-    }
-    let origin = reader.cursor.origin(tag);
-    let [id, name, size] = reader.fields(tag, &["uniqueID", "name", "size"], &mut device.extensions)?;
-    // The size of an enumeration repeats what its values and its type say.
-    note("enum@size", size.as_ref(), &mut device.extensions);
-    let position = application.types.len();
-    let mut texts = Texts::default();
-    let kind = match tag.name {
-        "array" => array(reader, tag, &mut texts, device)?,
-        "struct" => structure(reader, tag, position, &mut texts, application, device)?,
-        "enum" => enumeration(reader, tag, &mut texts, device)?,
-        _ => derived(reader, tag, &mut texts, device)?,
-    };
-    insert(reader, &mut application.type_ids, id, position);
-    let name = name.map_or_else(|| texts.label(), |name| name.text.into());
-    application.types.push(RawType { name, texts, kind, origin });
-    Ok(())
-}
-
-fn array<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, texts: &mut Texts, device: &mut Device) -> Read<Kind<'a>> {
-    let (mut dimensions, mut element) = (Vec::new(), None);
-    while let Some(tag) = reader.cursor.child(parent)? {
-        if tag.name == "subrange" {
-            let fields = reader.fields(&tag, &["lowerLimit", "upperLimit"], &mut device.extensions)?;
-            let [low, high] =
-                fields.each_ref().map(|given| given.as_ref().and_then(|given| given.text.parse::<i32>().ok()));
-            match (low, high) {
-                (Some(low), Some(high)) if low <= high => {
-                    let count = i64::from(high) - i64::from(low) + 1;
-                    dimensions.push((low, u32::try_from(count).unwrap_or(u32::MAX)));
-                }
-                _ => {
-                    let message = "lowerLimit and upperLimit are no range of whole numbers";
-                    reader.diagnostics.push(Diagnostic::new(&codes::XDD_VALUE, tag.span, message).label("left out"));
-                }
-            }
-        } else if let Some(ty) = reference(reader, &tag)? {
-            element = Some(ty);
-        } else if !reader.texts(&tag, texts)? {
-            reader.keep(&tag, &mut device.extensions)?;
-        }
-    }
-    Ok(Kind::Array { dimensions, element })
-}
-
-fn structure<'a>(
-    reader: &mut Reader<'a, '_>,
-    parent: &Tag<'a>,
-    position: usize,
-    texts: &mut Texts,
-    application: &mut Application<'a>,
-    device: &mut Device,
-) -> Read<Kind<'a>> {
-    let mut variables = Vec::new();
-    while let Some(tag) = reader.cursor.child(parent)? {
-        if tag.name == "varDeclaration" {
-            let field = (position, variables.len());
-            variables.push(application.variable(reader, &tag, field)?);
-        } else if !reader.texts(&tag, texts)? {
-            reader.keep(&tag, &mut device.extensions)?;
-        }
-    }
-    Ok(Kind::Struct(variables))
-}
-
-fn enumeration<'a>(
-    reader: &mut Reader<'a, '_>,
-    parent: &Tag<'a>,
-    texts: &mut Texts,
-    device: &mut Device,
-) -> Read<Kind<'a>> {
-    let (mut base, mut values) = (None, Vec::new());
-    let mut next = 0i128;
-    while let Some(tag) = reader.cursor.child(parent)? {
-        if tag.name == "enumValue" {
-            let [given] = reader.fields(&tag, &["value"], &mut device.extensions)?;
-            let mut own = Texts::default();
-            while let Some(inner) = reader.cursor.child(&tag)? {
-                if !reader.texts(&inner, &mut own)? {
-                    reader.keep(&inner, &mut device.extensions)?;
-                }
-            }
-            // Without a number, the values count up as in C.
-            let value = match &given {
-                Some(given) => integer(&given.text),
-                None => Some(next),
-            };
-            match (value, given) {
-                (Some(value), _) => {
-                    next = value.saturating_add(1);
-                    values.push(enum_value(value, &own));
-                }
-                (None, Some(given)) => reader.bad(&given, "number of an enumeration's value", "left out"),
-                (None, None) => {}
-            }
-        } else if let Some(ty) = reference(reader, &tag)? {
-            base = Some(ty);
-        } else if !reader.texts(&tag, texts)? {
-            reader.keep(&tag, &mut device.extensions)?;
-        }
-    }
-    Ok(Kind::Enum { base, values })
-}
-
-/// A value of an enumeration with its labels.
-pub(super) fn enum_value(value: i128, texts: &Texts) -> EnumValue {
-    let name = texts.label();
-    let (names, documentation) = (texts.names(&name), texts.documentation());
-    EnumValue { names, documentation, ..EnumValue::new(name, value) }
-}
-
-fn derived<'a>(
-    reader: &mut Reader<'a, '_>,
-    parent: &Tag<'a>,
-    texts: &mut Texts,
-    device: &mut Device,
-) -> Read<Kind<'a>> {
-    let (mut base, mut count) = (None, None);
-    while let Some(tag) = reader.cursor.child(parent)? {
-        if tag.name == "count" {
-            while let Some(inner) = reader.cursor.child(&tag)? {
-                if inner.name == "defaultValue" {
-                    let given = reader.field(&inner, "value")?;
-                    count = reader.unsigned(given.as_ref(), u32::MAX, "number of elements");
-                } else {
-                    reader.keep(&inner, &mut device.extensions)?;
-                }
-            }
-        } else if let Some(ty) = reference(reader, &tag)? {
-            base = Some(ty);
-        } else if !reader.texts(&tag, texts)? {
-            reader.keep(&tag, &mut device.extensions)?;
-        }
-    }
-    Ok(Kind::Derived { base, count })
-}
 
 /// The types of the application process as types of the device, in the same order.
 pub(super) fn lower<'a>(reader: &mut Reader<'a, '_>, application: &mut Application<'a>) -> Vec<TypeDef> {
@@ -246,7 +24,7 @@ pub(super) fn lower<'a>(reader: &mut Reader<'a, '_>, application: &mut Applicati
         code: None,
         shape: shape.unwrap_or(Shape::Alias(Type::Opaque(None))),
         bits,
-        documentation: raw.texts.documentation(),
+        documentation: raw.texts.descriptions.documentation(),
         origin: raw.origin,
     })
     .collect()
@@ -289,7 +67,7 @@ impl Order {
 }
 
 /// The types of which a type is made.
-fn parts<'p>(application: &'p Application<'_>, at: usize) -> impl Iterator<Item = usize> + 'p {
+fn parts<'p, 'a>(application: &'p Application<'a>, at: usize) -> impl Iterator<Item = usize> + use<'p, 'a> {
     let (variables, own) = match &application.types[at].kind {
         Kind::Struct(variables) => (variables.as_slice(), None),
         Kind::Array { element: own, .. } | Kind::Enum { base: own, .. } | Kind::Derived { base: own, .. } => {
@@ -343,7 +121,7 @@ impl<'t, 'a> Types<'t, 'a, '_> {
             let bits = self.length(ty);
             known &= bits.is_some();
             let bits = bits.unwrap_or(0);
-            fields.push(Field { name: variable.texts.label(), sub_index: None, ty, bits, bit_offset: offset });
+            fields.push(Field { name: variable.texts.labels.name(), sub_index: None, ty, bits, bit_offset: offset });
             offset = offset.saturating_add(bits);
         }
         (Shape::Record(fields), known.then_some(offset))
@@ -356,9 +134,7 @@ impl<'t, 'a> Types<'t, 'a, '_> {
         if let Type::Named(TypeId(part)) = resolved {
             if self.order.endless[self.at] && self.order.endless[part as usize] {
                 let message = "the data type is made of itself, or of too many layers";
-                self.reader
-                    .diagnostics
-                    .push(Diagnostic::new(&codes::XDD_VALUE, ty.span(), message).label("kept as raw bytes"));
+                self.reader.report(&codes::XDD_VALUE, ty.span(), message, "kept as raw bytes");
                 return Type::Opaque(None);
             }
         }

@@ -1,72 +1,17 @@
-//! The text list, and the names that refer to it.
-//!
-//! The list stands at the end of a file. Until it is read, a name in the IR is the number of a reference in [`Names`],
-//! perhaps with a suffix behind a blank; `resolve` puts the texts in its place.
+//! The text list at the end of a file.
 
 use std::borrow::Cow;
 use std::collections::{HashMap, HashSet};
 
-use compact_str::{format_compact, CompactString, ToCompactString};
+use compact_str::{format_compact, CompactString};
 
-use super::reader::{shortened, Given, Read, Reader};
+use super::reader::Reader;
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
-use crate::ir::{Documentation, Extension, Extensions, LocalText, Texts};
+use crate::frontend::xml::{Given, Read};
+use crate::ir::{Extension, Extensions, LocalText, Texts};
 use crate::source::Span;
 use crate::syntax::xml::Tag;
-
-/// References to texts, in the order in which they were read.
-#[derive(Default)]
-pub(super) struct Names<'a> {
-    references: Vec<Given<'a>>,
-}
-
-impl<'a> Names<'a> {
-    /// The reference with this number.
-    pub fn get(&self, number: usize) -> Option<&Given<'a>> {
-        self.references.get(number)
-    }
-
-    /// What stands for the text with this identifier.
-    pub fn hold(&mut self, given: Given<'a>) -> CompactString {
-        let mark = self.references.len().to_compact_string();
-        self.references.push(given);
-        mark
-    }
-}
-
-impl<'a> Reader<'a, '_> {
-    /// What stands for the text of an element that has to have one.
-    pub fn name(&mut self, tag: &Tag<'a>, given: Option<Given<'a>>) -> CompactString {
-        match given {
-            Some(given) => self.names.hold(given),
-            None => {
-                let message = format!("<{}> has no TextId, and so no name", tag.name);
-                self.diagnostics.push(
-                    Diagnostic::new(&codes::MISSING_TEXT, tag.name_span(), message).label("its name is left empty"),
-                );
-                CompactString::default()
-            }
-        }
-    }
-
-    /// What stands for the text of an element that has nothing but a `TextId`.
-    pub fn text_reference(&mut self, tag: &Tag<'a>) -> Read<CompactString> {
-        let given = self.field(tag, "TextId")?;
-        Ok(self.name(tag, given))
-    }
-
-    /// The same as documentation.
-    pub fn documentation(&mut self, tag: &Tag<'a>) -> Read<Option<Box<Documentation>>> {
-        let text = self.text_reference(tag)?.into();
-        Ok(Some(Box::new(Documentation { text, ..Documentation::default() })))
-    }
-}
-
-/// What stands for the same text as `mark`, followed by `suffix`.
-pub(super) fn with_suffix(mark: &str, suffix: &str) -> CompactString {
-    // Without a mark, the blank in front tells the suffix from one: `2` is a mark.
-    format_compact!("{mark} {suffix}")
-}
+use crate::text::brief;
 
 /// The texts of a file by their identifiers.
 #[derive(Default)]
@@ -84,7 +29,7 @@ pub(super) struct TextList<'a> {
 
 struct Entry<'a> {
     id: Cow<'a, str>,
-    /// Where the identifier stands.
+    /// Span of the identifier.
     span: Span,
     primary: Option<Cow<'a, str>>,
     /// First and last of its translations.
@@ -107,26 +52,26 @@ struct Text<'a> {
 
 impl<'a> TextList<'a> {
     /// Reads ExternalTextList.
-    pub fn read(&mut self, reader: &mut Reader<'a, '_>, list: &Tag<'a>, rest: &mut Extensions) -> Read<()> {
-        while let Some(tag) = reader.cursor.child(list)? {
+    pub fn read(&mut self, reader: &mut Reader<'a, '_>, list: &Tag<'a>) -> Read<()> {
+        while let Some(tag) = reader.child(list)? {
             match tag.name {
                 "PrimaryLanguage" => {
                     self.next = self.entries.len();
-                    self.primary(reader, &tag, rest)?;
+                    self.primary(reader, &tag)?;
                 }
                 "Language" => {
                     self.next = 0;
-                    self.language(reader, &tag, rest)?;
+                    self.language(reader, &tag)?;
                 }
-                _ => reader.unknown(&tag, rest)?,
+                _ => reader.unknown(&tag)?,
             }
         }
         Ok(())
     }
 
-    fn primary(&mut self, reader: &mut Reader<'a, '_>, parent: &Tag<'a>, rest: &mut Extensions) -> Read<()> {
-        while let Some(tag) = reader.cursor.child(parent)? {
-            let Some(text) = read_text(reader, &tag, rest)? else { continue };
+    fn primary(&mut self, reader: &mut Reader<'a, '_>, parent: &Tag<'a>) -> Read<()> {
+        while let Some(tag) = reader.child(parent)? {
+            let Some(text) = read_text(reader, &tag)? else { continue };
             let (span, at) = (text.id.span, self.entry(text.id));
             let Some(entry) = self.entries.get_mut(at) else { continue };
             if entry.primary.is_some() {
@@ -139,9 +84,9 @@ impl<'a> TextList<'a> {
         Ok(())
     }
 
-    fn language(&mut self, reader: &mut Reader<'a, '_>, parent: &Tag<'a>, rest: &mut Extensions) -> Read<()> {
+    fn language(&mut self, reader: &mut Reader<'a, '_>, parent: &Tag<'a>) -> Read<()> {
         // Every text of the language has a copy of its name.
-        let name = CompactString::from(shortened(&reader.single(parent, "lang")?));
+        let name = CompactString::from(brief(&reader.single(parent, "lang")?.text));
         if let Some(&first) = self.seen.get(&name) {
             let message = format!("the texts of the language `{name}` are listed twice");
             let diagnostic = Diagnostic::new(&codes::DUPLICATE_ID, parent.span, message);
@@ -153,8 +98,8 @@ impl<'a> TextList<'a> {
         let language = self.languages.len();
         self.languages.push(name);
         let mut count = 0;
-        while let Some(tag) = reader.cursor.child(parent)? {
-            let Some(text) = read_text(reader, &tag, rest)? else { continue };
+        while let Some(tag) = reader.child(parent)? {
+            let Some(text) = read_text(reader, &tag)? else { continue };
             let (span, at) = (text.id.span, self.entry(text.id));
             if self.translate(at, language, text.value) {
                 count += usize::from(self.entries.get(at).is_some_and(|entry| entry.primary.is_some()));
@@ -234,7 +179,7 @@ impl<'a> TextList<'a> {
     pub fn close(&self, diagnostics: &mut Diagnostics, extensions: &mut Extensions) {
         for entry in &self.entries {
             if entry.primary.is_none() {
-                let message = format!("the primary language has no text `{}`", shortened(&entry.id));
+                let message = format!("the primary language has no text `{}`", brief(&entry.id));
                 let diagnostic = Diagnostic::new(&codes::MISSING_TEXT, entry.span, message);
                 diagnostics.push(diagnostic.label("the first translation is used as the name"));
             }
@@ -246,12 +191,12 @@ impl<'a> TextList<'a> {
 
     fn keep_unused(&self, entry: &Entry<'a>, diagnostics: &mut Diagnostics, extensions: &mut Extensions) {
         if diagnostics.wants(&codes::UNUSED_TEXT) {
-            let message = format!("nothing refers to the text `{}`", shortened(&entry.id));
+            let message = format!("nothing refers to the text `{}`", brief(&entry.id));
             let diagnostic = Diagnostic::new(&codes::UNUSED_TEXT, entry.span, message);
             diagnostics.push(diagnostic.label("kept as an extension attribute"));
         }
         let (name, texts) = self.finish(entry);
-        let key = |language: &str| format_compact!("Text/{language}/{}", shortened(&entry.id));
+        let key = |language: &str| format_compact!("Text/{language}/{}", brief(&entry.id));
         if entry.primary.is_some() {
             extensions.push(Extension { key: key("primary"), value: name, span: entry.span });
         }
@@ -283,7 +228,7 @@ impl<'a> TextList<'a> {
 }
 
 fn repeated(diagnostics: &mut Diagnostics, span: Span, entry: &Entry<'_>) {
-    let message = format!("the text `{}` is listed twice in one language", shortened(&entry.id));
+    let message = format!("the text `{}` is listed twice in one language", brief(&entry.id));
     diagnostics.push(
         Diagnostic::new(&codes::DUPLICATE_ID, span, message)
             .label("left out; the first one is used")
@@ -291,40 +236,17 @@ fn repeated(diagnostics: &mut Diagnostics, span: Span, entry: &Entry<'_>) {
     );
 }
 
-fn read_text<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, rest: &mut Extensions) -> Read<Option<Text<'a>>> {
+fn read_text<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>) -> Read<Option<Text<'a>>> {
     if tag.name != "Text" {
-        reader.unknown(tag, rest)?;
+        reader.unknown(tag)?;
         return Ok(None);
     }
-    let (mut id, mut value) = (None, None);
-    for attribute in tag.attributes() {
-        let attribute = attribute?;
-        match attribute.name {
-            "TextId" => id = Some(Given { text: trimmed(attribute.value(reader.diagnostics)), span: attribute.span }),
-            // Blanks around a text are part of it.
-            "Value" => value = Some(attribute.value(reader.diagnostics)),
-            _ => {
-                let value = attribute.value(reader.diagnostics).into();
-                rest.push(Extension { key: format_compact!("Text@{}", attribute.name), value, span: attribute.span });
-            }
-        }
-    }
-    if !tag.empty {
-        reader.no_children(tag, rest)?;
-    }
-    let Some(id) = id else {
-        reader.missing(tag, "TextId", "left out: nothing can refer to it");
+    // Blanks around a text are part of it.
+    let [id, value] = reader.attributes_with_blanks(tag, ["TextId", "Value"])?;
+    reader.no_children(tag)?;
+    if !reader.require(tag, &id, "TextId", "left out: nothing can refer to it") {
         return Ok(None);
-    };
-    if value.is_none() {
-        reader.missing(tag, "Value", "taken for an empty text");
     }
-    Ok(Some(Text { id, value: value.unwrap_or_default() }))
-}
-
-fn trimmed(text: Cow<'_, str>) -> Cow<'_, str> {
-    match text {
-        Cow::Borrowed(text) => Cow::Borrowed(text.trim_ascii()),
-        Cow::Owned(text) => Cow::Owned(text.trim_ascii().to_owned()),
-    }
+    reader.require(tag, &value, "Value", "taken for an empty text");
+    Ok(Some(Text { id: id.trimmed(), value: value.text }))
 }

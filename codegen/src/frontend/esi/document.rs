@@ -1,0 +1,89 @@
+//! One file.
+
+use super::budget::Budget;
+use super::description::{Description, Elsewhere};
+use super::dictionary::Dictionary;
+use super::lower::lower;
+use super::pdos::Pdos;
+use super::reader::{Esi, Reader};
+use super::templates::Templates;
+use super::{diagnosis, info};
+use crate::diagnostics::{codes, Diagnostic, Diagnostics};
+use crate::frontend::declared_encoding;
+use crate::frontend::xml::Read;
+use crate::ir::Device;
+use crate::source::{FileId, Source};
+use crate::syntax::xml::{Cursor, Tag};
+use crate::text::brief;
+
+/// Reads one file.
+pub(super) fn document(
+    source: &Source,
+    file: FileId,
+    description: &mut Description,
+    diagnostics: &mut Diagnostics,
+    budget: &mut Budget,
+) -> Read<()> {
+    declared_encoding::report(source, file, diagnostics);
+    let templates = Templates::of(source.text(), file);
+    let format = Esi { budget, templates: &templates };
+    let mut reader = Reader::new(Cursor::new(source.text(), file), diagnostics, format);
+    let root = reader.cursor.root()?;
+    match root.name {
+        "EtherCATInfo" | "EtherCATModule" => info::read(&mut reader, &root, description)?,
+        "EtherCATInfoList" => {
+            reader.each(&root, "EtherCATInfo", |reader, tag| info::read(reader, tag, description))?;
+        }
+        "EtherCATDict" => dictionary_only(&mut reader, &root, description)?,
+        "EtherCATDiag" => messages_only(&mut reader, &root, description)?,
+        name => {
+            let message = format!("<{}> is no root of a description of ETG.2000", brief(name));
+            return Err(Box::new(Diagnostic::new(&codes::UNKNOWN_FORMAT, root.name_span(), message)));
+        }
+    }
+    after_root(&mut reader);
+    description.catalog.extensions.append(&mut reader.extensions);
+    Ok(())
+}
+
+/// Whatever follows the root element is left out.
+fn after_root(reader: &mut Reader<'_, '_>) {
+    loop {
+        match reader.cursor.read() {
+            Ok(Some(_)) => {}
+            Ok(None) => return,
+            Err(error) => {
+                let found = error.into_diagnostic();
+                let message = format!("something follows the root element: {}", found.message);
+                reader.report(&codes::SECOND_ROOT, found.span, message, "left out from here on");
+                return;
+            }
+        }
+    }
+}
+
+/// A dictionary without a device.
+fn dictionary_only<'a>(reader: &mut Reader<'a, '_>, root: &Tag<'a>, description: &mut Description) -> Read<()> {
+    let origin = reader.origin(root);
+    let mut device = Device { dictionary_only: true, origin, ..Device::default() };
+    let [version] = reader.attributes(root, ["Version"])?;
+    device.header.format_version = version.compact();
+    let mut dictionary = Dictionary::default();
+    reader.each(root, "Dictionary", |reader, tag| dictionary.read(reader, tag))?;
+    device.extensions = reader.extensions_since(0);
+    let lowered = lower(reader, dictionary, Pdos::default(), &mut device.process_data, &mut Elsewhere::default());
+    (device.types, device.groups) = lowered;
+    device.ethercat = Some(Box::default());
+    description.catalog.devices.push(device);
+    Ok(())
+}
+
+/// Diagnosis messages without a device.
+fn messages_only<'a>(reader: &mut Reader<'a, '_>, root: &Tag<'a>, description: &mut Description) -> Read<()> {
+    let [version] = reader.attributes(root, ["Version"])?;
+    reader.note("EtherCATDiag@Version", &version);
+    reader.each(root, "DiagMessages", |reader, tag| {
+        description.catalog.code_tables.extend(diagnosis::read(reader, tag)?);
+        Ok(())
+    })
+}

@@ -1,0 +1,185 @@
+//! The entries of an object: what its data type has, and which sub-item of the object belongs to which entry.
+
+use std::collections::HashMap;
+
+use super::data_type::{RawField, RawType};
+use super::object::{RawObject, RawSub};
+use super::reader::Reader;
+use super::types::Types;
+use crate::diagnostics::{codes, Diagnostic};
+use crate::ir::Type;
+use crate::text::brief;
+
+/// Sub-indices that an object has room for, 0 included.
+const SUB_INDICES: u32 = 256;
+
+/// How many sub-indices that occur twice are told of one object.
+const MAX_TOLD: usize = 16;
+
+/// A value of an object, as its data type describes it.
+pub(super) struct Entry<'t, 'a> {
+    pub sub_index: u8,
+    pub ty: Type,
+    pub field: &'t RawField<'a>,
+    /// The number of the element, where the field is an array.
+    pub element: Option<u32>,
+}
+
+/// The entries of an object, each element of an array by itself, sorted by sub-index.
+pub(super) fn of_object<'t, 'a>(
+    reader: &mut Reader<'_, '_>,
+    types: &Types<'_, 'a>,
+    raw: &RawObject<'_>,
+    ty: Type,
+    record: &'t RawType<'a>,
+) -> Vec<Entry<'t, 'a>> {
+    let mut entries: Vec<Entry<'t, 'a>> = Vec::with_capacity(record.fields.len());
+    let (mut next, mut is_told) = (0u32, false);
+    for (position, field) in record.fields.iter().enumerate() {
+        let field_type = types.field(ty, position);
+        let following = record.fields.get(position + 1).and_then(|field| field.sub_index);
+        let (first, mut count, mut element) = span_of(types, field, field_type, next, following);
+        if count > 1 && first.saturating_add(count) > SUB_INDICES {
+            let message = format!("there is no room for the {count} elements of `{}`", brief(&field.name.text));
+            reader.report(&codes::SUB_INDEX_RANGE, raw.origin.span, message, "kept as one value, an array");
+            (count, element) = (1, field_type);
+        }
+        for number in 0..count {
+            let Some(sub_index) = first.checked_add(number).and_then(|sub| u8::try_from(sub).ok()) else {
+                // A type may have any number of them, and any number of objects.
+                if !std::mem::replace(&mut is_told, true) {
+                    let message = "an object has at most 255 sub-indices besides 0";
+                    reader.report(&codes::SUB_INDEX_RANGE, field.origin.span, message, "left out");
+                }
+                break;
+            };
+            let number = (element != field_type || count > 1).then_some(number + 1);
+            entries.push(Entry { sub_index, ty: element, field, element: number });
+        }
+        next = first.saturating_add(count);
+    }
+    sorted(reader, raw, entries)
+}
+
+/// The first sub-index of a field, the number of its sub-indices, and their type.
+fn span_of(
+    types: &Types<'_, '_>,
+    field: &RawField<'_>,
+    ty: Type,
+    next: u32,
+    following: Option<u16>,
+) -> (u32, u32, Type) {
+    let single = |first| (first, 1, ty);
+    let given = field.sub_index.map(u32::from);
+    let Some((element, lower, count)) = types.elements(ty) else { return single(given.unwrap_or(next)) };
+    let first = given.unwrap_or_else(|| u32::try_from(lower).unwrap_or(0).max(next));
+    // A type of the tables that is called an array is one value, and so is one that leaves no room for its elements.
+    let room = following.is_none_or(|following| u32::from(following) >= first.saturating_add(count));
+    if field.ty.text.starts_with("ARRAY") || !room {
+        return single(first);
+    }
+    (first, count, element)
+}
+
+fn sorted<'t, 'a>(
+    reader: &mut Reader<'_, '_>,
+    raw: &RawObject<'_>,
+    mut entries: Vec<Entry<'t, 'a>>,
+) -> Vec<Entry<'t, 'a>> {
+    if entries.is_sorted_by(|one, other| one.sub_index < other.sub_index) {
+        return entries;
+    }
+    entries.sort_by_key(|entry| entry.sub_index);
+    let mut told = 0;
+    entries.dedup_by(|later, earlier| {
+        let twice = later.sub_index == earlier.sub_index;
+        told += usize::from(twice);
+        if twice && told <= MAX_TOLD {
+            let message = format!("sub-index 0x{:02X} occurs twice", later.sub_index);
+            reader.diagnostics.push(
+                Diagnostic::new(&codes::ESI_DUPLICATE_OBJECT, later.field.origin.span, message)
+                    .label("left out")
+                    .note_at(earlier.field.origin.span, "this one is used")
+                    .note_at(raw.origin.span, "of this object"),
+            );
+        }
+        twice
+    });
+    entries
+}
+
+/// Which sub-item of an object belongs to which entry of its data type.
+pub(super) struct Matched {
+    /// The sub-item of each entry.
+    pub of_entry: Vec<Option<usize>>,
+    /// Sub-items that belong to none.
+    pub extra: Vec<usize>,
+}
+
+/// Matches by name if the names are those of the type and the type has each only once. Matches by position otherwise.
+pub(super) fn match_up(reader: &mut Reader<'_, '_>, entries: &[Entry<'_, '_>], subs: &[RawSub<'_>]) -> Matched {
+    let mut matched = Matched { of_entry: vec![None; entries.len()], extra: Vec::new() };
+    let named = |entry: &Entry<'_, '_>, sub: &RawSub<'_>| sub.name.text == entry.field.name.text;
+    // Elements of an array have no names of their own in the type.
+    let fits = |(entry, sub): (&Entry<'_, '_>, &RawSub<'_>)| entry.element.is_some() || named(entry, sub);
+    if entries.iter().zip(subs).all(fits) && subs.len() <= entries.len() {
+        (0..subs.len()).zip(&mut matched.of_entry).for_each(|(at, place)| *place = Some(at));
+        return matched;
+    }
+    let singles = entries.iter().enumerate().filter(|(_, entry)| entry.element.is_none_or(|number| number == 1));
+    let singles: Vec<_> = singles.collect();
+    let mut by_name: HashMap<&str, usize> = HashMap::with_capacity(entries.len());
+    for &(at, entry) in &singles {
+        by_name.entry(entry.field.name.text.as_ref()).or_insert(at);
+    }
+    if by_name.len() < singles.len() && subs.len() == entries.len() {
+        // A repeated name matches several positions.
+        return by_position(reader, entries, subs);
+    }
+    let mut next = 0;
+    for (at, sub) in subs.iter().enumerate() {
+        let free = |position: &usize| matched.of_entry.get(*position).is_some_and(Option::is_none);
+        let by_name = by_name.get(sub.name.text.as_ref()).copied().filter(free);
+        let by_place = || Some(at).filter(|_| subs.len() == entries.len()).filter(free);
+        let Some(position) = by_name.or_else(by_place).or_else(|| (next..entries.len()).find(free)) else {
+            matched.extra.push(at);
+            continue;
+        };
+        next = position + 1;
+        if let Some(place) = matched.of_entry.get_mut(position) {
+            *place = Some(at);
+        }
+        let guessed = by_name.is_none() && subs.len() != entries.len();
+        if let Some(entry) = entries.get(position).filter(|entry| guessed && entry.element.is_none()) {
+            by_place_only(reader, entry, sub);
+        }
+    }
+    matched
+}
+
+/// Each sub-item of the object belongs to the entry at the same position.
+fn by_position(reader: &mut Reader<'_, '_>, entries: &[Entry<'_, '_>], subs: &[RawSub<'_>]) -> Matched {
+    for (entry, sub) in entries.iter().zip(subs) {
+        let (name, of_type) = (&sub.name.text, &entry.field.name.text);
+        if entry.element.is_none() && name != of_type {
+            let message = format!("`{}` is called `{}` in the data type", brief(name), brief(of_type));
+            let label = format!("read as sub-index 0x{:02X}: the data type has a name twice", entry.sub_index);
+            mismatch(reader, entry, sub, message, label);
+        }
+    }
+    Matched { of_entry: (0..subs.len()).map(Some).collect(), extra: Vec::new() }
+}
+
+fn by_place_only(reader: &mut Reader<'_, '_>, entry: &Entry<'_, '_>, sub: &RawSub<'_>) {
+    let message = format!("the data type has no sub-item called `{}`", brief(&sub.name.text));
+    let label = format!("read as sub-index 0x{:02X}, by its position", entry.sub_index);
+    mismatch(reader, entry, sub, message, label);
+}
+
+fn mismatch(reader: &mut Reader<'_, '_>, entry: &Entry<'_, '_>, sub: &RawSub<'_>, message: String, label: String) {
+    reader.diagnostics.push(
+        Diagnostic::new(&codes::SUB_ITEM_MISMATCH, sub.name.span.or(sub.origin.span), message)
+            .label(label)
+            .note_at(entry.field.name.span.or(entry.field.origin.span), "the sub-item of the data type"),
+    );
+}

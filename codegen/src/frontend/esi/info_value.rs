@@ -1,0 +1,125 @@
+//! Default, limits and unit of a value as written, and its properties.
+
+use compact_str::format_compact;
+
+use super::reader::{Names, Reader};
+use crate::diagnostics::codes;
+use crate::frontend::xml::{Given, Read};
+use crate::ir::Extension;
+use crate::syntax::xml::Tag;
+use crate::text::brief;
+
+/// Default, limits and unit of a value.
+#[derive(Default)]
+pub(super) struct RawInfo<'a> {
+    pub default: Option<RawValue<'a>>,
+    /// Limits, unit and the name for people, which few values have.
+    pub more: Option<Box<MoreInfo<'a>>>,
+}
+
+#[derive(Default)]
+pub(super) struct MoreInfo<'a> {
+    pub min: Option<RawValue<'a>>,
+    pub max: Option<RawValue<'a>>,
+    pub unit: Given<'a>,
+    pub display: Names<'a>,
+}
+
+/// A value, and how it is written.
+pub(super) struct RawValue<'a> {
+    pub form: Form,
+    pub given: Given<'a>,
+}
+
+/// How a value is written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Form {
+    /// Its bytes in hexadecimal, in the order of memory.
+    Data,
+    /// A number.
+    Number,
+    /// A text.
+    Text,
+}
+
+impl<'a> RawInfo<'a> {
+    /// Bytes of its texts.
+    pub fn weight(&self) -> usize {
+        let length = |raw: &Option<RawValue<'a>>| raw.as_ref().map_or(0, |raw| raw.given.text.len());
+        let of_more =
+            |more: &MoreInfo<'a>| length(&more.min) + length(&more.max) + more.unit.text.len() + more.display.weight();
+        length(&self.default) + self.more.as_deref().map_or(0, of_more)
+    }
+
+    /// Reads a child of Info, or of a SubItem of a data type.
+    pub fn read(&mut self, reader: &mut Reader<'a, '_>, tag: &Tag<'a>) -> Read<()> {
+        let form = match tag.name {
+            "DefaultData" | "MinData" | "MaxData" => Form::Data,
+            "DefaultValue" | "MinValue" | "MaxValue" => Form::Number,
+            "DefaultString" => Form::Text,
+            "Unit" => {
+                self.more().unit = reader.text(tag)?;
+                return Ok(());
+            }
+            "DisplayName" => return reader.name(tag, &mut self.more().display),
+            _ => return reader.unknown(tag),
+        };
+        let given = reader.text(tag)?;
+        if given.is_empty() {
+            return Ok(());
+        }
+        let value = match tag.name.as_bytes() {
+            [b'D', ..] => &mut self.default,
+            [b'M', b'i', ..] => &mut self.more().min,
+            _ => &mut self.more().max,
+        };
+        if let Some(earlier) = value.replace(RawValue { form, given }) {
+            reader.note(tag.name, &earlier.given);
+        }
+        Ok(())
+    }
+
+    fn more(&mut self) -> &mut MoreInfo<'a> {
+        self.more.get_or_insert_default()
+    }
+
+    /// Whether it has nothing.
+    pub fn is_empty(&self) -> bool {
+        self.default.is_none() && self.more.is_none()
+    }
+}
+
+/// Reads Properties.
+pub(super) fn properties<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>) -> Read<()> {
+    reader.each(parent, "Property", property)
+}
+
+/// Keeps a Property under its own name.
+pub(super) fn property<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>) -> Read<()> {
+    let (mut name, mut value) = (Given::default(), Given::default());
+    let mut description = Names::default();
+    while let Some(tag) = reader.child(parent)? {
+        match tag.name {
+            "Name" => name = reader.text(&tag)?,
+            "Value" => value = reader.text(&tag)?,
+            "Desc" => reader.name(&tag, &mut description)?,
+            _ => reader.unknown(&tag)?,
+        }
+    }
+    if name.is_empty() {
+        reader.report(&codes::ESI_VALUE, parent.span, "this property has no name", "kept as `Property`");
+        name.text = "Property".into();
+    }
+    let key = name.compact();
+    if value.is_empty() {
+        let span = description.span().or(name.span).or(parent.span);
+        reader.extensions.push(Extension { key, value: description.name(), span });
+        return Ok(());
+    }
+    if !description.span().is_empty() {
+        let key = format_compact!("{}/Desc", brief(&name.text));
+        reader.extensions.push(Extension { key, value: description.name(), span: description.span() });
+    }
+    reader.extensions.push(Extension { key, value: value.compact(), span: value.span });
+    Ok(())
+}

@@ -1,0 +1,67 @@
+//! From the dictionary and the PDOs of a device or module to types, groups and process data.
+
+use super::description::{Elsewhere, EntryType, Target};
+use super::dictionary::Dictionary;
+use super::items;
+use super::pdos::Pdos;
+use super::reader::Reader;
+use super::types::Types;
+use crate::diagnostics::{codes, Diagnostic, Diagnostics};
+use crate::etg::type_name;
+use crate::frontend::xml::Given;
+use crate::ir::{Group, PdoEntry, PdoEntryKind, ProcessData, Type, TypeDef};
+
+/// Lowers the data types and objects of a device or module, and the PDOs whose entries name such types.
+///
+/// Types that may be in a file which `elsewhere` has are left to it.
+pub(super) fn lower<'a>(
+    reader: &mut Reader<'_, '_>,
+    dictionary: Dictionary<'a>,
+    pdos: Pdos<'a>,
+    data: &mut ProcessData,
+    elsewhere: &mut Elsewhere,
+) -> (Vec<TypeDef>, Vec<Group>) {
+    let Dictionary { types: raw, objects, mut subs, units, .. } = dictionary;
+    let mut types = Types::new(reader, &raw);
+    let has_files = elsewhere.files.iter().any(|file| file.target == Target::Dictionary);
+    pdos.finish(data, |given, entry| {
+        if has_files && entry.kind != PdoEntryKind::Padding && !given.is_empty() && !types.knows(&given.text) {
+            elsewhere.types.push(EntryType::new(entry, given));
+            return Type::Opaque(None);
+        }
+        entry_type(reader, &mut types, given, entry)
+    });
+    let groups = items::build(reader, &mut types, objects, &mut subs, &units);
+    (types.into_defs(), groups)
+}
+
+/// The type of an entry: the one that it names, or else as many bits as it has.
+fn entry_type(reader: &mut Reader<'_, '_>, types: &mut Types<'_, '_>, given: &Given<'_>, entry: &PdoEntry) -> Type {
+    if given.is_empty() {
+        return match u8::try_from(entry.bits) {
+            Ok(bits @ 1..=64) if entry.kind != PdoEntryKind::Padding => Type::Unsigned(bits),
+            _ => Type::Opaque(None),
+        };
+    }
+    // What padding is called doesn't matter.
+    if entry.kind == PdoEntryKind::Padding && type_name::basic(&given.text).is_none() {
+        return Type::Opaque(None);
+    }
+    let ty = types.resolve(reader, given);
+    check_length(reader.diagnostics, entry, given, types.bits(ty));
+    ty
+}
+
+/// Reports an entry that is longer or shorter than its type, which has so many bits.
+pub(super) fn check_length(diagnostics: &mut Diagnostics, entry: &PdoEntry, ty: &Given<'_>, bits: Option<u32>) {
+    match bits {
+        Some(bits)
+            if bits != entry.bits && entry.kind != PdoEntryKind::Padding && diagnostics.wants(&codes::ENTRY_LENGTH) =>
+        {
+            let message = format!("the entry has {} bits, but {} has {bits}", entry.bits, ty.text);
+            diagnostics
+                .push(Diagnostic::new(&codes::ENTRY_LENGTH, ty.span, message).label("BitLen decides the layout"));
+        }
+        _ => {}
+    }
+}

@@ -1,0 +1,127 @@
+//! The PDOs of a device or module, and PDOs that name a template.
+
+use super::pdo::{self, Content, Reference};
+use super::reader::{Esi, Reader};
+use super::templates::Template;
+use crate::diagnostics::{codes, Diagnostics};
+use crate::frontend::xml::{Given, Read};
+use crate::ir::{Direction, Pdo, PdoEntry, ProcessData, Type};
+use crate::syntax::xml::Tag;
+use crate::text::brief;
+
+/// The PDOs of a device or module. The types of their entries are known only once the dictionary was read.
+#[derive(Default)]
+pub(super) struct Pdos<'a> {
+    pub list: Vec<Pdo>,
+    /// The type that each entry names, entry by entry and PDO by PDO.
+    types: Vec<Given<'a>>,
+}
+
+impl<'a> Pdos<'a> {
+    /// Reads a RxPdo or TxPdo.
+    pub fn read(&mut self, reader: &mut Reader<'a, '_>, parent: &Tag<'a>) -> Read<()> {
+        let direction = if parent.name == "RxPdo" { Direction::Receive } else { Direction::Transmit };
+        let (origin, start) = (reader.origin(parent), reader.extensions.len());
+        let mut pdo = Pdo { origin, ..Pdo::new(direction, 0) };
+        let reference = pdo::attributes(reader, parent, &mut pdo)?;
+        let channel = reference.as_ref().map_or(0, |reference| reference.channel);
+        let mut content = pdo::content(reader, parent, &mut pdo, channel)?;
+        let has_template = match &reference {
+            Some(reference) => complete(reader, reference, &mut pdo, &mut content)?,
+            None => true,
+        };
+        let Content { index, names, types } = content;
+        let numbered = Pdo::new(direction, index.unwrap_or(0));
+        (pdo.mapping_index, pdo.number) = (numbered.mapping_index, numbered.number);
+        (pdo.name, pdo.names) = (names.name(), names.others());
+        pdo.extensions = reader.extensions_since(start);
+        // A missing template is reported already.
+        if has_template {
+            check(reader, parent, &pdo, index.is_some());
+        }
+        self.types.extend(types);
+        self.list.push(pdo);
+        Ok(())
+    }
+
+    /// Adds the PDOs to `data`, RxPdos first, each with the types that `resolve` returns.
+    pub fn finish(self, data: &mut ProcessData, mut resolve: impl FnMut(&Given<'a>, &PdoEntry) -> Type) {
+        let mut list = self.list;
+        let entries = list.iter_mut().flat_map(|pdo| &mut pdo.entries);
+        for (entry, ty) in entries.zip(&self.types) {
+            entry.ty = resolve(ty, entry);
+        }
+        let (receive, transmit): (Vec<Pdo>, Vec<Pdo>) =
+            list.into_iter().partition(|pdo| pdo.direction == Direction::Receive);
+        data.pdos = receive;
+        data.pdos.extend(transmit);
+    }
+}
+
+fn check(reader: &mut Reader<'_, '_>, tag: &Tag<'_>, pdo: &Pdo, has_index: bool) {
+    if !has_index {
+        let message = format!("this {} has no index", tag.name);
+        reader.report(&codes::PDO_WITHOUT_INDEX, tag.span, message, "it can't be assigned to a sync manager");
+    }
+    if pdo.name.is_empty() {
+        let message = format!("this {} has no name", tag.name);
+        reader.report(&codes::UNNAMED_PDO, tag.span, message, "it goes by its index");
+    }
+}
+
+/// Completes a PDO with its template. Returns whether the file has the template; reports it if not.
+fn complete<'a>(
+    reader: &mut Reader<'a, '_>,
+    reference: &Reference<'a>,
+    pdo: &mut Pdo,
+    content: &mut Content<'a>,
+) -> Read<bool> {
+    let Some(template) = reader.format.templates.get(&reference.name.text) else {
+        let message = format!("the file has no PDO template `{}`", brief(&reference.name.text));
+        let label = "the PDO has no index and no entries";
+        reader.report(&codes::PDO_WITHOUT_INDEX, reference.name.span, message, label);
+        reader.note("Pdo@Ref", &reference.name);
+        reader.note("Pdo@Chn", &reference.channel_given);
+        return Ok(false);
+    };
+    if !reader.derive(template.cost, reference.name.span) {
+        return Ok(true);
+    }
+    let (given, given_content) = instance(reader, template, pdo.direction, reference.channel)?;
+    content.index = content.index.or(given_content.index);
+    if pdo.entries.is_empty() {
+        pdo.entries = given.entries;
+        content.types = given_content.types;
+    }
+    if content.names.is_empty() {
+        content.names = given_content.names;
+    }
+    pdo.fixed |= given.fixed;
+    pdo.mandatory |= given.mandatory;
+    pdo.sync_manager = pdo.sync_manager.or(given.sync_manager);
+    pdo.sync_unit = pdo.sync_unit.or(given.sync_unit);
+    pdo.excludes.extend(given.excludes);
+    pdo.excluded_sync_managers.extend(given.excluded_sync_managers);
+    Ok(true)
+}
+
+/// Reads a template for a channel.
+fn instance<'a>(
+    reader: &mut Reader<'a, '_>,
+    template: &Template,
+    direction: Direction,
+    channel: u16,
+) -> Read<(Pdo, Content<'a>)> {
+    let mut repeated = Diagnostics::default();
+    let diagnostics = if template.used.replace(true) { &mut repeated } else { &mut *reader.diagnostics };
+    let templates = reader.format.templates;
+    let format = Esi { budget: &mut *reader.format.budget, templates };
+    let mut inner = Reader::new(templates.cursor(template), diagnostics, format);
+    let tag: Tag<'a> = inner.cursor.root()?;
+    let mut pdo = Pdo { origin: template.origin, ..Pdo::new(direction, 0) };
+    pdo::attributes(&mut inner, &tag, &mut pdo)?;
+    let content = pdo::content(&mut inner, &tag, &mut pdo, channel)?;
+    let mut extensions = inner.extensions;
+    reader.extensions.append(&mut extensions);
+    Ok((pdo, content))
+}

@@ -1,0 +1,67 @@
+//! Elements that occur in many places: texts with a language, pictures, what a vendor adds.
+
+use compact_str::format_compact;
+
+use super::number;
+use super::reader::{Lcid, Names, Reader};
+use crate::frontend::xml::Read;
+use crate::ir::{CompactString, Extension};
+use crate::syntax::xml::{Event, Tag};
+
+impl<'a> Reader<'a, '_> {
+    /// Reads a text with its language.
+    pub fn name(&mut self, tag: &Tag<'a>, names: &mut Names<'a>) -> Read<()> {
+        let [given] = self.attributes(tag, ["LcId"])?;
+        let lcid = number::parse(&given.text).and_then(|number| u32::try_from(number.value).ok());
+        if lcid.is_none() && !given.is_empty() {
+            self.bad(&given, "number of a language", "read as if there were none");
+        }
+        let given = self.content()?;
+        if !given.is_empty() {
+            names.push(Lcid(lcid), given);
+        }
+        Ok(())
+    }
+
+    /// Keeps the text of an element under its name.
+    pub fn note_text(&mut self, tag: &Tag<'a>) -> Read<()> {
+        let given = self.text(tag)?;
+        self.note(tag.name, &given);
+        Ok(())
+    }
+
+    /// Keeps of VendorSpecific its children with their attributes and texts. What is below them has a meaning only for the tool of the
+    /// vendor.
+    pub fn vendor_specific(&mut self, tag: &Tag<'a>) -> Read<()> {
+        while let Some(child) = self.child(tag)? {
+            self.keep_attributes(&child)?;
+            let key = self.cursor.innermost();
+            let (mut value, mut span) = (CompactString::default(), child.span);
+            while self.cursor.depth() >= child.depth {
+                match self.cursor.read()? {
+                    Some(Event::Text(text)) if self.cursor.depth() == child.depth => {
+                        value.push_str(text.value(self.diagnostics).trim());
+                        span = text.span;
+                    }
+                    Some(_) => {}
+                    None => break,
+                }
+            }
+            self.extensions.push(Extension { key, value, span });
+        }
+        Ok(())
+    }
+
+    /// Keeps the size of a picture that the file contains, or the name of one that it refers to.
+    pub fn image(&mut self, tag: &Tag<'a>) -> Read<()> {
+        let given = self.text(tag)?;
+        let value = if tag.name.contains("Data") {
+            let digits = given.text.bytes().filter(u8::is_ascii_hexdigit).count();
+            format_compact!("{} bytes", digits / 2)
+        } else {
+            given.compact()
+        };
+        self.extensions.push(Extension { key: tag.name.into(), value, span: given.span.or(tag.span) });
+        Ok(())
+    }
+}

@@ -1,0 +1,128 @@
+//! One file.
+
+use super::header::Header;
+use super::lists;
+use super::reader::{Gsdml, Reader};
+use super::resolve::{self, Resolver};
+use super::text_list::TextList;
+use crate::diagnostics::{codes, Diagnostic, Diagnostics};
+use crate::frontend::declared_encoding;
+use crate::frontend::xml::Read;
+use crate::ir::Catalog;
+use crate::source::{FileId, Source};
+use crate::syntax::xml::{Cursor, Tag};
+use crate::text::brief;
+
+/// Reads the device access points, modules and submodules that `source` describes. Everything that had to be repaired goes
+/// to `diagnostics`.
+///
+/// Returns `None`, with one error, for a file that isn't well formed or no GSDML.
+pub fn read(source: &Source, file: FileId, diagnostics: &mut Diagnostics) -> Option<Catalog> {
+    declared_encoding::report(source, file, diagnostics);
+    let mut reader = Reader::new(Cursor::new(source.text(), file), diagnostics, Gsdml::default());
+    let mut document = Document::default();
+    if let Err(stop) = document.read(&mut reader) {
+        reader.diagnostics.push(*stop);
+        return None;
+    }
+    let Reader { diagnostics, format: Gsdml { texts, types, links, .. }, extensions, .. } = reader;
+    let Document { mut catalog, header, list } = document;
+    catalog.extensions = extensions;
+    header.check_file_name(source.name(), file, diagnostics);
+    links.resolve(&mut catalog, diagnostics);
+    catalog.types = types.finish(diagnostics);
+    let mut resolver = Resolver::new(list, texts, source.text().len(), diagnostics);
+    resolve::catalog(&mut catalog, &mut resolver);
+    header.apply(&mut catalog, &mut resolver);
+    let Resolver { list, diagnostics, .. } = resolver;
+    list.close(diagnostics, &mut catalog.extensions);
+    Some(catalog)
+}
+
+/// What was read so far.
+#[derive(Default)]
+struct Document<'a> {
+    catalog: Catalog,
+    header: Header,
+    list: TextList<'a>,
+}
+
+impl<'a> Document<'a> {
+    fn read(&mut self, reader: &mut Reader<'a, '_>) -> Read<()> {
+        let root = reader.cursor.root()?;
+        if root.name != "ISO15745Profile" {
+            return Err(not_gsdml(&root));
+        }
+        self.header.root(reader, &root)?;
+        while let Some(tag) = reader.child(&root)? {
+            match tag.name {
+                "ProfileBody" => self.body(reader, &tag)?,
+                "ProfileHeader" | "Signature" => reader.keep(&tag)?,
+                _ => reader.unknown(&tag)?,
+            }
+        }
+        // What follows the root element has to be well formed, too.
+        while reader.cursor.read()?.is_some() {}
+        if self.catalog.devices.is_empty() {
+            let message = "the file describes no device access point";
+            let label = "there is no <DeviceAccessPointItem> in it";
+            reader.report(&codes::NO_DEVICE_ACCESS_POINT, root.name_span(), message, label);
+        }
+        Ok(())
+    }
+
+    fn body(&mut self, reader: &mut Reader<'a, '_>, parent: &Tag<'a>) -> Read<()> {
+        while let Some(tag) = reader.child(parent)? {
+            match tag.name {
+                "DeviceIdentity" => self.header.identity(reader, &tag)?,
+                "DeviceFunction" => self.function(reader, &tag)?,
+                "ApplicationProcess" => self.process(reader, &tag)?,
+                _ => reader.unknown(&tag)?,
+            }
+        }
+        Ok(())
+    }
+
+    fn function(&mut self, reader: &mut Reader<'a, '_>, parent: &Tag<'a>) -> Read<()> {
+        while let Some(tag) = reader.child(parent)? {
+            match tag.name {
+                "Family" => self.header.family(reader, &tag)?,
+                // Not its place, but nothing else can be meant.
+                "ApplicationProcess" => {
+                    let message = "<ApplicationProcess> belongs into <ProfileBody>";
+                    reader.report(&codes::GSDML_VALUE, tag.name_span(), message, "read here");
+                    self.process(reader, &tag)?;
+                }
+                _ => reader.unknown(&tag)?,
+            }
+        }
+        Ok(())
+    }
+
+    fn process(&mut self, reader: &mut Reader<'a, '_>, parent: &Tag<'a>) -> Read<()> {
+        let catalog = &mut self.catalog;
+        while let Some(tag) = reader.child(parent)? {
+            match tag.name {
+                "DeviceAccessPointList" => reader.device_list(&tag, catalog)?,
+                "ModuleList" => reader.module_list(&tag, catalog)?,
+                "SubmoduleList" => reader.submodule_list(&tag, &mut catalog.submodules)?,
+                "ValueList" => reader.value_list(&tag)?,
+                "ChannelDiagList" => reader.channel_diagnosis(&tag, catalog)?,
+                "ChannelProcessAlarmList" => reader.process_alarms(&tag, catalog)?,
+                "UnitDiagTypeList" => reader.unit_diagnoses(&tag, catalog)?,
+                "LogBookEntryList" => reader.log_book(&tag, catalog)?,
+                "GraphicsList" => lists::graphics(reader, &tag, catalog)?,
+                "CategoryList" => lists::categories(reader, &tag, catalog)?,
+                "ExternalTextList" => self.list.read(reader, &tag)?,
+                _ => reader.unknown(&tag)?,
+            }
+        }
+        Ok(())
+    }
+}
+
+fn not_gsdml(root: &Tag<'_>) -> Box<Diagnostic> {
+    let message = format!("<{}> isn't the root of a GSDML file", brief(root.name));
+    let help = "a GSDML file has the root element ISO15745Profile, and in it a ProfileBody with an ApplicationProcess";
+    Box::new(Diagnostic::new(&codes::NOT_A_GSDML, root.name_span(), message).help(help))
+}

@@ -1,0 +1,75 @@
+//! What modules, submodules and device access points have in common: ModuleInfo and pictures.
+
+use compact_str::format_compact;
+
+use super::links::Kind;
+use super::reader::Reader;
+use crate::frontend::xml::{Attributes, Given, Read};
+use crate::ir::{CompactString, Documentation};
+use crate::syntax::xml::Tag;
+
+/// ModuleInfo.
+#[derive(Default)]
+pub(super) struct Info<'a> {
+    /// Placeholder of the name.
+    pub name: CompactString,
+    pub documentation: Option<Box<Documentation>>,
+    pub vendor: Given<'a>,
+    pub order: Given<'a>,
+    pub hardware: Given<'a>,
+    pub software: Given<'a>,
+    /// Category and family.
+    pub attributes: Attributes,
+}
+
+/// Pictures, by kind.
+pub(super) type Graphics = Vec<(CompactString, CompactString)>;
+
+impl<'a> Reader<'a, '_> {
+    /// Reads ModuleInfo.
+    pub fn module_info(&mut self, parent: &Tag<'a>) -> Read<Info<'a>> {
+        let mut info = Info::default();
+        let [category, sub_category] = self.attributes(parent, ["CategoryRef", "SubCategory1Ref"])?;
+        for (key, given) in [("CategoryRef", category), ("SubCategory1Ref", sub_category)] {
+            if !given.is_missing() {
+                self.format.links.mention(Kind::Category, &given);
+                info.attributes.extend(given.attribute(key));
+            }
+        }
+        while let Some(tag) = self.child(parent)? {
+            match tag.name {
+                "Name" => info.name = self.text_reference(&tag)?,
+                "InfoText" => info.documentation = self.documentation(&tag)?,
+                "VendorName" => info.vendor = self.single(&tag, "Value")?,
+                "OrderNumber" => info.order = self.single(&tag, "Value")?,
+                "HardwareRelease" => info.hardware = self.single(&tag, "Value")?,
+                "SoftwareRelease" => info.software = self.single(&tag, "Value")?,
+                "Family" => self.keep_as_attributes(&tag, &mut info.attributes)?,
+                _ => self.unknown(&tag)?,
+            }
+        }
+        if info.name.is_empty() {
+            self.missing(parent, "Name", "its name is left empty");
+        }
+        Ok(info)
+    }
+
+    /// Reads Graphics.
+    pub fn graphics(&mut self, list: &Tag<'a>) -> Read<Graphics> {
+        let mut graphics = Graphics::new();
+        self.each(list, "GraphicItemRef", |reader, tag| {
+            let [kind, target] = reader.attributes(tag, ["Type", "GraphicItemTarget"])?;
+            if reader.require(tag, &target, "GraphicItemTarget", "left out") {
+                reader.format.links.mention(Kind::Graphic, &target);
+                graphics.push((kind.compact(), target.compact()));
+            }
+            reader.no_children(tag)
+        })?;
+        Ok(graphics)
+    }
+}
+
+/// A picture as an attribute of what has no list of pictures.
+pub(super) fn named_graphic(graphic: (CompactString, CompactString)) -> (CompactString, CompactString) {
+    (format_compact!("GraphicItemRef@{}", graphic.0), graphic.1)
+}

@@ -1,0 +1,71 @@
+//! Parameters of a record.
+
+use super::data_type::DataType;
+use super::location::Location;
+use super::reader::Reader;
+use crate::frontend::xml::{Given, Read};
+use crate::ir::{Access, Behaviour, Binding, Item};
+use crate::syntax::xml::Tag;
+
+impl<'a> Reader<'a, '_> {
+    /// Reads a Ref of the record `index`.
+    pub fn parameter(&mut self, tag: &Tag<'a>, index: u16) -> Read<Item> {
+        const NAMES: [&str; 12] = [
+            "DataType",
+            "ByteOffset",
+            "DefaultValue",
+            "AllowedValues",
+            "TextId",
+            "Changeable",
+            "Visible",
+            "ValueItemTarget",
+            "BitOffset",
+            "BitLength",
+            "Length",
+            "ID",
+        ];
+        let start = self.extensions.len();
+        let mut item = Item::new(Binding::Record { index, bit_offset: 0, bits: 0 });
+        item.origin = self.origin(tag);
+        let fields = self.attributes(tag, NAMES)?;
+        let [data_type, byte, default, allowed, text, changeable, visible, values, bit, bits, length, id] = fields;
+        self.note("ID", &id);
+        item.at.name = text.span;
+        item.name = self.name(tag, text);
+        self.require(tag, &byte, "ByteOffset", "taken for 0");
+        let location = self.location(tag, &data_type, [&byte, &bit, &bits, &length]);
+        let Location { ty, bit_offset, bits, .. } = location;
+        if bits == 0 {
+            self.missing(tag, "Length", "it has no bytes");
+        }
+        (item.ty, item.at.ty) = (ty, data_type.span);
+        item.bindings = smallvec::smallvec![Binding::Record { index, bit_offset, bits }];
+        item.limits = self.allowed_values(&allowed, location.number());
+        (item.at.low, item.at.high) = (allowed.span, allowed.span);
+        self.default(tag, default, &location, &mut item)?;
+        if let Some(named) = self.named_values(values, ty) {
+            item.ty = named;
+        }
+        item.at.access = changeable.span;
+        item.access = if self.flag_or(&changeable, true) { Access::ReadWrite } else { Access::Constant };
+        if !self.flag_or(&visible, true) {
+            item.behaviour = Some(Box::new(Behaviour { hidden: true, ..Behaviour::default() }));
+        }
+        self.no_children(tag)?;
+        item.extensions = self.extensions_since(start);
+        Ok(item)
+    }
+
+    fn default(&mut self, tag: &Tag<'a>, mut given: Given<'a>, location: &Location, item: &mut Item) -> Read<()> {
+        if !self.require(tag, &given, "DefaultValue", "without a default") {
+            return Ok(());
+        }
+        if matches!(location.data_type, Some(DataType::String(_))) {
+            // Blanks around a text are part of it.
+            [given] = self.attributes_with_blanks(tag, ["DefaultValue"])?;
+        }
+        item.default = self.default_value(&given, location.number(), location.bits);
+        item.at.default = given.span;
+        Ok(())
+    }
+}

@@ -1,0 +1,78 @@
+//! The value list: named values of parameters.
+
+use super::links::Kind;
+use super::reader::Reader;
+use super::types::ValueItem;
+use crate::frontend::xml::Read;
+use crate::ir::EnumValue;
+use crate::syntax::xml::Tag;
+
+impl<'a> Reader<'a, '_> {
+    /// Reads ValueList.
+    pub fn value_list(&mut self, list: &Tag<'a>) -> Read<()> {
+        self.each(list, "ValueItem", Self::value_item)
+    }
+
+    fn value_item(&mut self, parent: &Tag<'a>) -> Read<()> {
+        let mut item = ValueItem::default();
+        item.origin = self.origin(parent);
+        let [id] = self.attributes(parent, ["ID"])?;
+        self.register(parent, Kind::Value, &id, self.format.types.value_items());
+        item.id = id.compact();
+        while let Some(tag) = self.child(parent)? {
+            match tag.name {
+                "Help" => item.documentation = self.documentation(&tag)?,
+                "Assignments" => {
+                    self.each(&tag, "Assign", |reader, tag| {
+                        item.values.extend(reader.assign(tag)?);
+                        Ok(())
+                    })?;
+                }
+                _ => self.unknown(&tag)?,
+            }
+        }
+        self.format.types.add_values(&id, item);
+        Ok(())
+    }
+
+    fn assign(&mut self, tag: &Tag<'a>) -> Read<Option<EnumValue>> {
+        let [text, content] = self.attributes(tag, ["TextId", "Content"])?;
+        let name = self.name(tag, text);
+        if !self.require(tag, &content, "Content", "left out") {
+            return Ok(None);
+        }
+        let Some((value, last)) = span_of_values(&content.text) else {
+            self.bad(&content, "whole number or range of whole numbers", "left out of the enumeration");
+            self.note("Assign@Content", &content);
+            return Ok(None);
+        };
+        Ok(Some(EnumValue { last, ..EnumValue::new(name, value) }))
+    }
+}
+
+/// `7` or `0..3`.
+fn span_of_values(text: &str) -> Option<(i128, Option<i128>)> {
+    match text.split_once("..") {
+        Some((first, last)) => {
+            let (first, last) = (whole(first)?, whole(last)?);
+            (first <= last).then_some((first, (first != last).then_some(last)))
+        }
+        None => whole(text).map(|value| (value, None)),
+    }
+}
+
+/// A whole number, perhaps with a fraction of zero or in hexadecimal.
+fn whole(text: &str) -> Option<i128> {
+    let text = text.trim();
+    if let Ok(value) = text.parse::<i64>() {
+        return Some(value.into());
+    }
+    if let Some(digits) = text.strip_prefix("0x").or_else(|| text.strip_prefix("0X")) {
+        return u64::from_str_radix(digits, 16).ok().map(i128::from);
+    }
+    if let Ok(value) = text.parse::<u64>() {
+        return Some(value.into());
+    }
+    let value = text.parse::<f64>().ok()?;
+    (value.fract() == 0.0 && value.abs() < 9e15).then_some(value as i128)
+}

@@ -1,0 +1,91 @@
+//! Data types of the application process as written.
+
+use super::reader::{Reader, Texts};
+use crate::frontend::xml::{Given, Read};
+use crate::ir::{CompactString, EnumValue, Type};
+use crate::source::{Origin, Span};
+use crate::syntax::xml::Tag;
+
+/// The type of a parameter, element or field.
+#[derive(Clone, Debug)]
+pub(super) enum TypeRef<'a> {
+    /// `<UDINT/>`
+    Basic(Type, Span),
+    /// `<dataTypeIDRef uniqueIDRef="…"/>`
+    Named(Given<'a>),
+}
+
+impl<'a> TypeRef<'a> {
+    /// The type that an element names, if it names one.
+    pub fn read(reader: &mut Reader<'a, '_>, tag: &Tag<'a>) -> Read<Option<Self>> {
+        if let Some(ty) = basic(tag.name) {
+            return Ok(Some(TypeRef::Basic(ty, tag.span)));
+        }
+        if tag.name != "dataTypeIDRef" {
+            return Ok(None);
+        }
+        let given = reader.attribute(tag, "uniqueIDRef")?;
+        Ok((!given.is_missing()).then_some(TypeRef::Named(given)))
+    }
+
+    pub fn span(&self) -> Span {
+        match self {
+            TypeRef::Basic(_, span) => *span,
+            TypeRef::Named(given) => given.span,
+        }
+    }
+}
+
+/// A type as written.
+pub(super) struct RawType<'a> {
+    pub name: CompactString,
+    pub texts: Texts<'a>,
+    pub kind: Kind<'a>,
+    pub origin: Origin,
+}
+
+/// What a type is made of.
+pub(super) enum Kind<'a> {
+    Array {
+        dimensions: Vec<(i32, u32)>,
+        element: Option<TypeRef<'a>>,
+    },
+    /// Positions of the variables among the parameters.
+    Struct(Vec<usize>),
+    Enum {
+        base: Option<TypeRef<'a>>,
+        values: Vec<EnumValue>,
+    },
+    Derived {
+        base: Option<TypeRef<'a>>,
+        count: Option<u32>,
+    },
+}
+
+/// The basic types of IEC 61131-3 as CiA 311 maps them to those of CiA 301.
+fn basic(name: &str) -> Option<Type> {
+    Some(match name {
+        "BOOL" => Type::Boolean,
+        "SINT" => Type::Integer(8),
+        "INT" => Type::Integer(16),
+        "DINT" => Type::Integer(32),
+        "LINT" => Type::Integer(64),
+        "USINT" | "BYTE" | "CHAR" => Type::Unsigned(8),
+        "UINT" | "WORD" => Type::Unsigned(16),
+        "UDINT" | "DWORD" => Type::Unsigned(32),
+        "ULINT" | "LWORD" => Type::Unsigned(64),
+        "REAL" => Type::Real32,
+        "LREAL" => Type::Real64,
+        "STRING" => Type::VisibleString(None),
+        "WSTRING" => Type::UnicodeString(None),
+        "BITSTRING" => Type::OctetString(None),
+        _ => return None,
+    })
+}
+
+/// A value of an enumeration with its labels.
+pub(super) fn enum_value(value: i128, texts: &Texts<'_>) -> EnumValue {
+    let name = texts.labels.name();
+    let (names, documentation) = (texts.labels.except(&name), texts.descriptions.documentation());
+    EnumValue { names, documentation, ..EnumValue::new(name, value) }
+}

@@ -1,0 +1,138 @@
+//! One file: its profiles, and the device that they describe.
+
+use super::application::Application;
+use super::object_list::ObjectList;
+use super::reader::{Reader, Xdd};
+use super::{identity, modules, network, objects, process, types};
+use crate::diagnostics::{codes, Diagnostic, Diagnostics};
+use crate::frontend::declared_encoding;
+use crate::frontend::xml::Read;
+use crate::ir::{CanOpenSettings, Catalog, Device, Extension};
+use crate::source::{FileId, Source, Span};
+use crate::syntax::xml::{Attribute, Cursor, Tag};
+
+/// Reads the device that `source` describes. Everything that had to be repaired goes to `diagnostics`.
+///
+/// Returns `None`, with one error, for a file that isn't well formed, describes a POWERLINK device, or no device.
+pub fn read(source: &Source, file: FileId, aliases: &[String], diagnostics: &mut Diagnostics) -> Option<Catalog> {
+    declared_encoding::report(source, file, diagnostics);
+    let mut reader = Reader::new(Cursor::new(source.text(), file), diagnostics, Xdd { aliases });
+    match container(&mut reader) {
+        Ok(device) => Some(Catalog::of_device(device, Vec::new())),
+        Err(stop) => {
+            reader.diagnostics.push(*stop);
+            None
+        }
+    }
+}
+
+/// What the profiles of a file say.
+struct Profiles<'a> {
+    device: Device,
+    canopen: CanOpenSettings,
+    application: Application<'a>,
+    objects: ObjectList,
+    /// Whether there is anything of CANopen.
+    canopen_seen: bool,
+}
+
+fn container<'a>(reader: &mut Reader<'a, '_>) -> Read<Device> {
+    let root = reader.cursor.root()?;
+    let mut profiles = Profiles {
+        device: Device { origin: reader.origin(&root), ..Device::default() },
+        canopen: CanOpenSettings::default(),
+        application: Application::default(),
+        objects: ObjectList::default(),
+        canopen_seen: false,
+    };
+    match root.name {
+        "ISO15745ProfileContainer" => {
+            reader.each(&root, "ISO15745Profile", |reader, tag| profile(reader, tag, &mut profiles))?;
+        }
+        "ISO15745Profile" => profile(reader, &root, &mut profiles)?,
+        _ => return Err(not_canopen(&root)),
+    }
+    // What follows the root element has to be well formed, too.
+    while reader.cursor.read()?.is_some() {}
+    if !profiles.canopen_seen {
+        return Err(not_canopen(&root));
+    }
+    let Profiles { mut device, mut canopen, mut application, objects, .. } = profiles;
+    canopen.bit_rates.sort_unstable();
+    canopen.bit_rates.dedup();
+    device.name = device.identity.product_name.clone();
+    device.canopen = Some(Box::new(canopen));
+    device.extensions = reader.extensions_since(0);
+    device.types = types::lower(reader, &mut application);
+    objects::build(reader, &application, objects, &mut device)?;
+    Ok(device)
+}
+
+fn not_canopen(root: &Tag<'_>) -> Box<Diagnostic> {
+    let message = "this XML describes no CANopen device";
+    Box::new(Diagnostic::new(&codes::NOT_A_CANOPEN_XDD, root.name_span(), message).help(
+        "an XDD or XDC has the root element ISO15745ProfileContainer, and profile bodies of the types \
+         ProfileBody_Device_CANopen and ProfileBody_CommunicationNetwork_CANopen",
+    ))
+}
+
+fn profile<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, profiles: &mut Profiles<'a>) -> Read<()> {
+    while let Some(tag) = reader.child(parent)? {
+        match tag.name {
+            "ProfileHeader" => reader.keep(&tag)?,
+            "ProfileBody" => body(reader, &tag, profiles)?,
+            _ => reader.unknown(&tag)?,
+        }
+    }
+    Ok(())
+}
+
+fn body<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, profiles: &mut Profiles<'a>) -> Read<()> {
+    // The one attribute of the schema instance namespace that matters, under whatever prefix.
+    let is_kind = |attribute: &Attribute<'_>| attribute.name == "type" && !attribute.prefix.is_empty();
+    let kind = parent.attributes().find(|attribute| attribute.as_ref().map_or(true, is_kind)).transpose()?;
+    let kind = kind.map(|attribute| (attribute.value(reader.diagnostics), attribute.span));
+    if let Some((kind, span)) = &kind {
+        let kind = kind.to_ascii_lowercase();
+        if kind.contains("powerlink") {
+            return Err(powerlink(*span));
+        }
+        if !kind.contains("canopen") {
+            // A profile of another technology in the same container.
+            return reader.keep(parent);
+        }
+        profiles.canopen_seen = true;
+        if kind.contains("modular") {
+            let (key, value) = ("ProfileBody@type".into(), kind.as_str().into());
+            reader.extensions.push(Extension { key, value, span: *span });
+        }
+    }
+    identity::body(reader, parent, &mut profiles.device)?;
+    let Profiles { device, canopen, application, objects, canopen_seen } = profiles;
+    while let Some(tag) = reader.child(parent)? {
+        match tag.name {
+            "DeviceIdentity" => identity::read(reader, &tag, device)?,
+            "DeviceManager" => modules::device_manager(reader, &tag, device)?,
+            "ApplicationProcess" => process::read(reader, &tag, application)?,
+            "ApplicationLayers" => {
+                *canopen_seen = true;
+                network::application_layers(reader, &tag, device, canopen, objects)?;
+            }
+            "TransportLayers" => network::transport_layers(reader, &tag, canopen)?,
+            "NetworkManagement" => network::management(reader, &tag, device, canopen)?,
+            "DeviceFunction" | "ExternalProfileHandle" => reader.keep(&tag)?,
+            _ => reader.unknown(&tag)?,
+        }
+    }
+    Ok(())
+}
+
+fn powerlink(span: Span) -> Box<Diagnostic> {
+    Box::new(
+        Diagnostic::new(&codes::POWERLINK_XDD, span, "this is an XDD of Ethernet POWERLINK, not of CANopen")
+            .label("a profile of EPSG 311")
+            .help(
+                "both kinds of file share the ending .xdd and the outer elements; ask the vendor for the CANopen XDD",
+            ),
+    )
+}

@@ -1,0 +1,62 @@
+//! Numbers of CiA 311.
+
+use super::reader::Reader;
+use crate::diagnostics::{codes, Diagnostic};
+use crate::frontend::canopen::number;
+use crate::frontend::xml::Given;
+
+impl Reader<'_, '_> {
+    /// A number up to `max`; anything else is reported.
+    pub fn unsigned(&mut self, given: &Given<'_>, max: u32, what: &str) -> Option<u32> {
+        if given.is_missing() {
+            return None;
+        }
+        let value = integer(&given.text).and_then(|value| u32::try_from(value).ok()).filter(|&value| value <= max);
+        if value.is_none() {
+            self.bad(given, what, format!("left out; expected a number from 0 to {max}"));
+        }
+        value
+    }
+
+    /// Hexadecimal digits (hexBinary of XML Schema).
+    pub fn hex(&mut self, given: &Given<'_>, max: u32, what: &str) -> Option<u32> {
+        if given.is_missing() {
+            return None;
+        }
+        let text = given.text.as_ref();
+        let digits = text.strip_prefix("0x").or_else(|| text.strip_prefix("0X")).unwrap_or(text);
+        let value = if digits.starts_with('+') { None } else { u64::from_str_radix(digits, 16).ok() };
+        let value = value.and_then(|value| u32::try_from(value).ok()).filter(|&value| value <= max);
+        match value {
+            None => self.bad(given, what, "left out; expected hexadecimal digits"),
+            Some(value) if digits.len() != text.len() => {
+                let message = format!("{text} has a prefix, which CiA 311 doesn't want here");
+                self.diagnostics.push(
+                    Diagnostic::new(&codes::XDD_VALUE, given.span, message)
+                        .label(format!("read as {value:#06x}"))
+                        .fix(digits),
+                );
+            }
+            Some(_) => {}
+        }
+        value
+    }
+
+    /// A real number.
+    pub fn real(&mut self, given: &Given<'_>, what: &str) -> Option<f64> {
+        let value = given.text.parse::<f64>().ok().filter(|value| value.is_finite());
+        if value.is_none() {
+            self.bad(given, what, "left out");
+        }
+        value
+    }
+}
+
+/// An integer as XML Schema writes it: it has no octal numbers, so that a leading zero says nothing. Prefixes are taken as well.
+pub(super) fn integer(text: &str) -> Option<i128> {
+    let digits = text.strip_prefix(['-', '+']).unwrap_or(text);
+    match !digits.is_empty() && digits.bytes().all(|byte| byte.is_ascii_digit()) {
+        true => text.parse().ok(),
+        false => number::parse(text, &[]).int(),
+    }
+}

@@ -1,0 +1,37 @@
+//! The positions of the objects in a file.
+
+use super::reader::Reader;
+use crate::diagnostics::codes;
+use crate::frontend::xml::Read;
+use crate::source::Origin;
+use crate::syntax::xml::Tag;
+
+/// Index and position of each object, in the order of the file.
+#[derive(Default)]
+pub(super) struct ObjectList(pub Vec<(u16, Origin)>);
+
+impl ObjectList {
+    /// Reads CANopenObjectList without the content of the objects.
+    pub fn read<'a>(&mut self, reader: &mut Reader<'a, '_>, parent: &Tag<'a>) -> Read<()> {
+        // The numbers of objects say nothing that the objects don't.
+        reader.attributes(parent, ["mandatoryObjects", "optionalObjects", "manufacturerObjects"])?;
+        while let Some(tag) = reader.child(parent)? {
+            match tag.name {
+                "CANopenObject" => {
+                    let given = reader.attribute(&tag, "index")?;
+                    match reader.hex(&given, 0xFFFF, "index") {
+                        Some(index) => self.0.push((index as u16, reader.origin(&tag))),
+                        None => missing_index(reader, &tag, "this object has no index"),
+                    }
+                }
+                "CANopenSubObject" => missing_index(reader, &tag, "this sub-object stands outside of an object"),
+                _ => reader.unknown(&tag)?,
+            }
+        }
+        Ok(())
+    }
+}
+
+pub(super) fn missing_index(reader: &mut Reader<'_, '_>, tag: &Tag<'_>, message: &str) {
+    reader.report(&codes::MISSING_INDEX, tag.span, message, "left out");
+}

@@ -1,0 +1,117 @@
+//! Reading of parameters, their allowed values and units.
+
+use super::application::{Allowed, AllowedRange, Parameter, Unit};
+use super::data_type::TypeRef;
+use super::reader::{Lang, Reader};
+use crate::frontend::xml::{Given, Read};
+use crate::ir::Extension;
+use crate::syntax::xml::Tag;
+
+/// Reads a parameter, a parameterTemplate or a varDeclaration, and its uniqueID.
+pub(super) fn read<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>) -> Read<(Given<'a>, Parameter<'a>)> {
+    const NAMES: [&str; 10] = [
+        "uniqueID",
+        "templateIDRef",
+        "access",
+        "support",
+        "persistent",
+        "offset",
+        "multiplier",
+        "accessList",
+        // Of a variable.
+        "name",
+        "initialValue",
+    ];
+    let (mut parameter, start) = (Parameter::default(), reader.extensions.len());
+    let fields = reader.attributes(parent, NAMES)?;
+    let [id, template, access, support, persistent, offset, multiplier, access_list, name, initial] = fields;
+    reader.note("accessList", &access_list);
+    (parameter.template, parameter.access, parameter.support) = (template, access, support);
+    (parameter.persistent, parameter.offset, parameter.multiplier) = (persistent, offset, multiplier);
+    parameter.default = initial;
+    while let Some(tag) = reader.child(parent)? {
+        child(reader, &tag, &mut parameter)?;
+    }
+    if !name.is_missing() && parameter.texts.labels.is_empty() {
+        parameter.texts.labels.push(Lang::default(), name);
+    }
+    parameter.extensions = reader.extensions_since(start);
+    parameter.weight = reader.length(parent);
+    Ok((id, parameter))
+}
+
+fn child<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, parameter: &mut Parameter<'a>) -> Read<()> {
+    if let Some(ty) = TypeRef::read(reader, tag)? {
+        parameter.ty = Some(ty);
+        return Ok(());
+    }
+    match tag.name {
+        "label" | "description" => reader.text_or_keep(tag, &mut parameter.texts)?,
+        "denotation" => parameter.denotation = Some(Box::new(reader.texts(tag)?)),
+        "defaultValue" => parameter.default = value(reader, tag)?,
+        "actualValue" => parameter.actual = value(reader, tag)?,
+        "substituteValue" => {
+            let given = value(reader, tag)?;
+            reader.note("substituteValue", &given);
+        }
+        "allowedValues" => parameter.allowed = Some(Box::new(allowed(reader, tag)?)),
+        "unit" => parameter.unit = Some(Box::new(unit(reader, tag)?)),
+        "property" => {
+            let [name, given] = reader.attributes(tag, ["name", "value"])?;
+            if !name.is_missing() {
+                let (value, span) = (given.compact(), given.span.or(name.span));
+                reader.extensions.push(Extension { key: name.compact(), value, span });
+            }
+        }
+        "conditionalSupport" | "variableRef" | "labelRef" | "descriptionRef" => {
+            reader.keep(tag)?;
+        }
+        _ => reader.unknown(tag)?,
+    }
+    Ok(())
+}
+
+/// The `value` of defaultValue and its like; what else it says is kept.
+fn value<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>) -> Read<Given<'a>> {
+    let [given] = reader.attributes(tag, ["value"])?;
+    while let Some(inner) = reader.child(tag)? {
+        reader.keep(&inner)?;
+    }
+    Ok(given)
+}
+
+/// Reads allowedValues or allowedValuesTemplate.
+pub(super) fn allowed<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>) -> Read<Allowed<'a>> {
+    let mut allowed = Allowed { template: reader.attribute(parent, "templateIDRef")?, ..Allowed::default() };
+    while let Some(tag) = reader.child(parent)? {
+        match tag.name {
+            "value" => {
+                let [given] = reader.attributes(&tag, ["value"])?;
+                let texts = reader.texts(&tag)?;
+                if !given.is_missing() {
+                    allowed.values.push((given, texts));
+                }
+            }
+            "range" => {
+                let mut range = AllowedRange::default();
+                while let Some(inner) = reader.child(&tag)? {
+                    match inner.name {
+                        "minValue" => range.low = value(reader, &inner)?,
+                        "maxValue" => range.high = value(reader, &inner)?,
+                        "step" => range.step = value(reader, &inner)?,
+                        _ => reader.keep(&inner)?,
+                    }
+                }
+                allowed.ranges.push(range);
+            }
+            _ => reader.keep(&tag)?,
+        }
+    }
+    allowed.weight = reader.length(parent);
+    Ok(allowed)
+}
+
+fn unit<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>) -> Read<Unit<'a>> {
+    let [multiplier, uri] = reader.attributes(parent, ["multiplier", "unitURI"])?;
+    Ok(Unit { multiplier, uri, texts: reader.texts(parent)? })
+}

@@ -1,0 +1,61 @@
+//! Text of elements, in formats that have any.
+
+use std::borrow::Cow;
+
+use super::reader::{Format, Read, Reader};
+use super::Given;
+use crate::diagnostics::Diagnostics;
+use crate::source::Span;
+use crate::syntax::xml::{Event, Tag, Text};
+
+impl<'a, F: Format> Reader<'a, '_, F> {
+    /// Reads an element that has nothing but text to its end. Anything else it has becomes extensions.
+    pub fn text(&mut self, tag: &Tag<'a>) -> Read<Given<'a>> {
+        self.keep_attributes(tag)?;
+        self.content()
+    }
+
+    /// Reads the content of an element whose attributes were read, to its end.
+    pub fn content(&mut self) -> Read<Given<'a>> {
+        let mut given = Given::default();
+        if let Some(piece) = self.cursor.only_text() {
+            given.add(&piece, self.diagnostics);
+            return Ok(given.finish());
+        }
+        loop {
+            match self.cursor.read()? {
+                Some(Event::Text(piece)) => given.add(&piece, self.diagnostics),
+                Some(Event::Start(inner)) => self.unknown(&inner)?,
+                Some(Event::End) | None => return Ok(given.finish()),
+            }
+        }
+    }
+}
+
+impl<'a> Given<'a> {
+    /// Adds a piece of the content of an element. Comments and CDATA divide the content.
+    fn add(&mut self, piece: &Text<'a>, diagnostics: &mut Diagnostics) {
+        let value = piece.value(diagnostics);
+        if !self.span.is_empty() {
+            self.text.to_mut().push_str(&value);
+            self.span.end = piece.span.end;
+            return;
+        }
+        let from_start = piece.raw.trim_ascii_start();
+        let trimmed = from_start.trim_ascii_end();
+        let start = piece.span.start + (piece.raw.len() - from_start.len()) as u32;
+        self.span = Span { start, end: start + trimmed.len() as u32, ..piece.span };
+        self.text = match value {
+            Cow::Borrowed(_) => Cow::Borrowed(trimmed),
+            Cow::Owned(text) => Cow::Owned(text.trim_ascii_start().to_owned()),
+        };
+    }
+
+    /// Ends the content of an element.
+    fn finish(mut self) -> Self {
+        if let Cow::Owned(text) = &mut self.text {
+            text.truncate(text.trim_ascii_end().len());
+        }
+        self
+    }
+}

@@ -1,0 +1,95 @@
+//! What the standard or the IR does not have: reported if asked for, and kept as extensions.
+
+use compact_str::{format_compact, CompactString};
+
+use super::reader::{Attributes, Format, Read, Reader};
+use crate::ir::Extension;
+use crate::source::Span;
+use crate::syntax::xml::{Attribute, Event, Tag};
+use crate::text::brief;
+
+impl<'a, F: Format> Reader<'a, '_, F> {
+    /// Reports and keeps an element that the standard does not have here.
+    pub fn unknown(&mut self, tag: &Tag<'a>) -> Read<()> {
+        if self.diagnostics.wants(F::UNKNOWN) {
+            let message = format!("{} has no element <{}> here", F::STANDARD, brief(tag.name));
+            self.report(F::UNKNOWN, tag.name_span(), message, "kept as extension attributes");
+        }
+        self.keep(tag)
+    }
+
+    /// Reports and keeps an attribute that the standard does not have here.
+    pub(super) fn unknown_attribute(&mut self, tag: &Tag<'a>, attribute: &Attribute<'a>) {
+        if self.diagnostics.wants(F::UNKNOWN) {
+            let (element, name) = (brief(tag.name), brief(attribute.name));
+            let message = format!("<{element}> has no attribute `{name}` in {}", F::STANDARD);
+            self.report(F::UNKNOWN, attribute.name_span, message, "kept as an extension attribute");
+        }
+        let key = match F::ELEMENT_IN_KEY {
+            true => format_compact!("{}@{}", brief(tag.name), brief(attribute.name)),
+            false => attribute.name.into(),
+        };
+        let value = attribute.value(self.diagnostics).into();
+        self.extensions.push(Extension { key, value, span: attribute.span });
+    }
+
+    /// Keeps the attributes and texts of an element and of those in it as `parent/element@attribute` extensions.
+    pub fn keep(&mut self, tag: &Tag<'a>) -> Read<()> {
+        self.keep_start(tag)?;
+        while self.cursor.depth() >= tag.depth {
+            match self.cursor.read()? {
+                Some(Event::Start(inner)) => self.keep_start(&inner)?,
+                Some(Event::Text(text)) => {
+                    let value = text.value(self.diagnostics).trim().into();
+                    self.push(self.cursor.innermost(), value, text.span);
+                }
+                Some(Event::End) => {}
+                None => break,
+            }
+        }
+        Ok(())
+    }
+
+    /// Keeps the same as `element@attribute` attributes.
+    pub fn keep_as_attributes(&mut self, tag: &Tag<'a>, attributes: &mut Attributes) -> Read<()> {
+        let start = self.extensions.len();
+        self.keep(tag)?;
+        attributes.extend(self.extensions.drain(start..).map(|Extension { key, value, .. }| {
+            let name = key.split_once('/').map(|(_, name)| name.into());
+            (name.unwrap_or(key), value)
+        }));
+        Ok(())
+    }
+
+    /// Keeps what a start tag has, or that it has nothing.
+    fn keep_start(&mut self, tag: &Tag<'a>) -> Read<()> {
+        let before = self.extensions.len();
+        self.keep_attributes(tag)?;
+        if tag.empty && !F::EMPTY_IS_MISSING && self.extensions.len() == before {
+            self.push(self.cursor.innermost(), CompactString::default(), tag.span);
+        }
+        Ok(())
+    }
+
+    /// Keeps the attributes of the innermost open element.
+    pub fn keep_attributes(&mut self, tag: &Tag<'a>) -> Read<()> {
+        if !tag.has_attributes() {
+            return Ok(());
+        }
+        for attribute in tag.attributes() {
+            let attribute = attribute?;
+            let is_empty = F::EMPTY_IS_MISSING && attribute.raw.is_empty();
+            if attribute.is_namespace() || is_empty || (attribute.name, attribute.raw) == F::ENGLISH {
+                continue;
+            }
+            let key = format_compact!("{}@{}", self.cursor.innermost(), brief(attribute.name));
+            let value = attribute.value(self.diagnostics).into();
+            self.push(key, value, attribute.span);
+        }
+        Ok(())
+    }
+
+    fn push(&mut self, key: CompactString, value: CompactString, span: Span) {
+        self.extensions.push(Extension { key, value, span });
+    }
+}

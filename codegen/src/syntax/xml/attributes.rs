@@ -1,0 +1,141 @@
+//! Attributes of a start tag.
+
+use std::borrow::Cow;
+
+use smallvec::SmallVec;
+
+use super::decode::{decode, Blanks};
+use super::scan::{find_near, is_blank, Name};
+use super::Error;
+use crate::diagnostics::{codes, Diagnostics};
+use crate::limits;
+use crate::source::{FileId, Span};
+use crate::text::brief;
+
+/// An attribute.
+#[derive(Clone, Copy, Debug)]
+pub struct Attribute<'a> {
+    /// The name without its prefix.
+    pub name: &'a str,
+    /// Its prefix; empty = none.
+    pub prefix: &'a str,
+    /// The value as written.
+    pub raw: &'a str,
+    /// Span of the name.
+    pub name_span: Span,
+    /// Span of the value, without its quotation marks.
+    pub span: Span,
+}
+
+impl<'a> Attribute<'a> {
+    /// Whether it declares a namespace.
+    pub fn is_namespace(&self) -> bool {
+        self.prefix == "xmlns" || (self.prefix.is_empty() && self.name == "xmlns")
+    }
+
+    /// The span to mark in a diagnostic: that of the value, or of the quotation marks of an empty one.
+    pub fn marked_span(&self) -> Span {
+        match self.span {
+            span if span.is_empty() => Span { start: span.start.saturating_sub(1), end: span.end + 1, ..span },
+            span => span,
+        }
+    }
+
+    /// The value with references resolved and blanks normalised (XML 1.0, 3.3.3).
+    pub fn value(&self, diagnostics: &mut Diagnostics) -> Cow<'a, str> {
+        decode(self.raw, self.span, Blanks::Attribute, diagnostics)
+    }
+}
+
+/// The attributes of a tag.
+#[derive(Clone, Debug)]
+pub struct Attributes<'a> {
+    rest: &'a str,
+    at: u32,
+    file: FileId,
+    /// Names so far, to find one that occurs twice.
+    seen: SmallVec<[&'a str; 16]>,
+}
+
+impl<'a> Attributes<'a> {
+    pub(super) fn new(rest: &'a str, at: u32, file: FileId) -> Self {
+        Attributes { rest, at, file, seen: SmallVec::new() }
+    }
+
+    fn advance(&mut self, count: usize) {
+        self.rest = self.rest.get(count..).unwrap_or("");
+        self.at += count as u32;
+    }
+
+    fn skip_blanks(&mut self) -> usize {
+        let count = self.rest.bytes().take_while(|&byte| is_blank(byte)).count();
+        self.advance(count);
+        count
+    }
+
+    fn fail<T>(&mut self, span: Span, message: impl Into<String>) -> Option<Result<T, Error>> {
+        self.rest = "";
+        Some(Err(Error::new(&codes::MALFORMED_XML, span, message)))
+    }
+
+    fn span(&self, length: usize) -> Span {
+        Span::new(self.file, self.at, self.at + length as u32)
+    }
+}
+
+impl<'a> Iterator for Attributes<'a> {
+    type Item = Result<Attribute<'a>, Error>;
+
+    fn next(&mut self) -> Option<Self::Item> {
+        let blanks = self.skip_blanks();
+        if self.rest.is_empty() {
+            return None;
+        }
+        let Some(name) = Name::of(self.rest).filter(|_| blanks > 0) else { return self.no_name(blanks) };
+        let (full, name_span) = (&self.rest[..name.length], self.span(name.length));
+        self.advance(name.length);
+        // Blanks around the sign are rare.
+        if self.rest.starts_with("=\"") {
+            self.advance(2);
+            return self.value(full, name, name_span, b'"');
+        }
+        self.skip_blanks();
+        if !self.rest.starts_with('=') {
+            return self.fail(name_span, format!("the attribute `{}` has no value", brief(full)));
+        }
+        self.advance(1);
+        self.skip_blanks();
+        let Some(quote @ (b'"' | b'\'')) = self.rest.bytes().next() else {
+            return self.fail(name_span, format!("the value of `{}` isn't in quotation marks", brief(full)));
+        };
+        self.advance(1);
+        self.value(full, name, name_span, quote)
+    }
+}
+
+impl<'a> Attributes<'a> {
+    /// The attribute whose value starts after its quotation mark.
+    fn value(&mut self, full: &'a str, name: Name, name_span: Span, quote: u8) -> Option<Result<Attribute<'a>, Error>> {
+        let Some(length) = find_near(quote, self.rest.as_bytes()) else {
+            return self.fail(name_span, format!("the value of `{}` has no closing quotation mark", brief(full)));
+        };
+        let (raw, span) = (&self.rest[..length], self.span(length));
+        self.advance(length + 1);
+        if self.seen.contains(&full) {
+            return self.fail(name_span, format!("the attribute `{}` occurs twice", brief(full)));
+        }
+        if self.seen.len() < limits::MAX_COMPARED_EXTENSIONS {
+            self.seen.push(full);
+        }
+        let (prefix, name) = name.split(full);
+        Some(Ok(Attribute { name, prefix, raw, name_span, span }))
+    }
+
+    fn no_name(&mut self, blanks: usize) -> Option<Result<Attribute<'a>, Error>> {
+        let length = self.rest.bytes().take_while(|&byte| !is_blank(byte) && byte != b'=').count();
+        if blanks == 0 {
+            return self.fail(self.span(length), "there is no blank in front of this attribute");
+        }
+        self.fail(self.span(length.max(1)), "this is no name of an attribute")
+    }
+}

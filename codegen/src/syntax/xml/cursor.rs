@@ -1,0 +1,342 @@
+//! The cursor: events in the order of the document, with the stack of open elements.
+
+use compact_str::{format_compact, CompactString};
+use memchr::{memchr, memchr_iter};
+
+use super::scan::{self, Name};
+use super::{Error, Event, Tag, Text};
+use crate::diagnostics::codes;
+use crate::limits;
+use crate::source::{FileId, Origin, Span};
+use crate::text::brief;
+
+/// Reads a document from its start to its end.
+pub struct Cursor<'a> {
+    text: &'a str,
+    /// Offset of the next event.
+    at: usize,
+    file: FileId,
+    /// Names of the open elements with their prefixes, the root first.
+    open: Vec<&'a str>,
+    /// The last start tag was that of an empty element, whose end is the next event.
+    empty: bool,
+    root_seen: bool,
+    /// Number of the line that contains the byte `line_at`.
+    line: u32,
+    line_at: usize,
+}
+
+impl<'a> Cursor<'a> {
+    /// A cursor before the first element of `text`.
+    pub fn new(text: &'a str, file: FileId) -> Self {
+        let base = text.len() - text.trim_start_matches('\u{feff}').len();
+        Cursor::start(text, base, file, 1)
+    }
+
+    /// A cursor before the element whose start tag is at `origin`, to read it once more. The cursor does not know the elements
+    /// around it.
+    pub fn resume(text: &'a str, origin: Origin) -> Self {
+        let at = (origin.span.start as usize).min(text.len());
+        let at = if text.is_char_boundary(at) { at } else { text.len() };
+        Cursor::start(text, at, origin.span.file, origin.line)
+    }
+
+    fn start(text: &'a str, at: usize, file: FileId, line: u32) -> Self {
+        Cursor { text, at, file, open: Vec::new(), empty: false, root_seen: false, line, line_at: at }
+    }
+
+    /// The whole document.
+    pub fn text(&self) -> &'a str {
+        self.text
+    }
+
+    /// The next event, or `None` at the end of the document.
+    ///
+    /// # Errors
+    ///
+    /// If the document is not well formed, or nested deeper than [`limits::MAX_XML_DEPTH`]. Nothing can be read after that.
+    pub fn read(&mut self) -> Result<Option<Event<'a>>, Error> {
+        if std::mem::take(&mut self.empty) {
+            self.open.pop();
+            return Ok(Some(Event::End));
+        }
+        loop {
+            let start = scan::after_blanks(self.text.as_bytes(), self.at);
+            match &self.text.as_bytes()[start..] {
+                [] => {
+                    self.at = start;
+                    return self.finish().map(|()| None);
+                }
+                [b'<', b'/', ..] => return self.end_tag(start).map(Some),
+                [b'<', b'?', ..] => {
+                    self.skip_to("?>", start, 2, "the end `?>` of this processing instruction is missing")?;
+                }
+                [b'<', b'!', b'-', b'-', ..] => {
+                    self.skip_to("-->", start, 4, "the end `-->` of this comment is missing")?
+                }
+                [b'<', b'!', ..] => {
+                    if let Some(text) = self.declaration(start)? {
+                        return Ok(Some(Event::Text(text)));
+                    }
+                }
+                [b'<', ..] => return self.start_tag(start).map(Some),
+                _ => return self.text_to_tag().map(|text| Some(Event::Text(text))),
+            }
+        }
+    }
+
+    /// Reads up to the root element.
+    ///
+    /// # Errors
+    ///
+    /// As [`Cursor::read`]; a document without an element is not well formed.
+    pub fn root(&mut self) -> Result<Tag<'a>, Error> {
+        while let Some(event) = self.read()? {
+            if let Event::Start(tag) = event {
+                return Ok(tag);
+            }
+        }
+        Err(self.no_root())
+    }
+
+    /// The next child of the open element `parent`, or `None` once `parent` has ended. The unread rest of the previous child is
+    /// skipped.
+    ///
+    /// # Errors
+    ///
+    /// As [`Cursor::read`].
+    pub fn child(&mut self, parent: &Tag<'a>) -> Result<Option<Tag<'a>>, Error> {
+        while self.open.len() >= parent.depth {
+            match self.read()? {
+                Some(Event::Start(tag)) if tag.depth == parent.depth + 1 => return Ok(Some(tag)),
+                Some(_) => {}
+                None => break,
+            }
+        }
+        Ok(None)
+    }
+
+    /// Reads the innermost open element to its end if it has nothing but one piece of text, and returns that. Returns `None`
+    /// without reading anything if the element has no text, or anything else.
+    pub fn only_text(&mut self) -> Option<Text<'a>> {
+        let open = self.open.last().filter(|_| !self.empty)?;
+        let rest = &self.text.as_bytes()[self.at..];
+        let length = scan::find_near(b'<', rest).filter(|&length| length > 0)?;
+        let end = rest[length..].strip_prefix(b"</")?.strip_prefix(open.as_bytes())?.strip_prefix(b">")?;
+        let text = self.piece(self.at, self.at + length, false);
+        self.at += rest.len() - end.len();
+        self.open.pop();
+        Some(text)
+    }
+
+    /// Reads the open element `tag` to its end.
+    ///
+    /// # Errors
+    ///
+    /// As [`Cursor::read`].
+    pub fn skip(&mut self, tag: &Tag<'a>) -> Result<(), Error> {
+        while self.open.len() >= tag.depth && self.read()?.is_some() {}
+        Ok(())
+    }
+
+    /// The number of open elements.
+    pub fn depth(&self) -> usize {
+        self.open.len()
+    }
+
+    /// The offset of the next event, in bytes.
+    pub fn offset(&self) -> u32 {
+        self.at as u32
+    }
+
+    /// The names of the open elements without their prefixes, the root first.
+    pub fn path(&self) -> impl DoubleEndedIterator<Item = &'a str> + '_ {
+        self.open.iter().map(|full| full.split_once(':').map_or(*full, |(_, name)| name))
+    }
+
+    /// The names of the two innermost open elements, `parent/child`, each shortened if it is very long.
+    pub fn innermost(&self) -> CompactString {
+        let mut path = self.path().rev();
+        let child = path.next().map_or("", brief);
+        match path.next() {
+            Some(parent) => format_compact!("{}/{child}", brief(parent)),
+            None => child.into(),
+        }
+    }
+
+    /// Line and span of a start tag.
+    pub fn origin(&mut self, tag: &Tag<'a>) -> Origin {
+        Origin { span: tag.span, line: self.line(tag.span.start) }
+    }
+
+    /// The line of a byte of the document, counted from 1. Cheap if called from top to bottom.
+    pub fn line(&mut self, offset: u32) -> u32 {
+        let offset = (offset as usize).min(self.text.len());
+        let (from, to) = (self.line_at.min(offset), self.line_at.max(offset));
+        let bytes = self.text.as_bytes();
+        let passed = &bytes[from..to];
+        let mut ends = memchr_iter(b'\n', passed).count() as u32;
+        // CR LF is one end.
+        if memchr(b'\r', passed).is_some() {
+            ends += memchr_iter(b'\r', passed).filter(|at| bytes.get(from + at + 1) != Some(&b'\n')).count() as u32;
+        }
+        self.line = if offset >= self.line_at { self.line + ends } else { self.line - ends };
+        self.line_at = offset;
+        self.line
+    }
+
+    fn span(&self, start: usize, end: usize) -> Span {
+        Span::new(self.file, start as u32, end as u32)
+    }
+
+    fn piece(&self, start: usize, end: usize, cdata: bool) -> Text<'a> {
+        Text { raw: &self.text[start..end], span: self.span(start, end), cdata }
+    }
+
+    fn start_tag(&mut self, start: usize) -> Result<Event<'a>, Error> {
+        let bytes = self.text.as_bytes();
+        let Some(name) = Name::of(&self.text[start + 1..]) else {
+            return Err(malformed(self.span(start, self.boundary(start + 2)), NO_START_TAG));
+        };
+        let after_name = start + 1 + name.length;
+        let Some(end) = scan::tag_end(bytes, after_name) else { return Err(self.endless_tag(start)) };
+        let empty = end > after_name && bytes[end - 1] == b'/';
+        let attributes = &self.text[after_name..end - usize::from(empty)];
+        if !attributes.is_empty() {
+            let is_separate = attributes.bytes().next().is_some_and(scan::is_blank);
+            if !is_separate || memchr(b'<', attributes.as_bytes()).is_some() {
+                return Err(malformed(self.span(start, after_name), NO_START_TAG));
+            }
+        }
+        let full = &self.text[start + 1..after_name];
+        let span = self.span(start, end + 1);
+        self.push(full, span)?;
+        (self.empty, self.at) = (empty, end + 1);
+        let (prefix, name) = name.split(full);
+        let depth = self.open.len();
+        Ok(Event::Start(Tag { name, prefix, span, depth, empty, attributes, attributes_at: after_name as u32 }))
+    }
+
+    /// Opens an element.
+    fn push(&mut self, name: &'a str, span: Span) -> Result<(), Error> {
+        if self.open.is_empty() && std::mem::replace(&mut self.root_seen, true) {
+            return Err(malformed(span, format!("<{}> is a second root element", brief(name))));
+        }
+        if self.open.len() >= limits::MAX_XML_DEPTH {
+            let message = format!("elements are nested deeper than {}", limits::MAX_XML_DEPTH);
+            return Err(Error::new(&codes::INPUT_TOO_LARGE, span, message));
+        }
+        self.open.push(name);
+        Ok(())
+    }
+
+    fn end_tag(&mut self, start: usize) -> Result<Event<'a>, Error> {
+        let rest = &self.text.as_bytes()[start + 2..];
+        let open = self.open.last().copied();
+        let after = open.and_then(|open| rest.strip_prefix(open.as_bytes())?.strip_prefix(b">"));
+        if let Some(after) = after {
+            self.at = self.text.len() - after.len();
+            self.open.pop();
+            return Ok(Event::End);
+        }
+        let Some(end) = scan::find_near(b'>', rest) else { return Err(self.endless_tag(start)) };
+        let name = self.text[start + 2..start + 2 + end].trim_ascii_end();
+        self.at = start + end + 3;
+        let span = self.span(start, self.at);
+        match open {
+            Some(open) if open == name => {
+                self.open.pop();
+                Ok(Event::End)
+            }
+            Some(open) => {
+                let message = format!("`</{}>` ends no element; <{}> is open", brief(name), brief(open));
+                Err(malformed(span, message).note_at(self.span_of(open), "it starts here"))
+            }
+            None => Err(malformed(span, format!("`</{}>` ends no element", brief(name)))),
+        }
+    }
+
+    /// Skips what starts with `opening` bytes at `start` and ends with `end`.
+    fn skip_to(&mut self, end: &str, start: usize, opening: usize, missing: &str) -> Result<(), Error> {
+        let after = scan::after(self.text.as_bytes(), start + opening, end);
+        self.at = after.ok_or_else(|| malformed(self.span(start, start + 1), missing))?;
+        Ok(())
+    }
+
+    /// CDATA, which is text, or a document type declaration, which is skipped.
+    fn declaration(&mut self, start: usize) -> Result<Option<Text<'a>>, Error> {
+        const CDATA: &str = "<![CDATA[";
+        if self.text[start..].starts_with(CDATA) {
+            self.skip_to("]]>", start, CDATA.len(), "the end `]]>` of this CDATA is missing")?;
+            let text = self.piece(start + CDATA.len(), self.at - 3, true);
+            return self.inside(text.span).map(|()| Some(text));
+        }
+        if !self.text[start..].starts_with("<!DOCTYPE") {
+            return Err(malformed(self.span(start, start + 2), "this is no declaration of XML"));
+        }
+        let missing = || malformed(self.span(start, start + 1), "the end `>` of this declaration is missing");
+        self.at = scan::after_doctype(self.text.as_bytes(), start).ok_or_else(missing)?;
+        Ok(None)
+    }
+
+    /// Text up to the next tag, with its blanks.
+    fn text_to_tag(&mut self) -> Result<Text<'a>, Error> {
+        let rest = &self.text.as_bytes()[self.at..];
+        let length = scan::find_near(b'<', rest).unwrap_or(rest.len());
+        let text = self.piece(self.at, self.at + length, false);
+        self.inside(text.span)?;
+        self.at += length;
+        Ok(text)
+    }
+
+    /// Reports text outside of the root element.
+    fn inside(&self, span: Span) -> Result<(), Error> {
+        if !self.open.is_empty() {
+            return Ok(());
+        }
+        let text = self.text.get(span.range()).unwrap_or("");
+        let start = span.start + (text.len() - text.trim_start().len()) as u32;
+        let span = Span { start, end: start + text.trim().len() as u32, ..span };
+        Err(malformed(span, "this text is outside of the root element"))
+    }
+
+    fn endless_tag(&self, start: usize) -> Error {
+        malformed(self.span(start, start + 1), "the end `>` of this tag is missing")
+    }
+
+    fn finish(&self) -> Result<(), Error> {
+        if !self.root_seen {
+            return Err(self.no_root());
+        }
+        let Some(&open) = self.open.last() else { return Ok(()) };
+        let error = malformed(self.last_character(), format!("the file ends within <{}>", brief(open)));
+        Err(error.note_at(self.span_of(open), "the element starts here"))
+    }
+
+    fn no_root(&self) -> Error {
+        malformed(self.last_character(), "the file has no root element")
+    }
+
+    /// The last character that was read.
+    fn last_character(&self) -> Span {
+        let start = self.text[..self.at].char_indices().next_back().map_or(0, |(start, _)| start);
+        self.span(start, self.at)
+    }
+
+    /// The first offset from `at` on that is between two characters.
+    fn boundary(&self, at: usize) -> usize {
+        (at..self.text.len()).find(|&at| self.text.is_char_boundary(at)).unwrap_or(self.text.len())
+    }
+
+    /// The span of a part of the document.
+    fn span_of(&self, part: &str) -> Span {
+        let start = (part.as_ptr() as usize).wrapping_sub(self.text.as_ptr() as usize);
+        self.span(start, start + part.len())
+    }
+}
+
+const NO_START_TAG: &str = "this is no start tag";
+
+fn malformed(span: Span, message: impl Into<String>) -> Error {
+    Error::new(&codes::MALFORMED_XML, span, message)
+}

@@ -1,0 +1,113 @@
+//! Events of a document, and the error that ends it.
+
+use std::borrow::Cow;
+
+use super::attributes::{Attribute, Attributes};
+use super::decode::{decode, Blanks};
+use crate::diagnostics::{Code, Diagnostic, Diagnostics};
+use crate::source::Span;
+
+/// The reason why reading stopped: the document is not well formed, or nested too deeply.
+#[derive(Clone, Debug)]
+pub struct Error(Box<Diagnostic>);
+
+impl Error {
+    pub(super) fn new(code: &'static Code, span: Span, message: impl Into<String>) -> Self {
+        Error(Box::new(Diagnostic::new(code, span, message)))
+    }
+
+    pub(super) fn note_at(self, span: Span, message: &str) -> Self {
+        Error(Box::new(self.0.note_at(span, message)))
+    }
+
+    /// The diagnostic to report.
+    pub fn into_diagnostic(self) -> Diagnostic {
+        *self.0
+    }
+}
+
+impl From<Error> for Box<Diagnostic> {
+    fn from(error: Error) -> Self {
+        error.0
+    }
+}
+
+/// What the cursor found.
+#[derive(Clone, Copy, Debug)]
+pub enum Event<'a> {
+    /// An element starts. An `<empty/>` one ends with the next event.
+    Start(Tag<'a>),
+    /// The innermost open element ends.
+    End,
+    /// Text or CDATA. Comments divide a text into several events.
+    Text(Text<'a>),
+}
+
+/// The start tag of an element.
+#[derive(Clone, Copy, Debug)]
+pub struct Tag<'a> {
+    /// The name without its prefix.
+    pub name: &'a str,
+    /// Its prefix; empty = none.
+    pub prefix: &'a str,
+    /// The tag from `<` to `>`.
+    pub span: Span,
+    /// The number of open elements, this one included.
+    pub depth: usize,
+    /// Whether it is `<empty/>`.
+    pub empty: bool,
+    /// The text between the name and the end of the tag, and its offset.
+    pub(super) attributes: &'a str,
+    pub(super) attributes_at: u32,
+}
+
+impl<'a> Tag<'a> {
+    /// The attributes in the order of the source, namespace declarations included.
+    pub fn attributes(&self) -> Attributes<'a> {
+        Attributes::new(self.attributes, self.attributes_at, self.span.file)
+    }
+
+    /// Whether the tag has anything after its name.
+    pub fn has_attributes(&self) -> bool {
+        !self.attributes.is_empty()
+    }
+
+    /// The attribute with this name, whatever its prefix.
+    ///
+    /// # Errors
+    ///
+    /// If the tag is not well formed up to the attribute.
+    pub fn attribute(&self, name: &str) -> Result<Option<Attribute<'a>>, Error> {
+        for attribute in self.attributes() {
+            let attribute = attribute?;
+            if attribute.name == name && attribute.prefix != "xmlns" {
+                return Ok(Some(attribute));
+            }
+        }
+        Ok(None)
+    }
+
+    /// The span of the name with its prefix.
+    pub fn name_span(&self) -> Span {
+        Span::new(self.span.file, self.span.start + 1, self.attributes_at)
+    }
+}
+
+/// A piece of text.
+#[derive(Clone, Copy, Debug)]
+pub struct Text<'a> {
+    /// The text as written, of CDATA its content.
+    pub raw: &'a str,
+    /// Its span.
+    pub span: Span,
+    /// Whether it is CDATA, in which nothing is a reference.
+    pub cdata: bool,
+}
+
+impl<'a> Text<'a> {
+    /// The text with references resolved and line ends normalised (XML 1.0, 2.11).
+    pub fn value(&self, diagnostics: &mut Diagnostics) -> Cow<'a, str> {
+        let blanks = if self.cdata { Blanks::Cdata } else { Blanks::Text };
+        decode(self.raw, self.span, blanks, diagnostics)
+    }
+}

@@ -1,0 +1,108 @@
+//! Finding the ends of tokens. Every search is for ASCII, so that each offset is between two characters.
+
+use memchr::{memchr, memmem};
+
+/// Length of a name, and of its prefix.
+#[derive(Clone, Copy)]
+pub(super) struct Name {
+    pub length: usize,
+    colon: Option<usize>,
+}
+
+impl Name {
+    /// The name at the start of `text`, up to a blank or punctuation; `None` if there is none.
+    pub fn of(text: &str) -> Option<Self> {
+        let bytes = text.as_bytes();
+        let starts = |byte: u8| byte.is_ascii_alphabetic() || byte >= 0x80 || matches!(byte, b'_' | b':');
+        if !bytes.first().copied().is_some_and(starts) {
+            return None;
+        }
+        let (mut length, mut colon) = (0, None);
+        for &byte in bytes {
+            match byte {
+                b' ' | b'\t' | b'\n' | b'\r' | b'=' | b'/' | b'>' | b'"' | b'\'' | b'<' | b'&' => break,
+                b':' if colon.is_none() => colon = Some(length),
+                _ => {}
+            }
+            length += 1;
+        }
+        Some(Name { length, colon })
+    }
+
+    /// Prefix and name; `full` is the text of the name.
+    pub fn split(self, full: &str) -> (&str, &str) {
+        self.colon.map_or(("", full), |colon| (&full[..colon], &full[colon + 1..]))
+    }
+}
+
+pub(super) fn is_blank(byte: u8) -> bool {
+    matches!(byte, b' ' | b'\t' | b'\n' | b'\r')
+}
+
+/// The offset of the first byte from `at` on that is no blank.
+pub(super) fn after_blanks(bytes: &[u8], at: usize) -> usize {
+    let rest = bytes.get(at..).unwrap_or(&[]);
+    at + rest.iter().position(|&byte| !is_blank(byte)).unwrap_or(rest.len())
+}
+
+/// The position of the first `byte`. It is mostly so near that a loop is faster than setting up a search.
+pub(super) fn find_near(byte: u8, bytes: &[u8]) -> Option<usize> {
+    const NEAR: usize = 16;
+    let near = &bytes[..bytes.len().min(NEAR)];
+    match near.iter().position(|&other| other == byte) {
+        None if bytes.len() > NEAR => memchr(byte, &bytes[NEAR..]).map(|at| at + NEAR),
+        found => found,
+    }
+}
+
+/// The offset after the first `end` from `at` on.
+pub(super) fn after(bytes: &[u8], at: usize, end: &str) -> Option<usize> {
+    let rest = bytes.get(at..)?;
+    Some(at + memmem::find(rest, end.as_bytes())? + end.len())
+}
+
+/// The offset of the `>` that ends a start tag; `from` is after its name.
+pub(super) fn tag_end(bytes: &[u8], from: usize) -> Option<usize> {
+    if bytes.get(from) == Some(&b'>') {
+        return Some(from);
+    }
+    let end = from + memchr(b'>', bytes.get(from..)?)?;
+    if has_pairs_of_quotes(&bytes[from..end]) {
+        return Some(end);
+    }
+    let mut at = from;
+    loop {
+        match bytes.get(at)? {
+            b'>' => return Some(at),
+            quote @ (b'"' | b'\'') => at += memchr(*quote, &bytes[at + 1..])? + 2,
+            _ => at += 1,
+        }
+    }
+}
+
+/// Whether no value reaches beyond the end: few have a `>` or a `'`. A loop without an exit, which runs on whole vectors.
+fn has_pairs_of_quotes(bytes: &[u8]) -> bool {
+    let (odd, single) = bytes
+        .iter()
+        .fold((0u8, 0u8), |(odd, single), &byte| (odd ^ u8::from(byte == b'"'), single | u8::from(byte == b'\'')));
+    odd | single == 0
+}
+
+/// The offset after a document type declaration, which may contain others.
+pub(super) fn after_doctype(bytes: &[u8], start: usize) -> Option<usize> {
+    let (mut at, mut depth) = (start, 0usize);
+    loop {
+        match bytes.get(at)? {
+            b'<' if bytes[at..].starts_with(b"<!--") => {
+                at = after(bytes, at + 4, "-->")?;
+                continue;
+            }
+            b'<' => depth += 1,
+            b'>' if depth <= 1 => return Some(at + 1),
+            b'>' => depth -= 1,
+            quote @ (b'"' | b'\'') => at += memchr(*quote, &bytes[at + 1..])? + 1,
+            _ => {}
+        }
+        at += 1;
+    }
+}
