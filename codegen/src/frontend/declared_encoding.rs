@@ -36,14 +36,14 @@ fn mismatch(source: &Source) -> Option<(&'static str, Option<&'static str>)> {
     let is = |charset: &str| if is_named { declared == Some(charset) } else { charset == "UTF-8" };
     let has_lost = || source.has_lost_bytes().then_some(("the file has bytes that are no letters", None));
     match source.encoding() {
+        Encoding::Windows1252 if source.has_wrong_mark() => {
+            Some(("the file begins with the mark of UTF-8, and isn't UTF-8", Some("Windows-1252")))
+        }
         Encoding::Windows1252 if is_unknown => {
             Some(("the file declares an encoding that can't be read here", Some("Windows-1252")))
         }
         Encoding::Windows1252 if !is("windows-1252") => {
             Some(("the file is neither UTF-8 nor of an encoding that it declares", Some("Windows-1252")))
-        }
-        Encoding::Utf8Bom if std::str::from_utf8(&source.bytes()).is_err() => {
-            Some(("the file begins with the mark of UTF-8, and isn't UTF-8", Some("Windows-1252")))
         }
         Encoding::Utf8 | Encoding::Utf8Bom if !is("UTF-8") => Some((ANOTHER, Some("UTF-8"))),
         Encoding::Utf16 if is_named && !is("UTF-16LE") && !is("UTF-16BE") => Some((ANOTHER, Some("UTF-16"))),

@@ -1,6 +1,11 @@
 //! From bytes to text: byte order marks, UTF-8, what an XML declaration names, and Windows-1252.
 
+use std::borrow::Cow;
+
 use encoding_rs::{Encoding as Charset, UTF_16BE, UTF_16LE, UTF_8, WINDOWS_1252};
+
+/// The byte order mark of UTF-8.
+const MARK: &[u8] = b"\xef\xbb\xbf";
 
 /// How a file's bytes were turned into text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -40,21 +45,22 @@ impl Encoding {
 pub(super) struct Decoded {
     pub text: String,
     pub encoding: Encoding,
-    /// The bytes as read, where they differ from the text's.
+    /// The bytes as read, if [`encode`] does not give them back.
     pub original: Option<Vec<u8>>,
     /// Whether some of them are no letters of the encoding.
     pub has_lost: bool,
 }
 
 /// Reads bytes as text.
-pub(super) fn decode(bytes: Vec<u8>) -> Decoded {
+pub(super) fn decode(mut bytes: Vec<u8>) -> Decoded {
     let decoded = |(text, has_lost), encoding, original| Decoded { text, encoding, original: Some(original), has_lost };
-    if let Some(rest) = bytes.strip_prefix(b"\xef\xbb\xbf") {
-        let text = match std::str::from_utf8(rest) {
-            Ok(text) => (text.to_owned(), false),
-            Err(_) => with(WINDOWS_1252, rest),
-        };
-        return decoded(text, Encoding::Utf8Bom, bytes);
+    if bytes.starts_with(MARK) {
+        if std::str::from_utf8(&bytes[MARK.len()..]).is_err() {
+            return decoded(with(WINDOWS_1252, &bytes[MARK.len()..]), Encoding::Windows1252, bytes);
+        }
+        bytes.drain(..MARK.len());
+        let text = String::from_utf8(bytes).unwrap_or_default();
+        return Decoded { text, encoding: Encoding::Utf8Bom, original: None, has_lost: false };
     }
     for (mark, charset) in [(b"\xff\xfe", UTF_16LE), (b"\xfe\xff", UTF_16BE)] {
         if let Some(rest) = bytes.strip_prefix(mark) {
@@ -75,9 +81,22 @@ pub(super) fn decode(bytes: Vec<u8>) -> Decoded {
             let declared = declared(&bytes).and_then(|label| Charset::for_label(label.as_bytes()));
             let charset = declared.filter(|charset| charset.is_ascii_compatible() && *charset != UTF_8);
             let charset = charset.unwrap_or(WINDOWS_1252);
-            let encoding = if charset == WINDOWS_1252 { Encoding::Windows1252 } else { Encoding::Declared };
-            decoded(with(charset, &bytes), encoding, bytes)
+            if charset != WINDOWS_1252 {
+                return decoded(with(charset, &bytes), Encoding::Declared, bytes);
+            }
+            // Each byte is a character, and each such character one byte.
+            let (text, has_lost) = with(WINDOWS_1252, &bytes);
+            Decoded { text, encoding: Encoding::Windows1252, original: None, has_lost }
         }
+    }
+}
+
+/// The bytes of a text in UTF-8, with or without a mark, or in Windows-1252.
+pub(super) fn encode(text: &str, encoding: Encoding) -> Cow<'_, [u8]> {
+    match encoding {
+        Encoding::Utf8Bom => Cow::Owned([MARK, text.as_bytes()].concat()),
+        Encoding::Windows1252 => WINDOWS_1252.encode(text).0,
+        Encoding::Utf8 | Encoding::Utf16 | Encoding::Declared => Cow::Borrowed(text.as_bytes()),
     }
 }
 
@@ -102,7 +121,10 @@ pub(super) fn charset(label: &str) -> Option<&'static str> {
 /// The text, and whether some bytes are no letters.
 fn with(charset: &'static Charset, bytes: &[u8]) -> (String, bool) {
     let (text, has_lost) = charset.decode_without_bom_handling(bytes);
-    (text.into_owned(), has_lost)
+    let mut text = text.into_owned();
+    // Decoding reserves for the longest text that there may be.
+    text.shrink_to_fit();
+    (text, has_lost)
 }
 
 #[cfg(test)]
@@ -110,7 +132,9 @@ mod tests {
     use super::*;
 
     fn decode(bytes: Vec<u8>) -> (String, Encoding, Option<Vec<u8>>) {
-        let Decoded { text, encoding, original, .. } = super::decode(bytes);
+        let Decoded { text, encoding, original, .. } = super::decode(bytes.clone());
+        // The bytes are kept, or follow from the text.
+        assert_eq!(original.as_deref().unwrap_or(&encode(&text, encoding)), bytes);
         (text, encoding, original)
     }
 
@@ -128,6 +152,8 @@ mod tests {
         let (text, encoding, _) = decode(b"Ger\xe4t \x80".to_vec());
         assert_eq!((text.as_str(), encoding), ("Gerät €", Encoding::Windows1252));
         assert_eq!(decode("µ".as_bytes().to_vec()).1, Encoding::Utf8);
+        assert_eq!(decode(b"\xef\xbb\xbf\xe4".to_vec()).1, Encoding::Windows1252);
+        assert_eq!(decode((0..=255).collect()).1, Encoding::Windows1252);
     }
 
     #[test]

@@ -27,7 +27,7 @@ pub struct Source {
     has_lost: bool,
     /// The folder in which files that it refers to are looked for.
     folder: Option<PathBuf>,
-    /// The bytes as read, kept only where decoding changed them.
+    /// The bytes as read, kept only if they do not follow from text and encoding.
     original: Option<Vec<u8>>,
     line_starts: OnceLock<Vec<u32>>,
     digest: OnceLock<String>,
@@ -142,8 +142,13 @@ impl Source {
     pub fn bytes(&self) -> Cow<'_, [u8]> {
         match &self.original {
             Some(bytes) => Cow::Borrowed(bytes),
-            None => Cow::Borrowed(self.text.as_bytes()),
+            None => decode::encode(&self.text, self.encoding),
         }
+    }
+
+    /// Whether the file starts with the byte order mark of UTF-8 and is not UTF-8.
+    pub fn has_wrong_mark(&self) -> bool {
+        self.encoding == Encoding::Windows1252 && self.original.is_some()
     }
 
     /// SHA-256 of the bytes as they were read, in lower-case hexadecimal.

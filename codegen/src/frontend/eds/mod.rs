@@ -225,10 +225,9 @@ fn unknown_sections(reader: &mut Reader<'_, '_>, unknown: &[Section], device: &m
 
 fn report_encoding(source: &Source, file: FileId, diagnostics: &mut Diagnostics) {
     let (message, read_as) = match source.encoding() {
-        Encoding::Utf8 => return,
-        Encoding::Utf8Bom if source.bytes().get(3..).is_some_and(|rest| std::str::from_utf8(rest).is_ok()) => return,
+        Encoding::Utf8 | Encoding::Utf8Bom => return,
         Encoding::Utf16 => ("the file is UTF-16", "UTF-16"),
-        Encoding::Utf8Bom => ("the file has the mark of UTF-8, and isn't", "Windows-1252"),
+        _ if source.has_wrong_mark() => ("the file has the mark of UTF-8, and isn't", "Windows-1252"),
         Encoding::Windows1252 | Encoding::Declared => ("the file is neither ASCII nor UTF-8", "Windows-1252"),
     };
     let at = source.text().bytes().position(|byte| !byte.is_ascii());
