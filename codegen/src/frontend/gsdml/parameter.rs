@@ -9,7 +9,7 @@ use crate::syntax::xml::Tag;
 
 impl<'a> Reader<'a, '_> {
     /// Reads a Ref of the record `index`.
-    pub fn parameter(&mut self, tag: &Tag<'a>, index: u16) -> Read<Item> {
+    pub fn parameter(&mut self, tag: &Tag<'a>, index: u16, item: &mut Item) -> Read<()> {
         const NAMES: [&str; 12] = [
             "DataType",
             "ByteOffset",
@@ -25,7 +25,6 @@ impl<'a> Reader<'a, '_> {
             "ID",
         ];
         let start = self.extensions.len();
-        let mut item = Item::new(Binding::Record { index, bit_offset: 0, bits: 0 });
         item.origin = self.origin(tag);
         let fields = self.attributes(tag, NAMES)?;
         let [data_type, byte, default, allowed, text, changeable, visible, values, bit, bits, length, id] = fields;
@@ -42,7 +41,7 @@ impl<'a> Reader<'a, '_> {
         item.bindings = smallvec::smallvec![Binding::Record { index, bit_offset, bits }];
         item.limits = self.allowed_values(&allowed, location.number());
         (item.at.low, item.at.high) = (allowed.span, allowed.span);
-        self.default(tag, default, &location, &mut item)?;
+        self.default(tag, default, &location, item)?;
         if let Some(named) = self.named_values(values, ty) {
             item.ty = named;
         }
@@ -53,7 +52,7 @@ impl<'a> Reader<'a, '_> {
         }
         self.no_children(tag)?;
         item.extensions = self.extensions_since(start);
-        Ok(item)
+        Ok(())
     }
 
     fn default(&mut self, tag: &Tag<'a>, mut given: Given<'a>, location: &Location, item: &mut Item) -> Read<()> {

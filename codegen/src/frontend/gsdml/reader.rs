@@ -20,7 +20,7 @@ pub(super) struct Gsdml<'a> {
     pub types: Types<'a>,
     /// Elements by their identifiers, and references to them.
     pub links: Links<'a>,
-    /// Parameters of the record that is being read.
+    /// Space for the parameters of a record, which is used again for the next one.
     pub items: Vec<Item>,
 }
 

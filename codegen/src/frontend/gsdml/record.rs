@@ -3,7 +3,7 @@
 use super::reader::Reader;
 use super::value::octets;
 use crate::frontend::xml::{Given, Read};
-use crate::ir::{Group, GroupKind, Menu, ObjectCode, Record, Submodule};
+use crate::ir::{Binding, Group, GroupKind, Item, Menu, ObjectCode, Record, Submodule};
 use crate::syntax::xml::Tag;
 
 impl<'a> Reader<'a, '_> {
@@ -63,11 +63,15 @@ impl<'a> Reader<'a, '_> {
         group: &mut Group,
         menus: &mut Vec<Menu>,
     ) -> Read<()> {
+        let mut items = std::mem::take(&mut self.format.items);
         while let Some(tag) = self.child(parent)? {
             match tag.name {
                 "Ref" => {
-                    let item = self.parameter(&tag, record.index)?;
-                    self.format.items.push(item);
+                    // Filled in place: it is too large to be moved.
+                    items.push(Item::new(Binding::Record { index: record.index, bit_offset: 0, bits: 0 }));
+                    if let Some(item) = items.last_mut() {
+                        self.parameter(&tag, record.index, item)?;
+                    }
                 }
                 "Const" => self.constant(&tag, record)?,
                 "Name" => {
@@ -80,7 +84,9 @@ impl<'a> Reader<'a, '_> {
             }
         }
         // Of the length that they have: items are large.
-        group.items = self.format.items.drain(..).collect();
+        group.items.reserve_exact(items.len());
+        group.items.append(&mut items);
+        self.format.items = items;
         Ok(())
     }
 

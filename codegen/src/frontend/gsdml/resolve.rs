@@ -136,7 +136,9 @@ impl<'a, 'd> Resolver<'a, 'd> {
 
     /// Resolves a name.
     pub fn name(&mut self, name: &mut CompactString, names: &mut Texts) {
-        let (placeholder, suffix) = name.split_once(' ').unwrap_or((name.as_str(), ""));
+        let digits = name.bytes().take_while(u8::is_ascii_digit).count();
+        let (placeholder, suffix) = name.split_at(digits);
+        let suffix = suffix.trim_start_matches(' ');
         if placeholder.is_empty() {
             *name = suffix.into();
             return;

@@ -25,7 +25,12 @@ impl<'a> Given<'a> {
     }
 
     /// Without the blanks around it.
+    #[inline]
     pub fn trimmed(self) -> Self {
+        let is_blank = |byte: Option<&u8>| byte.is_some_and(u8::is_ascii_whitespace);
+        if !is_blank(self.text.as_bytes().first()) && !is_blank(self.text.as_bytes().last()) {
+            return self;
+        }
         let text = match self.text {
             Cow::Borrowed(text) => Cow::Borrowed(text.trim_ascii()),
             Cow::Owned(text) => Cow::Owned(text.trim_ascii().to_owned()),

@@ -5,7 +5,7 @@ use std::borrow::Cow;
 use smallvec::SmallVec;
 
 use super::decode::{decode, Blanks};
-use super::scan::{find_near, is_blank, Name};
+use super::scan::{is_blank, Name, Value};
 use super::Error;
 use crate::diagnostics::{codes, Diagnostics};
 use crate::limits;
@@ -25,6 +25,8 @@ pub struct Attribute<'a> {
     pub name_span: Span,
     /// Span of the value, without its quotation marks.
     pub span: Span,
+    /// Whether the value is as written.
+    plain: bool,
 }
 
 impl<'a> Attribute<'a> {
@@ -43,6 +45,9 @@ impl<'a> Attribute<'a> {
 
     /// The value with references resolved and blanks normalised (XML 1.0, 3.3.3).
     pub fn value(&self, diagnostics: &mut Diagnostics) -> Cow<'a, str> {
+        if self.plain {
+            return Cow::Borrowed(self.raw);
+        }
         decode(self.raw, self.span, Blanks::Attribute, diagnostics)
     }
 }
@@ -86,6 +91,7 @@ impl<'a> Attributes<'a> {
 impl<'a> Iterator for Attributes<'a> {
     type Item = Result<Attribute<'a>, Error>;
 
+    #[inline]
     fn next(&mut self) -> Option<Self::Item> {
         let blanks = self.skip_blanks();
         if self.rest.is_empty() {
@@ -115,8 +121,9 @@ impl<'a> Iterator for Attributes<'a> {
 
 impl<'a> Attributes<'a> {
     /// The attribute whose value starts after its quotation mark.
+    #[inline]
     fn value(&mut self, full: &'a str, name: Name, name_span: Span, quote: u8) -> Option<Result<Attribute<'a>, Error>> {
-        let Some(length) = find_near(quote, self.rest.as_bytes()) else {
+        let Some(Value { length, plain }) = Value::of(quote, self.rest.as_bytes()) else {
             return self.fail(name_span, format!("the value of `{}` has no closing quotation mark", brief(full)));
         };
         let (raw, span) = (&self.rest[..length], self.span(length));
@@ -128,7 +135,7 @@ impl<'a> Attributes<'a> {
             self.seen.push(full);
         }
         let (prefix, name) = name.split(full);
-        Some(Ok(Attribute { name, prefix, raw, name_span, span }))
+        Some(Ok(Attribute { name, prefix, raw, name_span, span, plain }))
     }
 
     fn no_name(&mut self, blanks: usize) -> Option<Result<Attribute<'a>, Error>> {

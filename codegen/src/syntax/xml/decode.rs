@@ -21,7 +21,6 @@ pub(super) enum Blanks {
 pub(super) fn decode<'a>(raw: &'a str, span: Span, blanks: Blanks, diagnostics: &mut Diagnostics) -> Cow<'a, str> {
     let bytes = raw.as_bytes();
     let first = match blanks {
-        Blanks::Attribute if has_no_marks(bytes) => None,
         Blanks::Attribute => bytes.iter().position(|byte| matches!(byte, b'&' | b'\n' | b'\t' | b'\r')),
         Blanks::Text => memchr2(b'&', b'\r', bytes),
         Blanks::Cdata => memchr(b'\r', bytes),
@@ -54,11 +53,6 @@ pub(super) fn decode<'a>(raw: &'a str, span: Span, blanks: Blanks, diagnostics: 
         rest = &rest[length..];
     }
     Cow::Owned(value)
-}
-
-/// Whether there is neither a reference nor a control character: a loop without an exit, which runs on whole vectors.
-fn has_no_marks(bytes: &[u8]) -> bool {
-    bytes.iter().fold(true, |none, &byte| none & (byte >= b' ') & (byte != b'&'))
 }
 
 /// The longest name of an entity that is looked for after an `&`.

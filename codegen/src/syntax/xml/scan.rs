@@ -55,6 +55,43 @@ pub(super) fn find_near(byte: u8, bytes: &[u8]) -> Option<usize> {
     }
 }
 
+/// The text of an attribute value up to its closing quotation mark.
+#[derive(Clone, Copy)]
+pub(super) struct Value {
+    pub length: usize,
+    /// Whether it has neither a reference nor a control character, and so is its own value.
+    pub plain: bool,
+}
+
+impl Value {
+    /// The value at the start of `bytes`; `None` if there is no closing quotation mark. Eight bytes are compared at once.
+    #[inline]
+    pub fn of(quote: u8, bytes: &[u8]) -> Option<Self> {
+        const ONES: u64 = u64::from_le_bytes([1; 8]);
+        const HIGHS: u64 = ONES << 7;
+        // The high bit of each byte that is 0, and perhaps of bytes after the first of these.
+        let zeros = |word: u64| word.wrapping_sub(ONES) & !word & HIGHS;
+        let (quotes, ampersands) = (ONES * u64::from(quote), ONES * u64::from(b'&'));
+        let marks = |word: u64| zeros(word ^ ampersands) | (word.wrapping_sub(ONES * u64::from(b' ')) & !word & HIGHS);
+        let mut plain = true;
+        let mut chunks = bytes.chunks_exact(8);
+        for (number, chunk) in chunks.by_ref().enumerate() {
+            let word = u64::from_le_bytes(chunk.try_into().ok()?);
+            let end = zeros(word ^ quotes);
+            if end != 0 {
+                let before = (end & end.wrapping_neg()) - 1;
+                plain &= marks(word) & before == 0;
+                return Some(Value { length: number * 8 + end.trailing_zeros() as usize / 8, plain });
+            }
+            plain &= marks(word) == 0;
+        }
+        let rest = chunks.remainder();
+        let length = rest.iter().position(|&byte| byte == quote)?;
+        plain &= rest[..length].iter().all(|&byte| byte >= b' ' && byte != b'&');
+        Some(Value { length: bytes.len() - rest.len() + length, plain })
+    }
+}
+
 /// The offset after the first `end` from `at` on.
 pub(super) fn after(bytes: &[u8], at: usize, end: &str) -> Option<usize> {
     let rest = bytes.get(at..)?;

@@ -102,6 +102,22 @@ fn references_are_resolved_or_kept() {
 }
 
 #[test]
+fn values_of_every_length_end_at_their_quotation_mark() {
+    for length in 0..40 {
+        for (at, mark) in
+            (0..length).flat_map(|at| ["&lt;", "\t", "\u{1}", "'", "µ", "\u{7f}", " "].map(|mark| (at, mark)))
+        {
+            let value = format!("{}{mark}{}", "x".repeat(at), "y".repeat(length - at));
+            let text = format!("<a b=\"{value}\" c=\"&amp;\"/>");
+            let tag = cursor(&text).root().unwrap();
+            let attribute = tag.attribute("b").unwrap().unwrap();
+            let expected = value.replace("&lt;", "<").replace('\t', " ");
+            assert_eq!((attribute.raw, &*attribute.value(&mut Diagnostics::default())), (&*value, &*expected));
+        }
+    }
+}
+
+#[test]
 fn a_bare_ampersand_is_text() {
     assert_eq!(events("<r>a & b&c</r>").unwrap()[1], "\"a & b&c\"");
     assert_eq!(events("<r>&</r>").unwrap()[1], "\"&\"");
