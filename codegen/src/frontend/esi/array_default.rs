@@ -1,15 +1,18 @@
-//! The default of a whole array that its first element has.
+//! Default and limits of a whole array that its first element has.
 
 use std::borrow::Cow;
 use std::collections::HashMap;
 
 use super::entries::Entry;
-use super::info_value::{Form, RawValue};
+use super::info_value::{Form, RawInfo, RawValue};
 use super::object::RawSub;
 use super::types::Types;
 use crate::frontend::xml::Given;
 
-/// Takes it apart: the first element keeps its part, and the others' parts come back by their position in `entries`.
+/// The default or a limit of a value.
+type Target<'a> = for<'i> fn(&'i mut RawInfo<'a>) -> &'i mut Option<RawValue<'a>>;
+
+/// Takes them apart: the first element keeps its parts, and the others' parts come back by their position in `entries`.
 ///
 /// `of_entry` has the sub-item of the object that each entry is described by.
 pub(super) fn take_apart<'a>(
@@ -17,27 +20,39 @@ pub(super) fn take_apart<'a>(
     entries: &[Entry<'_, 'a>],
     of_entry: &[Option<usize>],
     subs: &mut [RawSub<'a>],
-) -> HashMap<usize, RawValue<'a>> {
-    let mut parts = HashMap::new();
+) -> HashMap<usize, RawInfo<'a>> {
+    let mut parts: HashMap<usize, RawInfo<'a>> = HashMap::new();
     for (first, entry) in entries.iter().enumerate().filter(|(_, entry)| entry.element == Some(1)) {
         // The other elements, of which the object says nothing.
         let others = entries.iter().zip(of_entry).skip(first + 1);
         let others = others.take_while(|(other, sub)| std::ptr::eq(other.field, entry.field) && sub.is_none()).count();
-        let sub = of_entry.get(first).copied().flatten().and_then(|at| subs.get_mut(at));
-        let Some(whole) = sub.and_then(|sub| sub.info.default.as_mut()) else { continue };
+        let Some(sub) = of_entry.get(first).copied().flatten().and_then(|at| subs.get_mut(at)) else { continue };
         let digits = types.bits(entry.ty).filter(|bits| bits % 8 == 0).map_or(0, |bits| bits as usize / 4);
-        let data = without_blanks(&whole.given);
-        let text = data.text.as_ref();
-        let is_whole = text.len() == digits * (others + 1) && text.bytes().all(|digit| digit.is_ascii_hexdigit());
-        if whole.form != Form::Data || others == 0 || !is_whole {
-            continue;
+        let mut take = |whole: &mut RawValue<'a>, target: Target<'a>| {
+            for (number, value) in divide(whole, others, digits).into_iter().enumerate() {
+                *target(parts.entry(first + 1 + number).or_default()) = Some(value);
+            }
+        };
+        let RawInfo { default, more } = &mut sub.info;
+        default.iter_mut().for_each(|whole| take(whole, |info| &mut info.default));
+        for more in more.iter_mut() {
+            more.min.iter_mut().for_each(|whole| take(whole, |info| &mut info.more().min));
+            more.max.iter_mut().for_each(|whole| take(whole, |info| &mut info.more().max));
         }
-        for number in 1..=others {
-            parts.insert(first + number, RawValue { form: Form::Data, given: part(&data, number, digits) });
-        }
-        whole.given = part(&data, 0, digits);
     }
     parts
+}
+
+/// The parts of `others` further elements, of so many digits each; none if the value is not that of a whole array.
+fn divide<'a>(whole: &mut RawValue<'a>, others: usize, digits: usize) -> Vec<RawValue<'a>> {
+    let data = without_blanks(&whole.given);
+    let text = data.text.as_ref();
+    let is_whole = text.len() == digits * (others + 1) && text.bytes().all(|digit| digit.is_ascii_hexdigit());
+    if whole.form != Form::Data || others == 0 || !is_whole {
+        return Vec::new();
+    }
+    whole.given = part(&data, 0, digits);
+    (1..=others).map(|number| RawValue { form: Form::Data, given: part(&data, number, digits) }).collect()
 }
 
 /// Data may be wrapped over lines.

@@ -79,7 +79,7 @@ impl<'a> RawInfo<'a> {
         Ok(())
     }
 
-    fn more(&mut self) -> &mut MoreInfo<'a> {
+    pub fn more(&mut self) -> &mut MoreInfo<'a> {
         self.more.get_or_insert_default()
     }
 

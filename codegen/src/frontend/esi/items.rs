@@ -147,7 +147,7 @@ impl<'t, 'a> Builder<'_, 't, 'a> {
             // Filled where it stands: it is too large to be moved about.
             group.items.push(Item::new(Binding::coe(raw.index.unwrap_or(0), entry.sub_index)));
             if let Some(item) = group.items.last_mut() {
-                let part = RawInfo { default: parts.remove(&position), more: None };
+                let part = parts.remove(&position).unwrap_or_default();
                 self.entry(reader, raw, entry, (sub, part), item);
             }
         }
