@@ -40,6 +40,8 @@ struct Entry<'a> {
 
 struct Translation<'a> {
     language: usize,
+    /// Span of the identifier in the list of the language.
+    span: Span,
     text: Cow<'a, str>,
     next: Option<usize>,
 }
@@ -75,7 +77,7 @@ impl<'a> TextList<'a> {
             let (span, at) = (text.id.span, self.entry(text.id));
             let Some(entry) = self.entries.get_mut(at) else { continue };
             if entry.primary.is_some() {
-                repeated(reader.diagnostics, span, entry);
+                repeated(reader.diagnostics, span, entry.span, &entry.id);
             } else {
                 entry.primary = Some(text.value);
                 self.primaries += 1;
@@ -101,10 +103,9 @@ impl<'a> TextList<'a> {
         while let Some(tag) = reader.child(parent)? {
             let Some(text) = read_text(reader, &tag)? else { continue };
             let (span, at) = (text.id.span, self.entry(text.id));
-            if self.translate(at, language, text.value) {
-                count += usize::from(self.entries.get(at).is_some_and(|entry| entry.primary.is_some()));
-            } else if let Some(entry) = self.entries.get(at) {
-                repeated(reader.diagnostics, span, entry);
+            match self.translate(at, language, span, text.value) {
+                None => count += usize::from(self.entries.get(at).is_some_and(|entry| entry.primary.is_some())),
+                Some(first) => repeated(reader.diagnostics, span, first, &self.entries[at].id),
             }
         }
         self.report_missing(reader.diagnostics, parent, language, count);
@@ -125,23 +126,23 @@ impl<'a> TextList<'a> {
         at
     }
 
-    /// Adds a translation; false where the language has one already.
-    fn translate(&mut self, at: usize, language: usize, text: Cow<'a, str>) -> bool {
-        let Some(entry) = self.entries.get_mut(at) else { return false };
-        let own = self.translations.len();
+    /// Adds a translation. Returns the span of an earlier one in the same language if there is one.
+    fn translate(&mut self, at: usize, language: usize, span: Span, text: Cow<'a, str>) -> Option<Span> {
+        let number = self.translations.len();
+        let entry = self.entries.get_mut(at)?;
         match &mut entry.translations {
             Some((_, last)) => {
-                let Some(before) = self.translations.get_mut(*last) else { return false };
+                let before = self.translations.get_mut(*last)?;
                 if before.language == language {
-                    return false;
+                    return Some(before.span);
                 }
-                before.next = Some(own);
-                *last = own;
+                before.next = Some(number);
+                *last = number;
             }
-            none => *none = Some((own, own)),
+            none => *none = Some((number, number)),
         }
-        self.translations.push(Translation { language, text, next: None });
-        true
+        self.translations.push(Translation { language, span, text, next: None });
+        None
     }
 
     /// Reports a language that has only `count` of the texts of the primary one.
@@ -227,12 +228,12 @@ impl<'a> TextList<'a> {
     }
 }
 
-fn repeated(diagnostics: &mut Diagnostics, span: Span, entry: &Entry<'_>) {
-    let message = format!("the text `{}` is listed twice in one language", brief(&entry.id));
+fn repeated(diagnostics: &mut Diagnostics, span: Span, first: Span, id: &str) {
+    let message = format!("the text `{}` is listed twice in one language", brief(id));
     diagnostics.push(
         Diagnostic::new(&codes::DUPLICATE_ID, span, message)
             .label("left out; the first one is used")
-            .note_at(entry.span, "listed here"),
+            .note_at(first, "listed here"),
     );
 }
 
