@@ -101,7 +101,7 @@ impl<'a> Reader<'a, '_> {
 
     fn bad_part(&mut self, given: &Given<'_>, part: &str, why: &str, label: &str) {
         let message = format!("`{}` among the allowed values: {why}", brief(part));
-        self.diagnostics.push(Diagnostic::new(&codes::ALLOWED_VALUES, given.span, message).label(label));
+        self.diagnostics.push(Diagnostic::new(&codes::ALLOWED_VALUES, given.span_of(part), message).label(label));
     }
 }
 

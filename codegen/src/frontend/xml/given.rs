@@ -43,6 +43,17 @@ impl<'a> Given<'a> {
         Given { text: Cow::Borrowed(""), span: Span::new(FileId(0), 0, 0) }
     }
 
+    /// The span of a part of the text; that of the whole if the text is not as written.
+    pub fn span_of(&self, part: &str) -> Span {
+        let start = (part.as_ptr() as usize).wrapping_sub(self.text.as_ptr() as usize);
+        let is_part = self.text.len().checked_sub(start).is_some_and(|rest| part.len() <= rest);
+        if self.text.len() != self.span.range().len() || !is_part {
+            return self.span;
+        }
+        let start = self.span.start + start as u32;
+        Span { start, end: start + part.len() as u32, ..self.span }
+    }
+
     /// Whether there is no such attribute or element.
     pub fn is_missing(&self) -> bool {
         self.span.is_empty()
