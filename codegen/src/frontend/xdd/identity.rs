@@ -63,7 +63,15 @@ pub(super) fn read<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, device: &m
                 reader.note(&format!("version/{}", kind.text), &content);
             }
             "productText" => product_text(reader, &tag, device)?,
-            _ => reader.keep(&tag)?,
+            "vendorText"
+            | "deviceFamily"
+            | "productFamily"
+            | "buildDate"
+            | "specificationRevision"
+            | "instanceName" => {
+                reader.keep(&tag)?;
+            }
+            _ => reader.unknown(&tag)?,
         }
     }
     Ok(())
