@@ -63,6 +63,29 @@ fn standard(name: &str) -> Option<Type> {
     })
 }
 
+/// The name of a type in ETG.1000.6, or that of CiA 301 if it has none there.
+pub fn name_of(ty: Type) -> String {
+    const NAMES: [&str; 16] = [
+        "BOOL",
+        "SINT",
+        "INT",
+        "DINT",
+        "LINT",
+        "USINT",
+        "UINT",
+        "UDINT",
+        "ULINT",
+        "REAL",
+        "LREAL",
+        "STRING",
+        "OCTET_STRING",
+        "UNICODE_STRING",
+        "TIME_OF_DAY",
+        "TIME_DIFFERENCE",
+    ];
+    NAMES.into_iter().find(|name| standard(name) == Some(ty)).map_or_else(|| ty.to_string(), str::to_owned)
+}
+
 /// Names with a number in them: BITn, BITARRn, INT24, STRING(n), ARRAY [l..u] OF T.
 fn with_parameter(name: &str) -> Option<Basic> {
     if let Some(bits) = name.strip_prefix("BITARR") {

@@ -124,9 +124,9 @@ fn protocols(mailbox: &Mailbox, keep: &mut impl FnMut(CompactString, &str)) {
 pub(super) fn plug(catalog: &mut Catalog, diagnostics: &mut Diagnostics) {
     let Catalog { devices, modules, .. } = catalog;
     let known = Known::new(modules, diagnostics);
-    let mut left = limits::MAX_MODULE_USES;
+    let (mut left, mut is_reported) = (limits::MAX_MODULE_USES, false);
     for device in devices {
-        if !known.plug(device, &mut left, diagnostics) {
+        if !known.plug(device, &mut left, &mut is_reported, diagnostics) {
             let message = "the slots of all devices take too many modules";
             let diagnostic = Diagnostic::new(&codes::INPUT_TOO_LARGE, device.origin.span, message);
             diagnostics.push(diagnostic.label("not resolved from this device on"));
@@ -164,8 +164,14 @@ impl<'m> Known<'m> {
         known
     }
 
-    /// False where more modules fit than are left.
-    fn plug(&self, device: &mut Device, left: &mut usize, diagnostics: &mut Diagnostics) -> bool {
+    /// False if more modules fit than are left.
+    fn plug(
+        &self,
+        device: &mut Device,
+        left: &mut usize,
+        is_reported: &mut bool,
+        diagnostics: &mut Diagnostics,
+    ) -> bool {
         let mut places: BTreeMap<u32, Places> = BTreeMap::new();
         for slot in &device.slots {
             let last = slot.number.saturating_add(slot.instances.1.max(1) - 1);
@@ -185,7 +191,7 @@ impl<'m> Known<'m> {
                 }
             }
             if missing > slot.fits.len() && !slot.fits.is_empty() {
-                nothing_fits(device, slot.number, diagnostics);
+                nothing_fits(device, slot.number, !std::mem::replace(is_reported, true), diagnostics);
             }
         }
         let uses = places.into_iter().map(|(module, places)| ModuleUse { module: ModuleId(module), places });
@@ -203,11 +209,12 @@ fn push_range(numbers: &mut Numbers, (first, last): (u16, u16)) {
     }
 }
 
-fn nothing_fits(device: &Device, slot: u16, diagnostics: &mut Diagnostics) {
+/// The first such diagnostic of a file has the help.
+fn nothing_fits(device: &Device, slot: u16, is_first: bool, diagnostics: &mut Diagnostics) {
     let message = format!("no module of this description fits into slot {slot}");
-    diagnostics.push(
-        Diagnostic::new(&codes::NO_MODULE_FITS, device.origin.span, message)
-            .label("the slot stays empty")
-            .help("modules may be in a file of their own, which InfoReference names"),
-    );
+    let found = Diagnostic::new(&codes::NO_MODULE_FITS, device.origin.span, message).label("the slot stays empty");
+    diagnostics.push(match is_first {
+        true => found.help("modules may be in a file of their own, which InfoReference names"),
+        false => found,
+    });
 }

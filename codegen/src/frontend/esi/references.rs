@@ -47,6 +47,7 @@ pub(super) fn follow(
     let mut files: HashMap<String, Option<Content>> = HashMap::new();
     // Who refers to a file from a device wants the modules there; a mere list of files stands for the devices in them.
     let only_modules = !description.catalog.devices.is_empty();
+    let mut is_reported = false;
     let mut queue: VecDeque<(Owner, Reference)> = std::mem::take(&mut description.references).into();
     while let Some((owner, reference)) = queue.pop_front() {
         let name = normal(&reference.name);
@@ -60,7 +61,7 @@ pub(super) fn follow(
             }
             continue;
         }
-        let Some((mut read, length)) = open(&reference, references, diagnostics, budget) else {
+        let Some((mut read, length)) = open(&reference, &mut is_reported, references, diagnostics, budget) else {
             files.insert(name, None);
             continue;
         };
@@ -129,6 +130,7 @@ fn normal(name: &str) -> String {
 /// Reads a file; its content, and its length in bytes.
 fn open(
     reference: &Reference,
+    is_reported: &mut bool,
     references: &mut References<'_>,
     diagnostics: &mut Diagnostics,
     budget: &mut Budget,
@@ -137,11 +139,13 @@ fn open(
         Ok(source) => source,
         Err(refusal) => {
             let message = format!("the file `{}` wasn't read: {refusal}", reference.name);
-            diagnostics.push(
-                Diagnostic::new(&codes::REFERENCED_FILE, reference.span, message)
-                    .label("what it would add is missing")
-                    .help("put the file in the folder of the description, under this name"),
-            );
+            let found = Diagnostic::new(&codes::REFERENCED_FILE, reference.span, message);
+            let found = found.label("what it would add is missing");
+            // The first such diagnostic has the help.
+            diagnostics.push(match std::mem::replace(is_reported, true) {
+                false => found.help("put the file in the folder of the description, under this name"),
+                true => found,
+            });
             return None;
         }
     };

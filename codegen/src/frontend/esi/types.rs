@@ -456,7 +456,8 @@ fn spelled(diagnostics: &mut Diagnostics, spelling: Spelling, name: &Given<'_>, 
     };
     if diagnostics.wants(code) {
         let message = format!("`{}` is no type of ETG.1000.6", brief(&name.text));
-        diagnostics.push(Diagnostic::new(code, name.span, message).label(format!("read as {ty}")));
+        diagnostics
+            .push(Diagnostic::new(code, name.span, message).label(format!("read as {}", type_name::name_of(ty))));
     }
 }
 
