@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use crate::backend::rust::{self, RustOptions};
+use crate::check as lints;
 use crate::diagnostics::{Diagnostic, Diagnostics, Levels};
 #[cfg(feature = "eds")]
 use crate::frontend::eds;
@@ -14,8 +15,8 @@ use crate::frontend::gsdml;
 use crate::frontend::xdd;
 use crate::frontend::{detect, table};
 use crate::ir::{Catalog, FileInfo, Format};
-use crate::passes;
 use crate::profiles;
+use crate::resolve;
 use crate::selection::Selection;
 use crate::source::{FileId, References, Source};
 
@@ -186,7 +187,8 @@ pub fn checked(mut compilation: Compilation, options: &Options) -> Compilation {
             catalog.files.push(file_info(source, Format::Table));
             compilation.sources.push(source.clone());
         }
-        passes::check(catalog, &mut compilation.diagnostics);
+        resolve::resolve(catalog, &mut compilation.diagnostics);
+        lints::check(catalog, &mut compilation.diagnostics);
         if !options.no_profiles {
             profiles::apply(catalog);
         }
@@ -194,7 +196,7 @@ pub fn checked(mut compilation: Compilation, options: &Options) -> Compilation {
     }
     // One row of a table stands for several items, and so does a type or parameter of XML: they share what is wrong with it.
     let described_by = compilation.catalog.as_ref().and_then(|catalog| catalog.files.first());
-    if described_by.is_some_and(|file| matches!(file.format, Format::Table | Format::Esi | Format::Xdd)) {
+    if described_by.is_some_and(|file| file.format.has_shared_descriptions()) {
         compilation.diagnostics.forget_repeated(0);
     }
     compilation.diagnostics.sort();

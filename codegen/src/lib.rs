@@ -12,7 +12,7 @@
 //! Underneath is a pipeline in which data flows one way:
 //!
 //! ```text
-//! source -> syntax -> frontend/{eds, xdd, esi, gsdml, table} -> ir -> passes -> facts -> backend/rust
+//! source -> syntax -> frontend/{eds, xdd, esi, gsdml, table} -> ir -> resolve -> check -> facts -> backend/rust
 //! ```
 //!
 //! | for | see |
@@ -64,6 +64,7 @@
 
 pub mod backend;
 pub mod builder;
+pub mod check;
 pub mod compile;
 pub mod diagnostics;
 pub mod etg;
@@ -71,14 +72,22 @@ pub mod facts;
 pub mod frontend;
 pub mod ir;
 pub mod limits;
+pub mod names;
 pub mod output;
-pub mod passes;
 pub mod profiles;
+pub mod resolve;
 pub mod selection;
 pub mod source;
 pub mod syntax;
 pub mod text;
 pub mod unique;
+
+/// Former paths of [`names`] and of the steps of messages.
+#[doc(hidden)]
+pub mod passes {
+    pub use crate::names as names_unique;
+    pub(crate) use crate::resolve::messages as messages_shaped;
+}
 
 pub use backend::rust::{Presence, RustOptions};
 pub use builder::{BuildError, Builder};

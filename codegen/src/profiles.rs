@@ -8,7 +8,7 @@ use std::sync::OnceLock;
 
 use crate::diagnostics::{Diagnostic, Diagnostics};
 use crate::frontend::table::overlay::{Completion, Profile};
-use crate::ir::{Catalog, Device, Format, Group, Value};
+use crate::ir::{Catalog, Device, Group, Value};
 use crate::source::{FileId, Source};
 
 /// The files, in the order in which they are applied: what one of them says, later ones leave alone.
@@ -46,7 +46,7 @@ pub fn check(name: &str, text: &str) -> Vec<Diagnostic> {
 pub(crate) fn apply(catalog: &mut Catalog) {
     let Catalog { files, devices, modules, submodules, types, .. } = catalog;
     // Overlays are in no list of files.
-    let is_table = |FileId(id): FileId| files.get(id as usize).is_none_or(|file| file.format == Format::Table);
+    let is_table = |FileId(id): FileId| files.get(id as usize).is_none_or(|file| file.format.is_of_manual());
     for profile in all() {
         let mut completion = None;
         for device in devices.iter_mut().filter(|device| is_device_of(device, profile)) {

@@ -10,7 +10,7 @@ use std::str::FromStr;
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
 use crate::ir::{Catalog, Device, Group, Module, ProcessData, Submodule};
 use crate::source::{FileId, Span};
-use crate::text::edit_distance;
+use crate::text::{edit_distance, glob};
 
 /// What of a description is wanted; everything, where nothing is named.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -153,21 +153,6 @@ fn number(text: &str) -> Option<u32> {
         Some(digits) => u32::from_str_radix(digits, 16).ok(),
         None => text.parse().ok(),
     }
-}
-
-/// Whether `text` has the form of `pattern`, in which `*` stands for any letters.
-pub(crate) fn glob(pattern: &str, text: &str) -> bool {
-    let Some((head, rest)) = pattern.split_once('*') else { return pattern == text };
-    let Some(mut text) = text.strip_prefix(head) else { return false };
-    let mut parts = rest.split('*').peekable();
-    while let Some(part) = parts.next() {
-        if parts.peek().is_none() {
-            return text.ends_with(part);
-        }
-        let Some(at) = text.find(part) else { return false };
-        text = &text[at + part.len()..];
-    }
-    true
 }
 
 /// Of several revisions of a product, the greatest: of those with a product code, or of a name where there is none.
@@ -458,18 +443,6 @@ mod tests {
         assert_eq!(parse("0x6040"), Ok(ObjectFilter { first: 0x6040, last: 0x6040 }));
         for wrong in ["", "x", "0x10000", "2..1", ".."] {
             assert!(parse(wrong).is_err(), "{wrong}");
-        }
-    }
-
-    #[test]
-    fn patterns() {
-        for (pattern, text) in
-            [("a*", "abc"), ("*c", "abc"), ("a*c", "abc"), ("*", ""), ("a**b", "axb"), ("*b*", "abc")]
-        {
-            assert!(glob(pattern, text), "{pattern} {text}");
-        }
-        for (pattern, text) in [("a*", "bc"), ("*b", "abc"), ("a*b*c", "acb"), ("ab", "abc"), ("ab*ba", "aba")] {
-            assert!(!glob(pattern, text), "{pattern} {text}");
         }
     }
 }

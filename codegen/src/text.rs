@@ -50,9 +50,36 @@ pub(crate) fn standard_and_clause(standard: &str, clause: &str) -> String {
     }
 }
 
+/// Whether `text` has the form of `pattern`, in which `*` stands for any letters.
+pub(crate) fn glob(pattern: &str, text: &str) -> bool {
+    let Some((head, rest)) = pattern.split_once('*') else { return pattern == text };
+    let Some(mut text) = text.strip_prefix(head) else { return false };
+    let mut parts = rest.split('*').peekable();
+    while let Some(part) = parts.next() {
+        if parts.peek().is_none() {
+            return text.ends_with(part);
+        }
+        let Some(at) = text.find(part) else { return false };
+        text = &text[at + part.len()..];
+    }
+    true
+}
+
 #[cfg(test)]
 mod tests {
-    use super::edit_distance;
+    use super::*;
+
+    #[test]
+    fn patterns() {
+        for (pattern, text) in
+            [("a*", "abc"), ("*c", "abc"), ("a*c", "abc"), ("*", ""), ("a**b", "axb"), ("*b*", "abc")]
+        {
+            assert!(glob(pattern, text), "{pattern} {text}");
+        }
+        for (pattern, text) in [("a*", "bc"), ("*b", "abc"), ("a*b*c", "acb"), ("ab", "abc"), ("ab*ba", "aba")] {
+            assert!(!glob(pattern, text), "{pattern} {text}");
+        }
+    }
 
     #[test]
     fn insertions_deletions_and_replacements_count_one_each() {

@@ -3,9 +3,10 @@
 
 use divan::counter::BytesCount;
 use divan::Bencher;
+use lexibus_codegen::check as lints;
 use lexibus_codegen::compile::{self, Options};
 use lexibus_codegen::diagnostics::Diagnostics;
-use lexibus_codegen::passes;
+use lexibus_codegen::resolve::resolve;
 use lexibus_codegen::source::Source;
 use lexibus_codegen::RustOptions;
 
@@ -25,7 +26,9 @@ pub fn passes(bencher: Bencher<'_, '_>, name: &str, bytes: Vec<u8>) {
     let count = BytesCount::new(bytes.len());
     let catalog = compile::read(Source::new(name, bytes), &Options::default()).catalog.expect("a catalogue");
     bencher.counter(count).with_inputs(|| catalog.clone()).bench_values(|mut catalog| {
-        passes::check(&mut catalog, &mut Diagnostics::default());
+        let mut diagnostics = Diagnostics::default();
+        resolve(&mut catalog, &mut diagnostics);
+        lints::check(&catalog, &mut diagnostics);
         catalog
     });
 }

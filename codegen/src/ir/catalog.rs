@@ -74,6 +74,26 @@ impl Format {
             Format::Table => "table",
         }
     }
+
+    /// Whether the format can describe the sub-indices of an object at once (CompactSubObj of CiA 306).
+    pub fn has_compact_objects(self) -> bool {
+        matches!(self, Format::Eds | Format::Dcf)
+    }
+
+    /// Whether the format gives defaults as bytes too (DefaultData of ETG.2000).
+    pub fn has_default_data(self) -> bool {
+        self == Format::Esi
+    }
+
+    /// Whether one element of the format can describe several items: a row of a table, a type or parameter of XML.
+    pub fn has_shared_descriptions(self) -> bool {
+        matches!(self, Format::Table | Format::Esi | Format::Xdd)
+    }
+
+    /// Whether the format is a transcript of a manual.
+    pub fn is_of_manual(self) -> bool {
+        self == Format::Table
+    }
 }
 
 /// One file of a catalogue.

@@ -29,6 +29,12 @@ impl<'a> Entries<'a> {
         }
     }
 
+    /// Returns the item of the object at an index. Registers that are objects too don't count.
+    pub(crate) fn object(&self, index: u16, sub_index: u8) -> Option<&'a Item> {
+        let position = self.groups.binary_search_by_key(&Some(index), Group::index).ok()?;
+        self.groups.get(position)?.sub(sub_index)
+    }
+
     /// Whether there are neither objects nor chapters.
     pub fn is_empty(&self) -> bool {
         self.groups.is_empty()

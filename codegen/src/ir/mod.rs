@@ -24,6 +24,7 @@ mod catalog;
 mod composite;
 mod device;
 mod ethercat;
+pub(crate) mod firmware;
 mod item;
 mod lookup;
 mod machine;
@@ -35,6 +36,7 @@ mod profinet;
 #[cfg(feature = "serde")]
 mod real;
 mod shared;
+pub(crate) mod texts;
 mod types;
 mod value;
 mod variant;

@@ -149,6 +149,9 @@ pub struct Pdo {
     pub buses: Option<ObjectBuses>,
     /// Whether no section describes it and it follows from NrOfRXPDO or NrOfTXPDO and CompactPDO (CiA 306).
     pub implicit: bool,
+    /// Whether it follows from its mapping object, and the source declares no PDO beside it.
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "std::ops::Not::not"))]
+    pub from_object: bool,
     /// Where it is declared.
     pub origin: Origin,
 }
@@ -182,6 +185,7 @@ impl Pdo {
             extensions: Extensions::new(),
             buses: None,
             implicit: false,
+            from_object: false,
             origin: Origin::default(),
         }
     }

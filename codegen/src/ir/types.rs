@@ -301,6 +301,14 @@ pub struct BitFieldEntry {
     pub at: Mark,
 }
 
+impl BitFieldEntry {
+    /// Returns the bits of the field.
+    pub(crate) fn mask(&self) -> u64 {
+        let bits = u64::MAX.checked_shr(64u32.saturating_sub(self.bits.into())).unwrap_or(0);
+        bits.checked_shl(self.offset.into()).unwrap_or(0)
+    }
+}
+
 /// What the bits of a field mean.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]

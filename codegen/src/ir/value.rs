@@ -116,3 +116,38 @@ impl Limits {
         }
     }
 }
+
+/// Why limits exclude a value.
+pub(crate) enum Excluded<'l> {
+    Below(&'l Value),
+    Above(&'l Value),
+    NotAllowed,
+}
+
+impl fmt::Display for Excluded<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Excluded::Below(low) => write!(f, "below the lower limit {low}"),
+            Excluded::Above(high) => write!(f, "above the upper limit {high}"),
+            Excluded::NotAllowed => f.write_str("none of the allowed values"),
+        }
+    }
+}
+
+/// Returns why limits exclude a value. Values that are no numbers are never excluded.
+pub(crate) fn excluded<'l>(limits: &'l Limits, value: &Value) -> Option<Excluded<'l>> {
+    let is = |limit: &&Value, order| value.compare(limit) == Some(order);
+    let below = || limits.low.as_ref().filter(|low| is(low, Ordering::Less)).map(Excluded::Below);
+    let above = || limits.high.as_ref().filter(|high| is(high, Ordering::Greater)).map(Excluded::Above);
+    let not_allowed = || (!is_allowed(value, &limits.allowed)).then_some(Excluded::NotAllowed);
+    below().or_else(above).or_else(not_allowed)
+}
+
+/// Whether a number is in one of the ranges, where there are any.
+fn is_allowed(value: &Value, allowed: &[(Value, Value)]) -> bool {
+    let within = |(first, last): &(Value, Value)| {
+        first.compare(value).is_none_or(|order| order != Ordering::Greater)
+            && value.compare(last).is_none_or(|order| order != Ordering::Greater)
+    };
+    allowed.is_empty() || allowed.iter().any(within)
+}

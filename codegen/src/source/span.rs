@@ -55,6 +55,13 @@ pub struct Origin {
     pub line: u32,
 }
 
+impl Origin {
+    /// Whether the compiler derived the element from others, so that it stands nowhere.
+    pub fn is_derived(&self) -> bool {
+        self.line == 0
+    }
+}
+
 /// Line and column, both counted from 1; the column counts characters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]

@@ -1,9 +1,12 @@
 //! What holds for the cases together: no code and no quirk is without one, and what they generate compiles.
 
+use std::collections::BTreeSet;
 use std::path::Path;
 
+use lexibus_codegen::check::LINTS;
 use lexibus_codegen::compile::{check, Options};
 use lexibus_codegen::diagnostics::codes::CODES;
+use lexibus_codegen::diagnostics::{Diagnostics, Level, Levels};
 use lexibus_codegen::source::Source;
 use lexibus_codegen::{Presence, RustOptions};
 use libtest_mimic::{Failed, Trial};
@@ -89,4 +92,37 @@ pub fn rust_of_all_cases_compiles(cases: &[Case]) -> Vec<Trial> {
         })
     };
     inputs.chunks(INPUTS).enumerate().map(trial).collect()
+}
+
+/// Every lint reports something in a case, and nothing but codes that it declares.
+pub fn lints_declare_their_codes(cases: &[Case]) -> Trial {
+    let mut levels = Levels::lenient();
+    CODES.iter().for_each(|code| levels.set(code.id, Level::Warn).expect("a code"));
+    let of = |case: &Case| -> Vec<(Source, Options)> {
+        let options = Options { levels: levels.clone(), no_profiles: true, ..case.options() };
+        let described = case.inputs().into_iter().filter(|input| ending(input.name()) != "csv");
+        described.map(|input| (input, options.clone())).collect()
+    };
+    let inputs: Vec<(Source, Options)> = cases.iter().flat_map(of).collect();
+    Trial::test("every lint declares its codes", move || {
+        let mut reported: BTreeSet<(&str, &str)> = BTreeSet::new();
+        for (source, options) in &inputs {
+            let Some(catalog) = check(source.clone(), options).catalog else { continue };
+            for lint in LINTS {
+                let mut diagnostics = Diagnostics::new(options.levels.clone());
+                lint.check(&catalog, &mut diagnostics);
+                reported.extend(diagnostics.list().iter().map(|found| (lint.name, found.code.id)));
+            }
+        }
+        let declared = LINTS.iter().flat_map(|lint| lint.codes.iter().map(|code| (lint.name, code.id)));
+        let declared: BTreeSet<(&str, &str)> = declared.collect();
+        let unknown: Vec<_> = declared.iter().filter(|(_, id)| CODES.iter().all(|code| code.id != *id)).collect();
+        let undeclared: Vec<_> = reported.difference(&declared).collect();
+        let silent = LINTS.iter().map(|lint| lint.name).filter(|name| reported.iter().all(|(own, _)| own != name));
+        let silent: Vec<&str> = silent.collect();
+        if unknown.is_empty() && undeclared.is_empty() && silent.is_empty() {
+            return Ok(());
+        }
+        Err(format!("not in the catalogue: {unknown:?}; not declared: {undeclared:?}; no case: {silent:?}").into())
+    })
 }

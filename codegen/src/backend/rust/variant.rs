@@ -3,7 +3,7 @@
 use thin_vec::ThinVec;
 
 use crate::ir::{Item, Limits, Value};
-use crate::selection::glob;
+use crate::text::glob;
 
 /// The item as it is on a model, where models differ in its values; `None` where they don't, or the model hasn't got it.
 pub(super) fn on_model(item: &Item, model: &str) -> Option<Item> {

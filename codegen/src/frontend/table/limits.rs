@@ -6,8 +6,7 @@ use super::rows::{Named, Rows};
 use super::tree::Reader;
 use super::{lints, value};
 use crate::diagnostics::{codes, Diagnostic};
-use crate::ir::{Access, Item, Limits, Shape, Type, TypeId, Value};
-use crate::passes::values_checked::excluded;
+use crate::ir::{excluded, Access, Item, Limits, Shape, Type, TypeId, Value};
 use crate::source::Span;
 
 impl Rows {

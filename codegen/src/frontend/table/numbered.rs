@@ -8,8 +8,7 @@ use compact_str::CompactString;
 use super::place;
 use super::tree::Reader;
 use crate::diagnostics::{codes, Diagnostic};
-use crate::ir::Device;
-use crate::passes::texts;
+use crate::ir::{texts, Device};
 use crate::source::Span;
 use crate::text::brief;
 

@@ -9,8 +9,8 @@ use super::place;
 use super::tree::Reader;
 use crate::diagnostics::{codes, Diagnostic};
 use crate::ir::{Device, Entries, GroupKind, ItemNames, Shape};
-use crate::selection::glob;
 use crate::text::brief;
+use crate::text::glob;
 
 /// Names with their places, and what they lead to: an `item`, a `model`, a `constant`, a `message`, a `procedure`.
 pub(super) type References = Vec<(At<String>, &'static str)>;

@@ -7,8 +7,8 @@ use compact_str::{format_compact, CompactString};
 
 use super::tree::Reader;
 use crate::diagnostics::{codes, Diagnostic};
+use crate::ir::firmware::apart;
 use crate::ir::{Availability, Binding, Item, ObjectBuses, RegisterBinding, RegisterSpace};
-use crate::passes::apart;
 use crate::source::Span;
 use crate::text::brief;
 

@@ -16,9 +16,9 @@ use crate::ir::{
     Catalog, CodeTable, CompactString, Device, Doubts, Group, Identity, Item, Module, ModuleId, ObjectBuses, Submodule,
     SubmoduleId, SubmoduleUse, TypeDef,
 };
-use crate::selection::glob;
 use crate::source::{FileId, Source, Span};
 use crate::text::brief;
+use crate::text::glob;
 
 /// Applies the overlay `source` to the devices or modules of `catalog` that it is for.
 pub fn apply(source: &Source, file: FileId, catalog: &mut Catalog, diagnostics: &mut Diagnostics) {

@@ -1,0 +1,119 @@
+//! Access rights against storage, PDOs and limits.
+
+use super::context::Context;
+use crate::diagnostics::{codes, Diagnostic, Diagnostics};
+use crate::ir::owner::Owner;
+use crate::ir::{Item, Storage, Value};
+use crate::source::Span;
+use crate::text::brief;
+
+/// Reports items whose access rights contradict their storage, their PDOs or their writable values. In 52 files of the corpus, values
+/// that can't be written come in RPDOs.
+pub(super) fn conflicts(context: &Context<'_>, diagnostics: &mut Diagnostics) {
+    for item in context.owner.items() {
+        for (span, problem) in contradictions(item).into_iter().flatten() {
+            let message = format!("`{}` is {} and {problem}", brief(&item.name), item.access.name());
+            let found = Diagnostic::new(&codes::ACCESS_CONFLICT, place(item, span), message);
+            diagnostics
+                .push(found.help("one of the two is misprinted: keep what the manual's text supports, with a `doubt`"));
+        }
+    }
+}
+
+/// Reports measured values that can't be zero.
+pub(super) fn readings(context: &Context<'_>, diagnostics: &mut Diagnostics) {
+    for item in context.owner.items() {
+        let Some(low) = positive_limit_of_reading(context.owner, item) else { continue };
+        let (name, access) = (brief(&item.name), item.access.name());
+        let message = format!("`{name}` is {access} and signed, and has the lower limit {low}");
+        let found = Diagnostic::new(&codes::READING_LIMITS, place(item, item.at.low), message);
+        diagnostics
+            .push(found.help("if it can be zero, the limit is that of a set-point; if not, the type is unsigned"));
+    }
+}
+
+fn place(item: &Item, span: Span) -> Span {
+    span.or(item.at.access).or(item.origin.span)
+}
+
+/// What contradicts the access rights of an item, and where that stands.
+fn contradictions(item: &Item) -> [Option<(Span, &'static str)>; 3] {
+    let (readable, writable) = (item.access.readable(), item.access.writable());
+    let conflict = |span, text| Some((span, text));
+    let behaviour = item.behaviour.as_deref();
+    let is_saved = behaviour.is_some_and(|own| matches!(own.storage, Storage::Immediate | Storage::OnCommand(_)));
+    let saved = match behaviour {
+        Some(_) if is_saved && !writable => conflict(Span::default(), "saved, though nobody can write it"),
+        Some(own) if is_saved && own.self_clearing => conflict(Span::default(), "saved, though the device clears it"),
+        _ => None,
+    };
+    let mapped = match item.mappable {
+        own if own.rpdo && !writable => conflict(item.at.mappable, "may come in an RPDO"),
+        own if own.tpdo && !readable => conflict(item.at.mappable, "may go into a TPDO"),
+        _ => None,
+    };
+    let written = behaviour.filter(|own| !writable && !own.writable_values.is_empty());
+    let written = written.and_then(|_| conflict(Span::default(), "has values that may be written"));
+    [saved, mapped, written]
+}
+
+/// What is measured passes through zero, or it would need no sign. Returns the lower limit of a reading that doesn't.
+fn positive_limit_of_reading(owner: Owner<'_>, item: &Item) -> Option<i128> {
+    let low = item.limits.low.as_ref().and_then(Value::as_int).filter(|&low| low > 0)?;
+    let high = item.limits.high.as_ref().and_then(Value::as_int);
+    let is_measured = owner.basic(item.ty).is_signed() && !item.access.writable() && high != Some(low);
+    is_measured.then_some(low)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::ir::{Access, Behaviour, Binding, Mappable, Type};
+
+    fn found(change: impl FnOnce(&mut Item)) -> Vec<&'static str> {
+        let mut item = Item::new(Binding::canopen(0x2000, 0));
+        item.ty = Type::Integer(16);
+        change(&mut item);
+        let conflicts = contradictions(&item).into_iter().flatten().map(|_| codes::ACCESS_CONFLICT.id);
+        let reading = positive_limit_of_reading(Owner::of_types(&[]), &item).map(|_| codes::READING_LIMITS.id);
+        conflicts.chain(reading).collect()
+    }
+
+    #[test]
+    fn what_nobody_can_write_is_neither_saved_nor_received() {
+        let save = |item: &mut Item| {
+            item.behaviour = Some(Box::new(Behaviour { storage: Storage::Immediate, ..Behaviour::default() }));
+        };
+        assert_eq!(found(|_| {}), [""; 0]);
+        assert_eq!(found(save), ["TAB024"]);
+        assert_eq!(
+            found(|item| {
+                save(item);
+                item.access = Access::ReadWrite;
+            }),
+            [""; 0]
+        );
+        assert_eq!(found(|item| item.mappable = Mappable { rpdo: true, tpdo: true }), ["TAB024"]);
+        assert_eq!(
+            found(|item| {
+                item.access = Access::WriteOnly;
+                item.mappable.tpdo = true;
+            }),
+            ["TAB024"]
+        );
+    }
+
+    #[test]
+    fn what_is_measured_passes_through_zero() {
+        let limits = |low| move |item: &mut Item| item.limits.low = Some(Value::Int(low));
+        assert_eq!(found(limits(1)), ["TAB023"]);
+        assert_eq!(found(limits(0)), [""; 0]);
+        assert_eq!(
+            found(|item| {
+                limits(1)(item);
+                item.ty = Type::Unsigned(16);
+            }),
+            [""; 0]
+        );
+    }
+}

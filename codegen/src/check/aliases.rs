@@ -1,0 +1,217 @@
+//! Items that are the same value under two names, and items that replace others.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::context::Context;
+use crate::diagnostics::{codes, Diagnostic, Diagnostics};
+use crate::ir::owner::{Index, Owner};
+use crate::ir::{BitFieldEntry, BitMeaning, Extension, Item, Quantity, Scale, Shape};
+use crate::source::Span;
+use crate::text::brief;
+
+pub(super) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
+    let Context { owner, items, .. } = context;
+    for item in owner.items() {
+        replacement(items, item, diagnostics);
+        for alias in item.extensions.iter().filter(|own| own.key == "same_as") {
+            let Some(other) = items.find(&alias.value).filter(|other| !std::ptr::eq(*other, item)) else { continue };
+            let differences = differences(*owner, item, other);
+            if differences.is_empty() {
+                continue;
+            }
+            let message = format!(
+                "`{}` is the same value as `{}`, but differs: {}",
+                brief(&item.name),
+                brief(&alias.value),
+                differences.join("; ")
+            );
+            let found = Diagnostic::new(&codes::SAME_VALUE_DIFFERS, place(item, alias), message);
+            diagnostics.push(found.note_at(other.origin.span, "the other one"));
+        }
+    }
+}
+
+/// Where an overlay says what differs, else the row.
+fn place(item: &Item, alias: &Extension) -> Span {
+    let own = item.origin.span;
+    let facts = [alias.span, item.at.ty, item.at.low, item.at.high];
+    facts.into_iter().find(|fact| !fact.is_empty() && fact.file != own.file).unwrap_or(own)
+}
+
+/// An item and its replacement are used alike. What only a default says of either isn't compared.
+fn replacement(items: &Index<'_>, item: &Item, diagnostics: &mut Diagnostics) {
+    let name = item.availability.as_ref().and_then(|own| own.replaced_by.as_ref());
+    let Some(other) = name.and_then(|name| items.find(name)) else { return };
+    let is_stated = |item: &Item| {
+        let (row, access) = (item.origin.span, item.at.access);
+        !access.is_empty() && row.start <= access.start && access.end <= row.end
+    };
+    let rights = |item: &Item| (item.access.readable(), item.access.writable());
+    if is_stated(item) && is_stated(other) && rights(item) != rights(other) {
+        let (own, its) = (item.access.name(), other.access.name());
+        let message =
+            format!("`{}` is {own}, and `{}`, which replaces it, {its}", brief(&item.name), brief(&other.name));
+        let found = Diagnostic::new(&codes::SAME_VALUE_DIFFERS, item.at.access, message);
+        diagnostics.push(found.note_at(other.at.access, "the replacement"));
+    }
+}
+
+/// What two descriptions of one value disagree on.
+fn differences(owner: Owner<'_>, one: &Item, other: &Item) -> Vec<String> {
+    let mut found = Vec::new();
+    let types = (owner.basic(one.ty), owner.basic(other.ty));
+    // A part of a value, such as its lower half, has other limits and names.
+    if types.0.bits().zip(types.1.bits()).is_some_and(|(own, others)| own < others) {
+        return found;
+    }
+    if types.0 != types.1 {
+        found.push(format!("{} and {}", types.0, types.1));
+    }
+    let limits =
+        [("lower limit", &one.limits.low, &other.limits.low), ("upper limit", &one.limits.high, &other.limits.high)];
+    for (what, one, other) in limits {
+        if let (Some(one), Some(other)) = (one, other) {
+            if one.as_real().is_some() && one.as_real() != other.as_real() {
+                found.push(format!("{what} {one} and {other}"));
+            }
+        }
+    }
+    let shapes = (owner.definition(one.ty).map(|own| &own.shape), owner.definition(other.ty).map(|own| &own.shape));
+    if let (Some(one), Some(other)) = shapes {
+        found.extend(meanings(one, other));
+        found.extend(names(one, other));
+    }
+    if let (Some(one), Some(other)) = (&one.quantity, &other.quantity) {
+        found.extend(quantities(one, other));
+    }
+    found
+}
+
+/// Unit and scale, where both give them.
+fn quantities(one: &Quantity, other: &Quantity) -> Vec<String> {
+    let mut found = Vec::new();
+    if !one.unit.is_empty() && !other.unit.is_empty() && one.unit != other.unit {
+        found.push(format!("the units {} and {}", brief(&one.unit), brief(&other.unit)));
+    }
+    if one.scale != other.scale {
+        let factor = |scale: &Option<Scale>| match scale {
+            None => Some(1.0),
+            Some(Scale::Linear { factor, .. }) => Some(*factor),
+            Some(_) => None,
+        };
+        found.push(match (factor(&one.scale), factor(&other.scale)) {
+            (Some(one), Some(other)) if one != other => format!("the scales {one} and {other}"),
+            _ => "the scales".to_owned(),
+        });
+    }
+    found
+}
+
+/// Values, or bits, that have another name in one than in the other.
+fn names(one: &Shape, other: &Shape) -> Option<String> {
+    let what = match one {
+        Shape::BitField { .. } => "bit",
+        _ => "value",
+    };
+    let (one, other) = (labels(one), labels(other));
+    let mut differing = one.iter().filter_map(|(place, names)| {
+        let others = other.get(place).filter(|others| !others.keys().eq(names.keys()))?;
+        Some((place, names.values().next()?, others.values().next()?))
+    });
+    let (place, one, other) = differing.next()?;
+    let more = match differing.count() {
+        0 => String::new(),
+        more => format!(", and {more} more names"),
+    };
+    Some(format!("{what} {} is `{}` and `{}`{more}", range(place), brief(one), brief(other)))
+}
+
+type Labels<'n> = BTreeMap<(i128, i128), BTreeMap<String, &'n str>>;
+
+/// What the values, or the bits, are called, by the name without case and punctuation.
+fn labels(shape: &Shape) -> Labels<'_> {
+    let mut labels = Labels::new();
+    fn add<'n>(labels: &mut Labels<'n>, place: (i128, i128), name: &'n str) {
+        let plain = name.chars().filter(|c| c.is_alphanumeric()).flat_map(char::to_lowercase).collect();
+        labels.entry(place).or_default().insert(plain, name);
+    }
+    match shape {
+        Shape::Enumeration { values, .. } => {
+            for value in values.iter().filter(|value| value.zone.is_none()) {
+                add(&mut labels, (value.value, value.last.unwrap_or(value.value)), &value.name);
+            }
+        }
+        Shape::BitField { fields, .. } => {
+            for field in fields.iter().filter(|field| !matches!(field.meaning, BitMeaning::Reserved { .. })) {
+                add(&mut labels, bits_of(field), &field.name);
+            }
+        }
+        _ => {}
+    }
+    labels
+}
+
+/// First and last bit.
+fn bits_of(field: &BitFieldEntry) -> (i128, i128) {
+    let first = i128::from(field.offset);
+    (first, first + i128::from(field.bits.max(1)) - 1)
+}
+
+/// What is named in one of two types and not in the other.
+fn meanings(one: &Shape, other: &Shape) -> Option<String> {
+    let (what, one, other) = match (one, other) {
+        (Shape::Enumeration { .. }, Shape::Enumeration { .. }) => ("values", named(one), named(other)),
+        (Shape::BitField { .. }, Shape::BitField { .. }) => ("bits", named(one), named(other)),
+        _ => return Some("one is an enumeration, the other a bit field".to_owned()),
+    };
+    let only: Vec<String> = one.symmetric_difference(&other).map(range).collect();
+    (!only.is_empty()).then(|| format!("the {what} {} have a meaning in one of them only", only.join(", ")))
+}
+
+fn range(own: &(i128, i128)) -> String {
+    match own {
+        (first, last) if first == last => first.to_string(),
+        (first, last) => format!("{first} to {last}"),
+    }
+}
+
+/// First and last of the values, or of the bits, that have a meaning.
+fn named(shape: &Shape) -> BTreeSet<(i128, i128)> {
+    match shape {
+        Shape::Enumeration { values, .. } => {
+            let named = values.iter().filter(|value| value.zone.is_none());
+            named.map(|value| (value.value, value.last.unwrap_or(value.value))).collect()
+        }
+        Shape::BitField { fields, .. } => {
+            let named = fields.iter().filter(|field| !matches!(field.meaning, BitMeaning::Reserved { .. }));
+            named.map(bits_of).collect()
+        }
+        _ => BTreeSet::new(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::ir::{Binding, Type, Value};
+
+    #[test]
+    fn type_and_limits_are_compared() {
+        let item = |ty, low, high| {
+            let mut item = Item::new(Binding::canopen(0x2000, 0));
+            item.ty = ty;
+            (item.limits.low, item.limits.high) = (Some(Value::Int(low)), Some(Value::Int(high)));
+            item
+        };
+        let owner = Owner { types: &[], groups: &[] };
+        let one = item(Type::Integer(32), 0, 200_000);
+        assert_eq!(differences(owner, &one, &one), [""; 0]);
+        assert_eq!(
+            differences(owner, &one, &item(Type::Unsigned(32), 0, 500_000)),
+            ["INTEGER32 and UNSIGNED32", "upper limit 200000 and 500000"]
+        );
+        let half = item(Type::Unsigned(16), 0, 65_535);
+        assert_eq!(differences(owner, &half, &one), [""; 0]);
+        assert_eq!(differences(owner, &one, &half)[0], "INTEGER32 and UNSIGNED16");
+    }
+}

@@ -1,0 +1,138 @@
+//! Values of enumerations and code tables against the integer below and against each other.
+
+use super::context::Context;
+use crate::diagnostics::{codes, Diagnostic, Diagnostics};
+use crate::ir::firmware::apart;
+use crate::ir::owner::{Owner, Places};
+use crate::ir::{CodeRow, EnumValue, Shape, Type, TypeDef, TypeId};
+use crate::source::Span;
+use crate::text::brief;
+
+pub(super) fn check(owner: Owner<'_>, diagnostics: &mut Diagnostics) {
+    let places = Places::new(owner);
+    for (definition, id) in owner.types.iter().zip(0..) {
+        let Shape::Enumeration { base, values, .. } = &definition.shape else { continue };
+        outside((&places, TypeId(id)), definition, *base, values, diagnostics);
+        let mut sorted: Vec<&EnumValue> = values.iter().collect();
+        sorted.sort_by_key(|value| value.value);
+        let told_apart =
+            |one: &EnumValue, other: &EnumValue| apart(one.availability.as_deref(), other.availability.as_deref());
+        let range = |value: &EnumValue| (value.value, value.last.unwrap_or(value.value));
+        if let Some((one, other)) = overlap(&sorted, range, told_apart) {
+            let names = [(one.value, one.last, one.name.as_str()), (other.value, other.last, other.name.as_str())];
+            report(&definition.name, other.at.0.or(definition.origin.span), names, diagnostics);
+        }
+    }
+}
+
+/// The codes of tables.
+pub(super) fn code_tables(context: &Context<'_>, diagnostics: &mut Diagnostics) {
+    for table in &context.device.code_tables {
+        let mut sorted: Vec<_> = table.rows.iter().collect();
+        sorted.sort_by_key(|row| row.code);
+        let range = |row: &CodeRow| (row.code, row.last.unwrap_or(row.code));
+        // Of a code that lies in several ranges, the narrowest says the most, and counts.
+        let is_within = |inner: (i128, i128), outer: (i128, i128)| outer.0 <= inner.0 && inner.1 <= outer.1;
+        let narrower = |one: &CodeRow, other: &CodeRow| {
+            let (one, other) = (range(one), range(other));
+            one != other && (is_within(one, other) || is_within(other, one))
+        };
+        if let Some((one, other)) = overlap(&sorted, range, narrower) {
+            let names = [(one.code, one.last, one.name.as_str()), (other.code, other.last, other.name.as_str())];
+            report(&table.name, table.origin.span, names, diagnostics);
+        }
+    }
+}
+
+/// The first two of a sorted list that have a number in common.
+fn overlap<'v, V>(
+    sorted: &[&'v V],
+    range: impl Fn(&V) -> (i128, i128),
+    told_apart: impl Fn(&V, &V) -> bool,
+) -> Option<(&'v V, &'v V)> {
+    sorted.iter().enumerate().find_map(|(at, one)| {
+        let last = range(one).1;
+        let mut later = sorted.iter().skip(at + 1).take_while(|other| range(other).0 <= last);
+        later.find(|other| !told_apart(one, other)).map(|other| (*one, *other))
+    })
+}
+
+fn report(owner: &str, span: Span, names: [(i128, Option<i128>, &str); 2], diagnostics: &mut Diagnostics) {
+    let called = |(first, last, name): (i128, Option<i128>, &str)| match last {
+        Some(last) => format!("`{}` ({first} to {last})", brief(name)),
+        None => format!("`{}` ({first})", brief(name)),
+    };
+    let [one, other] = names.map(called);
+    let message = format!("{one} and {other} of `{}` are the same value", brief(owner));
+    diagnostics.push(Diagnostic::new(&codes::VALUE_NAMED_TWICE, span, message));
+}
+
+fn outside(
+    (places, id): (&Places<'_>, TypeId),
+    definition: &TypeDef,
+    base: Type,
+    values: &[EnumValue],
+    diagnostics: &mut Diagnostics,
+) {
+    let Some((low, high)) = base.integer_range() else { return };
+    let mut beyond = values.iter().filter(|value| value.value < low || value.last.unwrap_or(value.value) > high);
+    let Some(first) = beyond.next() else { return };
+    let others = match beyond.count() {
+        0 => String::new(),
+        others => format!(" and {others} more"),
+    };
+    let value = if first.value < low { first.value } else { first.last.unwrap_or(first.value) };
+    let message = format!("{base} is never {value} (`{}`{others})", brief(&first.name));
+    let found = Diagnostic::new(&codes::NAME_OUTSIDE_TYPE, places.of(id), message);
+    let found = found.note_at(first.at.0.or(definition.origin.span), "the values are named here");
+    diagnostics.push(match (base, value) {
+        (Type::Unsigned(bits), ..0) => found.help(format!("is the type `i{bits}`?")),
+        _ => found.help("the type is too short, or the value is wrong"),
+    });
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn value(name: &str, first: i128, last: Option<i128>) -> EnumValue {
+        EnumValue {
+            name: name.into(),
+            value: first,
+            last,
+            zone: None,
+            names: Default::default(),
+            when: None,
+            availability: None,
+            documentation: None,
+            at: Default::default(),
+        }
+    }
+
+    fn found(base: Type, values: Vec<EnumValue>) -> Vec<String> {
+        let mut diagnostics = Diagnostics::default();
+        let definition = TypeDef {
+            name: "Mode".into(),
+            code: None,
+            shape: Shape::Enumeration { base, values, closed: false },
+            bits: base.bits(),
+            documentation: None,
+            origin: Default::default(),
+        };
+        check(Owner { types: &[definition], groups: &[] }, &mut diagnostics);
+        diagnostics.list().iter().map(|found| found.message.clone()).collect()
+    }
+
+    #[test]
+    fn values_fit_and_have_one_name() {
+        let good = vec![value("off", 0, None), value("on", 1, None), value("reserved", 2, Some(255))];
+        assert_eq!(found(Type::Unsigned(8), good), [""; 0]);
+        let twice = vec![value("reserved", 8, Some(127)), value("off", 0, None), value("csv", 9, None)];
+        assert_eq!(
+            found(Type::Unsigned(8), twice),
+            ["`reserved` (8 to 127) and `csv` (9) of `Mode` are the same value"]
+        );
+        let beyond = vec![value("back", -1, None), value("far", 256, None)];
+        assert_eq!(found(Type::Unsigned(8), beyond), ["UNSIGNED8 is never -1 (`back` and 1 more)"]);
+    }
+}

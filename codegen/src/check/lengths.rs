@@ -1,0 +1,88 @@
+//! Lengths of bindings, types and texts of an item against each other.
+
+use crate::diagnostics::{codes, Code, Diagnostic, Diagnostics};
+use crate::ir::owner::Owner;
+use crate::ir::{Binding, Item, RegisterSpace, Type, Value};
+use crate::source::Span;
+use crate::text::brief;
+
+pub(super) fn check(owner: Owner<'_>, diagnostics: &mut Diagnostics) {
+    for item in owner.items() {
+        for binding in &item.bindings {
+            bound(owner, item, binding, diagnostics);
+        }
+        text(owner, item, diagnostics);
+    }
+}
+
+fn report(item: &Item, code: &'static Code, span: Span, message: String, diagnostics: &mut Diagnostics) {
+    diagnostics.push(Diagnostic::new(code, span.or(item.at.ty).or(item.origin.span), message));
+}
+
+fn bound(owner: Owner<'_>, item: &Item, binding: &Binding, diagnostics: &mut Diagnostics) {
+    let own = || match item.ty {
+        Type::OctetString(bytes) | Type::VisibleString(bytes) => bytes?.checked_mul(8),
+        ty => ty.bits(),
+    };
+    let Some(bits) = owner.definition(item.ty).map_or_else(own, |definition| definition.bits) else { return };
+    let name = brief(&item.name);
+    match binding {
+        Binding::EscMemory { length, .. } if bits.div_ceil(8) != u32::from(*length) => {
+            let message = format!("`{name}` has {length} bytes there, and its type {bits} bits");
+            report(item, &codes::LENGTH_MISMATCH, Span::default(), message, diagnostics);
+        }
+        Binding::Register(own) if is_odd(owner, item, bits) && own.bit_offset.is_none() => {
+            if matches!(own.space, RegisterSpace::Holding | RegisterSpace::Input) {
+                let message = format!("`{name}` has {bits} bits, which is neither a register nor a half of one");
+                report(item, &codes::REGISTER_SPAN, Span::default(), message, diagnostics);
+            }
+        }
+        _ => {}
+    }
+}
+
+/// Whether an integer is no number of bytes; a truth value takes a register of its own.
+fn is_odd(owner: Owner<'_>, item: &Item, bits: u32) -> bool {
+    matches!(owner.basic(item.ty), Type::Integer(_) | Type::Unsigned(_)) && bits > 1 && !bits.is_multiple_of(8)
+}
+
+/// Whether a default is longer than its type.
+fn text(owner: Owner<'_>, item: &Item, diagnostics: &mut Diagnostics) {
+    let (Type::VisibleString(Some(room)) | Type::OctetString(Some(room))) = owner.basic(item.ty) else { return };
+    let given = match &item.default {
+        Some(Value::Text(text)) => text.len(),
+        Some(Value::Bytes(bytes)) => bytes.len(),
+        _ => return,
+    };
+    if room > 0 && given > room as usize {
+        let message = format!("the default has {given} bytes, and `{}` has room for {room}", brief(&item.name));
+        report(item, &codes::LENGTH_MISMATCH, item.at.default, message, diagnostics);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn found(binding: Binding, ty: Type, default: Option<Value>) -> Vec<&'static str> {
+        let mut item = Item::new(binding);
+        (item.ty, item.default) = (ty, default);
+        let mut diagnostics = Diagnostics::default();
+        let owner = Owner { types: &[], groups: &[] };
+        for binding in &item.bindings {
+            bound(owner, &item, binding, &mut diagnostics);
+        }
+        text(owner, &item, &mut diagnostics);
+        diagnostics.list().iter().map(|found| found.code.id).collect()
+    }
+
+    #[test]
+    fn lengths_agree() {
+        let memory = |length| Binding::EscMemory { address: 0x220, length };
+        assert_eq!(found(memory(2), Type::Unsigned(16), None), [""; 0]);
+        assert_eq!(found(memory(2), Type::Unsigned(32), None), ["TAB020"]);
+        let text = |text: &str| Some(Value::Text(text.into()));
+        assert_eq!(found(Binding::canopen(0x1008, 0), Type::VisibleString(Some(4)), text("SMD5")), [""; 0]);
+        assert_eq!(found(Binding::canopen(0x1008, 0), Type::VisibleString(Some(4)), text("SMD50")), ["TAB020"]);
+    }
+}

@@ -1,0 +1,84 @@
+//! Defaults against limits, and limits against each other.
+
+use std::cmp::Ordering;
+
+use super::context::Context;
+use crate::diagnostics::{codes, Diagnostic, Diagnostics};
+use crate::ir::owner::Owner;
+use crate::ir::{excluded, Excluded, Item, Type, Value};
+use crate::source::Span;
+use crate::text::brief;
+
+/// Reports defaults outside of their limits, and limits that are swapped.
+pub(super) fn check(owner: Owner<'_>, diagnostics: &mut Diagnostics) {
+    for item in owner.items() {
+        if !item.limits.is_empty() || !item.limits.allowed.is_empty() {
+            limits(owner, item, diagnostics);
+        }
+    }
+}
+
+/// Reports items with one limit only.
+pub(super) fn one_given(context: &Context<'_>, diagnostics: &mut Diagnostics) {
+    for item in context.owner.items() {
+        let (given, other, span) = match (&item.limits.low, &item.limits.high) {
+            (Some(_), None) => ("a lower", "upper", item.at.low),
+            (None, Some(_)) => ("an upper", "lower", item.at.high),
+            _ => continue,
+        };
+        let message = format!("`{}` has {given} limit and no {other} one", brief(&item.name));
+        diagnostics.push(Diagnostic::new(&codes::ONE_LIMIT, span.or(item.origin.span), message));
+    }
+}
+
+/// What limits that are swapped were meant to be: those of the other integer of the same length.
+fn with_other_sign(ty: Type, low: &Value, high: &Value) -> Option<String> {
+    let (low, high) = (low.as_int()?, high.as_int()?);
+    match ty {
+        Type::Unsigned(bits @ 1..=64) if low >> (bits - 1) == 1 => {
+            let signed = low - (1i128 << bits);
+            (signed <= high).then(|| format!("as INTEGER{bits}, {low:#X} is {signed}: is the type signed?"))
+        }
+        Type::Integer(bits @ 1..=64) if low >= 0 && high < 0 => {
+            let unsigned = high + (1i128 << bits);
+            Some(format!("as UNSIGNED{bits}, {unsigned:#X} is {unsigned}: is the type unsigned?"))
+        }
+        _ => None,
+    }
+}
+
+fn limits(owner: Owner<'_>, item: &Item, diagnostics: &mut Diagnostics) {
+    let (low, high) = (item.limits.low.as_ref(), item.limits.high.as_ref());
+    if let (Some(low), Some(high)) = (low, high) {
+        if low.compare(high) == Some(Ordering::Greater) {
+            let message = format!("the lower limit {low} is greater than the upper limit {high}");
+            let found = Diagnostic::new(&codes::LIMITS_SWAPPED, item.at.low.or(item.origin.span), message)
+                .label("the limits are kept, and not checked by generated code");
+            diagnostics.push(match with_other_sign(owner.basic(item.ty), low, high) {
+                Some(help) => found.help(help),
+                None => found,
+            });
+            return;
+        }
+    }
+    let configured = item.configured.as_ref().and_then(|configured| configured.value.as_ref());
+    let values = [(item.default.as_ref(), item.at.default, "default"), (configured, item.at.configured, "value")];
+    for (value, span, what) in values {
+        let Some(value) = value else { continue };
+        let Some(reason) = excluded(&item.limits, value) else { continue };
+        let limit = match reason {
+            Excluded::Above(_) => item.at.high,
+            _ => item.at.low,
+        };
+        report(diagnostics, span.or(item.origin.span), format!("the {what} {value} is {reason}"), limit);
+    }
+}
+
+fn report(diagnostics: &mut Diagnostics, span: Span, message: String, limit: Span) {
+    let mut diagnostic = Diagnostic::new(&codes::DEFAULT_OUT_OF_LIMITS, span, message)
+        .help("one of the numbers is misprinted: compare them with the manual, and correct it");
+    if !limit.is_empty() {
+        diagnostic = diagnostic.note_at(limit, "the limit");
+    }
+    diagnostics.push(diagnostic);
+}

@@ -1,0 +1,137 @@
+//! An object that something maps, against its item.
+
+use std::cell::OnceCell;
+use std::collections::HashSet;
+
+use crate::diagnostics::{codes, Code, Diagnostic, Diagnostics};
+use crate::ir::owner::{Index, Owner};
+use crate::ir::{AxisStep, Device, Direction, Entries, Item, Mappable};
+use crate::source::Span;
+
+/// Bits of a CAN frame.
+pub(super) const CAN_BITS: u32 = 64;
+
+/// The direction of the PDOs that an object maps.
+pub(super) fn direction_of(mapping: u16) -> Option<Direction> {
+    match mapping {
+        0x1600..=0x17FF => Some(Direction::Receive),
+        0x1A00..=0x1BFF => Some(Direction::Transmit),
+        _ => None,
+    }
+}
+
+/// What a device says of its objects.
+pub(super) struct Described<'a> {
+    pub device: &'a Device,
+    pub entries: Entries<'a>,
+    /// The indices of its objects, those of further axes among them: made when they are first asked for.
+    indices: OnceCell<HashSet<u16>>,
+}
+
+impl<'a> Described<'a> {
+    pub fn new(device: &'a Device) -> Self {
+        Described { device, entries: Entries::new(&device.groups), indices: OnceCell::new() }
+    }
+
+    fn indices(&self) -> &HashSet<u16> {
+        self.indices.get_or_init(|| indices(self.device))
+    }
+}
+
+/// An object that something maps.
+pub(super) struct Mapped {
+    pub object: (u16, u8),
+    pub bits: u32,
+    pub direction: Direction,
+    pub span: Span,
+}
+
+impl Mapped {
+    /// What a mapping value says: index, sub-index and length. Dummy entries, and 0 for none, map nothing.
+    pub fn word(word: i128, direction: Direction, span: Span) -> Option<Self> {
+        let word = u32::try_from(word).ok()?;
+        let (index, sub_index) = ((word >> 16) as u16, (word >> 8) as u8);
+        (index >= 0x20).then_some(Mapped { object: (index, sub_index), bits: word & 0xFF, direction, span })
+    }
+
+    /// Holds it against its item. Where other checks look for missing objects and at lengths, this one doesn't.
+    pub fn check(&self, described: &Described<'_>, is_resolved: bool, diagnostics: &mut Diagnostics) {
+        let item = described.entries.get(self.object.0, self.object.1);
+        let found = match item {
+            Some(item) => self.against(described.device, item, is_resolved),
+            None => [(!is_resolved).then(|| self.missing(described)).flatten(), None, None],
+        };
+        for (code, problem) in found.into_iter().flatten() {
+            let message = format!("0x{:04X} sub-index {:#x} {problem}", self.object.0, self.object.1);
+            let found = Diagnostic::new(code, self.span, message);
+            diagnostics.push(match item {
+                Some(item) => found.note_at(item.origin.span, "the mapped object"),
+                None => found,
+            });
+        }
+    }
+
+    /// The objects of further axes are those of the first at other indices.
+    fn missing(&self, described: &Described<'_>) -> Option<(&'static Code, String)> {
+        let device = described.device;
+        let of_another_axis = || described.indices().contains(&self.object.0);
+        let is_missing = !device.groups.is_empty() && (device.object(self.object.0).is_some() || !of_another_axis());
+        is_missing.then(|| (&codes::MAPPED_OBJECT_MISSING, "is mapped, but not described".to_owned()))
+    }
+
+    fn against(&self, device: &Device, item: &Item, is_resolved: bool) -> [Option<(&'static Code, String)>; 3] {
+        let owner = Owner::of_types(&device.types);
+        let bits = owner.definition(item.ty).map_or(item.ty.bits(), |definition| definition.bits);
+        let length = bits.filter(|&bits| !is_resolved && bits != self.bits);
+        let length =
+            length.map(|bits| (&codes::MAPPED_LENGTH, format!("is mapped with {} bits, but has {bits}", self.bits)));
+        // What nothing was said of may be mapped where the manual maps it.
+        let unmappable = !item.mappable.any() && !item.at.mappable.is_empty();
+        let unmappable = unmappable.then(|| (&codes::NOT_MAPPABLE, "is mapped, but not mappable".to_owned()));
+        let direction = (!goes(item, self.direction)).then(|| {
+            let (name, access) = (direction_name(self.direction), item.access.name());
+            (&codes::WRONG_DIRECTION, format!("is {access} and can't be mapped into {name}"))
+        });
+        [length, unmappable, direction]
+    }
+}
+
+/// Whether an item's access, and its direction where it has only one, go with that of a PDO.
+pub(super) fn goes(item: &Item, direction: Direction) -> bool {
+    let (access, own) = (Mappable::by_access(item.access), item.mappable);
+    match direction {
+        Direction::Receive => access.rpdo && (own.rpdo || !own.tpdo),
+        Direction::Transmit => access.tpdo && (own.tpdo || !own.rpdo),
+    }
+}
+
+fn direction_name(direction: Direction) -> &'static str {
+    match direction {
+        Direction::Receive => "an RPDO",
+        Direction::Transmit => "a TPDO",
+    }
+}
+
+/// The indices that a device has, those of further axes among them; none where it has no objects.
+pub(super) fn indices(device: &Device) -> HashSet<u16> {
+    let groups = [device.groups.as_slice()];
+    let mut known = Index::new(Owner { types: &device.types, groups: &groups }).indices();
+    if known.is_empty() {
+        return known;
+    }
+    known.extend(device.groups.iter().filter_map(|group| group.index()));
+    known.extend(device.process_data.pdos.iter().map(|pdo| pdo.mapping_index));
+    of_axes(device, &mut known);
+    known
+}
+
+/// The indices of further axes.
+fn of_axes(device: &Device, known: &mut HashSet<u16>) {
+    let Some(axes) = &device.axes else { return };
+    for own in known.clone() {
+        let rule = axes.rules.iter().find(|rule| (rule.indices.0..=rule.indices.1).contains(&own));
+        if let Some(AxisStep::Index(step)) = rule.map(|rule| rule.step) {
+            known.extend((1..u16::from(axes.axes)).filter_map(|axis| own.checked_add(axis.checked_mul(step)?)));
+        }
+    }
+}

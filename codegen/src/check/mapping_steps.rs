@@ -1,0 +1,94 @@
+//! Values that procedures write into mapping objects against the mapped items, and numbers of entries against the entries.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::context::Context;
+use super::mapped_object::{direction_of, Described, Mapped, CAN_BITS};
+use crate::diagnostics::{codes, Diagnostic, Diagnostics};
+use crate::ir::{Item, Procedure, Step, Value};
+use crate::source::Span;
+use crate::text::brief;
+
+pub(super) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
+    let Context { device, items, .. } = context;
+    let described = Described::new(device);
+    for procedure in &device.procedures {
+        let mut mapping =
+            Mapping { described: &described, procedure, words: BTreeMap::new(), cleared: BTreeSet::new() };
+        for (step, span) in procedure.spanned() {
+            let Step::Write(name, value) = step else { continue };
+            let (object, value) = (items.find(name).and_then(Item::object), value.as_int());
+            if let (Some(object), Some(value)) = (object, value) {
+                mapping.step(object, value, span, diagnostics);
+            }
+        }
+    }
+}
+
+/// What a procedure has mapped so far.
+struct Mapping<'a> {
+    described: &'a Described<'a>,
+    procedure: &'a Procedure,
+    /// The words of each mapping by their sub-indices.
+    words: BTreeMap<u16, BTreeMap<u8, i128>>,
+    /// The mappings whose number of entries is 0 by then.
+    cleared: BTreeSet<u16>,
+}
+
+impl Mapping<'_> {
+    fn step(&mut self, (index, sub): (u16, u8), value: i128, span: Span, diagnostics: &mut Diagnostics) {
+        let Some(direction) = direction_of(index) else { return };
+        if sub > 0 {
+            let before = self.words.entry(index).or_default().insert(sub, value);
+            if before.is_some() && self.cleared.contains(&index) {
+                let name = brief(&self.procedure.name);
+                let message = format!("`{name}`: writes entry {sub} of 0x{index:04X} a second time");
+                diagnostics.push(
+                    Diagnostic::new(&codes::STEP_IMPOSSIBLE, span, message)
+                        .help(format!("the entry behind it is {}", sub.saturating_add(1))),
+                );
+            }
+            if let Some(mapped) = Mapped::word(value, direction, span) {
+                mapped.check(self.described, false, diagnostics);
+            }
+            return;
+        }
+        if let Some(problem) = self.count(index, value) {
+            let message = format!(
+                "`{}`: writes {value} as the number of entries of 0x{index:04X}, {problem}",
+                brief(&self.procedure.name)
+            );
+            diagnostics.push(Diagnostic::new(&codes::STEP_IMPOSSIBLE, span, message));
+        }
+        let bits = self.bits(index, value);
+        if self.described.device.ethercat.is_none() && bits > i128::from(CAN_BITS) {
+            let message = format!("the mapping 0x{index:04X} has {bits} bits by then, and a CAN frame has 64");
+            diagnostics.push(Diagnostic::new(&codes::PDO_TOO_LONG, span, message));
+        }
+    }
+
+    /// What is wrong with a number of entries: more than the mapping has, or than were written since it was 0.
+    fn count(&mut self, index: u16, value: i128) -> Option<String> {
+        if value == 0 {
+            self.cleared.insert(index);
+            self.words.remove(&index);
+            return None;
+        }
+        let entries = self.described.device.object(index).map_or(0, |group| group.items.len().saturating_sub(1));
+        let was_cleared = self.cleared.remove(&index);
+        if entries > 0 && value > entries as i128 {
+            return Some(format!("which has {entries}"));
+        }
+        let written = self.words.get(&index).map_or(0, BTreeMap::len);
+        (was_cleared && value > written as i128).then(|| format!("and wrote {written} of them"))
+    }
+
+    /// The length of so many entries: those that were written, and by default the others.
+    fn bits(&self, index: u16, count: i128) -> i128 {
+        let by_default = |sub| self.described.entries.get(index, sub)?.default.as_ref().and_then(Value::as_int);
+        let written = self.words.get(&index);
+        let word = |sub: u8| written.and_then(|own| own.get(&sub).copied()).or_else(|| by_default(sub)).unwrap_or(0);
+        let last = u8::try_from(count.clamp(0, 64)).unwrap_or(0);
+        (1..=last).map(|sub| word(sub) & 0xFF).sum()
+    }
+}

@@ -1,0 +1,38 @@
+//! Checks the resolved IR: reads it, reports what is wrong or suspicious, and changes nothing.
+//!
+//! `list` declares every lint: its name, codes, formats and needs. A file has the lints of one subject; those that only concern
+//! register tables are in `table`.
+
+mod access;
+mod aliases;
+mod availability;
+mod bit_fields;
+mod conditions;
+mod context;
+mod enumerations;
+mod identity;
+mod lengths;
+mod limits;
+mod lint;
+mod list;
+mod mapped_object;
+mod mapping_steps;
+mod message_examples;
+mod modules;
+mod named_values;
+mod names;
+mod objects;
+mod pdo_directions;
+mod pdo_entries;
+mod pdo_mapping;
+mod procedures;
+mod process_image;
+mod records;
+mod run;
+mod subslots;
+mod table;
+mod titles;
+
+pub use lint::{Lint, Need};
+pub use list::LINTS;
+pub use run::check;

@@ -1,0 +1,150 @@
+//! PROFINET modules against the devices that take them: lengths of data and records, and slots.
+
+use crate::diagnostics::{codes, Diagnostic, Diagnostics};
+use crate::ir::{
+    Catalog, Device, Group, GroupKind, IoData, Module, Numbers, ProfinetSettings, Submodule, SubmoduleUse,
+};
+
+/// A limit, and the position of the device that has it.
+type Limit = Option<(u32, usize)>;
+
+/// The least of the limits of all devices that take a module or a submodule.
+#[derive(Clone, Copy, Default)]
+struct Limits {
+    input: Limit,
+    output: Limit,
+    data: Limit,
+    record: Limit,
+}
+
+impl Limits {
+    fn of(settings: &ProfinetSettings, device: usize) -> Self {
+        let limit = |bytes: Option<u16>| bytes.map(|bytes| (u32::from(bytes), device));
+        Limits {
+            input: limit(settings.max_lengths.input),
+            output: limit(settings.max_lengths.output),
+            data: limit(settings.max_lengths.data),
+            record: Some((settings.max_record_size, device)),
+        }
+    }
+
+    fn narrow(&mut self, other: Limits) {
+        let least = |own: &mut Limit, other: Limit| *own = [*own, other].into_iter().flatten().min();
+        least(&mut self.input, other.input);
+        least(&mut self.output, other.output);
+        least(&mut self.data, other.data);
+        least(&mut self.record, other.record);
+    }
+}
+
+pub(super) fn check(catalog: &Catalog, diagnostics: &mut Diagnostics) {
+    let Catalog { devices, modules, submodules, .. } = catalog;
+    let mut of_modules = vec![Limits::default(); modules.len()];
+    let mut of_submodules = vec![Limits::default(); submodules.len()];
+    for (position, device) in devices.iter().enumerate() {
+        let Some(settings) = &device.profinet else { continue };
+        let own = Limits::of(settings, position);
+        for module in &device.modules {
+            if let Some(limits) = of_modules.get_mut(module.module.0 as usize) {
+                limits.narrow(own);
+            }
+        }
+        narrow_uses(&device.submodules, own, &mut of_submodules);
+        slots(device, settings, modules, diagnostics);
+    }
+    for (module, &own) in modules.iter().zip(&of_modules) {
+        narrow_uses(&module.submodules, own, &mut of_submodules);
+        lengths(module, own, catalog, diagnostics);
+    }
+    for (submodule, own) in submodules.iter().zip(of_submodules) {
+        records(submodule, own.record, devices, diagnostics);
+    }
+}
+
+fn narrow_uses(uses: &[SubmoduleUse], own: Limits, of_submodules: &mut [Limits]) {
+    for submodule in uses {
+        if let Some(limits) = of_submodules.get_mut(submodule.submodule.0 as usize) {
+            limits.narrow(own);
+        }
+    }
+}
+
+/// Data of a module's own submodules against what a device exchanges.
+fn lengths(module: &Module, limits: Limits, catalog: &Catalog, diagnostics: &mut Diagnostics) {
+    let bytes = |data: &Option<Box<IoData>>| data.as_ref().map_or(0, |data| data.image.length + data.image.overhead);
+    let (mut input, mut output) = (0u32, 0u32);
+    let built_in = module.submodules.iter().filter(|own| !own.places.fixed.is_empty());
+    for submodule in built_in.filter_map(|own| catalog.submodules.get(own.submodule.0 as usize)) {
+        input = input.saturating_add(bytes(&submodule.input));
+        output = output.saturating_add(bytes(&submodule.output));
+    }
+    let sums = [
+        (input, limits.input, "inputs"),
+        (output, limits.output, "outputs"),
+        (input.saturating_add(output), limits.data, "inputs and outputs"),
+    ];
+    for (bytes, limit, what) in sums {
+        let Some((limit, device)) = limit.filter(|&(limit, _)| bytes > limit) else { continue };
+        let message = format!("the module has {bytes} bytes of {what}; a device that takes it exchanges {limit}");
+        let diagnostic = Diagnostic::new(&codes::IO_LENGTH, module.origin.span, message);
+        diagnostics.push(noted(diagnostic, catalog.devices.get(device)));
+    }
+}
+
+fn noted(diagnostic: Diagnostic, device: Option<&Device>) -> Diagnostic {
+    match device {
+        Some(device) => diagnostic.note_at(device.origin.span, "the device"),
+        None => diagnostic,
+    }
+}
+
+fn records(submodule: &Submodule, limit: Limit, devices: &[Device], diagnostics: &mut Diagnostics) {
+    let Some((limit, device)) = limit else { return };
+    let length = |group: &Group| match &group.kind {
+        GroupKind::Record(record) => record.length,
+        _ => 0,
+    };
+    for group in submodule.records.iter().filter(|group| length(group) > limit) {
+        let message = format!("the record has {} bytes; a device that has it takes {limit}", length(group));
+        let diagnostic = Diagnostic::new(&codes::RECORD_SIZE, group.origin.span, message);
+        diagnostics.push(noted(diagnostic, devices.get(device)));
+    }
+}
+
+/// Slots of modules against those that there are.
+fn slots(device: &Device, settings: &ProfinetSettings, modules: &[Module], diagnostics: &mut Diagnostics) {
+    if settings.slots.is_empty() {
+        return;
+    }
+    let present = merged(&settings.slots);
+    for own in &device.modules {
+        let places = [&own.places.allowed, &own.places.fixed, &own.places.used];
+        let ranges = places.into_iter().flat_map(|numbers| &numbers.0);
+        let Some(&(first, last)) = ranges.into_iter().find(|range| !contains(&present, **range)) else { continue };
+        let name = modules.get(own.module.0 as usize).map_or("", |module| module.id.as_str());
+        let range = if first == last { first.to_string() } else { format!("{first}..{last}") };
+        let message = format!("the module `{name}` is for the slots {range}, which the device doesn't all have");
+        diagnostics.push(
+            Diagnostic::new(&codes::SLOT_RANGE, device.origin.span, message).label("its slots are in PhysicalSlots"),
+        );
+    }
+}
+
+/// The same numbers as ranges in order, none of which touches another.
+fn merged(numbers: &Numbers) -> Vec<(u16, u16)> {
+    let mut ranges = numbers.0.to_vec();
+    ranges.sort_unstable();
+    let mut merged: Vec<(u16, u16)> = Vec::with_capacity(ranges.len());
+    for (first, last) in ranges {
+        match merged.last_mut() {
+            Some(before) if u32::from(first) <= u32::from(before.1) + 1 => before.1 = before.1.max(last),
+            _ => merged.push((first, last)),
+        }
+    }
+    merged
+}
+
+fn contains(ranges: &[(u16, u16)], (first, last): (u16, u16)) -> bool {
+    let at = ranges.partition_point(|&(_, end)| end < first);
+    ranges.get(at).is_some_and(|&(start, end)| start <= first && last <= end)
+}

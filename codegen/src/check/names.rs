@@ -1,0 +1,98 @@
+//! Names of objects, sub-indices, bits and values against each other.
+
+use std::collections::HashMap;
+
+use super::bit_fields::told_apart;
+use super::context::Context;
+use crate::diagnostics::{codes, Diagnostic, Diagnostics};
+use crate::ir::firmware::apart;
+use crate::ir::{BitFieldEntry, EnumValue, Group, GroupKind, Item, Shape, TypeDef};
+use crate::source::Span;
+use crate::text::brief;
+
+/// Reports objects, sub-indices, bits and values of one name. Tools number their objects, and call many alike.
+pub(super) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
+    let device = context.device;
+    let mut names = HashMap::new();
+    for group in &device.groups {
+        if let GroupKind::Object { index, .. } = group.kind {
+            once(&mut names, &group.name, group.name_at.or(group.origin.span), "another object", diagnostics);
+            if group.object_code().is_some_and(|code| code.has_subs()) {
+                subs(group, index, diagnostics);
+            }
+        }
+    }
+    device.types.iter().for_each(|definition| meanings(definition, diagnostics));
+}
+
+/// Where the name of an item stands.
+pub(super) fn place(item: &Item) -> Span {
+    item.at.name.or(item.origin.span)
+}
+
+/// Whether an item is no reserved sub-index, of which there is nothing to say.
+pub(super) fn is_meant(item: &&Item) -> bool {
+    !item.extensions.iter().any(|own| own.key == "reserved")
+}
+
+/// The bits of a bit field, or the values of an enumeration. Names that depend on something may return.
+fn meanings(definition: &TypeDef, diagnostics: &mut Diagnostics) {
+    let twice: Option<(&str, String, String)> = match &definition.shape {
+        Shape::BitField { fields, .. } => {
+            let place = |field: &BitFieldEntry| match field.bits {
+                1 => format!("bit {}", field.offset),
+                bits => format!("bits {}-{}", u32::from(field.offset) + u32::from(bits) - 1, field.offset),
+            };
+            let found = repeated(fields.iter(), |field| field.name.as_str(), told_apart);
+            found.map(|(one, other)| (one.name.as_str(), place(one), place(other)))
+        }
+        Shape::Enumeration { values, .. } => {
+            let apart =
+                |one: &EnumValue, other: &EnumValue| apart(one.availability.as_deref(), other.availability.as_deref());
+            let named = values.iter().filter(|value| value.zone.is_none());
+            let found = repeated(named, |value| value.name.as_str(), apart);
+            found.map(|(one, other)| (one.name.as_str(), one.value.to_string(), other.value.to_string()))
+        }
+        _ => None,
+    };
+    if let Some((name, one, other)) = twice {
+        let message = format!("{one} and {other} of `{}` are both called `{}`", brief(&definition.name), brief(name));
+        let found = Diagnostic::new(&codes::NAME_TWICE, definition.origin.span, message);
+        diagnostics.push(found.help("give one of them the name that the manual means, or say what tells them apart"));
+    }
+}
+
+/// The first two that have one name.
+fn repeated<'v, V>(
+    list: impl Iterator<Item = &'v V>,
+    name: impl Fn(&'v V) -> &'v str,
+    apart: impl Fn(&V, &V) -> bool,
+) -> Option<(&'v V, &'v V)> {
+    let mut seen: HashMap<&str, &V> = HashMap::new();
+    for own in list.filter(|own| !name(own).is_empty()) {
+        match seen.get(name(own)) {
+            Some(first) if !apart(first, own) => return Some((*first, own)),
+            _ => seen.insert(name(own), own),
+        };
+    }
+    None
+}
+
+fn subs(group: &Group, index: u16, diagnostics: &mut Diagnostics) {
+    let mut names = HashMap::new();
+    let other = format!("another sub-index of 0x{index:04X}");
+    for item in group.items.iter().filter(is_meant) {
+        once(&mut names, &item.name, place(item), &other, diagnostics);
+    }
+}
+
+fn once<'n>(seen: &mut HashMap<&'n str, Span>, name: &'n str, at: Span, whose: &str, diagnostics: &mut Diagnostics) {
+    if name.is_empty() {
+        return;
+    }
+    let first = *seen.entry(name).or_insert(at);
+    if first != at {
+        let message = format!("{whose} is called `{}` too", brief(name));
+        diagnostics.push(Diagnostic::new(&codes::NAME_TWICE, at, message).note_at(first, "the first one"));
+    }
+}

@@ -1,0 +1,187 @@
+//! Objects of a dictionary, on CANopen or EtherCAT, against CiA 301 7.4.3.
+
+use super::context::Context;
+use crate::diagnostics::{codes, Diagnostic, Diagnostics};
+use crate::ir::{excluded, AxisStep, Device, Format, Group, Item, ObjectCode, Shape, Type, TypeDef, TypeId, Value};
+
+/// Reports objects that contradict themselves, and mandatory ones that are missing.
+pub(super) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
+    for (index, group) in described(context) {
+        if context.device.canopen.is_some() {
+            names(group, index, diagnostics);
+        }
+        object(context, group, index, diagnostics);
+    }
+    mandatory(context.device, diagnostics);
+}
+
+/// The same for the rows of a register table. Rows that already failed are skipped: what follows from that is nothing new.
+pub(super) fn rows(context: &Context<'_>, diagnostics: &mut Diagnostics) {
+    for (index, group) in described(context) {
+        if !diagnostics.has_error_in(group.origin.span) {
+            names(group, index, diagnostics);
+            object(context, group, index, diagnostics);
+        }
+    }
+    mandatory(context.device, diagnostics);
+}
+
+/// The objects that the description has, those of modules included.
+fn described<'a>(context: &Context<'a>) -> impl Iterator<Item = (u16, &'a Group)> {
+    let fixed = context.device.own_modules(context.modules).flat_map(|module| &module.fixed_objects);
+    let all = context.device.groups.iter().chain(fixed).filter(|group| !group.origin.is_derived());
+    all.filter_map(|group| Some((group.index()?, group)))
+}
+
+/// The items of an object that the description has.
+fn described_items(group: &Group) -> impl Iterator<Item = &Item> {
+    group.items.iter().filter(|item| !item.origin.is_derived())
+}
+
+/// The described item at sub-index 0.
+fn sub0(group: &Group) -> Option<&Item> {
+    group.sub(0).filter(|item| !item.origin.is_derived())
+}
+
+fn object(context: &Context<'_>, group: &Group, index: u16, diagnostics: &mut Diagnostics) {
+    let Some(code @ (ObjectCode::Array | ObjectCode::Record)) = group.object_code() else { return };
+    structure(group, index, context.format, diagnostics);
+    if !has_entries_of_axes(context.device, index) {
+        highest_sub(group, index, context.format, diagnostics);
+    }
+    sub0_access(group, index, diagnostics);
+    if code == ObjectCode::Array {
+        element_types(group, index, &context.device.types, diagnostics);
+    }
+}
+
+fn sub_of(item: &Item) -> u8 {
+    item.object().map_or(0, |(_, sub)| sub)
+}
+
+/// The highest sub-index in use, the one with the structure of the object left out.
+fn highest(group: &Group) -> u8 {
+    described_items(group).map(sub_of).filter(|&sub| sub != 0xFF).max().unwrap_or(0)
+}
+
+fn names(group: &Group, index: u16, diagnostics: &mut Diagnostics) {
+    let mut nameless = |span, what: String| {
+        diagnostics.push(Diagnostic::new(&codes::EMPTY_NAME, span, format!("{what} has no name")));
+    };
+    if group.name.is_empty() {
+        nameless(group.name_at.or(group.origin.span), format!("0x{index:04X}"));
+    }
+    if !group.object_code().is_some_and(ObjectCode::has_subs) {
+        return;
+    }
+    let mut items = described_items(group).filter(|item| item.name.is_empty());
+    let Some(first) = items.next() else { return };
+    // An array of a hundred nameless elements is one finding.
+    let others = match items.count() {
+        0 => String::new(),
+        others => format!(" (and {others} more of the object)"),
+    };
+    nameless(first.at.name.or(first.origin.span), format!("0x{index:04X} sub-index {:#x}{others}", sub_of(first)));
+}
+
+fn structure(group: &Group, index: u16, format: Option<Format>, diagnostics: &mut Diagnostics) {
+    let span = group.origin.span;
+    if described_items(group).next().is_none() {
+        let (message, help) = match format.is_some_and(Format::has_compact_objects) {
+            true => (
+                format!("0x{index:04X} has neither sub-indices nor CompactSubObj"),
+                "give it SubNumber and the sections of its sub-indices, or CompactSubObj".to_owned(),
+            ),
+            false => (
+                format!("0x{index:04X} has no sub-indices"),
+                "describe them, sub-index 0 included; an object that is one value is a VAR".to_owned(),
+            ),
+        };
+        diagnostics.push(Diagnostic::new(&codes::NO_SUBS, span, message).help(help));
+    } else if sub0(group).is_none() {
+        let message = format!("sub-index 0 of 0x{index:04X} isn't described");
+        let help = format!("describe it: UNSIGNED8, the highest sub-index, which is {}", highest(group));
+        diagnostics.push(Diagnostic::new(&codes::NO_SUB0, span, message).help(help));
+    }
+}
+
+/// Whether sub-index 0 is the number of valid entries, and not the highest sub-index.
+fn is_counter(index: u16) -> bool {
+    matches!(index, 0x1003 | 0x1600..=0x17FF | 0x1A00..=0x1BFF | 0x1C10..=0x1C2F)
+}
+
+/// Whether further axes have sub-indices of their own in the object, which sub-index 0 counts as well.
+fn has_entries_of_axes(device: &Device, index: u16) -> bool {
+    let rules = device.axes.iter().flat_map(|axes| &axes.rules);
+    let rule = rules.into_iter().find(|rule| (rule.indices.0..=rule.indices.1).contains(&index));
+    rule.is_some_and(|rule| !matches!(rule.step, AxisStep::Index(_)))
+}
+
+fn highest_sub(group: &Group, index: u16, format: Option<Format>, diagnostics: &mut Diagnostics) {
+    let Some(sub0) = sub0(group).filter(|_| !is_counter(index)) else { return };
+    let Some(default) = sub0.default.as_ref().and_then(Value::as_int) else { return };
+    let highest = highest(group);
+    if default != i128::from(highest) {
+        let span = sub0.at.default.or(sub0.origin.span);
+        let message = format!("sub-index 0 of 0x{index:04X} says {default}, but the highest sub-index is {highest}");
+        let found = Diagnostic::new(&codes::SUB0_MISMATCH, span, message);
+        // Another number must be one that sub-index 0 may have.
+        let is_possible = excluded(&sub0.limits, &Value::Int(highest.into())).is_none();
+        diagnostics.push(match format {
+            // The form depends on the element that gives the default.
+            Some(format) if format.has_default_data() => {
+                found.help(format!("write `{highest:02X}` in DefaultData, or `{highest}` in DefaultValue"))
+            }
+            _ if is_possible && !sub0.at.default.is_empty() => found.fix(highest.to_string()),
+            _ => found,
+        });
+    }
+}
+
+fn sub0_access(group: &Group, index: u16, diagnostics: &mut Diagnostics) {
+    let Some(sub0) = sub0(group) else { return };
+    let entries_writable =
+        described_items(group).any(|item| !matches!(sub_of(item), 0 | 0xFF) && item.access.writable());
+    let message = match (sub0.access.writable(), entries_writable) {
+        (true, false) if !is_counter(index) => "can be written, but none of its entries",
+        // A mapping is changed by writing 0 there first (CiA 301 7.5.2.36).
+        (false, true) if is_counter(index) && index != 0x1003 => "can't be written, but its entries can",
+        _ => return,
+    };
+    let span = sub0.at.access.or(sub0.origin.span);
+    diagnostics.push(Diagnostic::new(&codes::SUB0_ACCESS, span, format!("sub-index 0 of 0x{index:04X} {message}")));
+}
+
+/// The type below an enumeration or a bit field: what the bits mean is no matter of the dictionary.
+fn basic(types: &[TypeDef], ty: Type) -> Type {
+    let Type::Named(TypeId(id)) = ty else { return ty };
+    match types.get(id as usize).map(|def| &def.shape) {
+        Some(Shape::Enumeration { base, .. } | Shape::BitField { base, .. }) => *base,
+        _ => ty,
+    }
+}
+
+fn element_types(group: &Group, index: u16, types: &[TypeDef], diagnostics: &mut Diagnostics) {
+    let mut elements = described_items(group).filter(|item| !matches!(sub_of(item), 0 | 0xFF));
+    let Some(first) = elements.next() else { return };
+    if let Some(other) = elements.find(|item| basic(types, item.ty) != basic(types, first.ty)) {
+        let message = format!("an element of the array 0x{index:04X} is {}, the first is {}", other.ty, first.ty);
+        diagnostics.push(
+            Diagnostic::new(&codes::ARRAY_TYPES, other.at.ty.or(other.origin.span), message)
+                .note_at(first.at.ty.or(first.origin.span), "the first element"),
+        );
+    }
+}
+
+fn mandatory(device: &Device, diagnostics: &mut Diagnostics) {
+    let has_objects = device.groups.iter().any(|group| !group.origin.is_derived());
+    if !has_objects || device.canopen.is_none() {
+        return;
+    }
+    for index in [0x1000, 0x1001, 0x1018] {
+        if device.object(index).is_none() {
+            let message = format!("the mandatory object 0x{index:04X} isn't described");
+            diagnostics.push(Diagnostic::new(&codes::MISSING_MANDATORY_OBJECT, device.origin.span, message));
+        }
+    }
+}

@@ -1,0 +1,43 @@
+//! Directions of the PDOs of an EtherCAT slave or module against its dictionary.
+
+use super::context::PdoOwner;
+use crate::diagnostics::{codes, Code, Diagnostic, Diagnostics};
+use crate::ir::{Direction, Entries, Item, Mappable, PdoEntry, PdoEntryKind};
+
+/// Reports entries whose item says that it is not mapped, or not in this direction.
+pub(super) fn check(owner: &PdoOwner<'_>, diagnostics: &mut Diagnostics) {
+    let items = Entries::new(owner.groups);
+    for pdo in &owner.data.pdos {
+        for entry in pdo.entries.iter().filter(|entry| entry.kind == PdoEntryKind::Item) {
+            let item = items.object(entry.index, entry.sub_index);
+            if let Some(item) = item.filter(|item| !item.origin.is_derived()) {
+                against(entry, pdo.direction, item, diagnostics);
+            }
+        }
+    }
+}
+
+fn against(entry: &PdoEntry, direction: Direction, item: &Item, diagnostics: &mut Diagnostics) {
+    let (is_given, access) = (!item.at.mappable.is_empty(), Mappable::by_access(item.access));
+    let (goes, is_accessed, name) = match direction {
+        Direction::Receive => (item.mappable.rpdo, access.rpdo, "an RxPDO"),
+        Direction::Transmit => (item.mappable.tpdo, access.tpdo, "a TxPDO"),
+    };
+    let problem: Option<(&'static Code, String)> = if is_given && !item.mappable.any() {
+        Some((&codes::NOT_MAPPABLE, "is mapped, but not mappable".to_owned()))
+    } else if is_given && !goes {
+        Some((
+            &codes::WRONG_DIRECTION,
+            format!("is mapped into {name}, and its PdoMapping has the other direction only"),
+        ))
+    } else if !is_accessed && !item.at.access.is_empty() {
+        Some((&codes::MAPPED_READ_ONLY, format!("is {} and mapped into {name}", item.access.name())))
+    } else {
+        None
+    };
+    if let Some((code, problem)) = problem {
+        let message = format!("0x{:04X} sub-index {:#x} {problem}", entry.index, entry.sub_index);
+        let found = Diagnostic::new(code, entry.origin.span, message);
+        diagnostics.push(found.note_at(item.origin.span, "the mapped object"));
+    }
+}

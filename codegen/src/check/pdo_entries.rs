@@ -1,0 +1,46 @@
+//! PDOs of EtherCAT slaves and modules against each other and against the items that they map (ETG.2000, RxPdo and TxPdo).
+
+use std::collections::HashMap;
+
+use super::context::PdoOwner;
+use crate::diagnostics::{codes, Diagnostic, Diagnostics};
+use crate::ir::{Entries, Item, Pdo, PdoEntry, PdoEntryKind};
+use crate::resolve::{address, Dictionary};
+use crate::source::Span;
+
+/// Reports PDOs of one index, and entries whose length is not that of their item.
+pub(super) fn check(owner: &PdoOwner<'_>, diagnostics: &mut Diagnostics) {
+    let dictionary = Dictionary { items: Entries::new(owner.groups), types: owner.types };
+    // One index on two buses is two PDOs.
+    let mut seen: HashMap<(u16, Option<bool>), Span> = HashMap::with_capacity(owner.data.pdos.len());
+    for pdo in &owner.data.pdos {
+        if pdo.mapping_index != 0 {
+            let key = (pdo.mapping_index, pdo.buses.map(|own| own.coe));
+            let first = *seen.entry(key).or_insert(pdo.origin.span);
+            if first != pdo.origin.span {
+                diagnostics.push(duplicate(pdo, first));
+            }
+        }
+        for entry in pdo.entries.iter().filter(|entry| entry.kind == PdoEntryKind::Item) {
+            // Objects that follow from an entry have its length.
+            if let Some(item) = dictionary.item(entry).filter(|item| !item.origin.is_derived()) {
+                let bits = dictionary.bits(item.ty).filter(|bits| *bits != entry.bits);
+                bits.into_iter().for_each(|bits| diagnostics.push(length(entry, item, bits)));
+            }
+        }
+    }
+}
+
+fn duplicate(pdo: &Pdo, first: Span) -> Diagnostic {
+    let message = format!("two PDOs have the index 0x{:04X}", pdo.mapping_index);
+    Diagnostic::new(&codes::DUPLICATE_PDO, pdo.origin.span, message)
+        .label("both are kept")
+        .note_at(first, "the first one")
+}
+
+fn length(entry: &PdoEntry, item: &Item, bits: u32) -> Diagnostic {
+    let message = format!("{} is mapped with {} bits, but has {bits}", address(entry), entry.bits);
+    Diagnostic::new(&codes::MAPPED_LENGTH, entry.origin.span, message)
+        .label("the entry decides the layout")
+        .note_at(item.origin.span, "the mapped object")
+}

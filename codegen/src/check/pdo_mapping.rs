@@ -1,0 +1,225 @@
+//! Mapping objects of a CANopen dictionary against CiA 301 7.5.2.36 and 7.5.2.38, and against the items that they map.
+
+use super::context::{Context, PdoOwner};
+use super::mapped_object::{goes, CAN_BITS};
+use crate::diagnostics::{codes, Code, Diagnostic, Diagnostics};
+use crate::ir::{Access, CanOpenSettings, Direction, Group, Item, Type, Value};
+use crate::resolve::{
+    announced_count, is_dummy, is_multiplexed, mapping_values, MappableItems, MappingValue, MappingWord, PdoObjects,
+};
+use crate::source::Span;
+
+/// Reports PDOs that can't be mapped as their objects say.
+pub(super) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
+    let Some(canopen) = &context.device.canopen else { return };
+    let items = MappableItems::new(context.device, context.modules);
+    for direction in [Direction::Receive, Direction::Transmit] {
+        let mut mapping = Mapping { context, items: &items, canopen, diagnostics, direction };
+        for objects in PdoObjects::of_direction(context.device, direction) {
+            mapping.pdo(&objects);
+        }
+        mapping.counts();
+    }
+}
+
+/// Reports entries that are too long for a field. Those of CANopen are at most 255 bits long, and padding gets no field.
+pub(super) fn lengths(owner: &PdoOwner<'_>, diagnostics: &mut Diagnostics) {
+    for pdo in &owner.data.pdos {
+        for entry in pdo.entries.iter().filter(|entry| entry.index != 0 && entry.bits > crate::limits::MAX_FIELD_BITS) {
+            let message = format!("an entry of the PDO 0x{:04X} has {} bits", pdo.mapping_index, entry.bits);
+            let found = Diagnostic::new(&codes::ENTRY_TOO_LONG, entry.origin.span, message);
+            diagnostics.push(found.label("the PDO gets no struct"));
+        }
+    }
+}
+
+struct Mapping<'a, 'd> {
+    context: &'a Context<'d>,
+    items: &'a MappableItems<'d>,
+    canopen: &'a CanOpenSettings,
+    diagnostics: &'a mut Diagnostics,
+    direction: Direction,
+}
+
+impl Mapping<'_, '_> {
+    fn pdo(&mut self, objects: &PdoObjects<'_>) {
+        self.both_halves(objects);
+        let Some(mapping) = objects.mapping else { return };
+        let count = announced_count(mapping);
+        if is_multiplexed(count) {
+            return self.multiplexed(mapping);
+        }
+        let bits = self.values(mapping, objects.mapping_index());
+        if bits > CAN_BITS {
+            let index = objects.mapping_index();
+            let message = format!("the mapping 0x{index:04X} has {bits} bits, and a CAN frame has 64");
+            self.report(&codes::PDO_TOO_LONG, mapping.origin.span, message);
+        }
+    }
+
+    fn report(&mut self, code: &'static Code, span: Span, message: String) {
+        self.diagnostics.push(Diagnostic::new(code, span, message));
+    }
+
+    fn both_halves(&mut self, objects: &PdoObjects<'_>) {
+        let (present, missing, what) = match (objects.communication, objects.mapping) {
+            (Some(present), None) => (present, objects.mapping_index(), "mapping"),
+            (None, Some(present)) => (present, objects.index, "communication parameters"),
+            _ => return,
+        };
+        let message = format!("the PDO has no {what}: 0x{missing:04X} isn't described");
+        self.report(&codes::HALF_A_PDO, present.origin.span, message);
+    }
+
+    /// Checks what an object maps, and returns its length in bits.
+    fn values(&mut self, mapping: &Group, index: u16) -> u32 {
+        let (mut gap, mut bits, mut found) = (None, 0u32, 0);
+        for value in mapping_values(mapping) {
+            match value.word {
+                MappingWord::Object(.., length) => {
+                    if let Some(gap) = gap.take() {
+                        let message = format!("an entry of the mapping 0x{index:04X} is empty");
+                        self.report(&codes::MAPPING_GAP, gap, message);
+                    }
+                    self.object(&value);
+                    bits = bits.saturating_add(length);
+                    found += 1;
+                }
+                MappingWord::Empty => gap = gap.or(Some(value.span)),
+                MappingWord::Unreadable(other) => {
+                    let message = format!("the mapping entry is {other}, which is no index, sub-index and length");
+                    self.report(&codes::MAPPING_UNREADABLE, value.span, message);
+                }
+            }
+        }
+        self.count(mapping, found);
+        bits
+    }
+
+    fn multiplexed(&mut self, mapping: &Group) {
+        if !self.canopen.group_messaging {
+            let span = mapping.sub(0).map_or(mapping.origin.span, |item| item.at.default);
+            let message = "the mapping is that of a multiplexed PDO, but GroupMessaging is 0".to_owned();
+            self.report(&codes::MULTIPLEXED_PDO, span.or(mapping.origin.span), message);
+        }
+    }
+
+    fn count(&mut self, mapping: &Group, found: usize) {
+        let Some(announced) = announced_count(mapping).filter(|&announced| announced > found as i128) else { return };
+        // An entry list without any value leaves the mapping to whoever configures the device.
+        if found == 0 {
+            return;
+        }
+        let span = mapping.sub(0).map_or(mapping.origin.span, |item| item.at.configured.or(item.at.default));
+        let message = format!("sub-index 0 announces {announced} mapped objects, but {found} are filled in");
+        self.report(&codes::MAPPING_COUNT, span.or(mapping.origin.span), message);
+    }
+
+    /// Checks the object that a mapping value names.
+    fn object(&mut self, value: &MappingValue<'_>) {
+        let MappingWord::Object(index, sub_index, bits) = value.word else { return };
+        let span = value.span;
+        self.granularity(bits, span);
+        if is_dummy(index) {
+            return self.dummy(index, span);
+        }
+        match self.items.get(index, sub_index) {
+            Some(item) => self.mapped(item, (index, sub_index, bits), span),
+            None if self.items.is_extended(index) => {}
+            None => {
+                let message = format!("0x{index:04X} sub-index {sub_index:#x} is mapped, but not described");
+                self.report(&codes::MAPPED_OBJECT_MISSING, span, message);
+            }
+        }
+    }
+
+    fn granularity(&mut self, bits: u32, span: Span) {
+        let granularity = u32::from(self.canopen.granularity.unwrap_or(1).clamp(1, 64));
+        // 1 is also how tools say "yes, mapping can be changed".
+        if granularity > 1 && !bits.is_multiple_of(granularity) {
+            let message = format!("{bits} bits are mapped, but the granularity is {granularity} bits");
+            self.report(&codes::GRANULARITY, span, message);
+        }
+    }
+
+    fn dummy(&mut self, index: u16, span: Span) {
+        if self.direction == Direction::Transmit {
+            self.report(&codes::DUMMY_IN_TPDO, span, format!("a TPDO maps the dummy entry 0x{index:04X}"));
+        } else if self.canopen.dummies_given && !self.canopen.dummies.contains(&(index as u8)) {
+            let message = format!("the dummy entry 0x{index:04X} is mapped, but [DummyUsage] doesn't allow it");
+            self.report(&codes::DUMMY_NOT_SUPPORTED, span, message);
+        }
+    }
+
+    fn mapped(&mut self, item: &Item, mapped: (u16, u8, u32), span: Span) {
+        let (index, sub_index, bits) = mapped;
+        let object = format!("0x{index:04X} sub-index {sub_index:#x}");
+        if !item.mappable.any() {
+            self.mapped_report(item, &codes::NOT_MAPPABLE, span, format!("{object} is mapped, but not mappable"));
+        }
+        let fits = goes(item, self.direction);
+        if item.access == Access::ReadWrite && item.mappable.rpdo == item.mappable.tpdo {
+            let message = format!("{object} is rw, which doesn't say that it goes into {}", self.pdo_name());
+            self.mapped_report(item, &codes::UNCLEAR_DIRECTION, span, message);
+        }
+        if !fits {
+            let (pdo, access) = (self.pdo_name(), item.access.name());
+            let message = format!("{object} is {access} and can't be mapped into {pdo}");
+            self.mapped_report(item, &codes::WRONG_DIRECTION, span, message);
+        }
+        // Bit fields and enumerations are as long as their integer.
+        let is_own = self.items.of_device(index, sub_index).is_some();
+        let ty = if is_own { self.context.owner.basic(item.object_type()) } else { item.ty };
+        match ty.bits() {
+            Some(own) if own != bits => {
+                let message = format!("{object} is mapped with {bits} bits, but {ty} has {own}");
+                self.mapped_report(item, &codes::MAPPED_LENGTH, span, message);
+            }
+            None if !matches!(item.ty, Type::Opaque(_) | Type::Named(_)) => {
+                let message = format!("{object} is a {} and has no fixed length", item.ty);
+                self.mapped_report(item, &codes::UNMAPPABLE_TYPE, span, message);
+            }
+            _ => {}
+        }
+    }
+
+    fn mapped_report(&mut self, item: &Item, code: &'static Code, span: Span, message: String) {
+        let mut diagnostic = Diagnostic::new(code, span, message);
+        if !item.origin.span.is_empty() {
+            diagnostic = diagnostic.note_at(item.origin.span, "the mapped object");
+        }
+        self.diagnostics.push(diagnostic);
+    }
+
+    fn pdo_name(&self) -> &'static str {
+        match self.direction {
+            Direction::Receive => "an RPDO",
+            Direction::Transmit => "a TPDO",
+        }
+    }
+
+    /// Holds the number of PDOs against the header and object 0x1004.
+    fn counts(&mut self) {
+        let device = self.context.device;
+        let described = PdoObjects::numbers(device, self.direction).len();
+        let (announced, key, span) = match self.direction {
+            Direction::Receive => (self.canopen.rx_pdos, "NrOfRXPDO", self.canopen.at.rx_pdos),
+            Direction::Transmit => (self.canopen.tx_pdos, "NrOfTXPDO", self.canopen.at.tx_pdos),
+        };
+        let Some(announced) = announced else { return };
+        if usize::from(announced) != described && !device.groups.is_empty() {
+            let message = format!("{key} is {announced}, but {} PDOs are described", described);
+            self.report(&codes::PDO_COUNT, span.or(device.origin.span), message);
+        }
+        let Some(item) = device.entry(0x1004, 0) else { return };
+        let Some(value) = item.initial().and_then(Value::as_int) else { return };
+        let counted = match self.direction {
+            Direction::Receive => value >> 16 & 0xFFFF,
+            Direction::Transmit => value & 0xFFFF,
+        };
+        if counted != i128::from(announced) {
+            let span = item.at.configured.or(item.at.default).or(item.origin.span);
+            self.report(&codes::PDO_COUNT_1004, span, format!("0x1004 says {counted}, {key} says {announced}"));
+        }
+    }
+}

@@ -1,0 +1,166 @@
+//! Steps of procedures against the items that they write or wait for; PDOs that steps and defaults assign.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::context::Context;
+use crate::diagnostics::{codes, Diagnostic, Diagnostics};
+use crate::ir::owner::{reserved, Index, Owner};
+use crate::ir::{Device, Item, Procedure, Step, Value};
+use crate::source::Span;
+use crate::text::brief;
+
+/// Objects that assign PDOs to sync managers 2 and 3.
+const ASSIGNMENTS: [u16; 2] = [0x1C12, 0x1C13];
+
+/// Reports steps that the items of a procedure don't allow.
+pub(super) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
+    let Context { device, owner, items, .. } = context;
+    for procedure in &device.procedures {
+        for (step, span) in procedure.spanned() {
+            for problem in problems(*owner, items, step) {
+                let message = format!("`{}`: {problem}", brief(&procedure.name));
+                diagnostics.push(Diagnostic::new(&codes::STEP_IMPOSSIBLE, span, message));
+            }
+        }
+        assignments(device, items, procedure, diagnostics);
+    }
+}
+
+/// Reports PDOs that are assigned by default and don't exist.
+pub(super) fn default_assignments(context: &Context<'_>, diagnostics: &mut Diagnostics) {
+    for item in context.owner.items() {
+        let value = item.default.as_ref().and_then(Value::as_int);
+        if let (Some((0x1C12 | 0x1C13, 1..)), Some(value)) = (item.object(), value) {
+            assigned(context.device, value, item.at.default.or(item.origin.span), diagnostics);
+        }
+    }
+}
+
+/// What is wrong with a step.
+fn problems(owner: Owner<'_>, items: &Index<'_>, step: &Step) -> Vec<String> {
+    let read_only = |name: &str| {
+        let item = items.find(name).filter(|item| !item.access.writable())?;
+        Some(format!("writes `{}`, which is {}", brief(name), item.access.name()))
+    };
+    let write_only = |name: &str, what: &str| {
+        let unreadable = items.find(name).is_some_and(|item| !item.access.readable());
+        unreadable.then(|| format!("{what} `{}`, which can't be read", brief(name)))
+    };
+    let outside = |name: &str, mask: u64, value: &Value| {
+        let outside = value.as_int().is_some_and(|value| mask != u64::MAX && value & !i128::from(mask) != 0);
+        outside.then(|| format!("`{}` & {mask:#X} is never {value}", brief(name)))
+    };
+    match step {
+        Step::Write(name, value) => {
+            let item = items.find(name);
+            let why = item.zip(value.as_int()).and_then(|(item, number)| refused(owner, item, number));
+            let why = why.map(|why| format!("writes {} to `{}`, {why}", shown(step), brief(name)));
+            read_only(name).into_iter().chain(why).collect()
+        }
+        Step::WriteBits(name, mask, value) => read_only(name).into_iter().chain(outside(name, *mask, value)).collect(),
+        Step::WriteArgument(name, _) => read_only(name).into_iter().collect(),
+        Step::Read(name) => write_only(name, "reads").into_iter().collect(),
+        Step::WaitFor(name, mask, value, _) => {
+            outside(name, *mask, value).into_iter().chain(write_only(name, "waits for")).collect()
+        }
+        Step::Delay(_) | Step::Send(_) | Step::Exchange(_) | Step::Manual(_) => Vec::new(),
+    }
+}
+
+fn shown(step: &Step) -> String {
+    match step {
+        Step::Write(_, Value::Int(value)) if *value > 0xFFFF => format!("{value:#X}"),
+        Step::Write(_, value) => value.to_string(),
+        _ => String::new(),
+    }
+}
+
+/// Why an item can't have a value.
+fn refused(owner: Owner<'_>, item: &Item, number: i128) -> Option<String> {
+    let ty = owner.basic(item.ty);
+    let (low, high) = (item.limits.low.as_ref(), item.limits.high.as_ref());
+    let (low, high) = (low.and_then(Value::as_int), high.and_then(Value::as_int));
+    // The bits of a negative number are written as they are.
+    let signed = ty.bits().filter(|&bits| ty.is_signed() && bits <= 64 && number >> (bits - 1) == 1);
+    let number = signed.map_or(number, |bits| number - (1i128 << bits));
+    let in_order = low.zip(high).is_none_or(|(low, high)| low <= high);
+    if ty.integer_range().is_some_and(|(low, high)| number < low || number > high) {
+        return Some(format!("which is {ty}"));
+    }
+    if let Some(low) = low.filter(|&low| in_order && number < low) {
+        return Some(format!("whose lower limit is {low}"));
+    }
+    if let Some(high) = high.filter(|&high| in_order && number > high) {
+        return Some(format!("whose upper limit is {high}"));
+    }
+    let writable = item.behaviour.iter().flat_map(|own| &own.writable_values).filter_map(Value::as_int);
+    let writable: Vec<i128> = writable.collect();
+    if !writable.is_empty() && !writable.contains(&number) {
+        return Some("which isn't among the values that may be written".to_owned());
+    }
+    let (labels, closed) = owner.enumeration(item.ty)?;
+    match reserved(labels, number) {
+        None => closed.then(|| "where it has no name".to_owned()),
+        Some(is_reserved) => is_reserved.then(|| "where it is reserved".to_owned()),
+    }
+}
+
+/// What a procedure maps it also assigns, and what it assigns exists. COB-IDs are those of one PDO.
+fn assignments(device: &Device, items: &Index<'_>, procedure: &Procedure, diagnostics: &mut Diagnostics) {
+    let (mut mapped, mut taken) = (BTreeMap::new(), [BTreeSet::new(), BTreeSet::new()]);
+    for (step, span) in procedure.spanned() {
+        let Step::Write(name, value) = step else { continue };
+        let (Some(object), Some(value)) = (items.find(name).and_then(Item::object), value.as_int()) else { continue };
+        match object {
+            (index @ (0x1600..=0x17FF | 0x1A00..=0x1BFF), 1..) => _ = mapped.entry(index).or_insert(span),
+            (index @ (0x1C12 | 0x1C13), 1..) => {
+                taken[usize::from(index - ASSIGNMENTS[0])].insert(value);
+                assigned(device, value, span, diagnostics);
+            }
+            (index @ (0x1400..=0x15FF | 0x1800..=0x19FF), 1) => {
+                cob_id(device, (index, value), (procedure, span), diagnostics)
+            }
+            _ => {}
+        }
+    }
+    for (index, span) in mapped {
+        let own = &taken[usize::from(index >= 0x1A00)];
+        if !own.is_empty() && !own.contains(&i128::from(index)) {
+            let message = format!("`{}` maps 0x{index:04X}, and assigns other PDOs", brief(&procedure.name));
+            diagnostics.push(Diagnostic::new(&codes::MAPPED_NOT_ASSIGNED, span, message));
+        }
+    }
+}
+
+fn assigned(device: &Device, value: i128, span: Span, diagnostics: &mut Diagnostics) {
+    let described = |index: u16| {
+        device.object(index).is_some() || device.process_data.pdos.iter().any(|pdo| pdo.mapping_index == index)
+    };
+    if value != 0 && !u16::try_from(value).is_ok_and(described) {
+        let message = format!("the PDO 0x{value:04X} is assigned, and isn't described");
+        diagnostics.push(Diagnostic::new(&codes::ASSIGNED_PDO_MISSING, span, message));
+    }
+}
+
+/// Whether a COB-ID is another PDO's by default: that of some node, while its own would be of none.
+fn cob_id(
+    device: &Device,
+    (index, value): (u16, i128),
+    (procedure, span): (&Procedure, Span),
+    diagnostics: &mut Diagnostics,
+) {
+    let of_some_node = |item: &Item| match item.default {
+        Some(Value::NodeId(base)) => value.checked_sub(base).is_some_and(|node| (1..=127).contains(&node)),
+        Some(Value::Int(default)) => default == value,
+        _ => false,
+    };
+    let communication = |index: u16| matches!(index, 0x1400..=0x15FF | 0x1800..=0x19FF);
+    let others = device.groups.iter().filter_map(|group| Some((group.index()?, group.sub(1)?)));
+    let others = others.filter(|(index, _)| communication(*index));
+    let owners: Vec<u16> = others.filter(|(_, item)| of_some_node(item)).map(|(index, _)| index).collect();
+    if let (Some(other), false) = (owners.first(), owners.contains(&index)) {
+        let name = brief(&procedure.name);
+        let message = format!("`{name}` gives 0x{index:04X} the COB-ID {value:#X}, which is that of 0x{other:04X}");
+        diagnostics.push(Diagnostic::new(&codes::STEP_IMPOSSIBLE, span, message));
+    }
+}

@@ -1,0 +1,83 @@
+//! PDOs that an EtherCAT slave assigns by default, against its sync managers and each other; excluded PDOs.
+
+use std::collections::HashSet;
+
+use super::context::{Context, PdoOwner};
+use crate::diagnostics::{codes, Diagnostic, Diagnostics};
+use crate::ir::{DefaultAssignment, Pdo, ProcessData, SyncManager, MAX_PDO_SUBS};
+
+/// Reports PDOs that an EtherCAT slave can't assign as it does by default.
+pub(super) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
+    let data = &context.device.process_data;
+    for pdo in &data.pdos {
+        sync_manager_exists(pdo, data, diagnostics);
+    }
+    let by_default = data.default_assignment();
+    conflicts(&by_default, diagnostics);
+    lengths(&by_default, &data.sync_managers, diagnostics);
+}
+
+/// Reports PDOs that exclude one that doesn't exist.
+pub(super) fn excluded(owner: &PdoOwner<'_>, diagnostics: &mut Diagnostics) {
+    let data = owner.data;
+    let known: HashSet<u16> = data.pdos.iter().map(|pdo| pdo.mapping_index).collect();
+    for pdo in &data.pdos {
+        let missing = pdo.excludes.iter().find(|index| !known.contains(index));
+        if let Some(index) = missing {
+            let message = format!("0x{:04X} excludes 0x{index:04X}, which isn't described", pdo.mapping_index);
+            diagnostics.push(Diagnostic::new(&codes::EXCLUDED_PDO_MISSING, pdo.origin.span, message));
+        }
+    }
+}
+
+fn sync_manager_exists(pdo: &Pdo, data: &ProcessData, diagnostics: &mut Diagnostics) {
+    let Some(number) = pdo.sync_manager.filter(|&number| !data.has_sync_manager(number)) else { return };
+    let message = format!("0x{:04X} is assigned to sync manager {number}, which isn't described", pdo.mapping_index);
+    diagnostics.push(
+        Diagnostic::new(&codes::NO_SUCH_SYNC_MANAGER, pdo.origin.span, message).label("not part of the process image"),
+    );
+}
+
+fn conflicts(by_default: &DefaultAssignment, diagnostics: &mut Diagnostics) {
+    // One described twice has a finding of its own.
+    for (pdo, other) in by_default.left_out.iter().filter(|(pdo, other)| other.mapping_index != pdo.mapping_index) {
+        let message = format!(
+            "0x{:04X} and 0x{:04X} are both assigned by default, and exclude each other",
+            other.mapping_index, pdo.mapping_index
+        );
+        diagnostics.push(
+            Diagnostic::new(&codes::DEFAULT_PDOS_CONFLICT, pdo.origin.span, message)
+                .label("left out of the process image by default")
+                .note_at(other.origin.span, "this one is in it"),
+        );
+    }
+}
+
+fn lengths(by_default: &DefaultAssignment, sync_managers: &[SyncManager], diagnostics: &mut Diagnostics) {
+    // Number and bits of the PDOs of each sync manager.
+    let mut inside = [(0usize, 0u64); 256];
+    for (pdo, number) in &by_default.assigned {
+        let (count, bits) = &mut inside[usize::from(*number)];
+        *count += 1;
+        *bits += u64::from(pdo.bits());
+    }
+    for own in sync_managers {
+        let (count, bits) = inside[usize::from(own.number)];
+        if count > MAX_PDO_SUBS {
+            let message = format!(
+                "sync manager {} has {count} PDOs by default, and a list of them at most {MAX_PDO_SUBS}",
+                own.number
+            );
+            diagnostics.push(Diagnostic::new(&codes::TOO_MANY_PDOS, own.origin.span, message));
+        }
+        let Some(max) = own.size_range.1.filter(|&max| max > 0) else { continue };
+        if bits.div_ceil(8) > u64::from(max) {
+            let message = format!(
+                "the PDOs of sync manager {} have {} bytes by default, and at most {max} fit",
+                own.number,
+                bits.div_ceil(8)
+            );
+            diagnostics.push(Diagnostic::new(&codes::IMAGE_TOO_LONG, own.origin.span, message));
+        }
+    }
+}

@@ -1,0 +1,82 @@
+//! Runs the lints of the list.
+
+use super::context::{Context, PdoOwner};
+use super::lint::{Lint, Run};
+use super::list::LINTS;
+use crate::diagnostics::Diagnostics;
+use crate::ir::owner::{Index, Owner};
+use crate::ir::{Catalog, Device, Format, Group, Module};
+
+/// Checks a resolved catalogue.
+pub fn check(catalog: &Catalog, diagnostics: &mut Diagnostics) {
+    run(LINTS, catalog, diagnostics);
+}
+
+impl Lint {
+    /// Runs this lint alone on a resolved catalogue.
+    pub fn check(&self, catalog: &Catalog, diagnostics: &mut Diagnostics) {
+        run(std::slice::from_ref(self), catalog, diagnostics);
+    }
+}
+
+fn run(lints: &[Lint], catalog: &Catalog, diagnostics: &mut Diagnostics) {
+    // The first file describes the devices; the others only refer to it, or are overlays.
+    let format = catalog.files.first().map(|file| file.format);
+    let lints: Vec<&Lint> = lints.iter().filter(|lint| lint.is_active(format, diagnostics)).collect();
+    for own in &catalog.devices {
+        device(&lints, own, &catalog.modules, format, diagnostics);
+    }
+    for own in &catalog.modules {
+        module(&lints, own, diagnostics);
+    }
+    records(&lints, catalog, diagnostics);
+    for lint in lints {
+        if let Run::Catalog(run) = lint.run {
+            run(catalog, diagnostics);
+        }
+    }
+}
+
+fn device(lints: &[&Lint], device: &Device, modules: &[Module], format: Option<Format>, diagnostics: &mut Diagnostics) {
+    let groups = [device.groups.as_slice()];
+    let owner = Owner { types: &device.types, groups: &groups };
+    let context = Context { device, modules, format, owner, items: Index::new(owner) };
+    for lint in lints.iter().filter(|lint| lint.needs.is_none_or(|need| need.is_met(device))) {
+        match lint.run {
+            Run::Device(run) => run(&context, diagnostics),
+            Run::Items(run) | Run::ItemsAndRecords(run) => run(owner, diagnostics),
+            Run::Pdos(run) => run(&PdoOwner::device(device), diagnostics),
+            Run::Records(_) | Run::Catalog(_) => {}
+        }
+    }
+}
+
+fn module(lints: &[&Lint], module: &Module, diagnostics: &mut Diagnostics) {
+    let groups = [module.fixed_objects.as_slice(), module.groups.as_slice()];
+    let owner = Owner { types: &module.types, groups: &groups };
+    for lint in lints {
+        match lint.run {
+            Run::Items(run) | Run::ItemsAndRecords(run) => run(owner, diagnostics),
+            Run::Pdos(run) => run(&PdoOwner::module(module), diagnostics),
+            Run::Device(_) | Run::Records(_) | Run::Catalog(_) => {}
+        }
+    }
+}
+
+/// The parameter records of PROFINET. Their lists of values are shared by parameters of several types and limits.
+fn records(lints: &[&Lint], catalog: &Catalog, diagnostics: &mut Diagnostics) {
+    let of_submodules = catalog.submodules.iter().map(|submodule| submodule.records.as_slice());
+    let settings = catalog.devices.iter().filter_map(|device| device.profinet.as_ref());
+    let blocks = settings.flat_map(|settings| &settings.vendor_blocks);
+    let all: Vec<&[Group]> = of_submodules.chain(blocks.map(|block| std::slice::from_ref(&block.record))).collect();
+    for records in all {
+        let groups = [records];
+        for lint in lints {
+            match lint.run {
+                Run::ItemsAndRecords(run) => run(Owner { types: &catalog.types, groups: &groups }, diagnostics),
+                Run::Records(run) => run(records, diagnostics),
+                _ => {}
+            }
+        }
+    }
+}

@@ -1,0 +1,51 @@
+//! PDOs that a table declares, and values of mapping objects without CANopen settings, against the items that they map.
+
+use crate::check::context::Context;
+use crate::check::mapped_object::{direction_of, Described, Mapped, CAN_BITS};
+use crate::diagnostics::{codes, Diagnostic, Diagnostics};
+use crate::ir::{Device, Group, Item, Pdo, PdoEntryKind, Value};
+
+/// Reports mapped objects that don't fit. Those of CANopen mapping objects and of EtherCAT have checks of their own.
+pub(crate) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
+    let device = context.device;
+    let described = Described::new(device);
+    for pdo in device.process_data.pdos.iter().filter(|pdo| !pdo.from_object) {
+        let has_object = |kind| !matches!(kind, PdoEntryKind::Padding | PdoEntryKind::Unnumbered);
+        for entry in pdo.entries.iter().filter(|entry| has_object(entry.kind)) {
+            let (object, span) = ((entry.index, entry.sub_index), entry.origin.span);
+            let mapped = Mapped { object, bits: entry.bits, direction: pdo.direction, span };
+            mapped.check(&described, device.ethercat.is_some(), diagnostics);
+        }
+        length(device, pdo, diagnostics);
+    }
+    if device.canopen.is_none() {
+        device.groups.iter().for_each(|group| defaults(&described, group, diagnostics));
+    }
+}
+
+fn length(device: &Device, pdo: &Pdo, diagnostics: &mut Diagnostics) {
+    let (bits, index) = (pdo.bits(), pdo.mapping_index);
+    let mut report = |message| diagnostics.push(Diagnostic::new(&codes::PDO_TOO_LONG, pdo.origin.span, message));
+    if let Some(max) = pdo.max_bytes.filter(|&max| bits > u32::from(max) * 8) {
+        report(format!("the PDO 0x{index:04X} has {bits} bits, and at most {max} bytes"));
+    }
+    if device.canopen.is_some() && device.ethercat.is_none() && bits > CAN_BITS {
+        report(format!("the PDO 0x{index:04X} has {bits} bits, and a CAN frame has 64"));
+    }
+}
+
+/// What a mapping object maps by its defaults.
+fn defaults(described: &Described<'_>, group: &Group, diagnostics: &mut Diagnostics) {
+    let Some(direction) = group.index().and_then(direction_of) else { return };
+    let number = |item: &Item| item.default.as_ref().and_then(Value::as_int);
+    let count = group.sub(0).and_then(number).unwrap_or(i128::MAX);
+    for item in &group.items {
+        let Some((_, sub @ 1..)) = item.object() else { continue };
+        let span = item.at.default.or(item.origin.span);
+        let mapped =
+            number(item).filter(|_| i128::from(sub) <= count).and_then(|word| Mapped::word(word, direction, span));
+        if let Some(mapped) = mapped {
+            mapped.check(described, false, diagnostics);
+        }
+    }
+}

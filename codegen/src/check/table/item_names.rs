@@ -1,0 +1,116 @@
+//! Words in texts that are nearly the name of an item: manuals spell a register one way in its row, and another way in the prose.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use crate::check::context::Context;
+use crate::diagnostics::{codes, Diagnostic, Diagnostics};
+use crate::ir::{texts, Device};
+use crate::limits;
+use crate::text::{brief, edit_distance};
+
+/// Names and words with fewer letters are told apart by too little.
+const LETTERS: std::ops::RangeInclusive<usize> = 6..=48;
+
+/// Of so many names, nine tenths show how a table names its items.
+const CONVENTION: usize = 4;
+
+pub(crate) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
+    let device = context.device;
+    let names = Names::new(device);
+    if names.like_identifiers.is_empty() || !diagnostics.wants(&codes::MENTIONED_OBJECT) {
+        return;
+    }
+    let (mut known, mut said) = (BTreeMap::new(), BTreeSet::new());
+    for text in texts::all(device) {
+        for word in text.words.split(|c: char| !c.is_alphanumeric() && c != '_') {
+            if known.len() > limits::MAX_SEARCHED_WORDS {
+                return;
+            }
+            let meant = *known.entry(word).or_insert_with(|| names.meant(word));
+            let Some(meant) = meant.filter(|_| said.insert((text.span, word))) else { continue };
+            let of = if text.of.is_empty() { String::new() } else { format!(" in `{}`", brief(text.of)) };
+            let message = format!("`{}` is mentioned{of}, and no item is called so", brief(word));
+            let found = Diagnostic::new(&codes::MENTIONED_OBJECT, text.span, message);
+            diagnostics.push(found.help(format!("did you mean `{}`?", brief(meant))));
+        }
+    }
+}
+
+/// The names of a table's items.
+struct Names<'a> {
+    all: BTreeSet<String>,
+    /// Those that can't be taken for words of a language.
+    like_identifiers: Vec<&'a str>,
+}
+
+impl<'a> Names<'a> {
+    fn new(device: &'a Device) -> Self {
+        let items = device.groups.iter().flat_map(|group| &group.items).map(|item| item.name.as_str());
+        let own = || items.clone().chain(device.groups.iter().map(|group| group.name.as_str()));
+        // Types, procedures and messages have names of the same kind.
+        let others = device.types.iter().map(|own| own.name.as_str());
+        let others = others.chain(device.procedures.iter().map(|own| own.name.as_str()));
+        let all = own().chain(others.chain(device.messages.iter().map(|own| own.name.as_str())));
+        let single =
+            |name: &&str| name.len() <= 2 * LETTERS.end() && name.chars().all(|c| c.is_alphanumeric() || c == '_');
+        let prefix = prefix(items.clone().filter(single));
+        let is_like = |name: &&str| prefix.is_some_and(|own| has_prefix(name, own)) || is_composed(name);
+        let like_identifiers = own().filter(single).filter(is_like).take(limits::MAX_SEARCHED_NAMES).collect();
+        Names { all: all.map(str::to_lowercase).collect(), like_identifiers }
+    }
+
+    /// The name that a word means and isn't.
+    fn meant(&self, word: &str) -> Option<&'a str> {
+        let letters = word.chars().count();
+        let lower = word.to_lowercase();
+        if !LETTERS.contains(&letters) || self.all.contains(&lower) {
+            return None;
+        }
+        // The family of `Rdefinp0` to `Rdefinp15` is called `Rdefinp`, or `Rdefinpx`; and a plural is no misspelling.
+        let stem = lower.trim_end_matches(['x', 'n', 's']);
+        let of_a_family = self.all.range(stem.to_owned()..).next().is_some_and(|name| name.starts_with(stem));
+        if of_a_family || self.all.contains(stem) {
+            return None;
+        }
+        let limit = (letters / 5).clamp(1, 3);
+        let near = self.like_identifiers.iter().filter(|name| similar_case(name, word));
+        let near = near.filter(|name| name.chars().count().abs_diff(letters) <= limit);
+        let best = near.map(|name| (edit_distance(&name.to_lowercase(), &lower), *name)).min()?;
+        let differs_in_letters = without_digits(best.1) != without_digits(&lower);
+        (best.0 <= limit && differs_in_letters).then_some(best.1)
+    }
+}
+
+/// The capital letter that most of these names begin with, before a small one.
+fn prefix<'n>(names: impl Iterator<Item = &'n str>) -> Option<char> {
+    let (mut count, mut by_letter) = (0, BTreeMap::new());
+    for name in names {
+        count += 1;
+        if let Some(first) = name.chars().next().filter(|&first| has_prefix(name, first)) {
+            *by_letter.entry(first).or_insert(0) += 1;
+        }
+    }
+    let (best, own) = by_letter.into_iter().max_by_key(|(_, own): &(char, usize)| *own)?;
+    (best.is_uppercase() && own >= CONVENTION && own * 10 >= count * 9).then_some(best)
+}
+
+fn has_prefix(name: &str, prefix: char) -> bool {
+    let mut letters = name.chars();
+    letters.next() == Some(prefix) && letters.next().is_some_and(char::is_lowercase)
+}
+
+/// `target_speed`, `targetSpeed`, but not `Speed`.
+fn is_composed(name: &str) -> bool {
+    let pairs = name.chars().zip(name.chars().skip(1));
+    name.trim_matches('_').contains('_') || pairs.clone().any(|(one, next)| one.is_lowercase() && next.is_uppercase())
+}
+
+/// Whether both begin alike, and have underscores and capitals alike.
+fn similar_case(name: &str, word: &str) -> bool {
+    let shape = |text: &str| text.chars().filter(|c| *c == '_' || c.is_uppercase()).count();
+    name.chars().next() == word.chars().next() && shape(name) == shape(word)
+}
+
+fn without_digits(text: &str) -> String {
+    text.chars().filter(|c| !c.is_ascii_digit()).flat_map(char::to_lowercase).collect()
+}

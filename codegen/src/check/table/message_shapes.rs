@@ -1,0 +1,103 @@
+//! Messages for which no code is generated, and what they lack.
+
+use std::collections::{BTreeMap, HashSet};
+
+use crate::check::context::Context;
+use crate::diagnostics::{codes, Diagnostic, Diagnostics};
+use crate::ir::{Device, Framing, Type};
+use crate::resolve::messages::{
+    carrier_problems, is_told, numbered, problem, refusal, shapes, Problem, Shaped, LONGEST,
+};
+use crate::source::Span;
+use crate::text::brief;
+
+const SELECTOR: Problem =
+    "what `after` names isn't sent, has no code, or has data of any length, so that nothing can be remembered of it";
+const FIRST: Problem = "`default` says what is answered before any other message was sent, and there is no `after`";
+const NO_REFUSAL: Problem = "what comes instead of its reply has no reply of its own, no code, or data of any length";
+const NO_END: Problem = "they have no last byte";
+const UNKNOWN_CHECK: Problem = "the runtime has `xor`, `sum`, `lrc` and `crc16`";
+
+/// Reports messages and framings without code, and parameters that no message carries.
+pub(in crate::check) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
+    let device = context.device;
+    let shapes = shapes(device);
+    every_message(device, &shapes, diagnostics);
+    if let Some((own, problem)) = device.framing.as_ref().and_then(|own| Some((own, framing(own)?))) {
+        left_out(own.origin.span, format!("no code for how frames are delimited: {problem}"), diagnostics);
+    }
+    parameters(context, &shapes, diagnostics);
+}
+
+fn left_out(at: Span, text: String, diagnostics: &mut Diagnostics) {
+    diagnostics.push(Diagnostic::new(&codes::MESSAGE_UNSHAPED, at, text));
+}
+
+fn every_message(device: &Device, shapes: &[Shaped<'_>], diagnostics: &mut Diagnostics) {
+    let known: HashSet<&str> = shapes.iter().map(|own| own.message.name.as_str()).collect();
+    for message in &device.messages {
+        let name = brief(&message.name);
+        let span = message.origin.span;
+        let problem = match problem(device, message) {
+            Err(problem) if is_told(device, message, problem) => continue,
+            Err(problem) => Some(problem),
+            Ok(()) => (!known.contains(message.name.as_str())).then_some(SELECTOR),
+        };
+        if let Some(problem) = problem {
+            left_out(span, format!("no code for the message `{name}`: {problem}"), diagnostics);
+            continue;
+        }
+        if message.by_default && message.after.is_none() {
+            left_out(span, format!("no code for `{name}` as the device is after power-on: {FIRST}"), diagnostics);
+        }
+        if message.error.is_some() && refusal(shapes, message).is_none() {
+            left_out(span, format!("no code for a refused `{name}`: {NO_REFUSAL}"), diagnostics);
+        }
+    }
+}
+
+/// Why no code is generated for a framing. Where nothing delimits frames, such as on a bus that has packets of its own, none is
+/// needed.
+fn framing(framing: &Framing) -> Option<Problem> {
+    let is_delimited = framing.start.is_some() || framing.escape.is_some() || !framing.check.is_empty();
+    match framing.check.as_str() {
+        _ if framing.end.is_none() => is_delimited.then_some(NO_END),
+        "" | "xor" | "sum" | "lrc" | "crc16" => None,
+        _ => Some(UNKNOWN_CHECK),
+    }
+}
+
+/// Reports messages that can't carry the parameters that they should, and parameters that none carries.
+fn parameters(context: &Context<'_>, shapes: &[Shaped<'_>], diagnostics: &mut Diagnostics) {
+    let mut carried: BTreeMap<u32, &str> = BTreeMap::new();
+    for space in &context.device.parameter_spaces {
+        for (verb, name, problem) in carrier_problems(space, shapes) {
+            let (name, own) = (brief(name), brief(&space.name));
+            let text = format!("no client {verb} parameters of `{own}` by `{name}`: {problem}");
+            left_out(space.origin.span, text, diagnostics);
+        }
+        if space.read.is_none() && space.write.is_none() {
+            continue;
+        }
+        for (code, item) in numbered(context.device, &space.name) {
+            // Of a type that nobody knows, the length isn't known either.
+            let basic = context.owner.basic(item.ty);
+            if !matches!(basic, Type::Opaque(None)) && basic.bits().is_none_or(|bits| bits > LONGEST) {
+                let name = brief(&item.name);
+                let text = format!("no message carries `{name}`: its value has no length of 1 to 8 bytes");
+                left_out(item.origin.span, text, diagnostics);
+            }
+            match carried.get(&code) {
+                None => _ = carried.insert(code, &space.name),
+                Some(first) => {
+                    let text = format!(
+                        "`{}` has the number {code:#X}, which is one of the space `{}`, too: clients reach that one alone",
+                        brief(&item.name),
+                        brief(first)
+                    );
+                    diagnostics.push(Diagnostic::new(&codes::PARAMETERS_ALIKE, item.origin.span, text));
+                }
+            }
+        }
+    }
+}

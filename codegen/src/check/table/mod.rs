@@ -1,0 +1,17 @@
+//! Lints that only concern register tables.
+
+pub(super) mod conversions;
+pub(super) mod declared_pdos;
+pub(super) mod item_names;
+pub(super) mod limits;
+pub(super) mod mentions;
+pub(super) mod message_shapes;
+pub(super) mod messages;
+pub(super) mod modbus_examples;
+pub(super) mod names;
+pub(super) mod number_gaps;
+mod physical;
+pub(super) mod quantities;
+pub(super) mod window_numbers;
+pub(super) mod window_widths;
+mod windows;

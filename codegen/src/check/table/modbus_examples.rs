@@ -1,0 +1,150 @@
+//! Example frames of Modbus against the registers, and against the lengths (Modbus application protocol, 6.1 to 6.12) and the CRC of
+//! the serial line.
+
+use crate::check::context::Context;
+use crate::diagnostics::{codes, Diagnostic, Diagnostics};
+use crate::ir::{Binding, RegisterBinding, RegisterSpace};
+use crate::source::Span;
+
+pub(crate) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
+    let bindings = context.owner.items().flat_map(|item| &item.bindings);
+    let registers: Vec<&RegisterBinding> = bindings
+        .filter_map(|binding| match binding {
+            Binding::Register(register) => Some(&**register),
+            _ => None,
+        })
+        .collect();
+    for example in &context.device.modbus_examples {
+        let mut report = |what: &str, span: Span, problems: Vec<String>| {
+            for problem in problems {
+                let found = Diagnostic::new(&codes::EXAMPLE_DIFFERS, span, format!("the {what} {problem}"));
+                diagnostics.push(found.help("keep what the other frames of the manual support, with a `doubt`"));
+            }
+        };
+        let request = Request::read(&example.request);
+        if let Some(request) = &request {
+            report("request", example.request_at, request.problems(&registers, &example.request));
+        }
+        if !example.reply.is_empty() {
+            report("reply", example.reply_at, reply(request.as_ref(), &example.reply));
+        }
+    }
+}
+
+/// A request for registers: what all functions have.
+struct Request {
+    node: u8,
+    function: u8,
+    start: u16,
+    /// How many registers; of a request that writes one, 1.
+    quantity: u16,
+}
+
+impl Request {
+    fn read(bytes: &[u8]) -> Option<Self> {
+        let (&[node, function], rest) = bytes.split_first_chunk()?;
+        let word = |at: usize| Some(u16::from_be_bytes([*rest.get(at)?, *rest.get(at + 1)?]));
+        let quantity = match function {
+            3 | 4 | 16 => word(2)?,
+            6 => 1,
+            _ => return None,
+        };
+        Some(Request { node, function, start: word(0)?, quantity })
+    }
+
+    /// Bytes of node, function and data.
+    fn length(&self, bytes: &[u8]) -> usize {
+        match self.function {
+            16 => 7 + usize::from(bytes.get(6).copied().unwrap_or(0)),
+            _ => 6,
+        }
+    }
+
+    fn problems(&self, registers: &[&RegisterBinding], bytes: &[u8]) -> Vec<String> {
+        let space = if self.function == 4 { RegisterSpace::Input } else { RegisterSpace::Holding };
+        let mut problems = Vec::new();
+        let own: Vec<_> = registers.iter().filter(|own| own.space == space).collect();
+        if !own.iter().any(|own| own.address == self.start) {
+            problems.push(format!("begins with the address 0x{:04X}, which no row has", self.start));
+        } else if !own.iter().any(|own| self.covers(own)) {
+            let quantity = self.quantity;
+            problems.push(format!("is about {quantity} registers of 16 bits, and no value ends there"));
+        }
+        if self.function == 16 && bytes.get(6).is_some_and(|count| u16::from(*count) != self.quantity.saturating_mul(2))
+        {
+            problems.push(format!("has {} bytes for {} registers", bytes.get(6).unwrap_or(&0), self.quantity));
+        }
+        problems.extend(ending(bytes, self.length(bytes)));
+        problems
+    }
+
+    /// Whether the last register that the request is about is the last one of this value.
+    fn covers(&self, own: &RegisterBinding) -> bool {
+        // A device answers a request for one register of a longer value with its lower half.
+        if matches!(self.function, 3 | 4 | 6) && self.quantity == 1 {
+            return own.address == self.start;
+        }
+        let words = u32::from(own.words_per_address.max(1));
+        let last = (u32::from(own.address).saturating_sub(self.start.into())) * words + u32::from(own.count);
+        own.address >= self.start && last == u32::from(self.quantity)
+    }
+}
+
+/// What is wrong with a reply.
+fn reply(request: Option<&Request>, bytes: &[u8]) -> Vec<String> {
+    let (Some(request), [node, function, ..]) = (request, bytes) else { return Vec::new() };
+    let mut problems = Vec::new();
+    if *node != request.node {
+        problems.push(format!("is of node {node}, and {} was asked", request.node));
+    }
+    let length = match function {
+        3 | 4 => {
+            let count = bytes.get(2).copied().unwrap_or(0);
+            if u16::from(count) != request.quantity.saturating_mul(2) {
+                let expected = request.quantity.saturating_mul(2);
+                problems.push(format!("has {count} bytes for {} registers, which are {expected}", request.quantity));
+            }
+            3 + usize::from(count)
+        }
+        6 | 16 => 6,
+        0x80.. => 3,
+        _ => return problems,
+    };
+    if function & 0x7F != request.function {
+        problems.push(format!("has function {}, and {} was asked for", function & 0x7F, request.function));
+    }
+    problems.extend(ending(bytes, length));
+    problems
+}
+
+/// What is wrong with the end of a frame whose node, function and data have so many bytes: the CRC may follow.
+fn ending(bytes: &[u8], length: usize) -> Option<String> {
+    match bytes.len().checked_sub(length) {
+        Some(0) => None,
+        Some(2) => {
+            let (data, check) = bytes.split_at(length);
+            let crc = crc(data).to_le_bytes();
+            (check != crc).then(|| format!("ends in {:02X?}, and its CRC is {crc:02X?}", check))
+        }
+        _ => Some(format!("has {} bytes, and its fields take {length}", bytes.len())),
+    }
+}
+
+/// CRC-16 of Modbus over serial line, 6.2.2.
+fn crc(bytes: &[u8]) -> u16 {
+    bytes.iter().fold(0xFFFF, |crc, byte| {
+        let crc = crc ^ u16::from(*byte);
+        (0..8).fold(crc, |crc, _| if crc & 1 == 1 { crc >> 1 ^ 0xA001 } else { crc >> 1 })
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn crc_of_the_standard() {
+        // Node 2, function 7: 0x1241, the low byte first.
+        assert_eq!(crc(&[0x02, 0x07]), 0x1241);
+    }
+}

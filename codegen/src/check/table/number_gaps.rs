@@ -1,0 +1,45 @@
+//! Numbers of parameters that are missing between others.
+
+use crate::check::context::Context;
+use crate::diagnostics::{codes, Diagnostic, Diagnostics};
+use crate::ir::{Binding, Group, GroupKind, Item};
+use crate::text::brief;
+
+/// So many numbers in a row, on both sides of a gap, are how a chapter counts.
+const ROW: usize = 2;
+
+pub(crate) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
+    for group in context.device.groups.iter().filter(|group| group.kind == GroupKind::Chapter) {
+        chapter(group, diagnostics);
+    }
+}
+
+/// Reports the places in a chapter where the next parameter isn't the next number, though its neighbours count up by one.
+fn chapter(group: &Group, diagnostics: &mut Diagnostics) {
+    let numbered: Vec<(u32, &Item)> = group.items.iter().filter_map(|item| Some((code(item)?, item))).collect();
+    for (at, pair) in numbered.windows(2).enumerate() {
+        let [(before, _), (after, item)] = pair else { continue };
+        let missing = after.saturating_sub(*before).saturating_sub(1);
+        if missing != 1 {
+            continue;
+        }
+        let counts_up = |from: usize| {
+            let row = numbered.get(from..from + ROW).unwrap_or_default();
+            row.len() == ROW
+                && row.windows(2).all(|pair| matches!(pair, [(one, _), (two, _)] if one.checked_add(1) == Some(*two)))
+        };
+        if (at + 1).checked_sub(ROW).is_some_and(counts_up) && counts_up(at + 1) {
+            let message =
+                format!("`{}` has the number 0x{after:04X}, and nothing has 0x{:04X}", brief(&item.name), before + 1);
+            let found = Diagnostic::new(&codes::NUMBER_GAP, item.at.name.or(item.origin.span), message);
+            diagnostics.push(found.help("a row of the manual's table is missing, or the device has no such parameter"));
+        }
+    }
+}
+
+fn code(item: &Item) -> Option<u32> {
+    item.bindings.iter().find_map(|binding| match binding {
+        Binding::Parameter { code, .. } => Some(*code),
+        _ => None,
+    })
+}

@@ -1,0 +1,110 @@
+//! Items that are one quantity in two scales: their defaults are the same physical number on every model.
+
+use std::convert::Infallible;
+
+use super::physical;
+use crate::check::context::Context;
+use crate::diagnostics::{codes, Diagnostic, Diagnostics};
+use crate::ir::owner::Index;
+use crate::ir::{CompactString, Device, Item, MachineUnit, Scale, Value, Variant};
+use crate::text::{brief, glob};
+
+/// How far apart, as a part of the greater one, two defaults may be that were rounded to different counts.
+const TOLERANCE: f64 = 0.001;
+
+/// Five digits of a number are enough to see a difference of a thousandth.
+const DIGITS: f64 = 4.0;
+
+pub(crate) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
+    let Context { device, owner, items, .. } = context;
+    for item in owner.items() {
+        for view in item.extensions.iter().filter(|own| own.key == "same_quantity") {
+            let Some(other) = items.find(&view.value).filter(|other| !std::ptr::eq(*other, item)) else { continue };
+            let differences = differences(device, items, item, other);
+            if differences.is_empty() {
+                continue;
+            }
+            let message = format!(
+                "`{}` is the same quantity as `{}`, and the defaults differ: {}",
+                brief(&item.name),
+                brief(&other.name),
+                differences.join("; ")
+            );
+            let found = Diagnostic::new(&codes::QUANTITIES_DIFFER, item.at.default.or(item.origin.span), message);
+            diagnostics.push(found.note_at(other.at.default.or(other.origin.span), "the other one"));
+        }
+    }
+}
+
+/// The models on which the defaults differ, or why they can't be compared.
+fn differences(device: &Device, items: &Index<'_>, one: &Item, other: &Item) -> Vec<String> {
+    let models: Vec<Option<&Variant>> = match device.variants.as_slice() {
+        [] => vec![None],
+        variants => variants.iter().map(Some).collect(),
+    };
+    let mut found = Vec::new();
+    for model in models {
+        let of = |item| Physical::new(device, items, item, model);
+        let (Some(one), Some(other)) = (of(one), of(other)) else { continue };
+        let (one, other) = match (&one.machine, &other.machine) {
+            _ if one.unit == other.unit => ((one.number, one.unit), (other.number, other.unit)),
+            (Some(own), Some(others)) if own.1 == others.1 => (own.clone(), others.clone()),
+            _ => {
+                found.push(format!("the units `{}` and `{}`", brief(&one.unit), brief(&other.unit)));
+                break;
+            }
+        };
+        if (one.0 - other.0).abs() > TOLERANCE * one.0.abs().max(other.0.abs()) {
+            let of = model.map(|model| format!(" ({})", brief(&model.name))).unwrap_or_default();
+            found.push(format!(
+                "{} and {} {}{of}",
+                physical::rounded(one.0, DIGITS),
+                physical::rounded(other.0, DIGITS),
+                brief(&one.1)
+            ));
+        }
+    }
+    found
+}
+
+/// A default as a physical number, and as one of the machine where its unit says how.
+struct Physical {
+    number: f64,
+    unit: CompactString,
+    machine: Option<(f64, CompactString)>,
+}
+
+impl Physical {
+    fn new(device: &Device, items: &Index<'_>, item: &Item, model: Option<&Variant>) -> Option<Self> {
+        let raw = default(item, model)?;
+        let Some(quantity) = &item.quantity else {
+            return Some(Physical { number: raw, unit: CompactString::default(), machine: None });
+        };
+        let other = |name: &CompactString| match quantity.scale {
+            Some(Scale::Fraction { .. }) => physical::constant(model, name).ok_or(()),
+            Some(Scale::Exponent { .. }) => items.find(name).and_then(|item| default(item, model)).ok_or(()),
+            _ => Err(()),
+        };
+        if matches!(quantity.scale, Some(Scale::Reciprocal { .. })) {
+            return None;
+        }
+        let number = physical::of_raw(quantity.scale.as_ref(), raw, other).ok()?;
+        let machine = quantity.machine.as_ref().map(|own| (number * machine(device, own, model), own.unit.clone()));
+        Some(Physical { number, unit: quantity.unit.clone(), machine })
+    }
+}
+
+/// What a number of the machine is multiplied with. Numbers that no model knows count as 1: both views have them.
+fn machine(device: &Device, unit: &MachineUnit, model: Option<&Variant>) -> f64 {
+    let model = model.map(|model| model.name.as_str());
+    let number = |name: &CompactString| Ok::<_, Infallible>(physical::given(device, model, name).unwrap_or(1.0));
+    let Ok(ratio) = physical::ratio(unit, number);
+    ratio
+}
+
+/// The default of an item on a model.
+fn default(item: &Item, model: Option<&Variant>) -> Option<f64> {
+    let is_own = |name: &CompactString| model.is_some_and(|model| glob(name, &model.name));
+    let variant = item.variants.iter().filter(|own| own.models.iter().any(is_own)).find_map(|own| own.default.as_ref());
+    variant.or(item.default.as_ref()).and_then(Value::as_real)
+}

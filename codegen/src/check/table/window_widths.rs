@@ -1,0 +1,100 @@
+//! Windows against the values that go through them, and against the procedures that use them.
+
+use std::collections::{BTreeMap, HashSet};
+
+use super::windows::{behind, windows};
+use crate::check::context::Context;
+use crate::diagnostics::{codes, Diagnostic, Diagnostics};
+use crate::ir::owner::Owner;
+use crate::ir::{Binding, CompactString, Item, Procedure, Step, Value, WindowSide};
+use crate::text::brief;
+
+pub(crate) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
+    let (mut narrow, mut seen) = (HashSet::new(), HashSet::new());
+    for item in behind(context) {
+        width(context, item, &mut narrow, diagnostics);
+        for side in windows(item).filter_map(|window| window.write.as_ref()).filter(|side| seen.insert(*side)) {
+            let procedure = context.device.procedures.iter().find(|own| Some(&own.name) == side.procedure.as_ref());
+            order(context, side, procedure, item, diagnostics);
+        }
+    }
+}
+
+/// Items with more bits than any of their windows has on a bus. One finding for each value stands for all its items.
+fn width<'d>(
+    context: &Context<'d>,
+    item: &'d Item,
+    told: &mut HashSet<&'d CompactString>,
+    diagnostics: &mut Diagnostics,
+) {
+    let bits_of = |item: &Item| context.owner.basic(item.ty).bits();
+    let Some(bits) = bits_of(item).map(|bits| bits.min(needed(context.owner, item))) else { return };
+    // On each bus, the widest window counts.
+    let mut widest: BTreeMap<(&str, &str), (u32, &CompactString)> = BTreeMap::new();
+    for window in windows(item) {
+        let sides = [("read", &window.read), ("written", &window.write)];
+        for (verb, side) in sides.into_iter().filter_map(|(verb, side)| Some((verb, side.as_ref()?))) {
+            let Some(own) = context.items.find(&side.value).and_then(bits_of) else { continue };
+            for bus in &window.buses {
+                let entry = widest.entry((verb, bus)).or_insert((own, &side.value));
+                *entry = if own > entry.0 { (own, &side.value) } else { *entry };
+            }
+        }
+    }
+    for ((verb, _), (own, name)) in widest {
+        if own < bits && told.insert(name) {
+            let (item_name, through) = (brief(&item.name), brief(name));
+            let message = format!("`{item_name}` has {bits} bits, and is {verb} through `{through}`, which has {own}");
+            let found = Diagnostic::new(&codes::NARROW_WINDOW, item.at.name, message);
+            diagnostics.push(found.label("the first that doesn't fit"));
+        }
+    }
+}
+
+/// A window, or its procedure, that writes the number first, where the device clears the number once it is done: it has begun
+/// before the value is there. The number and the value of a process image go together.
+fn order(
+    context: &Context<'_>,
+    side: &WindowSide,
+    procedure: Option<&Procedure>,
+    item: &Item,
+    diagnostics: &mut Diagnostics,
+) {
+    let number = context.items.find(&side.number);
+    let is_cyclic = |own: &Item| own.bindings.iter().any(|binding| matches!(binding, Binding::Image(_)));
+    let by_row = number.and_then(|own| own.behaviour.as_ref()).is_some_and(|own| own.self_clearing);
+    if context.items.find(&side.value).is_some_and(is_cyclic) || !(by_row || side.clears == Some(true)) {
+        return;
+    }
+    let (address, value) = (brief(&side.number), brief(&side.value));
+    let begins = "the device begins with the number";
+    if side.number_first == Some(true) {
+        let message = format!("the number is written to `{address}` before the value to `{value}`, and {begins}");
+        let found = Diagnostic::new(&codes::WINDOW_ORDER, number.map_or(item.at.name, |own| own.at.name), message);
+        diagnostics.push(
+            found.help("`first = \"value\"`, or no `clears` at the row where the device doesn't clear the number"),
+        );
+    }
+    let Some(procedure) = procedure else { return };
+    let writes = |step: &Step, wanted: &CompactString| match step {
+        Step::Write(item, _) | Step::WriteBits(item, ..) | Step::WriteArgument(item, _) => item == wanted,
+        _ => false,
+    };
+    let first = procedure.steps.iter().position(|step| writes(step, &side.number));
+    let behind = procedure.steps.iter().rposition(|step| writes(step, &side.value));
+    let Some((at, _)) = behind.zip(first).filter(|(behind, first)| first < behind) else { return };
+    let name = brief(&procedure.name);
+    let message = format!("`{name}` writes the number to `{address}` before the value to `{value}`, and {begins}");
+    let span = procedure.step_spans.get(at).copied().unwrap_or(procedure.origin.span);
+    diagnostics.push(Diagnostic::new(&codes::WINDOW_ORDER, span, message).help("write the value first"));
+}
+
+/// How many bits the greatest value has, where none is below zero and the greatest is known; else any number.
+fn needed(owner: Owner<'_>, item: &Item) -> u32 {
+    let limit = |limit: &Option<Value>| limit.as_ref().and_then(Value::as_int);
+    let low = limit(&item.limits.low).or_else(|| Some(owner.basic(item.ty).integer_range()?.0));
+    match (low, limit(&item.limits.high)) {
+        (Some(0..), Some(high @ 0..)) => i128::BITS - high.leading_zeros(),
+        _ => u32::MAX,
+    }
+}

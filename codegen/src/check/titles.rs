@@ -1,0 +1,44 @@
+//! Titles of columns that stand where the name of a bit or value is expected.
+
+use super::context::Context;
+use crate::diagnostics::{codes, Diagnostic, Diagnostics};
+use crate::ir::{Shape, TypeDef};
+use crate::text::brief;
+
+/// Titles of the column in which manuals say what values mean, and which nothing else is called.
+const TITLES: [&str; 11] = [
+    "definition",
+    "definitions",
+    "definizione",
+    "description",
+    "descrizione",
+    "meaning",
+    "significato",
+    "beschreibung",
+    "bedeutung",
+    "codifica",
+    "bit no",
+];
+
+pub(super) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
+    for definition in context.owner.types {
+        match &definition.shape {
+            Shape::BitField { fields, .. } => {
+                titles(definition, fields.iter().map(|field| field.name.as_str()), diagnostics);
+            }
+            Shape::Enumeration { values, .. } => {
+                titles(definition, values.iter().map(|value| value.name.as_str()), diagnostics);
+            }
+            _ => {}
+        }
+    }
+}
+
+fn titles<'n>(definition: &TypeDef, names: impl Iterator<Item = &'n str>, diagnostics: &mut Diagnostics) {
+    let is_title = |name: &&str| TITLES.contains(&name.trim().trim_end_matches('.').to_lowercase().as_str());
+    for name in names.filter(is_title) {
+        let message = format!("`{}` of `{}` is the title of a column", brief(name), brief(&definition.name));
+        let found = Diagnostic::new(&codes::BROKEN_NAME, definition.origin.span, message);
+        diagnostics.push(found.help("a line of the printed table slid down or up: look at the values beside it"));
+    }
+}

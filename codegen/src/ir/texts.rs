@@ -1,0 +1,81 @@
+//! The texts of a register table: what documentation, names, effects and steps say, each with its place and whose it is.
+
+use super::{CompactString, Device, Documentation, Item, LocalText, Shape, Step, TypeDef};
+use crate::source::Span;
+
+/// A text, and what it belongs to.
+pub(crate) struct Text<'a> {
+    pub span: Span,
+    pub of: &'a str,
+    pub words: &'a str,
+}
+
+/// All texts of a device.
+pub(crate) fn all(device: &Device) -> Vec<Text<'_>> {
+    let mut list = List(Vec::new());
+    for group in &device.groups {
+        // What is said of an object of one value is said of the value.
+        if group.items.is_empty() || group.object_code().is_none_or(|code| code.has_subs()) {
+            list.documented(group.origin.span, &group.name, &group.documentation, &group.names);
+        }
+        group.items.iter().for_each(|item| list.item(item));
+    }
+    device.types.iter().for_each(|definition| list.definition(definition));
+    for procedure in &device.procedures {
+        list.documented(procedure.origin.span, &procedure.name, &procedure.documentation, &[]);
+        for (step, span) in procedure.spanned() {
+            if let Step::Manual(words) = step {
+                list.push(span, &procedure.name, words);
+            }
+        }
+    }
+    list.0
+}
+
+struct List<'a>(Vec<Text<'a>>);
+
+impl<'a> List<'a> {
+    fn push(&mut self, span: Span, of: &'a str, words: &'a str) {
+        if !words.is_empty() {
+            self.0.push(Text { span, of, words });
+        }
+    }
+
+    fn documented(
+        &mut self,
+        span: Span,
+        of: &'a CompactString,
+        documentation: &'a Option<Box<Documentation>>,
+        names: &'a [LocalText],
+    ) {
+        if let Some(own) = documentation {
+            self.push(span, of, &own.text);
+        }
+        names.iter().for_each(|name| self.push(span, of, &name.text));
+    }
+
+    fn item(&mut self, item: &'a Item) {
+        let span = item.origin.span;
+        self.documented(item.at.documentation.or(span), &item.name, &item.documentation, &item.names);
+        let effects = item.behaviour.iter().flat_map(|behaviour| &behaviour.side_effects);
+        effects.for_each(|effect| self.push(span, &item.name, effect));
+    }
+
+    fn definition(&mut self, definition: &'a TypeDef) {
+        let span = definition.origin.span;
+        if let Some(own) = &definition.documentation {
+            self.push(span, &definition.name, &own.text);
+        }
+        match &definition.shape {
+            Shape::BitField { fields, .. } => fields.iter().for_each(|field| {
+                self.push(span, &definition.name, &field.name);
+                self.documented(span, &field.name, &field.documentation, &field.names);
+            }),
+            Shape::Enumeration { values, .. } => values.iter().for_each(|value| {
+                self.push(span, &definition.name, &value.name);
+                self.documented(span, &value.name, &value.documentation, &value.names);
+            }),
+            _ => {}
+        }
+    }
+}

@@ -1,0 +1,66 @@
+//! Identity of a device: numbers that its header leaves out come from object 0x1018 (CiA 301 7.5.2.19).
+
+use crate::ir::{Device, Value};
+
+/// Fills in the numbers that the header leaves out. Those of ETG.2000's Type select the device: a missing one fits any number.
+pub(super) fn run(device: &mut Device) {
+    if device.ethercat.is_some() {
+        return;
+    }
+    for number in IdentityNumber::ALL {
+        let stated = number.stated(device);
+        if let (None | Some(0), Some(value)) = (stated, number.in_object(device).map(|(value, _)| value)) {
+            *number.stated_mut(device) = Some(value);
+        }
+    }
+}
+
+/// A number of the identity object.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum IdentityNumber {
+    /// Sub-index 1.
+    Vendor,
+    /// Sub-index 2.
+    Product,
+    /// Sub-index 3.
+    Revision,
+}
+
+impl IdentityNumber {
+    /// All of them.
+    pub(crate) const ALL: [IdentityNumber; 3] =
+        [IdentityNumber::Vendor, IdentityNumber::Product, IdentityNumber::Revision];
+
+    /// Returns its name in messages.
+    pub(crate) fn name(self) -> &'static str {
+        match self {
+            IdentityNumber::Vendor => "vendor number",
+            IdentityNumber::Product => "product code",
+            IdentityNumber::Revision => "revision number",
+        }
+    }
+
+    /// Returns the number that the device states.
+    pub(crate) fn stated(self, device: &Device) -> Option<u32> {
+        match self {
+            IdentityNumber::Vendor => device.identity.vendor_id,
+            IdentityNumber::Product => device.identity.product_code,
+            IdentityNumber::Revision => device.identity.revision_number,
+        }
+    }
+
+    fn stated_mut(self, device: &mut Device) -> &mut Option<u32> {
+        match self {
+            IdentityNumber::Vendor => &mut device.identity.vendor_id,
+            IdentityNumber::Product => &mut device.identity.product_code,
+            IdentityNumber::Revision => &mut device.identity.revision_number,
+        }
+    }
+
+    /// Returns the default of the object's entry, and where it stands.
+    pub(crate) fn in_object(self, device: &Device) -> Option<(u32, crate::source::Span)> {
+        let item = device.entry(0x1018, self as u8 + 1)?;
+        let value = item.default.as_ref().and_then(Value::as_int)?;
+        Some((u32::try_from(value).ok()?, item.at.default))
+    }
+}

@@ -1,0 +1,115 @@
+//! Objects that a PDO of an EtherCAT slave or module maps and that nothing describes.
+//!
+//! What is mapped is there: a device without a dictionary, or with one that lacks an object, gets it with the name, type
+//! and length that the entry tells. Such objects get line 0, for they stand nowhere in the file as objects.
+
+use std::collections::BTreeMap;
+
+use crate::ir::{Access, Binding, Device, Direction, Group, Item, Module, ObjectCode, Pdo, PdoEntryKind};
+use crate::source::Origin;
+
+/// Of a device. Entries whose index grows with the slot map objects of a module.
+pub(super) fn device(device: &mut Device) {
+    complete(&mut device.groups, &mut device.process_data.pdos, false);
+}
+
+/// Of a module.
+pub(super) fn module(module: &mut Module) {
+    complete(&mut module.groups, &mut module.process_data.pdos, true);
+}
+
+/// What the entries tell of an object that isn't described.
+#[derive(Default)]
+struct Implied {
+    items: BTreeMap<u8, Item>,
+    depends_on_slot: bool,
+    depends_on_slot_group: bool,
+    origin: Origin,
+}
+
+fn complete(groups: &mut Vec<Group>, pdos: &mut [Pdo], is_module: bool) {
+    let mut objects: BTreeMap<u16, Implied> = BTreeMap::new();
+    for pdo in pdos {
+        for entry in &mut pdo.entries {
+            if entry.kind != PdoEntryKind::Unknown || (entry.depends_on_slot && !is_module) {
+                continue;
+            }
+            entry.kind = PdoEntryKind::Item;
+            let object = objects.entry(entry.index).or_default();
+            object.depends_on_slot |= entry.depends_on_slot;
+            object.depends_on_slot_group |= entry.depends_on_slot_group;
+            let origin = Origin { line: 0, ..entry.origin };
+            if object.items.is_empty() {
+                object.origin = origin;
+            }
+            let item = object.items.entry(entry.sub_index).or_insert_with(|| {
+                let mut item = Item::new(Binding::coe(entry.index, entry.sub_index));
+                (item.name, item.names) = (entry.name.clone(), entry.names.clone());
+                (item.ty, item.origin) = (entry.ty, origin);
+                item
+            });
+            match pdo.direction {
+                Direction::Receive => (item.access, item.mappable.rpdo) = (Access::ReadWrite, true),
+                Direction::Transmit => item.mappable.tpdo = true,
+            }
+        }
+    }
+    add(groups, objects);
+}
+
+/// Adds what is implied to the objects, which are sorted by index.
+fn add(groups: &mut Vec<Group>, objects: BTreeMap<u16, Implied>) {
+    let described = groups.len();
+    for (index, object) in objects {
+        let known = groups.get_mut(..described).unwrap_or_default();
+        let position = known.binary_search_by_key(&Some(index), Group::index).ok();
+        if let Some(group) = position.and_then(|position| known.get_mut(position)) {
+            group.items.extend(object.items.into_values());
+            group.items.sort_by_key(|item| item.object().map(|(_, sub)| sub));
+            continue;
+        }
+        let is_var = object.items.keys().eq([&0]);
+        let mut group = Group::object(index, if is_var { ObjectCode::Var } else { ObjectCode::Record });
+        if let (true, Some(item)) = (is_var, object.items.values().next()) {
+            (group.name, group.names) = (item.name.clone(), item.names.clone());
+        }
+        group.items = object.items.into_values().collect();
+        group.origin = object.origin;
+        group.depends_on_slot = object.depends_on_slot;
+        group.depends_on_slot_group = object.depends_on_slot_group;
+        groups.push(group);
+    }
+    if groups.len() > described {
+        groups.sort_by_key(Group::index);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::ir::{PdoEntry, Type};
+
+    #[test]
+    fn what_is_mapped_exists() {
+        let entry = |index, sub, name: &str| PdoEntry {
+            name: name.into(),
+            ty: Type::Unsigned(8),
+            ..PdoEntry::new(index, sub, 8)
+        };
+        let mut receive = Pdo::new(Direction::Receive, 0x1600);
+        receive.entries = vec![entry(0x7000, 1, "Out"), entry(0x7000, 2, "Both")];
+        let mut transmit = Pdo::new(Direction::Transmit, 0x1A00);
+        transmit.entries = vec![entry(0x7000, 2, "Both"), entry(0x6041, 0, "Status")];
+        let mut device = Device { groups: vec![Group::object(0x6800, ObjectCode::Var)], ..Device::default() };
+        device.process_data.pdos = vec![receive, transmit];
+        super::device(&mut device);
+        let indices: Vec<_> = device.groups.iter().filter_map(Group::index).collect();
+        assert_eq!(indices, [0x6041, 0x6800, 0x7000]);
+        let status = device.object(0x6041).unwrap();
+        assert_eq!((status.object_code(), status.name.as_str()), (Some(ObjectCode::Var), "Status"));
+        let both = device.entry(0x7000, 2).unwrap();
+        assert_eq!((both.access, both.mappable.rpdo, both.mappable.tpdo), (Access::ReadWrite, true, true));
+        assert_eq!(device.entry(0x6041, 0).unwrap().access, Access::ReadOnly);
+        assert!(device.groups.iter().all(|group| group.origin.line == 0));
+    }
+}

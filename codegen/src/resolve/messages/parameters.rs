@@ -1,0 +1,116 @@
+//! The messages that read and write numbered parameters one by one.
+
+use std::collections::BTreeMap;
+
+use super::shape::{Problem, Shaped};
+use super::step::Step;
+use crate::ir::{Binding, CompactString, Device, Item, ParameterSpace};
+
+const OTHERS: Problem = "its request has fields beside the parameter, which a client couldn't fill in";
+const NO_NUMBER: Problem = "its request has no number of a parameter of this space";
+const NO_VALUE: Problem = "its reply has no value of a parameter of this space";
+const NO_SETTING: Problem = "its request has no parameter of this space with a value";
+const NO_CODE: Problem = "there is no code for it";
+
+/// The longest value that a message carries, in bits.
+pub(crate) const LONGEST: u32 = 64;
+
+/// The messages of a space, by their places among the shapes.
+pub(crate) struct Carriers<'d> {
+    pub space: &'d str,
+    pub read: Option<usize>,
+    pub write: Option<usize>,
+}
+
+/// The spaces whose parameters are read or written by messages.
+pub(crate) fn carriers<'d>(device: &'d Device, shapes: &[Shaped<'_>]) -> Vec<Carriers<'d>> {
+    let with = device.parameter_spaces.iter().filter(|space| !numbered(device, &space.name).is_empty());
+    let all = with.map(|space| Carriers {
+        space: &space.name,
+        read: carrier(shapes, &space.read, |own| reads(own, &space.name)).and_then(Result::ok),
+        write: carrier(shapes, &space.write, |own| writes(own, &space.name)).and_then(Result::ok),
+    });
+    all.filter(|own| own.read.is_some() || own.write.is_some()).collect()
+}
+
+/// The place of the message called `name`, or why it doesn't do; `None` where there is no name.
+fn carrier(
+    shapes: &[Shaped<'_>],
+    name: &Option<CompactString>,
+    check: impl Fn(&Shaped<'_>) -> Result<(), Problem>,
+) -> Option<Result<usize, Problem>> {
+    let name = name.as_deref()?;
+    let Some(at) = shapes.iter().position(|own| own.is_called(name)) else { return Some(Err(NO_CODE)) };
+    Some(shapes.get(at).map_or(Err(NO_CODE), check).map(|()| at))
+}
+
+/// Whether a message reads a parameter of a space whose number alone is given.
+fn reads(own: &Shaped<'_>, space: &str) -> Result<(), Problem> {
+    let mut found = false;
+    for step in &own.request.steps {
+        match step {
+            Step::Code { space: own, .. } | Step::Blank { space: own, .. } if *own == space && !found => found = true,
+            step if has_value(step) => return Err(OTHERS),
+            _ => {}
+        }
+    }
+    let gives = |step: &Step<'_>| matches!(step, Step::Setting { space: own, .. } | Step::ValueOnly { space: own, .. } if *own == space);
+    match (found, own.reply.steps.iter().any(gives)) {
+        (false, _) => Err(NO_NUMBER),
+        (true, false) => Err(NO_VALUE),
+        (true, true) => Ok(()),
+    }
+}
+
+/// Whether a message writes a parameter of a space that alone is given, with its value.
+fn writes(own: &Shaped<'_>, space: &str) -> Result<(), Problem> {
+    let mut found = false;
+    for step in &own.request.steps {
+        match step {
+            Step::Setting { space: own, .. } | Step::Settings { space: own, .. } if *own == space && !found => {
+                found = true;
+            }
+            Step::Code { .. } | Step::Blank { .. } => return Err(NO_SETTING),
+            step if has_value(step) => return Err(OTHERS),
+            _ => {}
+        }
+    }
+    found.then_some(()).ok_or(NO_SETTING)
+}
+
+/// Whether whoever sends a step has to say what it holds.
+fn has_value(step: &Step<'_>) -> bool {
+    match step {
+        Step::Value { .. } | Step::Count { .. } | Step::List { .. } | Step::Rest | Step::ValueOnly { .. } => true,
+        Step::Code { .. } | Step::Blank { .. } | Step::Setting { .. } | Step::Settings { .. } => true,
+        Step::Bytes(_) | Step::Bits { .. } | Step::Padding(_) | Step::Station { .. } | Step::Fixed { .. } => false,
+        Step::Length { .. } | Step::Echo { .. } | Step::Copy { .. } | Step::Same { .. } => false,
+    }
+}
+
+/// The parameters of a space, by their numbers.
+pub(crate) fn numbered<'d>(device: &'d Device, space: &str) -> BTreeMap<u32, &'d Item> {
+    let items = device.groups.iter().flat_map(|group| &group.items);
+    let numbered = items.flat_map(|item| {
+        item.bindings.iter().filter_map(move |binding| match binding {
+            Binding::Parameter { space: own, code } if own == space => Some((*code, item)),
+            _ => None,
+        })
+    });
+    let mut all = BTreeMap::new();
+    for (code, item) in numbered {
+        all.entry(code).or_insert(item);
+    }
+    all
+}
+
+/// Returns why the messages of a space don't carry its parameters: `reads` or `writes`, the name of the message, and the problem.
+pub(crate) fn carrier_problems<'d>(
+    space: &'d ParameterSpace,
+    shapes: &[Shaped<'_>],
+) -> impl Iterator<Item = (&'static str, &'d str, Problem)> {
+    let read = carrier(shapes, &space.read, |own| reads(own, &space.name));
+    let write = carrier(shapes, &space.write, |own| writes(own, &space.name));
+    let all = [("reads", &space.read, read), ("writes", &space.write, write)];
+    all.into_iter().filter_map(|(verb, name, found)| Some((verb, name.as_deref()?, found?.err()?)))
+}

@@ -1,0 +1,94 @@
+//! The messages for which code is generated, and why others have none.
+
+use std::collections::HashMap;
+
+use super::frame::Frame;
+use super::shaper::{self, Side};
+use crate::ir::{Device, Message};
+
+/// Why there is no code.
+pub(crate) type Problem = &'static str;
+
+/// A message with the shapes of its data.
+#[derive(Clone, Debug)]
+pub(crate) struct Shaped<'a> {
+    pub message: &'a Message,
+    pub request: Side<'a>,
+    pub reply: Side<'a>,
+}
+
+impl<'a> Shaped<'a> {
+    fn new(device: &'a Device, message: &'a Message) -> Result<Self, Problem> {
+        let request = shaper::request(device, message)?;
+        let reply = shaper::reply(device, message, &request)?;
+        Ok(Shaped { message, request, reply })
+    }
+
+    pub(super) fn is_called(&self, name: &str) -> bool {
+        self.message.name == name
+    }
+
+    /// Whether later messages can depend on it.
+    fn can_select(&self) -> bool {
+        !self.message.request.is_empty() && !self.request.borrows()
+    }
+}
+
+/// The messages for which code is generated.
+pub(crate) fn shapes(device: &Device) -> Vec<Shaped<'_>> {
+    let all: Vec<Shaped<'_>> = device.messages.iter().filter_map(|message| Shaped::new(device, message).ok()).collect();
+    let lost = without_selector(&all);
+    all.into_iter().zip(lost).filter(|(_, is_lost)| !is_lost).map(|(own, _)| own).collect()
+}
+
+/// Which messages depend on one that can't select anything, or on one that is lost for that.
+fn without_selector(all: &[Shaped<'_>]) -> Vec<bool> {
+    let mut selectors: HashMap<&str, usize> = HashMap::new();
+    let mut dependents: HashMap<&str, Vec<usize>> = HashMap::new();
+    for (at, own) in all.iter().enumerate() {
+        if own.can_select() {
+            *selectors.entry(&own.message.name).or_default() += 1;
+        }
+        if let Some(after) = own.message.after.as_deref() {
+            dependents.entry(after).or_default().push(at);
+        }
+    }
+    let mut lost = vec![false; all.len()];
+    let mut found: Vec<usize> = dependents
+        .iter()
+        .filter(|(name, _)| !selectors.contains_key(*name))
+        .flat_map(|(_, list)| list.iter().copied())
+        .collect();
+    while let Some(at) = found.pop() {
+        if std::mem::replace(&mut lost[at], true) || !all[at].can_select() {
+            continue;
+        }
+        let name = all[at].message.name.as_str();
+        let left = selectors.entry(name).or_default();
+        *left -= 1;
+        if *left == 0 {
+            found.extend(dependents.get(name).into_iter().flatten());
+        }
+    }
+    lost
+}
+
+/// What comes where a device refuses a message; `None` where it doesn't, or no code can be generated for that.
+pub(crate) fn refusal(shapes: &[Shaped<'_>], message: &Message) -> Option<usize> {
+    let name = message.error.as_deref()?;
+    shapes.iter().position(|own| own.is_called(name) && !own.message.reply.is_empty() && !own.reply.borrows())
+}
+
+/// Returns why a message has no shape.
+pub(crate) fn problem(device: &Device, message: &Message) -> Result<(), Problem> {
+    Shaped::new(device, message).map(drop)
+}
+
+/// Whether a problem is reported elsewhere: a name that leads nowhere, or bytes that aren't whole.
+pub(crate) fn is_told(device: &Device, message: &Message, problem: Problem) -> bool {
+    let is_broken = || {
+        let request = Frame::new(device, &message.request, &[]);
+        request.broken.is_some() || Frame::new(device, &message.reply, &message.request).broken.is_some()
+    };
+    problem == shaper::UNRESOLVED || problem == shaper::UNALIGNED && is_broken()
+}

@@ -1,0 +1,124 @@
+//! Entries of the PDOs of an EtherCAT slave or module: bit positions, and the types of the items that they map (ETG.2000, RxPdo
+//! and TxPdo).
+
+use crate::diagnostics::{codes, Diagnostic, Diagnostics};
+use crate::ir::{CompactString, Device, Entries, Item, Module, Pdo, PdoEntry, PdoEntryKind, Type, TypeDef, TypeId};
+
+/// Of a device.
+pub(super) fn device(device: &mut Device, diagnostics: &mut Diagnostics) {
+    let dictionary = Dictionary { items: Entries::new(&device.groups), types: &device.types };
+    pdos(&mut device.process_data.pdos, &dictionary, diagnostics);
+}
+
+/// Of a module.
+pub(super) fn module(module: &mut Module, diagnostics: &mut Diagnostics) {
+    let dictionary = Dictionary { items: Entries::new(&module.groups), types: &module.types };
+    pdos(&mut module.process_data.pdos, &dictionary, diagnostics);
+}
+
+/// The dictionary that has the mapped items, and their types.
+pub(crate) struct Dictionary<'o> {
+    /// Its items.
+    pub items: Entries<'o>,
+    /// Its types.
+    pub types: &'o [TypeDef],
+}
+
+impl<'o> Dictionary<'o> {
+    /// Returns the item that an entry maps.
+    pub(crate) fn item(&self, entry: &PdoEntry) -> Option<&'o Item> {
+        self.items.get(entry.index, entry.sub_index)
+    }
+
+    /// Returns the length of a type in bits, if it is fixed.
+    pub(crate) fn bits(&self, ty: Type) -> Option<u32> {
+        match ty {
+            Type::Named(TypeId(at)) => self.types.get(at as usize)?.bits,
+            Type::VisibleString(length) | Type::OctetString(length) => length?.checked_mul(8),
+            Type::UnicodeString(length) => length?.checked_mul(16),
+            basic => basic.bits(),
+        }
+    }
+}
+
+fn pdos(pdos: &mut [Pdo], dictionary: &Dictionary<'_>, diagnostics: &mut Diagnostics) {
+    for pdo in pdos {
+        let mut offset = 0u32;
+        for entry in &mut pdo.entries {
+            entry.bit_offset = offset;
+            offset = offset.saturating_add(entry.bits);
+            match entry.kind {
+                PdoEntryKind::Unnumbered => {}
+                _ if entry.index == 0 => entry.kind = PdoEntryKind::Padding,
+                _ => resolve(entry, dictionary, diagnostics),
+            }
+        }
+    }
+}
+
+fn resolve(entry: &mut PdoEntry, dictionary: &Dictionary<'_>, diagnostics: &mut Diagnostics) {
+    let Some(item) = dictionary.item(entry) else {
+        // The objects of a slot belong to its module, and without a dictionary there is nothing to hold against.
+        if !entry.depends_on_slot && !dictionary.items.is_empty() && diagnostics.wants(&codes::MAPPED_OBJECT_MISSING) {
+            let message = format!("{} is mapped, but the dictionary doesn't have it", address(entry));
+            diagnostics.push(
+                Diagnostic::new(&codes::MAPPED_OBJECT_MISSING, entry.origin.span, message)
+                    .label("taken as the entry describes it"),
+            );
+        }
+        return;
+    };
+    entry.kind = PdoEntryKind::Item;
+    if entry.name.is_empty() {
+        (entry.name, entry.names) = (entry_name(item), item.names.clone());
+    }
+    // A type without a length of its own is as long as the entry, which may know better what it is.
+    let fits = match dictionary.bits(item.ty) {
+        Some(bits) => bits == entry.bits,
+        None => matches!(entry.ty, Type::Opaque(_)),
+    };
+    if fits {
+        entry.ty = item.ty;
+    }
+}
+
+/// The name of an entry that has none of its own. Any number of entries may get the name of one object, so a long one is cut.
+pub(super) fn entry_name(item: &Item) -> CompactString {
+    const LONG: usize = 512;
+    if item.name.len() > LONG {
+        crate::text::brief(&item.name).into()
+    } else {
+        item.name.clone()
+    }
+}
+
+/// Index and sub-index of an entry in messages.
+pub(crate) fn address(entry: &PdoEntry) -> String {
+    format!("0x{:04X} sub-index {:#x}", entry.index, entry.sub_index)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::ir::{Binding, Direction, Group, ObjectCode};
+
+    #[test]
+    fn offsets_add_up_and_types_are_those_of_the_items() {
+        let mut group = Group::object(0x6040, ObjectCode::Var);
+        let mut item = Item::new(Binding::coe(0x6040, 0));
+        (item.name, item.ty) = ("Controlword".into(), Type::Unsigned(16));
+        group.items.push(item);
+        let mut pdo = Pdo::new(Direction::Receive, 0x1600);
+        pdo.entries = vec![PdoEntry::new(0x6040, 0, 16), PdoEntry::new(0, 0, 3), PdoEntry::new(0x6041, 0, 8)];
+        let mut device = Device { groups: vec![group], ..Device::default() };
+        device.process_data.pdos.push(pdo);
+        let mut diagnostics = Diagnostics::default();
+        super::device(&mut device, &mut diagnostics);
+        let entries = &device.process_data.pdos[0].entries;
+        assert_eq!(entries.iter().map(|entry| entry.bit_offset).collect::<Vec<_>>(), [0, 16, 19]);
+        assert_eq!((entries[0].ty, entries[0].name.as_str()), (Type::Unsigned(16), "Controlword"));
+        let kinds: Vec<_> = entries.iter().map(|entry| entry.kind).collect();
+        assert_eq!(kinds, [PdoEntryKind::Item, PdoEntryKind::Padding, PdoEntryKind::Unknown]);
+        assert_eq!(diagnostics.list().iter().map(|found| found.code.id).collect::<Vec<_>>(), ["PDO001"]);
+    }
+}

@@ -1,0 +1,31 @@
+//! The steps of the stage, in order.
+
+use super::{conditions, identity, implicit_pdos, mapped_objects, pdo_entries, pdo_mapping};
+use crate::diagnostics::Diagnostics;
+use crate::ir::{Catalog, Device, Module};
+
+/// Computes what follows from the descriptions in `catalog`, and reports references that lead nowhere.
+pub fn resolve(catalog: &mut Catalog, diagnostics: &mut Diagnostics) {
+    for own in &mut catalog.devices {
+        device(own, &catalog.modules, diagnostics);
+    }
+    for own in &mut catalog.modules {
+        module(own, diagnostics);
+    }
+}
+
+fn device(device: &mut Device, modules: &[Module], diagnostics: &mut Diagnostics) {
+    conditions::run(device);
+    identity::run(device);
+    implicit_pdos::run(device);
+    pdo_mapping::run(device, modules);
+    if device.ethercat.is_some() {
+        pdo_entries::device(device, diagnostics);
+        mapped_objects::device(device);
+    }
+}
+
+fn module(module: &mut Module, diagnostics: &mut Diagnostics) {
+    pdo_entries::module(module, diagnostics);
+    mapped_objects::module(module);
+}
