@@ -5,20 +5,12 @@ use std::path::PathBuf;
 use crate::backend::rust::{self, RustOptions};
 use crate::check as lints;
 use crate::diagnostics::{Diagnostic, Diagnostics, Levels};
-#[cfg(feature = "eds")]
-use crate::frontend::eds;
-#[cfg(feature = "esi")]
-use crate::frontend::esi;
-#[cfg(feature = "gsdml")]
-use crate::frontend::gsdml;
-#[cfg(feature = "xdd")]
-use crate::frontend::xdd;
-use crate::frontend::{detect, table};
+use crate::frontend::{self, table};
 use crate::ir::{Catalog, FileInfo, Format};
 use crate::profiles;
 use crate::resolve;
 use crate::selection::Selection;
-use crate::source::{FileId, References, Source};
+use crate::source::{FileId, Source};
 
 /// What a caller may choose.
 #[derive(Clone, Debug, Default)]
@@ -105,8 +97,8 @@ const LARGE: usize = 64 * 1024;
 /// Reads `source` into the IR, as it stands.
 pub fn read(source: Source, options: &Options) -> Compilation {
     let mut diagnostics = Diagnostics::new(options.levels.clone());
-    let mut read = || front_end(&source, options, &mut diagnostics);
-    let (format, catalog, (mut others, missing)) = if source.text().len() < LARGE {
+    let mut read = || frontend::read(&source, &options.node_id_aliases, &options.choices, &mut diagnostics);
+    let frontend::Description { format, catalog, mut others, missing } = if source.text().len() < LARGE {
         read()
     } else {
         std::thread::scope(|scope| {
@@ -122,48 +114,6 @@ pub fn read(source: Source, options: &Options) -> Compilation {
         catalog
     });
     Compilation { sources, catalog, diagnostics, format, missing }
-}
-
-/// Files that a description refers to, and where files were looked for that aren't there.
-type Referred = (Vec<Source>, Vec<PathBuf>);
-
-/// The format of `source`, what it describes, and the files that it refers to.
-fn front_end(
-    source: &Source,
-    options: &Options,
-    diagnostics: &mut Diagnostics,
-) -> (Option<Format>, Option<Catalog>, Referred) {
-    let file = FileId(0);
-    let format = match detect::format(source, file) {
-        Ok(format) => format,
-        Err(diagnostic) => {
-            diagnostics.push(*diagnostic);
-            return (None, None, Default::default());
-        }
-    };
-    #[cfg_attr(not(feature = "esi"), allow(unused_mut))]
-    let mut references = References::new(source);
-    let catalog = match format {
-        #[cfg(feature = "eds")]
-        Format::Eds | Format::Dcf => eds::read(source, file, &options.node_id_aliases, diagnostics),
-        #[cfg(feature = "xdd")]
-        Format::Xdd => xdd::read(source, file, &options.node_id_aliases, diagnostics),
-        #[cfg(feature = "esi")]
-        Format::Esi => esi::read(source, file, &mut references, diagnostics),
-        #[cfg(feature = "gsdml")]
-        Format::Gsdml => gsdml::read(source, file, diagnostics),
-        Format::Table => table::read(source, file, &options.choices, diagnostics),
-        #[cfg(not(all(feature = "eds", feature = "xdd", feature = "esi", feature = "gsdml")))]
-        _ => {
-            diagnostics.push(detect::without_feature(format, file));
-            None
-        }
-    };
-    // What tells a DCF from an EDS is the place in a network that it gives the device, whatever its file is called.
-    let mut devices = catalog.iter().flat_map(|catalog| &catalog.devices);
-    let commissioned = devices.any(|device| device.commissioning.is_some());
-    let format = if format == Format::Eds && commissioned { Format::Dcf } else { format };
-    (Some(format), catalog, references.into_files())
 }
 
 fn file_info(source: &Source, format: Format) -> FileInfo {
@@ -184,7 +134,7 @@ pub fn checked(mut compilation: Compilation, options: &Options) -> Compilation {
         for source in &options.overlays {
             let file = FileId(compilation.sources.len() as u32);
             table::overlay::apply(source, file, catalog, &mut compilation.diagnostics);
-            catalog.files.push(file_info(source, Format::Table));
+            catalog.files.push(file_info(source, table::overlay::FORMAT));
             compilation.sources.push(source.clone());
         }
         resolve::resolve(catalog, &mut compilation.diagnostics);

@@ -10,6 +10,7 @@ pub mod eds;
 pub mod esi;
 #[cfg(feature = "gsdml")]
 pub mod gsdml;
+mod read;
 pub mod table;
 #[cfg(feature = "xdd")]
 pub mod xdd;
@@ -17,3 +18,5 @@ pub mod xdd;
 #[cfg(feature = "xml")]
 #[cfg_attr(not(all(feature = "esi", feature = "gsdml", feature = "xdd")), allow(dead_code, unused_imports))]
 mod xml;
+
+pub(crate) use read::{read, Description};

@@ -27,9 +27,14 @@ use super::spaces::Buses;
 use super::tree::Reader;
 use super::{code_tables, machines, Table};
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
-use crate::ir::{CodeTable, CompactString, Device, Doubts, Group, Item, ObjectCode, StateMachine, Type, TypeDef};
+use crate::ir::{
+    CodeTable, CompactString, Device, Doubts, Format, Group, Item, ObjectCode, StateMachine, Type, TypeDef,
+};
 use crate::source::{FileId, Origin, Source, Span};
 use crate::text::brief;
+
+/// The format of overlays.
+pub(crate) const FORMAT: Format = Format::Table;
 
 /// What a table says of objects that another file describes.
 #[derive(Clone, Debug, Default)]
