@@ -19,7 +19,7 @@ pub(super) fn check(owner: Owner<'_>, diagnostics: &mut Diagnostics) {
             |one: &EnumValue, other: &EnumValue| apart(one.availability.as_deref(), other.availability.as_deref());
         let range = |value: &EnumValue| (value.value, value.last.unwrap_or(value.value));
         if let Some((one, other)) = overlap(&sorted, range, told_apart) {
-            let names = [(one.value, one.last, one.name.as_str()), (other.value, other.last, other.name.as_str())];
+            let names = [one, other].map(|value| (printed(value), value.name.as_str()));
             report(&definition.name, other.at.0.or(definition.origin.span), names, diagnostics);
         }
     }
@@ -38,7 +38,7 @@ pub(super) fn code_tables(context: &Context<'_>, diagnostics: &mut Diagnostics) 
             one != other && (is_within(one, other) || is_within(other, one))
         };
         if let Some((one, other)) = overlap(&sorted, range, narrower) {
-            let names = [(one.code, one.last, one.name.as_str()), (other.code, other.last, other.name.as_str())];
+            let names = [one, other].map(|row| (row.printed_code(), row.name.as_str()));
             report(&table.name, table.origin.span, names, diagnostics);
         }
     }
@@ -57,12 +57,17 @@ fn overlap<'v, V>(
     })
 }
 
-fn report(owner: &str, span: Span, names: [(i128, Option<i128>, &str); 2], diagnostics: &mut Diagnostics) {
-    let called = |(first, last, name): (i128, Option<i128>, &str)| match last {
-        Some(last) => format!("`{}` ({first} to {last})", brief(name)),
-        None => format!("`{}` ({first})", brief(name)),
-    };
-    let [one, other] = names.map(called);
+/// A value, or a range of values, in messages.
+fn printed(value: &EnumValue) -> String {
+    match value.last {
+        Some(last) => format!("{} to {last}", value.value),
+        None => value.value.to_string(),
+    }
+}
+
+/// Reports two elements that have a number in common, each with its number and name.
+fn report(owner: &str, span: Span, names: [(String, &str); 2], diagnostics: &mut Diagnostics) {
+    let [one, other] = names.map(|(number, name)| format!("`{}` ({number})", brief(name)));
     let message = format!("{one} and {other} of `{}` are the same value", brief(owner));
     diagnostics.push(Diagnostic::new(&codes::VALUE_NAMED_TWICE, span, message));
 }

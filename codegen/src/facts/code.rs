@@ -4,11 +4,7 @@ use crate::ir::{CodeRow, Value};
 
 /// `0x8110`, `F125`, `0xFF13 to 0xFF15`: the code of a row, or its codes. Decimal if the source has no other notation.
 pub fn text(row: &CodeRow) -> String {
-    match (row.printed.as_str(), row.last) {
-        ("", None) => row.code.to_string(),
-        ("", Some(last)) => format!("{} to {last}", row.code),
-        (printed, _) => printed.to_owned(),
-    }
+    row.printed_code()
 }
 
 /// A cell next to the code; empty if the row has none in this column.

@@ -281,3 +281,15 @@ pub struct CodeRow {
     /// The other columns.
     pub cells: Vec<Value>,
 }
+
+impl CodeRow {
+    /// Returns the code, or the codes, as the source prints them: `0x8110`, `F125`, `0xFF13 to 0xFF15`. Decimal if the source has no
+    /// other notation.
+    pub fn printed_code(&self) -> String {
+        match (self.printed.as_str(), self.last) {
+            ("", None) => self.code.to_string(),
+            ("", Some(last)) => format!("{} to {last}", self.code),
+            (printed, _) => printed.to_owned(),
+        }
+    }
+}
