@@ -88,24 +88,27 @@ impl Mapped {
         // What nothing was said of may be mapped where the manual maps it.
         let unmappable = !item.mappable.any() && !item.at.mappable.is_empty();
         let unmappable = unmappable.then(|| (&codes::NOT_MAPPABLE, "is mapped, but not mappable".to_owned()));
-        let direction = (!goes(item, self.direction)).then(|| {
-            let (name, access) = (direction_name(self.direction), item.access.name());
-            (&codes::WRONG_DIRECTION, format!("is {access} and can't be mapped into {name}"))
-        });
+        let direction = wrong_direction(item, self.direction).map(|problem| (&codes::WRONG_DIRECTION, problem));
         [length, unmappable, direction]
     }
 }
 
-/// Whether an item's access, and its direction where it has only one, go with that of a PDO.
-pub(super) fn goes(item: &Item, direction: Direction) -> bool {
-    let (access, own) = (Mappable::by_access(item.access), item.mappable);
-    match direction {
-        Direction::Receive => access.rpdo && (own.rpdo || !own.tpdo),
-        Direction::Transmit => access.tpdo && (own.tpdo || !own.rpdo),
+/// Returns why an item can't be mapped into PDOs of a direction: its access rights, or else the only direction that it has.
+pub(super) fn wrong_direction(item: &Item, direction: Direction) -> Option<String> {
+    let (access, own, name) = (Mappable::by_access(item.access), item.mappable, pdo_name(direction));
+    let (is_accessible, other) = match direction {
+        Direction::Receive => (access.rpdo, (own.tpdo && !own.rpdo).then_some(Direction::Transmit)),
+        Direction::Transmit => (access.tpdo, (own.rpdo && !own.tpdo).then_some(Direction::Receive)),
+    };
+    match other {
+        _ if !is_accessible => Some(format!("is {} and can't be mapped into {name}", item.access.name())),
+        Some(other) => Some(format!("is mapped into {name}, and can be mapped into {} only", pdo_name(other))),
+        None => None,
     }
 }
 
-fn direction_name(direction: Direction) -> &'static str {
+/// The name of a PDO of a direction.
+pub(super) fn pdo_name(direction: Direction) -> &'static str {
     match direction {
         Direction::Receive => "an RPDO",
         Direction::Transmit => "a TPDO",

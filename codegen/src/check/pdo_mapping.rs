@@ -1,7 +1,7 @@
 //! Mapping objects of a CANopen dictionary against CiA 301 7.5.2.36 and 7.5.2.38, and against the items that they map.
 
 use super::context::{Context, PdoOwner};
-use super::mapped_object::{goes, CAN_BITS};
+use super::mapped_object::{pdo_name, wrong_direction, CAN_BITS};
 use crate::diagnostics::{codes, Code, Diagnostic, Diagnostics};
 use crate::ir::{Access, CanOpenSettings, Direction, Group, Item, Type, Value};
 use crate::resolve::{
@@ -157,15 +157,12 @@ impl Mapping<'_, '_> {
         if !item.mappable.any() {
             self.mapped_report(item, &codes::NOT_MAPPABLE, span, format!("{object} is mapped, but not mappable"));
         }
-        let fits = goes(item, self.direction);
         if item.access == Access::ReadWrite && item.mappable.rpdo == item.mappable.tpdo {
-            let message = format!("{object} is rw, which doesn't say that it goes into {}", self.pdo_name());
+            let message = format!("{object} is rw, which doesn't say that it goes into {}", pdo_name(self.direction));
             self.mapped_report(item, &codes::UNCLEAR_DIRECTION, span, message);
         }
-        if !fits {
-            let (pdo, access) = (self.pdo_name(), item.access.name());
-            let message = format!("{object} is {access} and can't be mapped into {pdo}");
-            self.mapped_report(item, &codes::WRONG_DIRECTION, span, message);
+        if let Some(problem) = wrong_direction(item, self.direction) {
+            self.mapped_report(item, &codes::WRONG_DIRECTION, span, format!("{object} {problem}"));
         }
         // Bit fields and enumerations are as long as their integer.
         let is_own = self.items.of_device(index, sub_index).is_some();
@@ -189,13 +186,6 @@ impl Mapping<'_, '_> {
             diagnostic = diagnostic.note_at(item.origin.span, "the mapped object");
         }
         self.diagnostics.push(diagnostic);
-    }
-
-    fn pdo_name(&self) -> &'static str {
-        match self.direction {
-            Direction::Receive => "an RPDO",
-            Direction::Transmit => "a TPDO",
-        }
     }
 
     /// Holds the number of PDOs against the header and object 0x1004.
