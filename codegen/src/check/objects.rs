@@ -17,8 +17,9 @@ pub(super) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
 
 /// The same for the rows of a register table. Rows that already failed are skipped: what follows from that is nothing new.
 pub(super) fn rows(context: &Context<'_>, diagnostics: &mut Diagnostics) {
+    let errors = diagnostics.error_places();
     for (index, group) in described(context) {
-        if !diagnostics.has_error_in(group.origin.span) {
+        if !errors.any_in(group.origin.span) {
             names(group, index, diagnostics);
             object(context, group, index, diagnostics);
         }

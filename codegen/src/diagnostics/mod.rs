@@ -3,11 +3,15 @@
 //! Stages only describe what they found; [`Levels`] decides how severe it is (lenient or strict, `-A`, `-W`, `-D`), and
 //! [`render`] turns the result into text for a terminal, JSON lines or SARIF.
 
+mod allowed;
 pub mod codes;
+mod error_places;
 mod levels;
 pub mod render;
 
+use allowed::Allowed;
 pub use codes::{Class, Code};
+pub(crate) use error_places::ErrorPlaces;
 pub use levels::{Level, Levels, UnknownCode};
 
 use std::collections::{BTreeMap, HashMap};
@@ -113,18 +117,13 @@ impl Diagnostic {
     }
 }
 
-/// Whether `inner` lies within `outer`.
-fn contains(outer: Span, inner: Span) -> bool {
-    outer.file == inner.file && outer.start <= inner.start && inner.end <= outer.end
-}
-
 /// The findings of one compilation.
 #[derive(Clone, Debug, Default)]
 pub struct Diagnostics {
     list: Vec<Diagnostic>,
     levels: Levels,
-    /// Findings that the source itself explains, by the place that they are in.
-    allowed: Vec<(Span, &'static Code)>,
+    /// Findings that the source itself explains.
+    allowed: Allowed,
     /// How many diagnostics of each code and file are in the list.
     kept: HashMap<(FileId, &'static str), usize>,
     /// Those that are only counted.
@@ -151,8 +150,7 @@ impl Diagnostics {
     /// Files a finding; one whose level is `allow` is forgotten. Of one code in one file, [`MAX_SAME_DIAGNOSTICS`] are kept, and
     /// the others counted.
     pub fn push(&mut self, mut diagnostic: Diagnostic) {
-        let is_allowed = |own: &(Span, &'static Code)| contains(own.0, diagnostic.span) && own.1 == diagnostic.code;
-        if self.allowed.iter().any(is_allowed) {
+        if self.allowed.contains(diagnostic.span, diagnostic.code) {
             return;
         }
         if let Some(severity) = self.levels.severity(diagnostic.code) {
@@ -169,17 +167,19 @@ impl Diagnostics {
         }
     }
 
-    /// Forgets findings of this kind within `span`, those so far and those to come: the source explains them itself.
+    /// Forgets findings of these kinds within these spans, those so far and those to come: the source explains them itself.
     /// Errors stay.
-    pub fn allow(&mut self, span: Span, code: &'static Code) {
-        if code.class != Class::Error {
-            self.allowed.push((span, code));
-            let Some(kept) = self.kept.get_mut(&(span.file, code.id)).filter(|kept| **kept > 0) else { return };
-            let before = self.list.len();
-            self.list.retain(|own| own.code != code || !contains(span, own.span));
-            *kept -= before - self.list.len();
-            self.beyond.retain(|own| own.code != code || !contains(span, own.span));
-        }
+    pub fn allow(&mut self, spans: impl IntoIterator<Item = (Span, &'static Code)>) {
+        self.allowed.extend(spans.into_iter().filter(|(_, code)| code.class != Class::Error));
+        let (allowed, kept) = (&self.allowed, &mut self.kept);
+        self.list.retain(|own| {
+            let is_allowed = allowed.contains(own.span, own.code);
+            if let Some(kept) = kept.get_mut(&(own.span.file, own.code.id)).filter(|_| is_allowed) {
+                *kept -= 1;
+            }
+            !is_allowed
+        });
+        self.beyond.retain(|own| !allowed.contains(own.span, own.code));
     }
 
     /// Forgets findings from `first` on that are there already: the same of the same place.
@@ -195,11 +195,11 @@ impl Diagnostics {
         }
     }
 
-    /// Whether any finding within `span` is an error.
-    pub(crate) fn has_error_in(&self, span: Span) -> bool {
-        let is_error = |own: &Beyond| self.levels.severity(own.code) == Some(Severity::Error);
-        self.list.iter().any(|own| own.severity == Severity::Error && contains(span, own.span))
-            || self.beyond.iter().any(|own| contains(span, own.span) && is_error(own))
+    /// Returns the places of all errors so far.
+    pub(crate) fn error_places(&self) -> ErrorPlaces {
+        let is_error = |own: &&Beyond| self.levels.severity(own.code) == Some(Severity::Error);
+        let kept = self.list.iter().filter(|own| own.severity == Severity::Error).map(|own| own.span);
+        ErrorPlaces::new(kept.chain(self.beyond.iter().filter(is_error).map(|own| own.span)))
     }
 
     /// Whether findings of this kind are wanted: lets a stage skip the work of phrasing one that isn't.
@@ -308,7 +308,7 @@ mod tests {
         for at in 0..many {
             diagnostics.push(Diagnostic::new(&codes::OCTAL_NUMBER, Span::new(FileId(0), at, at + 1), "octal"));
         }
-        diagnostics.allow(Span::new(FileId(0), 0, many), &codes::OCTAL_NUMBER);
+        diagnostics.allow([(Span::new(FileId(0), 0, many), &codes::OCTAL_NUMBER)]);
         diagnostics.sort();
         assert_eq!((diagnostics.list().len(), diagnostics.total()), (0, 0));
     }

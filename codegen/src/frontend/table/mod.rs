@@ -201,9 +201,7 @@ pub fn read(
     resolve(&mut reader, &rows, &device);
     numbered::mentioned(&mut reader, &rows.numbered, &device);
     rows.allow_of_definitions(&mut reader);
-    for (span, code) in rows.allowed {
-        reader.diagnostics.allow(span, code);
-    }
+    reader.diagnostics.allow(rows.allowed);
     Some(Catalog { devices: vec![device], ..Catalog::default() })
 }
 

@@ -60,9 +60,7 @@ impl<'o> Applied<'o> {
             }
             None => self.devices(reader, catalog, applies),
         };
-        for (span, code) in std::mem::take(&mut self.rows.allowed) {
-            reader.diagnostics.allow(span, code);
-        }
+        reader.diagnostics.allow(std::mem::take(&mut self.rows.allowed));
         if count > 0 {
             return self.report(reader);
         }
@@ -293,9 +291,10 @@ impl<'o> Applied<'o> {
 
     /// Tells of rows that match nothing or change nothing, and of definitions that nothing names.
     fn report(&self, reader: &mut Reader<'_, '_>) {
+        let errors = reader.diagnostics.error_places();
         for (row, outcome) in self.overlay.patch.rows.iter().zip(&self.outcomes) {
             let span = Span { end: row.row.end, ..reader.span(&row.key) };
-            if reader.diagnostics.has_error_in(span) {
+            if errors.any_in(span) {
                 continue;
             }
             match outcome {
@@ -310,7 +309,7 @@ impl<'o> Applied<'o> {
         }
         // A row that couldn't be applied is what would have named them.
         let whole = Span::new(reader.file, 0, u32::MAX);
-        if self.outcomes.contains(&Outcome::NoMatch) || reader.diagnostics.has_error_in(whole) {
+        if self.outcomes.contains(&Outcome::NoMatch) || reader.diagnostics.error_places().any_in(whole) {
             return;
         }
         let definitions = &self.overlay.patch.definitions;

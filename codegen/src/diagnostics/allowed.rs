@@ -1,0 +1,59 @@
+//! Findings that a source itself explains, by the spans in which it does.
+
+use std::collections::HashMap;
+
+use super::Code;
+use crate::source::{FileId, Span};
+
+/// The spans in which findings of a code are not reported: of each file and code the first bytes in order, each with the greatest end of
+/// the spans so far.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Allowed(HashMap<(FileId, &'static str), Vec<(u32, u32)>>);
+
+impl Allowed {
+    /// Adds spans. Takes time in proportion to their number, so that a table with an `allow` in each row adds them all at once.
+    pub fn extend(&mut self, spans: impl IntoIterator<Item = (Span, &'static Code)>) {
+        for (span, code) in spans {
+            self.0.entry((span.file, code.id)).or_default().push((span.start, span.end));
+        }
+        for list in self.0.values_mut() {
+            list.sort_unstable();
+            let mut greatest = 0;
+            for (_, end) in list {
+                greatest = greatest.max(*end);
+                *end = greatest;
+            }
+        }
+    }
+
+    /// Whether a finding lies within a span of its code.
+    pub fn contains(&self, span: Span, code: &'static Code) -> bool {
+        let Some(list) = self.0.get(&(span.file, code.id)) else { return false };
+        let behind = list.partition_point(|(start, _)| *start <= span.start);
+        behind.checked_sub(1).and_then(|at| list.get(at)).is_some_and(|(_, end)| span.end <= *end)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::diagnostics::codes;
+
+    #[test]
+    fn a_span_counts_whatever_lies_between() {
+        let span = |start, end| Span::new(FileId(0), start, end);
+        let mut allowed = Allowed::default();
+        allowed.extend([(span(0, 90), &codes::ONE_LIMIT), (span(10, 20), &codes::ONE_LIMIT)]);
+        allowed.extend([(span(95, 99), &codes::ONE_LIMIT), (span(5, 7), &codes::EMPTY_LIMIT)]);
+        for (start, end) in [(0, 90), (10, 20), (15, 60), (30, 40), (95, 99)] {
+            assert!(allowed.contains(span(start, end), &codes::ONE_LIMIT), "{start}..{end}");
+        }
+        for (start, end) in [(0, 91), (89, 96), (94, 95), (100, 101)] {
+            assert!(!allowed.contains(span(start, end), &codes::ONE_LIMIT), "{start}..{end}");
+        }
+        assert!(
+            allowed.contains(span(5, 6), &codes::EMPTY_LIMIT) && !allowed.contains(span(8, 9), &codes::EMPTY_LIMIT)
+        );
+        assert!(!allowed.contains(Span::new(FileId(1), 15, 16), &codes::ONE_LIMIT));
+    }
+}
