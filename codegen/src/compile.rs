@@ -143,6 +143,7 @@ pub fn checked(mut compilation: Compilation, options: &Options) -> Compilation {
             profiles::apply(catalog);
         }
         options.select.objects(catalog, &mut compilation.diagnostics);
+        resolve::resolve_references(catalog);
     }
     // One row of a table stands for several items, and so does a type or parameter of XML: they share what is wrong with it.
     let described_by = compilation.catalog.as_ref().and_then(|catalog| catalog.files.first());

@@ -306,15 +306,17 @@ fn every_number_in_several_parameters_is_a_composite() {
     let of_table =
         |own: &lexibus_codegen::ir::Composite| (own.parts.clone(), own.sign.as_ref().map(|own| own.0.clone()));
     let own: Vec<_> = device.composites.iter().map(of_table).collect();
-    let own: Vec<(Vec<&str>, Option<&str>)> =
-        own.iter().map(|(parts, sign)| (parts.iter().map(|own| own.as_str()).collect(), sign.as_deref())).collect();
+    let own: Vec<(Vec<&str>, Option<&str>)> = own
+        .iter()
+        .map(|(parts, sign)| (parts.iter().map(|own| own.as_str()).collect(), sign.as_ref().map(|own| own.as_str())))
+        .collect();
     assert_eq!((own.len(), own), (5, expected));
     assert!(device.composites.iter().all(|own| own.base == 100));
     for row in halves.iter().chain(&offset).chain(&sign) {
         let own = device
             .composites
             .iter()
-            .find(|own| own.parts.iter().chain(own.sign.as_ref().map(|own| &own.0)).any(|part| *part == row.0));
+            .find(|own| own.parts.iter().chain(own.sign.as_ref().map(|own| &own.0)).any(|part| **part == row.0));
         assert!(cites(own.expect("a composite").documentation.as_deref(), row.1), "L{} {}", row.1, row.0);
     }
 }

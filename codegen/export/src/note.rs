@@ -102,6 +102,8 @@ kinds! {
     Behaviour = "behaviour", "storage, conditions or side effects left out";
     /// Models, versions, options.
     Availability = "availability", "models, versions or options that have it left out";
+    /// Other items that hold the same value or a part of it; that an entry is reserved or optional.
+    Relation = "relation", "relation to other items, or that an entry is reserved or optional, left out";
     /// A description.
     Documentation = "documentation", "description left out";
     /// A name or text in another language.
@@ -192,6 +194,11 @@ impl Notes {
     pub(super) fn finish(self) -> Vec<Note> {
         self.0.into_iter().map(|(kind, (count, first))| Note { kind, count, first }).collect()
     }
+}
+
+/// How many facts of an item are [`NoteKind::Relation`]s.
+pub(crate) fn relations(item: &Item) -> usize {
+    usize::from(item.related.is_some()) + usize::from(item.is_reserved) + usize::from(item.is_optional)
 }
 
 /// How many parts a device has that no file of a vendor has a place for.

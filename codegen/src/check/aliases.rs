@@ -4,27 +4,21 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::context::Context;
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
-use crate::ir::owner::{Index, Owner};
-use crate::ir::{BitFieldEntry, BitMeaning, Extension, Item, Quantity, Scale, Shape};
+use crate::ir::owner::Owner;
+use crate::ir::{BitFieldEntry, BitMeaning, Device, Item, ItemRef, Quantity, Scale, Shape};
 use crate::source::Span;
 use crate::text::brief;
 
 pub(super) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
-    let Context { owner, items, .. } = context;
-    for item in owner.items() {
-        replacement(items, item, diagnostics);
-        for alias in item.extensions.iter().filter(|own| own.key == "same_as") {
-            let Some(other) = items.find(&alias.value).filter(|other| !std::ptr::eq(*other, item)) else { continue };
-            let differences = differences(*owner, item, other);
-            if differences.is_empty() {
-                continue;
-            }
-            let message = format!(
-                "`{}` is the same value as `{}`, but differs: {}",
-                brief(&item.name),
-                brief(&alias.value),
-                differences.join("; ")
-            );
+    for item in context.owner.items() {
+        replacement(context.device, item, diagnostics);
+        let Some(alias) = item.related.as_ref().and_then(|own| own.same_as.as_ref()) else { continue };
+        let Some(other) = context.device.referred(alias).filter(|other| !std::ptr::eq(*other, item)) else { continue };
+        let differences = differences(context.owner, item, other);
+        if !differences.is_empty() {
+            let (name, other_name) = (brief(&item.name), brief(alias));
+            let message =
+                format!("`{name}` is the same value as `{other_name}`, but differs: {}", differences.join("; "));
             let found = Diagnostic::new(&codes::SAME_VALUE_DIFFERS, place(item, alias), message);
             diagnostics.push(found.note_at(other.origin.span, "the other one"));
         }
@@ -32,16 +26,16 @@ pub(super) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
 }
 
 /// Where an overlay says what differs, else the row.
-fn place(item: &Item, alias: &Extension) -> Span {
+fn place(item: &Item, alias: &ItemRef) -> Span {
     let own = item.origin.span;
     let facts = [alias.span, item.at.ty, item.at.low, item.at.high];
     facts.into_iter().find(|fact| !fact.is_empty() && fact.file != own.file).unwrap_or(own)
 }
 
 /// An item and its replacement are used alike. What only a default says of either isn't compared.
-fn replacement(items: &Index<'_>, item: &Item, diagnostics: &mut Diagnostics) {
-    let name = item.availability.as_ref().and_then(|own| own.replaced_by.as_ref());
-    let Some(other) = name.and_then(|name| items.find(name)) else { return };
+fn replacement(device: &Device, item: &Item, diagnostics: &mut Diagnostics) {
+    let reference = item.availability.as_ref().and_then(|own| own.replaced_by.as_ref());
+    let Some(other) = reference.and_then(|own| device.referred(own)) else { return };
     let is_stated = |item: &Item| {
         let (row, access) = (item.origin.span, item.at.access);
         !access.is_empty() && row.start <= access.start && access.end <= row.end

@@ -5,17 +5,16 @@ use std::cmp::Ordering;
 use super::context::Context;
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
 use crate::ir::firmware::{compare, version};
-use crate::ir::owner::Index;
-use crate::ir::{Availability, Item, Shape};
+use crate::ir::{Availability, Device, Item, Shape};
 use crate::source::Span;
 use crate::text::brief;
 
 pub(super) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
-    let Context { device, owner, items, .. } = context;
+    let Context { device, owner, .. } = context;
     for item in owner.items() {
         let Some(own) = item.availability.as_deref() else { continue };
         window(&format!("`{}`", brief(&item.name)), own, item.origin.span, diagnostics);
-        replacement(item, own, items, diagnostics);
+        replacement(device, item, own, diagnostics);
     }
     for definition in &device.types {
         let windows: Vec<_> = match &definition.shape {
@@ -63,8 +62,8 @@ fn window(what: &str, own: &Availability, span: Span, diagnostics: &mut Diagnost
     }
 }
 
-fn replacement(item: &Item, own: &Availability, items: &Index<'_>, diagnostics: &mut Diagnostics) {
-    let Some(other) = own.replaced_by.as_ref().and_then(|name| items.find(name)) else { return };
+fn replacement(device: &Device, item: &Item, own: &Availability, diagnostics: &mut Diagnostics) {
+    let Some(other) = own.replaced_by.as_ref().and_then(|other| device.referred(other)) else { return };
     let span = item.origin.span;
     let name = brief(&item.name);
     if std::ptr::eq(other, item) {

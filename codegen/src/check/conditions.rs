@@ -1,40 +1,40 @@
 //! Values of conditions against the values that the other item can have.
 
-use std::collections::HashSet;
+use std::collections::{BTreeMap, HashSet};
 
 use super::context::Context;
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
-use crate::ir::owner::{reserved, Index, Owner};
-use crate::ir::{Condition, Shape, Value};
+use crate::ir::owner::{reserved, Owner};
+use crate::ir::{Condition, Device, ItemRef, Shape, Value};
 use crate::source::Span;
 use crate::text::brief;
 
 pub(super) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
-    let (owner, items) = (context.owner, &context.items);
+    let (owner, device) = (context.owner, context.device);
     for item in owner.items() {
         for condition in item.behaviour.iter().flat_map(|behaviour| &behaviour.write_when) {
-            possible(owner, items, condition, item.origin.span, diagnostics);
+            possible(owner, device, condition, item.origin.span, diagnostics);
         }
     }
     for definition in owner.types {
         if let Shape::Enumeration { values, .. } = &definition.shape {
             for value in values {
                 let condition = value.when.iter();
-                condition.for_each(|own| possible(owner, items, own, value.at.0, diagnostics));
+                condition.for_each(|own| possible(owner, device, own, value.at.0, diagnostics));
             }
         }
         let Shape::BitField { fields, .. } = &definition.shape else { continue };
         let conditions: Vec<&Condition> = fields.iter().filter_map(|field| field.when.as_ref()).collect();
         for condition in &conditions {
-            possible(owner, items, condition, definition.origin.span, diagnostics);
+            possible(owner, device, condition, definition.origin.span, diagnostics);
         }
         let name = brief(&definition.name);
-        complete(owner, items, &conditions, (name, definition.origin.span), diagnostics);
+        complete(owner, device, &conditions, (name, definition.origin.span), diagnostics);
     }
 }
 
-fn possible(owner: Owner<'_>, items: &Index<'_>, condition: &Condition, span: Span, diagnostics: &mut Diagnostics) {
-    let Some(item) = items.find(&condition.item) else { return };
+fn possible(owner: Owner<'_>, device: &Device, condition: &Condition, span: Span, diagnostics: &mut Diagnostics) {
+    let Some(item) = device.referred(&condition.item) else { return };
     // Some bits of an item have neither its limits nor its names.
     if condition.mask.is_some() {
         return;
@@ -62,7 +62,7 @@ fn possible(owner: Owner<'_>, items: &Index<'_>, condition: &Condition, span: Sp
 /// Whether bits that depend on an enumeration have a meaning for each of its values.
 fn complete(
     owner: Owner<'_>,
-    items: &Index<'_>,
+    device: &Device,
     conditions: &[&Condition],
     (name, span): (&str, Span),
     diagnostics: &mut Diagnostics,
@@ -70,12 +70,10 @@ fn complete(
     if !diagnostics.wants(&codes::MODE_WITHOUT_BITS) {
         return;
     }
-    let named: HashSet<&str> = conditions.iter().map(|condition| condition.item.as_str()).collect();
-    let mut named: Vec<&str> = named.into_iter().collect();
-    named.sort_unstable();
-    for other in named {
-        let Some((labels, _)) = items.find(other).and_then(|item| owner.enumeration(item.ty)) else { continue };
-        let own = conditions.iter().filter(|condition| condition.item == other && condition.mask.is_none());
+    let named: BTreeMap<&str, &ItemRef> = conditions.iter().map(|own| (own.item.as_str(), &own.item)).collect();
+    for (name_of_other, other) in named {
+        let Some((labels, _)) = device.referred(other).and_then(|item| owner.enumeration(item.ty)) else { continue };
+        let own = conditions.iter().filter(|condition| condition.item == *other && condition.mask.is_none());
         let values: HashSet<i128> = own.flat_map(|own| &own.values).filter_map(Value::as_int).collect();
         let missing = labels.iter().filter(|label| label.zone.is_none() && label.last.is_none());
         let missing: Vec<String> = missing
@@ -83,7 +81,7 @@ fn complete(
             .map(|label| format!("{} (`{}`)", label.value, brief(&label.name)))
             .collect();
         if !missing.is_empty() {
-            let message = format!("`{name}` has no bits for `{}` = {}", brief(other), missing.join(", "));
+            let message = format!("`{name}` has no bits for `{}` = {}", brief(name_of_other), missing.join(", "));
             diagnostics.push(Diagnostic::new(&codes::MODE_WITHOUT_BITS, span, message));
         }
     }

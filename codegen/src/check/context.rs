@@ -1,6 +1,6 @@
 //! What lints look at.
 
-use crate::ir::owner::{Index, Owner};
+use crate::ir::owner::Owner;
 use crate::ir::{Device, Format, Group, Module, ProcessData, TypeDef};
 
 /// A device.
@@ -12,8 +12,6 @@ pub(super) struct Context<'a> {
     pub format: Option<Format>,
     /// The items and types of the device.
     pub owner: Owner<'a>,
-    /// Its items by what refers to them.
-    pub items: Index<'a>,
 }
 
 /// The PDOs of a device or a module, with the items and types that they map.

@@ -4,7 +4,7 @@ use std::cell::OnceCell;
 use std::collections::HashSet;
 
 use crate::diagnostics::{codes, Code, Diagnostic, Diagnostics};
-use crate::ir::owner::{Index, Owner};
+use crate::ir::owner::Owner;
 use crate::ir::{AxisStep, Device, Direction, Entries, Item, Mappable};
 use crate::source::Span;
 
@@ -117,8 +117,8 @@ pub(super) fn pdo_name(direction: Direction) -> &'static str {
 
 /// The indices that a device has, those of further axes among them; none where it has no objects.
 pub(super) fn indices(device: &Device) -> HashSet<u16> {
-    let groups = [device.groups.as_slice()];
-    let mut known = Index::new(Owner { types: &device.types, groups: &groups }).indices();
+    let items = device.groups.iter().flat_map(|group| &group.items);
+    let mut known: HashSet<u16> = items.filter_map(|item| Some(item.object()?.0)).collect();
     if known.is_empty() {
         return known;
     }

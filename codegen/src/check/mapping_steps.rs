@@ -10,14 +10,14 @@ use crate::source::Span;
 use crate::text::brief;
 
 pub(super) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
-    let Context { device, items, .. } = context;
+    let device = context.device;
     let described = Described::new(device);
     for procedure in &device.procedures {
         let mut mapping =
             Mapping { described: &described, procedure, words: BTreeMap::new(), cleared: BTreeSet::new() };
         for (step, span) in procedure.spanned() {
             let Step::Write(name, value) = step else { continue };
-            let (object, value) = (items.find(name).and_then(Item::object), value.as_int());
+            let (object, value) = (device.referred(name).and_then(Item::object), value.as_int());
             if let (Some(object), Some(value)) = (object, value) {
                 mapping.step(object, value, span, diagnostics);
             }

@@ -32,7 +32,7 @@ pub(super) fn place(item: &Item) -> Span {
 
 /// Whether an item is no reserved sub-index, of which there is nothing to say.
 pub(super) fn is_meant(item: &&Item) -> bool {
-    !item.extensions.iter().any(|own| own.key == "reserved")
+    !item.is_reserved
 }
 
 /// The bits of a bit field, or the values of an enumeration. Names that depend on something may return.

@@ -4,8 +4,8 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::context::Context;
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
-use crate::ir::owner::{reserved, Index, Owner};
-use crate::ir::{Device, Item, Procedure, Step, Value};
+use crate::ir::owner::{reserved, Owner};
+use crate::ir::{Device, Item, ItemRef, Procedure, Step, Value};
 use crate::source::Span;
 use crate::text::brief;
 
@@ -14,15 +14,15 @@ const ASSIGNMENTS: [u16; 2] = [0x1C12, 0x1C13];
 
 /// Reports steps that the items of a procedure don't allow.
 pub(super) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
-    let Context { device, owner, items, .. } = context;
+    let Context { device, owner, .. } = context;
     for procedure in &device.procedures {
         for (step, span) in procedure.spanned() {
-            for problem in problems(*owner, items, step) {
+            for problem in problems(*owner, device, step) {
                 let message = format!("`{}`: {problem}", brief(&procedure.name));
                 diagnostics.push(Diagnostic::new(&codes::STEP_IMPOSSIBLE, span, message));
             }
         }
-        assignments(device, items, procedure, diagnostics);
+        assignments(device, procedure, diagnostics);
     }
 }
 
@@ -37,13 +37,13 @@ pub(super) fn default_assignments(context: &Context<'_>, diagnostics: &mut Diagn
 }
 
 /// What is wrong with a step.
-fn problems(owner: Owner<'_>, items: &Index<'_>, step: &Step) -> Vec<String> {
-    let read_only = |name: &str| {
-        let item = items.find(name).filter(|item| !item.access.writable())?;
+fn problems(owner: Owner<'_>, device: &Device, step: &Step) -> Vec<String> {
+    let read_only = |name: &ItemRef| {
+        let item = device.referred(name).filter(|item| !item.access.writable())?;
         Some(format!("writes `{}`, which is {}", brief(name), item.access.name()))
     };
-    let write_only = |name: &str, what: &str| {
-        let unreadable = items.find(name).is_some_and(|item| !item.access.readable());
+    let write_only = |name: &ItemRef, what: &str| {
+        let unreadable = device.referred(name).is_some_and(|item| !item.access.readable());
         unreadable.then(|| format!("{what} `{}`, which can't be read", brief(name)))
     };
     let outside = |name: &str, mask: u64, value: &Value| {
@@ -52,7 +52,7 @@ fn problems(owner: Owner<'_>, items: &Index<'_>, step: &Step) -> Vec<String> {
     };
     match step {
         Step::Write(name, value) => {
-            let item = items.find(name);
+            let item = device.referred(name);
             let why = item.zip(value.as_int()).and_then(|(item, number)| refused(owner, item, number));
             let why = why.map(|why| format!("writes {} to `{}`, {why}", shown(step), brief(name)));
             read_only(name).into_iter().chain(why).collect()
@@ -106,11 +106,13 @@ fn refused(owner: Owner<'_>, item: &Item, number: i128) -> Option<String> {
 }
 
 /// What a procedure maps it also assigns, and what it assigns exists. COB-IDs are those of one PDO.
-fn assignments(device: &Device, items: &Index<'_>, procedure: &Procedure, diagnostics: &mut Diagnostics) {
+fn assignments(device: &Device, procedure: &Procedure, diagnostics: &mut Diagnostics) {
     let (mut mapped, mut taken) = (BTreeMap::new(), [BTreeSet::new(), BTreeSet::new()]);
     for (step, span) in procedure.spanned() {
         let Step::Write(name, value) = step else { continue };
-        let (Some(object), Some(value)) = (items.find(name).and_then(Item::object), value.as_int()) else { continue };
+        let (Some(object), Some(value)) = (device.referred(name).and_then(Item::object), value.as_int()) else {
+            continue;
+        };
         match object {
             (index @ (0x1600..=0x17FF | 0x1A00..=0x1BFF), 1..) => _ = mapped.entry(index).or_insert(span),
             (index @ (0x1C12 | 0x1C13), 1..) => {

@@ -4,7 +4,7 @@ use super::context::{Context, PdoOwner};
 use super::lint::{Lint, Run};
 use super::list::LINTS;
 use crate::diagnostics::Diagnostics;
-use crate::ir::owner::{Index, Owner};
+use crate::ir::owner::Owner;
 use crate::ir::{Catalog, Device, Format, Group, Module};
 
 /// Checks a resolved catalogue.
@@ -40,7 +40,7 @@ fn run(lints: &[Lint], catalog: &Catalog, diagnostics: &mut Diagnostics) {
 fn device(lints: &[&Lint], device: &Device, modules: &[Module], format: Option<Format>, diagnostics: &mut Diagnostics) {
     let groups = [device.groups.as_slice()];
     let owner = Owner { types: &device.types, groups: &groups };
-    let context = Context { device, modules, format, owner, items: Index::new(owner) };
+    let context = Context { device, modules, format, owner };
     for lint in lints.iter().filter(|lint| lint.needs.is_none_or(|need| need.is_met(device))) {
         match lint.run {
             Run::Device(run) => run(&context, diagnostics),

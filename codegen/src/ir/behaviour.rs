@@ -1,6 +1,6 @@
 //! Access, bindings, units, storage and availability of items.
 
-use super::{CompactString, Condition, Documentation, Doubts, Scale, Texts, Type, Value};
+use super::{CompactString, Condition, Documentation, Doubts, ItemRef, Scale, Texts, Type, Value};
 use crate::source::{Origin, Span};
 
 /// Access rights of an item, seen from the bus (CiA 306; ETG.2000 Flags/Access).
@@ -273,9 +273,9 @@ pub struct IndirectBinding {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct WindowSide {
     /// The item that takes the number.
-    pub number: CompactString,
+    pub number: ItemRef,
     /// The item that has, or takes, the value.
-    pub value: CompactString,
+    pub value: ItemRef,
     /// Whether the number is written before the value, where the source says so.
     pub number_first: Option<bool>,
     /// Whether the device sets the number to 0 once it is done, where the source says so here.
@@ -427,8 +427,8 @@ pub struct Availability {
     pub since: Option<CompactString>,
     /// First firmware version that doesn't have it any more.
     pub until: Option<CompactString>,
-    /// What replaces it from then on.
-    pub replaced_by: Option<CompactString>,
+    /// What replaces it from then on: an item, or of bits, values and messages another one of these. Only items have an id.
+    pub replaced_by: Option<ItemRef>,
     /// Options that have to be fitted.
     pub options: Vec<CompactString>,
     /// The only buses on which it exists, by their names in register tables, where its addresses don't tell; empty = all.

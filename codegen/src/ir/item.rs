@@ -4,8 +4,8 @@ use smallvec::SmallVec;
 use thin_vec::ThinVec;
 
 use super::{
-    Access, Availability, Behaviour, Binding, CompactString, Documentation, Doubts, Extensions, ItemVariant, Limits,
-    Mappable, Quantity, Texts, Type, Value,
+    Access, Availability, Behaviour, Binding, CompactString, Documentation, Doubts, Extensions, ItemRef, ItemVariant,
+    Limits, Mappable, Quantity, Texts, Type, Value,
 };
 use crate::source::{Origin, Span};
 
@@ -46,6 +46,15 @@ pub struct Item {
     pub behaviour: Option<Box<Behaviour>>,
     /// Models, firmware versions and options that have it.
     pub availability: Option<Box<Availability>>,
+    /// Other items that hold the same value, a part of it, or its length.
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
+    pub related: Option<Box<RelatedItems>>,
+    /// Whether the sub-index exists and means nothing.
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "std::ops::Not::not"))]
+    pub is_reserved: bool,
+    /// Whether it exists only at times.
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "std::ops::Not::not"))]
+    pub is_optional: bool,
     /// Of a device with several axes: whether there is one for all of them.
     pub shared_by_axes: bool,
     /// ObjFlags of CiA 306: bit 0 refuse write on download, bit 1 refuse read on scan; further bits are kept.
@@ -81,6 +90,9 @@ impl Item {
             quantity: None,
             behaviour: None,
             availability: None,
+            related: None,
+            is_reserved: false,
+            is_optional: false,
             shared_by_axes: false,
             flags: 0,
             documentation: None,
@@ -137,6 +149,32 @@ impl Item {
     /// The value a device starts with: the configured one of a DCF, else the default.
     pub fn initial(&self) -> Option<&Value> {
         self.configured.as_ref().and_then(|configured| configured.value.as_ref()).or(self.default.as_ref())
+    }
+}
+
+/// Other items that hold the value of an item, a part of it, or its length.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct RelatedItems {
+    /// The item that is the same value under another name.
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
+    pub same_as: Option<ItemRef>,
+    /// The item that is the same quantity in another scale.
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
+    pub same_quantity: Option<ItemRef>,
+    /// The item that holds the upper half of the value.
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
+    pub upper_half: Option<ItemRef>,
+    /// The item that holds how many elements are valid.
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
+    pub valid_count: Option<ItemRef>,
+}
+
+impl RelatedItems {
+    /// Returns all references, to be changed.
+    pub(crate) fn all_mut(&mut self) -> impl Iterator<Item = &mut ItemRef> {
+        let RelatedItems { same_as, same_quantity, upper_half, valid_count } = self;
+        [same_as, same_quantity, upper_half, valid_count].into_iter().flatten()
     }
 }
 

@@ -3,7 +3,7 @@
 use std::cell::OnceCell;
 use std::collections::{BTreeSet, HashMap};
 
-use super::{Group, Item};
+use super::{Group, Item, ItemId};
 
 /// The items at indices and sub-indices: of objects, and registers that are objects too.
 ///
@@ -82,15 +82,14 @@ impl<'a> ItemNames<'a> {
 
     /// The item at this path: the name of its chapter, and its own (`Chapter/Item`).
     pub fn by_path(&self, path: &str) -> Option<&'a Item> {
-        self.paths.get_or_init(|| ItemPaths::new(self.groups)).find(path)
+        self.paths.get_or_init(|| ItemPaths::new(self.groups)).find(path).map(|(_, item)| item)
     }
 }
 
 /// The items by the names of their chapter and their own, `Chapter/Item`.
 #[derive(Clone, Debug, Default)]
 pub struct ItemPaths<'a> {
-    /// With the place of the chapter.
-    chapters: HashMap<&'a str, HashMap<&'a str, (usize, &'a Item)>>,
+    chapters: HashMap<&'a str, HashMap<&'a str, (ItemId, &'a Item)>>,
     /// How many slashes the names of chapters have.
     slashes: BTreeSet<usize>,
 }
@@ -99,24 +98,25 @@ impl<'a> ItemPaths<'a> {
     /// The items of these groups.
     pub fn new(groups: impl IntoIterator<Item = &'a Group>) -> Self {
         let mut paths = ItemPaths::default();
-        for (place, group) in groups.into_iter().enumerate() {
+        for (place, group) in (0..).zip(groups) {
             paths.slashes.insert(group.name.matches('/').count());
             let chapter = paths.chapters.entry(group.name.as_str()).or_default();
-            for item in &group.items {
-                chapter.entry(item.name.as_str()).or_insert((place, item));
+            for (position, item) in (0..).zip(&group.items) {
+                let id = ItemId { group: place, item: position };
+                chapter.entry(item.name.as_str()).or_insert((id, item));
             }
         }
         paths
     }
 
-    /// The item at a path; of several the first.
-    pub fn find(&self, path: &str) -> Option<&'a Item> {
+    /// The item at a path, with its id; of several the first.
+    pub fn find(&self, path: &str) -> Option<(ItemId, &'a Item)> {
         // A slash may belong to either name.
         let found = self.slashes.iter().filter_map(|&slashes| {
             let (at, _) = path.match_indices('/').nth(slashes)?;
-            self.chapters.get(&path[..at])?.get(&path[at + 1..])
+            self.chapters.get(&path[..at])?.get(&path[at + 1..]).copied()
         });
-        found.min_by_key(|(place, _)| place).map(|&(_, item)| item)
+        found.min_by_key(|(id, _)| id.group)
     }
 }
 
@@ -148,7 +148,7 @@ mod tests {
         ];
         let paths = ItemPaths::new(&groups);
         let is = |path: &str, group: usize, item: usize| {
-            paths.find(path).is_some_and(|found| std::ptr::eq(found, &groups[group].items[item]))
+            paths.find(path).is_some_and(|(_, found)| std::ptr::eq(found, &groups[group].items[item]))
         };
         assert!(is("Axis/Speed", 0, 0));
         assert!(is("Axis/Position/Rate", 0, 1));

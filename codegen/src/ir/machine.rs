@@ -1,6 +1,6 @@
 //! State machines and procedures.
 
-use super::{Availability, CompactString, Direction, Documentation, SharedList, Texts, Value};
+use super::{Availability, CompactString, Direction, Documentation, ItemRef, SharedList, Texts, Value};
 use crate::source::{Origin, Span};
 
 /// A state machine.
@@ -10,9 +10,9 @@ pub struct StateMachine {
     /// Its name.
     pub name: CompactString,
     /// The item that tells the state, or `Message.field` where a reply does.
-    pub status_item: CompactString,
+    pub status_item: ItemRef,
     /// The item that commands it.
-    pub control_item: CompactString,
+    pub control_item: ItemRef,
     /// The enumeration whose values are the states, where the source has one.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub state_type: Option<CompactString>,
@@ -141,15 +141,15 @@ impl Procedure {
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum Step {
     /// Write a value to an item.
-    Write(CompactString, Value),
+    Write(ItemRef, Value),
     /// Write a value to some bits of an item, and leave the others as they are: item, mask, value.
-    WriteBits(CompactString, u64, Value),
+    WriteBits(ItemRef, u64, Value),
     /// Write to an item what the caller gives: item, name of the argument.
-    WriteArgument(CompactString, CompactString),
+    WriteArgument(ItemRef, CompactString),
     /// Read an item: its value is what the procedure gives.
-    Read(CompactString),
+    Read(ItemRef),
     /// Wait until an item, under a mask, has a value; at most so many milliseconds, where the source says.
-    WaitFor(CompactString, u64, Value, Option<u32>),
+    WaitFor(ItemRef, u64, Value, Option<u32>),
     /// Wait so many milliseconds.
     Delay(u32),
     /// Send a message.

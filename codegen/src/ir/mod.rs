@@ -35,6 +35,7 @@ mod process_data;
 mod profinet;
 #[cfg(feature = "serde")]
 mod real;
+mod reference;
 mod shared;
 pub(crate) mod texts;
 mod types;
@@ -53,6 +54,7 @@ pub use message::*;
 pub use module::*;
 pub use process_data::*;
 pub use profinet::*;
+pub use reference::*;
 pub use shared::*;
 pub use types::*;
 pub use value::*;

@@ -1,9 +1,9 @@
 //! What has items and types of its own: a device, a module, or all submodules of a catalogue.
 
 use std::cell::OnceCell;
-use std::collections::{HashMap, HashSet};
+use std::collections::HashMap;
 
-use super::{EnumValue, Group, Item, ItemPaths, Shape, Type, TypeDef, TypeId, Value, Zone};
+use super::{EnumValue, Group, Item, ItemId, ItemPaths, Shape, Type, TypeDef, TypeId, Value, Zone};
 use crate::source::Span;
 
 /// How many names of types may lead from one to the next.
@@ -22,6 +22,12 @@ impl<'a> Owner<'a> {
     /// Types alone.
     pub fn of_types(types: &'a [TypeDef]) -> Self {
         Owner { types, groups: &[] }
+    }
+
+    /// Returns the item with an id that counts the groups of all lists.
+    pub fn item(self, id: ItemId) -> Option<&'a Item> {
+        let group = self.groups.iter().flat_map(|groups| groups.iter()).nth(id.group as usize)?;
+        group.items.get(id.item as usize)
     }
 
     /// All items.
@@ -96,10 +102,10 @@ impl<'a> Places<'a> {
     }
 }
 
-/// Items by what refers to them. Each list is made when it is first asked for: most descriptions refer to nothing.
+/// Ids of items by what refers to them. Each list is made when it is first asked for: most descriptions refer to nothing.
 pub(crate) struct Index<'a> {
-    names: OnceCell<HashMap<&'a str, &'a Item>>,
-    objects: OnceCell<HashMap<(u16, u8), &'a Item>>,
+    names: OnceCell<HashMap<&'a str, ItemId>>,
+    objects: OnceCell<HashMap<(u16, u8), ItemId>>,
     paths: OnceCell<ItemPaths<'a>>,
     owner: Owner<'a>,
 }
@@ -113,40 +119,39 @@ impl<'a> Index<'a> {
         self.owner.groups.iter().flat_map(|groups| groups.iter())
     }
 
+    /// The groups with the ids of their items.
+    fn items(&self) -> impl Iterator<Item = (&'a Group, ItemId, &'a Item)> {
+        let ids = |(group, own): (u32, &'a Group)| {
+            (0..).zip(&own.items).map(move |(item, found)| (own, ItemId { group, item }, found))
+        };
+        (0..).zip(self.groups()).flat_map(ids)
+    }
+
     /// Of the items that share a name, the first counts. An object of one value goes by the object's name too; a record and a
     /// chapter are none of their values.
-    fn names(&self) -> &HashMap<&'a str, &'a Item> {
+    fn names(&self) -> &HashMap<&'a str, ItemId> {
         self.names.get_or_init(|| {
-            let own = self.groups().flat_map(|group| group.items.iter().map(|item| (item.name.as_str(), item)));
-            let objects = self.groups().filter(|group| group.index().is_some());
-            let only = objects.filter_map(|group| match group.items.as_slice() {
-                [item] => Some((group.name.as_str(), item)),
-                _ => None,
-            });
+            let own = self.items().map(|(_, id, item)| (item.name.as_str(), id));
+            let only = self.items().filter(|(group, ..)| group.index().is_some() && group.items.len() == 1);
+            let only = only.map(|(group, id, _)| (group.name.as_str(), id));
             let mut names = HashMap::new();
-            for (name, item) in own.chain(only).filter(|(name, _)| !name.is_empty()) {
-                names.entry(name).or_insert(item);
+            for (name, id) in own.chain(only).filter(|(name, _)| !name.is_empty()) {
+                names.entry(name).or_insert(id);
             }
             names
         })
     }
 
-    fn objects(&self) -> &HashMap<(u16, u8), &'a Item> {
-        let items = || self.owner.items().filter_map(|item| Some((item.object()?, item)));
-        self.objects.get_or_init(|| items().collect())
+    fn objects(&self) -> &HashMap<(u16, u8), ItemId> {
+        self.objects.get_or_init(|| self.items().filter_map(|(_, id, item)| Some((item.object()?, id))).collect())
     }
 
     /// The item that goes by this name, is at this place (`0x6040`, `0x1018:1`), or is in this chapter (`Chapter/Item`).
-    pub fn find(&self, name: &str) -> Option<&'a Item> {
+    pub fn find(&self, name: &str) -> Option<ItemId> {
         let by_name = || self.names().get(name).copied();
         let by_object = || self.objects().get(&object(name)?).copied();
-        let by_path = || self.paths.get_or_init(|| ItemPaths::new(self.groups())).find(name);
+        let by_path = || self.paths.get_or_init(|| ItemPaths::new(self.groups())).find(name).map(|(id, _)| id);
         by_name().or_else(by_object).or_else(by_path)
-    }
-
-    /// The indices of all objects that have a value.
-    pub fn indices(&self) -> HashSet<u16> {
-        self.objects().keys().map(|(index, _)| *index).collect()
     }
 }
 
@@ -196,10 +201,9 @@ mod tests {
         let groups = [object(0x2000, "Speed", &["Value"]), object(0x2001, "Gains", &["Count", "P"]), chapter];
         let all = [groups.as_slice()];
         let index = Index::new(Owner { types: &[], groups: &all });
-        assert_eq!(index.find("Speed").map(|item| item.name.as_str()), Some("Value"));
-        assert_eq!(index.find("Gains/P").map(|item| item.name.as_str()), Some("P"));
+        let found = |name| index.find(name).and_then(|id| index.owner.item(id)).map(|item| item.name.as_str());
+        assert_eq!((found("Speed"), found("Gains/P"), found("0x2001:1")), (Some("Value"), Some("P"), Some("P")));
         assert!(index.find("Gains").is_none() && index.find("Chapter").is_none());
-        assert_eq!(index.indices(), HashSet::from([0x2000, 0x2001, 0x2002]));
     }
 
     #[test]

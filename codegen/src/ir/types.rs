@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use super::{Access, Availability, CompactString, Documentation, Mark, Texts, Value};
+use super::{Access, Availability, CompactString, Documentation, ItemRef, Mark, Texts, Value};
 use crate::source::Origin;
 
 /// The type of an item: basic, or the position of a [`TypeDef`] in its device.
@@ -429,7 +429,7 @@ pub enum Scale {
     /// physical = raw / 2^fraction × base^exponent, in two items or two halves of one.
     Exponent {
         /// The item that holds the exponent.
-        exponent: CompactString,
+        exponent: ItemRef,
         /// What is raised to it: 10, or 2.
         base: u8,
         /// Number of fractional bits of the raw number (15 for Q15); 0 for an integer.
@@ -438,7 +438,7 @@ pub enum Scale {
     /// physical = raw × factor / value of another item.
     ByItem {
         /// The other item.
-        item: CompactString,
+        item: ItemRef,
         /// The constant part.
         #[cfg_attr(feature = "serde", serde(with = "super::real"))]
         factor: f64,
@@ -446,7 +446,7 @@ pub enum Scale {
     /// physical = raw × factor × value of another item.
     TimesItem {
         /// The other item.
-        item: CompactString,
+        item: ItemRef,
         /// The constant part.
         #[cfg_attr(feature = "serde", serde(with = "super::real"))]
         factor: f64,
@@ -457,8 +457,8 @@ pub enum Scale {
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Condition {
-    /// Name of the other item.
-    pub item: CompactString,
+    /// The other item.
+    pub item: ItemRef,
     /// Its values.
     pub values: Vec<Value>,
     /// The bits of the item that are compared with the values; `None` = all.

@@ -4,6 +4,7 @@
 //! |---|---|
 //! | `run` | the order of the steps |
 //! | `conditions` | signs of the values in conditions |
+//! | `references` | names of items to ids |
 //! | `identity` | identity numbers of object 0x1018 |
 //! | `implicit_pdos` | objects of PDOs that a device only announces |
 //! | `pdo_mapping` | PDOs of mapping objects |
@@ -17,6 +18,7 @@ mod mapped_objects;
 pub(crate) mod messages;
 mod pdo_entries;
 mod pdo_mapping;
+mod references;
 mod run;
 
 pub(crate) use identity::IdentityNumber;
@@ -25,3 +27,4 @@ pub(crate) use pdo_mapping::{
     announced_count, is_dummy, is_multiplexed, mapping_values, MappableItems, MappingValue, MappingWord, PdoObjects,
 };
 pub use run::resolve;
+pub(crate) use run::resolve_references;

@@ -1,6 +1,6 @@
 //! The steps of the stage, in order.
 
-use super::{conditions, identity, implicit_pdos, mapped_objects, pdo_entries, pdo_mapping};
+use super::{conditions, identity, implicit_pdos, mapped_objects, pdo_entries, pdo_mapping, references};
 use crate::diagnostics::Diagnostics;
 use crate::ir::{Catalog, Device, Module};
 
@@ -15,7 +15,6 @@ pub fn resolve(catalog: &mut Catalog, diagnostics: &mut Diagnostics) {
 }
 
 fn device(device: &mut Device, modules: &[Module], diagnostics: &mut Diagnostics) {
-    conditions::run(device);
     identity::run(device);
     implicit_pdos::run(device);
     pdo_mapping::run(device, modules);
@@ -23,9 +22,21 @@ fn device(device: &mut Device, modules: &[Module], diagnostics: &mut Diagnostics
         pdo_entries::device(device, diagnostics);
         mapped_objects::device(device);
     }
+    if references::device(device) {
+        conditions::run(device);
+    }
 }
 
 fn module(module: &mut Module, diagnostics: &mut Diagnostics) {
     pdo_entries::module(module, diagnostics);
     mapped_objects::module(module);
+    references::module(module);
+}
+
+/// Resolves all references again, after elements were added or removed.
+pub(crate) fn resolve_references(catalog: &mut Catalog) {
+    for own in &mut catalog.devices {
+        references::device(own);
+    }
+    catalog.modules.iter_mut().for_each(references::module);
 }

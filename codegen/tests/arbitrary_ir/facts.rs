@@ -24,7 +24,7 @@ pub fn access(b: &mut Bytes<'_>) -> Access {
 
 pub fn condition(b: &mut Bytes<'_>) -> Condition {
     Condition {
-        item: names::name(b),
+        item: names::name(b).into(),
         values: b.list(2, |b| Value::Int(values::number(b))),
         mask: b.maybe(4, |b| b.pick(&[1, 0x0F, 0x8000, u64::MAX])),
     }
@@ -35,7 +35,7 @@ pub fn availability(b: &mut Bytes<'_>) -> Availability {
         models: b.list(2, names::model),
         since: b.maybe(3, names::version),
         until: b.maybe(3, names::version),
-        replaced_by: b.maybe(4, names::name),
+        replaced_by: b.maybe(4, names::name).map(Into::into),
         options: b.few(4, 2, names::name),
         buses: b.few(4, 1, names::name),
     }

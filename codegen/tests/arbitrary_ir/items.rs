@@ -2,7 +2,7 @@
 
 use lexibus_codegen::ir::{
     Binding, Category, CompactString, Configured, Group, GroupKind, ImageBinding, IndirectBinding, Item, Mappable,
-    ObjectBuses, ObjectCode, RegisterBinding, RegisterSpace, Type, TypeDef, Value, WindowSide,
+    ObjectBuses, ObjectCode, RegisterBinding, RegisterSpace, RelatedItems, Type, TypeDef, Value, WindowSide,
 };
 
 use super::bytes::Bytes;
@@ -57,6 +57,13 @@ pub fn item(b: &mut Bytes<'_>, around: &Around<'_>, binding: Binding) -> Item {
         quantity: b.maybe(3, |b| Box::new(facts::quantity(b, around.given))),
         behaviour: b.maybe(4, |b| Box::new(facts::behaviour(b))),
         availability: b.maybe(6, |b| Box::new(facts::availability(b))),
+        related: b.maybe(8, |b| {
+            let mut item = || b.maybe(2, names::name).map(Into::into);
+            let (same_as, same_quantity, upper_half, valid_count) = (item(), item(), item(), item());
+            Box::new(RelatedItems { same_as, same_quantity, upper_half, valid_count })
+        }),
+        is_reserved: b.one_in(12),
+        is_optional: b.one_in(12),
         shared_by_axes: b.one_in(6),
         flags: b.pick(&[0, 0, 1, u32::MAX]),
         documentation: names::documentation(b),
@@ -240,8 +247,8 @@ fn indirect(b: &mut Bytes<'_>) -> IndirectBinding {
 
 fn window_side(b: &mut Bytes<'_>) -> WindowSide {
     WindowSide {
-        number: names::of_window(b),
-        value: names::of_window(b),
+        number: names::of_window(b).into(),
+        value: names::of_window(b).into(),
         number_first: b.any(),
         clears: b.any(),
         wait: b.maybe(3, |b| b.pick(&[0, 5, u32::MAX])),

@@ -26,8 +26,8 @@ pub fn machine(b: &mut Bytes<'_>, items: &[CompactString], types: &[CompactStrin
     });
     StateMachine {
         name: names::name(b),
-        status_item: names::of(b, items),
-        control_item: names::of(b, items),
+        status_item: names::of(b, items).into(),
+        control_item: names::of(b, items).into(),
         state_type: b.maybe(5, |b| names::of(b, types)),
         initial: b.maybe(3, |b| names::of(b, &state_names)),
         outcomes: b.few(3, 3, |b| outcomes(b, &state_names)),
@@ -68,7 +68,7 @@ pub fn procedure(b: &mut Bytes<'_>, items: &[CompactString], messages: &[Compact
     // Those that are nothing but writes become constants.
     let writes = b.one_in(2);
     let steps = b.list(5, |b| {
-        let item = names::of(b, items);
+        let item = names::of(b, items).into();
         match b.within(0..=8) {
             kind if writes || kind == 0 => Step::Write(item, Value::Int(values::number(b))),
             1 => Step::WriteBits(item, b.any(), values::any(b)),
@@ -134,9 +134,9 @@ pub fn composite(b: &mut Bytes<'_>, items: &[CompactString]) -> Composite {
     Composite {
         name: names::name(b),
         names: names::texts(b),
-        parts: b.list(3, |b| names::of(b, items)),
+        parts: b.list(3, |b| names::of(b, items).into()),
         base: b.any(),
-        sign: b.maybe(3, |b| (names::of(b, items), b.any())),
+        sign: b.maybe(3, |b| (names::of(b, items).into(), b.any())),
         unit: names::unit(b),
         documentation: names::documentation(b),
         origin: Origin::default(),

@@ -185,9 +185,9 @@ pub fn scale(b: &mut Bytes<'_>) -> Scale {
         4 => Scale::Fraction { bits: b.pick(&[0, 8, 15, 31, 63, 64, 255]), base: names::name(b) },
         5 => {
             let (base, fraction) = (b.pick(&[10, 2, 0, 255]), b.pick(&[0, 15, 63, 200]));
-            Scale::Exponent { exponent: names::name(b), base, fraction }
+            Scale::Exponent { exponent: names::name(b).into(), base, fraction }
         }
-        6 => Scale::ByItem { item: names::name(b), factor: values::real(b) },
-        _ => Scale::TimesItem { item: names::name(b), factor: values::real(b) },
+        6 => Scale::ByItem { item: names::name(b).into(), factor: values::real(b) },
+        _ => Scale::TimesItem { item: names::name(b).into(), factor: values::real(b) },
     }
 }

@@ -167,7 +167,15 @@ fn variant(own: &ItemVariant) -> String {
 }
 
 fn scale(own: &Scale) -> String {
-    format!("{own:?}").replace(|letter: char| letter.is_alphabetic() || letter == '_', "")
+    let text = match own {
+        Scale::Exponent { exponent, base, fraction } => {
+            format!("Exponent {{ exponent: {:?}, base: {base}, fraction: {fraction} }}", exponent.name)
+        }
+        Scale::ByItem { item, factor } => format!("ByItem {{ item: {:?}, factor: {factor:?} }}", item.name),
+        Scale::TimesItem { item, factor } => format!("TimesItem {{ item: {:?}, factor: {factor:?} }}", item.name),
+        _ => format!("{own:?}"),
+    };
+    text.replace(|letter: char| letter.is_alphabetic() || letter == '_', "")
 }
 
 fn limits(own: &Limits) -> Option<String> {

@@ -187,6 +187,7 @@ fn low_level_parameters() {
     };
     let names = chapters.map(|group| group.items.iter().map(printed).collect::<BTreeSet<_>>());
     assert_eq!(names[0].intersection(&names[1]).count(), 12);
-    let low_halves = chapters[1].items.iter().filter(|item| item.extensions.iter().any(|own| own.key == "upper_half"));
+    let low_halves =
+        chapters[1].items.iter().filter(|item| item.related.as_ref().is_some_and(|own| own.upper_half.is_some()));
     assert_eq!(low_halves.count(), 4);
 }

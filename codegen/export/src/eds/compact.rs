@@ -1,5 +1,6 @@
 //! Objects of equal elements, which CiA 306 describes at once with CompactSubObj.
 
+use crate::note;
 use lexibus_codegen::ir::{Access, Group, Item, Limits, Mappable, ObjectCode, Type, Value};
 
 /// The name that sub-index 0 has where nobody describes it (CiA 306).
@@ -71,6 +72,7 @@ fn says_nothing_more(item: &Item) -> bool {
         && item.quantity.is_none()
         && item.behaviour.is_none()
         && item.availability.is_none()
+        && note::relations(item) == 0
         && item.documentation.is_none()
         && item.doubts.is_empty()
 }

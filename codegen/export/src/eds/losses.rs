@@ -95,6 +95,7 @@ pub(super) fn of_item(item: &Item, notes: &mut Notes) {
     notes.add_many(NoteKind::Behaviour, usize::from(item.behaviour.is_some()), place);
     let variants = item.variants.len();
     notes.add_many(NoteKind::Availability, usize::from(item.availability.is_some()) + variants, place);
+    notes.add_many(NoteKind::Relation, note::relations(item), place);
     notes.add_many(NoteKind::Documentation, usize::from(item.documentation.is_some()), place);
     notes.add_many(NoteKind::Doubt, item.doubts.len(), place);
     notes.add_many(NoteKind::AllowedValues, usize::from(!item.limits.allowed.is_empty()), place);

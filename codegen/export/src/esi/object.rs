@@ -7,7 +7,7 @@ use super::record::{self, FieldFacts, Plan};
 use super::text::{documentation, hex, names};
 use super::types::Types;
 use super::{value, Context};
-use crate::note::{NoteKind, Place};
+use crate::note::{self, NoteKind, Place};
 use crate::xml::Xml;
 use lexibus_codegen::ir::{Category, Extension, Group, GroupKind, Item, Storage};
 
@@ -217,6 +217,7 @@ fn losses(context: &mut Context<'_>, group: &Group, items: &[(u8, &Item)]) {
         let availability = usize::from(item.availability.is_some()) + item.variants.len();
         notes.add_many(NoteKind::Availability, availability, place);
         notes.add_many(NoteKind::Doubt, item.doubts.len(), place);
+        notes.add_many(NoteKind::Relation, note::relations(item), place);
         notes.add_many(NoteKind::Extension, item.extensions.len(), place);
         notes.add_many(NoteKind::Configuration, usize::from(item.configured.is_some()), place);
         notes.add_many(NoteKind::Setting, usize::from(item.flags != 0), place);

@@ -379,6 +379,7 @@ fn losses(device: &Device, notes: &mut Notes) {
                     notes.add_many(NoteKind::Behaviour, usize::from(item.behaviour.is_some()), place);
                     let available = usize::from(item.availability.is_some()) + item.variants.len();
                     notes.add_many(NoteKind::Availability, available, place);
+                    notes.add_many(NoteKind::Relation, note::relations(item), place);
                     notes.add_many(NoteKind::Documentation, usize::from(item.documentation.is_some()), place);
                     notes.add_many(NoteKind::Doubt, item.doubts.len(), place);
                 }

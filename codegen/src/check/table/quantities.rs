@@ -5,7 +5,6 @@ use std::convert::Infallible;
 use super::physical;
 use crate::check::context::Context;
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
-use crate::ir::owner::Index;
 use crate::ir::{CompactString, Device, Item, MachineUnit, Scale, Value, Variant};
 use crate::text::{brief, glob};
 
@@ -16,20 +15,17 @@ const TOLERANCE: f64 = 0.001;
 const DIGITS: f64 = 4.0;
 
 pub(crate) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
-    let Context { device, owner, items, .. } = context;
+    let Context { device, owner, .. } = context;
     for item in owner.items() {
-        for view in item.extensions.iter().filter(|own| own.key == "same_quantity") {
-            let Some(other) = items.find(&view.value).filter(|other| !std::ptr::eq(*other, item)) else { continue };
-            let differences = differences(device, items, item, other);
-            if differences.is_empty() {
-                continue;
-            }
-            let message = format!(
-                "`{}` is the same quantity as `{}`, and the defaults differ: {}",
-                brief(&item.name),
-                brief(&other.name),
-                differences.join("; ")
-            );
+        let view = item.related.as_ref().and_then(|own| own.same_quantity.as_ref());
+        let other = view.and_then(|own| device.referred(own)).filter(|other| !std::ptr::eq(*other, item));
+        let Some(other) = other else { continue };
+        let differences = differences(device, item, other);
+        if !differences.is_empty() {
+            let (name, other_name) = (brief(&item.name), brief(&other.name));
+            let differences = differences.join("; ");
+            let message =
+                format!("`{name}` is the same quantity as `{other_name}`, and the defaults differ: {differences}");
             let found = Diagnostic::new(&codes::QUANTITIES_DIFFER, item.at.default.or(item.origin.span), message);
             diagnostics.push(found.note_at(other.at.default.or(other.origin.span), "the other one"));
         }
@@ -37,14 +33,14 @@ pub(crate) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
 }
 
 /// The models on which the defaults differ, or why they can't be compared.
-fn differences(device: &Device, items: &Index<'_>, one: &Item, other: &Item) -> Vec<String> {
+fn differences(device: &Device, one: &Item, other: &Item) -> Vec<String> {
     let models: Vec<Option<&Variant>> = match device.variants.as_slice() {
         [] => vec![None],
         variants => variants.iter().map(Some).collect(),
     };
     let mut found = Vec::new();
     for model in models {
-        let of = |item| Physical::new(device, items, item, model);
+        let of = |item| Physical::new(device, item, model);
         let (Some(one), Some(other)) = (of(one), of(other)) else { continue };
         let (one, other) = match (&one.machine, &other.machine) {
             _ if one.unit == other.unit => ((one.number, one.unit), (other.number, other.unit)),
@@ -75,14 +71,16 @@ struct Physical {
 }
 
 impl Physical {
-    fn new(device: &Device, items: &Index<'_>, item: &Item, model: Option<&Variant>) -> Option<Self> {
+    fn new(device: &Device, item: &Item, model: Option<&Variant>) -> Option<Self> {
         let raw = default(item, model)?;
         let Some(quantity) = &item.quantity else {
             return Some(Physical { number: raw, unit: CompactString::default(), machine: None });
         };
-        let other = |name: &CompactString| match quantity.scale {
+        let other = |name: &CompactString| match &quantity.scale {
             Some(Scale::Fraction { .. }) => physical::constant(model, name).ok_or(()),
-            Some(Scale::Exponent { .. }) => items.find(name).and_then(|item| default(item, model)).ok_or(()),
+            Some(Scale::Exponent { exponent, .. }) => {
+                device.referred(exponent).and_then(|item| default(item, model)).ok_or(())
+            }
             _ => Err(()),
         };
         if matches!(quantity.scale, Some(Scale::Reciprocal { .. })) {

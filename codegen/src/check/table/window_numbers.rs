@@ -14,7 +14,7 @@ pub(crate) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
     for item in behind(context) {
         for window in windows(item) {
             for side in [&window.read, &window.write].into_iter().flatten() {
-                let (taker, holder) = (context.items.find(&side.number), context.items.find(&side.value));
+                let (taker, holder) = (context.device.referred(&side.number), context.device.referred(&side.value));
                 for (part, what) in [(taker, "the number"), (holder, "the value")] {
                     let Some(part) = part.filter(|own| integer(context.owner, own).is_none()) else { continue };
                     if told.insert(part.name.as_str()) {

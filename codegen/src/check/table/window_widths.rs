@@ -34,7 +34,7 @@ fn width<'d>(
     for window in windows(item) {
         let sides = [("read", &window.read), ("written", &window.write)];
         for (verb, side) in sides.into_iter().filter_map(|(verb, side)| Some((verb, side.as_ref()?))) {
-            let Some(own) = context.items.find(&side.value).and_then(bits_of) else { continue };
+            let Some(own) = context.device.referred(&side.value).and_then(bits_of) else { continue };
             for bus in &window.buses {
                 let entry = widest.entry((verb, bus)).or_insert((own, &side.value));
                 *entry = if own > entry.0 { (own, &side.value) } else { *entry };
@@ -60,10 +60,10 @@ fn order(
     item: &Item,
     diagnostics: &mut Diagnostics,
 ) {
-    let number = context.items.find(&side.number);
+    let number = context.device.referred(&side.number);
     let is_cyclic = |own: &Item| own.bindings.iter().any(|binding| matches!(binding, Binding::Image(_)));
     let by_row = number.and_then(|own| own.behaviour.as_ref()).is_some_and(|own| own.self_clearing);
-    if context.items.find(&side.value).is_some_and(is_cyclic) || !(by_row || side.clears == Some(true)) {
+    if context.device.referred(&side.value).is_some_and(is_cyclic) || !(by_row || side.clears == Some(true)) {
         return;
     }
     let (address, value) = (brief(&side.number), brief(&side.value));

@@ -11,7 +11,7 @@ use super::references::ITEM;
 use super::tree::Reader;
 use super::value;
 use crate::diagnostics::codes;
-use crate::ir::{Availability, Condition, Type};
+use crate::ir::{Availability, Condition, ItemRef, Type};
 
 /// Who has an element, as a table says it.
 pub(super) struct Window<'t> {
@@ -50,7 +50,7 @@ impl Definitions {
                 let message = "the condition never holds: it has no value, or one with bits outside of its `mask`";
                 reader.report(&codes::TABLE_VALUE, span, message);
             }
-            conditions.push(Condition { item: item.value.as_str().into(), values, mask });
+            conditions.push(Condition { item: reader.item(item), values, mask });
         }
         conditions
     }
@@ -67,7 +67,7 @@ impl Definitions {
             models: models.map(|model| model.value.as_str().into()).collect(),
             since: since.map(CompactString::from),
             until: until.map(CompactString::from),
-            replaced_by: given.replaced_by.map(CompactString::from),
+            replaced_by: given.replaced_by.map(ItemRef::from),
             buses: given.buses.into_iter().flatten().map(|bus| bus.value.as_str().into()).collect(),
             ..Availability::default()
         };

@@ -9,8 +9,8 @@ use super::tree::{about, cited, Reader};
 use super::{lints, outcomes, process, value};
 use crate::diagnostics::codes;
 use crate::ir::{
-    CompactString, Device, EnumValue, MessageField, Pattern, Procedure, Shape, StateMachine, Step, SubjectKind,
-    Transition, Type, Value,
+    CompactString, Device, EnumValue, ItemRef, MessageField, Pattern, Procedure, Shape, StateMachine, Step,
+    SubjectKind, Transition, Type, Value,
 };
 use crate::text::brief;
 
@@ -58,8 +58,8 @@ pub(super) fn machine(
     }
     device.machines.push(StateMachine {
         name: text(name),
-        status_item: table.status.as_ref().map(text).unwrap_or_default(),
-        control_item: table.control.as_ref().map(text).unwrap_or_default(),
+        status_item: table.status.as_ref().map(|name| reader.item(name)).unwrap_or_default(),
+        control_item: table.control.as_ref().map(|name| reader.item(name)).unwrap_or_default(),
         state_type,
         states: states.into(),
         initial: table.initial.as_ref().map(text),
@@ -227,17 +227,17 @@ fn step(reader: &mut Reader<'_, '_>, given: &At<StepTable>, references: &mut Ref
         None
     } else if let Some(item) = &own.write {
         references.push((item.clone(), "item"));
-        written(own, text(item), number)
+        written(own, reader.item(item), number)
     } else if let Some(item) = &own.wait {
         references.push((item.clone(), "item"));
         let mask = own.mask.as_ref().map_or(u64::MAX, |mask| mask.value);
         let timeout = own.timeout.as_ref().map(|timeout| timeout.value);
-        number.filter(|_| own.argument.is_none()).map(|value| Step::WaitFor(text(item), mask, value, timeout))
+        number.filter(|_| own.argument.is_none()).map(|value| Step::WaitFor(reader.item(item), mask, value, timeout))
     } else if has_value {
         None
     } else if let Some(item) = &own.read {
         references.push((item.clone(), "item"));
-        Some(Step::Read(text(item)))
+        Some(Step::Read(reader.item(item)))
     } else if let Some(message) = &own.send {
         references.push((message.clone(), "message"));
         Some(Step::Send(text(message)))
@@ -254,7 +254,7 @@ fn step(reader: &mut Reader<'_, '_>, given: &At<StepTable>, references: &mut Ref
     found
 }
 
-fn written(own: &StepTable, item: CompactString, number: Option<Value>) -> Option<Step> {
+fn written(own: &StepTable, item: ItemRef, number: Option<Value>) -> Option<Step> {
     match (number, &own.argument, &own.mask, &own.timeout) {
         (Some(value), None, None, None) => Some(Step::Write(item, value)),
         (Some(value), None, Some(mask), None) => Some(Step::WriteBits(item, mask.value, value)),

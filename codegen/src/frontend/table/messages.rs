@@ -153,7 +153,7 @@ fn availability(own: &MessageTable) -> Availability {
         models: own.models.iter().flatten().map(text).collect(),
         since: own.since.as_deref().map(Into::into),
         until: own.until.as_deref().map(Into::into),
-        replaced_by: own.replaced_by.as_ref().map(text),
+        replaced_by: own.replaced_by.as_ref().map(|name| name.value.as_str().into()),
         ..Availability::default()
     }
 }

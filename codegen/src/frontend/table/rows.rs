@@ -14,8 +14,8 @@ use super::tree::{cited, Reader};
 use super::{given, place, scale, types, value};
 use crate::diagnostics::{codes, Code, Diagnostic};
 use crate::ir::{
-    Access, Availability, Behaviour, Binding, Conversion, Documentation, Extension, Item, Mappable, ModbusTable,
-    Quantity, RegisterSpace, Shape, Storage, Type, TypeDef, TypeId,
+    Access, Availability, Behaviour, Binding, Conversion, Documentation, Item, ItemRef, Mappable, ModbusTable,
+    Quantity, RegisterSpace, RelatedItems, Shape, Storage, Type, TypeDef, TypeId,
 };
 use crate::source::Span;
 use crate::text::brief;
@@ -480,7 +480,7 @@ impl Rows {
         let text = |given: &Option<String>, own: Option<CompactString>| given.as_deref().map(Into::into).or(own);
         (own.since, own.until) = (text(&row.since, own.since), text(&row.until, own.until));
         if let Some(replaced) = &row.replaced_by {
-            own.replaced_by = Some(replaced.value.as_str().into());
+            own.replaced_by = Some(reader.item(replaced));
             self.references.push((replaced.clone(), ITEM));
         }
         // Of other buses, the addresses tell.
@@ -493,11 +493,21 @@ impl Rows {
             own.options = needs.iter().map(|need| need.as_str().into()).collect();
         }
         item.availability = (own != Availability::default()).then(|| Box::new(own));
-        let others = [("upper_half", &row.upper), ("same_quantity", &row.same_quantity), ("same_as", &row.same_as)];
-        for (key, name) in others.into_iter().filter_map(|(key, name)| Some((key, name.as_ref()?))) {
-            self.references.push((name.clone(), ITEM));
-            item.extensions.push(extension(key, &name.value, reader.span(name)));
+        self.related(reader, item, row);
+    }
+
+    fn related(&mut self, reader: &Reader<'_, '_>, item: &mut Item, row: &Row) {
+        let names = [&row.upper, &row.same_quantity, &row.same_as];
+        self.references.extend(names.into_iter().flatten().map(|name| (name.clone(), ITEM)));
+        let mut own = item.related.take().map_or_else(RelatedItems::default, |own| *own);
+        let found = |name: &Option<At<String>>| name.as_ref().map(|name| reader.item(name));
+        own.upper_half = found(&row.upper).or(own.upper_half);
+        own.same_quantity = found(&row.same_quantity).or(own.same_quantity);
+        own.same_as = found(&row.same_as).or(own.same_as);
+        if let Some(At { value: NumberOrText::Text(count), start, end }) = &row.count {
+            own.valid_count = Some(ItemRef::new(count.as_str(), Span::new(reader.file, *start, *end)));
         }
+        item.related = (own != RelatedItems::default()).then(|| Box::new(own));
     }
 
     fn words(&mut self, reader: &mut Reader<'_, '_>, item: &mut Item, row: &Row) {
@@ -513,14 +523,8 @@ impl Rows {
         }
         let doubts = [row.doubt.as_ref(), row.doubts.as_ref()];
         item.doubts.extend(reader.doubts(doubts, item.origin, cite.as_deref()));
-        for (name, is_set) in [("reserved", row.reserved), ("optional", row.optional)] {
-            if is_set == Some(true) {
-                item.extensions.push(extension(name, "true", item.at.name));
-            }
-        }
-        if let Some(At { value: NumberOrText::Text(count), .. }) = &row.count {
-            item.extensions.push(extension("count", count, item.at.name));
-        }
+        item.is_reserved |= row.reserved == Some(true);
+        item.is_optional |= row.optional == Some(true);
     }
 }
 
@@ -544,8 +548,4 @@ pub(super) fn documentation(reader: &mut Reader<'_, '_>, row: &Row) -> Option<Bo
 fn states_no_meaning(row: &Row) -> bool {
     matches!(&row.bits, Some(At { value: TextOr::Text(name), .. }) if name.is_empty())
         || matches!(&row.values, Some(At { value: TextOr::Text(name), .. }) if name.is_empty())
-}
-
-fn extension(key: &str, value: &str, span: Span) -> Extension {
-    Extension { key: key.into(), value: value.into(), span }
 }

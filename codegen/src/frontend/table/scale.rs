@@ -5,7 +5,7 @@ use super::format::{ScaleRule, Scaling};
 use super::references::{References, ITEM};
 use super::tree::Reader;
 use crate::diagnostics::{codes, Diagnostic};
-use crate::ir::Scale;
+use crate::ir::{ItemRef, Scale};
 use crate::source::Span;
 
 /// The greatest number of fractional bits.
@@ -112,27 +112,28 @@ fn rule(rule: &ScaleRule, beside: Option<f64>, references: &mut References) -> R
         return Err(format!("`{other}` doesn't go with `{key}`: no rule has both"));
     }
     let factor = rule.factor.map_or(Ok(1.0), |factor| number("`factor`", factor))?;
-    let name = |given: &Option<At<String>>| given.as_ref().map(|own| own.value.as_str().into()).unwrap_or_default();
+    let item = |given: &Option<At<String>>| given.as_ref().map(|own| own.value.as_str().into()).unwrap_or_default();
+    let constant = rule.of.as_ref().map(|own| own.value.as_str().into()).unwrap_or_default();
     for (given, kind) in [(&rule.by, ITEM), (&rule.times, ITEM), (&rule.exponent, ITEM), (&rule.of, "constant")] {
         references.extend(given.iter().map(|given| (given.clone(), kind)));
     }
     Ok(match key {
-        "exponent" => Some(exponent(rule, name(&rule.exponent))?),
+        "exponent" => Some(exponent(rule, item(&rule.exponent))?),
         "reciprocal" => {
             let numerator = number("`reciprocal`", rule.reciprocal.unwrap_or(0.0))?;
             Some(Scale::Reciprocal { numerator })
         }
-        "by" => Some(Scale::ByItem { item: name(&rule.by), factor }),
-        "times" => Some(Scale::TimesItem { item: name(&rule.times), factor }),
+        "by" => Some(Scale::ByItem { item: item(&rule.by), factor }),
+        "times" => Some(Scale::TimesItem { item: item(&rule.times), factor }),
         "fraction" if rule.of.is_none() => return Err("a `fraction` is one of something: say `of` what".to_owned()),
-        "fraction" => Some(Scale::Fraction { bits: fraction(rule)?, base: name(&rule.of) }),
+        "fraction" => Some(Scale::Fraction { bits: fraction(rule)?, base: constant }),
         "of" => return Err("`of` says what a `fraction` is one of, and there is no `fraction`".to_owned()),
         "base" => return Err("`base` is what an `exponent` raises, and there is no `exponent`".to_owned()),
         _ => linear(factor, offset.filter(|offset| offset.is_finite()).unwrap_or(0.0)),
     })
 }
 
-fn exponent(rule: &ScaleRule, exponent: crate::ir::CompactString) -> Result<Scale, String> {
+fn exponent(rule: &ScaleRule, exponent: ItemRef) -> Result<Scale, String> {
     let base = rule.base.unwrap_or(10);
     if !matches!(base, 2 | 10) {
         return Err(format!("`base` is 10 or 2, and not {base}"));

@@ -101,7 +101,7 @@ impl Taken {
                 Binding::Object { buses, .. } => Some(*buses),
                 _ => None,
             };
-            let same_as = item.extensions.iter().find(|own| own.key == "same_as").map(|own| own.value.clone());
+            let same_as = item.related.as_ref().and_then(|own| own.same_as.as_ref()).map(|own| own.name.clone());
             let (span, name) = (item.at.name, item.name.clone());
             let holder = Holder { span, name, same_as, availability: item.availability.clone(), buses };
             let holders = self.addresses.entry(address.clone()).or_default();

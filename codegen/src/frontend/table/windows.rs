@@ -71,7 +71,7 @@ fn side(
     });
     let procedure = own.procedure.as_ref().or(rule.procedure.as_ref());
     Some(WindowSide {
-        number: number.value.as_str().into(),
+        number: reader.item(number),
         value: value.as_str().into(),
         number_first: order,
         clears: own.clears.or(rule.clears),

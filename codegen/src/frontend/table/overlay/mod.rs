@@ -28,7 +28,7 @@ use super::tree::Reader;
 use super::{code_tables, machines, Table};
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
 use crate::ir::{
-    CodeTable, CompactString, Device, Doubts, Format, Group, Item, ObjectCode, StateMachine, Type, TypeDef,
+    CodeTable, CompactString, Device, Doubts, Format, Group, Item, ItemRef, ObjectCode, StateMachine, Type, TypeDef,
 };
 use crate::source::{FileId, Origin, Source, Span};
 use crate::text::brief;
@@ -300,10 +300,10 @@ fn at_place<'g>(groups: &'g [Group], name: &str) -> Option<&'g Item> {
 }
 
 /// The name of the item at the object that `name` spells, or `name` itself.
-fn item_name(groups: &[Group], name: &CompactString) -> CompactString {
-    match at_place(groups, name) {
-        Some(item) if !item.name.is_empty() => item.name.clone(),
-        _ => name.clone(),
+fn item_name(groups: &[Group], reference: &ItemRef) -> ItemRef {
+    match at_place(groups, reference) {
+        Some(item) if !item.name.is_empty() => ItemRef { name: item.name.clone(), ..reference.clone() },
+        _ => reference.clone(),
     }
 }
 

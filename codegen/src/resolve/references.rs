@@ -1,0 +1,152 @@
+//! Names of items to ids.
+
+use std::collections::HashMap;
+
+use crate::ir::owner::{Index, Owner};
+use crate::ir::{
+    Binding, CompactString, Condition, Device, Group, Item, ItemId, ItemRef, MessageField, Module, Scale, Shape, Step,
+    TypeDef,
+};
+
+/// Resolves the references of a device. Returns whether it has any.
+pub(super) fn device(device: &mut Device) -> bool {
+    let mut names = HashMap::new();
+    for_each(device, &mut |reference| collect(&mut names, reference));
+    if names.is_empty() {
+        return false;
+    }
+    find(&mut names, &[&device.groups], &device.types);
+    for_each(device, &mut |reference| reference.id = names.get(&reference.name).copied().flatten());
+    true
+}
+
+/// Resolves the references of a module. Their ids count its fixed objects first.
+pub(super) fn module(module: &mut Module) {
+    let mut names = HashMap::new();
+    let Module { fixed_objects, groups, types, .. } = module;
+    of_items_and_types(fixed_objects.iter_mut().chain(&mut *groups), types, &mut |own| collect(&mut names, own));
+    if !names.is_empty() {
+        find(&mut names, &[fixed_objects, groups], types);
+        let mut resolve = |own: &mut ItemRef| own.id = names.get(&own.name).copied().flatten();
+        of_items_and_types(fixed_objects.iter_mut().chain(groups), types, &mut resolve);
+    }
+}
+
+/// The items of names; `None` for a name that leads nowhere.
+type Found = HashMap<CompactString, Option<ItemId>>;
+
+fn collect(names: &mut Found, reference: &ItemRef) {
+    if !reference.name.is_empty() && !names.contains_key(&reference.name) {
+        names.insert(reference.name.clone(), None);
+    }
+}
+
+fn find(names: &mut Found, groups: &[&[Group]], types: &[TypeDef]) {
+    let items = Index::new(Owner { types, groups });
+    for (name, id) in names {
+        *id = items.find(name);
+    }
+}
+
+/// Visits every reference of a device.
+fn for_each(device: &mut Device, visit: &mut dyn FnMut(&mut ItemRef)) {
+    of_items_and_types(device.groups.iter_mut(), &mut device.types, visit);
+    for message in &mut device.messages {
+        message.accepted_when.iter_mut().for_each(|own| visit(&mut own.item));
+        of_fields(&mut message.request, visit);
+        of_fields(&mut message.reply, visit);
+    }
+    for machine in &mut device.machines {
+        visit(&mut machine.status_item);
+        visit(&mut machine.control_item);
+    }
+    device.procedures.iter_mut().flat_map(|own| &mut own.steps).filter_map(target).for_each(&mut *visit);
+    for composite in &mut device.composites {
+        composite.parts.iter_mut().for_each(&mut *visit);
+        composite.sign.iter_mut().for_each(|(item, _)| visit(item));
+    }
+}
+
+fn of_items_and_types<'g>(
+    groups: impl Iterator<Item = &'g mut Group>,
+    types: &mut [TypeDef],
+    visit: &mut dyn FnMut(&mut ItemRef),
+) {
+    for item in groups.flat_map(|group| &mut group.items) {
+        of_item(item, visit);
+    }
+    of_types(types, visit);
+}
+
+fn of_item(item: &mut Item, visit: &mut dyn FnMut(&mut ItemRef)) {
+    if let Some(behaviour) = &mut item.behaviour {
+        behaviour.write_when.iter_mut().for_each(|own| visit(&mut own.item));
+    }
+    if let Some(availability) = &mut item.availability {
+        availability.replaced_by.iter_mut().for_each(&mut *visit);
+    }
+    if let Some(related) = &mut item.related {
+        related.all_mut().for_each(&mut *visit);
+    }
+    if let Some(scale) = item.quantity.as_mut().and_then(|quantity| quantity.scale.as_mut()) {
+        of_scale(scale).into_iter().for_each(&mut *visit);
+    }
+    for binding in &mut item.bindings {
+        let Binding::Indirect(window) = binding else { continue };
+        for side in [&mut window.read, &mut window.write].into_iter().flatten() {
+            visit(&mut side.number);
+            visit(&mut side.value);
+        }
+    }
+}
+
+fn of_fields(fields: &mut [MessageField], visit: &mut dyn FnMut(&mut ItemRef)) {
+    for field in fields {
+        match field {
+            MessageField::Value(value) => of_item(&mut value.item, visit),
+            MessageField::Repeat { fields, .. } => of_fields(fields, visit),
+            _ => {}
+        }
+    }
+}
+
+fn of_scale(scale: &mut Scale) -> Option<&mut ItemRef> {
+    match scale {
+        Scale::Exponent { exponent, .. } => Some(exponent),
+        Scale::ByItem { item, .. } | Scale::TimesItem { item, .. } => Some(item),
+        Scale::Linear { .. } | Scale::Reciprocal { .. } | Scale::Fraction { .. } => None,
+    }
+}
+
+fn of_types(types: &mut [TypeDef], visit: &mut dyn FnMut(&mut ItemRef)) {
+    for_each_condition(types, &mut |condition| visit(&mut condition.item));
+    for definition in types {
+        if let Shape::Scaled { scale, .. } = &mut definition.shape {
+            of_scale(scale).into_iter().for_each(&mut *visit);
+        }
+    }
+}
+
+/// Visits the conditions of the bits and values of types.
+pub(super) fn for_each_condition(types: &mut [TypeDef], visit: &mut dyn FnMut(&mut Condition)) {
+    for definition in types {
+        match &mut definition.shape {
+            Shape::Enumeration { values, .. } => {
+                values.iter_mut().filter_map(|own| own.when.as_mut()).for_each(&mut *visit)
+            }
+            Shape::BitField { fields, .. } => {
+                fields.iter_mut().filter_map(|own| own.when.as_mut()).for_each(&mut *visit)
+            }
+            _ => {}
+        }
+    }
+}
+
+/// The item that a step writes, reads or waits for.
+fn target(step: &mut Step) -> Option<&mut ItemRef> {
+    match step {
+        Step::Write(item, _) | Step::WriteBits(item, ..) | Step::WriteArgument(item, _) => Some(item),
+        Step::Read(item) | Step::WaitFor(item, ..) => Some(item),
+        Step::Delay(_) | Step::Send(_) | Step::Exchange(_) | Step::Manual(_) => None,
+    }
+}
