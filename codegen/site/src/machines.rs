@@ -6,7 +6,9 @@ use std::collections::{HashMap, VecDeque};
 use super::entry::{self, Doubt};
 use super::words::{self, PLAIN};
 use lexibus_codegen::facts::{pattern, types};
-use lexibus_codegen::ir::{Device, Manual, Outcome, Pattern, Procedure, StateMachine, SubjectKind, Transition};
+use lexibus_codegen::ir::{
+    Device, ItemRef, Manual, Outcome, Pattern, Procedure, StateMachine, SubjectKind, Transition,
+};
 
 /// Size of a state in the diagram, and the room between two.
 const WIDTH: u32 = 170;
@@ -125,8 +127,8 @@ pub(super) fn behaviour(device: &Device, manual: &Manual) -> Option<Behaviour> {
 }
 
 fn machine(own: &StateMachine, device: &Device, manual: &Manual) -> Machine {
-    let width = |name: &str, patterns: &[Pattern]| {
-        let item = device.groups.iter().flat_map(|group| &group.items).find(|item| item.name == name);
+    let width = |item: &ItemRef, patterns: &[Pattern]| {
+        let item = device.referred(item);
         pattern::width(item.and_then(|item| types::basic(&device.types, item.ty).bits()), patterns)
     };
     let of_status = width(&own.status_item, &own.states);

@@ -1,7 +1,7 @@
 //! What lints look at.
 
 use crate::ir::owner::Owner;
-use crate::ir::{Device, Format, Group, Module, ProcessData, TypeDef};
+use crate::ir::{Device, Format, Item, Module, PdoEntry, ProcessData};
 
 /// A device.
 pub(super) struct Context<'a> {
@@ -14,21 +14,15 @@ pub(super) struct Context<'a> {
     pub owner: Owner<'a>,
 }
 
-/// The PDOs of a device or a module, with the items and types that they map.
+/// The PDOs of a device or a module, with what has the items that they map.
 pub(super) struct PdoOwner<'a> {
     pub data: &'a ProcessData,
-    pub groups: &'a [Group],
-    pub types: &'a [TypeDef],
+    pub owner: Owner<'a>,
 }
 
 impl<'a> PdoOwner<'a> {
-    /// Those of a device.
-    pub fn device(device: &'a Device) -> Self {
-        PdoOwner { data: &device.process_data, groups: &device.groups, types: &device.types }
-    }
-
-    /// Those of a module.
-    pub fn module(module: &'a Module) -> Self {
-        PdoOwner { data: &module.process_data, groups: &module.groups, types: &module.types }
+    /// The item that the description has for an entry. Objects that follow from an entry say nothing more than the entry.
+    pub fn described(&self, entry: &PdoEntry) -> Option<&'a Item> {
+        self.owner.item(entry.item?).filter(|item| !item.origin.is_derived())
     }
 }

@@ -2,15 +2,13 @@
 
 use super::context::PdoOwner;
 use crate::diagnostics::{codes, Code, Diagnostic, Diagnostics};
-use crate::ir::{Direction, Entries, Item, Mappable, PdoEntry, PdoEntryKind};
+use crate::ir::{Direction, Item, Mappable, PdoEntry, PdoEntryKind};
 
 /// Reports entries whose item says that it is not mapped, or not in this direction.
 pub(super) fn check(owner: &PdoOwner<'_>, diagnostics: &mut Diagnostics) {
-    let items = Entries::new(owner.groups);
     for pdo in &owner.data.pdos {
         for entry in pdo.entries.iter().filter(|entry| entry.kind == PdoEntryKind::Item) {
-            let item = items.object(entry.index, entry.sub_index);
-            if let Some(item) = item.filter(|item| !item.origin.is_derived()) {
+            if let Some(item) = owner.described(entry) {
                 against(entry, pdo.direction, item, diagnostics);
             }
         }

@@ -4,13 +4,12 @@ use std::collections::HashMap;
 
 use super::context::PdoOwner;
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
-use crate::ir::{Entries, Item, Pdo, PdoEntry, PdoEntryKind};
-use crate::resolve::{address, Dictionary};
+use crate::ir::{Item, Pdo, PdoEntry, PdoEntryKind};
+use crate::resolve::address;
 use crate::source::Span;
 
 /// Reports PDOs of one index, and entries whose length is not that of their item.
 pub(super) fn check(owner: &PdoOwner<'_>, diagnostics: &mut Diagnostics) {
-    let dictionary = Dictionary { items: Entries::new(owner.groups), types: owner.types };
     // One index on two buses is two PDOs.
     let mut seen: HashMap<(u16, Option<bool>), Span> = HashMap::with_capacity(owner.data.pdos.len());
     for pdo in &owner.data.pdos {
@@ -22,9 +21,8 @@ pub(super) fn check(owner: &PdoOwner<'_>, diagnostics: &mut Diagnostics) {
             }
         }
         for entry in pdo.entries.iter().filter(|entry| entry.kind == PdoEntryKind::Item) {
-            // Objects that follow from an entry have its length.
-            if let Some(item) = dictionary.item(entry).filter(|item| !item.origin.is_derived()) {
-                let bits = dictionary.bits(item.ty).filter(|bits| *bits != entry.bits);
+            if let Some(item) = owner.described(entry) {
+                let bits = owner.owner.fixed_bits(item.ty).filter(|bits| *bits != entry.bits);
                 bits.into_iter().for_each(|bits| diagnostics.push(length(entry, item, bits)));
             }
         }

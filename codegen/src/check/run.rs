@@ -45,7 +45,7 @@ fn device(lints: &[&Lint], device: &Device, modules: &[Module], format: Option<F
         match lint.run {
             Run::Device(run) => run(&context, diagnostics),
             Run::Items(run) | Run::ItemsAndRecords(run) => run(owner, diagnostics),
-            Run::Pdos(run) => run(&PdoOwner::device(device), diagnostics),
+            Run::Pdos(run) => run(&PdoOwner { data: &device.process_data, owner }, diagnostics),
             Run::Records(_) | Run::Catalog(_) => {}
         }
     }
@@ -57,7 +57,7 @@ fn module(lints: &[&Lint], module: &Module, diagnostics: &mut Diagnostics) {
     for lint in lints {
         match lint.run {
             Run::Items(run) | Run::ItemsAndRecords(run) => run(owner, diagnostics),
-            Run::Pdos(run) => run(&PdoOwner::module(module), diagnostics),
+            Run::Pdos(run) => run(&PdoOwner { data: &module.process_data, owner }, diagnostics),
             Run::Device(_) | Run::Records(_) | Run::Catalog(_) => {}
         }
     }

@@ -290,11 +290,14 @@ impl Group {
 
     /// The item at a sub-index.
     pub fn sub(&self, sub_index: u8) -> Option<&Item> {
+        self.items.get(self.position(sub_index)?)
+    }
+
+    /// The position of the item at a sub-index.
+    pub(crate) fn position(&self, sub_index: u8) -> Option<usize> {
         let at = |item: &Item| item.object().map(|(_, sub)| sub);
-        match self.items.binary_search_by_key(&Some(sub_index), at) {
-            Ok(position) => self.items.get(position),
-            Err(_) => self.items.iter().find(|item| at(item) == Some(sub_index)),
-        }
+        let sorted = self.items.binary_search_by_key(&Some(sub_index), at);
+        sorted.ok().or_else(|| self.items.iter().position(|item| at(item) == Some(sub_index)))
     }
 }
 

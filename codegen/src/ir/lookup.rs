@@ -12,7 +12,7 @@ use super::{Group, Item, ItemId};
 pub struct Entries<'a> {
     groups: &'a [Group],
     /// Registers that are objects too, made when one is first asked for.
-    registers: OnceCell<HashMap<(u16, u8), &'a Item>>,
+    registers: OnceCell<HashMap<(u16, u8), ItemId>>,
 }
 
 impl<'a> Entries<'a> {
@@ -23,16 +23,18 @@ impl<'a> Entries<'a> {
 
     /// The item at an index and sub-index. Where there is an object, it alone counts.
     pub fn get(&self, index: u16, sub_index: u8) -> Option<&'a Item> {
-        match self.groups.binary_search_by_key(&Some(index), Group::index) {
-            Ok(position) => self.groups.get(position)?.sub(sub_index),
-            Err(_) => self.registers().get(&(index, sub_index)).copied(),
-        }
+        self.find(index, sub_index)?.of(self.groups)
     }
 
-    /// Returns the item of the object at an index. Registers that are objects too don't count.
-    pub(crate) fn object(&self, index: u16, sub_index: u8) -> Option<&'a Item> {
-        let position = self.groups.binary_search_by_key(&Some(index), Group::index).ok()?;
-        self.groups.get(position)?.sub(sub_index)
+    /// The id of the item at an index and sub-index.
+    pub fn find(&self, index: u16, sub_index: u8) -> Option<ItemId> {
+        match self.groups.binary_search_by_key(&Some(index), Group::index) {
+            Ok(group) => {
+                let item = self.groups.get(group)?.position(sub_index)?;
+                Some(ItemId { group: group as u32, item: item as u32 })
+            }
+            Err(_) => self.registers().get(&(index, sub_index)).copied(),
+        }
     }
 
     /// Whether there are neither objects nor chapters.
@@ -40,13 +42,15 @@ impl<'a> Entries<'a> {
         self.groups.is_empty()
     }
 
-    fn registers(&self) -> &HashMap<(u16, u8), &'a Item> {
+    fn registers(&self) -> &HashMap<(u16, u8), ItemId> {
         self.registers.get_or_init(|| {
             let mut registers = HashMap::new();
-            let chapters = self.groups.iter().take_while(|group| group.index().is_none());
-            for item in chapters.flat_map(|group| &group.items) {
-                if let Some(object) = item.object() {
-                    registers.entry(object).or_insert(item);
+            let chapters = (0..).zip(self.groups).take_while(|(_, group)| group.index().is_none());
+            for (group, own) in chapters {
+                for (item, found) in (0..).zip(&own.items) {
+                    if let Some(object) = found.object() {
+                        registers.entry(object).or_insert(ItemId { group, item });
+                    }
                 }
             }
             registers

@@ -26,8 +26,14 @@ impl<'a> Owner<'a> {
 
     /// Returns the item with an id that counts the groups of all lists.
     pub fn item(self, id: ItemId) -> Option<&'a Item> {
-        let group = self.groups.iter().flat_map(|groups| groups.iter()).nth(id.group as usize)?;
-        group.items.get(id.item as usize)
+        let mut position = id.group as usize;
+        for groups in self.groups {
+            match groups.get(position) {
+                Some(group) => return group.items.get(id.item as usize),
+                None => position -= groups.len(),
+            }
+        }
+        None
     }
 
     /// All items.
@@ -47,6 +53,16 @@ impl<'a> Owner<'a> {
             }
         }
         None
+    }
+
+    /// Returns the length of a type in bits, if all its values have the same.
+    pub fn fixed_bits(self, ty: Type) -> Option<u32> {
+        match ty {
+            Type::Named(TypeId(id)) => self.types.get(id as usize)?.bits,
+            Type::VisibleString(length) | Type::OctetString(length) => length?.checked_mul(8),
+            Type::UnicodeString(length) => length?.checked_mul(16),
+            basic => basic.bits(),
+        }
     }
 
     /// The type below other names, bit fields, enumerations and scales.

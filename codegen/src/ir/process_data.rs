@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use super::{CompactString, Documentation, Doubts, Extensions, ObjectBuses, Texts, Type, Value};
+use super::{CompactString, Documentation, Doubts, Extensions, ItemId, ObjectBuses, Texts, Type, Value};
 use crate::source::Origin;
 
 /// Cyclic data of a device or a module.
@@ -253,6 +253,9 @@ pub struct PdoEntry {
     pub bits: u32,
     /// What it is.
     pub kind: PdoEntryKind,
+    /// The mapped item, once resolved; `None` for an object of another module. Of a module, the id counts its fixed objects first.
+    #[cfg_attr(feature = "serde", serde(skip))]
+    pub item: Option<ItemId>,
     /// Its name: that of the mapped item, or the source's own.
     pub name: CompactString,
     /// Its type: that of the mapped item, or the source's own.
@@ -278,6 +281,7 @@ impl PdoEntry {
             bit_offset: 0,
             bits,
             kind: PdoEntryKind::Unknown,
+            item: None,
             name: CompactString::default(),
             ty: Type::Opaque(None),
             fixed: false,

@@ -22,7 +22,7 @@ mod references;
 mod run;
 
 pub(crate) use identity::IdentityNumber;
-pub(crate) use pdo_entries::{address, Dictionary};
+pub(crate) use pdo_entries::address;
 pub(crate) use pdo_mapping::{
     announced_count, is_dummy, is_multiplexed, mapping_values, MappableItems, MappingValue, MappingWord, PdoObjects,
 };

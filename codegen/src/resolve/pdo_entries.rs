@@ -2,7 +2,8 @@
 //! and TxPdo).
 
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
-use crate::ir::{CompactString, Device, Entries, Item, Module, Pdo, PdoEntry, PdoEntryKind, Type, TypeDef, TypeId};
+use crate::ir::owner::Owner;
+use crate::ir::{CompactString, Device, Entries, Item, Module, Pdo, PdoEntry, PdoEntryKind, Type, TypeDef};
 
 /// Of a device.
 pub(super) fn device(device: &mut Device, diagnostics: &mut Diagnostics) {
@@ -17,28 +18,9 @@ pub(super) fn module(module: &mut Module, diagnostics: &mut Diagnostics) {
 }
 
 /// The dictionary that has the mapped items, and their types.
-pub(crate) struct Dictionary<'o> {
-    /// Its items.
-    pub items: Entries<'o>,
-    /// Its types.
-    pub types: &'o [TypeDef],
-}
-
-impl<'o> Dictionary<'o> {
-    /// Returns the item that an entry maps.
-    pub(crate) fn item(&self, entry: &PdoEntry) -> Option<&'o Item> {
-        self.items.get(entry.index, entry.sub_index)
-    }
-
-    /// Returns the length of a type in bits, if it is fixed.
-    pub(crate) fn bits(&self, ty: Type) -> Option<u32> {
-        match ty {
-            Type::Named(TypeId(at)) => self.types.get(at as usize)?.bits,
-            Type::VisibleString(length) | Type::OctetString(length) => length?.checked_mul(8),
-            Type::UnicodeString(length) => length?.checked_mul(16),
-            basic => basic.bits(),
-        }
-    }
+struct Dictionary<'o> {
+    items: Entries<'o>,
+    types: &'o [TypeDef],
 }
 
 fn pdos(pdos: &mut [Pdo], dictionary: &Dictionary<'_>, diagnostics: &mut Diagnostics) {
@@ -57,7 +39,7 @@ fn pdos(pdos: &mut [Pdo], dictionary: &Dictionary<'_>, diagnostics: &mut Diagnos
 }
 
 fn resolve(entry: &mut PdoEntry, dictionary: &Dictionary<'_>, diagnostics: &mut Diagnostics) {
-    let Some(item) = dictionary.item(entry) else {
+    let Some(item) = dictionary.items.get(entry.index, entry.sub_index) else {
         // The objects of a slot belong to its module, and without a dictionary there is nothing to hold against.
         if !entry.depends_on_slot && !dictionary.items.is_empty() && diagnostics.wants(&codes::MAPPED_OBJECT_MISSING) {
             let message = format!("{} is mapped, but the dictionary doesn't have it", address(entry));
@@ -73,7 +55,7 @@ fn resolve(entry: &mut PdoEntry, dictionary: &Dictionary<'_>, diagnostics: &mut 
         (entry.name, entry.names) = (entry_name(item), item.names.clone());
     }
     // A type without a length of its own is as long as the entry, which may know better what it is.
-    let fits = match dictionary.bits(item.ty) {
+    let fits = match Owner::of_types(dictionary.types).fixed_bits(item.ty) {
         Some(bits) => bits == entry.bits,
         None => matches!(entry.ty, Type::Opaque(_)),
     };

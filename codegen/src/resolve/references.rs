@@ -4,12 +4,13 @@ use std::collections::HashMap;
 
 use crate::ir::owner::{Index, Owner};
 use crate::ir::{
-    Binding, CompactString, Condition, Device, Group, Item, ItemId, ItemRef, MessageField, Module, Scale, Shape, Step,
-    TypeDef,
+    Binding, CompactString, Condition, Device, Entries, Group, Item, ItemId, ItemRef, MessageField, Module, Pdo,
+    PdoEntryKind, Scale, Shape, Step, TypeDef,
 };
 
-/// Resolves the references of a device. Returns whether it has any.
+/// Resolves the references of a device. Returns whether any is a name.
 pub(super) fn device(device: &mut Device) -> bool {
+    mapped_items(&mut device.process_data.pdos, &device.groups, 0);
     let mut names = HashMap::new();
     for_each(device, &mut |reference| collect(&mut names, reference));
     if names.is_empty() {
@@ -23,12 +24,22 @@ pub(super) fn device(device: &mut Device) -> bool {
 /// Resolves the references of a module. Their ids count its fixed objects first.
 pub(super) fn module(module: &mut Module) {
     let mut names = HashMap::new();
-    let Module { fixed_objects, groups, types, .. } = module;
+    let Module { fixed_objects, groups, types, process_data, .. } = module;
+    mapped_items(&mut process_data.pdos, groups, fixed_objects.len() as u32);
     of_items_and_types(fixed_objects.iter_mut().chain(&mut *groups), types, &mut |own| collect(&mut names, own));
     if !names.is_empty() {
         find(&mut names, &[fixed_objects, groups], types);
         let mut resolve = |own: &mut ItemRef| own.id = names.get(&own.name).copied().flatten();
         of_items_and_types(fixed_objects.iter_mut().chain(groups), types, &mut resolve);
+    }
+}
+
+/// Finds the items that PDOs map, in groups that come after `first` others.
+fn mapped_items(pdos: &mut [Pdo], groups: &[Group], first: u32) {
+    let items = Entries::new(groups);
+    for entry in pdos.iter_mut().flat_map(|pdo| &mut pdo.entries).filter(|own| own.kind == PdoEntryKind::Item) {
+        let id = items.find(entry.index, entry.sub_index);
+        entry.item = id.map(|id| ItemId { group: id.group + first, ..id });
     }
 }
 
