@@ -1,4 +1,4 @@
-//! Titles of columns that stand where the name of a bit or value is expected.
+//! Titles of columns in the place of the name of a bit or value.
 
 use super::context::Context;
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};

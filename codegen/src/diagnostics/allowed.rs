@@ -5,8 +5,8 @@ use std::collections::HashMap;
 use super::Code;
 use crate::source::{FileId, Span};
 
-/// The spans in which findings of a code are not reported: of each file and code the first bytes in order, each with the greatest end of
-/// the spans so far.
+/// The spans in which findings of a code are not reported. The spans of a file and code are in order, each with the maximum of the ends so
+/// far.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Allowed(HashMap<(FileId, &'static str), Vec<(u32, u32)>>);
 

@@ -63,7 +63,7 @@ pub(crate) fn read(
             None
         }
     };
-    // What tells a DCF from an EDS is the place in a network that it gives the device, whatever its file is called.
+    // A DCF differs from an EDS by the commissioning of the device, not by its file name.
     let mut devices = catalog.iter().flat_map(|catalog| &catalog.devices);
     let is_configuration = format == Format::Eds && devices.any(|device| device.commissioning.is_some());
     let (others, missing) = references.into_files();

@@ -149,7 +149,7 @@ pub struct Pdo {
     pub buses: Option<ObjectBuses>,
     /// Whether no section describes it and it follows from NrOfRXPDO or NrOfTXPDO and CompactPDO (CiA 306).
     pub implicit: bool,
-    /// Whether it follows from its mapping object, and the source declares no PDO beside it.
+    /// Whether it follows from its mapping object, and is not declared as a PDO.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "std::ops::Not::not"))]
     pub from_object: bool,
     /// Where it is declared.

@@ -64,7 +64,7 @@ fn resolve(entry: &mut PdoEntry, dictionary: &Dictionary<'_>, diagnostics: &mut 
     }
 }
 
-/// The name of an entry that has none of its own. Any number of entries may get the name of one object, so a long one is cut.
+/// The name of an entry without a name. Any number of entries may get the name of one object, so a long one is cut.
 pub(super) fn entry_name(item: &Item) -> CompactString {
     const LONG: usize = 512;
     if item.name.len() > LONG {

@@ -133,7 +133,7 @@ pub(crate) enum MappingWord<'a> {
     Unreadable(&'a Value),
 }
 
-/// The number of mapped objects that sub-index 0 announces. 254 and 255 stand for multiplexed PDOs.
+/// The number of mapped objects that sub-index 0 announces. 254 and 255 mean a multiplexed PDO.
 pub(crate) fn announced_count(mapping: &Group) -> Option<i128> {
     mapping.sub(0).and_then(Item::initial).and_then(Value::as_int)
 }
@@ -201,7 +201,7 @@ fn entry(items: &MappableItems<'_>, value: &MappingValue<'_>, bit_offset: u32) -
     Some(entry)
 }
 
-/// Whether an index is that of a data type, which fills room in a mapping (CiA 301 7.4.7).
+/// Whether an index is that of a data type, a dummy entry of a mapping (CiA 301 7.4.7).
 pub(crate) fn is_dummy(index: u16) -> bool {
     index < 0x20
 }

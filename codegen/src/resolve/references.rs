@@ -161,3 +161,59 @@ fn target(step: &mut Step) -> Option<&mut ItemRef> {
         Step::Delay(_) | Step::Send(_) | Step::Exchange(_) | Step::Manual(_) => None,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::ir::{GroupKind, ObjectCode, RelatedItems, Value};
+
+    fn item(name: &str, index: u16) -> Item {
+        let mut item = Item::new(Binding::canopen(index, 0));
+        item.name = name.into();
+        item
+    }
+
+    fn group(name: &str, kind: GroupKind, items: Vec<Item>) -> Group {
+        Group { name: name.into(), kind, items, ..Group::object(0, ObjectCode::Var) }
+    }
+
+    fn id(group: u32, item: u32) -> Option<ItemId> {
+        Some(ItemId { group, item })
+    }
+
+    #[test]
+    fn names_paths_and_addresses_become_ids() {
+        let object = GroupKind::Object { index: 0x2005, code: ObjectCode::Var, category: None };
+        let chapter = group("Axis", GroupKind::Chapter, vec![item("Speed", 0x2000), item("Mode", 0x2001)]);
+        let mut device =
+            Device { groups: vec![chapter, group("Limit", object, vec![item("", 0x2005)])], ..Device::default() };
+        let related = RelatedItems {
+            same_as: Some("Axis/Mode".into()),
+            same_quantity: Some("Nothing".into()),
+            ..RelatedItems::default()
+        };
+        device.groups[0].items[0].related = Some(Box::new(related));
+        let steps = ["Speed", "0x2001", "Limit"].map(|name| Step::Write(name.into(), Value::Int(1)));
+        let procedure = crate::ir::Procedure {
+            name: "Start".into(),
+            names: Default::default(),
+            arguments: Vec::new(),
+            steps: steps.into(),
+            step_spans: Vec::new(),
+            documentation: None,
+            origin: Default::default(),
+        };
+        device.procedures.push(procedure);
+        assert!(super::device(&mut device));
+        let ids: Vec<_> = device.procedures[0].steps.iter_mut().filter_map(|step| target(step)?.id).collect();
+        assert_eq!(ids.into_iter().map(Some).collect::<Vec<_>>(), [id(0, 0), id(0, 1), id(1, 0)]);
+        let related = device.groups[0].items[0].related.as_deref().expect("relations");
+        assert_eq!(related.same_as.as_ref().and_then(|own| own.id), id(0, 1));
+        assert_eq!(related.same_quantity.as_ref().and_then(|own| own.id), None);
+        // Ids follow when a group is removed.
+        device.groups.remove(0);
+        super::device(&mut device);
+        let ids: Vec<_> = device.procedures[0].steps.iter_mut().filter_map(target).map(|own| own.id).collect();
+        assert_eq!(ids, [None, None, id(0, 0)]);
+    }
+}

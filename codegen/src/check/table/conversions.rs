@@ -1,4 +1,4 @@
-//! Numbers that the manual converts as examples against the scales: each is within a count of what the raw number stands for.
+//! Numbers that the manual converts as examples against the scales: each is at most one LSB from the value of the raw number.
 
 use super::physical;
 use crate::check::context::Context;

@@ -1,4 +1,4 @@
-//! Messages against each other: they are whole bytes, fit into a frame, and a receiver can tell them apart; and against the tables of
+//! Messages against each other: they are whole bytes, fit into a frame, and differ for a receiver; and against the tables of
 //! what commands do in each state.
 
 use std::collections::BTreeMap;

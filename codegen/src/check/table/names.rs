@@ -1,4 +1,4 @@
-//! Names of rows: whether they are there, in one piece, and told apart by more than their case.
+//! Names of rows: whether they exist, are in one piece, and differ in more than their case.
 
 use std::collections::HashMap;
 
