@@ -57,10 +57,13 @@ fn messages_have_typed_fields() {
     assert_eq!(own.reply[4], MessageField::Echo { field: "target".into(), bytes: Some((1, 3)) });
     let polled =
         Completion::Polled { item: "status.done".into(), mask: None, value: Some(Value::Int(1)), in_reply: true };
-    assert_eq!((&own.completion, own.error.as_deref()), (&polled, Some("Refused")));
+    assert_eq!((&own.completion, own.error.as_ref().map(|own| own.as_str())), (&polled, Some("Refused")));
     assert_eq!((own.accepted_in[0].as_str(), own.accepted_when[0].item.as_str()), ("stopped", "gain"));
     assert_eq!(own.reply[1], MessageField::FixedBits { bits: 4, value: 0 });
-    assert_eq!((message("PollSpeed").after.as_deref(), message("PollSpeed").by_default), (Some("SelectSpeed"), false));
+    assert_eq!(
+        (message("PollSpeed").after.as_ref().map(|own| own.as_str()), message("PollSpeed").by_default),
+        (Some("SelectSpeed"), false)
+    );
     assert!(message("PollPosition").by_default);
     assert_eq!((&message("Store").completion, message("Store").reply_time), (&Completion::Reply, Some(100)));
     assert_eq!(message("Refused").reply[4], MessageField::Copy { first: 3, last: 5 });
@@ -72,7 +75,7 @@ fn parameters_are_carried_by_messages() {
     let compilation = example();
     let device = device(&compilation);
     let space = &device.parameter_spaces[0];
-    let messages = [&space.read, &space.write, &space.store].map(|own| own.as_deref().unwrap_or_default());
+    let messages = [&space.read, &space.write, &space.store].map(|own| own.as_ref().map_or("", |own| own.as_str()));
     assert_eq!(
         (messages, space.byte_order.as_slice()),
         (["ReadParameter", "WriteParameters", "Store"], &[2, 3, 0, 1][..])

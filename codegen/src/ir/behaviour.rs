@@ -1,6 +1,6 @@
 //! Access, bindings, units, storage and availability of items.
 
-use super::{CompactString, Condition, Documentation, Doubts, ItemRef, Scale, Texts, Type, Value};
+use super::{CompactString, Condition, Documentation, Doubts, ItemRef, ProcedureRef, Scale, Texts, Type, Value};
 use crate::source::{Origin, Span};
 
 /// Access rights of an item, seen from the bus (CiA 306; ETG.2000 Flags/Access).
@@ -285,7 +285,7 @@ pub struct WindowSide {
     /// After how many milliseconds the device should have set the number to 0.
     pub timeout: Option<u32>,
     /// The procedure that describes the handshake, if it has one.
-    pub procedure: Option<CompactString>,
+    pub procedure: Option<ProcedureRef>,
 }
 
 /// Unit and scale of an item.

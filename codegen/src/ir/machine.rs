@@ -1,6 +1,8 @@
 //! State machines and procedures.
 
-use super::{Availability, CompactString, Direction, Documentation, ItemRef, SharedList, Texts, Value};
+use super::{
+    Availability, CompactString, Direction, Documentation, ItemRef, MessageRef, SharedList, Texts, TypeRef, Value,
+};
 use crate::source::{Origin, Span};
 
 /// A state machine.
@@ -15,7 +17,7 @@ pub struct StateMachine {
     pub control_item: ItemRef,
     /// The enumeration whose values are the states, where the source has one.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
-    pub state_type: Option<CompactString>,
+    pub state_type: Option<TypeRef>,
     /// States, by the bits of the status item; with a `state_type`, one for each of its values.
     pub states: SharedList<Pattern>,
     /// The state after power-on.
@@ -153,7 +155,7 @@ pub enum Step {
     /// Wait so many milliseconds.
     Delay(u32),
     /// Send a message.
-    Send(CompactString),
+    Send(MessageRef),
     /// Exchange process data once in this direction.
     Exchange(Direction),
     /// Something a person has to do.

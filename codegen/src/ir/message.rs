@@ -1,6 +1,8 @@
 //! Command protocols and code tables.
 
-use super::{Availability, CompactString, Condition, Documentation, Doubts, Item, SharedList, Texts, Value};
+use super::{
+    Availability, CompactString, Condition, Documentation, Doubts, Item, MessageRef, SharedList, Texts, Value,
+};
 use crate::source::{Origin, Span};
 
 /// A request and its reply.
@@ -19,12 +21,12 @@ pub struct Message {
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub reply_time: Option<u32>,
     /// The message after which a device answers so: the meaning of the reply to one request depends on an earlier one.
-    pub after: Option<CompactString>,
+    pub after: Option<MessageRef>,
     /// Whether the device answers so after power-on too, before any message of those that others name in `after`.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "std::ops::Not::not"))]
     pub by_default: bool,
     /// The message that comes instead of the reply where the device refuses.
-    pub error: Option<CompactString>,
+    pub error: Option<MessageRef>,
     /// What else it does.
     pub side_effects: Vec<CompactString>,
     /// Values of items for which the device accepts it.
@@ -189,11 +191,11 @@ pub struct ParameterSpace {
     /// Its name.
     pub name: CompactString,
     /// The message that reads a value.
-    pub read: Option<CompactString>,
+    pub read: Option<MessageRef>,
     /// The message that writes it.
-    pub write: Option<CompactString>,
+    pub write: Option<MessageRef>,
     /// The message that keeps values over power-off.
-    pub store: Option<CompactString>,
+    pub store: Option<MessageRef>,
     /// Order of the bytes of longer values on the wire, the most significant numbered 0; empty = big-endian.
     pub byte_order: Vec<u8>,
     /// What the source says about it.

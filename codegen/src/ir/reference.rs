@@ -4,7 +4,7 @@ use std::fmt;
 use std::hash::{Hash, Hasher};
 use std::ops::Deref;
 
-use super::{CompactString, Device, Group, Item};
+use super::{CompactString, Device, Group, Item, Procedure, TypeId};
 use crate::source::Span;
 
 /// Position of an [`Item`] in its device.
@@ -23,6 +23,14 @@ impl ItemId {
     }
 }
 
+/// Position of a [`Message`](super::Message) in [`Device::messages`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct MessageId(pub u32);
+
+/// Position of a [`Procedure`] in [`Device::procedures`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct ProcedureId(pub u32);
+
 impl Device {
     /// Returns the item with this id.
     pub fn item(&self, id: ItemId) -> Option<&Item> {
@@ -33,32 +41,56 @@ impl Device {
     pub fn referred(&self, reference: &ItemRef) -> Option<&Item> {
         self.item(reference.id?)
     }
-}
 
-/// A reference to an item of the same device.
-///
-/// It dereferences to its name, and is equal to another reference of that name. Serialized, it is the name alone: an id is only valid as
-/// long as no group and no item is added or removed before it.
-#[derive(Clone, Debug, Default)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(from = "CompactString", into = "CompactString"))]
-pub struct ItemRef {
-    /// The name of the item or its object, `Chapter/Item`, or its index and sub-index (`0x6040`, `0x1018:1`).
-    pub name: CompactString,
-    /// Where the name stands.
-    pub span: Span,
-    /// The item; `None` if there is none of this name, or the reference is not resolved.
-    pub id: Option<ItemId>,
-}
-
-impl ItemRef {
-    /// Creates a reference that is not resolved.
-    pub fn new(name: impl Into<CompactString>, span: Span) -> Self {
-        ItemRef { name: name.into(), span, id: None }
+    /// Returns the procedure that a resolved reference leads to.
+    pub fn procedure(&self, reference: &ProcedureRef) -> Option<&Procedure> {
+        self.procedures.get(reference.id?.0 as usize)
     }
 }
 
-impl Deref for ItemRef {
+/// A reference to another element of the same device.
+///
+/// It dereferences to its name, and is equal to another reference of that name. Serialized, it is the name alone: an id is only valid as
+/// long as no element is added or removed before the other one.
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(from = "CompactString", into = "CompactString", bound = "Id: Clone"))]
+#[derive(Clone, Debug)]
+pub struct Reference<Id> {
+    /// The name as the source writes it. An item goes by its name or that of its object, by `Chapter/Item`, and by index and sub-index
+    /// (`0x6040`, `0x1018:1`).
+    pub name: CompactString,
+    /// Where the name stands.
+    pub span: Span,
+    /// The other element; `None` if there is none of this name, or the reference is not resolved.
+    pub id: Option<Id>,
+}
+
+/// A reference to an item.
+pub type ItemRef = Reference<ItemId>;
+
+/// A reference to a type.
+pub type TypeRef = Reference<TypeId>;
+
+/// A reference to a message.
+pub type MessageRef = Reference<MessageId>;
+
+/// A reference to a procedure.
+pub type ProcedureRef = Reference<ProcedureId>;
+
+impl<Id> Reference<Id> {
+    /// Creates a reference that is not resolved.
+    pub fn new(name: impl Into<CompactString>, span: Span) -> Self {
+        Reference { name: name.into(), span, id: None }
+    }
+}
+
+impl<Id> Default for Reference<Id> {
+    fn default() -> Self {
+        Reference::new("", Span::default())
+    }
+}
+
+impl<Id> Deref for Reference<Id> {
     type Target = CompactString;
 
     fn deref(&self) -> &CompactString {
@@ -66,64 +98,64 @@ impl Deref for ItemRef {
     }
 }
 
-impl AsRef<str> for ItemRef {
+impl<Id> AsRef<str> for Reference<Id> {
     fn as_ref(&self) -> &str {
         &self.name
     }
 }
 
-impl PartialEq for ItemRef {
-    fn eq(&self, other: &ItemRef) -> bool {
+impl<Id> PartialEq for Reference<Id> {
+    fn eq(&self, other: &Reference<Id>) -> bool {
         self.name == other.name
     }
 }
 
-impl Eq for ItemRef {}
+impl<Id> Eq for Reference<Id> {}
 
-impl Hash for ItemRef {
+impl<Id> Hash for Reference<Id> {
     fn hash<H: Hasher>(&self, state: &mut H) {
         self.name.hash(state);
     }
 }
 
-impl PartialEq<str> for ItemRef {
+impl<Id> PartialEq<str> for Reference<Id> {
     fn eq(&self, name: &str) -> bool {
         self.name == name
     }
 }
 
-impl PartialEq<&str> for ItemRef {
+impl<Id> PartialEq<&str> for Reference<Id> {
     fn eq(&self, name: &&str) -> bool {
         self.name == *name
     }
 }
 
-impl PartialEq<CompactString> for ItemRef {
+impl<Id> PartialEq<CompactString> for Reference<Id> {
     fn eq(&self, name: &CompactString) -> bool {
         self.name == *name
     }
 }
 
-impl fmt::Display for ItemRef {
+impl<Id> fmt::Display for Reference<Id> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         fmt::Display::fmt(&self.name, f)
     }
 }
 
-impl From<CompactString> for ItemRef {
+impl<Id> From<CompactString> for Reference<Id> {
     fn from(name: CompactString) -> Self {
-        ItemRef::new(name, Span::default())
+        Reference::new(name, Span::default())
     }
 }
 
-impl From<&str> for ItemRef {
+impl<Id> From<&str> for Reference<Id> {
     fn from(name: &str) -> Self {
-        ItemRef::new(name, Span::default())
+        Reference::new(name, Span::default())
     }
 }
 
-impl From<ItemRef> for CompactString {
-    fn from(reference: ItemRef) -> Self {
+impl<Id> From<Reference<Id>> for CompactString {
+    fn from(reference: Reference<Id>) -> Self {
         reference.name
     }
 }

@@ -4,13 +4,16 @@ use std::collections::HashMap;
 
 use crate::ir::owner::{Index, Owner};
 use crate::ir::{
-    Binding, CompactString, Condition, Device, Entries, Group, Item, ItemId, ItemRef, MessageField, Module, Pdo,
-    PdoEntryKind, Scale, Shape, Step, TypeDef,
+    Binding, CompactString, Condition, Device, Entries, Group, Item, ItemId, ItemRef, MessageField, MessageId, Module,
+    Pdo, PdoEntryKind, ProcedureId, Reference, Scale, Shape, Step, TypeDef, TypeId, WindowSide,
 };
 
 /// Resolves the references of a device. Returns whether any is a name.
 pub(super) fn device(device: &mut Device) -> bool {
     mapped_items(&mut device.process_data.pdos, &device.groups, 0);
+    messages(device);
+    procedures(device);
+    state_types(device);
     let mut names = HashMap::new();
     for_each(device, &mut |reference| collect(&mut names, reference));
     if names.is_empty() {
@@ -32,6 +35,72 @@ pub(super) fn module(module: &mut Module) {
         let mut resolve = |own: &mut ItemRef| own.id = names.get(&own.name).copied().flatten();
         of_items_and_types(fixed_objects.iter_mut().chain(groups), types, &mut resolve);
     }
+}
+
+/// The first position of each name.
+struct Positions(HashMap<CompactString, u32>);
+
+impl Positions {
+    fn new<'n>(names: impl Iterator<Item = &'n CompactString>) -> Self {
+        Positions::of((0..).zip(names))
+    }
+
+    fn of<'n>(named: impl Iterator<Item = (u32, &'n CompactString)>) -> Self {
+        let mut positions = HashMap::new();
+        for (position, name) in named {
+            positions.entry(name.clone()).or_insert(position);
+        }
+        Positions(positions)
+    }
+
+    fn resolve<Id>(&self, reference: &mut Reference<Id>, id: fn(u32) -> Id) {
+        reference.id = self.0.get(&reference.name).copied().map(id);
+    }
+}
+
+fn messages(device: &mut Device) {
+    if device.messages.is_empty() {
+        return;
+    }
+    let positions = Positions::new(device.messages.iter().map(|own| &own.name));
+    let of_messages = device.messages.iter_mut().flat_map(|own| [&mut own.after, &mut own.error]);
+    let of_spaces = device.parameter_spaces.iter_mut().flat_map(|own| [&mut own.read, &mut own.write, &mut own.store]);
+    of_messages.chain(of_spaces).flatten().for_each(|own| positions.resolve(own, MessageId));
+    for step in device.procedures.iter_mut().flat_map(|own| &mut own.steps) {
+        if let Step::Send(message) = step {
+            positions.resolve(message, MessageId);
+        }
+    }
+}
+
+fn procedures(device: &mut Device) {
+    if device.procedures.is_empty() {
+        return;
+    }
+    let positions = Positions::new(device.procedures.iter().map(|own| &own.name));
+    let items = device.groups.iter_mut().flat_map(|group| &mut group.items);
+    for side in items.flat_map(|item| &mut item.bindings).flat_map(window_sides) {
+        side.procedure.iter_mut().for_each(|own| positions.resolve(own, ProcedureId));
+    }
+}
+
+fn state_types(device: &mut Device) {
+    let mut types = device.machines.iter_mut().filter_map(|own| own.state_type.as_mut()).peekable();
+    if types.peek().is_some() {
+        let is_enumeration = |own: &TypeDef| matches!(own.shape, Shape::Enumeration { .. });
+        let enumerations = (0..).zip(&device.types).filter(|(_, own)| is_enumeration(own));
+        let positions = Positions::of(enumerations.map(|(position, own)| (position, &own.name)));
+        types.for_each(|own| positions.resolve(own, TypeId));
+    }
+}
+
+/// How the value behind a window is read and written.
+fn window_sides(binding: &mut Binding) -> impl Iterator<Item = &mut WindowSide> {
+    let window = match binding {
+        Binding::Indirect(window) => Some(window),
+        _ => None,
+    };
+    window.into_iter().flat_map(|window| [&mut window.read, &mut window.write]).flatten()
 }
 
 /// Finds the items that PDOs map, in groups that come after `first` others.
@@ -102,12 +171,9 @@ fn of_item(item: &mut Item, visit: &mut dyn FnMut(&mut ItemRef)) {
     if let Some(scale) = item.quantity.as_mut().and_then(|quantity| quantity.scale.as_mut()) {
         of_scale(scale).into_iter().for_each(&mut *visit);
     }
-    for binding in &mut item.bindings {
-        let Binding::Indirect(window) = binding else { continue };
-        for side in [&mut window.read, &mut window.write].into_iter().flatten() {
-            visit(&mut side.number);
-            visit(&mut side.value);
-        }
+    for side in item.bindings.iter_mut().flat_map(window_sides) {
+        visit(&mut side.number);
+        visit(&mut side.value);
     }
 }
 

@@ -253,7 +253,7 @@ fn window_side(b: &mut Bytes<'_>) -> WindowSide {
         clears: b.any(),
         wait: b.maybe(3, |b| b.pick(&[0, 5, u32::MAX])),
         timeout: b.maybe(3, |b| b.pick(&[0, 5, u32::MAX])),
-        procedure: b.maybe(3, names::name),
+        procedure: b.maybe(3, names::name).map(Into::into),
     }
 }
 

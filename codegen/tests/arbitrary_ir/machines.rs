@@ -28,7 +28,7 @@ pub fn machine(b: &mut Bytes<'_>, items: &[CompactString], types: &[CompactStrin
         name: names::name(b),
         status_item: names::of(b, items).into(),
         control_item: names::of(b, items).into(),
-        state_type: b.maybe(5, |b| names::of(b, types)),
+        state_type: b.maybe(5, |b| names::of(b, types).into()),
         initial: b.maybe(3, |b| names::of(b, &state_names)),
         outcomes: b.few(3, 3, |b| outcomes(b, &state_names)),
         states: states.into(),
@@ -76,7 +76,7 @@ pub fn procedure(b: &mut Bytes<'_>, items: &[CompactString], messages: &[Compact
             3 => Step::Read(item),
             4 => Step::WaitFor(item, b.any(), Value::Int(0), b.maybe(2, Bytes::any)),
             5 => Step::Delay(b.any()),
-            6 => Step::Send(names::of(b, messages)),
+            6 => Step::Send(names::of(b, messages).into()),
             7 => Step::Exchange(b.pick(&[Direction::Receive, Direction::Transmit])),
             _ => Step::Manual(names::text(b).into()),
         }

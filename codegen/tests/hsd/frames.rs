@@ -167,7 +167,7 @@ fn null_replies_and_what_selects_them() {
     let device = device(&compilation);
     let printed: Vec<String> = manual.rows(657, 660).into_iter().map(|(_, cells)| cells[0].clone()).collect();
     let polls: Vec<_> = device.messages.iter().filter(|own| own.name.starts_with("Poll ")).collect();
-    let selected: Vec<&str> = polls.iter().map(|own| own.after.as_deref().expect("a selection")).collect();
+    let selected: Vec<&str> = polls.iter().map(|own| own.after.as_ref().expect("a selection").as_str()).collect();
     assert_eq!(selected, printed);
     let defaults: Vec<bool> = polls.iter().map(|own| own.by_default).collect();
     assert_eq!(defaults, [true, false, false, false]);

@@ -93,9 +93,9 @@ fn replies_of_others(all: &[Framed<'_>], diagnostics: &mut Diagnostics) {
 
 /// Replies that can't be told from what comes where the device refuses.
 fn like_their_errors(all: &[Framed<'_>], diagnostics: &mut Diagnostics) {
-    let by_name: BTreeMap<&str, &Framed<'_>> = all.iter().map(|own| (own.message.name.as_str(), own)).collect();
     for own in all.iter().filter(|own| !own.message.reply.is_empty()) {
-        let Some(other) = own.message.error.as_ref().and_then(|name| by_name.get(name.as_str())) else { continue };
+        let id = own.message.error.as_ref().and_then(|own| own.id);
+        let Some(other) = id.and_then(|id| all.get(id.0 as usize)) else { continue };
         if own.reply.overlaps(&other.reply) {
             let message = format!(
                 "the reply of `{}` can have the same bytes as `{}`, which comes in its place",

@@ -14,7 +14,7 @@ pub(crate) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
     for item in behind(context) {
         width(context, item, &mut narrow, diagnostics);
         for side in windows(item).filter_map(|window| window.write.as_ref()).filter(|side| seen.insert(*side)) {
-            let procedure = context.device.procedures.iter().find(|own| Some(&own.name) == side.procedure.as_ref());
+            let procedure = side.procedure.as_ref().and_then(|own| context.device.procedure(own));
             order(context, side, procedure, item, diagnostics);
         }
     }

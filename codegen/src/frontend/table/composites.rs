@@ -39,9 +39,9 @@ pub(super) fn composite(
     device.composites.push(Composite {
         name: name.value.as_str().into(),
         names: reader.original(table.orig.as_deref()),
-        parts: table.parts.iter().map(|part| reader.item(part)).collect(),
+        parts: table.parts.iter().map(|part| reader.reference(part)).collect(),
         base: table.base.unwrap_or_default(),
-        sign: sign.map(|(item, value)| (reader.item(item), value)),
+        sign: sign.map(|(item, value)| (reader.reference(item), value)),
         unit: table.unit.as_deref().unwrap_or_default().into(),
         documentation: reader.documentation(table.doc.as_deref(), cite),
         origin,

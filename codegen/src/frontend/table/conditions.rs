@@ -50,7 +50,7 @@ impl Definitions {
                 let message = "the condition never holds: it has no value, or one with bits outside of its `mask`";
                 reader.report(&codes::TABLE_VALUE, span, message);
             }
-            conditions.push(Condition { item: reader.item(item), values, mask });
+            conditions.push(Condition { item: reader.reference(item), values, mask });
         }
         conditions
     }

@@ -10,7 +10,7 @@ use super::{lints, outcomes, process, value};
 use crate::diagnostics::codes;
 use crate::ir::{
     CompactString, Device, EnumValue, ItemRef, MessageField, Pattern, Procedure, Shape, StateMachine, Step,
-    SubjectKind, Transition, Type, Value,
+    SubjectKind, Transition, Type, TypeRef, Value,
 };
 use crate::text::brief;
 
@@ -58,8 +58,8 @@ pub(super) fn machine(
     }
     device.machines.push(StateMachine {
         name: text(name),
-        status_item: table.status.as_ref().map(|name| reader.item(name)).unwrap_or_default(),
-        control_item: table.control.as_ref().map(|name| reader.item(name)).unwrap_or_default(),
+        status_item: table.status.as_ref().map(|name| reader.reference(name)).unwrap_or_default(),
+        control_item: table.control.as_ref().map(|name| reader.reference(name)).unwrap_or_default(),
         state_type,
         states: states.into(),
         initial: table.initial.as_ref().map(text),
@@ -80,7 +80,7 @@ pub(super) fn enumeration<'d>(device: &'d Device, name: &str) -> Option<(Type, &
 }
 
 /// The states of a machine: patterns of its own, or the values of an enumeration.
-fn states(reader: &mut Reader<'_, '_>, table: &MachineTable, device: &Device) -> (Option<CompactString>, Vec<Pattern>) {
+fn states(reader: &mut Reader<'_, '_>, table: &MachineTable, device: &Device) -> (Option<TypeRef>, Vec<Pattern>) {
     let Some(given) = &table.states else { return (None, Vec::new()) };
     let name = match &given.value {
         TextOr::Table(own) => return (None, patterns(reader, own)),
@@ -101,7 +101,7 @@ fn states(reader: &mut Reader<'_, '_>, table: &MachineTable, device: &Device) ->
         names: value.names.clone(),
         documentation: value.documentation.clone(),
     };
-    (Some(name.as_str().into()), single.map(pattern).collect())
+    (Some(TypeRef::new(name.as_str(), reader.span(given))), single.map(pattern).collect())
 }
 
 /// Whether the text is `Message.field`, a field of the reply to a message.
@@ -227,20 +227,22 @@ fn step(reader: &mut Reader<'_, '_>, given: &At<StepTable>, references: &mut Ref
         None
     } else if let Some(item) = &own.write {
         references.push((item.clone(), "item"));
-        written(own, reader.item(item), number)
+        written(own, reader.reference(item), number)
     } else if let Some(item) = &own.wait {
         references.push((item.clone(), "item"));
         let mask = own.mask.as_ref().map_or(u64::MAX, |mask| mask.value);
         let timeout = own.timeout.as_ref().map(|timeout| timeout.value);
-        number.filter(|_| own.argument.is_none()).map(|value| Step::WaitFor(reader.item(item), mask, value, timeout))
+        number
+            .filter(|_| own.argument.is_none())
+            .map(|value| Step::WaitFor(reader.reference(item), mask, value, timeout))
     } else if has_value {
         None
     } else if let Some(item) = &own.read {
         references.push((item.clone(), "item"));
-        Some(Step::Read(reader.item(item)))
+        Some(Step::Read(reader.reference(item)))
     } else if let Some(message) = &own.send {
         references.push((message.clone(), "message"));
-        Some(Step::Send(text(message)))
+        Some(Step::Send(reader.reference(message)))
     } else if let Some(exchange) = &own.exchange {
         return process::direction(reader, Some(exchange)).map(Step::Exchange);
     } else if let Some(words) = &own.manual {

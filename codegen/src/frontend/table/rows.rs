@@ -480,7 +480,7 @@ impl Rows {
         let text = |given: &Option<String>, own: Option<CompactString>| given.as_deref().map(Into::into).or(own);
         (own.since, own.until) = (text(&row.since, own.since), text(&row.until, own.until));
         if let Some(replaced) = &row.replaced_by {
-            own.replaced_by = Some(reader.item(replaced));
+            own.replaced_by = Some(reader.reference(replaced));
             self.references.push((replaced.clone(), ITEM));
         }
         // Of other buses, the addresses tell.
@@ -500,7 +500,7 @@ impl Rows {
         let names = [&row.upper, &row.same_quantity, &row.same_as];
         self.references.extend(names.into_iter().flatten().map(|name| (name.clone(), ITEM)));
         let mut own = item.related.take().map_or_else(RelatedItems::default, |own| *own);
-        let found = |name: &Option<At<String>>| name.as_ref().map(|name| reader.item(name));
+        let found = |name: &Option<At<String>>| name.as_ref().map(|name| reader.reference(name));
         own.upper_half = found(&row.upper).or(own.upper_half);
         own.same_quantity = found(&row.same_quantity).or(own.same_quantity);
         own.same_as = found(&row.same_as).or(own.same_as);

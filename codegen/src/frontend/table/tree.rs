@@ -13,7 +13,7 @@ use super::format::{DoubtTable, NumberOrText, OptionTable};
 pub(super) use super::read::Node;
 use super::read::{self, MistakeKind, Read};
 use crate::diagnostics::{codes, Code, Diagnostic, Diagnostics};
-use crate::ir::{Documentation, Doubt, Doubts, ItemRef, LocalText, Severity, Subject, SubjectKind, Texts};
+use crate::ir::{Documentation, Doubt, Doubts, LocalText, Reference, Severity, Subject, SubjectKind, Texts};
 use crate::limits::MAX_UNKNOWN_KEYS;
 use crate::source::{FileId, Origin, Source, Span};
 use crate::text::{brief, edit_distance, standard_and_clause};
@@ -180,9 +180,9 @@ impl<'a> Reader<'a, '_> {
         Span::new(self.file, at.start, at.end)
     }
 
-    /// A reference to the item of this name.
-    pub fn item(&self, name: &At<String>) -> ItemRef {
-        ItemRef::new(name.value.as_str(), self.span(name))
+    /// A reference to the element of this name.
+    pub fn reference<Id>(&self, name: &At<String>) -> Reference<Id> {
+        Reference::new(name.value.as_str(), self.span(name))
     }
 
     pub fn origin<T>(&self, at: &At<T>) -> Origin {

@@ -71,7 +71,7 @@ fn side(
     });
     let procedure = own.procedure.as_ref().or(rule.procedure.as_ref());
     Some(WindowSide {
-        number: reader.item(number),
+        number: reader.reference(number),
         value: value.as_str().into(),
         number_first: order,
         clears: own.clears.or(rule.clears),

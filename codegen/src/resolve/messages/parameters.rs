@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use super::shape::{Problem, Shaped};
 use super::step::Step;
-use crate::ir::{Binding, CompactString, Device, Item, ParameterSpace};
+use crate::ir::{Binding, Device, Item, MessageRef, ParameterSpace};
 
 const OTHERS: Problem = "its request has fields beside the parameter, which a client couldn't fill in";
 const NO_NUMBER: Problem = "its request has no number of a parameter of this space";
@@ -36,10 +36,10 @@ pub(crate) fn carriers<'d>(device: &'d Device, shapes: &[Shaped<'_>]) -> Vec<Car
 /// The place of the message called `name`, or why it doesn't do; `None` where there is no name.
 fn carrier(
     shapes: &[Shaped<'_>],
-    name: &Option<CompactString>,
+    name: &Option<MessageRef>,
     check: impl Fn(&Shaped<'_>) -> Result<(), Problem>,
 ) -> Option<Result<usize, Problem>> {
-    let name = name.as_deref()?;
+    let name = name.as_ref()?;
     let Some(at) = shapes.iter().position(|own| own.is_called(name)) else { return Some(Err(NO_CODE)) };
     Some(shapes.get(at).map_or(Err(NO_CODE), check).map(|()| at))
 }
@@ -112,5 +112,5 @@ pub(crate) fn carrier_problems<'d>(
     let read = carrier(shapes, &space.read, |own| reads(own, &space.name));
     let write = carrier(shapes, &space.write, |own| writes(own, &space.name));
     let all = [("reads", &space.read, read), ("writes", &space.write, write)];
-    all.into_iter().filter_map(|(verb, name, found)| Some((verb, name.as_deref()?, found?.err()?)))
+    all.into_iter().filter_map(|(verb, name, found)| Some((verb, name.as_ref()?.as_str(), found?.err()?)))
 }

@@ -98,7 +98,7 @@ pub(super) fn by_default(
     calls: &[CallModel],
 ) -> Option<DefaultModel> {
     let own = shaped.iter().find(|own| own.message.by_default)?;
-    let selector = selector(shaped, messages, own.message.after.as_deref())?;
+    let selector = selector(shaped, messages, own.message.after.as_ref().map(|own| own.as_str()))?;
     calls.iter().any(|call| call.after.as_ref() == Some(&selector)).then_some(DefaultModel { selector })
 }
 

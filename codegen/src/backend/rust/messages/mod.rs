@@ -109,7 +109,7 @@ impl ProtocolModel {
             scope,
             options,
             polled: completion::conditions(device),
-            selectors: shapes.iter().filter_map(|own| own.message.after.as_deref()).collect(),
+            selectors: shapes.iter().filter_map(|own| Some(own.message.after.as_ref()?.as_str())).collect(),
             rules: &rules,
             shapes: &shapes,
             names: &names,

@@ -15,7 +15,7 @@ use super::{at_place, in_range, item_name, name_conditions, Patch, PatchRow, Pro
 use crate::diagnostics::Diagnostics;
 use crate::ir::{
     Binding, CodeTable, CompactString, Device, Direction, Documentation, Group, IoData, Item, Module, Pdo, PdoEntry,
-    PdoEntryKind, Quantity, Shape, StateMachine, Submodule, Type, TypeDef, TypeId,
+    PdoEntryKind, Quantity, Shape, StateMachine, Submodule, Type, TypeDef, TypeId, TypeRef,
 };
 use crate::source::{FileId, Origin};
 use crate::text::standard_and_clause;
@@ -88,7 +88,7 @@ impl<'p> Completion<'p> {
 
     /// The enumeration of the device that is the profile's own of the machine's states; without it, the states have a type of
     /// their own.
-    fn state_type(&self, machine: &StateMachine, types: &[TypeDef]) -> Option<CompactString> {
+    fn state_type(&self, machine: &StateMachine, types: &[TypeDef]) -> Option<TypeRef> {
         let name = machine.state_type.as_ref()?;
         let [own, of_device] = [&self.patch().types, types].map(|types| types.iter().find(|own| own.name == *name));
         (own?.shape == of_device?.shape).then(|| name.clone())

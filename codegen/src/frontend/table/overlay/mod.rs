@@ -361,7 +361,7 @@ mod tests {
         assert_eq!(states, [("Off", 0), ("On", 1)]);
         assert_eq!(device.machines[0].state_type, None, "the device has no such type");
         let device = completed(Type::Unsigned(16), profile().patch.types);
-        assert_eq!(device.machines[0].state_type.as_deref(), Some("Phase"));
+        assert_eq!(device.machines[0].state_type.as_ref().map(|own| own.as_str()), Some("Phase"));
     }
 
     #[test]
