@@ -73,16 +73,3 @@ pub(super) enum Run {
     /// Everything.
     Catalog(fn(&Catalog, &mut Diagnostics)),
 }
-
-impl Lint {
-    /// Whether it runs for a format, and any of its codes is wanted.
-    pub(super) fn is_active(&self, format: Option<Format>, diagnostics: &Diagnostics) -> bool {
-        // A catalogue that comes from no file is no register table.
-        let applies = match format {
-            Some(format) => self.formats.contains(&format),
-            None => self.formats.iter().any(|own| *own != Format::Table),
-        };
-        let is_requested = || self.on_request && self.codes.iter().any(|code| diagnostics.asks_for(code));
-        (applies || is_requested()) && self.codes.iter().any(|code| diagnostics.wants(code))
-    }
-}

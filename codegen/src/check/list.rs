@@ -19,6 +19,9 @@ const TABLES: &[Format] = &[Format::Table];
 /// All but register tables.
 const FILES: &[Format] = &[Format::Eds, Format::Dcf, Format::Xdd, Format::Esi, Format::Gsdml];
 
+/// A catalogue that comes from no file is checked like a file of this format.
+pub(super) const WITHOUT_FILE: Format = Format::Eds;
+
 /// A lint for every format and device.
 const fn lint(name: &'static str, codes: &'static [&'static Code], run: Run) -> Lint {
     Lint { name, codes, formats: ALL, on_request: false, needs: None, run }

@@ -2,7 +2,7 @@
 
 use super::context::{Context, PdoOwner};
 use super::lint::{Lint, Run};
-use super::list::LINTS;
+use super::list::{LINTS, WITHOUT_FILE};
 use crate::diagnostics::Diagnostics;
 use crate::ir::owner::Owner;
 use crate::ir::{Catalog, Device, Format, Group, Module};
@@ -16,6 +16,13 @@ impl Lint {
     /// Runs this lint alone on a resolved catalogue.
     pub fn check(&self, catalog: &Catalog, diagnostics: &mut Diagnostics) {
         run(std::slice::from_ref(self), catalog, diagnostics);
+    }
+
+    /// Whether it runs for a format, and any of its codes is wanted.
+    fn is_active(&self, format: Option<Format>, diagnostics: &Diagnostics) -> bool {
+        let is_requested = || self.on_request && self.codes.iter().any(|code| diagnostics.asks_for(code));
+        (self.formats.contains(&format.unwrap_or(WITHOUT_FILE)) || is_requested())
+            && self.codes.iter().any(|code| diagnostics.wants(code))
     }
 }
 
