@@ -82,13 +82,6 @@ pub mod syntax;
 pub mod text;
 pub mod unique;
 
-/// Former paths of [`names`] and of the steps of messages.
-#[doc(hidden)]
-pub mod passes {
-    pub use crate::names as names_unique;
-    pub(crate) use crate::resolve::messages as messages_shaped;
-}
-
 pub use backend::rust::{Presence, RustOptions};
 pub use builder::{BuildError, Builder};
 pub use diagnostics::Level;

@@ -14,7 +14,7 @@ use lexibus_codegen::facts;
 use lexibus_codegen::facts::words::PLAIN;
 use lexibus_codegen::ir::{
     Access, Behaviour, CompactString, Configured, Conversion, Item, ItemVariant, Limits, MachineUnit, Mappable,
-    Quantity, Scale, Storage, TypeDef, Value,
+    Quantity, RelatedItems, Scale, Storage, TypeDef, Value,
 };
 
 /// Compares all facts of an item.
@@ -50,6 +50,9 @@ pub(super) fn compare_named(
         quantity: or_default(quantity),
         behaviour: or_default(behaviour),
         availability: availability,
+        related: or_default(related),
+        is_reserved: fact("reserved", Judgement::NONE),
+        is_optional: fact("exists only at times", Judgement::BEHAVIOR),
         shared_by_axes: fact("shared by all axes", Judgement::API),
         flags: fact_as("flags of the object", Judgement::BEHAVIOR, |flags| format!("0x{flags:X}")),
         documentation: documentation,
@@ -57,6 +60,16 @@ pub(super) fn compare_named(
         extensions: extensions,
         origin: ignored(POSITION),
         at: ignored(POSITION),
+    });
+}
+
+/// Compares the items that an item belongs to.
+fn related(old: &RelatedItems, new: &RelatedItems, comparison: &mut Comparison<'_>) {
+    compare_fields!(RelatedItems, old, new, comparison, {
+        same_as: fact("same value as", Judgement::NONE),
+        same_quantity: fact("same quantity as", Judgement::NONE),
+        upper_half: fact("upper half", Judgement::BEHAVIOR),
+        valid_count: fact("number of valid elements", Judgement::BEHAVIOR),
     });
 }
 

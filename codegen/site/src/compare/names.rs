@@ -2,7 +2,7 @@
 
 use lexibus_codegen::facts::address;
 use lexibus_codegen::ir::{Group, GroupKind, Item, ObjectCode};
-use lexibus_codegen::passes::names_unique::{unique, Case, Wish};
+use lexibus_codegen::names::{unique, Case, Wish};
 
 /// The identifier of a name that no other element has.
 pub(super) fn identifier(name: &str) -> String {

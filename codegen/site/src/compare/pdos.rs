@@ -61,6 +61,7 @@ fn pdo(old: &Pdo, new: &Pdo, comparison: &mut Comparison<'_>) {
         excludes: |old: &Vec<u16>, new: &Vec<u16>, comparison: &mut Comparison<'_>| excludes(old, new, comparison),
         excluded_sync_managers: fact("excluded sync managers", Judgement::BEHAVIOR),
         sync_unit: fact("sync unit", Judgement::WIRE),
+        from_object: fact("follows from its mapping object", Judgement::NONE),
         depends_on_slot: fact("index grows with the slot", Judgement::WIRE),
         depends_on_slot_group: fact("index grows with the slot group", Judgement::WIRE),
         is_virtual: fact("carries no data", Judgement::API_AND_WIRE),
@@ -201,6 +202,7 @@ fn entry(old: &PdoEntry, new: &PdoEntry, comparison: &mut Comparison<'_>) {
         // Only those of paddings differ here.
         bit_offset: fact("first bit", Judgement::NONE),
         bits: ignored(COMPARED),
+        item: ignored("follows from index and sub-index"),
         kind: fact_as("kind", Judgement::API, |kind| kind_name(*kind).to_owned()),
         name: text("name"),
         ty: |one: &Type, other: &Type, comparison: &mut Comparison<'_>| match new.kind {

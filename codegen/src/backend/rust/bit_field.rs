@@ -14,7 +14,7 @@ use super::options::{Presence, RustOptions};
 use super::scope::Scope;
 use super::value_type::{native, ValueType};
 use crate::ir::{BitFieldEntry, BitMeaning, Condition, Shape, Trigger, Type, Value};
-use crate::passes::names_unique::{self, Case, Wish};
+use crate::names::{self, Case, Wish};
 
 /// A bit field, ready to be written.
 pub(super) struct BitFieldModel {
@@ -221,8 +221,8 @@ pub(super) fn model(
             allow: method_allow(fields.iter().map(|field| field.getter.as_str())),
             name: view_name,
             title: view.title.clone(),
-            method: names_unique::escaped(method),
-            back: names_unique::escaped(&back),
+            method: names::escaped(method),
+            back: names::escaped(&back),
             fields,
         }
     });
@@ -251,8 +251,8 @@ pub(super) fn model(
 }
 
 fn view_methods(views: &[View], taken: &[&str]) -> Vec<String> {
-    let wishes = names_unique::numbered(views.iter().map(|view| view.words.as_str()), "view");
-    names_unique::unique(&wishes, taken, Case::Snake)
+    let wishes = names::numbered(views.iter().map(|view| view.words.as_str()), "view");
+    names::unique(&wishes, taken, Case::Snake)
 }
 
 /// The lines of the table of all bits.
@@ -294,7 +294,7 @@ fn marks(entry: &BitFieldEntry) -> impl Iterator<Item = String> {
 /// The name of a type as that of a method.
 fn snake(name: &str) -> String {
     let wish = Wish { name, fallback: "bits".to_owned(), suffix: "bits".to_owned() };
-    names_unique::unique(&[wish], &RESERVED, Case::Snake).remove(0)
+    names::unique(&[wish], &RESERVED, Case::Snake).remove(0)
 }
 
 /// Bits that have to be written as 0, and those as 1.
@@ -408,10 +408,10 @@ impl Context<'_, '_> {
                 Wish::new(&entry.name, "bit", format!("{}{place}", entry.offset))
             })
             .collect();
-        let names = names_unique::unique(&wishes, reserved, Case::Snake);
+        let names = names::unique(&wishes, reserved, Case::Snake);
         let mut taken: HashSet<String> = names.iter().cloned().collect();
         let fields = entries.iter().zip(&names).map(|(entry, name)| {
-            let setter = beside(|name| taken.contains(name), names_unique::prefixed("with_", name));
+            let setter = beside(|name| taken.contains(name), names::prefixed("with_", name));
             taken.insert(setter.clone());
             self.field(entry, name, setter, link(name))
         });
@@ -420,7 +420,7 @@ impl Context<'_, '_> {
 
     fn field(&self, entry: &BitFieldEntry, name: &str, setter: String, link: String) -> FieldModel {
         let code = self.code(entry);
-        let getter = names_unique::escaped(name);
+        let getter = names::escaped(name);
         let (text, place) = (literal::string(name), hexadecimal(mask(entry.bits.into()) << entry.offset));
         let plain = || FieldDebug::Plain(call!("", text, place));
         let debug = match entry.meaning {

@@ -9,7 +9,7 @@ use super::model::Model;
 use super::options::RustOptions;
 use super::{docs, header, print};
 use crate::ir::{Catalog, Device, FileInfo, Module, ModuleId};
-use crate::passes::names_unique::{self, Case, Wish};
+use crate::names::{self, Case, Wish};
 
 /// Names that a device's module can't have: within it are modules of the others.
 const RESERVED: [&str; 18] = [
@@ -100,7 +100,7 @@ fn module_names(modules: &[(ModuleId, &Module)]) -> Vec<String> {
             Wish::new(name, "module", format!("{:08X}{place}", module.number))
         })
         .collect();
-    escaped(names_unique::unique(&wishes, &RESERVED, Case::Snake))
+    escaped(names::unique(&wishes, &RESERVED, Case::Snake))
 }
 
 /// Devices go by their order code, which is shorter than their name; revisions are told apart by their number.
@@ -126,11 +126,11 @@ fn device_names(devices: &[Device], file: &FileInfo) -> Vec<String> {
             Wish::new(name, "device", format!("{product}{revision:08X}{place}"))
         })
         .collect();
-    escaped(names_unique::unique(&wishes, &RESERVED, Case::Snake))
+    escaped(names::unique(&wishes, &RESERVED, Case::Snake))
 }
 
 fn escaped(names: Vec<String>) -> Vec<String> {
-    names.iter().map(|name| names_unique::escaped(name)).collect()
+    names.iter().map(|name| names::escaped(name)).collect()
 }
 
 fn paths(modules: &[(ModuleId, &Module)], names: &[String], outer: &str) -> ModulePaths {

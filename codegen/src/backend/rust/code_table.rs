@@ -10,7 +10,7 @@ use super::literal;
 use super::options::RustOptions;
 use super::scope::Scope;
 use crate::ir::{CodeRow, CodeTable, Device, SubjectKind, Value};
-use crate::passes::names_unique::{self, Case};
+use crate::names::{self, Case};
 
 /// A table, ready to be written.
 pub(super) struct CodeTableModel {
@@ -27,9 +27,9 @@ pub(super) struct CodeTableModel {
 
 pub(super) fn models(scope: &Scope<'_>, device: &Device, options: &RustOptions) -> Vec<CodeTableModel> {
     let tables: Vec<&CodeTable> = device.code_tables.iter().filter(|table| !table.rows.is_empty()).collect();
-    let wishes = names_unique::numbered(tables.iter().map(|table| table.name.as_str()), "codes");
-    let names = names_unique::unique(&wishes, &bus_facts::RESERVED, Case::Snake);
-    let types = names_unique::unique(&wishes, &["Self"], Case::Pascal);
+    let wishes = names::numbered(tables.iter().map(|table| table.name.as_str()), "codes");
+    let names = names::unique(&wishes, &bus_facts::RESERVED, Case::Snake);
+    let types = names::unique(&wishes, &["Self"], Case::Pascal);
     let named = tables.iter().zip(names.iter().zip(types));
     named.map(|(table, (name, ty))| model(table, (name.to_ascii_uppercase(), ty), scope, options)).collect()
 }

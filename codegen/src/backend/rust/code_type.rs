@@ -8,7 +8,7 @@ use super::docs::WORDS;
 use super::options::RustOptions;
 use crate::facts::code;
 use crate::ir::{CodeRow, CodeTable, Manual};
-use crate::passes::names_unique::{self, Case, Wish};
+use crate::names::{self, Case, Wish};
 
 /// A type, ready to be written.
 pub(super) struct CodeTypeModel {
@@ -58,7 +58,7 @@ pub(super) fn model<'a>(table: &'a CodeTable, manual: &Manual, options: &RustOpt
     let wish =
         |(span, row): &(Span, &'a CodeRow)| Wish::new(&row.name, "code", span.0.to_string().replace('-', "Minus"));
     let wishes: Vec<Wish<'a>> = rows.iter().map(wish).collect();
-    let names = names_unique::unique(&wishes, &RESERVED, Case::Pascal);
+    let names = names::unique(&wishes, &RESERVED, Case::Pascal);
     let spans: Vec<Span> = rows.iter().map(|(span, _)| *span).collect();
     let pieces = disjoint(&spans);
     let covered: i128 = pieces.iter().map(|(_, span)| i128::from(span.1) - i128::from(span.0) + 1).sum();

@@ -6,7 +6,7 @@ use super::docs;
 use super::links::Here;
 use super::scope::Scope;
 use crate::ir::{Composite, Device};
-use crate::passes::names_unique::{self, Case};
+use crate::names::{self, Case};
 
 /// Names of constants that stand beside them.
 const BESIDE: [&str; 6] = ["device", "axes", "module", "entries", "identity", "node_id"];
@@ -17,9 +17,9 @@ pub(super) fn models(scope: &Scope<'_>, device: &Device) -> Vec<FactModel> {
 
 /// The names of the constants.
 pub(super) fn names(device: &Device) -> Vec<String> {
-    let wishes = names_unique::numbered(device.composites.iter().map(|own| own.name.as_str()), "composite");
+    let wishes = names::numbered(device.composites.iter().map(|own| own.name.as_str()), "composite");
     let reserved: Vec<&str> = bus_facts::RESERVED.iter().chain(&BESIDE).copied().collect();
-    let names = names_unique::unique(&wishes, &reserved, Case::Snake);
+    let names = names::unique(&wishes, &reserved, Case::Snake);
     names.iter().map(|name| name.to_ascii_uppercase()).collect()
 }
 

@@ -11,7 +11,7 @@ use super::reachable::{addressable, is_module};
 use super::scope::Scope;
 use super::variant;
 use crate::ir::{Device, Item, Value, Variant};
-use crate::passes::names_unique::{self, Case, Wish};
+use crate::names::{self, Case, Wish};
 
 /// A model of the device that has something of its own.
 pub(super) struct DeviceModel {
@@ -53,9 +53,9 @@ pub(super) fn models(scope: &Scope<'_>, device: &Device, objects: &[ObjectModel]
     });
     let with: Vec<_> = all.filter(|(_, constants, items)| !constants.is_empty() || !items.is_empty()).collect();
     let wishes: Vec<Wish<'_>> = with.iter().map(|(own, ..)| wish(&own.name)).collect();
-    let names = names_unique::unique(&wishes, &["self", "super", "crate"], Case::Snake);
+    let names = names::unique(&wishes, &["self", "super", "crate"], Case::Snake);
     let model = |((own, constants, items), name): ((&Variant, _, _), String)| {
-        let name = names_unique::escaped(&name);
+        let name = names::escaped(&name);
         DeviceModel { name, docs: documentation(scope, own), constants, items }
     };
     with.into_iter().zip(names).map(model).collect()
@@ -96,7 +96,7 @@ fn constants(device: &Device, model: &str, own: &[(crate::ir::CompactString, Val
     let given = given.map(|(own, _, value)| (&own.name, value, in_unit(&own.unit)));
     let all: Vec<_> = own.iter().map(|(name, value)| (name, value, String::new())).chain(given).collect();
     let wishes: Vec<Wish<'_>> = all.iter().map(|(name, ..)| wish(name)).collect();
-    let names = names_unique::unique(&wishes, &[], Case::Snake);
+    let names = names::unique(&wishes, &[], Case::Snake);
     let constant = |((name, value, unit), constant): ((&crate::ir::CompactString, &Value, String), String)| {
         let real = literal::real(value.as_real()?, 64)?;
         Some((constant.to_ascii_uppercase(), docs::sentence(&(docs::escape(name) + &unit)), real))

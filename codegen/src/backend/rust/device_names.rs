@@ -2,7 +2,7 @@
 
 use super::literal;
 use crate::ir::{Device, FileInfo};
-use crate::passes::names_unique::{self, Case, Wish};
+use crate::names::{self, Case, Wish};
 
 /// The generated module uses these names itself, or has functions of which clippy would say that they are called like the type.
 const RESERVED: [&str; 8] = ["Self", "C", "S", "X", "Option", "Result", "New", "On"];
@@ -44,14 +44,14 @@ fn name_of(device: &Device, file: &FileInfo, chosen: Option<&str>, case: Case) -
     let short = if device.ethercat.is_some() { device.identity.order_code.as_str() } else { "" };
     let names = [chosen.unwrap_or(""), short, &device.name, stem, "device"];
     let wish = |name| Wish { name, fallback: String::new(), suffix: "Device".into() };
-    let candidates = names.iter().map(|name| names_unique::unique(&[wish(*name)], &RESERVED, case).remove(0));
+    let candidates = names.iter().map(|name| names::unique(&[wish(*name)], &RESERVED, case).remove(0));
     let name = candidates.into_iter().find(|name| !name.is_empty() && name != "_device").unwrap_or_default();
-    names_unique::escaped(&name)
+    names::escaped(&name)
 }
 
 /// A file's stem as the name of a module.
 pub(super) fn stem_name(stem: &str) -> Option<String> {
     let wish = Wish { name: stem, fallback: String::new(), suffix: "device".into() };
-    let name = names_unique::unique(&[wish], &RESERVED_FOR_FILE, Case::Snake).remove(0);
+    let name = names::unique(&[wish], &RESERVED_FOR_FILE, Case::Snake).remove(0);
     (!name.is_empty()).then_some(name)
 }

@@ -10,7 +10,7 @@ use super::options::RustOptions;
 use super::scope::Scope;
 use super::value_type::{self, ValueType};
 use crate::ir::{EnumValue, Shape, Type, Zone};
-use crate::passes::names_unique::{self, Case, Wish};
+use crate::names::{self, Case, Wish};
 
 /// An enumeration, ready to be written.
 pub(super) struct EnumerationModel {
@@ -97,7 +97,7 @@ fn variants(values: &[&EnumValue], scope: &Scope<'_>) -> Vec<VariantModel> {
         .iter()
         .map(|value| Wish::new(&value.name, "value", value.value.to_string().replace('-', "Minus")))
         .collect();
-    let names = names_unique::unique(&wishes, &RESERVED, Case::Pascal);
+    let names = names::unique(&wishes, &RESERVED, Case::Pascal);
     let variant = |(value, name): (&&EnumValue, String)| {
         let number = value_type::number(value.value, value.value > 0);
         let title = docs::escape(&value.name);

@@ -5,7 +5,7 @@ use super::docs::WORDS;
 use super::options::RustOptions;
 use super::scope::Scope;
 use crate::ir::{Device, Item, MachineUnit};
-use crate::passes::names_unique::{self, Case, Wish};
+use crate::names::{self, Case, Wish};
 
 /// A type with the numbers that are given, and what units become by them.
 pub(super) struct GivenModel {
@@ -34,10 +34,10 @@ pub(super) fn wish(name: &str) -> Wish<'_> {
 /// `None` where nothing is given.
 pub(super) fn model(scope: &Scope<'_>, device: &Device, options: &RustOptions) -> Option<GivenModel> {
     let wishes: Vec<Wish<'_>> = device.given.iter().map(|own| wish(&own.name)).collect();
-    let names = names_unique::unique(&wishes, &["self", "super", "crate"], Case::Snake);
+    let names = names::unique(&wishes, &["self", "super", "crate"], Case::Snake);
     let field = |name: &str| {
         let at = device.given.iter().position(|own| own.name == name)?;
-        names.get(at).map(|name| format!("self.{}", names_unique::escaped(name)))
+        names.get(at).map(|name| format!("self.{}", names::escaped(name)))
     };
     let numbers = device.given.iter().zip(&names).map(|(own, name)| {
         let mut lines = vec![format!("{}{}.", docs::escape(&own.name), in_unit(&own.unit))];
@@ -46,7 +46,7 @@ pub(super) fn model(scope: &Scope<'_>, device: &Device, options: &RustOptions) -
         sentences.extend(WORDS.place(&scope.manual, "", own.documentation.as_deref(), &[]));
         sentences.extend(own.doubts.iter().map(|own| WORDS.doubt(&scope.manual, own)));
         lines.extend(sentences.into_iter().flat_map(|sentence| [String::new(), sentence]));
-        NumberModel { name: names_unique::escaped(name), docs: lines }
+        NumberModel { name: names::escaped(name), docs: lines }
     });
     let numbers: Vec<NumberModel> = numbers.collect();
     let units = units(device, &field);
@@ -69,8 +69,8 @@ fn units(device: &Device, field: &dyn Fn(&str) -> Option<String>) -> Vec<UnitMod
     let texts: Vec<[String; 2]> = found.iter().map(|(from, to)| [words(from), words(&to.unit)]).collect();
     let texts: Vec<String> =
         texts.iter().flat_map(|[from, to]| [format!("{from} to {to}"), format!("{to} to {from}")]).collect();
-    let wishes = names_unique::numbered(texts.iter().map(String::as_str), "conversion");
-    let names = names_unique::unique(&wishes, &["self"], Case::Snake);
+    let wishes = names::numbered(texts.iter().map(String::as_str), "conversion");
+    let names = names::unique(&wishes, &["self"], Case::Snake);
     let expression = |times: &[_], over: &[_]| -> Option<String> {
         let mut text = "value".to_owned();
         for (names, operator) in [(times, '*'), (over, '/')] {

@@ -11,7 +11,7 @@ use super::quantity::{self, QuantityType};
 use super::scope::Scope;
 use super::value_type::ValueType;
 use crate::ir::Item;
-use crate::passes::names_unique;
+use crate::names;
 
 /// An entry.
 pub(super) struct ItemModel {
@@ -89,7 +89,7 @@ pub(super) fn model(
     let arguments = Arguments::of(item, original, &ty, outer);
     ItemModel {
         constant: name.to_ascii_uppercase(),
-        method: names_unique::escaped(name),
+        method: names::escaped(name),
         docs: docs::item(item, original, chapter, scope, here),
         method_docs: if scope.links.has_methods { docs::method(item, &heading, scope, of_method) } else { Vec::new() },
         heading,
@@ -145,7 +145,7 @@ impl<'s> ItemType<'s> {
     fn word(&self) -> String {
         match (self.named, &self.quantity) {
             // A name that begins with a digit has a `_` in front, which no name in camel case has within.
-            (Some(name), _) => names_unique::prefixed("Named", name),
+            (Some(name), _) => names::prefixed("Named", name),
             (None, Some(quantity)) => quantity.word.clone(),
             (None, None) => self.basic.word(),
         }

@@ -13,7 +13,7 @@ use super::scope::Scope;
 use super::value_type;
 use crate::facts::pattern;
 use crate::ir::{Pattern, Shape, StateMachine, SubjectKind, Transition, Type};
-use crate::passes::names_unique::{self, Case, Wish};
+use crate::names::{self, Case, Wish};
 
 /// A state machine, ready to be written.
 pub(super) struct MachineModel {
@@ -84,13 +84,13 @@ pub(super) fn methods(machines: &[StateMachine]) -> Vec<[String; 2]> {
         .flatten()
         .map(|name| Wish { name, fallback: "machine".to_owned(), suffix: "machine".to_owned() })
         .collect();
-    let mut methods = names_unique::unique(&wishes, &[], Case::Snake).into_iter();
+    let mut methods = names::unique(&wishes, &[], Case::Snake).into_iter();
     machines.iter().map(|_| [methods.next().unwrap_or_default(), methods.next().unwrap_or_default()]).collect()
 }
 
 /// The method that gives a command, by its name in [`methods`].
 pub(super) fn setter(command: &str) -> String {
-    names_unique::prefixed("with_", command)
+    names::prefixed("with_", command)
 }
 
 pub(super) fn models(
@@ -288,8 +288,8 @@ fn patterns(
     if list.is_empty() {
         return None;
     }
-    let wishes = names_unique::numbered(list.iter().map(|own| own.name.as_str()), "pattern");
-    let names = names_unique::unique(&wishes, &["Self"], Case::Pascal);
+    let wishes = names::numbered(list.iter().map(|own| own.name.as_str()), "pattern");
+    let names = names::unique(&wishes, &["Self"], Case::Pascal);
     let hexadecimal =
         |number: u32| if number == 0 { "0".to_owned() } else { format!("{number:#X}").replacen("0X", "0x", 1) };
     let pattern = |(own, name): (&&Pattern, String)| {

@@ -9,7 +9,7 @@ use super::options::RustOptions;
 use super::scope::Scope;
 use super::value_type::ValueType;
 use crate::ir::{BitMeaning, Message, Shape, StateMachine, Type, TypeDef};
-use crate::passes::names_unique::{self, Case, Wish};
+use crate::names::{self, Case, Wish};
 
 /// The types of a device or module, ready to be written.
 #[derive(Default)]
@@ -104,13 +104,13 @@ pub(super) fn types(scope: &Scope<'_>, machines: &[StateMachine], options: &Rust
         let view = |(name, number)| Wish { name, fallback: format!("view {at}"), suffix: format!("{at}_{number}") };
         wishes.extend(names.iter().map(String::as_str).zip(0..).map(view));
     }
-    let others = names_unique::unique(&wishes, &RESERVED_TYPES, Case::Pascal);
+    let others = names::unique(&wishes, &RESERVED_TYPES, Case::Pascal);
     let plain: HashSet<String> = wishes.iter().map(pascal).collect();
     let machine_names = machine::names(machines, &|name| plain.contains(name) || others.iter().any(|own| own == name));
     let machine_wish = |name| Wish { name, fallback: "machine".to_owned(), suffix: "Machine".to_owned() };
     wishes.extend(machine_names.iter().flatten().map(|name| machine_wish(name)));
 
-    let mut names = names_unique::unique(&wishes, &RESERVED_TYPES, Case::Pascal).into_iter();
+    let mut names = names::unique(&wishes, &RESERVED_TYPES, Case::Pascal).into_iter();
     let mut next = || names.next().unwrap_or_default();
     for (_, model) in &mut types.enumerations {
         model.name = next();
@@ -134,7 +134,7 @@ pub(super) fn types(scope: &Scope<'_>, machines: &[StateMachine], options: &Rust
 
 /// The name that a type would have if there were no others.
 fn pascal(wish: &Wish<'_>) -> String {
-    names_unique::unique(std::slice::from_ref(wish), &[], Case::Pascal).remove(0)
+    names::unique(std::slice::from_ref(wish), &[], Case::Pascal).remove(0)
 }
 
 /// How many types have a name, and a name and an integer below.

@@ -9,7 +9,7 @@ use super::place::Place;
 use super::reachable::{addressable, is_module};
 use super::scope::Scope;
 use crate::ir::{Group, Item, ObjectCode};
-use crate::passes::names_unique::{self, Case, Wish};
+use crate::names::{self, Case, Wish};
 
 /// Constants of an object have nothing to clash with; its methods would be taken for a constructor, or couldn't be called because
 /// every type has one of that name.
@@ -70,7 +70,7 @@ pub(super) fn names(scope: &Scope<'_>) -> Names {
     let has_messages = scope.device.is_some_and(|device| !device.messages.is_empty());
     let beside = BESIDE_MESSAGES.into_iter().filter(|_| has_messages);
     let reserved: Vec<&str> = RESERVED.into_iter().chain(beside).collect();
-    let mut names = names_unique::unique(&wishes, &reserved, Case::Snake).into_iter();
+    let mut names = names::unique(&wishes, &reserved, Case::Snake).into_iter();
     let registers = names.by_ref().take(scope.registers.len()).collect();
     let subs = |group: &Group| if is_module(group) { sub_names(group) } else { Vec::new() };
     Names { registers, objects: names.zip(groups).map(|(name, group)| (name, subs(group))).collect() }
@@ -92,7 +92,7 @@ fn register(scope: &Scope<'_>, locations: &Locations, chapter: &str, own: &Item,
         constants: String::new(),
         heading: model.heading.clone(),
         method_allow: None,
-        name: names_unique::escaped(name),
+        name: names::escaped(name),
         items: vec![model],
         is_module: false,
     }
@@ -122,7 +122,7 @@ fn object(scope: &Scope<'_>, locations: &Locations, group: &Group, name: &str, s
         // A constant may be called the same.
         constants: Here::TOP.whole(&format!("{}objects::{name}", if is_cased(name) { "" } else { "mod@" })),
         method_allow: method_allow(items.iter().map(|item| item.method.as_str())),
-        name: names_unique::escaped(name),
+        name: names::escaped(name),
         items,
         is_module,
     }
@@ -135,7 +135,7 @@ pub(super) fn is_cased(name: &str) -> bool {
 
 /// How a program reaches each item: by the methods of the device's type, as in `identity().vendor_id()`.
 pub(super) fn calls<'a>(scope: &Scope<'a>) -> Vec<(&'a Item, String)> {
-    let call = |name: &str| format!("{}()", names_unique::escaped(name));
+    let call = |name: &str| format!("{}()", names::escaped(name));
     let registers = scope.registers.iter().zip(&scope.names.registers);
     let mut calls: Vec<(&'a Item, String)> = registers.map(|((_, item), name)| (*item, call(name))).collect();
     for (group, (name, subs)) in addressable(scope).zip(&scope.names.objects) {
@@ -152,5 +152,5 @@ pub(super) fn calls<'a>(scope: &Scope<'a>) -> Vec<(&'a Item, String)> {
 fn sub_names(group: &Group) -> Vec<String> {
     let wishes: Vec<Wish<'_>> =
         group.items.iter().map(|item| Wish::new(&item.name, "sub", item.object().map_or(0, |(_, sub)| sub))).collect();
-    names_unique::unique(&wishes, &RESERVED_IN_OBJECT, Case::Snake)
+    names::unique(&wishes, &RESERVED_IN_OBJECT, Case::Snake)
 }

@@ -14,7 +14,7 @@ use super::options::RustOptions;
 use super::reachable::addressable;
 use super::scope::{ObjectBus, Scope};
 use crate::ir::{Direction, Group, ObjectBuses, Pdo, PdoCommunication, PdoEntry, PdoEntryKind, Value};
-use crate::passes::names_unique::{self, Case, Wish};
+use crate::names::{self, Case, Wish};
 use crate::source::Span;
 
 /// The longest name of a field: the lines that pack it have to stay below the margin.
@@ -128,7 +128,7 @@ fn names_by_source(scope: &Scope<'_>, wanted: impl Fn(&Pdo) -> bool, taken: &[St
         })
         .collect();
     let reserved: Vec<&str> = RESERVED.iter().copied().chain(taken.iter().map(String::as_str)).collect();
-    names_unique::unique(&wishes, &reserved, Case::Pascal)
+    names::unique(&wishes, &reserved, Case::Pascal)
 }
 
 /// Names that the code of PDOs uses itself, and those of its constructors, which must not be that of the type.
@@ -310,7 +310,7 @@ fn fields(scope: &Scope<'_>, mapped: &[&PdoEntry], options: &RustOptions) -> Vec
             }
         })
         .collect();
-    let names = names_unique::unique_up_to(&wishes, &["self", "super", "crate"], Case::Snake, MAX_FIELD_NAME);
+    let names = names::unique_up_to(&wishes, &["self", "super", "crate"], Case::Snake, MAX_FIELD_NAME);
     let fields = mapped.iter().zip(&names).zip(&texts);
     let mut fields: Vec<FieldModel> =
         fields.map(|((entry, name), text)| field(scope, entry, name, text, options)).collect();
@@ -322,7 +322,7 @@ fn fields(scope: &Scope<'_>, mapped: &[&PdoEntry], options: &RustOptions) -> Vec
         let is_taken = TAKEN.contains(&name.as_str());
         field.getter = if is_taken { format!("{name}_") } else { field.name.clone() };
         // A name that starts with a digit has a line in front of it already.
-        field.setter = beside(|name| taken.contains(name), names_unique::prefixed("set_", name));
+        field.setter = beside(|name| taken.contains(name), names::prefixed("set_", name));
     }
     fields
 }
@@ -352,7 +352,7 @@ fn field_text(scope: &Scope<'_>, entry: &PdoEntry) -> String {
 }
 
 fn field(scope: &Scope<'_>, entry: &PdoEntry, name: &str, text: &str, options: &RustOptions) -> FieldModel {
-    let name = names_unique::escaped(name);
+    let name = names::escaped(name);
     let kind = field_type(scope, entry.ty, entry.bits);
     let ty = kind.path("super::");
     let cut = kind.cut(entry.bits);

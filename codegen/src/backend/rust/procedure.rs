@@ -6,7 +6,7 @@ use super::docs::WORDS;
 use super::links::Here;
 use super::scope::{ObjectBus, Scope};
 use crate::ir::{Binding, Device, Item, Procedure, Step, SubjectKind, Type, Value};
-use crate::passes::names_unique::{self, Case};
+use crate::names::{self, Case};
 
 /// A procedure, ready to be written.
 pub(super) struct ProcedureModel {
@@ -19,8 +19,8 @@ pub(super) struct ProcedureModel {
 pub(super) fn models(scope: &Scope<'_>, device: &Device) -> Vec<ProcedureModel> {
     let own = device.procedures.iter();
     let own: Vec<(&Procedure, Vec<String>)> = own.filter_map(|own| Some((own, writes(scope, own)?))).collect();
-    let wishes = names_unique::numbered(own.iter().map(|(own, _)| own.name.as_str()), "procedure");
-    let names = names_unique::unique(&wishes, &["rt"], Case::Snake);
+    let wishes = names::numbered(own.iter().map(|(own, _)| own.name.as_str()), "procedure");
+    let names = names::unique(&wishes, &["rt"], Case::Snake);
     own.into_iter()
         .zip(names)
         .map(|((own, writes), name)| ProcedureModel {

@@ -7,7 +7,7 @@ use super::place;
 use super::route::Net;
 use super::scope::Scope;
 use crate::ir::{Binding, Device, IndirectBinding, Item, Procedure, Step, WindowSide};
-use crate::passes::names_unique::{self, Case, Wish};
+use crate::names::{self, Case, Wish};
 
 /// How often a number is looked at that the device clears, where nothing says for how many milliseconds.
 const POLLS: u32 = 100;
@@ -60,7 +60,7 @@ pub(super) fn windows(scope: &Scope<'_>, device: &Device) -> Vec<Window> {
         .zip(&titles)
         .map(|(own, name)| Wish { name, fallback: "window".into(), suffix: own.key.1.to_string() })
         .collect();
-    let names = names_unique::unique(&wishes, &[], Case::Snake);
+    let names = names::unique(&wishes, &[], Case::Snake);
     for (window, name) in found.iter_mut().zip(names) {
         window.name = name.to_ascii_uppercase();
     }

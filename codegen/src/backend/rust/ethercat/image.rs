@@ -7,7 +7,7 @@ use crate::backend::rust::docs;
 use crate::backend::rust::method_names::{beside, method_allow};
 use crate::backend::rust::pdo::{PdoModel, PdoModels};
 use crate::ir::Direction;
-use crate::passes::names_unique::{self, Case, Wish};
+use crate::names::{self, Case, Wish};
 
 /// The data of a sync manager.
 pub(in super::super) struct ImageModel {
@@ -103,10 +103,10 @@ fn fields(placed: &[(&PdoModel, u32)]) -> Vec<ImageField> {
             Wish { name: &model.name, fallback: format!("pdo {index}"), suffix: format!("{index}_{bit}") }
         })
         .collect();
-    let names = names_unique::unique_up_to(&wishes, &RESERVED, Case::Snake, MAX_NAME);
+    let names = names::unique_up_to(&wishes, &RESERVED, Case::Snake, MAX_NAME);
     let taken: HashSet<&String> = names.iter().collect();
     let field = |((model, bit), name): (&(&PdoModel, u32), &String)| ImageField {
-        name: names_unique::escaped(name),
+        name: names::escaped(name),
         name_mut: beside(|name| taken.contains(name), format!("{name}_mut")),
         pdo: model.name.clone(),
         docs: docs::sentence(model.docs.first().map_or("", String::as_str)),

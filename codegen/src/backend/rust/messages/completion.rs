@@ -7,7 +7,7 @@ use crate::backend::rust::docs;
 use crate::backend::rust::links::Here;
 use crate::backend::rust::scope::Scope;
 use crate::ir::{Completion, Device, Message, MessageValue, Shape, Type, Value};
-use crate::passes::messages_shaped::Step;
+use crate::resolve::messages::Step;
 
 /// What documentation says of it.
 pub(super) fn sentence(scope: &Scope<'_>, message: &Message, here: Here<'_>) -> Option<String> {

@@ -8,8 +8,8 @@ use crate::backend::rust::links::Here;
 use crate::backend::rust::literal;
 use crate::backend::rust::method_names::beside;
 use crate::ir::Message;
-use crate::passes::messages_shaped::Shaped;
-use crate::passes::names_unique::{self, Case};
+use crate::names::{self, Case};
+use crate::resolve::messages::Shaped;
 
 /// More arguments than clippy likes.
 const MAX_ARGUMENTS: usize = 6;
@@ -40,11 +40,11 @@ pub(in crate::backend::rust) struct DefaultModel {
 /// The methods for all requests.
 pub(super) fn calls(shaped: &[Shaped<'_>], messages: &[MessageModel], rules: &Rules, taken: &[&str]) -> Vec<CallModel> {
     let with = || shaped.iter().zip(messages).filter_map(|(own, model)| Some((own, model, model.request.as_ref()?)));
-    let mut wishes = names_unique::numbered(with().map(|(own, ..)| own.message.name.as_str()), "message");
+    let mut wishes = names::numbered(with().map(|(own, ..)| own.message.name.as_str()), "message");
     for wish in &mut wishes {
         wish.suffix.insert_str(0, "message_");
     }
-    let names = names_unique::unique(&wishes, taken, Case::Snake);
+    let names = names::unique(&wishes, taken, Case::Snake);
     let mut calls = Vec::new();
     for ((own, model, request), name) in with().zip(names) {
         let names = arguments(&request.fields);
@@ -60,7 +60,7 @@ pub(super) fn calls(shaped: &[Shaped<'_>], messages: &[MessageModel], rules: &Ru
         let after = own.message.after.as_ref();
         let selector = selector(shaped, messages, after.map(|own| own.as_str()));
         calls.push(CallModel {
-            method: names_unique::escaped(&name),
+            method: names::escaped(&name),
             docs: docs(model, request),
             ty: format!("{ty}{lifetime}"),
             arguments,

@@ -11,8 +11,8 @@ use crate::backend::rust::scope::Scope;
 use crate::backend::rust::value_type::{native, ValueType};
 use crate::backend::rust::variant;
 use crate::ir::{Item, MessageValue, Type};
-use crate::passes::messages_shaped::Step;
-use crate::passes::names_unique::{self, Case};
+use crate::names::{self, Case};
+use crate::resolve::messages::Step;
 
 /// The longest name of a field: the lines that write it have to stay below the margin.
 const MAX_NAME: usize = 24;
@@ -48,11 +48,11 @@ type Check = (String, String, Doc);
 /// The fields of these steps. `entry` is the name of the type of what is repeated, `lifetime` that of what is borrowed.
 pub(super) fn fields(scope: &Scope<'_>, steps: &[Step<'_>], entry: &str) -> Vec<Field> {
     let with: Vec<&Step<'_>> = steps.iter().filter(|step| name(step).is_some()).collect();
-    let wishes = names_unique::numbered(with.iter().map(|step| name(step).unwrap_or_default()), "field");
+    let wishes = names::numbered(with.iter().map(|step| name(step).unwrap_or_default()), "field");
     let reserved = ["self", "super", "crate"];
-    let names = names_unique::unique_up_to(&wishes, &reserved, Case::Snake, MAX_NAME);
+    let names = names::unique_up_to(&wishes, &reserved, Case::Snake, MAX_NAME);
     let all = with.iter().zip(&names).enumerate();
-    all.map(|(position, (step, name))| field(scope, step, names_unique::escaped(name), position, entry)).collect()
+    all.map(|(position, (step, name))| field(scope, step, names::escaped(name), position, entry)).collect()
 }
 
 /// What a field is called; `None` for a step that has none.

@@ -4,7 +4,7 @@ use crate::backend::rust::code::{Data, Doc};
 use crate::backend::rust::docs;
 use crate::backend::rust::scope::Scope;
 use crate::ir::{Device, Framing};
-use crate::passes::messages_shaped::{Shaped, Step};
+use crate::resolve::messages::{Shaped, Step};
 
 /// Room for data whose length the description doesn't bound.
 const ROOM: u32 = 256;

@@ -18,8 +18,8 @@ use super::named::Types;
 use super::options::RustOptions;
 use super::scope::Scope;
 use crate::ir::{Completion, Device, Message};
-use crate::passes::messages_shaped::{self, Shaped, Step};
-use crate::passes::names_unique::{self, Case, Wish};
+use crate::names::{self, Case, Wish};
+use crate::resolve::messages::{self, Shaped, Step};
 pub(super) use device::{CallModel, DefaultModel};
 pub(super) use field::Field;
 use outcomes::OutcomesModel;
@@ -96,7 +96,7 @@ impl ProtocolModel {
     /// The protocol of a device; `None` where it has none. Its methods must not be called as `taken`.
     pub(super) fn new(scope: &Scope<'_>, options: &RustOptions, types: &Types, taken: &[&str]) -> Option<Self> {
         let device = scope.device?;
-        let shapes = messages_shaped::shapes(device);
+        let shapes = messages::shapes(device);
         if shapes.is_empty() {
             return None;
         }
@@ -168,7 +168,7 @@ fn names(shapes: &[Shaped<'_>]) -> Vec<Names> {
     let wished = shapes.iter().enumerate().flat_map(|(at, own)| wished(own.message).map(|name| (name, at)));
     let wished: Vec<(String, usize)> = wished.collect();
     let wishes: Vec<Wish<'_>> = wished.iter().map(|(name, at)| Wish::new(name, "message", at)).collect();
-    let mut names = names_unique::unique(&wishes, &RESERVED, Case::Pascal).into_iter();
+    let mut names = names::unique(&wishes, &RESERVED, Case::Pascal).into_iter();
     shapes.iter().map(|_| std::array::from_fn(|_| names.next().unwrap_or_default())).collect()
 }
 
@@ -191,7 +191,7 @@ pub(super) struct MessagePath {
 
 /// The paths of all messages.
 pub(super) fn paths(device: &Device) -> Vec<MessagePath> {
-    let shapes = messages_shaped::shapes(device);
+    let shapes = messages::shapes(device);
     let names = names(&shapes);
     let path = |(own, [request, reply, ..]): (&Shaped<'_>, &Names)| {
         let is_request = !own.message.request.is_empty();
@@ -224,7 +224,7 @@ struct Maker<'m, 'a> {
 impl Maker<'_, '_> {
     fn message(&self, own: &Shaped<'_>, names: &Names) -> MessageModel {
         let message = own.message;
-        let refusal = messages_shaped::refusal(self.shapes, message).and_then(|at| self.names.get(at));
+        let refusal = messages::refusal(self.shapes, message).and_then(|at| self.names.get(at));
         let [request_name, reply_name, entry, reply_entry] = names;
         let has_request = !message.request.is_empty();
         let request = has_request.then(|| {

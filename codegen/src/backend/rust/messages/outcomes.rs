@@ -10,7 +10,7 @@ use crate::backend::rust::machine::{self, Variants};
 use crate::backend::rust::named::Types;
 use crate::backend::rust::scope::Scope;
 use crate::ir::{CommandOutcomes, Device, Outcome, StateMachine, StateOutcome};
-use crate::passes::names_unique::{self, Case, Wish};
+use crate::names::{self, Case, Wish};
 
 /// A row, ready to be written.
 pub(in crate::backend::rust) struct OutcomesModel {
@@ -53,7 +53,7 @@ pub(super) fn models(scope: &Scope<'_>, device: &Device, types: &Types) -> HashM
 fn constant(machine: &str) -> String {
     let name = format!("outcomes {machine}");
     let wish = Wish { name: &name, fallback: String::new(), suffix: "machine".to_owned() };
-    names_unique::unique(&[wish], &[], Case::Snake).remove(0).to_ascii_uppercase()
+    names::unique(&[wish], &[], Case::Snake).remove(0).to_ascii_uppercase()
 }
 
 /// The type of a machine's states, and its variants by the names of the states.

@@ -4,7 +4,7 @@ use super::rules::Rules;
 use super::MessageModel;
 use crate::backend::rust::code::{call, Doc};
 use crate::ir::Device;
-use crate::passes::messages_shaped::{carriers, Shaped, Step};
+use crate::resolve::messages::{carriers, Shaped, Step};
 
 /// The implementation of `ParameterMessages`, ready to be written.
 #[derive(Default)]

@@ -4,8 +4,8 @@ use crate::backend::rust::docs;
 use crate::backend::rust::links::Here;
 use crate::backend::rust::scope::Scope;
 use crate::ir::{Device, ParameterSpace, Type};
-use crate::passes::messages_shaped::{numbered, Step};
-use crate::passes::names_unique::{self, Case, Wish};
+use crate::names::{self, Case, Wish};
+use crate::resolve::messages::{numbered, Step};
 
 /// The longest name: the lines that use it have to stay below the margin.
 const MAX_NAME: usize = 24;
@@ -59,7 +59,7 @@ impl Rules {
         let types: Vec<String> = shouted.map(|name| name.to_ascii_lowercase()).collect();
         let mut reserved = vec!["framing", "max_data"];
         reserved.extend(types.iter().map(String::as_str));
-        let names = names_unique::unique_up_to(&wishes, &reserved, Case::Snake, MAX_NAME);
+        let names = names::unique_up_to(&wishes, &reserved, Case::Snake, MAX_NAME);
         let models = used.iter().zip(names).map(|((space, bits), name)| {
             let own = device.parameter_spaces.iter().find(|own| own.name == *space);
             let order = own.map(|own| own.byte_order.iter().map(u8::to_string).collect::<Vec<_>>().join(", "));

@@ -4,7 +4,7 @@ use super::field::Field;
 use super::rules::Rules;
 use crate::backend::rust::code::{call, seq, Doc};
 use crate::ir::{Limits, Value};
-use crate::passes::messages_shaped::{tail, Step};
+use crate::resolve::messages::{tail, Step};
 
 /// The statements of one side of a message.
 #[derive(Default)]

@@ -10,7 +10,7 @@ use super::values::Values;
 use super::RustOptions;
 use crate::backend::rust::code::{call, slice, Doc};
 use crate::ir::{Catalog, CodeRow, Type, UnitDiagnosis, UnitDiagnosisField};
-use crate::passes::names_unique::{self, Case, Wish};
+use crate::names::{self, Case, Wish};
 
 /// The table of errors in the IR.
 const ERRORS: &str = "channel_diagnosis";
@@ -84,7 +84,7 @@ pub(super) fn units(catalog: &Catalog, values: &Values<'_>, options: &RustOption
     let units: Vec<&UnitDiagnosis> = catalog.unit_diagnoses.iter().filter(|unit| length(unit).is_some()).collect();
     let wishes: Vec<Wish<'_>> =
         units.iter().map(|unit| Wish::new(&unit.name, "structure", format!("{:04X}", unit.identifier))).collect();
-    let names = names_unique::unique_up_to(&wishes, &[], Case::Pascal, 40);
+    let names = names::unique_up_to(&wishes, &[], Case::Pascal, 40);
     let models = units.iter().zip(names).map(|(unit, name)| unit_model(unit, name, values, options));
     models.filter(|model| !model.fields.is_empty()).collect()
 }
@@ -107,7 +107,7 @@ fn unit_model(unit: &UnitDiagnosis, name: String, values: &Values<'_>, options: 
         })
         .collect();
     let wishes: Vec<Wish<'_>> = found.iter().map(|(entry, field)| image::wish(&entry.name, field)).collect();
-    let names = names_unique::unique_up_to(&wishes, &["self", "super", "crate"], Case::Snake, 30);
+    let names = names::unique_up_to(&wishes, &["self", "super", "crate"], Case::Snake, 30);
     let field = |((entry, field), name): (&(&_, Field<'_>), String)| {
         let entry: &UnitDiagnosisField = entry;
         let facts = field.facts(values.types, entry.ty);

@@ -7,7 +7,7 @@ use super::RustOptions;
 use crate::backend::rust::code::Doc;
 use crate::backend::rust::doc_table;
 use crate::ir::{Direction, IoData, PdoEntry, PdoEntryKind, Submodule};
-use crate::passes::names_unique::{self, Case, Wish};
+use crate::names::{self, Case, Wish};
 
 /// The longest name of a field: the lines that read and write it have to stay below the margin.
 const MAX_FIELD_NAME: usize = 30;
@@ -121,7 +121,7 @@ fn fields(data: &IoData, values: &Values<'_>, options: &RustOptions) -> Vec<Fiel
         })
         .collect();
     let wishes = found.iter().map(|(entry, field)| wish(&entry.name, field)).collect::<Vec<_>>();
-    let names = names_unique::unique_up_to(&wishes, &RESERVED, Case::Snake, MAX_FIELD_NAME);
+    let names = names::unique_up_to(&wishes, &RESERVED, Case::Snake, MAX_FIELD_NAME);
     let all = found.iter().zip(names);
     all.map(|((entry, field), name)| {
         let facts = field.facts(values.types, entry.ty);
@@ -141,7 +141,7 @@ pub(super) fn wish<'n>(name: &'n str, field: &Field<'_>) -> Wish<'n> {
 impl FieldModel {
     /// `name` as it was made; it is escaped here.
     pub(super) fn new(field: &Field<'_>, name: &str, docs: Vec<String>, options: &RustOptions) -> Self {
-        let name = names_unique::escaped(name);
+        let name = names::escaped(name);
         FieldModel {
             heading: docs.first().cloned().unwrap_or_default(),
             docs,
@@ -159,7 +159,7 @@ impl FieldModel {
 
     /// The name of its setter.
     pub(in crate::backend::rust) fn setter(&self) -> String {
-        names_unique::prefixed("set_", &self.name)
+        names::prefixed("set_", &self.name)
     }
 }
 

@@ -12,7 +12,7 @@ use super::RustOptions;
 use crate::backend::rust::code::Doc;
 use crate::ir::{Access, Binding, Group, GroupKind, Item, Record, Value};
 use crate::limits::MAX_RECORD_BYTES;
-use crate::passes::names_unique::{self, Case, Wish};
+use crate::names::{self, Case, Wish};
 use bytes::{default_bytes, value_of};
 use check::{check, ranges};
 
@@ -74,7 +74,7 @@ pub(super) fn models<'a>(groups: &'a [Group], values: &'a Values<'a>, options: &
         .iter()
         .map(|(group, record)| Wish::new(&group.name, "parameter", format!("{:04X}", record.index)))
         .collect();
-    let names = names_unique::unique_up_to(&wishes, &[], Case::Pascal, MAX_NAME);
+    let names = names::unique_up_to(&wishes, &[], Case::Pascal, MAX_NAME);
     let all = records.into_iter().zip(names);
     all.map(|((group, record), name)| model(group, record, name, values, options)).collect()
 }
@@ -119,7 +119,7 @@ fn model<'a>(
         transfer_sequence: record.transfer_sequence,
         default_bytes: literal::bytes(&bytes),
         defaults: free.iter().map(|parameter| value_of(&parameter.field, &bytes)).collect(),
-        checks: fields.iter().filter_map(|(parameter, name)| check(parameter, &names_unique::escaped(name))).collect(),
+        checks: fields.iter().filter_map(|(parameter, name)| check(parameter, &names::escaped(name))).collect(),
         has_real: free.iter().chain(&fixed).any(|parameter| parameter.field.is_real()),
         fields: models,
         constants,
@@ -137,7 +137,7 @@ fn place(item: &Item) -> Option<(u16, u32, u32)> {
 fn named<'p, 'i>(parameters: &'p [Parameter<'i>], reserved: &[&str]) -> Vec<(&'p Parameter<'i>, String)> {
     let wishes: Vec<Wish<'_>> =
         parameters.iter().map(|parameter| image::wish(&parameter.item.name, &parameter.field)).collect();
-    let names = names_unique::unique_up_to(&wishes, reserved, Case::Snake, MAX_FIELD_NAME);
+    let names = names::unique_up_to(&wishes, reserved, Case::Snake, MAX_FIELD_NAME);
     parameters.iter().zip(names).collect()
 }
 

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use super::values::Values;
 use super::RustOptions;
 use crate::ir::{Catalog, Device, GroupKind, Module, ProfinetSettings, Submodule, SubmoduleId, SubmoduleUse, Type};
-use crate::passes::names_unique::{self, Case, Wish};
+use crate::names::{self, Case, Wish};
 
 /// Names at the top of the output.
 const RESERVED: [&str; 10] =
@@ -59,9 +59,9 @@ fn access_points(catalog: &Catalog) -> Vec<AccessPoint<'_>> {
             suffix: identifier(&device.id, settings.ident, at),
         })
         .collect();
-    let names = names_unique::unique(&wishes, &RESERVED, Case::Snake);
+    let names = names::unique(&wishes, &RESERVED, Case::Snake);
     let all = found.into_iter().zip(names);
-    all.map(|((device, settings), name)| AccessPoint { device, settings, name: names_unique::escaped(&name) }).collect()
+    all.map(|((device, settings), name)| AccessPoint { device, settings, name: names::escaped(&name) }).collect()
 }
 
 fn modules<'a>(catalog: &'a Catalog, access_points: &[AccessPoint<'a>]) -> BTreeMap<u32, (&'a Module, String)> {
@@ -79,8 +79,8 @@ fn modules<'a>(catalog: &'a Catalog, access_points: &[AccessPoint<'a>]) -> BTree
             suffix: identifier(&module.id, module.number, *at as usize),
         })
         .collect();
-    let names = names_unique::unique(&wishes, &["self", "super", "crate"], Case::Snake);
-    found.into_iter().zip(names).map(|((at, module), name)| (at, (module, names_unique::escaped(&name)))).collect()
+    let names = names::unique(&wishes, &["self", "super", "crate"], Case::Snake);
+    found.into_iter().zip(names).map(|((at, module), name)| (at, (module, names::escaped(&name)))).collect()
 }
 
 fn submodules<'a>(
@@ -103,12 +103,8 @@ fn submodules<'a>(
             suffix: identifier(&submodule.id, submodule.ident, *at as usize),
         })
         .collect();
-    let names = names_unique::unique(&wishes, &["self", "super", "crate"], Case::Snake);
-    found
-        .into_iter()
-        .zip(names)
-        .map(|((at, submodule), name)| (at, (submodule, names_unique::escaped(&name))))
-        .collect()
+    let names = names::unique(&wishes, &["self", "super", "crate"], Case::Snake);
+    found.into_iter().zip(names).map(|((at, submodule), name)| (at, (submodule, names::escaped(&name)))).collect()
 }
 
 /// What tells elements of one name apart: the source's identifier in letters and digits, else the ident number.

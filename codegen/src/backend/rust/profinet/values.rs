@@ -9,7 +9,7 @@ use super::RustOptions;
 use crate::backend::rust::doc_table;
 use crate::backend::rust::value_type::native;
 use crate::ir::{EnumValue, Shape, Type, TypeDef};
-use crate::passes::names_unique::{self, Case, Wish};
+use crate::names::{self, Case, Wish};
 
 /// What a variant must not be called: the type itself, and the variant for values that the description doesn't list.
 const RESERVED_VARIANTS: [&str; 2] = ["Self", "Unknown"];
@@ -65,7 +65,7 @@ impl<'a> Values<'a> {
                 suffix: format!("{}{}", if base.is_signed() { "I" } else { "U" }, base.bits().unwrap_or(0)),
             })
             .collect();
-        let names = names_unique::unique(&wishes, &RESERVED_TYPES, Case::Pascal);
+        let names = names::unique(&wishes, &RESERVED_TYPES, Case::Pascal);
         let all = found.iter().zip(names);
         let enumerations =
             all.map(|((at, definition, base, values), name)| (*at, model(definition, *base, values, name, options)));
@@ -111,7 +111,7 @@ fn model(definition: &TypeDef, base: Type, values: &[&EnumValue], name: String, 
             Wish { name: &value.name, suffix: number.replace(' ', ""), fallback: format!("value {number}") }
         })
         .collect();
-    let names = names_unique::unique(&wishes, &RESERVED_VARIANTS, Case::Pascal);
+    let names = names::unique(&wishes, &RESERVED_VARIANTS, Case::Pascal);
     let variant = |(value, name): (&&EnumValue, String)| {
         let title = docs::escape(&value.name);
         let separator = if title.is_empty() { "" } else { ": " };
