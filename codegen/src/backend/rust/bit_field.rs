@@ -3,17 +3,17 @@
 use std::collections::HashSet;
 
 use super::code::{call, seq, slice, Doc};
+use super::context::Context;
 use super::doc_table;
 use super::docs;
 use super::docs::WORDS;
-use super::enumeration::EnumerationModel;
 use super::links::{self, Here};
 use super::literal;
 use super::method_names::{beside, method_allow};
+use super::naming::types::{value_names, NamedType, View};
 use super::options::{Presence, RustOptions};
-use super::scope::Scope;
-use super::value_type::{native, ValueType};
-use crate::ir::{BitFieldEntry, BitMeaning, Condition, Shape, Trigger, Type, Value};
+use super::value_type::native;
+use crate::ir::{BitFieldEntry, BitMeaning, Condition, Shape, Trigger, Value};
 use crate::names::{self, Case, Wish};
 
 /// A bit field, ready to be written.
@@ -27,10 +27,6 @@ pub(super) struct BitFieldModel {
     pub base: &'static str,
     /// The type of its numbers.
     pub native: &'static str,
-    /// The integer below.
-    pub ty: Type,
-    /// Length in bits.
-    pub bits: u32,
     /// What a new value is: reserved bits that have to be 1.
     pub initial: String,
     /// The number that `raw` stands for, where its type has more bits.
@@ -84,14 +80,6 @@ pub(super) struct ViewModel {
     pub allow: Option<String>,
 }
 
-/// A condition under which some bits have a meaning.
-pub(super) struct View {
-    condition: Condition,
-    /// `in profile position`.
-    pub words: String,
-    title: String,
-}
-
 /// Names that methods of a bit field itself have, those that clippy takes for methods of traits, and those of methods that every type
 /// has, and which would be called instead.
 const RESERVED: [&str; 16] = [
@@ -118,109 +106,56 @@ fn mask(bits: u32) -> u64 {
     u64::MAX.checked_shr(64 - bits.min(64)).unwrap_or(0)
 }
 
-/// Whether any bit has a name of its own: a fallback such as "Bit 3" says nothing.
-pub(super) fn is_named(fields: &[BitFieldEntry]) -> bool {
-    fields.iter().any(|field| match field.meaning {
-        BitMeaning::Reserved { .. } => false,
-        BitMeaning::Flag { .. } => field.name.as_str() != format!("Bit {}", field.offset),
-        _ => true,
-    })
-}
-
-/// Whether the integer at this position is one that Rust has a type for.
-pub(super) fn is_possible(scope: &Scope<'_>, position: u32) -> bool {
-    let Shape::BitField { base, .. } = &scope.types[position as usize].shape else { return false };
-    integer(scope.base(*base)).is_some()
-}
-
-/// Bits have no sign.
-fn integer(base: Type) -> Option<(Type, &'static str, &'static str)> {
-    let ty = Type::Unsigned(u8::try_from(base.bits()?).ok()?);
-    let (path, native) = ValueType::of(ty).number()?;
-    Some((ty, path, native))
-}
-
-/// The conditions under which bits of the type at this position have a meaning.
-pub(super) fn views(scope: &Scope<'_>, position: u32) -> Vec<View> {
-    let Shape::BitField { fields, .. } = &scope.types[position as usize].shape else { return Vec::new() };
-    let mut views: Vec<View> = Vec::new();
-    for field in fields.iter().filter(|field| !matches!(field.meaning, BitMeaning::Reserved { .. })) {
-        let Some(condition) = &field.when else { continue };
-        if !views.iter().any(|view| view.condition == *condition) {
-            views.push(view(scope, condition));
-        }
-    }
-    views
-}
-
-fn view(scope: &Scope<'_>, condition: &Condition) -> View {
-    let item = scope.item(&condition.item);
-    let definition = item.and_then(|item| scope.resolve(item.ty).1).map(|(_, definition)| definition);
-    let named = |value: &Value| {
-        let Shape::Enumeration { values, .. } = &definition?.shape else { return None };
-        let number = value.as_int()?;
-        values.iter().find(|own| own.value == number && own.last.is_none()).map(|own| own.name.to_string())
+/// When the bits of a view have their meaning.
+fn title(context: &Context<'_>, condition: &Condition) -> String {
+    let Some(names) = value_names(context, condition) else {
+        return format!("while {}", docs::holds(condition, context, Here::TYPES));
     };
-    // Names are those of whole values.
-    let names: Option<Vec<String>> =
-        condition.values.iter().map(named).collect::<Option<_>>().filter(|_| condition.mask.is_none());
     let numbers = condition.values.iter().map(Value::to_string).collect::<Vec<_>>().join(" or ");
-    let words = match &names {
-        Some(names) => format!("in {}", names.join(" or ")),
-        None => match condition.mask {
-            Some(mask) => format!("in {} {mask:x} {numbers}", condition.item),
-            None => format!("in {} {numbers}", condition.item),
-        },
-    };
-    let what = scope.link(&condition.item, Here::TYPES).unwrap_or_else(|| docs::escape(&condition.item));
-    let title = match &names {
-        Some(names) => format!("while {what} is {} ({numbers})", docs::escape(&names.join(" or "))),
-        None => format!("while {}", docs::holds(condition, scope, Here::TYPES)),
-    };
-    View { condition: condition.clone(), words, title }
+    let item = context.link(&condition.item, Here::TYPES).unwrap_or_else(|| docs::escape(&condition.item));
+    format!("while {item} is {} ({numbers})", docs::escape(&names.join(" or ")))
 }
 
-/// The bit field at this position, which [`is_possible`], under these names.
+/// The bit field at this position, under its names.
 pub(super) fn model(
-    scope: &Scope<'_>,
+    context: &Context<'_>,
     position: u32,
-    name: String,
-    (views, view_names): (&[View], Vec<String>),
-    enumerations: &[(u32, EnumerationModel)],
+    own: &NamedType,
+    views: &[View],
     machine_methods: &[String],
     options: &RustOptions,
 ) -> BitFieldModel {
-    let definition = &scope.types[position as usize];
-    let (base, entries) = match &definition.shape {
-        Shape::BitField { base, fields } => (scope.base(*base), fields.as_slice()),
-        _ => (Type::Unsigned(8), [].as_slice()),
+    let definition = &context.types[position as usize];
+    let entries = match &definition.shape {
+        Shape::BitField { fields, .. } => fields.as_slice(),
+        _ => &[],
     };
-    let (ty, path, native) = integer(base).unwrap_or((Type::Unsigned(8), "u8", "u8"));
-    let bits = ty.bits().unwrap_or(8);
+    let NamedType { name, base, native, bits, .. } = own;
+    let bits = *bits;
     let fits = |entry: &&BitFieldEntry| entry.bits > 0 && u32::from(entry.offset) + u32::from(entry.bits) <= bits;
     let entries: Vec<&BitFieldEntry> = entries.iter().filter(fits).collect();
-    let with = Context { scope, native, bits, enumerations };
+    let with = Fields { context, native, bits };
 
     let mut taken: Vec<&str> = RESERVED.to_vec();
     taken.extend(machine_methods.iter().map(String::as_str));
     let methods = view_methods(views, &taken);
-    let back = beside(|name| methods.contains(name), snake(&name));
+    let back = beside(|name| methods.contains(name), snake(name));
     taken.extend(methods.iter().map(String::as_str));
     let fields = with.fields(&entries, None, &taken, &|name| format!("[`{name}`](Self::{name})"));
     let (zeros, ones) = reserved(&entries);
-    let mut docs = docs::of_type(scope, position);
+    let mut docs = docs::of_type(context, position);
     for (bits, number) in [(zeros, 0), (ones, 1)] {
         if bits != 0 {
             docs.extend([String::new(), format!("Bits {} are written as {number}.", hexadecimal(bits))]);
         }
     }
-    let views = views.iter().zip(view_names).zip(&methods).map(|((view, view_name), method)| {
-        let link = |name: &str| format!("[`{method}().{name}()`]({view_name}::{name})");
+    let views = views.iter().zip(&methods).map(|(view, method)| {
+        let link = |name: &str| format!("[`{method}().{name}()`]({}::{name})", view.name);
         let fields = with.fields(&entries, Some(&view.condition), &[&RESERVED[..], &[back.as_str()]].concat(), &link);
         ViewModel {
             allow: method_allow(fields.iter().map(|field| field.getter.as_str())),
-            name: view_name,
-            title: view.title.clone(),
+            name: view.name.clone(),
+            title: title(context, &view.condition),
             method: names::escaped(method),
             back: names::escaped(&back),
             fields,
@@ -231,11 +166,9 @@ pub(super) fn model(
     BitFieldModel {
         docs,
         derives: RustOptions { debug: Presence::Never, ..options.clone() }.derives(true),
-        debug: debug(&name, native, &fields, options),
-        base: path,
+        debug: debug(name, native, &fields, options),
+        base,
         native,
-        ty,
-        bits,
         initial: hexadecimal_or_zero(ones),
         cut: if mask(bits) == mask(with.native_bits()) {
             "raw".into()
@@ -246,7 +179,7 @@ pub(super) fn model(
         allow: method_allow(fields.iter().map(|field| field.getter.as_str())),
         views,
         fields,
-        name,
+        name: name.clone(),
     }
 }
 
@@ -373,14 +306,13 @@ pub(super) enum FieldDebug {
 }
 
 /// What the code of every field depends on.
-struct Context<'c, 's> {
-    scope: &'c Scope<'s>,
+struct Fields<'c, 's> {
+    context: &'c Context<'s>,
     native: &'static str,
     bits: u32,
-    enumerations: &'c [(u32, EnumerationModel)],
 }
 
-impl Context<'_, '_> {
+impl Fields<'_, '_> {
     fn native_bits(&self) -> u32 {
         native_bits(self.native)
     }
@@ -458,9 +390,7 @@ impl Context<'_, '_> {
         let number = native(false, bits);
         let named = match entry.meaning {
             BitMeaning::Enumeration(id) => {
-                // They are in the order of their positions.
-                let place = self.enumerations.binary_search_by_key(&id.0, |(position, _)| *position).ok();
-                let own = place.and_then(|at| self.enumerations.get(at)).map(|(_, own)| own);
+                let own = self.context.names.types.enumeration(id.0);
                 own.filter(|own| own.bits == bits && own.native == number)
             }
             _ => None,
@@ -513,7 +443,7 @@ impl Context<'_, '_> {
         if let Some(availability) = &entry.availability {
             sentences.push(WORDS.availability(availability));
         }
-        sentences.extend(WORDS.place(&self.scope.manual, "", entry.documentation.as_deref(), &entry.names));
+        sentences.extend(WORDS.place(&self.context.manual, "", entry.documentation.as_deref(), &entry.names));
         sentences.join(" ")
     }
 }

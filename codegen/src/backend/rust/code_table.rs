@@ -3,12 +3,12 @@
 use super::bus_facts;
 use super::code::{call, slice, Doc};
 use super::code_type::{self, CodeTypeModel};
+use super::context::Context;
 use super::docs;
 use super::docs::WORDS;
 use super::links::is_derive;
 use super::literal;
 use super::options::RustOptions;
-use super::scope::Scope;
 use crate::ir::{CodeRow, CodeTable, Device, SubjectKind, Value};
 use crate::names::{self, Case};
 
@@ -25,17 +25,22 @@ pub(super) struct CodeTableModel {
     pub ty: Option<CodeTypeModel>,
 }
 
-pub(super) fn models(scope: &Scope<'_>, device: &Device, options: &RustOptions) -> Vec<CodeTableModel> {
+pub(super) fn models(context: &Context<'_>, device: &Device, options: &RustOptions) -> Vec<CodeTableModel> {
     let tables: Vec<&CodeTable> = device.code_tables.iter().filter(|table| !table.rows.is_empty()).collect();
     let wishes = names::numbered(tables.iter().map(|table| table.name.as_str()), "codes");
     let names = names::unique(&wishes, &bus_facts::RESERVED, Case::Snake);
     let types = names::unique(&wishes, &["Self"], Case::Pascal);
     let named = tables.iter().zip(names.iter().zip(types));
-    named.map(|(table, (name, ty))| model(table, (name.to_ascii_uppercase(), ty), scope, options)).collect()
+    named.map(|(table, (name, ty))| model(table, (name.to_ascii_uppercase(), ty), context, options)).collect()
 }
 
-fn model(table: &CodeTable, (name, ty): (String, String), scope: &Scope<'_>, options: &RustOptions) -> CodeTableModel {
-    let manual = &scope.manual;
+fn model(
+    table: &CodeTable,
+    (name, ty): (String, String),
+    context: &Context<'_>,
+    options: &RustOptions,
+) -> CodeTableModel {
+    let manual = &context.manual;
     let mut docs = vec![docs::sentence(&docs::escape(&table.name))];
     let text = table.documentation.as_ref().map_or("", |own| own.text.as_str());
     if !text.is_empty() {
@@ -44,7 +49,7 @@ fn model(table: &CodeTable, (name, ty): (String, String), scope: &Scope<'_>, opt
     docs.extend(
         WORDS.place(manual, "", table.documentation.as_deref(), &[]).into_iter().flat_map(|own| [String::new(), own]),
     );
-    docs::doubts_about(scope, SubjectKind::Codes, &table.name, &mut docs);
+    docs::doubts_about(context, SubjectKind::Codes, &table.name, &mut docs);
     if !table.buses.is_empty() {
         docs.extend([String::new(), format!("On {}.", docs::escape(&table.buses.join(", ")))]);
     }

@@ -1,30 +1,19 @@
 //! Numbers that are split over several items: a constant for each, which joins and splits them.
 
-use super::bus_facts::{self, FactModel};
+use super::bus_facts::FactModel;
 use super::code::{seq, Data};
+use super::context::Context;
 use super::docs;
 use super::links::Here;
-use super::scope::Scope;
+use super::naming::composites;
 use crate::ir::{Composite, Device};
-use crate::names::{self, Case};
 
-/// Names of constants that stand beside them.
-const BESIDE: [&str; 6] = ["device", "axes", "module", "entries", "identity", "node_id"];
-
-pub(super) fn models(scope: &Scope<'_>, device: &Device) -> Vec<FactModel> {
-    device.composites.iter().zip(names(device)).map(|(own, name)| model(scope, own, &name)).collect()
+pub(super) fn models(context: &Context<'_>, device: &Device) -> Vec<FactModel> {
+    device.composites.iter().zip(composites::names(device)).map(|(own, name)| model(context, own, &name)).collect()
 }
 
-/// The names of the constants.
-pub(super) fn names(device: &Device) -> Vec<String> {
-    let wishes = names::numbered(device.composites.iter().map(|own| own.name.as_str()), "composite");
-    let reserved: Vec<&str> = bus_facts::RESERVED.iter().chain(&BESIDE).copied().collect();
-    let names = names::unique(&wishes, &reserved, Case::Snake);
-    names.iter().map(|name| name.to_ascii_uppercase()).collect()
-}
-
-fn model(scope: &Scope<'_>, own: &Composite, name: &str) -> FactModel {
-    let link = |name: &str| scope.link(name, Here::TOP).unwrap_or_else(|| docs::escape(name));
+fn model(context: &Context<'_>, own: &Composite, name: &str) -> FactModel {
+    let link = |name: &str| context.link(name, Here::TOP).unwrap_or_else(|| docs::escape(name));
     let parts: Vec<String> = own.parts.iter().map(|part| link(part)).collect();
     let mut sentences =
         vec![docs::sentence(&format!("{} in {} to the base {}", docs::escape(&own.name), parts.join(", "), own.base))];

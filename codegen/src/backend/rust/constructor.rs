@@ -1,7 +1,7 @@
 //! The call that makes a handle.
 
 use super::code::{call, list, seq, Doc};
-use super::item::ItemType;
+use super::item_type::ItemType;
 use super::literal;
 use super::place::Place;
 use super::value_type::ValueType;

@@ -2,13 +2,13 @@
 
 use super::code::{list, Doc};
 use super::constructor::Arguments;
+use super::context::Context;
 use super::docs;
 use super::given::{in_unit, wish};
-use super::item::ItemType;
+use super::item_type::ItemType;
 use super::literal;
 use super::objects::ObjectModel;
 use super::reachable::{addressable, is_module};
-use super::scope::Scope;
 use super::variant;
 use crate::ir::{Device, Item, Value, Variant};
 use crate::names::{self, Case, Wish};
@@ -42,13 +42,14 @@ pub(super) struct OwnItem {
 }
 
 /// The models that have constants or items of their own. `objects` are the handles of all models.
-pub(super) fn models(scope: &Scope<'_>, device: &Device, objects: &[ObjectModel]) -> Vec<DeviceModel> {
-    let registers = scope.registers.iter().map(|(_, item)| Some(*item));
-    let single = addressable(scope).map(|group| group.items.first().filter(|_| !is_module(group)));
+pub(super) fn models(context: &Context<'_>, device: &Device, objects: &[ObjectModel]) -> Vec<DeviceModel> {
+    let registers = context.registers.iter().map(|(_, item)| Some(*item));
+    let single = addressable(context).map(|group| group.items.first().filter(|_| !is_module(group)));
     let items: Vec<Option<&Item>> = registers.chain(single).collect();
     let all = device.variants.iter().map(|own| {
         let with = items.iter().zip(objects).filter_map(|(item, object)| Some(((*item)?, object)));
-        let items: Vec<OwnItem> = with.filter_map(|(item, object)| self::own(scope, item, object, &own.name)).collect();
+        let items: Vec<OwnItem> =
+            with.filter_map(|(item, object)| self::own(context, item, object, &own.name)).collect();
         (own, constants(device, &own.name, &own.constants), items)
     });
     let with: Vec<_> = all.filter(|(_, constants, items)| !constants.is_empty() || !items.is_empty()).collect();
@@ -56,21 +57,21 @@ pub(super) fn models(scope: &Scope<'_>, device: &Device, objects: &[ObjectModel]
     let names = names::unique(&wishes, &["self", "super", "crate"], Case::Snake);
     let model = |((own, constants, items), name): ((&Variant, _, _), String)| {
         let name = names::escaped(&name);
-        DeviceModel { name, docs: documentation(scope, own), constants, items }
+        DeviceModel { name, docs: documentation(context, own), constants, items }
     };
     with.into_iter().zip(names).map(model).collect()
 }
 
-fn documentation(scope: &Scope<'_>, own: &Variant) -> Vec<String> {
+fn documentation(context: &Context<'_>, own: &Variant) -> Vec<String> {
     let mut lines = vec![docs::sentence(&docs::escape(&own.name))];
-    docs::described(own.documentation.as_deref(), &scope.manual, &mut lines);
+    docs::described(own.documentation.as_deref(), &context.manual, &mut lines);
     lines
 }
 
-fn own(scope: &Scope<'_>, item: &Item, object: &ObjectModel, model: &str) -> Option<OwnItem> {
+fn own(context: &Context<'_>, item: &Item, object: &ObjectModel, model: &str) -> Option<OwnItem> {
     let handle = object.items.first()?;
     let on_model = variant::on_model(item, model)?;
-    let arguments = Arguments::of(&on_model, "", &ItemType::of(scope, item), "");
+    let arguments = Arguments::of(&on_model, "", &ItemType::of(context, item), "");
     let [range, initial] = arguments.of_model();
     let mut facts = Vec::new();
     facts.extend(docs::limits(&on_model));

@@ -2,51 +2,49 @@
 
 use std::fmt::Write;
 
+use super::context::Context;
 use super::links::Here;
-use super::literal;
 use super::place::Place;
-use super::scope::Scope;
 use super::variant;
+pub(super) use super::words::{escape, WORDS};
 use crate::facts::physical::Physical;
 pub(super) use crate::facts::words::sentence;
+use crate::facts::words::Words;
 use crate::facts::words::{capital, row_of};
-use crate::facts::words::{Words, NO_LINK};
-use crate::facts::{self, markdown};
+use crate::facts::{self};
 use crate::ir::{Binding, Condition, Documentation, Doubt, Item, Manual, SubjectKind, Type, TypeId, Value};
-
-/// Sentences for doc comments.
-pub(super) const WORDS: Words<'static> = Words { escape, link: NO_LINK };
 
 /// Sentences for doc comments that link to the elements which they name.
 pub(super) fn linked(link: &dyn Fn(&str) -> Option<String>) -> Words<'_> {
     Words { escape, link }
 }
 
-/// Text as one line of Markdown without any markup.
-pub(super) fn escape(text: &str) -> String {
-    markdown::escape(text, literal::is_harmless)
-}
-
 /// The lines about an item, for the constant that stands `here`: its name, then its address, type, access and values, then what
 /// belongs to it, and what else is known.
-pub(super) fn item(item: &Item, name: &str, chapter: Option<&str>, scope: &Scope<'_>, here: Here<'_>) -> Vec<String> {
+pub(super) fn item(
+    item: &Item,
+    name: &str,
+    chapter: Option<&str>,
+    context: &Context<'_>,
+    here: Here<'_>,
+) -> Vec<String> {
     // What replaces an item may be called the same.
-    let is_other = |name: &str| !scope.item(name).is_some_and(|own| std::ptr::eq(own, item));
-    let link = |name: &str| is_other(name).then(|| scope.link(name, here))?;
+    let is_other = |name: &str| !context.item(name).is_some_and(|own| std::ptr::eq(own, item));
+    let link = |name: &str| is_other(name).then(|| context.link(name, here))?;
     let words = linked(&link);
     let mut lines = Vec::with_capacity(6);
     if !name.trim().is_empty() {
         lines.push(sentence(&escape(name)));
         lines.push(String::new());
     }
-    lines.push(facts(item, scope, &words));
-    let beside = scope.links.beside_constant(scope, item, here);
+    lines.push(facts(item, context, &words));
+    let beside = context.links.beside_constant(item, type_name(context, item), here);
     lines.extend(Some(beside).filter(|line| !line.is_empty()));
     documentation(item, &mut lines);
     let mut paragraphs = Vec::new();
     paragraphs.extend(WORDS.access(item));
     if let Type::Named(TypeId(id)) = item.ty {
-        paragraphs.extend(WORDS.meaning_from(scope.types.get(id as usize)));
+        paragraphs.extend(WORDS.meaning_from(context.types.get(id as usize)));
     }
     if let Some(quantity) = &item.quantity {
         paragraphs.extend(WORDS.notes(quantity));
@@ -55,7 +53,7 @@ pub(super) fn item(item: &Item, name: &str, chapter: Option<&str>, scope: &Scope
         paragraphs.push(words.behaviour(behaviour).join(" "));
     }
     paragraphs.extend(item.bindings.iter().filter_map(elsewhere));
-    paragraphs.extend(words.variants(item, &scope.manual));
+    paragraphs.extend(words.variants(item, &context.manual));
     let widest = variant::widest(item);
     if (&widest.low, &widest.high) != (&item.limits.low, &item.limits.high) {
         let physical = Physical::of(item.quantity.as_deref());
@@ -65,11 +63,11 @@ pub(super) fn item(item: &Item, name: &str, chapter: Option<&str>, scope: &Scope
     if let Some(availability) = &item.availability {
         paragraphs.push(words.availability(availability));
     }
-    let place = WORDS.place(&scope.manual, row_of(item), item.documentation.as_deref(), &item.names);
+    let place = WORDS.place(&context.manual, row_of(item), item.documentation.as_deref(), &item.names);
     let chapter = chapter.filter(|chapter| !chapter.trim().is_empty());
     let chapter = chapter.map(|chapter| format!("Chapter {}", sentence(&escape(chapter))));
     paragraphs.push(chapter.into_iter().chain(place).collect::<Vec<_>>().join(" "));
-    paragraphs.extend(doubts(item.doubts.iter(), &scope.manual));
+    paragraphs.extend(doubts(item.doubts.iter(), &context.manual));
     for paragraph in paragraphs.into_iter().filter(|paragraph| !paragraph.is_empty()) {
         lines.extend([String::new(), paragraph]);
     }
@@ -77,14 +75,19 @@ pub(super) fn item(item: &Item, name: &str, chapter: Option<&str>, scope: &Scope
 }
 
 /// The lines about an item, for the method that stands `here`: `heading`, what the source says, and what belongs to it.
-pub(super) fn method(item: &Item, heading: &str, scope: &Scope<'_>, here: Here<'_>) -> Vec<String> {
+pub(super) fn method(item: &Item, heading: &str, context: &Context<'_>, here: Here<'_>) -> Vec<String> {
     let mut lines = vec![heading.to_owned()];
     documentation(item, &mut lines);
     if lines.len() > 1 {
         lines.push(String::new());
     }
-    lines.push(scope.links.beside_method(scope, item, here));
+    lines.push(context.links.beside_method(item, type_name(context, item), here));
     lines
+}
+
+/// The name of the enumeration or the bit field of an item that has one.
+fn type_name<'c>(context: &'c Context<'_>, item: &Item) -> Option<&'c str> {
+    context.enumeration(item.ty).map(|named| named.name.as_str())
 }
 
 /// An address that no client of the runtime has.
@@ -99,8 +102,8 @@ fn elsewhere(binding: &Binding) -> Option<String> {
 }
 
 /// `Mode is 1 or 2`, `Status & 0x4 is 0`, with a link from `here` to the item.
-pub(super) fn holds(condition: &Condition, scope: &Scope<'_>, here: Here<'_>) -> String {
-    linked(&|name| scope.link(name, here)).holds(condition)
+pub(super) fn holds(condition: &Condition, context: &Context<'_>, here: Here<'_>) -> String {
+    linked(&|name| context.link(name, here)).holds(condition)
 }
 
 /// The words of a description, as sentences.
@@ -126,30 +129,30 @@ fn doubts<'d>(list: impl Iterator<Item = &'d Doubt>, manual: &Manual) -> Vec<Str
 }
 
 /// The ambiguities of a device about an element, in paragraphs.
-pub(super) fn doubts_about(scope: &Scope<'_>, kind: SubjectKind, name: &str, lines: &mut Vec<String>) {
-    let all = scope.device.into_iter().flat_map(|device| &device.doubts);
-    for doubt in doubts(all.filter(|doubt| doubt.is_about(kind, name)), &scope.manual) {
+pub(super) fn doubts_about(context: &Context<'_>, kind: SubjectKind, name: &str, lines: &mut Vec<String>) {
+    let all = context.device.into_iter().flat_map(|device| &device.doubts);
+    for doubt in doubts(all.filter(|doubt| doubt.is_about(kind, name)), &context.manual) {
         lines.extend([String::new(), doubt]);
     }
 }
 
 /// The first lines about the type at this position: its name, what the source says of it, and whose values are of it.
-pub(super) fn of_type(scope: &Scope<'_>, position: u32) -> Vec<String> {
-    let Some(definition) = scope.types.get(position as usize) else { return Vec::new() };
+pub(super) fn of_type(context: &Context<'_>, position: u32) -> Vec<String> {
+    let Some(definition) = context.types.get(position as usize) else { return Vec::new() };
     let mut lines = vec![sentence(&escape(&definition.name))];
-    described(definition.documentation.as_deref(), &scope.manual, &mut lines);
-    doubts_about(scope, SubjectKind::Type, &definition.name, &mut lines);
-    let users = scope.links.users(position, Here::TYPES);
+    described(definition.documentation.as_deref(), &context.manual, &mut lines);
+    doubts_about(context, SubjectKind::Type, &definition.name, &mut lines);
+    let users = context.links.users(position, Here::TYPES);
     if !users.is_empty() {
         lines.extend([String::new(), users]);
     }
     lines
 }
 
-fn facts(item: &Item, scope: &Scope<'_>, words: &Words<'_>) -> String {
-    let base = scope.base(item.ty);
+fn facts(item: &Item, context: &Context<'_>, words: &Words<'_>) -> String {
+    let base = context.base(item.ty);
     let mut line = String::with_capacity(64);
-    let place = Place::of(scope, item).facts(scope, item);
+    let place = Place::of(context, item).facts(context, item);
     if !place.is_empty() {
         let _ = write!(line, "{}, ", capital(&place));
     }

@@ -2,14 +2,15 @@
 
 use std::collections::HashSet;
 
+use super::context::Context;
 use super::doc_table;
 use super::docs;
 use super::docs::WORDS;
 use super::links::Here;
+use super::naming::types::NamedType;
 use super::options::RustOptions;
-use super::scope::Scope;
-use super::value_type::{self, ValueType};
-use crate::ir::{EnumValue, Shape, Type, Zone};
+use super::value_type;
+use crate::ir::{EnumValue, Shape, Zone};
 use crate::names::{self, Case, Wish};
 
 /// An enumeration, ready to be written.
@@ -21,10 +22,6 @@ pub(super) struct EnumerationModel {
     pub base: &'static str,
     /// The type of its numbers: `u8`.
     pub native: &'static str,
-    /// The integer below.
-    pub ty: Type,
-    /// Length in bits.
-    pub bits: u32,
     /// The bits of its numbers, where each number of so many bits has a name.
     pub complete: Option<String>,
     pub variants: Vec<VariantModel>,
@@ -43,56 +40,42 @@ const COMPLETE: u32 = 6;
 /// Variants of every enumeration, and what its code names.
 const RESERVED: [&str; 2] = ["Self", "Unknown"];
 
-/// The enumeration at this position, as yet without a name; `None` where it has no value that its integer has.
+/// The enumeration at this position.
 ///
-/// One `in_field` that names every number of so many bits has no variant for others.
-pub(super) fn model(
-    scope: &Scope<'_>,
-    position: u32,
-    in_field: bool,
-    options: &RustOptions,
-) -> Option<EnumerationModel> {
-    let definition = scope.types.get(position as usize)?;
-    let Shape::Enumeration { base, values, .. } = &definition.shape else { return None };
-    // A truth value with names for its values is a number of one bit.
-    let base = match scope.base(*base) {
-        Type::Boolean => Type::Unsigned(1),
-        other => other,
+/// One that a bit field has, and that names every number of so many bits, has no variant for others.
+pub(super) fn model(context: &Context<'_>, position: u32, own: &NamedType, options: &RustOptions) -> EnumerationModel {
+    let values = match context.types.get(position as usize).map(|own| &own.shape) {
+        Some(Shape::Enumeration { values, .. }) => values.as_slice(),
+        _ => &[],
     };
-    let (low, high) = base.integer_range()?;
-    let (path, native) = ValueType::of(base).number()?;
+    let (low, high) = own.ty.integer_range().unwrap_or_default();
     let mut seen = HashSet::new();
     let values: Vec<&EnumValue> = values
         .iter()
         .filter(|value| value.last.is_none() && (low..=high).contains(&value.value) && seen.insert(value.value))
         .collect();
-    if values.is_empty() {
-        return None;
-    }
-    let bits = base.bits()?;
-    let complete = in_field && bits <= COMPLETE && values.len() == 1 << bits;
-    let variants = variants(&values, scope);
-    let mut docs = docs::of_type(scope, position);
+    let in_field = context.names.types.in_fields.contains(&position);
+    let complete = in_field && own.bits <= COMPLETE && values.len() == 1 << own.bits;
+    let variants = variants(&values, context);
+    let mut docs = docs::of_type(context, position);
     let row = |(value, own): (&&EnumValue, &VariantModel)| {
         let meaning = doc_table::meaning(&value.name, &own.name, value.documentation.as_deref());
         [own.value.clone(), format!("[`{0}`](Self::{0})", own.name), meaning]
     };
     let rows: Vec<[String; 3]> = values.iter().zip(&variants).take(doc_table::MAX_ROWS + 1).map(row).collect();
     docs.extend(doc_table::table(["Value", "Name", "Meaning"], &rows));
-    Some(EnumerationModel {
+    EnumerationModel {
         docs,
         derives: options.derives(true),
-        base: path,
-        native,
-        ty: base,
-        bits,
-        complete: complete.then(|| format!("{:#X}", (1_u32 << bits) - 1).replacen("0X", "0x", 1)),
+        base: own.base,
+        native: own.native,
+        complete: complete.then(|| format!("{:#X}", (1_u32 << own.bits) - 1).replacen("0X", "0x", 1)),
         variants,
-        name: String::new(),
-    })
+        name: own.name.clone(),
+    }
 }
 
-fn variants(values: &[&EnumValue], scope: &Scope<'_>) -> Vec<VariantModel> {
+fn variants(values: &[&EnumValue], context: &Context<'_>) -> Vec<VariantModel> {
     let wishes: Vec<Wish<'_>> = values
         .iter()
         .map(|value| Wish::new(&value.name, "value", value.value.to_string().replace('-', "Minus")))
@@ -103,7 +86,7 @@ fn variants(values: &[&EnumValue], scope: &Scope<'_>) -> Vec<VariantModel> {
         let title = docs::escape(&value.name);
         let mut docs =
             if title.is_empty() { format!("{number}.") } else { format!("{number}: {}", docs::sentence(&title)) };
-        for more in about(value, scope) {
+        for more in about(value, context) {
             docs.push(' ');
             docs.push_str(&more);
         }
@@ -113,7 +96,7 @@ fn variants(values: &[&EnumValue], scope: &Scope<'_>) -> Vec<VariantModel> {
 }
 
 /// What else is known of a value.
-fn about(value: &EnumValue, scope: &Scope<'_>) -> Vec<String> {
+fn about(value: &EnumValue, context: &Context<'_>) -> Vec<String> {
     let mut sentences = Vec::new();
     match value.zone {
         Some(Zone::Reserved) => sentences.push("Must not be used.".to_owned()),
@@ -122,11 +105,11 @@ fn about(value: &EnumValue, scope: &Scope<'_>) -> Vec<String> {
     }
     docs::words(value.documentation.as_deref(), &mut sentences);
     if let Some(condition) = &value.when {
-        sentences.push(format!("Only while {}.", docs::holds(condition, scope, Here::TYPES)));
+        sentences.push(format!("Only while {}.", docs::holds(condition, context, Here::TYPES)));
     }
     if let Some(availability) = &value.availability {
         sentences.push(WORDS.availability(availability));
     }
-    sentences.extend(WORDS.place(&scope.manual, "", value.documentation.as_deref(), &value.names));
+    sentences.extend(WORDS.place(&context.manual, "", value.documentation.as_deref(), &value.names));
     sentences
 }

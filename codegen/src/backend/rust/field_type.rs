@@ -1,8 +1,8 @@
 //! How the bits of a value are written in Rust, and turned into an integer and back.
 
 use super::code::{call, seq, Break, Doc};
-use super::named::NamedType;
-use super::scope::Scope;
+use super::context::Context;
+use super::naming::types::NamedType;
 use crate::ir::Type;
 
 /// Bits of a word.
@@ -101,13 +101,13 @@ fn cast(value: &Doc, ty: &str) -> Doc {
 }
 
 /// How `bits` bits of a type are written.
-pub(super) fn field_type(scope: &Scope<'_>, ty: Type, bits: u32) -> FieldType {
+pub(super) fn field_type(context: &Context<'_>, ty: Type, bits: u32) -> FieldType {
     // The sign of a number has its place at the top of an integer of Rust's own.
     let is_whole = |named: &NamedType| !named.is_signed() || native_bits(named.native) == bits;
-    if let Some(named) = scope.enumeration(ty).filter(|named| named.bits == bits && is_whole(named)) {
+    if let Some(named) = context.enumeration(ty).filter(|named| named.bits == bits && is_whole(named)) {
         return FieldType::Named(named.name.clone(), named.native);
     }
-    let ty = scope.base(ty);
+    let ty = context.base(ty);
     let is_whole = ty.bits() == Some(bits);
     match ty {
         Type::Boolean if bits == 1 => FieldType::Bool,

@@ -1,9 +1,9 @@
 //! Numbers that no device holds and only whoever builds the machine knows.
 
+use super::context::Context;
 use super::docs;
 use super::docs::WORDS;
 use super::options::RustOptions;
-use super::scope::Scope;
 use crate::ir::{Device, Item, MachineUnit};
 use crate::names::{self, Case, Wish};
 
@@ -32,7 +32,7 @@ pub(super) fn wish(name: &str) -> Wish<'_> {
 }
 
 /// `None` where nothing is given.
-pub(super) fn model(scope: &Scope<'_>, device: &Device, options: &RustOptions) -> Option<GivenModel> {
+pub(super) fn model(context: &Context<'_>, device: &Device, options: &RustOptions) -> Option<GivenModel> {
     let wishes: Vec<Wish<'_>> = device.given.iter().map(|own| wish(&own.name)).collect();
     let names = names::unique(&wishes, &["self", "super", "crate"], Case::Snake);
     let field = |name: &str| {
@@ -43,8 +43,8 @@ pub(super) fn model(scope: &Scope<'_>, device: &Device, options: &RustOptions) -
         let mut lines = vec![format!("{}{}.", docs::escape(&own.name), in_unit(&own.unit))];
         let mut sentences = Vec::new();
         docs::words(own.documentation.as_deref(), &mut sentences);
-        sentences.extend(WORDS.place(&scope.manual, "", own.documentation.as_deref(), &[]));
-        sentences.extend(own.doubts.iter().map(|own| WORDS.doubt(&scope.manual, own)));
+        sentences.extend(WORDS.place(&context.manual, "", own.documentation.as_deref(), &[]));
+        sentences.extend(own.doubts.iter().map(|own| WORDS.doubt(&context.manual, own)));
         lines.extend(sentences.into_iter().flat_map(|sentence| [String::new(), sentence]));
         NumberModel { name: names::escaped(name), docs: lines }
     });

@@ -5,7 +5,6 @@ use std::collections::BTreeMap;
 use super::code::Doc;
 use super::item::ItemModel;
 use super::objects::ObjectModel;
-use crate::ir::Access;
 
 /// A short name of the handles with one access.
 #[derive(Clone, Copy)]
@@ -21,16 +20,6 @@ const ALIASES: [Alias; 4] = [
     Alias { name: "ReadWrite", marker: "rt::Rw", text: "that can be read and written" },
     Alias { name: "Constant", marker: "rt::Const", text: "that can be read and never changes" },
 ];
-
-/// The short name of the handles with an access.
-pub(super) fn alias(access: Access) -> &'static str {
-    match access {
-        Access::ReadOnly => "ReadOnly",
-        Access::WriteOnly => "WriteOnly",
-        Access::Constant => "Constant",
-        Access::ReadWrite | Access::ReadWriteInput | Access::ReadWriteOutput => "ReadWrite",
-    }
-}
 
 /// The short names that there is a handle for.
 pub(super) fn aliases(objects: &[ObjectModel]) -> Vec<Alias> {

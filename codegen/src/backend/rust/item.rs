@@ -2,15 +2,13 @@
 
 use super::code::{call, seq, Doc};
 use super::constructor::Arguments;
+use super::context::Context;
 use super::docs;
-use super::handle::alias;
+use super::item_type::ItemType;
 use super::links::Here;
 use super::locations::Locations;
 use super::place::Place;
-use super::quantity::{self, QuantityType};
-use super::scope::Scope;
-use super::value_type::ValueType;
-use crate::ir::Item;
+use crate::ir::{Access, Item};
 use crate::names;
 
 /// An entry.
@@ -69,7 +67,7 @@ pub(super) struct Title<'n> {
 
 /// The handle of an item that stands in this module of objects, or beside these; `outer` leads from there to the device's place.
 pub(super) fn model(
-    scope: &Scope<'_>,
+    context: &Context<'_>,
     locations: &Locations,
     item: &Item,
     Title { name, original, chapter }: Title<'_>,
@@ -80,9 +78,9 @@ pub(super) fn model(
         Some(path) => (Here::new(outer, path), Here::new(outer, path)),
         None => (Here::OBJECTS, Here::TOP),
     };
-    let place = Place::of(scope, item);
+    let place = Place::of(context, item);
     let heading = heading(original, &place.heading());
-    let ty = ItemType::of(scope, item);
+    let ty = ItemType::of(context, item);
     let location = |outer: &str| locations.argument(place.buses(), outer);
     let on = location("").map(|_| place.buses().word()).unwrap_or_default();
     let types = |outer: &str| std::iter::once(ty.path(outer)).chain(location(outer).map(Doc::from)).collect();
@@ -90,17 +88,21 @@ pub(super) fn model(
     ItemModel {
         constant: name.to_ascii_uppercase(),
         method: names::escaped(name),
-        docs: docs::item(item, original, chapter, scope, here),
-        method_docs: if scope.links.has_methods { docs::method(item, &heading, scope, of_method) } else { Vec::new() },
+        docs: docs::item(item, original, chapter, context, here),
+        method_docs: if context.links.has_methods {
+            docs::method(item, &heading, context, of_method)
+        } else {
+            Vec::new()
+        },
         heading,
         access: alias(item.access),
         arguments: types(outer),
         arguments_at_top: types(""),
         arguments_beside: types("super::"),
         alias: format!("{}{}{on}", alias(item.access), ty.word()),
-        constructor: arguments.constructor(&place, || locations.code(scope, &place, outer)),
+        constructor: arguments.constructor(&place, || locations.code(context, &place, outer)),
         real: ty.basic.is_real() && (item.default.is_some() || !item.limits.is_empty()),
-        object: place.object_on(scope.bus),
+        object: place.object_on(context.bus),
         mappable: None,
     }
 }
@@ -113,41 +115,12 @@ pub(super) fn heading(name: &str, address: &str) -> String {
     }
 }
 
-/// The type of an item's value: an enumeration or a bit field, a quantity, or nothing but the basic type.
-pub(super) struct ItemType<'s> {
-    pub basic: ValueType,
-    /// The name of the enumeration or the bit field.
-    pub named: Option<&'s str>,
-    quantity: Option<QuantityType>,
-}
-
-impl<'s> ItemType<'s> {
-    pub fn of(scope: &'s Scope<'_>, item: &Item) -> Self {
-        let named = scope.enumeration(item.ty);
-        ItemType {
-            // The number below an enumeration may be a truth value, which its code writes as one bit.
-            basic: named.map_or_else(|| scope.value_type(item.ty), |named| ValueType::of(named.ty)),
-            named: named.map(|named| named.name.as_str()),
-            quantity: if named.is_none() { quantity::of(scope, item) } else { None },
-        }
-    }
-
-    /// Its path; `outer` leads from where it stands to the device's place.
-    pub fn path(&self, outer: &str) -> Doc {
-        match (self.named, &self.quantity) {
-            (Some(name), _) => seq![outer, "types::", name],
-            (None, Some(quantity)) => quantity.path.clone(),
-            (None, None) => Doc::from(self.basic.path()),
-        }
-    }
-
-    /// Its name as a part of another one.
-    fn word(&self) -> String {
-        match (self.named, &self.quantity) {
-            // A name that begins with a digit has a `_` in front, which no name in camel case has within.
-            (Some(name), _) => names::prefixed("Named", name),
-            (None, Some(quantity)) => quantity.word.clone(),
-            (None, None) => self.basic.word(),
-        }
+/// The short name of the handles with an access.
+fn alias(access: Access) -> &'static str {
+    match access {
+        Access::ReadOnly => "ReadOnly",
+        Access::WriteOnly => "WriteOnly",
+        Access::Constant => "Constant",
+        Access::ReadWrite | Access::ReadWriteInput | Access::ReadWriteOutput => "ReadWrite",
     }
 }

@@ -4,12 +4,11 @@
 
 use std::collections::HashMap;
 
-use super::composite;
-use super::docs;
-use super::messages;
-use super::objects::is_cased;
+use super::located::Located;
+use super::naming::handles::is_cased;
+use super::naming::pdos::is_generated;
+use super::naming::{composites, messages, Names};
 use super::options::RustOptions;
-use super::pdo;
 use super::reachable::{addressable, is_module};
 use super::scope::Scope;
 use crate::ir::{Device, Item, PdoEntryKind, Type};
@@ -144,14 +143,14 @@ pub(super) struct Links {
 
 impl Links {
     /// `device_name` is the name of the device's type.
-    pub fn of(scope: &Scope<'_>, options: &RustOptions, device_name: &str) -> Self {
+    pub fn of(scope: &Located<'_>, names: &Names, options: &RustOptions, device_name: &str) -> Self {
         let mut links = Links::default();
-        let has_objects = !scope.names.is_empty() && scope.device.is_some_and(has_object_access);
+        let has_objects = !names.handles.is_empty() && scope.device.is_some_and(has_object_access);
         let requests = scope.device.map(|device| links.add_messages(device)).unwrap_or_default();
         links.has_methods = options.accessors && (has_objects || requests > 0);
-        links.add_handles(scope, Some(device_name).filter(|_| links.has_methods));
+        links.add_handles(scope, names, Some(device_name).filter(|_| links.has_methods));
         if options.pdos {
-            links.add_pdos(scope);
+            links.add_pdos(scope, names);
         }
         if let Some(device) = scope.device {
             links.add_wholes(scope, device, device_name);
@@ -167,11 +166,11 @@ impl Links {
         requests
     }
 
-    fn add_handles(&mut self, scope: &Scope<'_>, device: Option<&str>) {
-        for ((_, item), name) in scope.registers.iter().zip(&scope.names.registers) {
+    fn add_handles(&mut self, scope: &Located<'_>, names: &Names, device: Option<&str>) {
+        for ((_, item), name) in scope.registers.iter().zip(&names.handles.registers) {
             self.add_handle(scope, item, name, device);
         }
-        for (group, (name, subs)) in addressable(scope).zip(&scope.names.objects) {
+        for (group, (name, subs)) in addressable(scope).zip(&names.handles.objects) {
             if !is_module(group) {
                 group.items.iter().for_each(|item| self.add_handle(scope, item, name, device));
                 continue;
@@ -203,11 +202,11 @@ impl Links {
         self.handles.insert(item, handle);
     }
 
-    fn add_pdos(&mut self, scope: &Scope<'_>) {
-        for (own, name) in scope.pdos.iter().zip(pdo::names(scope)).filter(|(own, _)| pdo::is_generated(own)) {
+    fn add_pdos(&mut self, scope: &Scope<'_>, names: &Names) {
+        for (own, name) in scope.pdos.iter().zip(&names.pdos).filter(|(own, _)| is_generated(own)) {
             for entry in own.entries.iter().filter(|entry| entry.kind == PdoEntryKind::Item) {
                 let carriers = self.carriers.entry((entry.index, entry.sub_index)).or_default();
-                if carriers.last() != Some(&name) {
+                if carriers.last() != Some(name) {
                     carriers.push(name.clone());
                 }
             }
@@ -215,7 +214,7 @@ impl Links {
     }
 
     fn add_wholes(&mut self, scope: &Scope<'_>, device: &Device, device_name: &str) {
-        for (own, name) in device.composites.iter().zip(composite::names(device)) {
+        for (own, name) in device.composites.iter().zip(composites::names(device)) {
             let name = if name == device_name { format!("const@{name}") } else { name };
             let parts = own.parts.iter().chain(own.sign.as_ref().map(|(item, _)| item));
             for item in parts.filter_map(|part| scope.item(part)) {
@@ -247,29 +246,33 @@ impl Links {
     }
 
     /// What belongs to an item, for the method that reads and writes it: its constant, its type, and the PDOs that carry it.
-    pub fn beside_method(&self, scope: &Scope<'_>, item: &Item, here: Here<'_>) -> String {
+    pub fn beside_method(&self, item: &Item, ty: Option<&str>, here: Here<'_>) -> String {
         let constant = self.constant(item).map(|path| format!("Constant: {}.", here.whole(path)));
-        self.beside(scope, item, constant, here)
+        self.beside(item, [constant, values(ty, here)], here)
     }
 
     /// The same for its constant, with its method.
-    pub fn beside_constant(&self, scope: &Scope<'_>, item: &Item, here: Here<'_>) -> String {
+    pub fn beside_constant(&self, item: &Item, ty: Option<&str>, here: Here<'_>) -> String {
         let method = self.handles.get(&std::ptr::from_ref(item)).and_then(|own| own.method.as_ref());
         let link = |path: &String| if here.is_of(path) { here.whole(path) } else { here.code(path) };
-        self.beside(scope, item, method.map(|path| format!("Accessor: {}.", link(path))), here)
+        let method = method.map(|path| format!("Accessor: {}.", link(path)));
+        self.beside(item, [method, values(ty, here)], here)
     }
 
-    fn beside(&self, scope: &Scope<'_>, item: &Item, first: Option<String>, here: Here<'_>) -> String {
-        let ty = scope.enumeration(item.ty).map(|named| here.code(&format!("types::{}", named.name)));
+    fn beside(&self, item: &Item, first: [Option<String>; 2], here: Here<'_>) -> String {
         let carriers = item.object().and_then(|object| self.carriers.get(&object));
         let carriers: Vec<String> = carriers.into_iter().flatten().map(|name| format!("pdo::{name}")).collect();
         let carriers: Vec<&str> = carriers.iter().map(String::as_str).collect();
-        let ty = ty.map(|ty| format!("Values: {ty}.")).unwrap_or_default();
         let wholes = self.wholes.get(&std::ptr::from_ref(item)).into_iter().flatten();
         let wholes = sentence("Part of", &wholes.map(String::as_str).collect::<Vec<_>>(), here);
-        let all = [first.unwrap_or_default(), ty, wholes, sentence("Carried by", &carriers, here)];
-        all.into_iter().filter(|one| !one.is_empty()).collect::<Vec<_>>().join(" ")
+        let behind = [wholes, sentence("Carried by", &carriers, here)];
+        first.into_iter().flatten().chain(behind).filter(|one| !one.is_empty()).collect::<Vec<_>>().join(" ")
     }
+}
+
+/// The sentence about the type of an item's values.
+fn values(ty: Option<&str>, here: Here<'_>) -> Option<String> {
+    Some(format!("Values: {}.", here.code(&format!("types::{}", ty?))))
 }
 
 /// Whether a client can reach the objects: those that PDOs prove of a slave without CoE are nowhere but in its PDOs.
@@ -295,15 +298,6 @@ fn sentence(start: &str, paths: &[&str], here: Here<'_>) -> String {
         _ => String::new(),
     };
     format!("{start} {}{more}.", shown.join(", "))
-}
-
-impl Scope<'_> {
-    /// A link from `here` to the item, or else to the message, that the description calls so.
-    pub fn link(&self, name: &str, here: Here<'_>) -> Option<String> {
-        let item = self.item(name).and_then(|item| self.links.constant(item));
-        let path = item.or_else(|| self.links.message(name))?;
-        Some(here.text(&docs::escape(name), path))
-    }
 }
 
 #[cfg(test)]

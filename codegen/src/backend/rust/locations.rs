@@ -3,9 +3,9 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::code::{list, Doc};
+use super::context::Context;
 use super::place::{Buses, Place};
 use super::reachable::addressable;
-use super::scope::Scope;
 
 /// Where the windows are, as seen from the handles.
 const WINDOWS: &str = "super::windows::";
@@ -35,10 +35,10 @@ struct Shared {
 }
 
 impl Locations {
-    pub fn of(scope: &Scope<'_>) -> Self {
-        let objects = addressable(scope).flat_map(|group| &group.items);
-        let items = objects.chain(scope.registers.iter().map(|(_, item)| *item));
-        let places: Vec<Place<'_>> = items.map(|item| Place::of(scope, item)).collect();
+    pub fn of(context: &Context<'_>) -> Self {
+        let objects = addressable(context).flat_map(|group| &group.items);
+        let items = objects.chain(context.registers.iter().map(|(_, item)| *item));
+        let places: Vec<Place<'_>> = items.map(|item| Place::of(context, item)).collect();
         let mut each: BTreeMap<Buses, usize> = BTreeMap::new();
         for place in &places {
             *each.entry(place.buses()).or_default() += 1;
@@ -48,7 +48,7 @@ impl Locations {
             several: each.keys().any(|own| *own != usual),
             usual,
             each: each.into_keys().chain([usual]).collect(),
-            shared: shared(scope, &places),
+            shared: shared(context, &places),
         }
     }
 
@@ -61,14 +61,14 @@ impl Locations {
     }
 
     /// The code of an item's location; `outer` leads from the handle's place to the device's.
-    pub fn code(&self, scope: &Scope<'_>, place: &Place<'_>, outer: &str) -> Doc {
-        let found = place.maker(scope, WINDOWS).and_then(|own| {
+    pub fn code(&self, context: &Context<'_>, place: &Place<'_>, outer: &str) -> Doc {
+        let found = place.maker(context, WINDOWS).and_then(|own| {
             let is_own = |shared: &Shared| shared.body == own.body && shared.parameters == own.parameters;
             let at = self.shared.iter().position(is_own)?;
             Some(list(&format!("{}{}(", beside_handles(outer), maker(at)), own.arguments, ")"))
         });
         let path = self.name(place.buses(), beside_handles(outer));
-        found.unwrap_or_else(|| place.code(scope, &path, &format!("{outer}windows::")))
+        found.unwrap_or_else(|| place.code(context, &path, &format!("{outer}windows::")))
     }
 
     /// The name of a location's type; `outer` leads from where it stands to the device's place.
@@ -110,10 +110,10 @@ fn usual(each: &BTreeMap<Buses, usize>) -> Buses {
 }
 
 /// What makes more than one of these places.
-fn shared(scope: &Scope<'_>, places: &[Place<'_>]) -> Vec<Shared> {
+fn shared(context: &Context<'_>, places: &[Place<'_>]) -> Vec<Shared> {
     let mut makers: BTreeMap<(Doc, Vec<String>), (usize, Buses)> = BTreeMap::new();
     for place in places {
-        if let Some(own) = place.maker(scope, WINDOWS) {
+        if let Some(own) = place.maker(context, WINDOWS) {
             makers.entry((own.body, own.parameters)).or_insert((0, place.buses())).0 += 1;
         }
     }

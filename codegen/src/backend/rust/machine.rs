@@ -4,16 +4,17 @@ use std::collections::HashMap;
 
 use super::bit_field::BitFieldModel;
 use super::code::{Data, Doc};
+use super::context::Context;
 use super::doc_table;
 use super::docs;
 use super::enumeration::EnumerationModel;
 use super::links::Here;
+use super::naming::machines;
 use super::options::RustOptions;
-use super::scope::Scope;
 use super::value_type;
 use crate::facts::pattern;
 use crate::ir::{Pattern, Shape, StateMachine, SubjectKind, Transition, Type};
-use crate::names::{self, Case, Wish};
+use crate::names::{self, Case};
 
 /// A state machine, ready to be written.
 pub(super) struct MachineModel {
@@ -65,77 +66,49 @@ pub(super) struct PatternModel {
     pub is_whole: bool,
 }
 
-/// What the types of states and of commands are to be called: simply so, where there is one machine and no other type of
-/// that name.
-pub(super) fn names(machines: &[StateMachine], is_taken: &dyn Fn(&str) -> bool) -> Vec<[String; 2]> {
-    let is_simple = |name: &str| machines.len() == 1 && !is_taken(name);
-    let name = |machine: &StateMachine, simple: &str, kind: &str| match is_simple(simple) {
-        true => simple.to_owned(),
-        false => format!("{} {kind}", machine.name),
-    };
-    machines.iter().map(|own| [name(own, "State", "state"), name(own, "Command", "command")]).collect()
-}
-
-/// The methods that bit fields get, those of commands without their `with_`.
-pub(super) fn methods(machines: &[StateMachine]) -> Vec<[String; 2]> {
-    let names = names(machines, &|_| false);
-    let wishes: Vec<Wish<'_>> = names
-        .iter()
-        .flatten()
-        .map(|name| Wish { name, fallback: "machine".to_owned(), suffix: "machine".to_owned() })
-        .collect();
-    let mut methods = names::unique(&wishes, &[], Case::Snake).into_iter();
-    machines.iter().map(|_| [methods.next().unwrap_or_default(), methods.next().unwrap_or_default()]).collect()
-}
-
-/// The method that gives a command, by its name in [`methods`].
-pub(super) fn setter(command: &str) -> String {
-    names::prefixed("with_", command)
-}
-
 pub(super) fn models(
-    scope: &Scope<'_>,
+    context: &Context<'_>,
     machines: &[StateMachine],
-    names: Vec<[String; 2]>,
     bit_fields: &[(u32, BitFieldModel)],
     enumerations: &[(u32, EnumerationModel)],
     options: &RustOptions,
 ) -> Vec<MachineModel> {
+    let names = context.names.types.machines.iter().cloned();
     let model = |((machine, [states, commands]), [state, command]): ((&StateMachine, [String; 2]), [String; 2])| {
         let patterns =
-            |name, list, item: &str, method| patterns(scope, name, list, (item, method), bit_fields, options);
+            |name, list, item: &str, method| patterns(context, name, list, (item, method), bit_fields, options);
         // The values of an enumeration have a type already.
         let own_states = if machine.state_type.is_some() { &[] } else { &*machine.states };
         let mut states = patterns(states, own_states, &machine.status_item, state);
-        let method = setter(&command);
+        let method = machines::setter(&command);
         let mut commands = patterns(commands, &machine.commands, &machine.control_item, method);
         let transitions = states
             .as_ref()
             .zip(commands.as_ref())
             .and_then(|(states, commands)| steps(&machine.transitions, states, commands));
         let named = Named {
-            scope,
-            states: states_of(scope, machine, states.as_ref(), enumerations),
+            context,
+            states: states_of(context, machine, states.as_ref(), enumerations),
             commands: commands.as_ref().map(|own| (own.name.clone(), own.by_name())),
         };
         let listed = named.transitions(machine);
         let has_commands = commands.is_some();
         if let Some(own) = &mut commands {
-            own.docs = documentation(scope, machine, ("Commands", &machine.control_item, "takes"), own);
+            own.docs = documentation(context, machine, ("Commands", &machine.control_item, "takes"), own);
             own.docs.extend(listed.iter().cloned());
         }
         if let Some(own) = &mut states {
-            own.docs = documentation(scope, machine, ("States", &machine.status_item, "tells"), own);
+            own.docs = documentation(context, machine, ("States", &machine.status_item, "tells"), own);
             own.docs.extend(listed.into_iter().filter(|_| !has_commands));
         }
         MachineModel { states, commands, transitions }
     };
-    machines.iter().zip(names).zip(methods(machines)).map(model).collect()
+    machines.iter().zip(names).zip(machines::methods(machines)).map(model).collect()
 }
 
 /// The lines about states or commands, and their table.
 fn documentation(
-    scope: &Scope<'_>,
+    context: &Context<'_>,
     machine: &StateMachine,
     (what, item, does): (&str, &str, &str),
     own: &PatternsModel,
@@ -143,13 +116,13 @@ fn documentation(
     let item = match item {
         "" => String::new(),
         item => {
-            let item = scope.link(item, Here::TYPES).unwrap_or_else(|| docs::escape(item));
+            let item = context.link(item, Here::TYPES).unwrap_or_else(|| docs::escape(item));
             format!(", as {item} {does} them")
         }
     };
     let mut lines = vec![format!("{what} of {}{item}.", docs::escape(&machine.name))];
-    docs::described(machine.documentation.as_deref(), &scope.manual, &mut lines);
-    docs::doubts_about(scope, SubjectKind::Machine, &machine.name, &mut lines);
+    docs::described(machine.documentation.as_deref(), &context.manual, &mut lines);
+    docs::doubts_about(context, SubjectKind::Machine, &machine.name, &mut lines);
     let row =
         |own: &PatternModel| [format!("[`{0}`](Self::{0})", own.name), format!("`{}`", own.bits), own.meaning.clone()];
     let rows: Vec<[String; 3]> = own.patterns.iter().map(row).collect();
@@ -162,7 +135,7 @@ pub(super) type Variants = (String, HashMap<String, String>);
 
 /// The type of a machine's states: its own one, or an enumeration.
 pub(super) fn states_of(
-    scope: &Scope<'_>,
+    context: &Context<'_>,
     machine: &StateMachine,
     own: Option<&PatternsModel>,
     enumerations: &[(u32, EnumerationModel)],
@@ -171,9 +144,9 @@ pub(super) fn states_of(
         let own = own?;
         return Some((own.name.clone(), own.by_name()));
     };
-    let is_own = |at: &u32| scope.types.get(*at as usize).is_some_and(|own| own.name == *name);
+    let is_own = |at: &u32| context.types.get(*at as usize).is_some_and(|own| own.name == *name);
     let (at, own) = enumerations.iter().find(|(at, _)| is_own(at))?;
-    let Shape::Enumeration { values, .. } = &scope.types.get(*at as usize)?.shape else { return None };
+    let Shape::Enumeration { values, .. } = &context.types.get(*at as usize)?.shape else { return None };
     let variant = |number: i128| {
         let number = value_type::number(number, number > 0);
         own.variants.iter().find(|variant| variant.value == number).map(|variant| variant.name.clone())
@@ -184,7 +157,7 @@ pub(super) fn states_of(
 
 /// What transitions name.
 struct Named<'n, 's> {
-    scope: &'n Scope<'s>,
+    context: &'n Context<'s>,
     states: Option<Variants>,
     commands: Option<Variants>,
 }
@@ -203,7 +176,7 @@ impl Named<'_, '_> {
 
     /// A command, or the message that is one.
     fn command(&self, name: &str) -> String {
-        let message = || Some(Here::TYPES.text(&docs::escape(name), self.scope.links.message(name)?));
+        let message = || Some(Here::TYPES.text(&docs::escape(name), self.context.links.message(name)?));
         Named::variant(self.commands.as_ref(), name).or_else(message).unwrap_or_else(|| docs::escape(name))
     }
 
@@ -257,17 +230,17 @@ fn steps(transitions: &[Transition], states: &PatternsModel, commands: &Patterns
 }
 
 fn patterns(
-    scope: &Scope<'_>,
+    context: &Context<'_>,
     name: String,
     list: &[Pattern],
     (item, method): (&str, String),
     bit_fields: &[(u32, BitFieldModel)],
     options: &RustOptions,
 ) -> Option<PatternsModel> {
-    let ty = scope.item(item).map(|item| item.ty);
-    let position = ty.and_then(|ty| scope.resolve(ty).1).map(|(position, _)| position);
+    let ty = context.item(item).map(|item| item.ty);
+    let position = ty.and_then(|ty| context.resolve(ty).1).map(|(position, _)| position);
     let bits = bit_fields.iter().find(|(own, _)| Some(*own) == position).map(|(_, own)| own);
-    let native = match (bits, ty.map(|ty| scope.base(ty))) {
+    let native = match (bits, ty.map(|ty| context.base(ty))) {
         (Some(own), _) => own.native,
         (None, Some(Type::Unsigned(8) | Type::Integer(8))) => "u8",
         (None, Some(Type::Unsigned(16) | Type::Integer(16))) => "u16",

@@ -12,6 +12,7 @@ mod code_table;
 mod code_type;
 mod composite;
 mod constructor;
+mod context;
 mod device_models;
 mod device_names;
 mod doc_table;
@@ -23,14 +24,17 @@ mod given;
 mod handle;
 mod identity;
 mod item;
+mod item_type;
 mod links;
 mod literal;
+mod located;
 mod locations;
 mod machine;
 mod messages;
 mod method_names;
 mod model;
 mod named;
+mod naming;
 mod objects;
 mod options;
 mod pdo;
@@ -44,15 +48,19 @@ mod reachable;
 mod remap;
 mod route;
 mod scope;
+mod slot_dependency;
 mod table;
 mod value_type;
 mod variant;
 mod window;
+mod window_model;
+mod words;
 
 pub use options::{Presence, RustOptions};
 
 use crate::ir::{Catalog, Device, FileInfo, Item, Scale};
 use code::Code;
+use context::Context;
 use ethercat::ModulePaths;
 use model::Model;
 use scope::Scope;
@@ -93,19 +101,19 @@ fn header(file: &FileInfo) -> String {
 
 /// The lines of a program that read and write each item of a device, as in `device.identity().vendor_id().read()?`.
 pub fn calls(device: &Device) -> Vec<(&Item, Vec<String>)> {
-    let (scope, _) = Scope::of_device(device, &RustOptions::default(), "");
-    let lines = |(item, path): (_, String)| (item, calls_of(&scope, item, &path));
-    objects::calls(&scope).into_iter().map(lines).collect()
+    let context = model::context(Scope::of_device(device), &RustOptions::default(), "");
+    let lines = |(item, path): (_, String)| (item, calls_of(&context, item, &path));
+    objects::calls(&context).into_iter().map(lines).collect()
 }
 
 /// Reads and writes in the item's unit first, then those of the raw value.
-fn calls_of(scope: &Scope<'_>, item: &Item, path: &str) -> Vec<String> {
+fn calls_of(context: &Context<'_>, item: &Item, path: &str) -> Vec<String> {
     let (suffix, other) = match item.quantity.as_ref().and_then(|own| own.scale.as_ref()) {
         Some(Scale::ByItem { .. } | Scale::Fraction { .. } | Scale::Exponent { .. }) => ("_by", "other"),
         _ => ("", ""),
     };
     let both = if other.is_empty() { "physical".to_owned() } else { format!("physical, {other}") };
-    let is_scaled = quantity::of(scope, item).is_some();
+    let is_scaled = quantity::of(context, item).is_some();
     let calls = [
         (is_scaled && item.access.readable(), format!("read_scaled{suffix}({other})")),
         (is_scaled && item.access.writable(), format!("write_scaled{suffix}({both})")),

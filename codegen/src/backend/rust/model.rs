@@ -1,10 +1,11 @@
-//! A device or a module as the plain data that the template writes down.
+//! A device or a module as the plain data that is written down.
 
 use super::axes::{self, AxesModel};
 use super::bus_facts::{self, FactModel};
 use super::code::Doc;
 use super::code_table::{self, CodeTableModel};
 use super::composite;
+use super::context::Context;
 use super::device_models::{self, DeviceModel};
 use super::device_names;
 use super::docs;
@@ -12,22 +13,32 @@ use super::ethercat::{self, EtherCatModel, ModulePaths};
 use super::given::{self, GivenModel};
 use super::handle::{self, Alias};
 use super::identity::IdentityModel;
+use super::links::Links;
 use super::literal;
+use super::located::Located;
 use super::locations::Locations;
 use super::messages::ProtocolModel;
 use super::method_names::{method_allow, BESIDE_MESSAGES, RESERVED};
 use super::named::Types;
+use super::naming::Names;
 use super::objects::{self, ObjectModel};
 use super::options::{Presence, RustOptions};
 use super::pdo::{self, PdoModel};
 use super::procedure::{self, ProcedureModel};
-use super::reachable;
 use super::remap::{self, RemappableModel};
 use super::scope::{ObjectBus, Scope};
 use super::table::{self, EntryModel};
-use super::window::{self, WindowModel};
+use super::window_model::{self, WindowModel};
 use super::INTERFACE_VERSION;
 use crate::ir::{Device, FileInfo, Module};
+
+/// The stages before lowering: what is found where, its names, and links to it.
+pub(super) fn context<'a>(scope: Scope<'a>, options: &RustOptions, device_name: &str) -> Context<'a> {
+    let located = Located::of(scope);
+    let names = Names::of(&located);
+    let links = Links::of(&located, &names, options, device_name);
+    Context { located, names, links }
+}
 
 /// A device, ready to be written.
 pub(super) struct Model<'a> {
@@ -88,57 +99,57 @@ impl<'a> Model<'a> {
     /// A device, which finds the constants of modules by these paths.
     pub(super) fn new(device: &'a Device, file: &'a FileInfo, options: &'a RustOptions, modules: &ModulePaths) -> Self {
         let device_name = device_names::device_name(device, file, options.device_name.as_deref());
-        let (scope, types) = Scope::of_device(device, options, &device_name);
-        let mut model = Model::of_scope(&scope, types, options);
-        model.protocol = model.protocol_of(&scope);
-        model.has_accessors = scope.links.has_methods;
+        let context = context(Scope::of_device(device), options, &device_name);
+        let mut model = Model::of_context(&context, options);
+        model.protocol = model.protocol_of(&context);
+        model.has_accessors = context.links.has_methods;
         model.device_name = device_name;
         model.title = docs::escape(&device_names::title(device));
         model.identity = (!device.dictionary_only).then(|| IdentityModel::new(device));
-        model.procedures = procedure::models(&scope, device);
-        model.models = device_models::models(&scope, device, &model.objects);
-        model.given = given::model(&scope, device, options);
+        model.procedures = procedure::models(&context, device);
+        model.models = device_models::models(&context, device, &model.objects);
+        model.given = given::model(&context, device, options);
         model.ethercat = EtherCatModel::new(device, &model.pdos, modules);
-        model.code_tables = code_table::models(&scope, device, options);
+        model.code_tables = code_table::models(&context, device, options);
         model.axes = axes::model(device);
         model.bus_facts = bus_facts::models(device);
-        model.bus_facts.extend(composite::models(&scope, device));
+        model.bus_facts.extend(composite::models(&context, device));
         model.node_id = device.commissioning.as_ref().and_then(|own| own.node_id);
         model
     }
 
     /// A module of a modular device.
     pub(super) fn of_module(module: &'a Module, options: &'a RustOptions) -> Self {
-        let (scope, types) = Scope::of_module(module, options);
-        let mut model = Model::of_scope(&scope, types, options);
+        let context = context(Scope::of_module(module), options, "");
+        let mut model = Model::of_context(&context, options);
         model.title = docs::escape(&module.name);
         model.module = Some(ethercat::module(module, &model.pdos));
         model
     }
 
     /// What devices and modules have.
-    fn of_scope(scope: &Scope<'a>, types: Types, options: &'a RustOptions) -> Self {
-        let locations = Locations::of(scope);
-        let mut objects = objects::models(scope, &locations);
-        let pdos = if options.pdos { pdo::models(scope, options) } else { Vec::new() };
-        let remappable = if options.pdos { remap::models(scope, &mut objects) } else { Vec::new() };
+    fn of_context(context: &Context<'a>, options: &'a RustOptions) -> Self {
+        let locations = Locations::of(context);
+        let mut objects = objects::models(context, &locations);
+        let pdos = if options.pdos { pdo::models(context, options) } else { Vec::new() };
+        let remappable = if options.pdos { remap::models(context, &mut objects) } else { Vec::new() };
         Model {
             location: locations.name(locations.usual, ""),
             has_locations: locations.several,
             locations: locations.own(),
             makers: locations.makers(),
-            windows: window::models(scope),
-            handles: reachable::handles(scope),
-            types,
+            windows: window_model::models(context),
+            handles: context.handles(),
+            types: Types::of(context, options),
             accessor_derives: options.derives(false),
             method_allow: method_allow(objects.iter().map(|object| object.name.as_str())),
             aliases: handle::aliases(&objects),
             handle_types: handle::types(&objects),
             objects,
-            has_views: scope.bus == ObjectBus::CoE && !pdos.is_empty(),
+            has_views: context.bus == ObjectBus::CoE && !pdos.is_empty(),
             pdos,
             remappable,
-            table: (options.table != Presence::Never).then(|| table::models(scope)),
+            table: (options.table != Presence::Never).then(|| table::models(context)),
             table_feature: match &options.table {
                 Presence::Feature(feature) => Some(literal::string(feature)),
                 _ => None,
@@ -187,10 +198,10 @@ impl<'a> Model<'a> {
     }
 
     /// Requests and replies. Their methods stand beside those of the objects.
-    fn protocol_of(&self, scope: &Scope<'_>) -> Option<ProtocolModel> {
+    fn protocol_of(&self, context: &Context<'_>) -> Option<ProtocolModel> {
         let objects = self.objects.iter().map(|object| object.name.trim_start_matches("r#"));
         let taken: Vec<&str> = objects.chain(RESERVED).chain(BESIDE_MESSAGES).collect();
-        ProtocolModel::new(scope, self.options, &self.types, &taken)
+        ProtocolModel::new(context, self.options, &self.types, &taken)
     }
 
     /// Whether the type of the device knows which request was sent last.

@@ -3,17 +3,19 @@
 use std::collections::{HashMap, HashSet};
 
 use super::code::{call, list, seq, Break, Data, Doc};
+use super::context::Context;
 use super::doc_table;
 use super::docs;
 use super::docs::WORDS;
-use super::ethercat::depends_on;
 use super::field_type::{field_type, FieldType};
 use super::links::Here;
 use super::method_names::{beside, method_allow};
+use super::naming::pdos::{is_field, is_generated};
 use super::options::RustOptions;
 use super::reachable::addressable;
-use super::scope::{ObjectBus, Scope};
-use crate::ir::{Direction, Group, ObjectBuses, Pdo, PdoCommunication, PdoEntry, PdoEntryKind, Value};
+use super::scope::ObjectBus;
+use super::slot_dependency::depends_on;
+use crate::ir::{Group, ObjectBuses, Pdo, PdoCommunication, PdoEntry, PdoEntryKind, Value};
 use crate::names::{self, Case, Wish};
 use crate::source::Span;
 
@@ -73,92 +75,23 @@ pub(super) struct FieldModel {
 }
 
 /// Models of all PDOs that have something to carry.
-pub(super) fn models(scope: &Scope<'_>, options: &RustOptions) -> Vec<PdoModel> {
-    let names = names(scope);
-    scope.pdos.iter().zip(names).filter_map(|(pdo, name)| model(scope, pdo, name, options)).collect()
+pub(super) fn models(context: &Context<'_>, options: &RustOptions) -> Vec<PdoModel> {
+    let named = context.pdos.iter().zip(&context.names.pdos);
+    named.filter_map(|(pdo, name)| model(context, pdo, name.clone(), options)).collect()
 }
 
-/// Those of CANopen go by their number, on EtherCAT too if the device is on both; those of EtherCAT have names.
-pub(super) fn names(scope: &Scope<'_>) -> Vec<String> {
-    let all_numbered = scope.pdos.iter().all(|pdo| pdo.communication.is_some());
-    let by_number = |pdo: &Pdo| all_numbered || bus_of(scope, pdo) == ObjectBus::CanOpen;
-    let numbers = numbered(scope.pdos.iter().filter(|pdo| by_number(pdo)));
-    let mut named = names_by_source(scope, |pdo| !by_number(pdo), &numbers).into_iter();
-    let mut numbers = numbers.into_iter();
-    let own = |pdo: &Pdo| if by_number(pdo) { numbers.next() } else { named.next() };
-    scope.pdos.iter().filter_map(own).collect()
-}
-
-/// `RxPdo1`; of several with one number, as where a table and the dictionary describe one, the others are `RxPdo1_2`, ….
-fn numbered<'p>(pdos: impl Iterator<Item = &'p Pdo>) -> Vec<String> {
-    let mut seen: HashMap<String, usize> = HashMap::new();
-    let name = |pdo: &Pdo| {
-        let name = format!("{}{}", prefix(pdo.direction), pdo.number);
-        let count = seen.entry(name.clone()).or_default();
-        *count += 1;
-        if *count == 1 {
-            name
-        } else {
-            format!("{name}_{count}")
-        }
-    };
-    pdos.map(name).collect()
-}
-
-/// The bus of a PDO: that of the device, or the only one that the PDO is on.
-fn bus_of(scope: &Scope<'_>, pdo: &Pdo) -> ObjectBus {
-    match pdo.buses {
-        Some(ObjectBuses::COE) => ObjectBus::CoE,
-        Some(ObjectBuses::CANOPEN) => ObjectBus::CanOpen,
-        _ => scope.bus,
-    }
-}
-
-/// The names that PDOs have in their source; none of them is one of `taken`.
-fn names_by_source(scope: &Scope<'_>, wanted: impl Fn(&Pdo) -> bool, taken: &[String]) -> Vec<String> {
-    let mut seen = HashSet::new();
-    let wishes: Vec<Wish<'_>> = scope
-        .pdos
-        .iter()
-        .filter(|pdo| wanted(pdo))
-        .map(|pdo| {
-            // One index twice, on two sync managers, is a fault of the description.
-            let twice = if seen.insert(pdo.mapping_index) { String::new() } else { format!("_{}", pdo.origin.line) };
-            Wish::new(&pdo.name, prefix(pdo.direction), format!("{:04X}{twice}", pdo.mapping_index))
-        })
-        .collect();
-    let reserved: Vec<&str> = RESERVED.iter().copied().chain(taken.iter().map(String::as_str)).collect();
-    names::unique(&wishes, &reserved, Case::Pascal)
-}
-
-/// Names that the code of PDOs uses itself, and those of its constructors, which must not be that of the type.
-const RESERVED: [&str; 13] =
-    ["Self", "Result", "Ok", "Err", "Option", "Some", "None", "AsRef", "AsMut", "B", "At", "New", "Unpack"];
-
-fn prefix(direction: Direction) -> &'static str {
-    match direction {
-        Direction::Receive => "RxPdo",
-        Direction::Transmit => "TxPdo",
-    }
-}
-
-/// Whether there is a struct for a PDO.
-pub(super) fn is_generated(pdo: &Pdo) -> bool {
-    let mut mapped = pdo.entries.iter().filter(|entry| is_field(entry)).peekable();
-    mapped.peek().is_some() && mapped.all(|entry| entry.bits <= crate::limits::MAX_FIELD_BITS)
-}
-
-fn model(scope: &Scope<'_>, pdo: &Pdo, struct_name: String, options: &RustOptions) -> Option<PdoModel> {
+fn model(context: &Context<'_>, pdo: &Pdo, struct_name: String, options: &RustOptions) -> Option<PdoModel> {
     if !is_generated(pdo) {
         return None;
     }
     let mapped: Vec<&PdoEntry> = pdo.entries.iter().filter(|entry| is_field(entry)).collect();
-    let fields = fields(scope, &mapped, options);
-    let is_constant = !mapped.iter().any(|entry| matches!(field_type(scope, entry.ty, entry.bits), FieldType::Real(_)));
+    let fields = fields(context, &mapped, options);
+    let is_constant =
+        !mapped.iter().any(|entry| matches!(field_type(context, entry.ty, entry.bits), FieldType::Real(_)));
     let word = pdo.bits() <= WORD;
     Some(PdoModel {
-        docs: documentation(scope, pdo, &fields),
-        view_docs: view_docs(scope, pdo, &struct_name),
+        docs: documentation(context, pdo, &fields),
+        view_docs: view_docs(context, pdo, &struct_name),
         name: struct_name,
         derives: options.derives(true),
         mapping_index: pdo.mapping_index,
@@ -167,19 +100,19 @@ fn model(scope: &Scope<'_>, pdo: &Pdo, struct_name: String, options: &RustOption
         bits: pdo.bits(),
         length: pdo.bytes(),
         constant: if is_constant && word { "const " } else { "" },
-        covered: covered(scope, &mapped),
+        covered: covered(context, &mapped),
         fields,
         mapping: pdo.entries.iter().map(mapping_line).collect(),
         word,
         cob_id: cob_id(pdo),
-        configuration: configuration(scope, pdo),
+        configuration: configuration(context, pdo),
         has_identifier: has_identifier(pdo),
     })
 }
 
 /// The lines about a PDO.
-fn documentation(scope: &Scope<'_>, pdo: &Pdo, fields: &[FieldModel]) -> Vec<String> {
-    let mut lines = vec![title(scope, pdo)];
+fn documentation(context: &Context<'_>, pdo: &Pdo, fields: &[FieldModel]) -> Vec<String> {
+    let mut lines = vec![title(context, pdo)];
     let mut facts = vec![format!("Mapping 0x{:04X}, {} bits", pdo.mapping_index, pdo.bits())];
     if let Some(own) = &pdo.communication {
         facts.extend(own.cob_id.as_ref().map(|value| format!("COB-ID {}", identifier(value))));
@@ -187,8 +120,8 @@ fn documentation(scope: &Scope<'_>, pdo: &Pdo, fields: &[FieldModel]) -> Vec<Str
     }
     let mut sentences = vec![docs::sentence(&facts.join(", "))];
     docs::words(pdo.documentation.as_deref(), &mut sentences);
-    sentences.extend(WORDS.place(&scope.manual, "", pdo.documentation.as_deref(), &[]));
-    sentences.extend(pdo.doubts.iter().map(|own| WORDS.doubt(&scope.manual, own)));
+    sentences.extend(WORDS.place(&context.manual, "", pdo.documentation.as_deref(), &[]));
+    sentences.extend(pdo.doubts.iter().map(|own| WORDS.doubt(&context.manual, own)));
     for sentence in sentences {
         lines.extend([String::new(), sentence]);
     }
@@ -206,8 +139,8 @@ fn identifier(value: &Value) -> String {
 }
 
 /// The lines about the view of a PDO.
-fn view_docs(scope: &Scope<'_>, pdo: &Pdo, name: &str) -> Vec<String> {
-    vec![title(scope, pdo), String::new(), format!("Its layout: [`pdo::{name}`](super::pdo::{name}).")]
+fn view_docs(context: &Context<'_>, pdo: &Pdo, name: &str) -> Vec<String> {
+    vec![title(context, pdo), String::new(), format!("Its layout: [`pdo::{name}`](super::pdo::{name}).")]
 }
 
 /// Methods of a struct that a field may be called as.
@@ -244,8 +177,8 @@ fn span(entry: &PdoEntry) -> String {
 }
 
 /// What the PDO is called, as a sentence.
-pub(super) fn title(scope: &Scope<'_>, pdo: &Pdo) -> String {
-    let buses = match bus_of(scope, pdo) {
+pub(super) fn title(context: &Context<'_>, pdo: &Pdo) -> String {
+    let buses = match context.bus_of(pdo) {
         ObjectBus::CanOpen => ObjectBuses::CANOPEN,
         ObjectBus::CoE => ObjectBuses::COE,
     };
@@ -254,16 +187,12 @@ pub(super) fn title(scope: &Scope<'_>, pdo: &Pdo) -> String {
     docs::sentence(&format!("{title}{name}"))
 }
 
-fn is_field(entry: &PdoEntry) -> bool {
-    entry.kind != PdoEntryKind::Padding && entry.bits > 0
-}
-
 /// All bits that come back from unpacking and packing: a time has four reserved bits that don't.
-fn covered(scope: &Scope<'_>, mapped: &[&PdoEntry]) -> String {
+fn covered(context: &Context<'_>, mapped: &[&PdoEntry]) -> String {
     const TIME: u64 = 0xFFFF_0FFF_FFFF;
     let mut covered: u64 = 0;
     for entry in mapped.iter().filter(|entry| entry.bit_offset + entry.bits <= WORD) {
-        let bits = match field_type(scope, entry.ty, entry.bits) {
+        let bits = match field_type(context, entry.ty, entry.bits) {
             FieldType::Time(_) => TIME,
             _ => u64::MAX >> (WORD - entry.bits),
         };
@@ -294,8 +223,8 @@ pub(super) fn mapping_line(entry: &PdoEntry) -> Doc {
     list(&format!("{path}("), arguments, ")")
 }
 
-fn fields(scope: &Scope<'_>, mapped: &[&PdoEntry], options: &RustOptions) -> Vec<FieldModel> {
-    let texts: Vec<String> = mapped.iter().map(|entry| field_text(scope, entry)).collect();
+fn fields(context: &Context<'_>, mapped: &[&PdoEntry], options: &RustOptions) -> Vec<FieldModel> {
+    let texts: Vec<String> = mapped.iter().map(|entry| field_text(context, entry)).collect();
     let mut seen = HashSet::new();
     let wishes: Vec<Wish<'_>> = mapped
         .iter()
@@ -313,7 +242,7 @@ fn fields(scope: &Scope<'_>, mapped: &[&PdoEntry], options: &RustOptions) -> Vec
     let names = names::unique_up_to(&wishes, &["self", "super", "crate"], Case::Snake, MAX_FIELD_NAME);
     let fields = mapped.iter().zip(&names).zip(&texts);
     let mut fields: Vec<FieldModel> =
-        fields.map(|((entry, name), text)| field(scope, entry, name, text, options)).collect();
+        fields.map(|((entry, name), text)| field(context, entry, name, text, options)).collect();
     // Methods called `new` and `at` make the view, others are those of traits that every type may have, and a field may be called as the
     // setter of another.
     const TAKEN: [&str; 5] = ["new", "at", "clone", "into", "try_into"];
@@ -332,12 +261,12 @@ fn address(entry: &PdoEntry) -> (u16, u8) {
 }
 
 /// The name of the mapped entry: that of its object, and for one of several of an object also its own.
-fn field_text(scope: &Scope<'_>, entry: &PdoEntry) -> String {
+fn field_text(context: &Context<'_>, entry: &PdoEntry) -> String {
     // On EtherCAT the description of the PDO names its entries, mostly better than the dictionary does.
-    if scope.bus == ObjectBus::CoE && !entry.name.is_empty() {
+    if context.bus == ObjectBus::CoE && !entry.name.is_empty() {
         return entry.name.to_string();
     }
-    let Some(group) = scope.object(entry.index) else { return entry.name.to_string() };
+    let Some(group) = context.object(entry.index) else { return entry.name.to_string() };
     if group.object_code().is_some_and(|code| code.has_subs()) || group.items.len() != 1 {
         let own = entry.name.as_str();
         // Compact objects repeat the object's name in that of each entry.
@@ -351,13 +280,13 @@ fn field_text(scope: &Scope<'_>, entry: &PdoEntry) -> String {
     }
 }
 
-fn field(scope: &Scope<'_>, entry: &PdoEntry, name: &str, text: &str, options: &RustOptions) -> FieldModel {
+fn field(context: &Context<'_>, entry: &PdoEntry, name: &str, text: &str, options: &RustOptions) -> FieldModel {
     let name = names::escaped(name);
-    let kind = field_type(scope, entry.ty, entry.bits);
+    let kind = field_type(context, entry.ty, entry.bits);
     let ty = kind.path("super::");
     let cut = kind.cut(entry.bits);
     let address = crate::facts::address::object(entry.index, entry.sub_index);
-    let object = match (entry.kind, scope.links.object((entry.index, entry.sub_index))) {
+    let object = match (entry.kind, context.links.object((entry.index, entry.sub_index))) {
         (PdoEntryKind::Unnumbered, _) => String::new(),
         (PdoEntryKind::Item, Some(path)) => Here::PDO.text(&address, path),
         _ => address,
@@ -578,14 +507,14 @@ pub(super) fn cob_id(pdo: &Pdo) -> Option<String> {
 
 /// The writes that set the PDO up as described: disable, clear, map, count, type, enable (CiA 301 7.5.2.36). What the
 /// device doesn't let anyone write is left out.
-fn configuration(scope: &Scope<'_>, pdo: &Pdo) -> Vec<String> {
+fn configuration(context: &Context<'_>, pdo: &Pdo) -> Vec<String> {
     let Some(communication) = &pdo.communication else { return Vec::new() };
     let cob_id_writable = communication.writable.contains(&1);
     if cob_id(pdo).is_none() || !cob_id_writable {
         return Vec::new();
     }
     let mut writes = vec![write("u32", communication.index, 1, "cob_id | 0x8000_0000")];
-    writes.extend(mapping_writes(scope, pdo));
+    writes.extend(mapping_writes(context, pdo));
     writes.extend(timing_writes(communication));
     writes.push(write("u32", communication.index, 1, "cob_id & 0x7FFF_FFFF"));
     writes
@@ -610,9 +539,9 @@ pub(super) fn has_identifier(pdo: &Pdo) -> bool {
     matches!(value, Some(Value::NodeId(base) | Value::Int(base)) if base & IDENTIFIER != 0)
 }
 
-fn mapping_writes(scope: &Scope<'_>, pdo: &Pdo) -> Vec<String> {
+fn mapping_writes(context: &Context<'_>, pdo: &Pdo) -> Vec<String> {
     let writable = |group: &Group, sub| group.sub(sub).is_some_and(|item| item.access.writable());
-    let Some(mapping) = addressable(scope).find(|group| group.index() == Some(pdo.mapping_index)) else {
+    let Some(mapping) = addressable(context).find(|group| group.index() == Some(pdo.mapping_index)) else {
         return Vec::new();
     };
     let count = pdo.entries.len();

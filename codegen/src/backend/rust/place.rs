@@ -39,18 +39,18 @@ pub(super) struct Place<'i> {
 
 /// The code that makes the address of an item on a bus, where it has one there, and it can be read or written.
 pub(super) fn address(scope: &Scope<'_>, item: &Item, net: Net, writes: bool) -> Option<String> {
-    let place = Place::of(scope, item);
+    let place = Place::addresses(scope, item);
     place.is_possible(item, net, writes).then(|| place.address(net))?
 }
 
 impl<'i> Place<'i> {
-    pub fn of(scope: &Scope<'_>, item: &'i Item) -> Self {
+    /// The addresses of an item, as yet without routes.
+    fn addresses(scope: &Scope<'_>, item: &'i Item) -> Self {
         let base = scope.base(item.ty);
         let mut place = Place::of_value(base);
         for binding in &item.bindings {
             place.add(scope, base, binding);
         }
-        place.routes = place.routes(scope, item);
         place
     }
 

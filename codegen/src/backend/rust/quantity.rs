@@ -1,7 +1,7 @@
 //! Units and scales: the types of numbers that stand for physical ones, and what documentation says of them.
 
 use super::code::{generic, list, Doc};
-use super::scope::Scope;
+use super::context::Context;
 use crate::ir::{Item, Quantity, Scale};
 
 /// The type of a quantity.
@@ -14,12 +14,12 @@ pub(super) struct QuantityType {
 
 /// The type of an item's value, where it isn't just the number that it stands for; `None` as well where the scale is
 /// nothing that fractions of integers express.
-pub(super) fn of(scope: &Scope<'_>, item: &Item) -> Option<QuantityType> {
+pub(super) fn of(context: &Context<'_>, item: &Item) -> Option<QuantityType> {
     let quantity = item.quantity.as_ref()?;
     if item.variants.iter().any(|variant| variant.scale.is_some()) {
         return None;
     }
-    let ty = scope.value_type(item.ty);
+    let ty = context.value_type(item.ty);
     if !ty.is_real() {
         ty.number()?;
     }

@@ -3,12 +3,14 @@
 use std::collections::HashMap;
 
 use super::code::{seq, slice, Doc};
+use super::context::Context;
 use super::field_type;
 use super::links::Here;
+use super::naming::pdos::is_generated;
 use super::objects::ObjectModel;
 use super::pdo;
 use super::reachable::addressable;
-use super::scope::{ObjectBus, Scope};
+use super::scope::ObjectBus;
 use crate::ir::{Device, Direction, Item, Mappable, Pdo, PdoEntryKind, Type, MAX_PDO_SUBS};
 
 /// The most bits that the length of an entry can say.
@@ -29,23 +31,23 @@ pub(super) struct RemappableModel {
 }
 
 /// The PDOs that can be mapped anew; where there are any, items get to know how they are mapped.
-pub(super) fn models(scope: &Scope<'_>, objects: &mut [ObjectModel]) -> Vec<RemappableModel> {
-    let Some(device) = scope.device else { return Vec::new() };
-    let names = pdo::names(scope);
-    let models = scope.pdos.iter().zip(names).filter_map(|(pdo, name)| model(scope, device, pdo, name));
+pub(super) fn models(context: &Context<'_>, objects: &mut [ObjectModel]) -> Vec<RemappableModel> {
+    let Some(device) = context.device else { return Vec::new() };
+    let named = context.pdos.iter().zip(&context.names.pdos);
+    let models = named.filter_map(|(pdo, name)| model(context, device, pdo, name.clone()));
     let models: Vec<RemappableModel> = models.collect();
-    if models.is_empty() || !set_mappable(scope, objects) {
+    if models.is_empty() || !set_mappable(context, objects) {
         return Vec::new();
     }
     models
 }
 
-fn model(scope: &Scope<'_>, device: &Device, pdo: &Pdo, name: String) -> Option<RemappableModel> {
+fn model(context: &Context<'_>, device: &Device, pdo: &Pdo, name: String) -> Option<RemappableModel> {
     let is_module_s = pdo.depends_on_slot || pdo.depends_on_slot_group;
     if pdo.fixed || pdo.is_virtual || is_module_s {
         return None;
     }
-    let entries = writable_entries(scope, pdo);
+    let entries = writable_entries(context, pdo);
     let mut constants = vec![Doc::from(format!("INDEX: u16 = 0x{:04X}", pdo.mapping_index))];
     let cob_id = match &pdo.communication {
         Some(_) => {
@@ -55,7 +57,7 @@ fn model(scope: &Scope<'_>, device: &Device, pdo: &Pdo, name: String) -> Option<
         None => {
             let entries = entries.or_else(|| configures(device).then_some(MAX_PDO_SUBS));
             constants.push(seq!["ENTRIES: usize = ", entries?]);
-            on_ethercat(scope, device, pdo, &mut constants)?
+            on_ethercat(context, device, pdo, &mut constants)?
         }
     };
     let kept: Vec<Doc> = pdo.entries.iter().filter(|entry| entry.fixed).map(pdo::mapping_line).collect();
@@ -63,9 +65,9 @@ fn model(scope: &Scope<'_>, device: &Device, pdo: &Pdo, name: String) -> Option<
         constants.push(seq!["KEPT: &'static [rt::MappedEntry] = ", slice(kept)]);
     }
     Some(RemappableModel {
-        title: match pdo::is_generated(pdo) {
-            true => format!("{} By default: {}.", pdo::title(scope, pdo), Here::BESIDE.code(&format!("pdo::{name}"))),
-            false => pdo::title(scope, pdo),
+        title: match is_generated(pdo) {
+            true => format!("{} By default: {}.", pdo::title(context, pdo), Here::BESIDE.code(&format!("pdo::{name}"))),
+            false => pdo::title(context, pdo),
         },
         direction: match pdo.direction {
             Direction::Receive => "rt::Rpdo",
@@ -78,8 +80,8 @@ fn model(scope: &Scope<'_>, device: &Device, pdo: &Pdo, name: String) -> Option<
 }
 
 /// How many entries of the mapping object can be written, where the number of them can, too.
-fn writable_entries(scope: &Scope<'_>, pdo: &Pdo) -> Option<usize> {
-    let mapping = addressable(scope).find(|group| group.index() == Some(pdo.mapping_index))?;
+fn writable_entries(context: &Context<'_>, pdo: &Pdo) -> Option<usize> {
+    let mapping = addressable(context).find(|group| group.index() == Some(pdo.mapping_index))?;
     let writable = |sub: &u8| mapping.sub(*sub).is_some_and(|item| item.access.writable());
     let entries = (1..=u8::MAX).take_while(writable).count().min(MAX_PDO_SUBS);
     (writable(&0) && entries > 0).then_some(entries)
@@ -118,8 +120,8 @@ fn on_canopen(device: &Device, pdo: &Pdo, constants: &mut Vec<Doc>) -> Option<&'
 }
 
 /// What EtherCAT adds, and what stands for the identifier.
-fn on_ethercat(scope: &Scope<'_>, device: &Device, pdo: &Pdo, constants: &mut Vec<Doc>) -> Option<&'static str> {
-    if scope.bus != ObjectBus::CoE || device.dictionary_only {
+fn on_ethercat(context: &Context<'_>, device: &Device, pdo: &Pdo, constants: &mut Vec<Doc>) -> Option<&'static str> {
+    if context.bus != ObjectBus::CoE || device.dictionary_only {
         return None;
     }
     let managers = &device.process_data.sync_managers;
@@ -142,10 +144,10 @@ fn word(index: u16, sub_index: u8, bits: u32) -> String {
 }
 
 /// Tells every item that can be mapped how; whether there is one.
-fn set_mappable(scope: &Scope<'_>, objects: &mut [ObjectModel]) -> bool {
-    let items = scope.groups.iter().flat_map(|group| &group.items);
+fn set_mappable(context: &Context<'_>, objects: &mut [ObjectModel]) -> bool {
+    let items = context.groups.iter().flat_map(|group| &group.items);
     let items: HashMap<(u16, u8), &Item> = items.filter_map(|item| Some((item.object()?, item))).collect();
-    let by_default = mapped_by_default(scope);
+    let by_default = mapped_by_default(context);
     let mut any = false;
     for object in objects {
         let outer = if object.is_module { "super::super::" } else { "super::" };
@@ -158,7 +160,7 @@ fn set_mappable(scope: &Scope<'_>, objects: &mut [ObjectModel]) -> bool {
                 into.rpdo |= proven.rpdo;
                 into.tpdo |= proven.tpdo;
             }
-            model.mappable = arguments(scope, item, place, into, outer);
+            model.mappable = arguments(context, item, place, into, outer);
             any |= model.mappable.is_some();
         }
     }
@@ -166,9 +168,9 @@ fn set_mappable(scope: &Scope<'_>, objects: &mut [ObjectModel]) -> bool {
 }
 
 /// What is mapped by default can be mapped in that direction, even where the description forgets to say so.
-fn mapped_by_default(scope: &Scope<'_>) -> HashMap<(u16, u8), Mappable> {
+fn mapped_by_default(context: &Context<'_>) -> HashMap<(u16, u8), Mappable> {
     let mut mapped: HashMap<(u16, u8), Mappable> = HashMap::new();
-    for pdo in scope.pdos {
+    for pdo in context.pdos {
         for entry in pdo.entries.iter().filter(|entry| entry.kind == PdoEntryKind::Item) {
             let own = mapped.entry((entry.index, entry.sub_index)).or_default();
             own.rpdo |= pdo.direction == Direction::Receive;
@@ -180,7 +182,7 @@ fn mapped_by_default(scope: &Scope<'_>) -> HashMap<(u16, u8), Mappable> {
 
 /// The arguments of `rt::Mappable`: the type of the field, the direction, the entry of the mapping.
 fn arguments(
-    scope: &Scope<'_>,
+    context: &Context<'_>,
     item: &Item,
     (index, sub_index): (u16, u8),
     into: Mappable,
@@ -192,8 +194,8 @@ fn arguments(
         (false, true) => "rt::Tpdo",
         (false, false) => return None,
     };
-    let bits = bits(scope.base(item.object_type())).filter(|bits| (1..=MAX_ENTRY).contains(bits))?;
-    let field = field_type::field_type(scope, item.ty, bits).path(outer);
+    let bits = bits(context.base(item.object_type())).filter(|bits| (1..=MAX_ENTRY).contains(bits))?;
+    let field = field_type::field_type(context, item.ty, bits).path(outer);
     Some([field, direction.to_owned(), word(index, sub_index, bits)])
 }
 

@@ -3,17 +3,9 @@
 use std::cell::OnceCell;
 use std::collections::HashMap;
 
-use super::links::Links;
-use super::named::{self, NamedType, Types};
-use super::objects::{self, Names};
-use super::options::RustOptions;
-use super::reachable;
 use super::value_type::ValueType;
-use super::window::{self, Window};
 use crate::facts::words;
-use crate::ir::{
-    Device, Group, Item, ItemNames, Manual, Module, Pdo, ProcessImage, Shape, StateMachine, Type, TypeDef,
-};
+use crate::ir::{Device, Group, Item, ItemNames, Manual, Module, ObjectBuses, Pdo, ProcessImage, Shape, Type, TypeDef};
 
 /// The bus on which objects are addressed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -32,16 +24,6 @@ pub(super) struct Scope<'a> {
     pub device: Option<&'a Device>,
     /// What is known of the manual that the description was taken from.
     pub manual: Manual,
-    /// The windows through which items are found.
-    pub windows: Vec<Window>,
-    /// The enumerations and bit fields that an item, a PDO or a bit field has, by the position of their types.
-    pub named: HashMap<u32, NamedType>,
-    /// The items of chapters and images that a client can reach, with the titles of those.
-    pub registers: Vec<(&'a str, &'a Item)>,
-    /// The names of the handles.
-    pub names: Names,
-    /// What documentation can link to.
-    pub links: Links,
     /// Items by what they are called.
     called: ItemNames<'a>,
     /// The first values of objects by the names of those.
@@ -49,20 +31,16 @@ pub(super) struct Scope<'a> {
 }
 
 impl<'a> Scope<'a> {
-    /// A device, and its types ready to be written.
-    pub fn of_device(device: &'a Device, options: &RustOptions, device_name: &str) -> (Self, Types) {
+    /// A device.
+    pub fn of_device(device: &'a Device) -> Self {
         let bus = if device.ethercat.is_some() || device.dictionary_only { ObjectBus::CoE } else { ObjectBus::CanOpen };
-        let mut scope = Scope::new(bus, &device.groups, &device.types, &device.process_data.pdos);
-        scope.manual = words::manual(device);
-        scope.device = Some(device);
-        scope.windows = window::windows(&scope, device);
-        scope.with_types(&device.machines, options, device_name)
+        let scope = Scope::new(bus, &device.groups, &device.types, &device.process_data.pdos);
+        Scope { manual: words::manual(device), device: Some(device), ..scope }
     }
 
-    /// A module, and its types ready to be written.
-    pub fn of_module(module: &'a Module, options: &RustOptions) -> (Self, Types) {
-        let scope = Scope::new(ObjectBus::CoE, &module.groups, &module.types, &module.process_data.pdos);
-        scope.with_types(&[], options, "")
+    /// A module.
+    pub fn of_module(module: &'a Module) -> Self {
+        Scope::new(ObjectBus::CoE, &module.groups, &module.types, &module.process_data.pdos)
     }
 
     fn new(bus: ObjectBus, groups: &'a [Group], types: &'a [TypeDef], pdos: &'a [Pdo]) -> Self {
@@ -73,29 +51,24 @@ impl<'a> Scope<'a> {
             pdos,
             device: None,
             manual: Manual::default(),
-            windows: Vec::new(),
-            named: HashMap::new(),
-            registers: Vec::new(),
-            names: Names::default(),
-            links: Links::default(),
             called: ItemNames::new(groups),
             by_object: OnceCell::new(),
         }
-    }
-
-    fn with_types(mut self, machines: &[StateMachine], options: &RustOptions, device_name: &str) -> (Self, Types) {
-        self.registers = reachable::registers(&self);
-        self.names = objects::names(&self);
-        self.links = Links::of(&self, options, device_name);
-        let types = named::types(&self, machines, options);
-        self.named = types.named();
-        (self, types)
     }
 
     /// The object with this index.
     pub fn object(&self, index: u16) -> Option<&'a Group> {
         let position = self.groups.binary_search_by_key(&Some(index), Group::index).ok()?;
         self.groups.get(position)
+    }
+
+    /// The bus of a PDO: that of the device, or the only one that the PDO is on.
+    pub fn bus_of(&self, pdo: &Pdo) -> ObjectBus {
+        match pdo.buses {
+            Some(ObjectBuses::COE) => ObjectBus::CoE,
+            Some(ObjectBuses::CANOPEN) => ObjectBus::CanOpen,
+            _ => self.bus,
+        }
     }
 
     /// The fixed process image of this name.
@@ -134,12 +107,6 @@ impl<'a> Scope<'a> {
     /// How values of a type are written.
     pub fn value_type(&self, ty: Type) -> ValueType {
         ValueType::of(self.base(ty))
-    }
-
-    /// The enumeration or the bit field of a type that is one.
-    pub fn enumeration(&self, ty: Type) -> Option<&NamedType> {
-        let (position, _) = self.resolve(ty).1?;
-        self.named.get(&position)
     }
 
     /// The item that other elements of the description call so: by its name, its object's name, its address, or the names

@@ -2,10 +2,10 @@
 
 use super::code::{call, Doc};
 use super::constructor::flags;
+use super::context::Context;
 use super::literal;
 use super::place::{ObjectAddress, Place};
 use super::reachable::{addressable, is_module};
-use super::scope::Scope;
 use super::value_type::ValueType;
 use super::variant;
 use crate::ir::{Access, Item, Type, Value};
@@ -26,16 +26,16 @@ pub(super) struct EntryModel {
 }
 
 /// Registers that are no objects, in the order of their addresses, and then the objects, by index and sub-index.
-pub(super) fn models(scope: &Scope<'_>) -> Vec<EntryModel> {
+pub(super) fn models(context: &Context<'_>) -> Vec<EntryModel> {
     let mut rows = Vec::new();
-    for group in addressable(scope) {
+    for group in addressable(context) {
         let by_object = !is_module(group);
         for item in &group.items {
-            entries(scope, item, if by_object { &group.name } else { &item.name }, &mut rows);
+            entries(context, item, if by_object { &group.name } else { &item.name }, &mut rows);
         }
     }
-    for (_, item) in &scope.registers {
-        entries(scope, item, &item.name, &mut rows);
+    for (_, item) in &context.registers {
+        entries(context, item, &item.name, &mut rows);
     }
     rows.sort_by_key(|(key, _)| *key);
     rows.into_iter().map(|(_, row)| row).collect()
@@ -45,22 +45,22 @@ pub(super) fn models(scope: &Scope<'_>) -> Vec<EntryModel> {
 type Key = (Option<ObjectAddress>, Option<(u8, u16, Option<u8>)>);
 
 /// The row of an item: two where its objects on CANopen and on EtherCAT differ, none of a parameter of a serial protocol.
-fn entries(scope: &Scope<'_>, item: &Item, name: &str, rows: &mut Vec<(Key, EntryModel)>) {
-    let place = Place::of(scope, item);
+fn entries(context: &Context<'_>, item: &Item, name: &str, rows: &mut Vec<(Key, EntryModel)>) {
+    let place = Place::of(context, item);
     let [object, other] = place.objects();
     let (mut register, key) = (place.register_code(), place.register_key());
     let at_object = Form::on(item, if place.is_on_canopen() { "canopen" } else { "ethercat" });
     let at_register = Form::on(item, "modbus");
     // As a register, the item may have another width, or another access.
     if object.is_some() && register.is_some() && at_object != at_register {
-        rows.push(((None, key), entry(scope, item, name, (None, register.take()), at_register)));
-        rows.push(((object, None), entry(scope, item, name, (object, None), at_object)));
+        rows.push(((None, key), entry(context, item, name, (None, register.take()), at_register)));
+        rows.push(((object, None), entry(context, item, name, (object, None), at_object)));
     } else if object.is_some() || register.is_some() {
         let form = if object.is_some() { at_object } else { at_register };
-        rows.push(((object, key), entry(scope, item, name, (object, register), form)));
+        rows.push(((object, key), entry(context, item, name, (object, register), form)));
     }
     let form = Form::on(item, "ethercat");
-    rows.extend(other.map(|other| ((Some(other), None), entry(scope, item, name, (Some(other), None), form))));
+    rows.extend(other.map(|other| ((Some(other), None), entry(context, item, name, (Some(other), None), form))));
 }
 
 /// What an item is on one bus.
@@ -77,13 +77,13 @@ impl Form {
 }
 
 fn entry(
-    scope: &Scope<'_>,
+    context: &Context<'_>,
     item: &Item,
     name: &str,
     (object, register): (Option<ObjectAddress>, Option<String>),
     form: Form,
 ) -> EntryModel {
-    let (base, ty) = (scope.base(form.ty), scope.value_type(form.ty));
+    let (base, ty) = (context.base(form.ty), context.value_type(form.ty));
     let unit = item.quantity.as_ref().map_or("", |quantity| quantity.unit.as_str());
     let limits = variant::widest(item);
     EntryModel {

@@ -1,8 +1,5 @@
 //! Windows: what takes the number of an item, and what has its value then.
 
-use super::code::{generic, Doc};
-use super::docs;
-use super::links::Here;
 use super::place;
 use super::route::Net;
 use super::scope::Scope;
@@ -15,26 +12,17 @@ const POLLS: u32 = 100;
 /// A window in one direction on one bus.
 #[derive(Clone, Debug)]
 pub(super) struct Window {
-    key: (String, u8, Net, bool),
-    side: WindowSide,
+    pub key: (String, u8, Net, bool),
+    pub side: WindowSide,
     /// Bits of the number.
     pub number_bits: u32,
     /// Bits of the value, and whether it has a sign.
     pub value: (u32, bool),
     /// What makes the addresses of both.
-    addresses: [String; 2],
-    number_first: bool,
-    handshake: String,
+    pub addresses: [String; 2],
+    pub number_first: bool,
+    pub handshake: String,
     pub name: String,
-}
-
-/// A window as the template writes it.
-pub(super) struct WindowModel {
-    pub docs: Vec<String>,
-    pub name: String,
-    pub ty: Doc,
-    pub kind: &'static str,
-    pub facts: Vec<String>,
 }
 
 /// All windows through which an item of the device is found, each once.
@@ -153,37 +141,6 @@ impl Told {
         let place = |name: &str| procedure.steps.iter().position(|step| writes(step, name));
         told.number_first = place(&side.number).zip(place(&side.value)).map(|(number, value)| number < value);
         told
-    }
-}
-
-/// The windows as the template writes them.
-pub(super) fn models(scope: &Scope<'_>) -> Vec<WindowModel> {
-    scope.windows.iter().map(|own| model(scope, own)).collect()
-}
-
-fn model(scope: &Scope<'_>, own: &Window) -> WindowModel {
-    let (_, _, net, is_write) = own.key;
-    let [number, value] = &own.addresses;
-    let mut facts = vec![
-        format!("number: {number}"),
-        format!("number_bits: {}", own.number_bits),
-        format!("value: {value}"),
-        format!("value_bits: {}", own.value.0),
-    ];
-    if is_write {
-        facts.push(format!("is_number_first: {}", own.number_first));
-    }
-    facts.push(format!("handshake: {}", own.handshake));
-    let link = |name: &str| scope.link(name, Here::BESIDE).unwrap_or_else(|| format!("\"{}\"", docs::escape(name)));
-    let [number, value] = [&own.side.number, &own.side.value].map(|name| link(name));
-    let verb = if is_write { "takes" } else { "gives" };
-    let kind = if is_write { "rt::WriteWindow" } else { "rt::ReadWindow" };
-    WindowModel {
-        docs: vec![format!("On {}: {number} takes a number, and {value} {verb} its value.", net.title())],
-        name: own.name.clone(),
-        ty: generic!(kind, net.address()),
-        kind,
-        facts,
     }
 }
 

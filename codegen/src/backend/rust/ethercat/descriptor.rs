@@ -1,9 +1,10 @@
 //! `DEVICE` and `MODULE`: the description of a slave as the runtime wants it.
 
-use super::{depends_on, Assigned, ModulePaths, NOTHING};
+use super::{Assigned, ModulePaths};
 use crate::backend::rust::code::{Data, Doc};
 use crate::backend::rust::literal;
 use crate::backend::rust::pdo::{mapping_entry, PdoModels};
+use crate::backend::rust::slot_dependency::{depends_on, NOTHING};
 use crate::ir::{
     Coe, CompactString, Device, Direction, EtherCatSettings, Fit, Group, InitCommand, Mailbox, Module, ModulePdoGroup,
     Pdo, Slot, SlotRules, SyncManager, SyncManagerPurpose,

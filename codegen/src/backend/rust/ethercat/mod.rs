@@ -56,19 +56,6 @@ pub(super) fn module(module: &Module, pdos: &[PdoModel]) -> Doc {
     descriptor::module(module, &PdoModels::new(pdos))
 }
 
-/// What an index grows with that is the same in every slot.
-const NOTHING: &str = "rt::ethercat::DependsOn::Nothing";
-
-/// What an index grows with.
-pub(super) fn depends_on(slot: bool, group: bool) -> &'static str {
-    match (slot, group) {
-        (false, false) => NOTHING,
-        (true, false) => "rt::ethercat::DependsOn::Slot",
-        (false, true) => "rt::ethercat::DependsOn::SlotGroup",
-        (true, true) => "rt::ethercat::DependsOn::Both",
-    }
-}
-
 /// A PDO that is assigned by default, with its sync manager.
 pub(super) struct Assigned<'a> {
     pub pdo: &'a Pdo,

@@ -3,14 +3,14 @@
 use std::collections::HashMap;
 
 use super::field::{self, Field};
+use crate::backend::rust::context::Context;
 use crate::backend::rust::docs;
 use crate::backend::rust::links::Here;
-use crate::backend::rust::scope::Scope;
 use crate::ir::{Completion, Device, Message, MessageValue, Shape, Type, Value};
 use crate::resolve::messages::Step;
 
 /// What documentation says of it.
-pub(super) fn sentence(scope: &Scope<'_>, message: &Message, here: Here<'_>) -> Option<String> {
+pub(super) fn sentence(context: &Context<'_>, message: &Message, here: Here<'_>) -> Option<String> {
     let late = message.reply_time.map(|time| format!(", after about {time} ms")).unwrap_or_default();
     Some(match &message.completion {
         Completion::Immediate => return None,
@@ -18,7 +18,7 @@ pub(super) fn sentence(scope: &Scope<'_>, message: &Message, here: Here<'_>) -> 
         Completion::Delayed(milliseconds) => format!("The order is carried out after {milliseconds} ms."),
         Completion::Polled { item, in_reply, .. } => {
             let when = if *in_reply { "The reply tells it already" } else { "Poll it with a further message" };
-            let item = scope.link(item, here).unwrap_or_else(|| docs::escape(item));
+            let item = context.link(item, here).unwrap_or_else(|| docs::escape(item));
             format!("The order is carried out when {item} says so. {when}.")
         }
     })
@@ -27,7 +27,7 @@ pub(super) fn sentence(scope: &Scope<'_>, message: &Message, here: Here<'_>) -> 
 /// The expression of a reply's `is_complete`: of the conditions by which orders are polled, the first that its fields can tell.
 /// `None` where what the reply has may still be about the order before.
 pub(super) fn expression(
-    scope: &Scope<'_>,
+    context: &Context<'_>,
     conditions: &Conditions<'_>,
     message: &Message,
     (steps, fields): (&[Step<'_>], &[Field]),
@@ -39,7 +39,7 @@ pub(super) fn expression(
     named.zip(fields).find_map(|(step, field)| {
         let Step::Value { value, .. } = step else { return None };
         let &(bit, mask, expected) = conditions.get(value.item.name.as_str())?;
-        compare(scope, value, &field.name, bit, mask, expected)
+        compare(context, value, &field.name, bit, mask, expected)
     })
 }
 
@@ -63,7 +63,7 @@ pub(super) fn conditions(device: &Device) -> Conditions<'_> {
 }
 
 fn compare(
-    scope: &Scope<'_>,
+    context: &Context<'_>,
     value: &MessageValue,
     field: &str,
     bit: Option<&str>,
@@ -74,8 +74,8 @@ fn compare(
         Some(expected) => Some(u64::try_from(expected.as_int()?).ok()?),
         None => None,
     };
-    let base = scope.base(value.item.ty);
-    let is_named = scope.enumeration(value.item.ty).is_some();
+    let base = context.base(value.item.ty);
+    let is_named = context.enumeration(value.item.ty).is_some();
     let own = if is_named { format!("self.{field}.raw()") } else { format!("self.{field}") };
     if base == Type::Boolean && !is_named {
         let is_set = expected.is_none_or(|expected| expected != 0);
@@ -85,7 +85,7 @@ fn compare(
     let (_, greatest) = base.integer_range()?;
     let number = |number: u64| (i128::from(number) <= greatest).then(|| format!("{number:#X}").replace("0X", "0x"));
     let (offset, mask) = match bit {
-        Some(bit) => bits(scope, value.item.ty, bit)?,
+        Some(bit) => bits(context, value.item.ty, bit)?,
         None => (0, mask.unwrap_or(u64::MAX)),
     };
     // Bits that no number has, or that aren't looked at, never tell it.
@@ -104,8 +104,8 @@ fn compare(
 }
 
 /// Offset and mask of the bits with this name.
-fn bits(scope: &Scope<'_>, ty: Type, name: &str) -> Option<(u32, u64)> {
-    let Shape::BitField { fields, .. } = &scope.resolve(ty).1?.1.shape else { return None };
+fn bits(context: &Context<'_>, ty: Type, name: &str) -> Option<(u32, u64)> {
+    let Shape::BitField { fields, .. } = &context.resolve(ty).1?.1.shape else { return None };
     let field = fields.iter().find(|field| field.name == name)?;
     let mask = u64::MAX.checked_shr(64_u32.checked_sub(field.bits.into())?)?;
     Some((field.offset.into(), mask))

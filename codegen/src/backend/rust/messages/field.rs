@@ -3,11 +3,11 @@
 use super::rules::Rules;
 use super::steps::number;
 use crate::backend::rust::code::{call, seq, Doc};
+use crate::backend::rust::context::Context;
 use crate::backend::rust::docs::{self, WORDS};
 use crate::backend::rust::field_type::{field_type, FieldType};
 use crate::backend::rust::links::Here;
 use crate::backend::rust::quantity;
-use crate::backend::rust::scope::Scope;
 use crate::backend::rust::value_type::{native, ValueType};
 use crate::backend::rust::variant;
 use crate::ir::{Item, MessageValue, Type};
@@ -46,13 +46,13 @@ enum Kind {
 type Check = (String, String, Doc);
 
 /// The fields of these steps. `entry` is the name of the type of what is repeated, `lifetime` that of what is borrowed.
-pub(super) fn fields(scope: &Scope<'_>, steps: &[Step<'_>], entry: &str) -> Vec<Field> {
+pub(super) fn fields(context: &Context<'_>, steps: &[Step<'_>], entry: &str) -> Vec<Field> {
     let with: Vec<&Step<'_>> = steps.iter().filter(|step| name(step).is_some()).collect();
     let wishes = names::numbered(with.iter().map(|step| name(step).unwrap_or_default()), "field");
     let reserved = ["self", "super", "crate"];
     let names = names::unique_up_to(&wishes, &reserved, Case::Snake, MAX_NAME);
     let all = with.iter().zip(&names).enumerate();
-    all.map(|(position, (step, name))| field(scope, step, names::escaped(name), position, entry)).collect()
+    all.map(|(position, (step, name))| field(context, step, names::escaped(name), position, entry)).collect()
 }
 
 /// What a field is called; `None` for a step that has none.
@@ -69,7 +69,7 @@ pub(super) fn name<'s>(step: &'s Step<'_>) -> Option<&'s str> {
     })
 }
 
-fn field(scope: &Scope<'_>, step: &Step<'_>, name: String, position: usize, entry: &str) -> Field {
+fn field(context: &Context<'_>, step: &Step<'_>, name: String, position: usize, entry: &str) -> Field {
     let plain = |ty: &str, docs: &str, kind: Kind| Field {
         name: name.clone(),
         docs: vec![docs.to_owned()],
@@ -80,7 +80,7 @@ fn field(scope: &Scope<'_>, step: &Step<'_>, name: String, position: usize, entr
         kind,
     };
     match step {
-        Step::Value { bits, value } => typed(scope, value, *bits, name, position),
+        Step::Value { bits, value } => typed(context, value, *bits, name, position),
         Step::Code { bits, .. } => plain("rt::Parameter", "Number of the parameter.", Kind::Code { bits: *bits }),
         Step::Blank { bits, space } => {
             plain("rt::Parameter", "Number of the parameter.", Kind::Blank { space: (*space).to_owned(), bits: *bits })
@@ -105,10 +105,10 @@ fn field(scope: &Scope<'_>, step: &Step<'_>, name: String, position: usize, entr
     }
 }
 
-fn typed(scope: &Scope<'_>, value: &MessageValue, bits: u32, name: String, position: usize) -> Field {
+fn typed(context: &Context<'_>, value: &MessageValue, bits: u32, name: String, position: usize) -> Field {
     let item = &value.item;
-    let own = field_type(scope, item.ty, bits);
-    let base = scope.base(item.ty);
+    let own = field_type(context, item.ty, bits);
+    let base = context.base(item.ty);
     let (ty, kind) = match own {
         FieldType::Bytes(length) => (format!("[u8; {length}]"), Kind::Text { length }),
         // A number of odd width is one of Rust's own that is checked.
@@ -134,7 +134,7 @@ fn typed(scope: &Scope<'_>, value: &MessageValue, bits: u32, name: String, posit
             let ty = other.path("super::");
             // The bits of an integer with a sign are a number without one.
             let base = match &other {
-                FieldType::Named(..) => scope.enumeration(item.ty).map_or(base, |named| named.ty),
+                FieldType::Named(..) => context.enumeration(item.ty).map_or(base, |named| named.ty),
                 _ => base,
             };
             let check = match &other {
@@ -156,9 +156,9 @@ fn typed(scope: &Scope<'_>, value: &MessageValue, bits: u32, name: String, posit
             (ty.clone(), Kind::Value { bits, order: value.byte_order.clone(), encode, decode, check })
         }
     };
-    let quantity = quantity::of(scope, item).filter(|_| !ty.contains("::"));
+    let quantity = quantity::of(context, item).filter(|_| !ty.contains("::"));
     let scale = quantity.map(|own| (constant(&name), own.path));
-    Field { docs: documentation(scope, item, base), ty, attribute: None, scale, position, kind, name }
+    Field { docs: documentation(context, item, base), ty, attribute: None, scale, position, kind, name }
 }
 
 /// The variable with what was read of the field at a position.
@@ -194,8 +194,8 @@ fn constant(field: &str) -> String {
     }
 }
 
-fn documentation(scope: &Scope<'_>, item: &Item, base: Type) -> Vec<String> {
-    let link = |name: &str| scope.link(name, Here::MESSAGES);
+fn documentation(context: &Context<'_>, item: &Item, base: Type) -> Vec<String> {
+    let link = |name: &str| context.link(name, Here::MESSAGES);
     let words = docs::linked(&link);
     let mut facts = format!("{base}");
     facts.extend(docs::limits(item).map(|limits| format!(", {limits}")));
@@ -205,8 +205,8 @@ fn documentation(scope: &Scope<'_>, item: &Item, base: Type) -> Vec<String> {
     let mut sentences = Vec::new();
     docs::words(item.documentation.as_deref(), &mut sentences);
     sentences.extend(item.quantity.iter().flat_map(|own| docs::WORDS.notes(own)).filter(|own| !own.is_empty()));
-    sentences.extend(WORDS.place(&scope.manual, "", item.documentation.as_deref(), &item.names));
-    sentences.extend(item.doubts.iter().map(|own| WORDS.doubt(&scope.manual, own)));
+    sentences.extend(WORDS.place(&context.manual, "", item.documentation.as_deref(), &item.names));
+    sentences.extend(item.doubts.iter().map(|own| WORDS.doubt(&context.manual, own)));
     for sentence in sentences {
         lines.extend([String::new(), sentence]);
     }

@@ -1,8 +1,8 @@
 //! The constants of a protocol: how frames are delimited, how long they are, which field numbers the device.
 
 use crate::backend::rust::code::{Data, Doc};
+use crate::backend::rust::context::Context;
 use crate::backend::rust::docs;
-use crate::backend::rust::scope::Scope;
 use crate::ir::{Device, Framing};
 use crate::resolve::messages::{Shaped, Step};
 
@@ -32,9 +32,9 @@ pub(super) fn constant(framing: &Framing, shaped: &[Shaped<'_>]) -> Option<Doc> 
 }
 
 /// What documentation says of it.
-pub(super) fn documentation(framing: &Framing, scope: &Scope<'_>) -> Vec<String> {
+pub(super) fn documentation(framing: &Framing, context: &Context<'_>) -> Vec<String> {
     let mut lines = vec!["How frames are delimited and checked.".to_owned()];
-    docs::described(framing.documentation.as_deref(), &scope.manual, &mut lines);
+    docs::described(framing.documentation.as_deref(), &context.manual, &mut lines);
     lines
 }
 

@@ -12,13 +12,14 @@ mod steps;
 use std::collections::{HashMap, HashSet};
 
 use super::code::{call, seq, Doc};
+use super::context::Context;
 use super::docs::{self, WORDS};
 use super::links::{self, Here};
 use super::named::Types;
+use super::naming;
+use super::naming::messages::MessageNames as Names;
 use super::options::RustOptions;
-use super::scope::Scope;
-use crate::ir::{Completion, Device, Message};
-use crate::names::{self, Case, Wish};
+use crate::ir::{Completion, Message};
 use crate::resolve::messages::{self, Shaped, Step};
 pub(super) use device::{CallModel, DefaultModel};
 pub(super) use field::Field;
@@ -89,24 +90,21 @@ pub(super) struct EntryModel {
     pub code: Statements,
 }
 
-/// Names that the code of messages uses itself.
-const RESERVED: [&str; 10] = ["Self", "Option", "Result", "Some", "None", "Ok", "Err", "Protocol", "Request", "E"];
-
 impl ProtocolModel {
     /// The protocol of a device; `None` where it has none. Its methods must not be called as `taken`.
-    pub(super) fn new(scope: &Scope<'_>, options: &RustOptions, types: &Types, taken: &[&str]) -> Option<Self> {
-        let device = scope.device?;
+    pub(super) fn new(context: &Context<'_>, options: &RustOptions, types: &Types, taken: &[&str]) -> Option<Self> {
+        let device = context.device?;
         let shapes = messages::shapes(device);
         if shapes.is_empty() {
             return None;
         }
-        let names = names(&shapes);
+        let names = naming::messages::names(&shapes);
         let own_types: Vec<&str> = names.iter().flatten().map(String::as_str).collect();
         let steps = shapes.iter().flat_map(|own| own.request.steps.iter().chain(&own.reply.steps));
-        let rules = Rules::new(scope, device, steps, &own_types);
-        let states = outcomes::links(scope, device, types);
+        let rules = Rules::new(context, device, steps, &own_types);
+        let states = outcomes::links(context, device, types);
         let make = Maker {
-            scope,
+            context,
             options,
             polled: completion::conditions(device),
             selectors: shapes.iter().filter_map(|own| Some(own.message.after.as_ref()?.as_str())).collect(),
@@ -115,7 +113,7 @@ impl ProtocolModel {
             names: &names,
             states: &states,
         };
-        let mut outcomes = outcomes::models(scope, device, types);
+        let mut outcomes = outcomes::models(context, device, types);
         let mut messages: Vec<MessageModel> =
             shapes.iter().zip(&names).map(|(own, names)| make.message(own, names)).collect();
         for (own, model) in shapes.iter().zip(&mut messages) {
@@ -124,7 +122,7 @@ impl ProtocolModel {
         let calls = if options.accessors { device::calls(&shapes, &messages, &rules, taken) } else { Vec::new() };
         Some(ProtocolModel {
             framing: device.framing.as_deref().and_then(|own| framing::constant(own, &shapes)),
-            framing_docs: device.framing.as_deref().map(|own| framing::documentation(own, scope)).unwrap_or_default(),
+            framing_docs: device.framing.as_deref().map(|own| framing::documentation(own, context)).unwrap_or_default(),
             max_data: framing::max_data(device, &shapes),
             derives: options.derives(true),
             has_station: framing::has_station(&shapes),
@@ -161,54 +159,9 @@ impl ProtocolModel {
     }
 }
 
-/// The names of the types of each message: request, reply, and what is repeated in each.
-type Names = [String; 4];
-
-fn names(shapes: &[Shaped<'_>]) -> Vec<Names> {
-    let wished = shapes.iter().enumerate().flat_map(|(at, own)| wished(own.message).map(|name| (name, at)));
-    let wished: Vec<(String, usize)> = wished.collect();
-    let wishes: Vec<Wish<'_>> = wished.iter().map(|(name, at)| Wish::new(name, "message", at)).collect();
-    let mut names = names::unique(&wishes, &RESERVED, Case::Pascal).into_iter();
-    shapes.iter().map(|_| std::array::from_fn(|_| names.next().unwrap_or_default())).collect()
-}
-
-/// Names of request, reply, and of what is repeated in them. What only a device sends is no reply.
-fn wished(message: &Message) -> Names {
-    let name = &message.name;
-    let reply = if message.request.is_empty() { name.to_string() } else { format!("{name} reply") };
-    let request = if message.request.is_empty() { format!("{name} request") } else { name.to_string() };
-    [request, reply, format!("{name} entry"), format!("{name} reply entry")]
-}
-
-/// The path of a message, from the device's place.
-pub(super) struct MessagePath {
-    /// The name of the message.
-    pub name: String,
-    /// Whether it is a request; else only the device sends it.
-    pub is_request: bool,
-    pub path: String,
-}
-
-/// The paths of all messages.
-pub(super) fn paths(device: &Device) -> Vec<MessagePath> {
-    let shapes = messages::shapes(device);
-    let names = names(&shapes);
-    let path = |(own, [request, reply, ..]): (&Shaped<'_>, &Names)| {
-        let is_request = !own.message.request.is_empty();
-        let path = format!("messages::{}", if is_request { request } else { reply });
-        MessagePath { name: own.message.name.to_string(), is_request, path }
-    };
-    shapes
-        .iter()
-        .zip(&names)
-        .filter(|(own, _)| !own.message.request.is_empty() || !own.message.reply.is_empty())
-        .map(path)
-        .collect()
-}
-
 /// What is needed to make models of messages.
 struct Maker<'m, 'a> {
-    scope: &'m Scope<'a>,
+    context: &'m Context<'a>,
     options: &'m RustOptions,
     /// By what orders are polled.
     polled: completion::Conditions<'m>,
@@ -244,7 +197,8 @@ impl Maker<'_, '_> {
                 true => vec![format!("What is answered to {}.", links::beside(request_name))],
                 false => self.documentation(message, Here::MESSAGES),
             };
-            let polled = || completion::expression(self.scope, &self.polled, message, (&own.reply.steps, &data.fields));
+            let polled =
+                || completion::expression(self.context, &self.polled, message, (&own.reply.steps, &data.fields));
             let is_complete = has_request.then(polled).flatten();
             DataModel { docs, is_complete, ..data }
         });
@@ -296,7 +250,7 @@ impl Maker<'_, '_> {
 
     /// The fields of a struct, and whether one borrows from the data.
     fn fields(&self, steps: &[Step<'_>], entry: &str) -> (Vec<Field>, bool) {
-        let mut fields = field::fields(self.scope, steps, entry);
+        let mut fields = field::fields(self.context, steps, entry);
         let borrows = fields.iter().any(Field::borrows);
         // A struct that borrows is nothing for `serde`, and then nobody reads the attribute.
         for field in fields.iter_mut().filter(|_| !borrows) {
@@ -317,11 +271,11 @@ impl Maker<'_, '_> {
 
     /// The lines about a message, for a place.
     fn documentation(&self, message: &Message, here: Here<'_>) -> Vec<String> {
-        let message_link = |name: &str| Some(here.text(&docs::escape(name), self.scope.links.message(name)?));
+        let message_link = |name: &str| Some(here.text(&docs::escape(name), self.context.links.message(name)?));
         let mut lines = vec![docs::sentence(&docs::escape(&message.name))];
         let mut sentences = Vec::new();
         docs::words(message.documentation.as_deref(), &mut sentences);
-        sentences.extend(completion::sentence(self.scope, message, here));
+        sentences.extend(completion::sentence(self.context, message, here));
         if !message.accepted_in.is_empty() {
             // The method leads to the message, which leads to the states.
             let state = |name: &str| match self.states.get(name).filter(|_| !here.is_top()) {
@@ -332,7 +286,7 @@ impl Maker<'_, '_> {
             sentences.push(format!("Accepted in the states: {}.", states.join(", ")));
         }
         for condition in &message.accepted_when {
-            sentences.push(format!("Accepted only while {}.", docs::holds(condition, self.scope, here)));
+            sentences.push(format!("Accepted only while {}.", docs::holds(condition, self.context, here)));
         }
         sentences.extend(message.side_effects.iter().map(|effect| docs::sentence(&docs::escape(effect))));
         sentences.extend(message.after.iter().map(|other| {
@@ -343,8 +297,8 @@ impl Maker<'_, '_> {
             sentences.push("So it is after power-on, too.".to_owned());
         }
         sentences.extend(message.availability.as_ref().map(|own| docs::linked(&message_link).availability(own)));
-        sentences.extend(WORDS.place(&self.scope.manual, "", message.documentation.as_deref(), &message.names));
-        sentences.extend(message.doubts.iter().map(|own| WORDS.doubt(&self.scope.manual, own)));
+        sentences.extend(WORDS.place(&self.context.manual, "", message.documentation.as_deref(), &message.names));
+        sentences.extend(message.doubts.iter().map(|own| WORDS.doubt(&self.context.manual, own)));
         for sentence in sentences.into_iter().filter(|sentence| !sentence.is_empty()) {
             lines.extend([String::new(), sentence]);
         }

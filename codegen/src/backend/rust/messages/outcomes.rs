@@ -3,12 +3,12 @@
 use std::collections::HashMap;
 
 use crate::backend::rust::code::{Data, Doc};
+use crate::backend::rust::context::Context;
 use crate::backend::rust::doc_table;
 use crate::backend::rust::docs;
 use crate::backend::rust::links::Here;
 use crate::backend::rust::machine::{self, Variants};
 use crate::backend::rust::named::Types;
-use crate::backend::rust::scope::Scope;
 use crate::ir::{CommandOutcomes, Device, Outcome, StateMachine, StateOutcome};
 use crate::names::{self, Case, Wish};
 
@@ -23,11 +23,11 @@ pub(in crate::backend::rust) struct OutcomesModel {
 }
 
 /// The rows of each message, by its name.
-pub(super) fn models(scope: &Scope<'_>, device: &Device, types: &Types) -> HashMap<String, Vec<OutcomesModel>> {
+pub(super) fn models(context: &Context<'_>, device: &Device, types: &Types) -> HashMap<String, Vec<OutcomesModel>> {
     let machines: Vec<&StateMachine> = device.machines.iter().filter(|own| !own.outcomes.is_empty()).collect();
     let mut all: HashMap<String, Vec<OutcomesModel>> = HashMap::new();
     for machine in &machines {
-        let Some((ty, variants)) = states(scope, device, machine, types) else { continue };
+        let Some((ty, variants)) = states(context, device, machine, types) else { continue };
         let states = format!("super::types::{ty}");
         let link = |name: &str| match variants.get(name) {
             Some(variant) => Here::MESSAGES.code(&format!("types::{ty}::{variant}")),
@@ -40,7 +40,7 @@ pub(super) fn models(scope: &Scope<'_>, device: &Device, types: &Types) -> HashM
         for row in &machine.outcomes {
             for command in &row.commands {
                 let value = row_data(row, &states, &variants);
-                let docs = documentation(scope, machine, row, &link);
+                let docs = documentation(context, machine, row, &link);
                 let model = OutcomesModel { name: name.clone(), docs, states: states.clone(), value };
                 all.entry(command.to_string()).or_default().push(model);
             }
@@ -57,16 +57,16 @@ fn constant(machine: &str) -> String {
 }
 
 /// The type of a machine's states, and its variants by the names of the states.
-fn states(scope: &Scope<'_>, device: &Device, machine: &StateMachine, types: &Types) -> Option<Variants> {
+fn states(context: &Context<'_>, device: &Device, machine: &StateMachine, types: &Types) -> Option<Variants> {
     let at = device.machines.iter().position(|own| own.name == machine.name);
     let own = at.and_then(|at| types.machines.get(at)).and_then(|own| own.states.as_ref());
-    machine::states_of(scope, machine, own, &types.enumerations)
+    machine::states_of(context, machine, own, &types.enumerations)
 }
 
 /// Links to the states of all machines from the messages, by the names of the states.
-pub(super) fn links(scope: &Scope<'_>, device: &Device, types: &Types) -> HashMap<String, String> {
+pub(super) fn links(context: &Context<'_>, device: &Device, types: &Types) -> HashMap<String, String> {
     let mut links = HashMap::new();
-    for (ty, variants) in device.machines.iter().filter_map(|machine| states(scope, device, machine, types)) {
+    for (ty, variants) in device.machines.iter().filter_map(|machine| states(context, device, machine, types)) {
         for (name, variant) in variants {
             links.entry(name).or_insert_with(|| format!("types::{ty}::{variant}"));
         }
@@ -92,13 +92,13 @@ fn row_data(row: &CommandOutcomes, states: &str, variants: &HashMap<String, Stri
 }
 
 fn documentation(
-    scope: &Scope<'_>,
+    context: &Context<'_>,
     machine: &StateMachine,
     row: &CommandOutcomes,
     link: &dyn Fn(&str) -> String,
 ) -> Vec<String> {
     let mut lines = vec![format!("What it does in each state of {}.", docs::escape(&machine.name))];
-    docs::described(row.documentation.as_deref(), &scope.manual, &mut lines);
+    docs::described(row.documentation.as_deref(), &context.manual, &mut lines);
     let one = |own: &Outcome| match own {
         Outcome::Unchanged => "nothing".to_owned(),
         Outcome::Refused => "refused".to_owned(),

@@ -1,8 +1,8 @@
 //! How parameters stand in messages: a constant for each space of numbers.
 
+use crate::backend::rust::context::Context;
 use crate::backend::rust::docs;
 use crate::backend::rust::links::Here;
-use crate::backend::rust::scope::Scope;
 use crate::ir::{Device, ParameterSpace, Type};
 use crate::names::{self, Case, Wish};
 use crate::resolve::messages::{numbered, Step};
@@ -30,7 +30,7 @@ pub(in crate::backend::rust) struct Rules {
 impl Rules {
     /// Those that these steps need, beside types of these names.
     pub(super) fn new<'a>(
-        scope: &Scope<'_>,
+        context: &Context<'_>,
         device: &Device,
         steps: impl Iterator<Item = &'a Step<'a>>,
         types: &[&str],
@@ -66,10 +66,10 @@ impl Rules {
             RuleModel {
                 name: name.to_ascii_uppercase(),
                 space: (*space).to_owned(),
-                docs: documentation(scope, own, space),
+                docs: documentation(context, own, space),
                 code_bits: *bits,
                 order: order.unwrap_or_default(),
-                lengths: lengths(scope, device, space),
+                lengths: lengths(context, device, space),
             }
         });
         Rules { models: models.collect() }
@@ -83,11 +83,11 @@ impl Rules {
 }
 
 /// What is said of a constant.
-fn documentation(scope: &Scope<'_>, own: Option<&ParameterSpace>, space: &str) -> String {
+fn documentation(context: &Context<'_>, own: Option<&ParameterSpace>, space: &str) -> String {
     let mut text = format!("How parameters of the space {} stand in messages.", docs::escape(space));
     let messages = own.map_or([None, None], |own| [own.read.as_ref(), own.write.as_ref()]);
     for (name, by) in messages.into_iter().zip(["Read", "Written"]) {
-        if let Some(path) = name.and_then(|name| scope.links.message(name)) {
+        if let Some(path) = name.and_then(|name| context.links.message(name)) {
             text += &format!(" {by} by {}.", Here::MESSAGES.code(path));
         }
     }
@@ -95,10 +95,10 @@ fn documentation(scope: &Scope<'_>, own: Option<&ParameterSpace>, space: &str) -
 }
 
 /// Neighbouring numbers whose values have one length.
-fn lengths(scope: &Scope<'_>, device: &Device, space: &str) -> Vec<String> {
+fn lengths(context: &Context<'_>, device: &Device, space: &str) -> Vec<String> {
     let mut spans: Vec<(u32, u32, u32)> = Vec::new();
     for (code, item) in numbered(device, space) {
-        let Some(length) = length(scope.base(item.ty)) else { continue };
+        let Some(length) = length(context.base(item.ty)) else { continue };
         match spans.last_mut() {
             Some((_, last, own)) if last.checked_add(1) == Some(code) && *own == length => *last = code,
             _ => spans.push((code, code, length)),

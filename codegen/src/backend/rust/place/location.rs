@@ -2,8 +2,8 @@
 
 use super::Place;
 use crate::backend::rust::code::{call, list, seq, Doc};
+use crate::backend::rust::located::Located;
 use crate::backend::rust::route::{Net, Route};
-use crate::backend::rust::scope::Scope;
 
 /// What makes a location.
 pub(in crate::backend::rust) struct Maker {
@@ -62,9 +62,9 @@ impl Place<'_> {
     }
 
     /// The call that makes the location, of type `path`. `windows` leads to the windows of the device.
-    pub fn code(&self, scope: &Scope<'_>, path: &str, windows: &str) -> Doc {
+    pub fn code(&self, located: &Located<'_>, path: &str, windows: &str) -> Doc {
         if self.buses().path().is_none() {
-            return self.new_location(scope, path, windows);
+            return self.new_location(located, path, windows);
         }
         let Place { canopen, coe, modbus, serial, image, esc, .. } = self.routed();
         let same = canopen.is_none() || coe.is_none() || canopen == coe;
@@ -86,34 +86,34 @@ impl Place<'_> {
             (None, None, None) => match (image, esc) {
                 (Some(field), _) => call!(seq![path, "::field"], field.code(self.is_bytes)),
                 (None, Some((address, length))) => Doc::from(format!("{path}::memory(0x{address:04X}, {length})")),
-                (None, None) => self.new_location(scope, path, windows),
+                (None, None) => self.new_location(located, path, windows),
             },
             // Addresses that differ between the buses, and routes that are too rare for a name.
-            _ => self.new_location(scope, path, windows),
+            _ => self.new_location(located, path, windows),
         }
     }
 
-    fn new_location(&self, scope: &Scope<'_>, path: &str, windows: &str) -> Doc {
-        self.location_of(scope, path, windows, |net| self.address(net).unwrap_or_default(), None)
+    fn new_location(&self, located: &Located<'_>, path: &str, windows: &str) -> Doc {
+        self.location_of(located, path, windows, |net| self.address(net).unwrap_or_default(), None)
     }
 
     /// The code of a location of type `path` whose addresses are `address`, and whose numbers behind windows `number`.
     fn location_of(
         &self,
-        scope: &Scope<'_>,
+        located: &Located<'_>,
         path: &str,
         windows: &str,
         address: impl Fn(Net) -> String,
         number: Option<&str>,
     ) -> Doc {
-        let window = |at: usize| format!("{windows}{}", scope.windows.get(at).map_or("", |own| own.name.as_str()));
+        let window = |at: usize| format!("{windows}{}", located.windows.get(at).map_or("", |own| own.name.as_str()));
         let route = |net: Net| self.routes[net as usize].code(&address(net), window, number);
         list(&format!("{path}::new("), Net::ALL.into_iter().filter_map(route), ")")
     }
 
     /// The location as a function of what items differ in, for one that the runtime has no name for: `rustc` takes a third of
     /// the time for a call of such a function. `windows` leads to the windows of the device.
-    pub fn maker(&self, scope: &Scope<'_>, windows: &str) -> Option<Maker> {
+    pub fn maker(&self, located: &Located<'_>, windows: &str) -> Option<Maker> {
         let buses = self.buses();
         if buses.is_empty() || buses.path().is_some() {
             return None;
@@ -136,7 +136,7 @@ impl Place<'_> {
         Some(Maker {
             parameters,
             arguments,
-            body: self.location_of(scope, &buses.word(), windows, Net::field, Some("number")),
+            body: self.location_of(located, &buses.word(), windows, Net::field, Some("number")),
         })
     }
 

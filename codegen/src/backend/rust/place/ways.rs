@@ -1,16 +1,23 @@
 //! The ways to an item: to its own address on a bus, and through a window.
 
 use super::Place;
+use crate::backend::rust::located::Located;
 use crate::backend::rust::route::{Net, Route, Way};
-use crate::backend::rust::scope::Scope;
 use crate::backend::rust::window;
 use crate::ir::{Binding, Item, Type};
 
 impl<'i> Place<'i> {
+    /// The addresses of an item, and the routes to it.
+    pub fn of(located: &Located<'_>, item: &'i Item) -> Self {
+        let mut place = Place::addresses(located, item);
+        place.routes = place.routes(located, item);
+        place
+    }
+
     /// The routes to an item on all buses.
-    pub(super) fn routes(&self, scope: &Scope<'_>, item: &'i Item) -> [Route<'i>; 6] {
+    pub(super) fn routes(&self, located: &Located<'_>, item: &'i Item) -> [Route<'i>; 6] {
         if !is_plain(item) {
-            return Net::ALL.map(|net| self.route(scope, item, net));
+            return Net::ALL.map(|net| self.route(located, item, net));
         }
         Net::ALL.map(|net| if self.has(net) { plain(item) } else { Route::default() })
     }
@@ -26,11 +33,11 @@ impl<'i> Place<'i> {
         self.has(net) && allows && goes
     }
 
-    fn route(&self, scope: &Scope<'_>, item: &'i Item, net: Net) -> Route<'i> {
+    fn route(&self, located: &Located<'_>, item: &'i Item, net: Net) -> Route<'i> {
         let way = |writes: bool| {
             let is_allowed = if writes { item.access.writable() } else { item.access.readable() };
-            let direct = || self.is_possible(item, net, writes).then(|| self.own_way(scope, item, net))?;
-            is_allowed.then(|| direct().or_else(|| through(scope, item, net, writes)))?
+            let direct = || self.is_possible(item, net, writes).then(|| self.own_way(located, item, net))?;
+            is_allowed.then(|| direct().or_else(|| through(located, item, net, writes)))?
         };
         let (read, write) = (way(false), way(true));
         let is_partial = item.access.readable() && item.access.writable();
@@ -38,10 +45,10 @@ impl<'i> Place<'i> {
     }
 
     /// The way to the item's own address; none where its type can't have the width that it has there.
-    fn own_way(&self, scope: &Scope<'_>, item: &'i Item, net: Net) -> Option<Way<'i>> {
-        let (own, there) = (scope.base(item.ty), scope.base(item.type_on(net.in_tables())));
+    fn own_way(&self, located: &Located<'_>, item: &'i Item, net: Net) -> Option<Way<'i>> {
+        let (own, there) = (located.base(item.ty), located.base(item.type_on(net.in_tables())));
         let there = match (net, self.image, self.esc) {
-            (Net::Image, Some(field), _) => field.ty.map_or(own, |ty| scope.base(ty)),
+            (Net::Image, Some(field), _) => field.ty.map_or(own, |ty| located.base(ty)),
             (Net::Esc, _, Some((_, length))) => in_memory(own, length),
             _ => there,
         };
@@ -65,12 +72,12 @@ fn plain<'i>(item: &Item) -> Route<'i> {
 }
 
 /// The way through a window of the item's space on a bus.
-fn through<'i>(scope: &Scope<'_>, item: &Item, net: Net, writes: bool) -> Option<Way<'i>> {
+fn through<'i>(located: &Located<'_>, item: &Item, net: Net, writes: bool) -> Option<Way<'i>> {
     item.bindings.iter().filter_map(window::indirect).find_map(|binding| {
-        let at = window::position(&scope.windows, binding, net, writes)?;
-        let own = scope.windows.get(at).filter(|own| window::carries(scope, item, own))?;
+        let at = window::position(&located.windows, binding, net, writes)?;
+        let own = located.windows.get(at).filter(|own| window::carries(located, item, own))?;
         let (bits, is_signed) = own.value;
-        let base = scope.base(item.ty);
+        let base = located.base(item.ty);
         let is_signed = if base.bits().unwrap_or(0) <= bits { base.is_signed() } else { is_signed };
         Some(Way { window: Some((at, binding.number)), resized: None, limited: None, is_signed })
     })

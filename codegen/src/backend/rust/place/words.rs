@@ -1,9 +1,9 @@
 //! What documentation calls the places of an item.
 
 use super::{Field, Place};
-use crate::backend::rust::docs;
 use crate::backend::rust::route::{Net, Route};
 use crate::backend::rust::scope::Scope;
+use crate::backend::rust::words::escape;
 use crate::facts::{address, register};
 use crate::ir::{Item, RegisterSpace};
 
@@ -20,7 +20,7 @@ impl Place<'_> {
             (canopen, coe) => facts.extend(canopen.or(coe).map(object)),
         }
         let tables = scope.device.map_or(&[][..], |device| &device.modbus);
-        facts.extend(self.modbus.map(|own| format!("Modbus {}", docs::escape(&register::text(own, item, tables)))));
+        facts.extend(self.modbus.map(|own| format!("Modbus {}", escape(&register::text(own, item, tables)))));
         facts.extend(self.serial.map(|code| format!("parameter 0x{code:04X}")));
         facts.extend(self.image.map(|field| field.facts()));
         facts.extend(self.numbers());
@@ -31,8 +31,8 @@ impl Place<'_> {
     pub fn heading(&self) -> String {
         let object = self.canopen.or(self.coe).map(|(index, sub)| address::object(index, sub));
         let register = self.modbus.map(|own| match own.bit_offset {
-            Some(bit) => format!("register {} from bit {bit}", docs::escape(&register::printed(own))),
-            None => format!("register {}", docs::escape(&register::printed(own))),
+            Some(bit) => format!("register {} from bit {bit}", escape(&register::printed(own))),
+            None => format!("register {}", escape(&register::printed(own))),
         });
         let serial = self.serial.map(|code| format!("parameter 0x{code:04X}"));
         let found: Vec<String> = object.into_iter().chain(register).chain(serial).collect();
@@ -94,6 +94,6 @@ impl Field<'_> {
             _ if self.bits == 1 => format!("bit {bit} of byte {byte}"),
             _ => format!("{} bits from bit {bit} of byte {byte} on", self.bits),
         };
-        format!("{place} of the image {}", docs::escape(self.image))
+        format!("{place} of the image {}", escape(self.image))
     }
 }

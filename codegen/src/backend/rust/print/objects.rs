@@ -4,7 +4,7 @@ use crate::backend::rust::code::{call, generic, line, list, open, seq, Code, Doc
 use crate::backend::rust::item::ItemModel;
 use crate::backend::rust::model::Model;
 use crate::backend::rust::objects::ObjectModel;
-use crate::backend::rust::window::WindowModel;
+use crate::backend::rust::window_model::WindowModel;
 
 pub(super) fn write(code: &mut Code, model: &Model<'_>) {
     windows(code, &model.windows);

@@ -1,0 +1,47 @@
+//! The type of an item's value.
+
+use super::code::{seq, Doc};
+use super::context::Context;
+use super::quantity::{self, QuantityType};
+use super::value_type::ValueType;
+use crate::ir::Item;
+use crate::names;
+
+/// The type of an item's value: an enumeration or a bit field, a quantity, or nothing but the basic type.
+pub(super) struct ItemType<'s> {
+    pub basic: ValueType,
+    /// The name of the enumeration or the bit field.
+    pub named: Option<&'s str>,
+    quantity: Option<QuantityType>,
+}
+
+impl<'s> ItemType<'s> {
+    pub fn of(context: &'s Context<'_>, item: &Item) -> Self {
+        let named = context.enumeration(item.ty);
+        ItemType {
+            // The number below an enumeration may be a truth value, which its code writes as one bit.
+            basic: named.map_or_else(|| context.value_type(item.ty), |named| ValueType::of(named.ty)),
+            named: named.map(|named| named.name.as_str()),
+            quantity: if named.is_none() { quantity::of(context, item) } else { None },
+        }
+    }
+
+    /// Its path; `outer` leads from where it stands to the device's place.
+    pub fn path(&self, outer: &str) -> Doc {
+        match (self.named, &self.quantity) {
+            (Some(name), _) => seq![outer, "types::", name],
+            (None, Some(quantity)) => quantity.path.clone(),
+            (None, None) => Doc::from(self.basic.path()),
+        }
+    }
+
+    /// Its name as a part of another one.
+    pub fn word(&self) -> String {
+        match (self.named, &self.quantity) {
+            // A name that begins with a digit has a `_` in front, which no name in camel case has within.
+            (Some(name), _) => names::prefixed("Named", name),
+            (None, Some(quantity)) => quantity.word.clone(),
+            (None, None) => self.basic.word(),
+        }
+    }
+}

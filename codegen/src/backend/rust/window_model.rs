@@ -1,0 +1,47 @@
+//! Windows, ready to be written.
+
+use super::code::{generic, Doc};
+use super::context::Context;
+use super::docs;
+use super::links::Here;
+use super::window::Window;
+
+/// A window, ready to be written.
+pub(super) struct WindowModel {
+    pub docs: Vec<String>,
+    pub name: String,
+    pub ty: Doc,
+    pub kind: &'static str,
+    pub facts: Vec<String>,
+}
+
+/// The windows, ready to be written.
+pub(super) fn models(context: &Context<'_>) -> Vec<WindowModel> {
+    context.windows.iter().map(|own| model(context, own)).collect()
+}
+
+fn model(context: &Context<'_>, own: &Window) -> WindowModel {
+    let (_, _, net, is_write) = own.key;
+    let [number, value] = &own.addresses;
+    let mut facts = vec![
+        format!("number: {number}"),
+        format!("number_bits: {}", own.number_bits),
+        format!("value: {value}"),
+        format!("value_bits: {}", own.value.0),
+    ];
+    if is_write {
+        facts.push(format!("is_number_first: {}", own.number_first));
+    }
+    facts.push(format!("handshake: {}", own.handshake));
+    let link = |name: &str| context.link(name, Here::BESIDE).unwrap_or_else(|| format!("\"{}\"", docs::escape(name)));
+    let [number, value] = [&own.side.number, &own.side.value].map(|name| link(name));
+    let verb = if is_write { "takes" } else { "gives" };
+    let kind = if is_write { "rt::WriteWindow" } else { "rt::ReadWindow" };
+    WindowModel {
+        docs: vec![format!("On {}: {number} takes a number, and {value} {verb} its value.", net.title())],
+        name: own.name.clone(),
+        ty: generic!(kind, net.address()),
+        kind,
+        facts,
+    }
+}
