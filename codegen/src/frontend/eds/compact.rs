@@ -1,7 +1,7 @@
 //! CompactSubObj: many equal sub-indices described at once, and the sections that refine single ones.
 
+use super::keywords::{Raw, OF_A_VALUE};
 use super::lists;
-use super::object::{Raw, OF_A_VALUE};
 use super::reader::Reader;
 use super::sections::Refinement;
 use crate::diagnostics::{codes, Diagnostic};

@@ -9,12 +9,14 @@
 //! | `reader` | reading single entries |
 //! | `header` | `[FileInfo]`, `[DeviceInfo]`, `[DummyUsage]`, `[Comments]`, `[DeviceComissioning]`, `[DynamicChannels]` |
 //! | `lists` | the object lists, and what they say of objects that exist or don't |
+//! | `keywords` | the keywords of an object, and its entries sorted by them |
 //! | `object` | an object and its sub-indices |
 //! | `compact` | CompactSubObj and the sections that refine it |
 //! | `modules` | modular devices |
 
 mod compact;
 mod header;
+mod keywords;
 mod lists;
 mod modules;
 mod object;

@@ -3,8 +3,9 @@
 use std::collections::BTreeMap;
 
 use super::header;
+use super::keywords::{Key, Raw, OF_MANY_VALUES};
 use super::lists;
-use super::object::{in_order_of_file, Key, ObjectSections, Raw, OF_MANY_VALUES};
+use super::object::{in_order_of_file, ObjectSections};
 use super::reader::{Fixed, Reader};
 use super::sections::ModulePart;
 use crate::diagnostics::{codes, Diagnostic};

@@ -1,6 +1,7 @@
 //! From the sections of an object to a [`Group`] with its items.
 
 use super::compact;
+use super::keywords::{Key, Raw, OF_A_VALUE, OF_MANY_VALUES};
 use super::lists;
 use super::reader::{Fixed, Reader};
 use super::sections::Refinement;
@@ -36,118 +37,7 @@ impl ObjectSections {
     }
 }
 
-/// The keywords of an object, by position in [`Raw`].
-#[derive(Clone, Copy, PartialEq, Eq)]
-pub(super) enum Key {
-    ParameterName,
-    ObjectType,
-    SubNumber,
-    DataType,
-    AccessType,
-    DefaultValue,
-    PdoMapping,
-    LowLimit,
-    HighLimit,
-    ObjFlags,
-    CompactSubObj,
-    ParameterValue,
-    Denotation,
-    UploadFile,
-    DownloadFile,
-}
-
-/// Number of keywords.
-const KEYS: usize = 15;
-
-/// The keyword that is spelt `key`, in any case. Length and first letter leave one candidate, or two.
-fn keyword(key: &str) -> Option<Key> {
-    let bytes = key.as_bytes();
-    let (name, keyword) = match (bytes.len(), bytes.first()? | 0x20) {
-        (8, b'd') => ("DataType", Key::DataType),
-        (8, b'l') => ("LowLimit", Key::LowLimit),
-        (8, b'o') => ("ObjFlags", Key::ObjFlags),
-        (9, b'h') => ("HighLimit", Key::HighLimit),
-        (9, b's') => ("SubNumber", Key::SubNumber),
-        (10, b'o') => ("ObjectType", Key::ObjectType),
-        (10, b'a') => ("AccessType", Key::AccessType),
-        (10, b'p') => ("PDOMapping", Key::PdoMapping),
-        (10, b'd') => ("Denotation", Key::Denotation),
-        (10, b'u') => ("UploadFile", Key::UploadFile),
-        (12, b'd') if bytes[1] | 0x20 == b'e' => ("DefaultValue", Key::DefaultValue),
-        (12, b'd') => ("DownloadFile", Key::DownloadFile),
-        (13, b'p') => ("ParameterName", Key::ParameterName),
-        (13, b'c') => ("CompactSubObj", Key::CompactSubObj),
-        (14, b'p') => ("ParameterValue", Key::ParameterValue),
-        _ => return None,
-    };
-    (name == key || name.eq_ignore_ascii_case(key)).then_some(keyword)
-}
-
-/// Keywords of one value, which say nothing about an object whose values are its sub-indices.
-pub(super) const OF_A_VALUE: [Key; 10] = [
-    Key::DataType,
-    Key::AccessType,
-    Key::DefaultValue,
-    Key::PdoMapping,
-    Key::LowLimit,
-    Key::HighLimit,
-    Key::ParameterValue,
-    Key::Denotation,
-    Key::UploadFile,
-    Key::DownloadFile,
-];
-
-/// Keywords of an object with sub-indices, which say nothing about one value.
-pub(super) const OF_MANY_VALUES: [Key; 2] = [Key::SubNumber, Key::CompactSubObj];
-
-/// The entries of a section, sorted into the keywords of an object.
-pub(super) struct Raw {
-    fields: [Option<Entry>; KEYS],
-    /// The keywords that only an extension of sub-indices has.
-    pub(super) more: [Option<Entry>; 2],
-    pub(super) extensions: Extensions,
-    pub(super) origin: Origin,
-}
-
-impl Raw {
-    pub(super) fn get(&self, key: Key) -> Option<&Entry> {
-        self.fields[key as usize].as_ref()
-    }
-}
-
 impl<'a> Reader<'a, '_> {
-    /// Sorts the entries of sections of the same name into keywords; of a repeated key the last value counts.
-    pub(super) fn raw(&mut self, sections: &[Section]) -> Raw {
-        self.raw_with(sections, &[])
-    }
-
-    /// The same with the further keywords `more`, of which there are two at most.
-    pub(super) fn raw_with(&mut self, sections: &[Section], more: &[&str]) -> Raw {
-        let mut raw =
-            Raw { fields: [None; KEYS], more: [None; 2], extensions: Extensions::new(), origin: Origin::default() };
-        let Some(first) = sections.first() else { return raw };
-        raw.origin = Origin { span: self.doc.name_span(first), line: first.line };
-        for section in sections {
-            for entry in self.doc.entries(section) {
-                let key = self.doc.key(&entry);
-                let field = match keyword(key) {
-                    Some(keyword) => &mut raw.fields[keyword as usize],
-                    None => match more.iter().position(|name| name.eq_ignore_ascii_case(key)) {
-                        Some(position) => &mut raw.more[position],
-                        None => {
-                            self.extension(&entry, &mut raw.extensions);
-                            continue;
-                        }
-                    },
-                };
-                if let Some(earlier) = field.replace(entry) {
-                    self.duplicate_key(&earlier, &entry);
-                }
-            }
-        }
-        raw
-    }
-
     /// The object `index`, from everything that the file says about it.
     pub(super) fn object(&mut self, index: u16, sections: &mut ObjectSections) -> Option<Group> {
         if sections.object.is_empty() && sections.subs.is_empty() {
@@ -592,39 +482,4 @@ impl<'a> Reader<'a, '_> {
 /// Extensions are collected by what they are; the IR has them as they stand in the file.
 pub(super) fn in_order_of_file(extensions: &mut [Extension]) {
     extensions.sort_by_key(|extension| extension.span.start);
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn keywords_in_any_case_and_nothing_else() {
-        const ALL: [(&str, Key); KEYS] = [
-            ("ParameterName", Key::ParameterName),
-            ("ObjectType", Key::ObjectType),
-            ("SubNumber", Key::SubNumber),
-            ("DataType", Key::DataType),
-            ("AccessType", Key::AccessType),
-            ("DefaultValue", Key::DefaultValue),
-            ("PDOMapping", Key::PdoMapping),
-            ("LowLimit", Key::LowLimit),
-            ("HighLimit", Key::HighLimit),
-            ("ObjFlags", Key::ObjFlags),
-            ("CompactSubObj", Key::CompactSubObj),
-            ("ParameterValue", Key::ParameterValue),
-            ("Denotation", Key::Denotation),
-            ("UploadFile", Key::UploadFile),
-            ("DownloadFile", Key::DownloadFile),
-        ];
-        for (position, (name, key)) in ALL.iter().enumerate() {
-            assert_eq!(*key as usize, position);
-            for spelling in [name.to_string(), name.to_lowercase(), name.to_uppercase()] {
-                assert!(keyword(&spelling) == Some(*key), "{spelling}");
-            }
-            assert!(keyword(&name[1..]).is_none() && keyword(&format!("{name}s")).is_none(), "{name}");
-            assert!(keyword(&format!("{}_", &name[..name.len() - 1])).is_none(), "{name}");
-        }
-        assert!(keyword("").is_none() && keyword("d\u{e9}faultvalu").is_none());
-    }
 }
