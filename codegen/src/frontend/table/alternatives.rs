@@ -3,7 +3,7 @@
 use toml::de::DeValue;
 
 use super::at::{Literal, OneOrMany};
-use super::format::{ConditionTable, FlagOrText, NumberOrText, ScaleRule, Scaling};
+use super::format::{ConditionTable, ConditionValues, FlagOrText, NumberOrText, ScaleRule, Scaling};
 use super::read::{literal, number, Mistake, Node, Read};
 
 impl Read for Scaling {
@@ -30,22 +30,6 @@ impl Read for FlagOrText {
         let flag = || bool::read(node).map(FlagOrText::Flag);
         let text = |_| String::read(node).map(FlagOrText::Text);
         flag().or_else(text).map_err(|_| Mistake::value(node, "true, false or a text".to_owned()))
-    }
-}
-
-/// The values that a condition names, and the bits that it compares.
-#[derive(Clone, Debug)]
-#[cfg_attr(test, derive(schemars::JsonSchema), schemars(untagged))]
-pub enum ConditionValues {
-    /// Values of the whole item.
-    Values(OneOrMany<Literal>),
-    /// Values of some of its bits.
-    Bits(ConditionTable),
-}
-
-impl Default for ConditionValues {
-    fn default() -> Self {
-        ConditionValues::Values(OneOrMany::default())
     }
 }
 

@@ -3,12 +3,13 @@
 use smallvec::SmallVec;
 
 use super::at::{At, TextOr};
+use super::buses::{self, Buses};
 use super::definitions::Kind;
 use super::format::{NumberOrText, Row};
 use super::numbered::Numbered;
 use super::references::ITEM;
 use super::rows::{Named, Rows};
-use super::spaces::{self, Buses, Numbers};
+use super::spaces::{self, Numbers};
 use super::tree::Reader;
 use super::{lints, place, types};
 use crate::diagnostics::{codes, Diagnostic};
@@ -114,7 +115,7 @@ impl Rows {
         let buses = self.buses_of(reader, row);
         let shift = named.number.saturating_mul(repeat.step);
         let mut bindings = SmallVec::new();
-        let bits = ty.and_then(|ty| self.bits(ty));
+        let bits = ty.and_then(|ty| self.definitions.bits(ty));
         let mut by_rule = None;
         if let Some(reg) = &row.reg {
             match self.numbers(reader, reg, row, (bits, named.number, repeat), space) {
@@ -313,7 +314,7 @@ impl Rows {
         let Some(list) = &row.buses else { return self.buses };
         let mut found = Buses::NONE;
         for name in list {
-            let own = super::device::buses(reader, std::slice::from_ref(name));
+            let own = buses::read(reader, std::slice::from_ref(name));
             if own != Buses::NONE && own.and(self.buses) == Buses::NONE {
                 let message = format!("the device isn't on {}", brief(&name.value));
                 let wrong = Diagnostic::new(&codes::TABLE_VALUE, reader.span(name), message);

@@ -5,7 +5,7 @@ use std::collections::hash_map::{Entry, HashMap};
 use super::at::{At, Literal, TextOr};
 use super::format::{CodeTableRow, CodesTable};
 use super::tree::{about, cited, Reader};
-use super::{place, value};
+use super::{buses, place, value};
 use crate::diagnostics::{codes, Diagnostic};
 use crate::ir::{Availability, CodeRow, CodeTable, CompactString, Device, SubjectKind, Type, Value};
 use crate::text::brief;
@@ -54,7 +54,7 @@ pub(super) fn table(reader: &mut Reader<'_, '_>, name: &At<String>, table: &Code
         });
     }
     if let Some(list) = &table.buses {
-        super::device::buses(reader, list);
+        buses::read(reader, list);
     }
     device.code_tables.push(CodeTable {
         name: name.value.as_str().into(),

@@ -2,12 +2,10 @@
 
 use compact_str::CompactString;
 
-use super::alternatives::ConditionValues;
 use super::at::{At, OneOrMany};
-use super::definitions::Definitions;
-use super::device;
-use super::format::Conditions;
-use super::references::ITEM;
+use super::buses;
+use super::format::{ConditionValues, Conditions};
+use super::references::{References, ITEM};
 use super::tree::Reader;
 use super::value;
 use crate::diagnostics::codes;
@@ -22,55 +20,64 @@ pub(super) struct Window<'t> {
     pub buses: Option<&'t Vec<At<String>>>,
 }
 
-impl Definitions {
-    /// "While the item has one of these values", for what depends on one item at most.
-    pub fn condition(&mut self, reader: &mut Reader<'_, '_>, when: Option<&Conditions>) -> Option<Condition> {
-        let given = when?;
-        if let Some((second, _)) = given.0.get(1) {
-            let message = "bits and values depend on one other item at most";
-            reader.report(&codes::TABLE_VALUE, reader.span(second), message);
-        }
-        self.conditions(reader, given).into_iter().next()
+/// "While the item has one of these values", for what depends on one item at most.
+pub(super) fn condition(
+    reader: &mut Reader<'_, '_>,
+    references: &mut References,
+    when: Option<&Conditions>,
+) -> Option<Condition> {
+    let given = when?;
+    if let Some((second, _)) = given.0.get(1) {
+        let message = "bits and values depend on one other item at most";
+        reader.report(&codes::TABLE_VALUE, reader.span(second), message);
     }
+    conditions(reader, references, given).into_iter().next()
+}
 
-    /// The same, for several items.
-    pub fn conditions(&mut self, reader: &mut Reader<'_, '_>, when: &Conditions) -> Vec<Condition> {
-        let mut conditions = Vec::new();
-        for (item, given) in when.iter() {
-            self.mentioned.push((item.clone(), ITEM));
-            let (mask, literals) = match &given.value {
-                ConditionValues::Values(OneOrMany(values)) => (None, values.as_slice()),
-                ConditionValues::Bits(bits) => (bits.mask, bits.value.as_ref().map_or(&[][..], |own| own.0.as_slice())),
-            };
-            let span = reader.span(given);
-            let values = value::listed(reader, (literals, (given.start, given.end)), Type::Opaque(None));
-            let outside =
-                |mask: u64| values.iter().filter_map(|own| own.as_int()).any(|own| own & !i128::from(mask) != 0);
-            if literals.is_empty() || mask.is_some_and(outside) || mask == Some(0) {
-                let message = "the condition never holds: it has no value, or one with bits outside of its `mask`";
-                reader.report(&codes::TABLE_VALUE, span, message);
-            }
-            conditions.push(Condition { item: reader.reference(item), values, mask });
-        }
-        conditions
-    }
-
-    /// Models, firmware and buses; `None` where all have it.
-    pub fn availability(&mut self, reader: &mut Reader<'_, '_>, given: Window<'_>) -> Option<Box<Availability>> {
-        let models = given.models.into_iter().flatten();
-        self.mentioned.extend(models.clone().map(|model| (model.clone(), "model")));
-        if let Some(buses) = given.buses {
-            device::buses(reader, buses);
-        }
-        let [since, until] = given.versions;
-        let own = Availability {
-            models: models.map(|model| model.value.as_str().into()).collect(),
-            since: since.map(CompactString::from),
-            until: until.map(CompactString::from),
-            replaced_by: given.replaced_by.map(ItemRef::from),
-            buses: given.buses.into_iter().flatten().map(|bus| bus.value.as_str().into()).collect(),
-            ..Availability::default()
+/// The same, for several items.
+pub(super) fn conditions(
+    reader: &mut Reader<'_, '_>,
+    references: &mut References,
+    when: &Conditions,
+) -> Vec<Condition> {
+    let mut conditions = Vec::new();
+    for (item, given) in when.iter() {
+        references.push((item.clone(), ITEM));
+        let (mask, literals) = match &given.value {
+            ConditionValues::Values(OneOrMany(values)) => (None, values.as_slice()),
+            ConditionValues::Bits(bits) => (bits.mask, bits.value.as_ref().map_or(&[][..], |own| own.0.as_slice())),
         };
-        (own != Availability::default()).then(|| Box::new(own))
+        let span = reader.span(given);
+        let values = value::listed(reader, (literals, (given.start, given.end)), Type::Opaque(None));
+        let outside = |mask: u64| values.iter().filter_map(|own| own.as_int()).any(|own| own & !i128::from(mask) != 0);
+        if literals.is_empty() || mask.is_some_and(outside) || mask == Some(0) {
+            let message = "the condition never holds: it has no value, or one with bits outside of its `mask`";
+            reader.report(&codes::TABLE_VALUE, span, message);
+        }
+        conditions.push(Condition { item: reader.reference(item), values, mask });
     }
+    conditions
+}
+
+/// Models, firmware and buses; `None` where all have it.
+pub(super) fn availability(
+    reader: &mut Reader<'_, '_>,
+    references: &mut References,
+    given: Window<'_>,
+) -> Option<Box<Availability>> {
+    let models = given.models.into_iter().flatten();
+    references.extend(models.clone().map(|model| (model.clone(), "model")));
+    if let Some(buses) = given.buses {
+        buses::read(reader, buses);
+    }
+    let [since, until] = given.versions;
+    let own = Availability {
+        models: models.map(|model| model.value.as_str().into()).collect(),
+        since: since.map(CompactString::from),
+        until: until.map(CompactString::from),
+        replaced_by: given.replaced_by.map(ItemRef::from),
+        buses: given.buses.into_iter().flatten().map(|bus| bus.value.as_str().into()).collect(),
+        ..Availability::default()
+    };
+    (own != Availability::default()).then(|| Box::new(own))
 }

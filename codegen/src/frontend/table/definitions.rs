@@ -6,11 +6,11 @@ use compact_str::{format_compact, CompactString};
 
 use super::at::{At, OneOrMany, TextOr};
 use super::by_name::ByName;
-use super::conditions::Window;
+use super::conditions::{self, Window};
 use super::format::{BitEntries, BitTable, BitsTable, EnumTable, NumberOrText, UnitTable, ValueEntries, ValueTable};
 use super::references::References;
-use super::rows::ACCESSES;
 use super::tree::{cited, Reader};
+use super::words::ACCESSES;
 use super::{lints, place, types, value};
 use crate::diagnostics::{codes, Diagnostic};
 use crate::ir::{
@@ -96,6 +96,32 @@ impl Definitions {
             Kind::Bits => self.bits.get(name).and_then(|(_, table)| table.base.as_ref()),
         }?;
         integer(reader, base)
+    }
+
+    /// The basic type below a bit field, an enumeration or an alias.
+    pub fn underlying(&self, ty: Type) -> Type {
+        let mut ty = ty;
+        // Definitions never lead back: each refers to earlier ones.
+        while let Type::Named(TypeId(id)) = ty {
+            match self.types.get(id as usize).map(|def| &def.shape) {
+                Some(Shape::Alias(base) | Shape::BitField { base, .. } | Shape::Enumeration { base, .. }) => ty = *base,
+                Some(Shape::Scaled { base, .. }) => ty = *base,
+                _ => break,
+            }
+        }
+        ty
+    }
+
+    /// The bits of a type, also of one with a name; `None` if its length varies.
+    pub fn bits(&self, ty: Type) -> Option<u32> {
+        match ty {
+            Type::Named(TypeId(id)) => self.types.get(id as usize).and_then(|def| def.bits),
+            ty => match ty {
+                Type::VisibleString(Some(bytes)) | Type::OctetString(Some(bytes)) => bytes.checked_mul(8),
+                Type::UnicodeString(Some(units)) => units.checked_mul(16),
+                ty => ty.bits(),
+            },
+        }
     }
 
     /// Makes the definitions that no row uses, so that their mistakes are found and they are part of the output.
@@ -208,8 +234,8 @@ impl Definitions {
                 last: (last > first).then_some(last),
                 zone,
                 names: reader.original(more.orig.as_deref()),
-                when: self.condition(reader, more.when.as_ref()),
-                availability: self.availability(reader, window(more)),
+                when: conditions::condition(reader, &mut self.mentioned, more.when.as_ref()),
+                availability: conditions::availability(reader, &mut self.mentioned, window(more)),
                 documentation: reader.documentation(more.doc.as_deref(), cite),
                 at: Mark(reader.span(key)),
             });
@@ -284,11 +310,12 @@ impl Definitions {
             offset,
             bits,
             meaning,
-            when: self.condition(reader, table.when.as_ref()),
+            when: conditions::condition(reader, &mut self.mentioned, table.when.as_ref()),
             trigger: table.trigger.as_ref().and_then(|trigger| reader.word(trigger, "trigger", &triggers)),
             access: table.access.as_ref().and_then(|access| reader.word(access, "access", &ACCESSES)),
-            availability: self.availability(
+            availability: conditions::availability(
                 reader,
+                &mut self.mentioned,
                 Window {
                     models: table.models.as_ref(),
                     versions: [table.since.as_deref(), table.until.as_deref()],

@@ -1,9 +1,9 @@
 //! The head of a table: the device, its models, its axes.
 
 use super::at::At;
+use super::buses::{self, Buses};
 use super::format::{AxesTable, DeviceTable, ManualTable, ModelTable, NumberOrText};
 use super::place;
-use super::spaces::Buses;
 use super::tree::{about, cited, Reader};
 use super::{lints, value};
 use crate::diagnostics::{codes, Diagnostic};
@@ -36,7 +36,7 @@ pub(super) fn head(reader: &mut Reader<'_, '_>, table: &At<DeviceTable>, device:
     let cite = own.cite.as_ref().map(cited);
     device.documentation = reader.documentation(own.doc.as_deref(), cite.clone());
     device.doubts = reader.doubts([own.doubt.as_ref(), own.doubts.as_ref()], device.origin, cite.as_deref());
-    let buses = own.buses.as_ref().map_or(Buses::ALL, |list| buses(reader, list));
+    let buses = own.buses.as_ref().map_or(Buses::ALL, |list| buses::read(reader, list));
     if buses.canopen && own.buses.is_some() {
         device.canopen = Some(Box::new(CanOpenSettings {
             bit_rates: own.bit_rates.clone(),
@@ -66,23 +66,6 @@ fn node_ids(reader: &mut Reader<'_, '_>, given: &At<NumberOrText>) -> Option<(u8
         reader.report(&codes::TABLE_VALUE, reader.span(given), "numbers of nodes go from 1 to 255: write `\"1..127\"`");
     }
     found
-}
-
-/// The buses of a list of names.
-pub(super) fn buses(reader: &mut Reader<'_, '_>, list: &[At<String>]) -> Buses {
-    let words = [("canopen", 0), ("ethercat", 1), ("modbus", 2), ("profinet", 3), ("serial", 4)];
-    let mut buses = Buses::NONE;
-    for name in list {
-        match reader.word(name, "bus", &words) {
-            Some(0) => buses.canopen = true,
-            Some(1) => buses.ethercat = true,
-            Some(2) => buses.modbus = true,
-            Some(3) => buses.profinet = true,
-            Some(4) => buses.serial = true,
-            _ => {}
-        }
-    }
-    buses
 }
 
 /// The facts about the manual.

@@ -1,8 +1,8 @@
 //! What a master has to know of an EtherCAT slave beside its objects and PDOs: mailbox protocols and sync managers.
 
 use super::at::{At, FlagOr};
+use super::buses::Buses;
 use super::format::{CoeTable, EtherCatTable, SyncManagerTable};
-use super::spaces::Buses;
 use super::tree::{cited, Reader};
 use crate::diagnostics::{codes, Diagnostic};
 use crate::ir::{Coe, Device, Mailbox, Protocol, SyncManager, SyncManagerPurpose};

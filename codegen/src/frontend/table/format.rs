@@ -2,7 +2,6 @@
 
 use std::fmt;
 
-use super::alternatives::ConditionValues;
 use super::at::{At, Entries, FlagOr, Literal, OneOrMany, TextOr};
 use super::read::{self, Mistake, Node, Read};
 #[cfg(test)]
@@ -49,6 +48,22 @@ macro_rules! tables {
             }
         }
     )*};
+}
+
+/// The values that a condition names, and the bits that it compares.
+#[derive(Clone, Debug)]
+#[cfg_attr(test, derive(schemars::JsonSchema), schemars(untagged))]
+pub enum ConditionValues {
+    /// Values of the whole item.
+    Values(OneOrMany<Literal>),
+    /// Values of some of its bits.
+    Bits(ConditionTable),
+}
+
+impl Default for ConditionValues {
+    fn default() -> Self {
+        ConditionValues::Values(OneOrMany::default())
+    }
 }
 
 /// Values of other items that have to be there, by the items' names.

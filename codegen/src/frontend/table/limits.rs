@@ -39,11 +39,11 @@ impl Rows {
 
     /// The basic type of a value, and how many of it there are in an array.
     fn element(&self, ty: Type) -> (Type, Option<u32>) {
-        let base = self.underlying(ty);
+        let base = self.definitions.underlying(ty);
         let Type::Named(TypeId(id)) = base else { return (base, None) };
         match self.definitions.types.get(id as usize).map(|definition| &definition.shape) {
             Some(Shape::Array { element, dimensions }) => {
-                (self.underlying(*element), dimensions.first().map(|(_, count)| *count))
+                (self.definitions.underlying(*element), dimensions.first().map(|(_, count)| *count))
             }
             _ => (base, None),
         }

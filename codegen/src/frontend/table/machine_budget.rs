@@ -6,8 +6,8 @@ use std::fmt::Debug;
 
 use super::at::{At, TextOr};
 use super::format::{MachineTable, MatrixTable};
-use super::machines::enumeration;
 use super::repeats::length;
+use super::states::enumeration;
 use super::tree::Reader;
 use crate::diagnostics::{codes, Diagnostic};
 use crate::ir::Device;

@@ -1,18 +1,17 @@
 //! State machines and procedures.
 
-use super::at::{At, Entries, TextOr};
-use super::format::{MachineTable, PatternTable, ProcedureTable, StepTable, TransitionTable};
+use super::at::At;
+use super::format::{MachineTable, ProcedureTable, StepTable, TransitionTable};
 use super::machine_budget::MachineBudget;
 use super::outcomes::Names;
 use super::references::References;
+use super::states::{patterns, states};
 use super::tree::{about, cited, Reader};
 use super::{lints, outcomes, process, value};
 use crate::diagnostics::codes;
 use crate::ir::{
-    CompactString, Device, EnumValue, ItemRef, MessageField, Pattern, Procedure, Shape, StateMachine, Step,
-    SubjectKind, Transition, Type, TypeRef, Value,
+    CompactString, Device, ItemRef, MessageField, Procedure, StateMachine, Step, SubjectKind, Transition, Type, Value,
 };
-use crate::text::brief;
 
 fn text(at: &At<String>) -> CompactString {
     at.value.as_str().into()
@@ -71,39 +70,6 @@ pub(super) fn machine(
     true
 }
 
-/// The type and the values of the enumeration that is called so.
-pub(super) fn enumeration<'d>(device: &'d Device, name: &str) -> Option<(Type, &'d [EnumValue])> {
-    device.types.iter().filter(|own| own.name == name).find_map(|own| match &own.shape {
-        Shape::Enumeration { base, values, .. } => Some((*base, &**values)),
-        _ => None,
-    })
-}
-
-/// The states of a machine: patterns of its own, or the values of an enumeration.
-fn states(reader: &mut Reader<'_, '_>, table: &MachineTable, device: &Device) -> (Option<TypeRef>, Vec<Pattern>) {
-    let Some(given) = &table.states else { return (None, Vec::new()) };
-    let name = match &given.value {
-        TextOr::Table(own) => return (None, patterns(reader, own)),
-        TextOr::Text(name) => name,
-    };
-    let Some((base, values)) = enumeration(device, name) else {
-        let is_enumeration = |shape: &Shape| matches!(shape, Shape::Enumeration { .. });
-        let known = device.types.iter().filter(|own| is_enumeration(&own.shape)).map(|own| own.name.as_str());
-        reader.unresolved("enumeration", name, reader.span(given), known);
-        return (None, Vec::new());
-    };
-    let mask = base.bits().filter(|&bits| bits < 32).map_or(u32::MAX, |bits| (1 << bits) - 1);
-    let single = values.iter().filter(|value| value.last.is_none() && value.zone.is_none());
-    let pattern = |value: &EnumValue| Pattern {
-        name: value.name.clone(),
-        mask,
-        value: (value.value & i128::from(mask)) as u32,
-        names: value.names.clone(),
-        documentation: value.documentation.clone(),
-    };
-    (Some(TypeRef::new(name.as_str(), reader.span(given))), single.map(pattern).collect())
-}
-
 /// Whether the text is `Message.field`, a field of the reply to a message.
 fn is_field_of_reply(device: &Device, text: &str) -> bool {
     text.rsplit_once('.').is_some_and(|(message, field)| {
@@ -113,26 +79,6 @@ fn is_field_of_reply(device: &Device, text: &str) -> bool {
             _ => false,
         })
     })
-}
-
-fn patterns(reader: &mut Reader<'_, '_>, entries: &Entries<PatternTable>) -> Vec<Pattern> {
-    let mut patterns = Vec::new();
-    for (name, own) in entries.iter() {
-        let own = &own.value;
-        let (Some(mask), Some(value)) = (own.mask, own.value) else {
-            let message = format!("`{}` has a `mask` and a `value`", brief(&name.value));
-            reader.report(&codes::TABLE_VALUE, reader.span(name), message);
-            continue;
-        };
-        patterns.push(Pattern {
-            name: text(name),
-            mask,
-            value,
-            names: reader.original(own.orig.as_deref()),
-            documentation: reader.documentation(own.doc.as_deref(), own.cite.as_ref().map(cited)),
-        });
-    }
-    patterns
 }
 
 /// A row of transitions: one for each state that it leaves.

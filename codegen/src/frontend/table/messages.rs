@@ -9,7 +9,7 @@ use super::format::{
 use super::references::{References, ITEM_OR_FIELD};
 use super::rows::{Named, Rows};
 use super::tree::{cited, Reader};
-use super::{place, types, value};
+use super::{conditions, place, types, value};
 use crate::diagnostics::{codes, Diagnostic};
 use crate::ir::{
     Access, Availability, Binding, CompactString, Completion, Device, Doubts, Item, Message, MessageExample,
@@ -102,7 +102,11 @@ pub(super) fn message(
         by_default: own.default,
         error: own.error.as_ref().map(|name| reader.reference(name)),
         side_effects: effects.map(|effect| effect.as_str().into()).collect(),
-        accepted_when: own.when.as_ref().map(|when| rows.definitions.conditions(reader, when)).unwrap_or_default(),
+        accepted_when: own
+            .when
+            .as_ref()
+            .map(|when| conditions::conditions(reader, &mut rows.definitions.mentioned, when))
+            .unwrap_or_default(),
         names: reader.original(own.orig.as_deref()),
         availability: (availability != Availability::default()).then(|| Box::new(availability)),
         accepted_in: own.accepted_in.iter().map(text).collect(),
@@ -331,7 +335,7 @@ impl Fields<'_, '_, '_> {
         match field {
             MessageField::Constant(bytes) => Some(bytes.len() as u32 * 8),
             MessageField::FixedBits { bits, .. } | MessageField::ItemCode { bits, .. } => Some(u32::from(*bits)),
-            MessageField::Value(value) => self.rows.underlying(value.item.ty).bits(),
+            MessageField::Value(value) => self.rows.definitions.underlying(value.item.ty).bits(),
             MessageField::Echo { bytes: Some((first, last)), .. } => Some((u32::from(last - first) + 1) * 8),
             MessageField::Copy { first, last } => Some((u32::from(last - first) + 1) * 8),
             MessageField::Padding(bytes) => Some(u32::from(*bytes) * 8),
@@ -405,7 +409,7 @@ impl Fields<'_, '_, '_> {
         item.access = Access::ReadWrite;
         self.rows.fill(self.reader, &mut item, named, &row, Some(ty));
         let byte_order = own.order.as_ref().map(|order| byte_order(self.reader, order)).unwrap_or_default();
-        let bytes = self.rows.underlying(ty).bits().map(|bits| bits.div_ceil(8) as usize);
+        let bytes = self.rows.definitions.underlying(ty).bits().map(|bits| bits.div_ceil(8) as usize);
         if let Some((order, bytes)) =
             own.order.as_ref().zip(bytes.filter(|&bytes| !byte_order.is_empty() && byte_order.len() != bytes))
         {

@@ -4,19 +4,19 @@
 //! |---|---|
 //! | `format`, `at`, `alternatives`, `read` | the tables of the format, the pieces they are made of, and how both are read |
 //! | `tree` | from the text to those tables, with every error at its place; options |
-//! | `place`, `types`, `value`, `units` | numbers and places, names of types, literals, symbols of units |
+//! | `place`, `types`, `value`, `units`, `words` | numbers and places, names of types, literals, symbols of units, words for access rights and the like |
 //! | `definitions`, `given` | units, enumerations, bit fields; numbers of the machine |
 //! | `scale` | how raw numbers become physical ones |
 //! | `conditions`, `variants` | when something exists; what differs between models and buses |
 //! | `references`, `numbered` | names that lead to something else, and numbers in their place |
 //! | `repeats`, `machine_budget` | how much short rows, long defaults and state machines may stand for |
 //! | `taken` | names and addresses that are in use |
-//! | `spaces` | what the number of a register means on each bus |
-//! | `rows`, `bindings`, `limits`, `objects` | rows to items and objects; their addresses; default, limits and only values |
+//! | `buses`, `spaces`, `windows` | sets of buses; the addresses of a register on each bus |
+//! | `rows`, `bindings`, `limits`, `registers`, `objects` | rows to items and objects; their addresses; default, limits and only values |
 //! | `defaults`, `misplaced` | what rows inherit; keys that say nothing where they stand |
 //! | `device` | the head: device, models, axes |
 //! | `process`, `images` | process data: PDOs, fixed process images |
-//! | `code_tables`, `machines`, `outcomes`, `messages`, `framing` | codes; state machines and procedures; what commands do in each state; messages and their frames |
+//! | `code_tables`, `machines`, `states`, `outcomes`, `messages`, `framing` | codes; state machines and procedures; their states; what commands do in each state; messages and their frames |
 //! | `composites` | numbers that are split over several items |
 //! | `overlay` | tables that say something of what another file describes |
 //! | `lints`, `summary` | what needs the table as it is written; what another place of the manual says |
@@ -25,6 +25,7 @@
 mod alternatives;
 mod at;
 mod bindings;
+mod buses;
 mod by_name;
 mod code_tables;
 mod composites;
@@ -52,12 +53,14 @@ mod place;
 mod process;
 mod read;
 mod references;
+mod registers;
 mod repeats;
 mod rows;
 mod scale;
 #[cfg(test)]
 mod schema;
 mod spaces;
+mod states;
 mod summary;
 mod taken;
 mod tree;
@@ -66,6 +69,7 @@ mod units;
 mod value;
 mod variants;
 mod windows;
+mod words;
 
 use std::collections::HashSet;
 
@@ -76,6 +80,7 @@ use crate::diagnostics::{codes, Diagnostic, Diagnostics};
 use crate::ir::{Catalog, Device, Group, GroupKind, ObjectCode};
 use crate::source::{FileId, Source, Span};
 use at::{At, Entries};
+use buses::Buses;
 use by_name::ByName;
 use definitions::Definitions;
 use format::{ChapterTable, DeviceTable, OptionTable, Row};
@@ -83,7 +88,6 @@ use objects::Dictionary;
 use read::Read;
 use repeats::Repeats;
 use rows::Rows;
-use spaces::Buses;
 use taken::Taken;
 use tree::{Node, Reader};
 
@@ -184,7 +188,7 @@ pub fn read(
     for chapter in table.nodes(&mut reader, "chapters") {
         device.groups.extend(self::chapter(&mut reader, &mut rows, (&mut dictionary, &mut taken), chapter));
     }
-    summary::objects(&mut reader, &rows, &dictionary);
+    summary::objects(&mut reader, &rows.definitions, &rows.summaries, &dictionary);
     for item in dictionary.values().flat_map(|group| &group.items) {
         taken.place(&mut reader, item);
     }
@@ -446,7 +450,7 @@ fn chapter<'a>(
     lints::unprinted(reader, &registers, space.and_then(|at| rows.spaces.get(at)));
     for (key, row) in registers {
         misplaced::register(reader, &key, &row);
-        let items = rows.registers(reader, space, (&key, &row), defaults);
+        let items = registers::items(reader, rows, space, (&key, &row), defaults);
         let part = row.value.part.as_ref().and_then(|part| place::bits(&part.value.to_string()));
         items.iter().for_each(|item| taken.register(reader, &group.name, item, part));
         group.items.extend(items);

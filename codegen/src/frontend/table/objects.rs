@@ -8,17 +8,10 @@ use super::format::Row;
 use super::place::{self, Objects};
 use super::rows::{Named, Rows};
 use super::tree::{cited, Reader};
+use super::words::OBJECT_CODES;
 use crate::diagnostics::{codes, Diagnostic};
 use crate::ir::{Access, Binding, Group, Item, ObjectCode, Type};
 use crate::text::brief;
-
-/// The words for object codes.
-pub(super) const CODES: [(&str, ObjectCode); 4] = [
-    ("var", ObjectCode::Var),
-    ("array", ObjectCode::Array),
-    ("record", ObjectCode::Record),
-    ("domain", ObjectCode::Domain),
-];
 
 /// The objects of a table, by index.
 pub(super) type Dictionary = BTreeMap<u16, Group>;
@@ -92,7 +85,7 @@ fn head(
     (index, number): (u16, u32),
     space: Option<usize>,
 ) {
-    let code = complete.code.as_ref().and_then(|code| reader.word(code, "object code", &CODES));
+    let code = complete.code.as_ref().and_then(|code| reader.word(code, "object code", &OBJECT_CODES));
     let mut group = Group::object(index, code.unwrap_or(ObjectCode::Var));
     group.origin = reader.origin(key);
     unfilled_name(reader, complete, number, None);
@@ -224,6 +217,6 @@ fn beside(
         );
         item.bindings.extend(found.into_iter().filter(|binding| !matches!(binding, Binding::Object { .. })));
     }
-    let bits = ty.and_then(|ty| rows.bits(ty));
+    let bits = ty.and_then(|ty| rows.definitions.bits(ty));
     rows.other_addresses(reader, (named, own.map(|(_, sub)| sub)), row, (0, bits), &mut item.bindings);
 }

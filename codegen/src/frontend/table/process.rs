@@ -1,6 +1,7 @@
 //! Process data that the table itself describes.
 
 use super::at::At;
+use super::buses;
 use super::format::{NumberOrText, PdoTable};
 use super::place;
 use super::tree::{cited, Reader};
@@ -71,7 +72,7 @@ pub(super) fn pdo(reader: &mut Reader<'_, '_>, table: &At<PdoTable>, targets: &T
         }
     }
     if let Some(list) = &own.buses {
-        let buses = super::device::buses(reader, list);
+        let buses = buses::read(reader, list);
         pdo.buses = Some(ObjectBuses { canopen: buses.canopen, coe: buses.ethercat });
         if !buses.canopen && !buses.ethercat {
             let message = "PDOs are found on CANopen and EtherCAT, and this one is on neither";

@@ -2,10 +2,9 @@
 
 use std::fmt::{Debug, Write};
 
-use super::alternatives::ConditionValues;
 use super::at::{Literal, OneOrMany};
 use super::by_name::ByName;
-use super::format::{Row, UnitTable};
+use super::format::{ConditionValues, Row, UnitTable};
 use super::tree::Reader;
 use crate::diagnostics::{codes, Diagnostic};
 use crate::ir::Value;

@@ -3,40 +3,24 @@
 use compact_str::CompactString;
 
 use super::at::{At, Entries, Literal, OneOrMany, TextOr};
-use super::bindings::{read_only_table, words_without_register};
-use super::definitions::{unfilled, Definitions, Kind};
+use super::buses::Buses;
+use super::definitions::{Definitions, Kind};
 use super::format::{ConversionTable, FlagOrText, NumberOrText, Row};
 use super::numbered::Numbered;
 use super::references::{References, ITEM};
 use super::repeats::Repeats;
-use super::spaces::{Buses, Space};
+use super::spaces::Space;
+use super::summary::{self, Summaries};
 use super::tree::{cited, Reader};
-use super::{given, place, scale, types, value};
+use super::words::{ACCESSES, DIRECTIONS};
+use super::{conditions, given, scale, types, value};
 use crate::diagnostics::{codes, Code, Diagnostic};
 use crate::ir::{
-    Access, Availability, Behaviour, Binding, Conversion, Documentation, Item, ItemRef, Mappable, ModbusTable,
-    Quantity, RegisterSpace, RelatedItems, Shape, Storage, Type, TypeDef, TypeId,
+    Access, Availability, Behaviour, Binding, Conversion, Documentation, Item, ItemRef, ModbusTable, Quantity,
+    RegisterSpace, RelatedItems, Shape, Storage, Type, TypeDef, TypeId,
 };
 use crate::source::Span;
 use crate::text::brief;
-
-/// The words of `access`.
-pub(super) const ACCESSES: [(&str, Access); 6] = [
-    ("ro", Access::ReadOnly),
-    ("rw", Access::ReadWrite),
-    ("wo", Access::WriteOnly),
-    ("const", Access::Constant),
-    ("rwr", Access::ReadWriteInput),
-    ("rww", Access::ReadWriteOutput),
-];
-
-/// The words of `pdo`.
-pub(super) const DIRECTIONS: [(&str, Mappable); 4] = [
-    ("rx", Mappable { rpdo: true, tpdo: false }),
-    ("tx", Mappable { rpdo: false, tpdo: true }),
-    ("both", Mappable { rpdo: true, tpdo: true }),
-    ("no", Mappable { rpdo: false, tpdo: false }),
-];
 
 /// What rows have in common while they are read.
 pub(super) struct Rows {
@@ -53,7 +37,7 @@ pub(super) struct Rows {
     /// Findings that a row takes upon itself.
     pub allowed: Vec<(Span, &'static Code)>,
     /// What is said elsewhere of objects that have sub-entries.
-    pub summaries: Vec<(u16, super::summary::Summaries)>,
+    pub summaries: Vec<(u16, Summaries)>,
     /// How much rows may still copy.
     pub repeats: Repeats,
 }
@@ -82,56 +66,6 @@ impl Rows {
         }
         let row = chapter.map_or(row.clone(), |defaults| row.or(defaults));
         self.defaults.as_ref().map_or(row.clone(), |defaults| row.or(defaults))
-    }
-
-    /// The items of a row of `[chapters.registers]`.
-    pub fn registers(
-        &mut self,
-        reader: &mut Reader<'_, '_>,
-        space: Option<usize>,
-        (key, row): (&At<String>, &At<Row>),
-        chapter: Option<&Row>,
-    ) -> Vec<Item> {
-        let complete = self.complete(reader, (key, &row.value), chapter);
-        self.allow(reader, key, row);
-        let repeat = self.repetition(reader, (&key.value, &complete), space);
-        if row.value.count.is_none() && key.value.contains("{n") {
-            let message = format!("`{}` needs a `count`: nothing says how many `{{n}}` counts", brief(&key.value));
-            reader.report(&codes::TABLE_VALUE, reader.span(key), message);
-        }
-        self.each_has_one(reader, key, &complete, repeat.count);
-        let mut items: Vec<Item> = Vec::new();
-        for number in 0..repeat.count {
-            let name = place::filled(&key.value, number, None);
-            if number == 0 {
-                unfilled(reader, key, Some(&name));
-            }
-            if items.first().is_some_and(|first| first.name == name) {
-                break;
-            }
-            let named = Named { name: &name, key, number, end: row.end };
-            let ty = self.ty(reader, named, &complete);
-            let before = reader.diagnostics.total();
-            let bindings = self.bindings(reader, space, named, &complete, (repeat, ty));
-            if bindings.is_empty() {
-                // What is wrong with the address that it has was told.
-                if reader.diagnostics.total() > before {
-                    break;
-                }
-                self.no_address(reader, space, named, &complete);
-                break;
-            }
-            let mut item = Item::new(bindings[0].clone());
-            item.bindings = bindings;
-            self.fill(reader, &mut item, named, &complete, ty);
-            if number == 0 && complete.access.is_none() && complete.fixed.is_none() {
-                self.no_access(reader, named);
-            }
-            read_only_table(reader, &item);
-            items.push(item);
-        }
-        words_without_register(reader, &row.value, &items);
-        items
     }
 
     /// Findings that the row's doubt explains.
@@ -248,7 +182,7 @@ impl Rows {
     }
 
     fn array(&mut self, reader: &Reader<'_, '_>, named: Named<'_>, element: Type, count: u32) -> Type {
-        let bits = self.underlying(element).bits().and_then(|bits| bits.checked_mul(count));
+        let bits = self.definitions.underlying(element).bits().and_then(|bits| bits.checked_mul(count));
         let id = TypeId(self.definitions.types.len() as u32);
         self.definitions.types.push(TypeDef {
             name: named.name.into(),
@@ -259,31 +193,6 @@ impl Rows {
             origin: reader.origin(named.key),
         });
         Type::Named(id)
-    }
-
-    /// The basic type below a bit field, an enumeration or an alias.
-    pub fn underlying(&self, ty: Type) -> Type {
-        let mut ty = ty;
-        // Definitions never lead back: each refers to earlier ones.
-        while let Type::Named(TypeId(id)) = ty {
-            match self.definitions.types.get(id as usize).map(|def| &def.shape) {
-                Some(Shape::Alias(base) | Shape::BitField { base, .. } | Shape::Enumeration { base, .. }) => ty = *base,
-                Some(Shape::Scaled { base, .. }) => ty = *base,
-                _ => break,
-            }
-        }
-        ty
-    }
-
-    pub(super) fn bits(&self, ty: Type) -> Option<u32> {
-        match ty {
-            Type::Named(TypeId(id)) => self.definitions.types.get(id as usize).and_then(|def| def.bits),
-            ty => match ty {
-                Type::VisibleString(Some(bytes)) | Type::OctetString(Some(bytes)) => bytes.checked_mul(8),
-                Type::UnicodeString(Some(units)) => units.checked_mul(16),
-                ty => ty.bits(),
-            },
-        }
     }
 
     /// Puts what a row says into its item. An overlay's row says little of it.
@@ -314,7 +223,7 @@ impl Rows {
         self.availability(reader, item, row);
         self.words(reader, item, row);
         if let Some(summary) = &row.summary {
-            super::summary::item(reader, self, summary, item);
+            summary::item(reader, &self.definitions, summary, item);
         }
     }
 
@@ -322,7 +231,9 @@ impl Rows {
     fn length(&self, reader: &mut Reader<'_, '_>, item: &Item, named: Named<'_>, row: &Row) {
         let Some(length) = row.length.as_ref().filter(|_| row.esc.is_none()) else { return };
         let is_own = named.key.start <= length.start && length.end <= named.end;
-        let Some(bits) = self.bits(item.ty).filter(|bits| is_own && bits.div_ceil(8) != u32::from(length.value)) else {
+        let Some(bits) =
+            self.definitions.bits(item.ty).filter(|bits| is_own && bits.div_ceil(8) != u32::from(length.value))
+        else {
             return;
         };
         let (name, bytes) = (brief(named.name), bits.div_ceil(8));
@@ -365,7 +276,7 @@ impl Rows {
         if says_nothing && row.conversions.is_empty() {
             return;
         }
-        let base = self.underlying(item.ty);
+        let base = self.definitions.underlying(item.ty);
         let mut quantity = item.quantity.take().map_or_else(Quantity::default, |quantity| *quantity);
         let units = &self.definitions.units;
         let own = row.unit.as_ref().and_then(|unit| units.get(&unit.value));
@@ -430,7 +341,7 @@ impl Rows {
     }
 
     fn behaviour(&mut self, reader: &mut Reader<'_, '_>, item: &mut Item, row: &Row) {
-        let base = self.underlying(item.ty);
+        let base = self.definitions.underlying(item.ty);
         let mut behaviour = item.behaviour.take().map_or_else(Behaviour::default, |behaviour| *behaviour);
         match &row.save {
             Some(FlagOrText::Flag(true)) => behaviour.storage = Storage::Immediate,
@@ -447,7 +358,7 @@ impl Rows {
             behaviour.effective = Some(effective.as_str().into());
         }
         if let Some(when) = &row.when {
-            behaviour.write_when = self.definitions.conditions(reader, when);
+            behaviour.write_when = conditions::conditions(reader, &mut self.definitions.mentioned, when);
         }
         if let Some(values) = &row.writable {
             behaviour.writable_values = value::listed(reader, (&values.value, (values.start, values.end)), base);

@@ -3,6 +3,7 @@
 use compact_str::{format_compact, CompactString};
 
 use super::at::{At, Entries, FlagOr};
+use super::buses::Buses;
 use super::format::{ModbusRule, ObjectRule, SpaceTable};
 use super::tree::Reader;
 use super::windows::{self, Window};
@@ -58,55 +59,6 @@ pub(super) struct Numbers {
     pub bytes_swapped: Option<bool>,
     /// First bit of a part.
     pub bit_offset: Option<u8>,
-}
-
-/// The buses of an item.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Buses {
-    pub canopen: bool,
-    pub ethercat: bool,
-    pub modbus: bool,
-    pub profinet: bool,
-    pub serial: bool,
-}
-
-impl Buses {
-    pub const ALL: Buses = Buses { canopen: true, ethercat: true, modbus: true, profinet: true, serial: true };
-    pub const NONE: Buses = Buses { canopen: false, ethercat: false, modbus: false, profinet: false, serial: false };
-
-    /// Their names in tables.
-    pub fn names(self) -> impl Iterator<Item = &'static str> {
-        let all = [
-            (self.canopen, "canopen"),
-            (self.ethercat, "ethercat"),
-            (self.modbus, "modbus"),
-            (self.profinet, "profinet"),
-            (self.serial, "serial"),
-        ];
-        all.into_iter().filter_map(|(is, name)| is.then_some(name))
-    }
-
-    /// Those that are in one of both.
-    pub fn or(self, other: Buses) -> Buses {
-        Buses {
-            canopen: self.canopen || other.canopen,
-            ethercat: self.ethercat || other.ethercat,
-            modbus: self.modbus || other.modbus,
-            profinet: self.profinet || other.profinet,
-            serial: self.serial || other.serial,
-        }
-    }
-
-    /// Those that are in both.
-    pub fn and(self, other: Buses) -> Buses {
-        Buses {
-            canopen: self.canopen && other.canopen,
-            ethercat: self.ethercat && other.ethercat,
-            modbus: self.modbus && other.modbus,
-            profinet: self.profinet && other.profinet,
-            serial: self.serial && other.serial,
-        }
-    }
 }
 
 /// Reads the spaces of a table.

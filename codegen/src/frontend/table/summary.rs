@@ -1,13 +1,15 @@
 //! What another place of the manual says of a row, held against the row.
 
+use std::collections::BTreeMap;
+
 use super::at::{At, Literal, OneOrMany};
+use super::definitions::Definitions;
 use super::format::SummaryTable;
-use super::objects::{Dictionary, CODES};
-use super::rows::{Rows, ACCESSES, DIRECTIONS};
 use super::tree::{cited, Reader};
+use super::words::{ACCESSES, DIRECTIONS, OBJECT_CODES};
 use super::{types, value};
 use crate::diagnostics::{codes, Diagnostic};
-use crate::ir::{Access, Item, Mappable, ObjectCode, Texts, Type, Value};
+use crate::ir::{Access, Group, Item, Mappable, ObjectCode, Texts, Type, Value};
 use crate::source::Span;
 use crate::text::brief;
 
@@ -15,10 +17,10 @@ use crate::text::brief;
 pub(super) type Summaries = At<OneOrMany<SummaryTable>>;
 
 /// Of an item.
-pub(super) fn item(reader: &mut Reader<'_, '_>, rows: &Rows, given: &Summaries, own: &Item) {
-    let is_domain = rows.underlying(own.ty) == Type::Domain;
+pub(super) fn item(reader: &mut Reader<'_, '_>, definitions: &Definitions, given: &Summaries, own: &Item) {
+    let is_domain = definitions.underlying(own.ty) == Type::Domain;
     for summary in &given.value.0 {
-        of_item(reader, rows, summary, (own, "the row"));
+        of_item(reader, definitions, summary, (own, "the row"));
         names(reader, summary, (&own.name, &own.names));
         code(reader, summary, if is_domain { ObjectCode::Domain } else { ObjectCode::Var });
         if let Some(subs) = summary.subs.as_ref().filter(|subs| subs.value != 1) {
@@ -29,8 +31,13 @@ pub(super) fn item(reader: &mut Reader<'_, '_>, rows: &Rows, given: &Summaries, 
 }
 
 /// Of objects that have sub-entries: each of them but sub-index 0 is meant.
-pub(super) fn objects(reader: &mut Reader<'_, '_>, rows: &Rows, dictionary: &Dictionary) {
-    for (index, given) in &rows.summaries {
+pub(super) fn objects(
+    reader: &mut Reader<'_, '_>,
+    definitions: &Definitions,
+    summaries: &[(u16, Summaries)],
+    dictionary: &BTreeMap<u16, Group>,
+) {
+    for (index, given) in summaries {
         let Some(group) = dictionary.get(index) else { continue };
         for summary in &given.value.0 {
             names(reader, summary, (&group.name, &group.names));
@@ -38,7 +45,7 @@ pub(super) fn objects(reader: &mut Reader<'_, '_>, rows: &Rows, dictionary: &Dic
             let elements = group.items.iter().filter(|item| item.object().is_some_and(|(_, sub)| sub > 0));
             for item in elements.filter(|item| item.ty != Type::Opaque(None)) {
                 let sub_index = item.object().map_or(0, |(_, sub)| sub);
-                if of_item(reader, rows, summary, (item, &format!("sub-index {sub_index}"))) {
+                if of_item(reader, definitions, summary, (item, &format!("sub-index {sub_index}"))) {
                     break;
                 }
             }
@@ -63,9 +70,9 @@ fn report(reader: &mut Reader<'_, '_>, summary: &SummaryTable, span: Span, messa
 /// The object code, where the summary has one.
 fn code(reader: &mut Reader<'_, '_>, summary: &SummaryTable, own: ObjectCode) {
     let Some(given) = &summary.code else { return };
-    let said = reader.word(given, "object code", &CODES);
+    let said = reader.word(given, "object code", &OBJECT_CODES);
     if said.is_some_and(|said| said != own) {
-        let word = CODES.iter().find(|(_, code)| *code == own).map_or("another", |(word, _)| word);
+        let word = OBJECT_CODES.iter().find(|(_, code)| *code == own).map_or("another", |(word, _)| word);
         let message = format!("the summary says code {}, and the row {word}", brief(&given.value));
         report(reader, summary, reader.span(given), message);
     }
@@ -84,8 +91,13 @@ fn names(reader: &mut Reader<'_, '_>, summary: &SummaryTable, (own, others): (&s
 }
 
 /// Whether anything differs. `whose` is what the messages call the item.
-fn of_item(reader: &mut Reader<'_, '_>, rows: &Rows, summary: &SummaryTable, (own, whose): (&Item, &str)) -> bool {
-    let base = rows.underlying(own.ty);
+fn of_item(
+    reader: &mut Reader<'_, '_>,
+    definitions: &Definitions,
+    summary: &SummaryTable,
+    (own, whose): (&Item, &str),
+) -> bool {
+    let base = definitions.underlying(own.ty);
     let mut differs = Vec::new();
     if let Some(given) = &summary.ty {
         let named = types::named(&given.value).filter(|named| named.elements.is_none());
@@ -113,7 +125,7 @@ fn of_item(reader: &mut Reader<'_, '_>, rows: &Rows, summary: &SummaryTable, (ow
             differs.push((reader.span(given), given.value.clone(), direction(own.mappable).to_owned()));
         }
     }
-    if let (Some(given), Some(bits)) = (&summary.length, rows.bits(own.ty)) {
+    if let (Some(given), Some(bits)) = (&summary.length, definitions.bits(own.ty)) {
         if given.value != bits.div_ceil(8) {
             let has = base.bits().map_or_else(|| bits.div_ceil(8).to_string(), |_| base.to_string());
             differs.push((reader.span(given), format!("{} bytes", given.value), has));

@@ -4,9 +4,10 @@ use thin_vec::ThinVec;
 
 use super::at::At;
 use super::format::{Row, VariantTable};
-use super::rows::{Rows, ACCESSES};
+use super::rows::Rows;
 use super::tree::{cited, Reader};
-use super::{device, scale, types, value};
+use super::words::ACCESSES;
+use super::{buses, scale, types, value};
 use crate::diagnostics::{codes, Diagnostic};
 use crate::ir::{Binding, Item, ItemVariant, Limits, RegisterSpace, Type, Value};
 
@@ -14,7 +15,7 @@ impl Rows {
     /// Puts the variants of a row into its item.
     pub(super) fn variants(&mut self, reader: &mut Reader<'_, '_>, item: &mut Item, row: &Row) {
         let Some(list) = &row.variants else { return };
-        let base = self.underlying(item.ty);
+        let base = self.definitions.underlying(item.ty);
         item.variants = list.iter().map(|given| self.variant(reader, given, base)).collect();
         // Another width takes another number of registers.
         let Some(bits) = item.type_on("modbus").bits().filter(|_| item.type_on("modbus") != item.ty) else { return };
@@ -33,7 +34,7 @@ impl Rows {
         };
         self.references.extend(own.models.iter().flatten().map(|model| (model.clone(), "model")));
         if let Some(buses) = &own.buses {
-            device::buses(reader, buses);
+            buses::read(reader, buses);
         }
         let ty = own.ty.as_ref().and_then(|given| self.other_type(reader, given, base));
         let allowed = own.allowed.as_ref();

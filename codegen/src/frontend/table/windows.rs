@@ -1,10 +1,10 @@
 //! Windows: items through which the values of a space are reached by their numbers.
 
 use super::at::{At, Entries, TextOr};
+use super::buses::{self, Buses};
 use super::format::{IndirectRule, SpaceTable, WindowTable};
 use super::place;
 use super::references::{References, ITEM};
-use super::spaces::Buses;
 use super::tree::Reader;
 use crate::diagnostics::codes;
 use crate::ir::{Binding, IndirectBinding, WindowSide};
@@ -41,7 +41,7 @@ fn window(reader: &mut Reader<'_, '_>, name: &At<String>, rule: &IndirectRule) -
         }
         found
     });
-    let buses = rule.buses.as_ref().map_or(Buses::ALL, |list| super::device::buses(reader, list));
+    let buses = rule.buses.as_ref().map_or(Buses::ALL, |list| buses::read(reader, list));
     Window { buses, numbers, add: rule.add.unwrap_or(0), read, write }
 }
 

@@ -2,14 +2,13 @@
 
 use std::collections::{HashMap, HashSet};
 
+use super::super::buses::Buses;
 use super::super::definitions::Kind;
 use super::super::format::AppliesTable;
 use super::super::machine_budget::MachineBudget;
-use super::super::rows::Rows;
-use super::super::spaces::Buses;
 use super::super::tree::{similar, Reader};
 use super::super::{code_tables, device, machines, resolve};
-use super::change::{Outcome, Place};
+use super::change::{ObjectSet, Outcome, RowPatcher};
 use super::{item_name, name_conditions, Overlay, PatchRow, Target};
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
 use crate::ir::{
@@ -33,9 +32,8 @@ pub fn apply(source: &Source, file: FileId, catalog: &mut Catalog, diagnostics: 
 }
 
 /// An overlay while it is applied.
-pub(super) struct Applied<'o> {
-    pub overlay: &'o Overlay,
-    pub rows: Rows,
+struct Applied<'o> {
+    patcher: RowPatcher<'o>,
     /// What came of each row.
     outcomes: Vec<Outcome>,
     /// Definitions that a row named.
@@ -47,12 +45,13 @@ pub(super) struct Applied<'o> {
 impl<'o> Applied<'o> {
     fn new(overlay: &'o Overlay) -> Self {
         let outcomes = vec![Outcome::NoMatch; overlay.patch.rows.len()];
-        Applied { overlay, rows: overlay.patch.filler(), outcomes, used: HashSet::new(), names: Vec::new() }
+        let patcher = RowPatcher { overlay, rows: overlay.patch.filler() };
+        Applied { patcher, outcomes, used: HashSet::new(), names: Vec::new() }
     }
 
     fn run(&mut self, reader: &mut Reader<'_, '_>, catalog: &mut Catalog) {
         let everything = AppliesTable::default();
-        let applies = self.overlay.head.value.applies.as_ref().unwrap_or(&everything);
+        let applies = self.patcher.overlay.head.value.applies.as_ref().unwrap_or(&everything);
         let count = match &applies.module {
             Some(pattern) => {
                 self.behaviour_of_module(reader);
@@ -60,13 +59,13 @@ impl<'o> Applied<'o> {
             }
             None => self.devices(reader, catalog, applies),
         };
-        reader.diagnostics.allow(std::mem::take(&mut self.rows.allowed));
+        reader.diagnostics.allow(std::mem::take(&mut self.patcher.rows.allowed));
         if count > 0 {
             return self.report(reader);
         }
         let what = if applies.module.is_some() { "module" } else { "device" };
         let message = format!("the overlay is for no {what} of the description");
-        let mut found = Diagnostic::new(&codes::OVERLAY_NOT_FOR, reader.span(&self.overlay.head), message);
+        let mut found = Diagnostic::new(&codes::OVERLAY_NOT_FOR, reader.span(&self.patcher.overlay.head), message);
         if let Some(device) = catalog.devices.first() {
             found = found.note(format!("it describes {}", described(device)));
         }
@@ -102,7 +101,7 @@ impl<'o> Applied<'o> {
         types: &mut Vec<TypeDef>,
         doubts: &mut Doubts,
     ) -> Outcome {
-        let outcome = self.place(reader, Place::of_submodule(submodule, types));
+        let outcome = self.place(reader, ObjectSet::of_submodule(submodule, types));
         self.resolve(reader, &mut submodule.records, types);
         self.keep_doubts(doubts);
         outcome
@@ -112,8 +111,8 @@ impl<'o> Applied<'o> {
     fn module(&mut self, reader: &mut Reader<'_, '_>, module: &mut Module, doubts: &mut Doubts) -> Outcome {
         let buses = buses_of_module(module);
         let Module { groups, fixed_objects, types, extensions, .. } = module;
-        let outcome = self.place(reader, Place { groups, types, extensions, buses });
-        let outcome = outcome.max(self.place(reader, Place { groups: fixed_objects, types, extensions, buses }));
+        let outcome = self.place(reader, ObjectSet { groups, types, extensions, buses });
+        let outcome = outcome.max(self.place(reader, ObjectSet { groups: fixed_objects, types, extensions, buses }));
         // Modules of CiA 306 have the one, those of ETG.2000 the other: together they are as sorted as alone.
         let own = groups.len();
         groups.append(fixed_objects);
@@ -131,14 +130,14 @@ impl<'o> Applied<'o> {
     }
 
     fn resolve_in(&mut self, reader: &mut Reader<'_, '_>, device: &Device) {
-        resolve(reader, &self.rows, device);
-        self.rows.references.clear();
-        self.rows.definitions.mentioned.clear();
+        resolve(reader, &self.patcher.rows, device);
+        self.patcher.rows.references.clear();
+        self.patcher.rows.definitions.mentioned.clear();
     }
 
     /// Doubts of definitions, once however many places use them.
     fn keep_doubts(&mut self, kept: &mut Doubts) {
-        for doubt in std::mem::take(&mut self.rows.definitions.doubts) {
+        for doubt in std::mem::take(&mut self.patcher.rows.definitions.doubts) {
             if !kept.contains(&doubt) {
                 kept.push(doubt);
             }
@@ -150,16 +149,16 @@ impl<'o> Applied<'o> {
         let Some(other) = other else { return };
         let (name, other) = (brief(name), brief(other));
         let message = format!("`{name}` is also a part of `{other}`, which the overlay isn't for");
-        let found = Diagnostic::new(&codes::OVERLAY_SHARED, reader.span(&self.overlay.head), message);
+        let found = Diagnostic::new(&codes::OVERLAY_SHARED, reader.span(&self.patcher.overlay.head), message);
         reader.diagnostics.push(found.label("it is changed there, too"));
     }
 
     fn device(&mut self, reader: &mut Reader<'_, '_>, device: &mut Device) {
         let buses = buses_of(device);
         let Device { groups, types, extensions, .. } = device;
-        self.place(reader, Place { groups, types, extensions, buses });
+        self.place(reader, ObjectSet { groups, types, extensions, buses });
         self.keep_doubts(&mut device.doubts);
-        let patch = &self.overlay.patch;
+        let patch = &self.patcher.overlay.patch;
         if let Some(axes) = &patch.axes {
             device::axes(reader, axes, device);
         }
@@ -170,7 +169,7 @@ impl<'o> Applied<'o> {
         let mut budget = MachineBudget::new();
         for (name, table) in &patch.machines {
             let before = device.machines.len();
-            if !machines::machine(reader, (name, table), device, &mut budget, &mut self.rows.references) {
+            if !machines::machine(reader, (name, table), device, &mut budget, &mut self.patcher.rows.references) {
                 break;
             }
             // It takes the place of one of the same name.
@@ -183,7 +182,7 @@ impl<'o> Applied<'o> {
         }
         for (name, table) in &patch.procedures {
             device.procedures.retain(|own| own.name != name.value);
-            machines::procedure(reader, name, table, device, &mut self.rows.references);
+            machines::procedure(reader, name, table, device, &mut self.patcher.rows.references);
         }
         self.own_doubts(reader, &mut device.doubts);
         self.resolve_in(reader, device);
@@ -191,7 +190,7 @@ impl<'o> Applied<'o> {
 
     /// The doubts of the overlay as a whole.
     fn own_doubts(&self, reader: &mut Reader<'_, '_>, kept: &mut Doubts) {
-        for doubt in &self.overlay.patch.doubts {
+        for doubt in &self.patcher.overlay.patch.doubts {
             let list = super::super::at::OneOrMany(vec![doubt.value.clone()]);
             kept.extend(reader.doubts([Some(&list), None], reader.origin(doubt), None));
         }
@@ -199,7 +198,7 @@ impl<'o> Applied<'o> {
 
     /// Tells of what an overlay for modules says and only a device has.
     fn behaviour_of_module(&self, reader: &mut Reader<'_, '_>) {
-        let patch = &self.overlay.patch;
+        let patch = &self.patcher.overlay.patch;
         let axes = patch.axes.iter().map(|axes| ("axes", reader.span(axes)));
         let codes = patch.codes.iter().map(|(name, _)| ("codes", reader.span(name)));
         let machines = patch.machines.iter().map(|(name, _)| ("machines", reader.span(name)));
@@ -265,26 +264,26 @@ impl<'o> Applied<'o> {
     }
 
     /// Applies the rows to the groups of a device, module or submodule; tells what came of the one that did most.
-    fn place(&mut self, reader: &mut Reader<'_, '_>, mut place: Place<'_>) -> Outcome {
+    fn place(&mut self, reader: &mut Reader<'_, '_>, mut place: ObjectSet<'_>) -> Outcome {
         let items = place.groups.iter().flat_map(|group| &group.items);
         self.names.extend(items.map(|item| item.name.clone()));
         let made = place.types.len();
-        self.rows.definitions.types = std::mem::take(place.types);
-        self.rows.definitions.made.clear();
-        self.rows.buses = Buses { canopen: place.buses.canopen, ethercat: place.buses.coe, ..Buses::ALL };
-        let overlay = self.overlay;
+        self.patcher.rows.definitions.types = std::mem::take(place.types);
+        self.patcher.rows.definitions.made.clear();
+        self.patcher.rows.buses = Buses { canopen: place.buses.canopen, ethercat: place.buses.coe, ..Buses::ALL };
+        let overlay = self.patcher.overlay;
         let mut best = Outcome::NoMatch;
         for (position, row) in overlay.patch.rows.iter().enumerate() {
-            self.rows.allow(reader, &row.key, &row.row);
-            let outcome = self.row(reader, &mut place, row);
+            self.patcher.rows.allow(reader, &row.key, &row.row);
+            let outcome = self.patcher.row(reader, &mut place, row);
             best = best.max(outcome);
             if let Some(own) = self.outcomes.get_mut(position) {
                 *own = (*own).max(outcome);
             }
         }
-        let names = self.rows.definitions.made.keys().cloned();
+        let names = self.patcher.rows.definitions.made.keys().cloned();
         self.used.extend(names);
-        *place.types = std::mem::take(&mut self.rows.definitions.types);
+        *place.types = std::mem::take(&mut self.patcher.rows.definitions.types);
         name_conditions(place.groups, place.types.get_mut(made..).unwrap_or_default());
         best
     }
@@ -292,7 +291,7 @@ impl<'o> Applied<'o> {
     /// Tells of rows that match nothing or change nothing, and of definitions that nothing names.
     fn report(&self, reader: &mut Reader<'_, '_>) {
         let errors = reader.diagnostics.error_places();
-        for (row, outcome) in self.overlay.patch.rows.iter().zip(&self.outcomes) {
+        for (row, outcome) in self.patcher.overlay.patch.rows.iter().zip(&self.outcomes) {
             let span = Span { end: row.row.end, ..reader.span(&row.key) };
             if errors.any_in(span) {
                 continue;
@@ -312,11 +311,11 @@ impl<'o> Applied<'o> {
         if self.outcomes.contains(&Outcome::NoMatch) || reader.diagnostics.error_places().any_in(whole) {
             return;
         }
-        let definitions = &self.overlay.patch.definitions;
+        let definitions = &self.patcher.overlay.patch.definitions;
         let enums = definitions.enums.names().map(|name| (Kind::Enumeration, name));
         let all = enums.chain(definitions.bits.names().map(|name| (Kind::Bits, name)));
         let unused = all.filter(|(kind, name)| !self.used.contains(&(*kind, name.value.clone()))).map(|(_, name)| name);
-        let rows = || self.overlay.patch.rows.iter().filter_map(|row| row.row.value.unit.as_ref());
+        let rows = || self.patcher.overlay.patch.rows.iter().filter_map(|row| row.row.value.unit.as_ref());
         let units = definitions.units.names();
         let units = units.filter(|name| !rows().any(|unit| unit.value == name.value));
         for name in unused.chain(units) {
@@ -382,10 +381,10 @@ impl Elsewhere {
     }
 }
 
-impl<'c> Place<'c> {
+impl<'c> ObjectSet<'c> {
     fn of_submodule(submodule: &'c mut Submodule, types: &'c mut Vec<TypeDef>) -> Self {
         let buses = ObjectBuses { canopen: false, coe: false };
-        Place { groups: &mut submodule.records, types, extensions: &mut submodule.extensions, buses }
+        ObjectSet { groups: &mut submodule.records, types, extensions: &mut submodule.extensions, buses }
     }
 }
 

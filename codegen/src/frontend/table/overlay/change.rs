@@ -7,10 +7,10 @@ use super::super::definitions::Kind;
 use super::super::format::Row;
 use super::super::objects;
 use super::super::place::{self, Objects};
-use super::super::rows::Named;
+use super::super::rows::{Named, Rows};
 use super::super::tree::{cited, Reader};
-use super::apply::Applied;
-use super::{in_range, PatchRow, Target};
+use super::super::words::OBJECT_CODES;
+use super::{in_range, Overlay, PatchRow, Target};
 use crate::diagnostics::codes;
 use crate::ir::{
     Documentation, Extension, Extensions, Group, GroupKind, Item, ObjectBuses, ObjectCode, Type, TypeDef, TypeId,
@@ -19,7 +19,7 @@ use crate::source::Span;
 use crate::text::brief;
 
 /// The objects of a device, a module or a submodule, and the types that they name.
-pub(super) struct Place<'c> {
+pub(super) struct ObjectSet<'c> {
     pub groups: &'c mut Vec<Group>,
     pub types: &'c mut Vec<TypeDef>,
     /// Where what is taken away leaves its reason.
@@ -49,9 +49,15 @@ impl From<bool> for Outcome {
     }
 }
 
-impl Applied<'_> {
+/// The rows of an overlay while they change what is described.
+pub(super) struct RowPatcher<'o> {
+    pub overlay: &'o Overlay,
+    pub rows: Rows,
+}
+
+impl RowPatcher<'_> {
     /// Applies a row.
-    pub(super) fn row(&mut self, reader: &mut Reader<'_, '_>, place: &mut Place<'_>, row: &PatchRow) -> Outcome {
+    pub(super) fn row(&mut self, reader: &mut Reader<'_, '_>, set: &mut ObjectSet<'_>, row: &PatchRow) -> Outcome {
         let (adds, removes) = (row.row.value.add == Some(true), row.row.value.remove == Some(true));
         match (row.target, adds, removes) {
             (_, true, true) => {
@@ -63,10 +69,10 @@ impl Applied<'_> {
                 reader.report(&codes::TABLE_VALUE, reader.span(&row.key), message);
                 Outcome::Changed
             }
-            (_, _, true) => self.remove(reader, place, row),
-            (Target::Objects(objects), true, _) => self.add(reader, place, row, objects),
-            (Target::Objects(objects), ..) => self.objects(reader, place.groups, row, objects),
-            (Target::Name, ..) => self.named(reader, place.groups, row),
+            (_, _, true) => self.remove(reader, set, row),
+            (Target::Objects(objects), true, _) => self.add(reader, set, row, objects),
+            (Target::Objects(objects), ..) => self.objects(reader, set.groups, row, objects),
+            (Target::Name, ..) => self.named(reader, set.groups, row),
         }
     }
 
@@ -176,7 +182,7 @@ impl Applied<'_> {
     /// Addresses in other protocols that the description lacks.
     fn further_addresses(&mut self, reader: &mut Reader<'_, '_>, item: &mut Item, named: Named<'_>, row: &Row) {
         let mut found = smallvec::SmallVec::new();
-        let (bits, sub) = (self.rows.bits(item.ty), item.object().map(|(_, sub)| sub));
+        let (bits, sub) = (self.rows.definitions.bits(item.ty), item.object().map(|(_, sub)| sub));
         self.rows.other_addresses(reader, (named, sub), row, (0, bits), &mut found);
         let new: Vec<_> = found.into_iter().filter(|binding| !item.bindings.contains(binding)).collect();
         item.bindings.extend(new);
@@ -192,7 +198,7 @@ impl Applied<'_> {
             (_, Some(values)) => (Kind::Enumeration, reader.span(values), name_of(&values.value)),
             _ => return None,
         };
-        let base = self.rows.underlying(old);
+        let base = self.rows.definitions.underlying(old);
         if !matches!(base, Type::Integer(_) | Type::Unsigned(_) | Type::Boolean) {
             let message = format!("the item is {base}, which has no bits and no values with names");
             reader.report(&codes::TABLE_VALUE, span, message);
@@ -266,7 +272,7 @@ impl Applied<'_> {
             changed |= group.name != text;
             (group.name, group.name_at) = (text.into(), reader.span(name));
         }
-        let given = row.code.as_ref().and_then(|code| reader.word(code, "object code", &objects::CODES));
+        let given = row.code.as_ref().and_then(|code| reader.word(code, "object code", &OBJECT_CODES));
         if let (GroupKind::Object { code, .. }, Some(given)) = (&mut group.kind, given) {
             changed |= *code != given;
             *code = given;
@@ -274,28 +280,28 @@ impl Applied<'_> {
         changed
     }
 
-    fn remove(&mut self, reader: &mut Reader<'_, '_>, place: &mut Place<'_>, row: &PatchRow) -> Outcome {
+    fn remove(&mut self, reader: &mut Reader<'_, '_>, set: &mut ObjectSet<'_>, row: &PatchRow) -> Outcome {
         let count = |groups: &[Group]| (groups.len(), groups.iter().map(|group| group.items.len()).sum::<usize>());
-        let before = count(place.groups);
+        let before = count(set.groups);
         match row.target {
-            Target::Objects(objects) => take_objects(place.groups, objects),
+            Target::Objects(objects) => take_objects(set.groups, objects),
             Target::Name => {
-                let mut found = find(place.groups, &row.key.value);
+                let mut found = find(set.groups, &row.key.value);
                 if found.len() > 1 {
-                    return self.named(reader, place.groups, row);
+                    return self.named(reader, set.groups, row);
                 }
                 if let Some(bindings) = found.pop().map(|item| item.bindings.clone()) {
-                    for group in place.groups.iter_mut() {
+                    for group in set.groups.iter_mut() {
                         group.items.retain(|item| item.bindings != bindings);
                     }
-                    place.groups.retain(|group| !group.items.is_empty() || group.index().is_none());
+                    set.groups.retain(|group| !group.items.is_empty() || group.index().is_none());
                 }
             }
         }
-        if count(place.groups) == before {
+        if count(set.groups) == before {
             return Outcome::NoMatch;
         }
-        place.extensions.push(Extension {
+        set.extensions.push(Extension {
             key: format!("overlay/removed {}", row.key.value).into(),
             value: self.why(&row.row.value).into(),
             span: reader.span(&row.key),
@@ -303,15 +309,21 @@ impl Applied<'_> {
         Outcome::Changed
     }
 
-    fn add(&mut self, reader: &mut Reader<'_, '_>, place: &mut Place<'_>, row: &PatchRow, objects: Objects) -> Outcome {
-        if exists(place.groups, objects) {
+    fn add(
+        &mut self,
+        reader: &mut Reader<'_, '_>,
+        set: &mut ObjectSet<'_>,
+        row: &PatchRow,
+        objects: Objects,
+    ) -> Outcome {
+        if exists(set.groups, objects) {
             return Outcome::NoChange;
         }
         // The objects themselves may be there, and get a further sub-entry.
         let mut dictionary = BTreeMap::new();
         let wanted = objects.indices.0..=objects.indices.1;
         let is_meant = |group: &Group| group.index().is_some_and(|index| wanted.contains(&index));
-        for group in place.groups.extract_if(.., |group| is_meant(group)) {
+        for group in set.groups.extract_if(.., |group| is_meant(group)) {
             dictionary.insert(group.index().unwrap_or_default(), group);
         }
         objects::add(reader, &mut self.rows, &mut dictionary, (&row.key, &row.row), (None, None));
@@ -322,8 +334,8 @@ impl Applied<'_> {
                 explain("Added", &why, span, &mut item.documentation, &mut item.extensions);
             }
         }
-        place.groups.extend(dictionary.into_values());
-        place.groups.sort_by_key(Group::index);
+        set.groups.extend(dictionary.into_values());
+        set.groups.sort_by_key(Group::index);
         Outcome::Changed
     }
 }

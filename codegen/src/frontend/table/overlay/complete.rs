@@ -5,12 +5,12 @@
 
 use std::collections::HashMap;
 
+use super::super::buses::{self, Buses};
 use super::super::format::{ImageTable, Row};
+use super::super::process;
 use super::super::rows::{Named, Rows};
-use super::super::spaces::Buses;
 use super::super::tree::{cited, Reader};
 use super::super::types;
-use super::super::{device, process};
 use super::{at_place, in_range, item_name, name_conditions, Patch, PatchRow, Profile, Target};
 use crate::diagnostics::Diagnostics;
 use crate::ir::{
@@ -50,7 +50,7 @@ impl<'p> Completion<'p> {
     pub(crate) fn buses(&mut self) -> (bool, bool) {
         let buses = self.profile.head.buses.as_ref();
         let all = Buses::ALL;
-        let buses = buses.map_or(all, |list| self.with_reader(|reader, _| device::buses(reader, list)));
+        let buses = buses.map_or(all, |list| self.with_reader(|reader, _| buses::read(reader, list)));
         (buses.canopen, buses.ethercat)
     }
 
@@ -163,7 +163,7 @@ impl<'p> Completion<'p> {
 
     /// Adds to an item what it doesn't say; gives its old and new type where that is another one.
     fn item(&mut self, item: &mut Item, row: &PatchRow, number: u32) -> Option<(Type, Type)> {
-        let (old, own) = (item.ty, self.rows.underlying(item.ty));
+        let (old, own) = (item.ty, self.rows.definitions.underlying(item.ty));
         let said = &row.row.value;
         if !is_alike(own, said) || !self.is_on_bus(item, said) {
             return None;
@@ -291,7 +291,7 @@ impl<'p> Completion<'p> {
     }
 
     fn field(&mut self, field: &mut PdoEntry, row: &PatchRow) {
-        let own = self.rows.underlying(field.ty);
+        let own = self.rows.definitions.underlying(field.ty);
         if !is_alike(own, &row.row.value) || !self.is_plain(field.ty) {
             return;
         }

@@ -14,6 +14,7 @@ pub use apply::apply;
 pub(crate) use complete::Completion;
 
 use super::at::At;
+use super::buses::Buses;
 use super::definitions::Definitions;
 use super::format::{
     AxesTable, ChapterTable, CodesTable, DoubtTable, ImageTable, MachineTable, ManualTable, OverlayTable,
@@ -23,7 +24,6 @@ use super::machine_budget::MachineBudget;
 use super::place::{self, Objects};
 use super::repeats::Repeats;
 use super::rows::Rows;
-use super::spaces::Buses;
 use super::tree::Reader;
 use super::{code_tables, machines, Table};
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};

@@ -1,0 +1,66 @@
+//! States and commands of a state machine: patterns of bits, or the values of an enumeration.
+
+use super::at::{Entries, TextOr};
+use super::format::{MachineTable, PatternTable};
+use super::tree::{cited, Reader};
+use crate::diagnostics::codes;
+use crate::ir::{Device, EnumValue, Pattern, Shape, Type, TypeRef};
+use crate::text::brief;
+
+/// The type and the values of the enumeration that is called so.
+pub(super) fn enumeration<'d>(device: &'d Device, name: &str) -> Option<(Type, &'d [EnumValue])> {
+    device.types.iter().filter(|own| own.name == name).find_map(|own| match &own.shape {
+        Shape::Enumeration { base, values, .. } => Some((*base, &**values)),
+        _ => None,
+    })
+}
+
+/// The states of a machine: patterns of its own, or the values of an enumeration.
+pub(super) fn states(
+    reader: &mut Reader<'_, '_>,
+    table: &MachineTable,
+    device: &Device,
+) -> (Option<TypeRef>, Vec<Pattern>) {
+    let Some(given) = &table.states else { return (None, Vec::new()) };
+    let name = match &given.value {
+        TextOr::Table(own) => return (None, patterns(reader, own)),
+        TextOr::Text(name) => name,
+    };
+    let Some((base, values)) = enumeration(device, name) else {
+        let is_enumeration = |shape: &Shape| matches!(shape, Shape::Enumeration { .. });
+        let known = device.types.iter().filter(|own| is_enumeration(&own.shape)).map(|own| own.name.as_str());
+        reader.unresolved("enumeration", name, reader.span(given), known);
+        return (None, Vec::new());
+    };
+    let mask = base.bits().filter(|&bits| bits < 32).map_or(u32::MAX, |bits| (1 << bits) - 1);
+    let single = values.iter().filter(|value| value.last.is_none() && value.zone.is_none());
+    let pattern = |value: &EnumValue| Pattern {
+        name: value.name.clone(),
+        mask,
+        value: (value.value & i128::from(mask)) as u32,
+        names: value.names.clone(),
+        documentation: value.documentation.clone(),
+    };
+    (Some(TypeRef::new(name.as_str(), reader.span(given))), single.map(pattern).collect())
+}
+
+/// Reads patterns of bits: states or commands. One without a mask or value is reported.
+pub(super) fn patterns(reader: &mut Reader<'_, '_>, entries: &Entries<PatternTable>) -> Vec<Pattern> {
+    let mut patterns = Vec::new();
+    for (name, own) in entries.iter() {
+        let own = &own.value;
+        let (Some(mask), Some(value)) = (own.mask, own.value) else {
+            let message = format!("`{}` has a `mask` and a `value`", brief(&name.value));
+            reader.report(&codes::TABLE_VALUE, reader.span(name), message);
+            continue;
+        };
+        patterns.push(Pattern {
+            name: name.value.as_str().into(),
+            mask,
+            value,
+            names: reader.original(own.orig.as_deref()),
+            documentation: reader.documentation(own.doc.as_deref(), own.cite.as_ref().map(cited)),
+        });
+    }
+    patterns
+}
