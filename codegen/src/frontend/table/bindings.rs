@@ -115,7 +115,7 @@ impl Rows {
         let buses = self.buses_of(reader, row);
         let shift = named.number.saturating_mul(repeat.step);
         let mut bindings = SmallVec::new();
-        let bits = ty.and_then(|ty| self.definitions.bits(ty));
+        let bits = ty.and_then(|ty| self.definitions.bits_of(ty));
         let mut by_rule = None;
         if let Some(reg) = &row.reg {
             match self.numbers(reader, reg, row, (bits, named.number, repeat), space) {

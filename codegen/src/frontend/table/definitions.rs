@@ -113,7 +113,7 @@ impl Definitions {
     }
 
     /// The bits of a type, also of one with a name; `None` if its length varies.
-    pub fn bits(&self, ty: Type) -> Option<u32> {
+    pub fn bits_of(&self, ty: Type) -> Option<u32> {
         match ty {
             Type::Named(TypeId(id)) => self.types.get(id as usize).and_then(|def| def.bits),
             ty => match ty {

@@ -35,8 +35,8 @@ pub(super) fn settings(reader: &mut Reader<'_, '_>, table: &At<EtherCatTable>, b
     device.process_data.sync_managers.sort_by_key(|manager| manager.number);
 }
 
-fn mailbox(own: &EtherCatTable) -> Option<Mailbox> {
-    let coe = match &own.coe {
+fn mailbox(table: &EtherCatTable) -> Option<Mailbox> {
+    let coe = match &table.coe {
         Some(FlagOr::Table(table)) => Some(coe(table)),
         Some(FlagOr::Flag(true)) => Some(Coe::default()),
         Some(FlagOr::Flag(false)) | None => None,
@@ -44,11 +44,11 @@ fn mailbox(own: &EtherCatTable) -> Option<Mailbox> {
     let plain = |is_there: bool| is_there.then(Protocol::default);
     let mailbox = Mailbox {
         coe,
-        aoe: plain(own.aoe),
-        eoe: plain(own.eoe),
-        foe: plain(own.foe),
-        soe: plain(own.soe),
-        voe: plain(own.voe),
+        aoe: plain(table.aoe),
+        eoe: plain(table.eoe),
+        foe: plain(table.foe),
+        soe: plain(table.soe),
+        voe: plain(table.voe),
         ..Mailbox::default()
     };
     (mailbox != Mailbox::default()).then_some(mailbox)

@@ -101,7 +101,7 @@ fn elements(
 }
 
 /// The only values. Limits beside them don't exclude any.
-fn allowed(reader: &mut Reader<'_, '_>, item: &mut Item, row: &Row, base: Type, own: &mut Limits) {
+fn allowed(reader: &mut Reader<'_, '_>, item: &mut Item, row: &Row, base: Type, limits: &mut Limits) {
     let Some(given) = &row.allowed else { return };
     let span = reader.span(given);
     let ranges = value::ranges(reader, (&given.value, (given.start, given.end)), base);
@@ -111,12 +111,12 @@ fn allowed(reader: &mut Reader<'_, '_>, item: &mut Item, row: &Row, base: Type, 
             lints::range(reader, last, base, span);
         }
     }
-    let wrong = |value: &Value| Some(format!("the allowed value {value} is {}", excluded(own, value)?));
+    let wrong = |value: &Value| Some(format!("the allowed value {value} is {}", excluded(limits, value)?));
     if let Some(message) = ranges.iter().find_map(|(first, last)| wrong(first).or_else(|| wrong(last))) {
         exclude(reader, span, message);
     }
-    own.allowed = ranges;
-    item.limits.allowed.clone_from(&own.allowed);
+    limits.allowed = ranges;
+    item.limits.allowed.clone_from(&limits.allowed);
 }
 
 /// The values that may be written are among those that there are.

@@ -202,8 +202,8 @@ fn step(reader: &mut Reader<'_, '_>, given: &At<StepTable>, references: &mut Ref
     found
 }
 
-fn written(own: &StepTable, item: ItemRef, number: Option<Value>) -> Option<Step> {
-    match (number, &own.argument, &own.mask, &own.timeout) {
+fn written(step: &StepTable, item: ItemRef, number: Option<Value>) -> Option<Step> {
+    match (number, &step.argument, &step.mask, &step.timeout) {
         (Some(value), None, None, None) => Some(Step::Write(item, value)),
         (Some(value), None, Some(mask), None) => Some(Step::WriteBits(item, mask.value, value)),
         (None, Some(argument), None, None) => Some(Step::WriteArgument(item, text(argument))),

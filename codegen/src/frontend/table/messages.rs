@@ -152,22 +152,22 @@ fn example(reader: &mut Reader<'_, '_>, given: &At<ExampleTable>, doubts: &mut D
     }
 }
 
-fn availability(own: &MessageTable) -> Availability {
+fn availability(message: &MessageTable) -> Availability {
     Availability {
-        models: own.models.iter().flatten().map(text).collect(),
-        since: own.since.as_deref().map(Into::into),
-        until: own.until.as_deref().map(Into::into),
-        replaced_by: own.replaced_by.as_ref().map(|name| name.value.as_str().into()),
+        models: message.models.iter().flatten().map(text).collect(),
+        since: message.since.as_deref().map(Into::into),
+        until: message.until.as_deref().map(Into::into),
+        replaced_by: message.replaced_by.as_ref().map(|name| name.value.as_str().into()),
         ..Availability::default()
     }
 }
 
 /// The names that a message refers to.
-fn references(own: &MessageTable, all: &mut References) {
-    let messages = [&own.after, &own.error, &own.replaced_by];
+fn references(message: &MessageTable, all: &mut References) {
+    let messages = [&message.after, &message.error, &message.replaced_by];
     all.extend(messages.into_iter().flatten().map(|name| (name.clone(), "message")));
-    all.extend(own.models.iter().flatten().map(|name| (name.clone(), "model")));
-    all.extend(own.accepted_in.iter().map(|name| (name.clone(), "state")));
+    all.extend(message.models.iter().flatten().map(|name| (name.clone(), "model")));
+    all.extend(message.accepted_in.iter().map(|name| (name.clone(), "state")));
 }
 
 fn completion(

@@ -42,24 +42,24 @@ pub(super) fn object(reader: &mut Reader<'_, '_>, key: &At<String>, row: &At<Row
     everywhere(reader, key, own);
 }
 
-fn everywhere(reader: &mut Reader<'_, '_>, key: &At<String>, own: &Row) {
-    let by_item = matches!(&own.count, Some(At { value: NumberOrText::Text(_), .. }));
-    let words = own.order.is_some() || own.swap.is_some();
+fn everywhere(reader: &mut Reader<'_, '_>, key: &At<String>, row: &Row) {
+    let by_item = matches!(&row.count, Some(At { value: NumberOrText::Text(_), .. }));
+    let words = row.order.is_some() || row.swap.is_some();
     report(
         reader,
         key,
         &[
-            ("why", own.why.is_some(), "it says why an overlay changes something, and this is no overlay"),
-            ("add", own.add.is_some(), "only an overlay adds to a description"),
-            ("remove", own.remove.is_some(), "only an overlay takes something away: leave the row out"),
-            ("part", own.part.is_some() && own.reg.is_none(), "it is bits of a register, and the row has no `reg`"),
-            ("order", words && own.reg.is_none(), "it is about the words of registers, and the row has no `reg`"),
+            ("why", row.why.is_some(), "it says why an overlay changes something, and this is no overlay"),
+            ("add", row.add.is_some(), "only an overlay adds to a description"),
+            ("remove", row.remove.is_some(), "only an overlay takes something away: leave the row out"),
+            ("part", row.part.is_some() && row.reg.is_none(), "it is bits of a register, and the row has no `reg`"),
+            ("order", words && row.reg.is_none(), "it is about the words of registers, and the row has no `reg`"),
             (
                 "stride",
-                own.stride.is_some() && own.count.is_none(),
+                row.stride.is_some() && row.count.is_none(),
                 "it lies between two of several: the row has no `count`",
             ),
-            ("max_count", own.max_count.is_some() && !by_item, "it goes with a `count` that an item holds"),
+            ("max_count", row.max_count.is_some() && !by_item, "it goes with a `count` that an item holds"),
         ],
     );
 }

@@ -217,6 +217,6 @@ fn beside(
         );
         item.bindings.extend(found.into_iter().filter(|binding| !matches!(binding, Binding::Object { .. })));
     }
-    let bits = ty.and_then(|ty| rows.definitions.bits(ty));
+    let bits = ty.and_then(|ty| rows.definitions.bits_of(ty));
     rows.other_addresses(reader, (named, own.map(|(_, sub)| sub)), row, (0, bits), &mut item.bindings);
 }

@@ -96,8 +96,8 @@ pub(super) fn pdo(reader: &mut Reader<'_, '_>, table: &At<PdoTable>, targets: &T
 }
 
 /// Holds the lengths that the manual prints against the entries.
-fn printed_lengths(reader: &mut Reader<'_, '_>, own: &PdoTable, pdo: &Pdo) {
-    let Some(printed) = &own.length else { return };
+fn printed_lengths(reader: &mut Reader<'_, '_>, table: &PdoTable, pdo: &Pdo) {
+    let Some(printed) = &table.length else { return };
     let (index, bits) = (pdo.mapping_index, pdo.bits());
     for bytes in printed.value.0.iter().filter(|bytes| bytes.saturating_mul(8) != bits) {
         let message = format!("the PDO 0x{index:04X} is printed with {bytes} bytes, and its entries have {bits} bits");

@@ -232,7 +232,7 @@ impl Rows {
         let Some(length) = row.length.as_ref().filter(|_| row.esc.is_none()) else { return };
         let is_own = named.key.start <= length.start && length.end <= named.end;
         let Some(bits) =
-            self.definitions.bits(item.ty).filter(|bits| is_own && bits.div_ceil(8) != u32::from(length.value))
+            self.definitions.bits_of(item.ty).filter(|bits| is_own && bits.div_ceil(8) != u32::from(length.value))
         else {
             return;
         };

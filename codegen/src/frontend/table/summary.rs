@@ -17,11 +17,11 @@ use crate::text::brief;
 pub(super) type Summaries = At<OneOrMany<SummaryTable>>;
 
 /// Of an item.
-pub(super) fn item(reader: &mut Reader<'_, '_>, definitions: &Definitions, given: &Summaries, own: &Item) {
-    let is_domain = definitions.underlying(own.ty) == Type::Domain;
+pub(super) fn item(reader: &mut Reader<'_, '_>, definitions: &Definitions, given: &Summaries, item: &Item) {
+    let is_domain = definitions.underlying(item.ty) == Type::Domain;
     for summary in &given.value.0 {
-        of_item(reader, definitions, summary, (own, "the row"));
-        names(reader, summary, (&own.name, &own.names));
+        of_item(reader, definitions, summary, item, "the row");
+        names(reader, summary, &item.name, &item.names);
         code(reader, summary, if is_domain { ObjectCode::Domain } else { ObjectCode::Var });
         if let Some(subs) = summary.subs.as_ref().filter(|subs| subs.value != 1) {
             let message = format!("the summary says {} sub-indices, and it is one value", subs.value);
@@ -40,12 +40,12 @@ pub(super) fn objects(
     for (index, given) in summaries {
         let Some(group) = dictionary.get(index) else { continue };
         for summary in &given.value.0 {
-            names(reader, summary, (&group.name, &group.names));
+            names(reader, summary, &group.name, &group.names);
             group.object_code().iter().for_each(|own| code(reader, summary, *own));
             let elements = group.items.iter().filter(|item| item.object().is_some_and(|(_, sub)| sub > 0));
             for item in elements.filter(|item| item.ty != Type::Opaque(None)) {
                 let sub_index = item.object().map_or(0, |(_, sub)| sub);
-                if of_item(reader, definitions, summary, (item, &format!("sub-index {sub_index}"))) {
+                if of_item(reader, definitions, summary, item, &format!("sub-index {sub_index}")) {
                     break;
                 }
             }
@@ -68,24 +68,24 @@ fn report(reader: &mut Reader<'_, '_>, summary: &SummaryTable, span: Span, messa
 }
 
 /// The object code, where the summary has one.
-fn code(reader: &mut Reader<'_, '_>, summary: &SummaryTable, own: ObjectCode) {
+fn code(reader: &mut Reader<'_, '_>, summary: &SummaryTable, described: ObjectCode) {
     let Some(given) = &summary.code else { return };
     let said = reader.word(given, "object code", &OBJECT_CODES);
-    if said.is_some_and(|said| said != own) {
-        let word = OBJECT_CODES.iter().find(|(_, code)| *code == own).map_or("another", |(word, _)| word);
+    if said.is_some_and(|said| said != described) {
+        let word = OBJECT_CODES.iter().find(|(_, code)| *code == described).map_or("another", |(word, _)| word);
         let message = format!("the summary says code {}, and the row {word}", brief(&given.value));
         report(reader, summary, reader.span(given), message);
     }
 }
 
 /// The name, where the summary has one: without regard to case and punctuation that of the row or of its language.
-fn names(reader: &mut Reader<'_, '_>, summary: &SummaryTable, (own, others): (&str, &Texts)) {
+fn names(reader: &mut Reader<'_, '_>, summary: &SummaryTable, name: &str, names: &Texts) {
     let Some(given) = &summary.name else { return };
     let plain =
         |name: &str| -> String { name.chars().filter(|c| c.is_alphanumeric()).flat_map(char::to_lowercase).collect() };
     let said = plain(&given.value);
-    if said != plain(own) && !others.iter().any(|other| plain(&other.text) == said) {
-        let message = format!("the summary says the name `{}`, and the row `{}`", brief(&given.value), brief(own));
+    if said != plain(name) && !names.iter().any(|other| plain(&other.text) == said) {
+        let message = format!("the summary says the name `{}`, and the row `{}`", brief(&given.value), brief(name));
         report(reader, summary, reader.span(given), message);
     }
 }
@@ -95,9 +95,10 @@ fn of_item(
     reader: &mut Reader<'_, '_>,
     definitions: &Definitions,
     summary: &SummaryTable,
-    (own, whose): (&Item, &str),
+    item: &Item,
+    whose: &str,
 ) -> bool {
-    let base = definitions.underlying(own.ty);
+    let base = definitions.underlying(item.ty);
     let mut differs = Vec::new();
     if let Some(given) = &summary.ty {
         let named = types::named(&given.value).filter(|named| named.elements.is_none());
@@ -115,23 +116,23 @@ fn of_item(
     let rights = |access: Access| (access.readable(), access.writable());
     if let Some(given) = &summary.access {
         let access = reader.word(given, "access", &ACCESSES);
-        if access.is_some_and(|access| rights(access) != rights(own.access)) {
-            differs.push((reader.span(given), given.value.clone(), own.access.name().to_owned()));
+        if access.is_some_and(|access| rights(access) != rights(item.access)) {
+            differs.push((reader.span(given), given.value.clone(), item.access.name().to_owned()));
         }
     }
     if let Some(given) = &summary.pdo {
         let mappable = reader.word(given, "direction of PDOs", &DIRECTIONS);
-        if mappable.is_some_and(|mappable| mappable != own.mappable) {
-            differs.push((reader.span(given), given.value.clone(), direction(own.mappable).to_owned()));
+        if mappable.is_some_and(|mappable| mappable != item.mappable) {
+            differs.push((reader.span(given), given.value.clone(), direction(item.mappable).to_owned()));
         }
     }
-    if let (Some(given), Some(bits)) = (&summary.length, definitions.bits(own.ty)) {
+    if let (Some(given), Some(bits)) = (&summary.length, definitions.bits_of(item.ty)) {
         if given.value != bits.div_ceil(8) {
             let has = base.bits().map_or_else(|| bits.div_ceil(8).to_string(), |_| base.to_string());
             differs.push((reader.span(given), format!("{} bytes", given.value), has));
         }
     }
-    numbers(reader, summary, own, base, &mut differs);
+    numbers(reader, summary, item, base, &mut differs);
     let found = !differs.is_empty();
     for (span, says, has) in differs {
         report(reader, summary, span, format!("the summary says {}, and {whose} {has}", brief(&says)));
@@ -143,14 +144,14 @@ fn of_item(
 fn numbers(
     reader: &Reader<'_, '_>,
     summary: &SummaryTable,
-    own: &Item,
+    item: &Item,
     base: Type,
     differs: &mut Vec<(Span, String, String)>,
 ) {
     let pairs: [(&Option<At<Literal>>, Option<&Value>); 3] = [
-        (&summary.min, own.limits.low.as_ref()),
-        (&summary.max, own.limits.high.as_ref()),
-        (&summary.default, own.default.as_ref()),
+        (&summary.min, item.limits.low.as_ref()),
+        (&summary.max, item.limits.high.as_ref()),
+        (&summary.default, item.default.as_ref()),
     ];
     for (given, has) in pairs {
         let (Some(given), Some(has)) = (given, has) else { continue };
@@ -161,6 +162,6 @@ fn numbers(
     }
 }
 
-fn direction(own: Mappable) -> &'static str {
-    DIRECTIONS.iter().find(|(_, mappable)| *mappable == own).map_or("no", |(word, _)| word)
+fn direction(direction: Mappable) -> &'static str {
+    DIRECTIONS.iter().find(|(_, mappable)| *mappable == direction).map_or("no", |(word, _)| word)
 }

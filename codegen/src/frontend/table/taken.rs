@@ -118,9 +118,9 @@ impl Taken {
     }
 
     /// Registers that begin elsewhere and reach into these.
-    fn stretch(&mut self, reader: &mut Reader<'_, '_>, item: &Item, own: &RegisterBinding) {
-        let (space, first) = (space_name(own.space), u32::from(own.address));
-        let last = u32::from(own.last());
+    fn stretch(&mut self, reader: &mut Reader<'_, '_>, item: &Item, register: &RegisterBinding) {
+        let (space, first) = (space_name(register.space), u32::from(register.address));
+        let last = u32::from(register.last());
         let before = self.registers.range((space, 0)..(space, first)).next_back();
         let before = before.filter(|(_, other)| other.last >= first);
         let other = before.or_else(|| self.registers.range((space, first)..=(space, last)).next());
@@ -138,8 +138,8 @@ impl Taken {
             reader.diagnostics.push(found.help("one of the two has the wrong number, or a type that is too long"));
         }
         let availability = item.availability.clone();
-        let own = Stretch { last, name: item.name.clone(), span: item.at.name, availability };
-        self.registers.insert((space, first), own);
+        let stretch = Stretch { last, name: item.name.clone(), span: item.at.name, availability };
+        self.registers.insert((space, first), stretch);
     }
 
     /// Parts of one register share an address, and no bits.

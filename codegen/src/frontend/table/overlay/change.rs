@@ -182,7 +182,7 @@ impl RowPatcher<'_> {
     /// Addresses in other protocols that the description lacks.
     fn further_addresses(&mut self, reader: &mut Reader<'_, '_>, item: &mut Item, named: Named<'_>, row: &Row) {
         let mut found = smallvec::SmallVec::new();
-        let (bits, sub) = (self.rows.definitions.bits(item.ty), item.object().map(|(_, sub)| sub));
+        let (bits, sub) = (self.rows.definitions.bits_of(item.ty), item.object().map(|(_, sub)| sub));
         self.rows.other_addresses(reader, (named, sub), row, (0, bits), &mut found);
         let new: Vec<_> = found.into_iter().filter(|binding| !item.bindings.contains(binding)).collect();
         item.bindings.extend(new);

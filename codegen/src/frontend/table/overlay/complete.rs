@@ -302,11 +302,11 @@ impl<'p> Completion<'p> {
 }
 
 /// Adds the words of a profile where a description has none; a citation that it has stays.
-fn describe(own: &mut Option<Box<Documentation>>, of_profile: Option<Box<Documentation>>) {
-    match (own, of_profile) {
-        (own @ None, of_profile) => *own = of_profile,
-        (Some(own), Some(of_profile)) if own.text.is_empty() => {
-            (own.text, own.text_from) = (of_profile.text, of_profile.text_from);
+fn describe(documentation: &mut Option<Box<Documentation>>, of_profile: Option<Box<Documentation>>) {
+    match (documentation, of_profile) {
+        (documentation @ None, of_profile) => *documentation = of_profile,
+        (Some(documentation), Some(of_profile)) if documentation.text.is_empty() => {
+            (documentation.text, documentation.text_from) = (of_profile.text, of_profile.text_from);
         }
         _ => {}
     }
@@ -323,17 +323,17 @@ fn is_signal(row: &PatchRow) -> bool {
 
 /// Whether values of a type are as long as those that a row is about, and of its kind. Numbers with a sign aren't bits,
 /// whatever their object is elsewhere; named values may well have another sign.
-pub(super) fn is_alike(own: Type, row: &Row) -> bool {
+pub(super) fn is_alike(ty: Type, row: &Row) -> bool {
     let Some(wanted) = row.ty.as_ref().and_then(|ty| types::named(&ty.value)).map(|named| named.ty) else {
         return true;
     };
-    if row.bits.is_some() && own.is_signed() {
+    if row.bits.is_some() && ty.is_signed() {
         return false;
     }
     let is_integer = |ty: Type| matches!(ty, Type::Integer(_) | Type::Unsigned(_));
-    match is_integer(own) && is_integer(wanted) {
-        true => own.bits() == wanted.bits(),
-        false => std::mem::discriminant(&own) == std::mem::discriminant(&wanted),
+    match is_integer(ty) && is_integer(wanted) {
+        true => ty.bits() == wanted.bits(),
+        false => std::mem::discriminant(&ty) == std::mem::discriminant(&wanted),
     }
 }
 

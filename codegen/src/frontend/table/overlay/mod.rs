@@ -81,9 +81,9 @@ const OVERLAY_KEYS: [&str; 3] = ["overlay", "axes", "procedures"];
 const PROFILE_KEYS: [&str; 2] = ["profile", "images"];
 
 impl Patch {
-    /// Reads a file that has the keys `own` beside those that all have.
-    fn read<'a>(reader: &mut Reader<'a, '_>, table: &mut Table<'a>, own: &[&str]) -> Patch {
-        let known: Vec<&str> = own.iter().chain(&KEYS).copied().collect();
+    /// Reads a file that has `keys` in addition to those that all files have.
+    fn read<'a>(reader: &mut Reader<'a, '_>, table: &mut Table<'a>, keys: &[&str]) -> Patch {
+        let known: Vec<&str> = keys.iter().chain(&KEYS).copied().collect();
         for (key, node) in &mut table.parts {
             if node.is_some() && !known.contains(&key.value.as_str()) {
                 reader.unknown_key(&key.value, &known, reader.span(key));
