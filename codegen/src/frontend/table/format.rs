@@ -18,14 +18,58 @@ macro_rules! key {
 }
 
 /// Tables of the format, with what reads them: every key may be absent, and there are no others. A field whose name can't be that of its
-/// key has the key behind `=`.
+/// key has the key behind `=`. Keys that many tables have are named after the table.
 macro_rules! tables {
     ($(
         $(#[$attribute:meta])*
-        pub struct $name:ident {
-            $($(#[$of_field:meta])* pub $field:ident $(= $key:literal)?: $ty:ty,)*
-        }
+        pub struct $name:ident $(: $($group:ident)+)? { $($fields:tt)* }
     )*) => {$(
+        table! { { $($($group)+)? } [$(#[$attribute])*] $name { $($fields)* } }
+    )*};
+}
+
+/// One table: adds the keys that many tables have, one group after the other.
+macro_rules! table {
+    ({ orig $($group:ident)* } $attributes:tt $name:ident { $($fields:tt)* }) => {
+        table! { { $($group)* } $attributes $name {
+            $($fields)*
+            /// Its name or label in the manual's language.
+            pub orig: Option<String>,
+        } }
+    };
+    ({ doc $($group:ident)* } $attributes:tt $name:ident { $($fields:tt)* }) => {
+        table! { { $($group)* } $attributes $name {
+            $($fields)*
+            /// What it is, in your own words.
+            pub doc: Option<String>,
+        } }
+    };
+    ({ cite $($group:ident)* } $attributes:tt $name:ident { $($fields:tt)* }) => {
+        table! { { $($group)* } $attributes $name {
+            $($fields)*
+            /// Page or line of the manual.
+            pub cite: Option<OneOrMany<NumberOrText>>,
+        } }
+    };
+    ({ doubt $($group:ident)* } $attributes:tt $name:ident { $($fields:tt)* }) => {
+        table! { { $($group)* } $attributes $name {
+            $($fields)*
+            /// A contradiction of the manual, and what was made of it.
+            pub doubt: Option<OneOrMany<DoubtTable>>,
+            /// Several contradictions.
+            pub doubts: Option<OneOrMany<DoubtTable>>,
+        } }
+    };
+    ({ allow $($group:ident)* } $attributes:tt $name:ident { $($fields:tt)* }) => {
+        table! { { $($group)* } $attributes $name {
+            $($fields)*
+            /// Findings that the doubt explains.
+            pub allow: Option<Vec<At<String>>>,
+        } }
+    };
+    ({} [$(#[$attribute:meta])*] $name:ident {
+        $($(#[$of_field:meta])* pub $field:ident $(= $key:literal)?: $ty:ty,)*
+    }) => {
         $(#[$attribute])*
         #[derive(Clone, Debug, Default)]
         #[cfg_attr(test, derive(schemars::JsonSchema), schemars(deny_unknown_fields, default))]
@@ -37,17 +81,17 @@ macro_rules! tables {
         impl Read for $name {
             fn read(node: &Node<'_>) -> Result<Self, Mistake> {
                 const KEYS: &[&str] = &[$(key!($field $($key)?)),*];
-                let mut own = Self::default();
+                let mut table = Self::default();
                 for (key, value) in read::table(node, concat!("struct ", stringify!($name)))? {
                     match key.get_ref().as_ref() {
-                        $(key!($field $($key)?) => own.$field = Read::read(value)?,)*
+                        $(key!($field $($key)?) => table.$field = Read::read(value)?,)*
                         _ => return Err(Mistake::unknown_key(key, KEYS)),
                     }
                 }
-                Ok(own)
+                Ok(table)
             }
         }
-    )*};
+    };
 }
 
 /// The values that a condition names, and the bits that it compares.
@@ -180,7 +224,7 @@ tables! {
     }
 
     /// What a master has to know of an EtherCAT slave beside its objects and PDOs.
-    pub struct EtherCatTable {
+    pub struct EtherCatTable: cite doubt {
         /// CAN application protocol over EtherCAT, and what it can.
         pub coe: Option<FlagOr<CoeTable>>,
         /// ADS over EtherCAT.
@@ -195,16 +239,10 @@ tables! {
         pub voe: bool,
         /// Its sync managers.
         pub sync_managers: Vec<At<SyncManagerTable>>,
-        /// Page or line of the manual.
-        pub cite: Option<OneOrMany<NumberOrText>>,
-        /// A contradiction of the manual, and what was made of it.
-        pub doubt: Option<OneOrMany<DoubtTable>>,
-        /// Several contradictions.
-        pub doubts: Option<OneOrMany<DoubtTable>>,
     }
 
     /// What the CAN application protocol of a slave can.
-    pub struct CoeTable {
+    pub struct CoeTable: cite {
         /// It tells of its objects.
         pub sdo_info: bool,
         /// The assignment of PDOs may be written (0x1C12, 0x1C13).
@@ -217,12 +255,10 @@ tables! {
         pub complete_access: bool,
         /// Values may be transferred in segments.
         pub segmented_sdo: bool,
-        /// Page or line of the manual.
-        pub cite: Option<OneOrMany<NumberOrText>>,
     }
 
     /// A sync manager.
-    pub struct SyncManagerTable {
+    pub struct SyncManagerTable: cite doubt {
         /// Its number.
         pub number: Option<u8>,
         /// `mailbox_out`, `mailbox_in`, `outputs` or `inputs`, seen from the master.
@@ -238,12 +274,6 @@ tables! {
         pub max: Option<u16>,
         /// Its control byte.
         pub control: Option<u8>,
-        /// Page or line of the manual.
-        pub cite: Option<OneOrMany<NumberOrText>>,
-        /// A contradiction of the manual, and what was made of it.
-        pub doubt: Option<OneOrMany<DoubtTable>>,
-        /// Several contradictions.
-        pub doubts: Option<OneOrMany<DoubtTable>>,
     }
 
     /// A register table, an overlay or a profile.
@@ -304,7 +334,7 @@ tables! {
     }
 
     /// The device that a table describes.
-    pub struct DeviceTable {
+    pub struct DeviceTable: doc cite doubt {
         /// Name of the device; types of Rust are named after it.
         pub name: Option<At<String>>,
         /// Name of the vendor.
@@ -319,14 +349,6 @@ tables! {
         pub order_code: Option<String>,
         /// Its name in the manual's language.
         pub orig: Option<String>,
-        /// What it is, in your own words.
-        pub doc: Option<String>,
-        /// Page or line of the manual.
-        pub cite: Option<OneOrMany<NumberOrText>>,
-        /// A contradiction of the manual, and what was made of it.
-        pub doubt: Option<OneOrMany<DoubtTable>>,
-        /// Several contradictions.
-        pub doubts: Option<OneOrMany<DoubtTable>>,
         /// `canopen`, `ethercat`, `modbus`, `profinet`, `serial`.
         #[cfg_attr(test, schemars(transform = schema::words(schema::BUSES)))]
         pub buses: Option<Vec<At<String>>>,
@@ -348,7 +370,7 @@ tables! {
     }
 
     /// The manual that a table was transcribed from.
-    pub struct ManualTable {
+    pub struct ManualTable: doc {
         /// Its title.
         pub title: Option<String>,
         /// Its edition: number or date.
@@ -360,18 +382,14 @@ tables! {
         pub cites: Option<At<String>>,
         /// Titles of its sections and tables, by the first page or line of each.
         pub sections: Entries<String>,
-        /// What it is, in your own words.
-        pub doc: Option<String>,
     }
 
     /// What an overlay applies to.
-    pub struct OverlayTable {
+    pub struct OverlayTable: doc {
         /// The devices that it is for.
         pub applies = "for": Option<AppliesTable>,
         /// Why it is needed.
         pub why: Option<String>,
-        /// What it is, in your own words.
-        pub doc: Option<String>,
     }
 
     /// The devices that an overlay is for; what isn't given fits any.
@@ -389,7 +407,7 @@ tables! {
     }
 
     /// What a profile applies to.
-    pub struct ProfileTable {
+    pub struct ProfileTable: doc {
         /// Name of the profile.
         pub name: Option<String>,
         /// Number of the device profile.
@@ -402,24 +420,12 @@ tables! {
         pub buses: Option<Vec<At<String>>>,
         /// What is added to indices from 0x6000 to 0x67FF for each further axis.
         pub axis_index: Option<u16>,
-        /// What it is, in your own words.
-        pub doc: Option<String>,
     }
 
     /// A model, or a version of the firmware.
-    pub struct ModelTable {
+    pub struct ModelTable: orig doc cite doubt {
         /// Its name.
         pub name: Option<At<String>>,
-        /// Its name or label in the manual's language.
-        pub orig: Option<String>,
-        /// What it is, in your own words.
-        pub doc: Option<String>,
-        /// Page or line of the manual.
-        pub cite: Option<OneOrMany<NumberOrText>>,
-        /// A contradiction of the manual, and what was made of it.
-        pub doubt: Option<OneOrMany<DoubtTable>>,
-        /// Several contradictions.
-        pub doubts: Option<OneOrMany<DoubtTable>>,
         /// Product code.
         pub product_code: Option<u32>,
         /// Revision number.
@@ -431,15 +437,7 @@ tables! {
     }
 
     /// What the manual leaves open.
-    pub struct OptionTable {
-        /// What it is, in your own words.
-        pub doc: Option<String>,
-        /// Page or line of the manual.
-        pub cite: Option<OneOrMany<NumberOrText>>,
-        /// A contradiction of the manual, and what was made of it.
-        pub doubt: Option<OneOrMany<DoubtTable>>,
-        /// Several contradictions.
-        pub doubts: Option<OneOrMany<DoubtTable>>,
+    pub struct OptionTable: doc cite doubt {
         /// The choices, and the value that each puts in place of `$name`.
         pub choices: Entries<Literal>,
         /// The choice where nobody chooses.
@@ -447,9 +445,7 @@ tables! {
     }
 
     /// What the number of a register means on each bus.
-    pub struct SpaceTable {
-        /// What it is, in your own words.
-        pub doc: Option<String>,
+    pub struct SpaceTable: doc {
         /// Number of bits that one number holds: 16 where nothing else is said, 1 of coils and discrete inputs.
         pub bits: Option<u8>,
         /// Whether a shorter value fills all bits of its numbers: with copies of its sign, or zeros where it has none.
@@ -563,19 +559,9 @@ tables! {
     }
 
     /// Rows that belong together.
-    pub struct ChapterTable {
+    pub struct ChapterTable: orig doc cite doubt {
         /// Its title.
         pub title: Option<String>,
-        /// Its name or label in the manual's language.
-        pub orig: Option<String>,
-        /// What it is, in your own words.
-        pub doc: Option<String>,
-        /// Page or line of the manual.
-        pub cite: Option<OneOrMany<NumberOrText>>,
-        /// A contradiction of the manual, and what was made of it.
-        pub doubt: Option<OneOrMany<DoubtTable>>,
-        /// Several contradictions.
-        pub doubts: Option<OneOrMany<DoubtTable>>,
         /// The space of the rows' numbers.
         pub space: Option<At<String>>,
         /// What rows have that don't say otherwise.
@@ -588,7 +574,7 @@ tables! {
     }
 
     /// One item of the device.
-    pub struct Row {
+    pub struct Row: doc cite doubt allow {
         /// Number of the register, or numbers (`"63-64"`).
         #[cfg_attr(test, schemars(transform = schema::place("#( *[-–] *#)?")))]
         pub reg: Option<At<NumberOrText>>,
@@ -707,18 +693,8 @@ tables! {
         pub optional: Option<bool>,
         /// Its name in the manual's language.
         pub orig: Option<String>,
-        /// What it is, in your own words.
-        pub doc: Option<String>,
         /// Where `doc` comes from, unless from the manual: `CiA 402, 17.3.7`, or `name` if it spells out the printed name.
         pub doc_from: Option<At<String>>,
-        /// Page or line of the manual.
-        pub cite: Option<OneOrMany<NumberOrText>>,
-        /// A contradiction of the manual, and what was made of it.
-        pub doubt: Option<OneOrMany<DoubtTable>>,
-        /// Several contradictions.
-        pub doubts: Option<OneOrMany<DoubtTable>>,
-        /// Findings that the doubt explains.
-        pub allow: Option<Vec<At<String>>>,
         /// What another place of the manual says of it; it is compared.
         pub summary: Option<At<OneOrMany<SummaryTable>>>,
         /// In an overlay: why the row is needed.
@@ -730,7 +706,7 @@ tables! {
     }
 
     /// What differs on some models or buses; what isn't given is as the row says.
-    pub struct VariantTable {
+    pub struct VariantTable: doc cite {
         /// The models; `*` stands for any letters.
         pub models: Option<Vec<At<String>>>,
         /// The buses.
@@ -754,10 +730,6 @@ tables! {
         pub step: Option<At<Literal>>,
         /// physical = raw × scale; or how the factor is found.
         pub scale: Option<At<Scaling>>,
-        /// What it is, in your own words.
-        pub doc: Option<String>,
-        /// Page or line of the manual.
-        pub cite: Option<OneOrMany<NumberOrText>>,
     }
 
     /// The value of another item, or of some of its bits.
@@ -769,7 +741,7 @@ tables! {
     }
 
     /// What another place of the manual says of a row: an overview, a table of contents, the prose.
-    pub struct SummaryTable {
+    pub struct SummaryTable: cite {
         /// The type that it says.
         #[cfg_attr(test, schemars(transform = schema::types))]
         pub ty = "type": Option<At<String>>,
@@ -792,12 +764,10 @@ tables! {
         pub max: Option<At<Literal>>,
         /// The default that it says.
         pub default: Option<At<Literal>>,
-        /// Page or line of the manual.
-        pub cite: Option<OneOrMany<NumberOrText>>,
     }
 
     /// A unit with a scale.
-    pub struct UnitTable {
+    pub struct UnitTable: doc {
         /// The physical unit.
         pub symbol: Option<String>,
         /// physical = raw × scale + offset.
@@ -808,8 +778,6 @@ tables! {
         pub machine: Option<MachineUnitTable>,
         /// How the manual writes it.
         pub orig: Option<String>,
-        /// What it is, in your own words.
-        pub doc: Option<String>,
     }
 
     /// A unit of the machine: the physical number, multiplied and divided by numbers of `[given]`.
@@ -823,58 +791,32 @@ tables! {
     }
 
     /// A number that only whoever builds the machine knows.
-    pub struct GivenTable {
+    pub struct GivenTable: doc cite doubt {
         /// Symbol of its unit.
         pub unit: Option<At<String>>,
         /// What it is on models that know it.
         pub models: Entries<Literal>,
-        /// What it is, in your own words.
-        pub doc: Option<String>,
-        /// Page or line of the manual.
-        pub cite: Option<OneOrMany<NumberOrText>>,
-        /// A contradiction of the manual, and what was made of it.
-        pub doubt: Option<OneOrMany<DoubtTable>>,
-        /// Several contradictions.
-        pub doubts: Option<OneOrMany<DoubtTable>>,
     }
 
     /// Named values of an integer.
-    pub struct EnumTable {
+    pub struct EnumTable: orig doc cite doubt allow {
         /// The integer, where rows don't tell.
         #[cfg_attr(test, schemars(transform = schema::types))]
         pub base: Option<At<String>>,
         /// Whether a device never has a value that isn't listed.
         pub closed: bool,
-        /// What it is, in your own words.
-        pub doc: Option<String>,
-        /// Its name or label in the manual's language.
-        pub orig: Option<String>,
-        /// Page or line of the manual.
-        pub cite: Option<OneOrMany<NumberOrText>>,
-        /// A contradiction of the manual, and what was made of it.
-        pub doubt: Option<OneOrMany<DoubtTable>>,
-        /// Several contradictions.
-        pub doubts: Option<OneOrMany<DoubtTable>>,
-        /// Findings that the doubt explains.
-        pub allow: Option<Vec<At<String>>>,
         /// The values, and ranges of values (`"3..7"`).
         #[cfg_attr(test, schemars(transform = schema::keys(schema::VALUES)))]
         pub values: ValueEntries,
     }
 
     /// A named value.
-    pub struct ValueTable {
+    pub struct ValueTable: orig doc cite doubt {
         /// A short English phrase; the identifier is made of it.
         pub name: Option<String>,
         /// `reserved` or `vendor`.
         #[cfg_attr(test, schemars(transform = schema::words(&["reserved", "vendor"])))]
         pub zone: Option<At<String>>,
-        /// Its name or label in the manual's language.
-        pub orig: Option<String>,
-        /// What it is, in your own words.
-        pub doc: Option<String>,
-        /// Page or line of the manual.
-        pub cite: Option<OneOrMany<NumberOrText>>,
         /// Models that have it; `*` stands for any letters.
         pub models: Option<Vec<At<String>>>,
         /// The only buses on which it exists.
@@ -888,29 +830,13 @@ tables! {
         pub until: Option<String>,
         /// What replaces it from then on, in words.
         pub replaced_by: Option<String>,
-        /// A contradiction of the manual, and what was made of it.
-        pub doubt: Option<OneOrMany<DoubtTable>>,
-        /// Several contradictions.
-        pub doubts: Option<OneOrMany<DoubtTable>>,
     }
 
     /// Named bits of an integer.
-    pub struct BitsTable {
+    pub struct BitsTable: orig doc cite doubt allow {
         /// The integer, where rows don't tell.
         #[cfg_attr(test, schemars(transform = schema::types))]
         pub base: Option<At<String>>,
-        /// What it is, in your own words.
-        pub doc: Option<String>,
-        /// Its name or label in the manual's language.
-        pub orig: Option<String>,
-        /// Page or line of the manual.
-        pub cite: Option<OneOrMany<NumberOrText>>,
-        /// A contradiction of the manual, and what was made of it.
-        pub doubt: Option<OneOrMany<DoubtTable>>,
-        /// Several contradictions.
-        pub doubts: Option<OneOrMany<DoubtTable>>,
-        /// Findings that the doubt explains.
-        pub allow: Option<Vec<At<String>>>,
         /// The address of the byte with bits 0 to 7, where the manual counts the bits of each byte (`"0x221:3-2"`).
         pub address: Option<u32>,
         /// The bits, and ranges of bits (`"3-2"`); a list where other items decide what they mean.
@@ -919,7 +845,7 @@ tables! {
     }
 
     /// Bits with a meaning.
-    pub struct BitTable {
+    pub struct BitTable: orig doc cite doubt {
         /// A short English phrase; the identifier is made of it.
         pub name: Option<String>,
         /// The meaning holds while the bit is 0.
@@ -941,12 +867,6 @@ tables! {
         /// `ro`, `rw` or `wo`, where it isn't as the row says.
         #[cfg_attr(test, schemars(transform = schema::words(&["ro", "rw", "wo", "const", "rwr", "rww"])))]
         pub access: Option<At<String>>,
-        /// Its name or label in the manual's language.
-        pub orig: Option<String>,
-        /// What it is, in your own words.
-        pub doc: Option<String>,
-        /// Page or line of the manual.
-        pub cite: Option<OneOrMany<NumberOrText>>,
         /// First firmware that has it.
         pub since: Option<String>,
         /// First firmware that doesn't have it any more.
@@ -955,28 +875,16 @@ tables! {
         pub replaced_by: Option<String>,
         /// Models that have it; `*` stands for any letters.
         pub models: Option<Vec<At<String>>>,
-        /// A contradiction of the manual, and what was made of it.
-        pub doubt: Option<OneOrMany<DoubtTable>>,
-        /// Several contradictions.
-        pub doubts: Option<OneOrMany<DoubtTable>>,
     }
 
     /// How the objects of further axes follow from those of the first.
-    pub struct AxesTable {
+    pub struct AxesTable: doc cite doubt {
         /// Number of axes.
         pub count: u8,
         /// The models that have so many; `*` stands for any letters.
         pub models: Option<Vec<At<String>>>,
         /// The first rule that contains an object holds.
         pub rules: Vec<At<AxisRuleTable>>,
-        /// What it is, in your own words.
-        pub doc: Option<String>,
-        /// Page or line of the manual.
-        pub cite: Option<OneOrMany<NumberOrText>>,
-        /// A contradiction of the manual, and what was made of it.
-        pub doubt: Option<OneOrMany<DoubtTable>>,
-        /// Several contradictions.
-        pub doubts: Option<OneOrMany<DoubtTable>>,
     }
 
     /// How to get to the object of the next axis.
@@ -994,7 +902,7 @@ tables! {
     }
 
     /// A process data object.
-    pub struct PdoTable {
+    pub struct PdoTable: doc cite doubt allow {
         /// Index of its mapping object.
         pub index: Option<At<u16>>,
         /// Its name.
@@ -1021,20 +929,10 @@ tables! {
         /// The only buses on which it carries this: `canopen`, `ethercat`.
         #[cfg_attr(test, schemars(transform = schema::words(schema::BUSES)))]
         pub buses: Option<Vec<At<String>>>,
-        /// What it is, in your own words.
-        pub doc: Option<String>,
-        /// Page or line of the manual.
-        pub cite: Option<OneOrMany<NumberOrText>>,
-        /// A contradiction of the manual, and what was made of it.
-        pub doubt: Option<OneOrMany<DoubtTable>>,
-        /// Several contradictions.
-        pub doubts: Option<OneOrMany<DoubtTable>>,
-        /// Findings that the doubt explains.
-        pub allow: Option<Vec<At<String>>>,
     }
 
     /// A fixed process image.
-    pub struct ImageTable {
+    pub struct ImageTable: doc cite doubt {
         /// Its name.
         pub name: Option<String>,
         /// `rx` or `tx`, seen from the device.
@@ -1047,18 +945,10 @@ tables! {
         pub order: Option<At<String>>,
         /// Its fields, by the name of the item; what is no item of the table gets a `type`.
         pub fields: Entries<ImageField>,
-        /// What it is, in your own words.
-        pub doc: Option<String>,
-        /// Page or line of the manual.
-        pub cite: Option<OneOrMany<NumberOrText>>,
-        /// A contradiction of the manual, and what was made of it.
-        pub doubt: Option<OneOrMany<DoubtTable>>,
-        /// Several contradictions.
-        pub doubts: Option<OneOrMany<DoubtTable>>,
     }
 
     /// A field of a process image; its key is the item.
-    pub struct ImageField {
+    pub struct ImageField: doc cite doubt {
         /// First byte.
         pub at: Option<u32>,
         /// First bit in that byte.
@@ -1086,18 +976,10 @@ tables! {
         pub conversions: Vec<At<ConversionTable>>,
         /// Its name in the manual's language.
         pub orig: Option<String>,
-        /// What it is, in your own words.
-        pub doc: Option<String>,
-        /// Page or line of the manual.
-        pub cite: Option<OneOrMany<NumberOrText>>,
-        /// A contradiction of the manual, and what was made of it.
-        pub doubt: Option<OneOrMany<DoubtTable>>,
-        /// Several contradictions.
-        pub doubts: Option<OneOrMany<DoubtTable>>,
     }
 
     /// A table of codes.
-    pub struct CodesTable {
+    pub struct CodesTable: doc cite {
         /// Names of the columns beside code and meaning.
         pub columns: Vec<String>,
         /// What the manual prints before each number: `F` for `F125`.
@@ -1109,17 +991,13 @@ tables! {
         /// The only buses on which the codes mean this.
         #[cfg_attr(test, schemars(transform = schema::words(schema::BUSES)))]
         pub buses: Option<Vec<At<String>>>,
-        /// What it is, in your own words.
-        pub doc: Option<String>,
-        /// Page or line of the manual.
-        pub cite: Option<OneOrMany<NumberOrText>>,
         /// The codes, and ranges of codes.
         #[cfg_attr(test, schemars(transform = schema::keys(schema::VALUES)))]
         pub rows: Entries<TextOr<CodeTableRow>>,
     }
 
     /// A code.
-    pub struct CodeTableRow {
+    pub struct CodeTableRow: orig doc cite doubt {
         /// Its name.
         pub name: Option<String>,
         /// The other columns.
@@ -1130,20 +1008,10 @@ tables! {
         pub since: Option<String>,
         /// First firmware that doesn't have it any more.
         pub until: Option<String>,
-        /// Its name or label in the manual's language.
-        pub orig: Option<String>,
-        /// What it is, in your own words.
-        pub doc: Option<String>,
-        /// Page or line of the manual.
-        pub cite: Option<OneOrMany<NumberOrText>>,
-        /// A contradiction of the manual, and what was made of it.
-        pub doubt: Option<OneOrMany<DoubtTable>>,
-        /// Several contradictions.
-        pub doubts: Option<OneOrMany<DoubtTable>>,
     }
 
     /// A state machine.
-    pub struct MachineTable {
+    pub struct MachineTable: doc cite doubt {
         /// The item that tells the state.
         pub status: Option<At<String>>,
         /// The item that commands it.
@@ -1158,36 +1026,20 @@ tables! {
         pub transitions: Vec<At<TransitionTable>>,
         /// What each command does in each state.
         pub matrix: Option<At<MatrixTable>>,
-        /// What it is, in your own words.
-        pub doc: Option<String>,
-        /// Page or line of the manual.
-        pub cite: Option<OneOrMany<NumberOrText>>,
-        /// A contradiction of the manual, and what was made of it.
-        pub doubt: Option<OneOrMany<DoubtTable>>,
-        /// Several contradictions.
-        pub doubts: Option<OneOrMany<DoubtTable>>,
     }
 
     /// What commands do in each state.
-    pub struct MatrixTable {
+    pub struct MatrixTable: doc cite doubt {
         /// The states of the columns.
         pub states: Vec<At<String>>,
         /// The notes that cells refer to.
         pub notes: Entries<String>,
         /// The rows: messages or commands, each with a cell for every state.
         pub rows: Entries<MatrixRow>,
-        /// What it is, in your own words.
-        pub doc: Option<String>,
-        /// Page or line of the manual.
-        pub cite: Option<OneOrMany<NumberOrText>>,
-        /// A contradiction of the manual, and what was made of it.
-        pub doubt: Option<OneOrMany<DoubtTable>>,
-        /// Several contradictions.
-        pub doubts: Option<OneOrMany<DoubtTable>>,
     }
 
     /// What a command does in each state.
-    pub struct MatrixRow {
+    pub struct MatrixRow: doc cite doubt {
         /// The messages or commands that the row is about, where its name is none; empty where nothing else describes it.
         pub commands: Option<Vec<At<String>>>,
         /// For each state `same`, `refused`, `?`, or the state that follows (`"a > b"` where `b` follows `a` by itself);
@@ -1197,44 +1049,28 @@ tables! {
         pub models: Option<Vec<At<String>>>,
         /// First firmware that has it.
         pub since: Option<String>,
-        /// What it is, in your own words.
-        pub doc: Option<String>,
-        /// Page or line of the manual.
-        pub cite: Option<OneOrMany<NumberOrText>>,
-        /// A contradiction of the manual, and what was made of it.
-        pub doubt: Option<OneOrMany<DoubtTable>>,
-        /// Several contradictions.
-        pub doubts: Option<OneOrMany<DoubtTable>>,
     }
 
     /// A cell with more than an outcome.
-    pub struct MatrixCell {
+    pub struct MatrixCell: cite {
         /// What happens, as in a cell without more.
         pub to: Option<At<String>>,
         /// A note of the table.
         pub note: Option<At<NumberOrText>>,
         /// On what it depends, in your own words.
         pub doc: Option<String>,
-        /// Page or line of the manual.
-        pub cite: Option<OneOrMany<NumberOrText>>,
     }
 
     /// Bits that have to have a value.
-    pub struct PatternTable {
+    pub struct PatternTable: orig doc cite {
         /// The bits that count.
         pub mask: Option<u32>,
         /// The value that they have.
         pub value: Option<u32>,
-        /// What it is, in your own words.
-        pub doc: Option<String>,
-        /// Its name or label in the manual's language.
-        pub orig: Option<String>,
-        /// Page or line of the manual.
-        pub cite: Option<OneOrMany<NumberOrText>>,
     }
 
     /// From one state to another.
-    pub struct TransitionTable {
+    pub struct TransitionTable: doc cite {
         /// Its number in the manual.
         pub number: Option<u16>,
         /// The state that it leaves, or states; any where there is none.
@@ -1243,34 +1079,18 @@ tables! {
         pub to: Option<At<String>>,
         /// The command or the message that causes it; none where the device does.
         pub command: Option<At<String>>,
-        /// What it is, in your own words.
-        pub doc: Option<String>,
-        /// Page or line of the manual.
-        pub cite: Option<OneOrMany<NumberOrText>>,
     }
 
     /// A sequence of steps.
-    pub struct ProcedureTable {
-        /// What it is, in your own words.
-        pub doc: Option<String>,
-        /// Its name or label in the manual's language.
-        pub orig: Option<String>,
-        /// Page or line of the manual.
-        pub cite: Option<OneOrMany<NumberOrText>>,
+    pub struct ProcedureTable: orig doc cite doubt allow {
         /// What its caller gives: names that steps write with `argument`.
         pub arguments: Vec<At<String>>,
         /// The steps, in order.
         pub steps: Vec<At<StepTable>>,
-        /// A contradiction of the manual, and what was made of it.
-        pub doubt: Option<OneOrMany<DoubtTable>>,
-        /// Several contradictions.
-        pub doubts: Option<OneOrMany<DoubtTable>>,
-        /// Findings that the doubt explains.
-        pub allow: Option<Vec<At<String>>>,
     }
 
     /// One number in several items.
-    pub struct CompositeTable {
+    pub struct CompositeTable: orig doc cite doubt {
         /// The items of its digits, the most significant one first.
         pub parts: Vec<At<String>>,
         /// What one digit is worth of the next; each is below it.
@@ -1281,20 +1101,10 @@ tables! {
         pub negative: Option<u16>,
         /// The unit of the number.
         pub unit: Option<String>,
-        /// Its name or label in the manual's language.
-        pub orig: Option<String>,
-        /// What it is, in your own words.
-        pub doc: Option<String>,
-        /// Page or line of the manual.
-        pub cite: Option<OneOrMany<NumberOrText>>,
-        /// A contradiction of the manual, and what was made of it.
-        pub doubt: Option<OneOrMany<DoubtTable>>,
-        /// Several contradictions.
-        pub doubts: Option<OneOrMany<DoubtTable>>,
     }
 
     /// A step.
-    pub struct StepTable {
+    pub struct StepTable: doc {
         /// The item that `value` or `argument` is written to.
         pub write: Option<At<String>>,
         /// The item that is read: its value is what the procedure gives.
@@ -1318,30 +1128,20 @@ tables! {
         pub exchange: Option<At<String>>,
         /// What a person has to do.
         pub manual: Option<String>,
-        /// What it is, in your own words.
-        pub doc: Option<String>,
     }
 
     /// A frame of Modbus that the manual prints: node, function and data, with or without the CRC.
-    pub struct FrameTable {
+    pub struct FrameTable: doc cite doubt {
         /// The bytes of the request.
         pub request: At<Vec<u8>>,
         /// The bytes of the reply.
         pub reply: At<Vec<u8>>,
-        /// What it is, in your own words.
-        pub doc: Option<String>,
-        /// Page or line of the manual.
-        pub cite: Option<OneOrMany<NumberOrText>>,
-        /// A contradiction of the manual, and what was made of it.
-        pub doubt: Option<OneOrMany<DoubtTable>>,
-        /// Several contradictions.
-        pub doubts: Option<OneOrMany<DoubtTable>>,
         /// Findings that the doubts take upon themselves.
         pub allow: Option<Vec<At<String>>>,
     }
 
     /// How frames are delimited and checked.
-    pub struct FramingTable {
+    pub struct FramingTable: doc cite doubt {
         /// The byte that begins a frame.
         pub start: Option<u8>,
         /// The byte that ends it.
@@ -1365,18 +1165,10 @@ tables! {
         pub max_data: Option<u16>,
         /// The field of requests with the number of the device for which they are.
         pub address: Option<At<String>>,
-        /// What it is, in your own words.
-        pub doc: Option<String>,
-        /// Page or line of the manual.
-        pub cite: Option<OneOrMany<NumberOrText>>,
-        /// A contradiction of the manual, and what was made of it.
-        pub doubt: Option<OneOrMany<DoubtTable>>,
-        /// Several contradictions.
-        pub doubts: Option<OneOrMany<DoubtTable>>,
     }
 
     /// A request and its reply.
-    pub struct MessageTable {
+    pub struct MessageTable: orig doc cite doubt allow {
         /// Its name.
         pub name: Option<At<String>>,
         /// What is sent.
@@ -1409,38 +1201,18 @@ tables! {
         pub until: Option<String>,
         /// What replaces it from then on.
         pub replaced_by: Option<At<String>>,
-        /// Its name or label in the manual's language.
-        pub orig: Option<String>,
-        /// What it is, in your own words.
-        pub doc: Option<String>,
-        /// Page or line of the manual.
-        pub cite: Option<OneOrMany<NumberOrText>>,
-        /// A contradiction of the manual, and what was made of it.
-        pub doubt: Option<OneOrMany<DoubtTable>>,
-        /// Several contradictions.
-        pub doubts: Option<OneOrMany<DoubtTable>>,
-        /// Findings that the doubt explains.
-        pub allow: Option<Vec<At<String>>>,
     }
 
     /// A request and its reply as the manual prints them.
-    pub struct ExampleTable {
+    pub struct ExampleTable: doc cite doubt {
         /// The bytes of the request.
         pub request: At<Vec<u8>>,
         /// The bytes of the reply.
         pub reply: At<Vec<u8>>,
-        /// What it is, in your own words.
-        pub doc: Option<String>,
-        /// Page or line of the manual.
-        pub cite: Option<OneOrMany<NumberOrText>>,
-        /// A contradiction of the manual, and what was made of it.
-        pub doubt: Option<OneOrMany<DoubtTable>>,
-        /// Several contradictions.
-        pub doubts: Option<OneOrMany<DoubtTable>>,
     }
 
     /// A number that the manual converts as an example.
-    pub struct ConversionTable {
+    pub struct ConversionTable: doc cite {
         /// The raw number.
         pub raw: Option<i64>,
         /// The physical one.
@@ -1453,10 +1225,6 @@ tables! {
         pub model: Option<At<String>>,
         /// The value of the item that the scale depends on.
         pub by: Option<f64>,
-        /// What it is, in your own words.
-        pub doc: Option<String>,
-        /// Page or line of the manual.
-        pub cite: Option<OneOrMany<NumberOrText>>,
     }
 
     /// When an order is carried out.
@@ -1474,7 +1242,7 @@ tables! {
     }
 
     /// A field of a message.
-    pub struct FieldTable {
+    pub struct FieldTable: doc cite doubt {
         /// The number that the manual gives to its first byte; numbers have to count on from field to field.
         pub at: Option<At<u16>>,
         /// Fixed bytes.
@@ -1530,14 +1298,6 @@ tables! {
         pub rest: bool,
         /// Its name in the manual's language.
         pub orig: Option<String>,
-        /// What it is, in your own words.
-        pub doc: Option<String>,
-        /// Page or line of the manual.
-        pub cite: Option<OneOrMany<NumberOrText>>,
-        /// A contradiction of the manual, and what was made of it.
-        pub doubt: Option<OneOrMany<DoubtTable>>,
-        /// Several contradictions.
-        pub doubts: Option<OneOrMany<DoubtTable>>,
     }
 
     /// Fields that occur several times.
