@@ -90,7 +90,7 @@ impl Reader<'_, '_> {
         self.raw_with(sections, &[])
     }
 
-    /// The same with the further keywords `more`, of which there are two at most.
+    /// The same with up to two further keywords.
     pub(super) fn raw_with(&mut self, sections: &[Section], more: &[&str]) -> Raw {
         let mut raw =
             Raw { fields: [None; KEYS], more: [None; 2], extensions: Extensions::new(), origin: Origin::default() };

@@ -41,7 +41,7 @@ pub(super) fn items(
         let before = reader.diagnostics.total();
         let bindings = rows.bindings(reader, space, named, &complete, (repeat, ty));
         if bindings.is_empty() {
-            // What is wrong with the address that it has was told.
+            // A wrong address was reported already.
             if reader.diagnostics.total() > before {
                 break;
             }

@@ -15,7 +15,7 @@ pub(super) fn enumeration<'d>(device: &'d Device, name: &str) -> Option<(Type, &
     })
 }
 
-/// The states of a machine: patterns of its own, or the values of an enumeration.
+/// The states of a machine: patterns that it lists, or the values of an enumeration.
 pub(super) fn states(
     reader: &mut Reader<'_, '_>,
     table: &MachineTable,
