@@ -25,9 +25,7 @@ pub(super) struct DeviceModel {
 impl DeviceModel {
     /// Whether its handles name types of the device.
     pub(super) fn names_types(&self) -> bool {
-        self.items
-            .iter()
-            .any(|own| [&own.ty, &own.range, &own.initial].iter().any(|text| text.text().contains("types::")))
+        self.items.iter().any(|own| own.is_named)
     }
 }
 
@@ -37,6 +35,8 @@ pub(super) struct OwnItem {
     pub docs: String,
     /// Its type, as the device's place names it.
     pub ty: Doc,
+    /// Whether its value is an enumeration or a bit field of the device.
+    pub is_named: bool,
     pub range: Doc,
     pub initial: Doc,
 }
@@ -71,7 +71,8 @@ fn documentation(context: &Context<'_>, own: &Variant) -> Vec<String> {
 fn own(context: &Context<'_>, item: &Item, object: &ObjectModel, model: &str) -> Option<OwnItem> {
     let handle = object.items.first()?;
     let on_model = variant::on_model(item, model)?;
-    let arguments = Arguments::of(&on_model, "", &ItemType::of(context, item), "");
+    let ty = ItemType::of(context, item);
+    let arguments = Arguments::of(&on_model, "", &ty, "");
     let [range, initial] = arguments.of_model();
     let mut facts = Vec::new();
     facts.extend(docs::limits(&on_model));
@@ -86,6 +87,7 @@ fn own(context: &Context<'_>, item: &Item, object: &ObjectModel, model: &str) ->
             handle.constant
         ),
         ty: list(&format!("objects::{}<", handle.access), &handle.arguments_at_top, ">"),
+        is_named: ty.named.is_some(),
         range: range.clone(),
         initial: initial.clone(),
     })

@@ -4,8 +4,8 @@ use compact_str::CompactString;
 
 /// Code of one construct: its text on one line, and the places at which it may be broken.
 ///
-/// A list of members is either on one line, or each member has a line of its own. What follows a list up to the next place for a break
-/// has to fit as well, as in Oppen's algorithm.
+/// The members of a list are all on one line, or each is on a line by itself. As in Oppen's algorithm, a list is on one line only if the
+/// text up to the next place for a break fits as well.
 #[derive(Clone, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Doc {
     text: String,
@@ -18,9 +18,9 @@ pub struct Doc {
 pub(super) enum Mark {
     /// Begins a list.
     Open,
-    /// Begins the fields of a struct's literal; `is_long` where they never stand on one line.
+    /// Begins the fields of a struct's literal; `is_long` if they are never on one line.
     OpenStruct { is_long: bool },
-    /// Begins a list of numbers, as many of which stand on a line as fit.
+    /// Begins a list of numbers: a broken line has as many as fit.
     OpenNumbers,
     /// Stands between members.
     Next,
@@ -28,7 +28,7 @@ pub(super) enum Mark {
     Close,
     /// A place at which the line could be broken and never is. The look-ahead ends here.
     Stop,
-    /// A place at which the line goes on in a further one where what follows doesn't fit. A blank behind it is its own.
+    /// A place at which the line continues on the next one if the rest doesn't fit. It replaces a blank behind it.
     Soft,
 }
 
@@ -48,7 +48,7 @@ impl Piece for Stop {
     }
 }
 
-/// A place at which the line goes on in a further one where what follows doesn't fit.
+/// A place at which the line continues on the next one if the rest doesn't fit.
 #[derive(Clone, Copy)]
 pub struct Break;
 
@@ -236,7 +236,7 @@ impl Data {
 
     /// `path { name: value, … }`, on one line only where it is short; `path` where there is no field.
     pub fn fields<N: AsRef<str>>(path: &str, fields: impl IntoIterator<Item = (N, Doc)>) -> Doc {
-        /// A literal that is longer than this up to the blank before its closing brace gets a line a field.
+        /// A literal longer than this, up to the blank before its closing brace, has one line per field.
         const SHORT: usize = 34;
         let mut fields = fields.into_iter().peekable();
         let mut doc = Doc::from(path);
@@ -288,7 +288,7 @@ impl Data {
 }
 
 impl Doc {
-    /// Whether a struct within it never stands on one line.
+    /// Whether a struct within it is never on one line.
     pub(super) fn has_long(&self) -> bool {
         self.marks.iter().any(|(_, mark)| matches!(mark, Mark::OpenStruct { is_long: true }))
     }

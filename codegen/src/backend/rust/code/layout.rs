@@ -2,7 +2,7 @@
 
 use super::doc::{Doc, Mark};
 
-/// The greatest width of a line, in bytes as `prettyplease` counts.
+/// The maximum width of a line, in bytes as `prettyplease` counts.
 const MARGIN: usize = 89;
 
 const STEP: usize = 4;

@@ -26,7 +26,7 @@ impl Code {
         self.out
     }
 
-    /// Whether the code has so many bytes that it is worth to know.
+    /// Makes room for so many further bytes.
     pub fn reserve(&mut self, bytes: usize) {
         self.out.reserve(bytes);
     }

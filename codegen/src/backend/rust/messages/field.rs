@@ -22,6 +22,8 @@ pub(in crate::backend::rust) struct Field {
     pub name: String,
     pub docs: Vec<String>,
     pub ty: String,
+    /// The same as seen from the device, next to the modules.
+    ty_at_top: String,
     /// What tells `serde` how to handle it.
     pub attribute: Option<String>,
     /// The name of the constant with its scale, and the type of that.
@@ -74,6 +76,7 @@ fn field(context: &Context<'_>, step: &Step<'_>, name: String, position: usize, 
         name: name.clone(),
         docs: vec![docs.to_owned()],
         ty: ty.to_owned(),
+        ty_at_top: ty.to_owned(),
         attribute: None,
         scale: None,
         position,
@@ -100,7 +103,10 @@ fn field(context: &Context<'_>, step: &Step<'_>, name: String, position: usize, 
             "The value of the parameter, as it was sent.",
             Kind::ValueOnly { space: (*space).to_owned() },
         ),
-        Step::List { .. } => plain(&format!("rt::message::List<'a, {entry}>"), "What is repeated.", Kind::List),
+        Step::List { .. } => Field {
+            ty_at_top: format!("rt::message::List<'a, messages::{entry}>"),
+            ..plain(&format!("rt::message::List<'a, {entry}>"), "What is repeated.", Kind::List)
+        },
         _ => plain("&'a [u8]", "All bytes that follow.", Kind::Bytes),
     }
 }
@@ -108,6 +114,7 @@ fn field(context: &Context<'_>, step: &Step<'_>, name: String, position: usize, 
 fn typed(context: &Context<'_>, value: &MessageValue, bits: u32, name: String, position: usize) -> Field {
     let item = &value.item;
     let own = field_type(context, item.ty, bits);
+    let named_at_top = matches!(own, FieldType::Named(..)).then(|| own.path(""));
     let base = context.base(item.ty);
     let (ty, kind) = match own {
         FieldType::Bytes(length) => (format!("[u8; {length}]"), Kind::Text { length }),
@@ -138,16 +145,13 @@ fn typed(context: &Context<'_>, value: &MessageValue, bits: u32, name: String, p
                 _ => base,
             };
             let check = match &other {
-                FieldType::Named(_, native) if other.cut(bits).is_some() => {
+                // A list of values is a constant in a function, which no call can be part of.
+                FieldType::Named(_, native)
+                    if other.cut(bits).is_some() || !variant::widest(item).allowed.is_empty() =>
+                {
                     narrow(item, base, native, format!("self.{name}.raw()"))
                 }
-                // A list of values stands in a function, where no call is a constant.
-                FieldType::Named(_, native) => match range(item, base, &name, Some(&ty)) {
-                    Some((.., range)) if range.text().contains("OneOf") => {
-                        narrow(item, base, native, format!("self.{name}.raw()"))
-                    }
-                    check => check,
-                },
+                FieldType::Named(..) => range(item, base, &name, Some(&ty)),
                 _ => range(item, base, &name, None),
             };
             let encode = other.encode(&format!("self.{name}"), bits);
@@ -158,7 +162,8 @@ fn typed(context: &Context<'_>, value: &MessageValue, bits: u32, name: String, p
     };
     let quantity = quantity::of(context, item).filter(|_| !ty.contains("::"));
     let scale = quantity.map(|own| (constant(&name), own.path));
-    Field { docs: documentation(context, item, base), ty, attribute: None, scale, position, kind, name }
+    let ty_at_top = named_at_top.unwrap_or_else(|| ty.clone());
+    Field { docs: documentation(context, item, base), ty, ty_at_top, attribute: None, scale, position, kind, name }
 }
 
 /// The variable with what was read of the field at a position.
@@ -261,11 +266,7 @@ impl Field {
                 let own = call!("rt::message::Settings::sent", name, rule);
                 (format!("{name}: &'a [rt::message::Setting]"), (self.name.clone(), own))
             }
-            // As seen from the device, which stands beside the modules.
-            _ => {
-                let ty = self.ty.replace("super::types", "types").replace("<'a, ", "<'a, messages::");
-                (format!("{name}: {ty}"), (self.name.clone(), Doc::from(name)))
-            }
+            _ => (format!("{name}: {}", self.ty_at_top), (self.name.clone(), Doc::from(name))),
         }
     }
 

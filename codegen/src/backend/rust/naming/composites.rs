@@ -4,7 +4,7 @@ use crate::backend::rust::bus_facts;
 use crate::ir::Device;
 use crate::names::{self, Case};
 
-/// Names of constants that stand beside them.
+/// Names of constants in the same module.
 const BESIDE: [&str; 6] = ["device", "axes", "module", "entries", "identity", "node_id"];
 
 /// The names of the constants.

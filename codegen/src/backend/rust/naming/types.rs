@@ -57,7 +57,7 @@ pub(in crate::backend::rust) struct TypeNames {
     pub machines: Vec<[String; 2]>,
 }
 
-/// Names of the prelude that the code beside these types names, and those of which clippy would take a method for a constructor.
+/// Names of the prelude that the same module uses, and those of which clippy would take a method for a constructor.
 const RESERVED: [&str; 9] = ["Self", "Option", "Result", "Unknown", "Some", "None", "Default", "New", "FromRaw"];
 
 impl TypeNames {
@@ -205,7 +205,7 @@ fn used(scope: &Scope<'_>) -> TypeNames {
     TypeNames { enumerations, bit_fields, in_fields, machines: Vec::new() }
 }
 
-/// Whether any bit has a name of its own: a fallback such as "Bit 3" says nothing.
+/// Whether any bit has a name. A fallback such as "Bit 3" is none.
 fn is_named(fields: &[BitFieldEntry]) -> bool {
     fields.iter().any(|field| match field.meaning {
         BitMeaning::Reserved { .. } => false,

@@ -36,9 +36,10 @@ pub(super) fn submodule<'s>(scope: &'s Scope<'_>, submodule: &'s Submodule, name
     let images: Vec<ImageModel> = images.collect();
     let records = record::models(&submodule.records, &scope.values, scope.options);
     let f_record = submodule.f_parameters.as_deref().map(f_record::model);
-    let types = images.iter().flat_map(|image| &image.fields).chain(records.iter().flat_map(|record| &record.fields));
-    let constants = records.iter().flat_map(|record| &record.constants).map(|constant| &constant.ty);
-    let uses_values = types.map(|field| &field.ty).chain(constants).any(|ty| ty.starts_with("values::"));
+    let mut fields =
+        images.iter().flat_map(|image| &image.fields).chain(records.iter().flat_map(|record| &record.fields));
+    let mut constants = records.iter().flat_map(|record| &record.constants);
+    let uses_values = fields.any(|field| field.is_enumeration) || constants.any(|constant| constant.is_enumeration);
     SubmoduleModel {
         name,
         docs: submodule_docs(submodule, name, &images, &records, f_record.is_some()),

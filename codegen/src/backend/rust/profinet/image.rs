@@ -38,6 +38,8 @@ pub(in crate::backend::rust) struct FieldModel {
     /// Its place and its type, as a table shows them.
     cells: [String; 2],
     pub ty: String,
+    /// Whether that is an enumeration.
+    pub is_enumeration: bool,
     /// The attribute in front of it.
     pub attribute: Option<String>,
     /// Its value from a view.
@@ -147,6 +149,7 @@ impl FieldModel {
             docs,
             cells: [field.place.words(), field.type_link()],
             ty: field.rust_type(),
+            is_enumeration: field.enumeration.is_some(),
             attribute: field.byte_string().and_then(|length| options.octets_attribute(length)),
             get: field.read("self.0"),
             read: field.read("data"),

@@ -54,6 +54,8 @@ pub(in crate::backend::rust) struct ConstantModel {
     pub name: String,
     pub docs: Vec<String>,
     pub ty: String,
+    /// Whether that is an enumeration.
+    pub is_enumeration: bool,
     pub value: Doc,
 }
 
@@ -150,6 +152,7 @@ fn constants(fixed: &[Parameter<'_>], bytes: &[u8], values: &Values<'_>) -> Vec<
             name: name.to_ascii_uppercase(),
             docs,
             ty: parameter.field.rust_type(),
+            is_enumeration: parameter.field.enumeration.is_some(),
             value: value_of(&parameter.field, bytes),
         }
     };
