@@ -7,6 +7,7 @@ mod compile_support;
 mod docs_support;
 #[path = "../../tests/support/lane.rs"]
 mod lane;
+mod seed;
 
 use std::collections::BTreeSet;
 use std::ops::Range;
@@ -49,18 +50,6 @@ fn seeds() -> Range<u64> {
     }
 }
 
-/// The bytes of a seed: xorshift64*, whose stream no release of a crate changes.
-fn bytes(seed: u64) -> Vec<u8> {
-    let mut state = (seed + 1).wrapping_mul(0x9E37_79B9_7F4A_7C15);
-    let mut next = || {
-        state ^= state >> 12;
-        state ^= state << 25;
-        state ^= state >> 27;
-        state.wrapping_mul(0x2545_F491_4F6C_DD1D).to_be_bytes()[0]
-    };
-    (0..BYTES).map(|_| next()).collect()
-}
-
 /// Choices of a user.
 fn options(b: &mut Bytes<'_>) -> RustOptions {
     let presence = |b: &mut Bytes<'_>| match b.within(0..=3) {
@@ -87,7 +76,7 @@ fn options(b: &mut Bytes<'_>) -> RustOptions {
 
 /// The catalogue of a seed, checked, and choices of a user.
 fn drawn(seed: u64) -> (Compilation, RustOptions) {
-    let bytes = bytes(seed);
+    let bytes = seed::bytes(seed, BYTES);
     let (chosen, described) = bytes.split_at(100);
     (arbitrary_ir::compilation(described, &Options::default()), options(&mut Bytes::new(chosen)))
 }

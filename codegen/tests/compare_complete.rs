@@ -9,6 +9,7 @@ mod arbitrary_ir;
 mod lane;
 #[path = "compare_complete/leaves.rs"]
 mod leaves;
+mod seed;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
@@ -106,7 +107,7 @@ fn descriptions() -> Vec<Description> {
     let mut all: Vec<Description> = paths.iter().filter_map(|path| Description::read(path)).collect();
     let drawn = if lane::is_full() { 120 } else { 8 };
     all.extend((0..drawn).filter_map(|seed| {
-        let catalog = arbitrary_ir::catalog(&mut Bytes::new(&bytes(seed)));
+        let catalog = arbitrary_ir::catalog(&mut Bytes::new(&seed::bytes(seed, BYTES)));
         Description::of(format!("seed {seed}"), BYTES, &catalog)
     }));
     all.sort_by_key(|own| (own.length, own.name.clone()));
@@ -128,18 +129,6 @@ fn find(folder: &Path, paths: &mut Vec<PathBuf>) {
 
 /// Bytes of a catalog.
 const BYTES: usize = 1500;
-
-/// The bytes of a seed: xorshift64*.
-fn bytes(seed: u64) -> Vec<u8> {
-    let mut state = (seed + 1).wrapping_mul(0x9E37_79B9_7F4A_7C15);
-    let mut next = || {
-        state ^= state >> 12;
-        state ^= state << 25;
-        state ^= state >> 27;
-        state.wrapping_mul(0x2545_F491_4F6C_DD1D).to_be_bytes()[0]
-    };
-    (0..BYTES).map(|_| next()).collect()
-}
 
 /// What came of the changes of leaves.
 #[derive(Default)]

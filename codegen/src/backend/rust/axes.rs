@@ -40,7 +40,7 @@ fn axes(device: &Device, rule: &AxisRule) -> Doc {
 fn range(range: &AxisRange) -> Doc {
     let step = match range.step {
         AxisStep::Index(step) => Data::call("rt::AxisStep::Index", vec![Data::index(step)]),
-        AxisStep::SubIndex => Data::text("rt::AxisStep::SubIndex"),
+        AxisStep::SubIndex => Doc::from("rt::AxisStep::SubIndex"),
         AxisStep::SubIndexStride(step) => Data::call("rt::AxisStep::SubIndexStride", vec![number(step)]),
     };
     let (first, last) = range.indices;
@@ -48,5 +48,5 @@ fn range(range: &AxisRange) -> Doc {
 }
 
 fn number(value: u8) -> Doc {
-    Data::text(value.to_string())
+    Doc::from(value.to_string())
 }

@@ -44,7 +44,7 @@ fn modbus(device: &Device) -> Option<FactModel> {
         let own = device.modbus.iter().find(|own| own.space == space);
         let spans = spans(device, space, max_read);
         let data = match (own, spans.is_empty()) {
-            (None, true) => Data::text(standard),
+            (None, true) => Doc::from(standard),
             _ => limits(own, (max_read, max_write), spans),
         };
         (field, data)
@@ -58,14 +58,14 @@ fn modbus(device: &Device) -> Option<FactModel> {
 
 fn limits(own: Option<&ModbusTable>, (max_read, max_write): (u16, u16), spans: Vec<Doc>) -> Doc {
     let functions = own.map_or(&[][..], |own| &own.functions);
-    let number = |given: Option<u16>, standard: u16| Data::text(given.unwrap_or(standard).to_string());
+    let number = |given: Option<u16>, standard: u16| Doc::from(given.unwrap_or(standard).to_string());
     Data::fields(
         "rt::modbus::TableLimits",
         vec![
-            ("functions", Data::slice(functions.iter().map(|own| Data::text(own.to_string())))),
+            ("functions", Data::slice(functions.iter().map(|own| Doc::from(own.to_string())))),
             ("max_read", number(own.and_then(|own| own.max_read), max_read)),
             ("max_write", number(own.and_then(|own| own.max_write), max_write)),
-            ("split", Data::text((own.is_some_and(|own| own.split)).to_string())),
+            ("split", Doc::from((own.is_some_and(|own| own.split)).to_string())),
             ("readable", Data::slice(spans)),
         ],
     )
@@ -95,8 +95,8 @@ fn spans(device: &Device, space: RegisterSpace, longest: u16) -> Vec<Doc> {
 
 fn span((first, last, words): (u16, u16, u8)) -> Doc {
     match words {
-        1 => Data::call("rt::modbus::Span::new", vec![Data::text(first.to_string()), Data::text(last.to_string())]),
-        _ => Data::text(format!("rt::modbus::Span::new({first}, {last}).words_per_address({words})")),
+        1 => Data::call("rt::modbus::Span::new", vec![Doc::from(first.to_string()), Doc::from(last.to_string())]),
+        _ => Doc::from(format!("rt::modbus::Span::new({first}, {last}).words_per_address({words})")),
     }
 }
 

@@ -2,7 +2,7 @@
 
 use std::collections::{HashMap, HashSet};
 
-use super::code::{open, Code};
+use super::code::Code;
 use super::device_names::module_name;
 use super::ethercat::ModulePaths;
 use super::model::Model;
@@ -48,28 +48,20 @@ pub(super) fn emit(catalog: &Catalog, file: &FileInfo, options: &RustOptions) ->
             let paths = paths(&modules, &names, "super::modules");
             for (device, name) in devices.iter().zip(device_names(devices, file)) {
                 let model = Model::new(device, file, options, &paths);
-                module(&mut code, &heading(&device.name, &name), &name, |code| print::model(code, &model));
+                code.module(&heading(&device.name, &name), &name, |code| print::model(code, &model));
             }
         }
     }
     if !modules.is_empty() {
         let about = "Modules that can be plugged in. Indices that depend on the slot are those of slot 0.";
-        module(&mut code, about, "modules", |code| {
+        code.module(about, "modules", |code| {
             for ((_, own), name) in modules.iter().zip(&names) {
                 let model = Model::of_module(own, options);
-                module(code, &heading(&own.name, name), name, |code| print::model(code, &model));
+                code.module(&heading(&own.name, name), name, |code| print::model(code, &model));
             }
         });
     }
     Some(code.finish())
-}
-
-/// A module within the generated one.
-fn module(code: &mut Code, heading: &str, name: &str, content: impl FnOnce(&mut Code)) {
-    code.doc(heading);
-    open!(code, "pub mod ", name, " {");
-    content(code);
-    code.close("}");
 }
 
 /// The modules that a device takes, or all where there is no device.

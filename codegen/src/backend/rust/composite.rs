@@ -1,15 +1,14 @@
 //! Numbers that are split over several items: a constant for each, which joins and splits them.
 
 use super::bus_facts::FactModel;
-use super::code::{seq, Data};
+use super::code::{seq, Data, Doc};
 use super::context::Context;
 use super::docs;
 use super::links::Here;
-use super::naming::composites;
 use crate::ir::{Composite, Device};
 
 pub(super) fn models(context: &Context<'_>, device: &Device) -> Vec<FactModel> {
-    device.composites.iter().zip(composites::names(device)).map(|(own, name)| model(context, own, &name)).collect()
+    device.composites.iter().zip(&context.names.composites).map(|(own, name)| model(context, own, name)).collect()
 }
 
 fn model(context: &Context<'_>, own: &Composite, name: &str) -> FactModel {
@@ -27,10 +26,10 @@ fn model(context: &Context<'_>, own: &Composite, name: &str) -> FactModel {
     if !text.is_empty() {
         sentences.push(docs::sentence(&docs::escape(text)));
     }
-    let base = Data::text(own.base.to_string());
+    let base = Doc::from(own.base.to_string());
     let value = match &own.sign {
         None => Data::call("rt::Composite::new", vec![base]),
-        Some((_, negative)) => Data::call("rt::Composite::signed", vec![base, Data::text(negative.to_string())]),
+        Some((_, negative)) => Data::call("rt::Composite::signed", vec![base, Doc::from(negative.to_string())]),
     };
     let code = seq!["pub const ", name, ": rt::Composite<", own.parts.len(), "> = ", value, ";"];
     FactModel { docs: sentences.join(" "), code }

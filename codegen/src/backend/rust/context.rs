@@ -12,7 +12,7 @@ use crate::ir::Type;
 /// A device or a module with the results of all stages before lowering.
 pub(super) struct Context<'a> {
     pub located: Located<'a>,
-    pub names: Names,
+    pub names: Names<'a>,
     pub links: Links,
 }
 
@@ -31,7 +31,7 @@ impl Context<'_> {
         self.names.types.get(position)
     }
 
-    /// A link from `here` to the item, or else to the message, that the description calls so.
+    /// A link from `here` to the item of this name, or to the message of this name if there is no such item.
     pub fn link(&self, name: &str, here: Here<'_>) -> Option<String> {
         let item = self.item(name).and_then(|item| self.links.constant(item));
         let path = item.or_else(|| self.links.message(name))?;

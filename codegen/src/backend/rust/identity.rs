@@ -1,4 +1,4 @@
-//! Who made a device, as the template writes it.
+//! Who made a device, ready to be written.
 
 use super::literal;
 use crate::ir::Device;

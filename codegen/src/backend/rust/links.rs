@@ -7,7 +7,7 @@ use std::collections::HashMap;
 use super::located::Located;
 use super::naming::handles::is_cased;
 use super::naming::pdos::is_generated;
-use super::naming::{composites, messages, Names};
+use super::naming::Names;
 use super::options::RustOptions;
 use super::reachable::{addressable, is_module};
 use super::scope::Scope;
@@ -143,30 +143,29 @@ pub(super) struct Links {
 
 impl Links {
     /// `device_name` is the name of the device's type.
-    pub fn of(scope: &Located<'_>, names: &Names, options: &RustOptions, device_name: &str) -> Self {
+    pub fn of(scope: &Located<'_>, names: &Names<'_>, options: &RustOptions, device_name: &str) -> Self {
         let mut links = Links::default();
         let has_objects = !names.handles.is_empty() && scope.device.is_some_and(has_object_access);
-        let requests = scope.device.map(|device| links.add_messages(device)).unwrap_or_default();
+        let requests = links.add_messages(names);
         links.has_methods = options.accessors && (has_objects || requests > 0);
         links.add_handles(scope, names, Some(device_name).filter(|_| links.has_methods));
         if options.pdos {
             links.add_pdos(scope, names);
         }
         if let Some(device) = scope.device {
-            links.add_wholes(scope, device, device_name);
+            links.add_wholes(scope, device, names, device_name);
         }
         links
     }
 
     /// How many requests there are.
-    fn add_messages(&mut self, device: &Device) -> usize {
-        let paths = messages::paths(device);
-        let requests = paths.iter().filter(|own| own.is_request).count();
-        self.messages = paths.into_iter().map(|own| (own.name, own.path)).collect();
+    fn add_messages(&mut self, names: &Names<'_>) -> usize {
+        let requests = names.messages.paths().filter(|own| own.is_request).count();
+        self.messages = names.messages.paths().map(|own| (own.name, own.path)).collect();
         requests
     }
 
-    fn add_handles(&mut self, scope: &Located<'_>, names: &Names, device: Option<&str>) {
+    fn add_handles(&mut self, scope: &Located<'_>, names: &Names<'_>, device: Option<&str>) {
         for ((_, item), name) in scope.registers.iter().zip(&names.handles.registers) {
             self.add_handle(scope, item, name, device);
         }
@@ -202,7 +201,7 @@ impl Links {
         self.handles.insert(item, handle);
     }
 
-    fn add_pdos(&mut self, scope: &Scope<'_>, names: &Names) {
+    fn add_pdos(&mut self, scope: &Scope<'_>, names: &Names<'_>) {
         for (own, name) in scope.pdos.iter().zip(&names.pdos).filter(|(own, _)| is_generated(own)) {
             for entry in own.entries.iter().filter(|entry| entry.kind == PdoEntryKind::Item) {
                 let carriers = self.carriers.entry((entry.index, entry.sub_index)).or_default();
@@ -213,9 +212,9 @@ impl Links {
         }
     }
 
-    fn add_wholes(&mut self, scope: &Scope<'_>, device: &Device, device_name: &str) {
-        for (own, name) in device.composites.iter().zip(composites::names(device)) {
-            let name = if name == device_name { format!("const@{name}") } else { name };
+    fn add_wholes(&mut self, scope: &Scope<'_>, device: &Device, names: &Names<'_>, device_name: &str) {
+        for (own, name) in device.composites.iter().zip(&names.composites) {
+            let name = if name == device_name { format!("const@{name}") } else { name.clone() };
             let parts = own.parts.iter().chain(own.sign.as_ref().map(|(item, _)| item));
             for item in parts.filter_map(|part| scope.item(part)) {
                 self.wholes.entry(item).or_default().push(name.clone());

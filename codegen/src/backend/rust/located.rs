@@ -1,4 +1,4 @@
-//! What of a device or a module a client can reach, and through which windows.
+//! The windows and registers of a device or a module that a client can reach.
 
 use std::ops::Deref;
 

@@ -210,8 +210,8 @@ fn steps(transitions: &[Transition], states: &PatternsModel, commands: &Patterns
     for own in transitions {
         let command = own.command.as_ref().map(|name| named(commands, name));
         let command = match command {
-            None => Data::text("None"),
-            Some(Some(name)) => Data::call("Some", vec![Data::text(format!("{}::{name}", commands.name))]),
+            None => Doc::from("None"),
+            Some(Some(name)) => Data::call("Some", vec![Doc::from(format!("{}::{name}", commands.name))]),
             // A message, or a command without bits.
             Some(None) => continue,
         };
@@ -221,7 +221,7 @@ fn steps(transitions: &[Transition], states: &PatternsModel, commands: &Patterns
             (None, None) => Vec::new(),
         };
         let Some(to) = named(states, &own.to) else { continue };
-        let state = |name: &str| Data::text(format!("Self::{name} as u8"));
+        let state = |name: &str| Doc::from(format!("Self::{name} as u8"));
         for from in from {
             steps.push(Data::call("rt::Transition::new", vec![state(&from), state(&to), command.clone()]));
         }

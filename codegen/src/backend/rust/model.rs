@@ -29,7 +29,6 @@ use super::remap::{self, RemappableModel};
 use super::scope::{ObjectBus, Scope};
 use super::table::{self, EntryModel};
 use super::window_model::{self, WindowModel};
-use super::INTERFACE_VERSION;
 use crate::ir::{Device, FileInfo, Module};
 
 /// The stages before lowering: what is found where, its names, and links to it.
@@ -41,9 +40,8 @@ pub(super) fn context<'a>(scope: Scope<'a>, options: &RustOptions, device_name: 
 }
 
 /// A device, ready to be written.
-pub(super) struct Model<'a> {
-    pub options: &'a RustOptions,
-    pub interface_version: u32,
+#[derive(Default)]
+pub(super) struct Model {
     pub device_name: String,
     pub title: String,
     /// Who made the device; a module of a modular device has none.
@@ -95,13 +93,13 @@ pub(super) struct Model<'a> {
     pub table_feature: Option<String>,
 }
 
-impl<'a> Model<'a> {
+impl Model {
     /// A device, which finds the constants of modules by these paths.
-    pub(super) fn new(device: &'a Device, file: &'a FileInfo, options: &'a RustOptions, modules: &ModulePaths) -> Self {
+    pub(super) fn new(device: &Device, file: &FileInfo, options: &RustOptions, modules: &ModulePaths) -> Self {
         let device_name = device_names::device_name(device, file, options.device_name.as_deref());
         let context = context(Scope::of_device(device), options, &device_name);
         let mut model = Model::of_context(&context, options);
-        model.protocol = model.protocol_of(&context);
+        model.protocol = model.protocol_of(&context, options);
         model.has_accessors = context.links.has_methods;
         model.device_name = device_name;
         model.title = docs::escape(&device_names::title(device));
@@ -119,7 +117,7 @@ impl<'a> Model<'a> {
     }
 
     /// A module of a modular device.
-    pub(super) fn of_module(module: &'a Module, options: &'a RustOptions) -> Self {
+    pub(super) fn of_module(module: &Module, options: &RustOptions) -> Self {
         let context = context(Scope::of_module(module), options, "");
         let mut model = Model::of_context(&context, options);
         model.title = docs::escape(&module.name);
@@ -128,7 +126,7 @@ impl<'a> Model<'a> {
     }
 
     /// What devices and modules have.
-    fn of_context(context: &Context<'a>, options: &'a RustOptions) -> Self {
+    fn of_context(context: &Context<'_>, options: &RustOptions) -> Self {
         let locations = Locations::of(context);
         let mut objects = objects::models(context, &locations);
         let pdos = if options.pdos { pdo::models(context, options) } else { Vec::new() };
@@ -154,54 +152,15 @@ impl<'a> Model<'a> {
                 Presence::Feature(feature) => Some(literal::string(feature)),
                 _ => None,
             },
-            ..Model::empty(options)
-        }
-    }
-
-    /// A model of nothing.
-    fn empty(options: &'a RustOptions) -> Self {
-        Model {
-            options,
-            interface_version: INTERFACE_VERSION,
-            device_name: String::new(),
-            title: String::new(),
-            identity: None,
-            has_accessors: false,
-            location: String::new(),
-            has_locations: false,
-            locations: Vec::new(),
-            makers: Vec::new(),
-            windows: Vec::new(),
-            handles: [""; 3],
-            types: Types::default(),
-            code_tables: Vec::new(),
-            procedures: Vec::new(),
-            axes: None,
-            models: Vec::new(),
-            given: None,
-            protocol: None,
-            node_id: None,
-            bus_facts: Vec::new(),
-            accessor_derives: Vec::new(),
-            method_allow: None,
-            objects: Vec::new(),
-            aliases: Vec::new(),
-            handle_types: Vec::new(),
-            pdos: Vec::new(),
-            remappable: Vec::new(),
-            has_views: false,
-            ethercat: None,
-            module: None,
-            table: None,
-            table_feature: None,
+            ..Model::default()
         }
     }
 
     /// Requests and replies. Their methods stand beside those of the objects.
-    fn protocol_of(&self, context: &Context<'_>) -> Option<ProtocolModel> {
+    fn protocol_of(&self, context: &Context<'_>, options: &RustOptions) -> Option<ProtocolModel> {
         let objects = self.objects.iter().map(|object| object.name.trim_start_matches("r#"));
         let taken: Vec<&str> = objects.chain(RESERVED).chain(BESIDE_MESSAGES).collect();
-        ProtocolModel::new(context, self.options, &self.types, &taken)
+        ProtocolModel::new(context, options, &self.types, &taken)
     }
 
     /// Whether the type of the device knows which request was sent last.

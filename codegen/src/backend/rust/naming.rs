@@ -1,6 +1,6 @@
 //! The first stage: what elements of a description are called in Rust.
 
-pub(super) mod composites;
+mod composites;
 pub(super) mod handles;
 pub(super) mod machines;
 pub(super) mod messages;
@@ -9,18 +9,28 @@ pub(super) mod types;
 
 use super::located::Located;
 use handles::HandleNames;
+use messages::NamedMessages;
 use types::TypeNames;
 
 /// The names of a device's or a module's elements.
-pub(super) struct Names {
+pub(super) struct Names<'a> {
     pub handles: HandleNames,
     /// By the positions of the PDOs.
     pub pdos: Vec<String>,
     pub types: TypeNames,
+    /// By the positions of the numbers that are split over several items.
+    pub composites: Vec<String>,
+    pub messages: NamedMessages<'a>,
 }
 
-impl Names {
-    pub fn of(located: &Located<'_>) -> Self {
-        Names { handles: handles::names(located), pdos: pdos::names(located), types: TypeNames::of(located) }
+impl<'a> Names<'a> {
+    pub fn of(located: &Located<'a>) -> Self {
+        Names {
+            handles: handles::names(located),
+            pdos: pdos::names(located),
+            types: TypeNames::of(located),
+            composites: located.device.map(composites::names).unwrap_or_default(),
+            messages: located.device.map(NamedMessages::of).unwrap_or_default(),
+        }
     }
 }

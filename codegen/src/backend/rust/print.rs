@@ -21,7 +21,7 @@ use super::code::Code;
 use super::model::Model;
 
 /// A device, or a module of a modular one.
-pub(super) fn model(code: &mut Code, model: &Model<'_>) {
+pub(super) fn model(code: &mut Code, model: &Model) {
     code.reserve(model.size_hint());
     device::write(code, model);
     accessors::write(code, model);

@@ -4,7 +4,7 @@ use compact_str::CompactString;
 
 /// Code of one construct: its text on one line, and the places at which it may be broken.
 ///
-/// The members of a list are all on one line, or each is on a line by itself. As in Oppen's algorithm, a list is on one line only if the
+/// The members of a list are all on one line, or each has its own line. As in Oppen's algorithm, a list is on one line only if the
 /// text up to the next place for a break fits as well.
 #[derive(Clone, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Doc {
@@ -22,7 +22,7 @@ pub(super) enum Mark {
     OpenStruct { is_long: bool },
     /// Begins a list of numbers: a broken line has as many as fit.
     OpenNumbers,
-    /// Stands between members.
+    /// Is between members.
     Next,
     /// Ends a list, a struct or numbers.
     Close,
@@ -154,20 +154,31 @@ impl Doc {
         let mut doc = Doc::default();
         start.put(&mut doc);
         doc.mark(Mark::Open);
-        doc.members(members);
+        for (at, member) in members.enumerate() {
+            if at > 0 {
+                doc.next();
+            }
+            member.put(&mut doc);
+        }
         doc.mark(Mark::Close);
         doc.text.push_str(end);
         doc
     }
 
-    fn members(&mut self, members: &mut dyn Iterator<Item = &dyn Piece>) {
-        for (at, member) in members.enumerate() {
-            if at > 0 {
-                self.mark(Mark::Next);
-                self.text.push_str(", ");
-            }
-            member.put(self);
-        }
+    /// The same for members of different types.
+    pub fn joined(start: &[&dyn Piece], members: &[&dyn Piece], end: &str) -> Self {
+        Doc::list(&Doc::of(start), &mut members.iter().copied(), end)
+    }
+
+    /// What separates two members.
+    fn next(&mut self) {
+        self.mark(Mark::Next);
+        self.text.push_str(", ");
+    }
+
+    /// Whether a struct within it is never on one line.
+    pub(super) fn has_long(&self) -> bool {
+        self.marks.iter().any(|(_, mark)| matches!(mark, Mark::OpenStruct { is_long: true }))
     }
 }
 
@@ -205,22 +216,10 @@ macro_rules! generic {
 
 pub(in crate::backend::rust) use {call, generic, seq};
 
-impl Doc {
-    /// A list of these members between `start` and `end`.
-    pub fn joined(start: &[&dyn Piece], members: &[&dyn Piece], end: &str) -> Self {
-        Doc::list(&Doc::of(start), &mut members.iter().copied(), end)
-    }
-}
-
 /// Literals of nothing but numbers, paths, structs, lists and calls.
 pub struct Data;
 
 impl Data {
-    /// Any text that stays on its line.
-    pub fn text(text: impl Into<String>) -> Doc {
-        Doc::from(text)
-    }
-
     /// `Some(value)` or `None`.
     pub fn option(value: Option<impl std::fmt::Display>) -> Doc {
         match value {
@@ -249,8 +248,7 @@ impl Data {
         doc.text.push(' ');
         for (at, (name, value)) in fields.enumerate() {
             if at > 0 {
-                doc.mark(Mark::Next);
-                doc.text.push_str(", ");
+                doc.next();
             }
             doc.text.push_str(name.as_ref());
             if value.text != name.as_ref() {
@@ -284,12 +282,5 @@ impl Data {
             [only] if matches!(only.marks.first(), Some((_, Mark::OpenStruct { .. }))) => seq![path, "(", only, ")"],
             _ => list(&format!("{path}("), &arguments, ")"),
         }
-    }
-}
-
-impl Doc {
-    /// Whether a struct within it is never on one line.
-    pub(super) fn has_long(&self) -> bool {
-        self.marks.iter().any(|(_, mark)| matches!(mark, Mark::OpenStruct { is_long: true }))
     }
 }

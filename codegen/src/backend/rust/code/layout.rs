@@ -5,7 +5,8 @@ use super::doc::{Doc, Mark};
 /// The maximum width of a line, in bytes as `prettyplease` counts.
 const MARGIN: usize = 89;
 
-const STEP: usize = 4;
+/// The blanks of one level.
+pub(super) const STEP: usize = 4;
 
 /// Writes a document that starts a line which is indented so far; `out` ends where the line starts.
 pub(super) fn write(doc: &Doc, indent: usize, out: &mut String) {
@@ -22,7 +23,8 @@ pub(super) fn write(doc: &Doc, indent: usize, out: &mut String) {
     printer.text_to(text.len());
 }
 
-fn newline(out: &mut String, indent: usize) {
+/// Begins a line.
+pub(super) fn newline(out: &mut String, indent: usize) {
     if !out.is_empty() {
         out.push('\n');
     }
@@ -194,13 +196,13 @@ mod tests {
         let numbers = |count: u16| Data::slice((0..count).map(|at| Data::index(at * 7)));
         (0..60).for_each(|count| canonical(&numbers(count)));
         let point = |size: usize| {
-            Data::fields("rt::P", [("x", Data::text("1".repeat(size))), ("long_name", Data::option(Some(2)))])
+            Data::fields("rt::P", [("x", Doc::from("1".repeat(size))), ("long_name", Data::option(Some(2)))])
         };
         for size in 1..70 {
             canonical(&point(size));
             canonical(&Data::slice([point(size), point(1)]));
             canonical(&Data::call("Some", [point(size)]));
-            let call = Data::call("rt::f", [Data::text("a".repeat(size)), Data::text("b".repeat(20))]);
+            let call = Data::call("rt::f", [Doc::from("a".repeat(size)), Doc::from("b".repeat(20))]);
             canonical(&call);
             canonical(&Data::slice([call.clone(), call.clone()]));
             canonical(&Data::fields("rt::Q", [("call", call), ("numbers", numbers(size as u16)), ("point", point(3))]));

@@ -1,9 +1,7 @@
 //! The writer of a module: lines, blocks and doc comments.
 
 use super::doc::{Doc, Piece};
-use super::layout;
-
-const STEP: usize = 4;
+use super::layout::{self, newline, STEP};
 
 /// Rust code that is written line by line.
 pub struct Code {
@@ -26,7 +24,7 @@ impl Code {
         self.out
     }
 
-    /// Makes room for so many further bytes.
+    /// Reserves memory for this many further bytes.
     pub fn reserve(&mut self, bytes: usize) {
         self.out.reserve(bytes);
     }
@@ -67,8 +65,8 @@ impl Code {
 
     /// A line of a doc comment.
     pub fn doc(&mut self, text: &str) {
-        let blank = if text.is_empty() { "" } else { " " };
-        self.comment(&["///", blank, text]);
+        newline(&mut self.out, self.indent);
+        self.out.extend(["///", if text.is_empty() { "" } else { " " }, text]);
     }
 
     /// A doc comment of so many lines.
@@ -78,12 +76,26 @@ impl Code {
         }
     }
 
-    fn comment(&mut self, parts: &[&str]) {
-        if !self.out.is_empty() {
-            self.out.push('\n');
+    /// The doc comment of a function that fails in one case.
+    pub fn docs_with_error(&mut self, text: &str, error: &str) {
+        for line in [text, "", "# Errors", "", error] {
+            self.doc(line);
         }
-        self.out.extend(std::iter::repeat_n(' ', self.indent));
-        self.out.extend(parts.iter().copied());
+    }
+
+    /// A public field with its doc comment and its attribute.
+    pub fn field(&mut self, docs: &[String], attribute: Option<&String>, name: &str, ty: &str) {
+        self.docs(docs);
+        self.lines(attribute);
+        self.line(&[&"pub ", &name, &": ", &ty, &","]);
+    }
+
+    /// A public module.
+    pub fn module(&mut self, heading: &str, name: &str, content: impl FnOnce(&mut Self)) {
+        self.doc(heading);
+        self.open(&[&"pub mod ", &name, &" {"]);
+        content(self);
+        self.close("}");
     }
 
     /// What gives the runtime its short name.

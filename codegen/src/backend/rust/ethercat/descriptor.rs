@@ -24,12 +24,12 @@ pub(super) fn device(
     Data::fields(
         "rt::ethercat::Device",
         vec![
-            ("identity", Data::text("IDENTITY")),
+            ("identity", Doc::from("IDENTITY")),
             ("sync_managers", Data::slice(device.process_data.sync_managers.iter().map(sync_manager))),
             ("pdos", pdo_list(&device.process_data.pdos, pdos)),
             ("default_pdos", Data::slice(assigned.iter().map(|own| Data::index(own.pdo.mapping_index)))),
             ("mailbox", mailbox(settings.mailbox.as_deref())),
-            ("slots", slots.map_or_else(|| Data::text("None"), |slots| Data::call("Some", vec![slots]))),
+            ("slots", slots.map_or_else(|| Doc::from("None"), |slots| Data::call("Some", vec![slots]))),
         ],
     )
 }
@@ -38,10 +38,10 @@ pub(super) fn module(module: &Module, pdos: &PdoModels<'_>) -> Doc {
     Data::fields(
         "rt::ethercat::Module",
         vec![
-            ("ident", Data::text(format!("0x{:08X}", module.number))),
-            ("name", Data::text(literal::string(&module.name))),
-            ("class", Data::text(literal::string(&module.class))),
-            ("pdo_group", Data::text(module.pdo_group.unwrap_or(0).to_string())),
+            ("ident", Doc::from(format!("0x{:08X}", module.number))),
+            ("name", Doc::from(literal::string(&module.name))),
+            ("class", Doc::from(literal::string(&module.class))),
+            ("pdo_group", Doc::from(module.pdo_group.unwrap_or(0).to_string())),
             ("pdos", pdo_list(&module.process_data.pdos, pdos)),
             ("init_commands", Data::slice(module.init_commands.iter().map(init_command))),
             ("objects", Data::slice(slot_objects(&module.groups))),
@@ -61,7 +61,7 @@ fn slot_objects(groups: &[Group]) -> Vec<Doc> {
         }
     }
     rows.retain(|&(.., depends_on)| depends_on != NOTHING);
-    let data = |(first, last, depends_on)| vec![Data::index(first), Data::index(last), Data::text(depends_on)];
+    let data = |(first, last, depends_on)| vec![Data::index(first), Data::index(last), Doc::from(depends_on)];
     rows.into_iter().map(|row| Data::call("rt::ethercat::SlotObjects::new", data(row))).collect()
 }
 
@@ -75,15 +75,15 @@ fn sync_manager(own: &SyncManager) -> Doc {
     Data::fields(
         "rt::ethercat::SyncManager",
         vec![
-            ("number", Data::text(own.number.to_string())),
-            ("purpose", Data::text(format!("rt::ethercat::SyncManagerPurpose::{purpose}"))),
+            ("number", Doc::from(own.number.to_string())),
+            ("purpose", Doc::from(format!("rt::ethercat::SyncManagerPurpose::{purpose}"))),
             ("start_address", Data::index(own.start_address)),
-            ("default_size", Data::text(own.default_size.unwrap_or(0).to_string())),
+            ("default_size", Doc::from(own.default_size.unwrap_or(0).to_string())),
             ("min_size", Data::option(own.size_range.0)),
             ("max_size", Data::option(own.size_range.1)),
-            ("control", Data::text(format!("0x{:02X}", own.control))),
-            ("enable", Data::text((own.enable).to_string())),
-            ("op_only", Data::text((own.op_only).to_string())),
+            ("control", Doc::from(format!("0x{:02X}", own.control))),
+            ("enable", Doc::from((own.enable).to_string())),
+            ("op_only", Doc::from((own.op_only).to_string())),
         ],
     )
 }
@@ -107,14 +107,14 @@ fn pdo_info(pdo: &Pdo, models: &PdoModels<'_>) -> Doc {
         "rt::ethercat::PdoInfo",
         vec![
             ("index", Data::index(pdo.mapping_index)),
-            ("direction", Data::text(format!("rt::ethercat::Direction::{direction}"))),
-            ("bits", Data::text(pdo.bits().to_string())),
+            ("direction", Doc::from(format!("rt::ethercat::Direction::{direction}"))),
+            ("bits", Doc::from(pdo.bits().to_string())),
             ("sync_manager", Data::option(pdo.sync_manager)),
             ("excluded_sync_managers", numbers(pdo.excluded_sync_managers.iter().map(u8::to_string).collect())),
             // A mapping with an unknown index cannot be written.
-            ("fixed", Data::text((pdo.fixed || !pdo.is_mapping_known()).to_string())),
-            ("mandatory", Data::text((pdo.mandatory).to_string())),
-            ("depends_on", Data::text(depends_on(pdo.depends_on_slot, pdo.depends_on_slot_group))),
+            ("fixed", Doc::from((pdo.fixed || !pdo.is_mapping_known()).to_string())),
+            ("mandatory", Doc::from((pdo.mandatory).to_string())),
+            ("depends_on", Doc::from(depends_on(pdo.depends_on_slot, pdo.depends_on_slot_group))),
             ("excludes", numbers(pdo.excludes.iter().map(|index| format!("0x{index:04X}")).collect())),
             ("mapping", mapping(pdo, models)),
         ],
@@ -124,7 +124,7 @@ fn pdo_info(pdo: &Pdo, models: &PdoModels<'_>) -> Doc {
 /// The mapping of a PDO that has a struct is said there.
 fn mapping(pdo: &Pdo, models: &PdoModels<'_>) -> Doc {
     match models.of(pdo) {
-        Some(model) => Data::text(format!("<pdo::{} as rt::Pdo>::MAPPING", model.name)),
+        Some(model) => Doc::from(format!("<pdo::{} as rt::Pdo>::MAPPING", model.name)),
         None => {
             let entry =
                 |(path, arguments): (&'static str, Vec<String>)| Data::call(path, arguments.into_iter().map(Doc::from));
@@ -134,17 +134,17 @@ fn mapping(pdo: &Pdo, models: &PdoModels<'_>) -> Doc {
 }
 
 fn mailbox(mailbox: Option<&Mailbox>) -> Doc {
-    let Some(mailbox) = mailbox else { return Data::text("rt::ethercat::Mailbox::NONE") };
+    let Some(mailbox) = mailbox else { return Doc::from("rt::ethercat::Mailbox::NONE") };
     let coe = mailbox.coe.as_ref().map(coe);
     Data::fields(
         "rt::ethercat::Mailbox",
         vec![
-            ("coe", coe.map_or_else(|| Data::text("None"), |coe| Data::call("Some", vec![coe]))),
-            ("aoe", Data::text((mailbox.aoe.is_some()).to_string())),
-            ("eoe", Data::text((mailbox.eoe.is_some()).to_string())),
-            ("foe", Data::text((mailbox.foe.is_some()).to_string())),
-            ("soe", Data::text((mailbox.soe.is_some()).to_string())),
-            ("voe", Data::text((mailbox.voe.is_some()).to_string())),
+            ("coe", coe.map_or_else(|| Doc::from("None"), |coe| Data::call("Some", vec![coe]))),
+            ("aoe", Doc::from((mailbox.aoe.is_some()).to_string())),
+            ("eoe", Doc::from((mailbox.eoe.is_some()).to_string())),
+            ("foe", Doc::from((mailbox.foe.is_some()).to_string())),
+            ("soe", Doc::from((mailbox.soe.is_some()).to_string())),
+            ("voe", Doc::from((mailbox.voe.is_some()).to_string())),
         ],
     )
 }
@@ -153,10 +153,10 @@ fn coe(coe: &Coe) -> Doc {
     Data::fields(
         "rt::ethercat::Coe",
         vec![
-            ("sdo_info", Data::text((coe.sdo_info).to_string())),
-            ("pdo_assign", Data::text((coe.pdo_assign).to_string())),
-            ("pdo_config", Data::text((coe.pdo_config).to_string())),
-            ("complete_access", Data::text((coe.complete_access).to_string())),
+            ("sdo_info", Doc::from((coe.sdo_info).to_string())),
+            ("pdo_assign", Doc::from((coe.pdo_assign).to_string())),
+            ("pdo_config", Doc::from((coe.pdo_config).to_string())),
+            ("complete_access", Doc::from((coe.complete_access).to_string())),
             ("init_commands", Data::slice(coe.init_commands.iter().map(init_command))),
         ],
     )
@@ -168,10 +168,10 @@ fn init_command(command: &InitCommand) -> Doc {
         vec![
             ("transitions", transitions(known_transitions(command.transitions.iter().map(CompactString::as_str)))),
             ("index", Data::index(command.index)),
-            ("sub_index", Data::text(format!("0x{:02X}", command.sub_index))),
-            ("complete_access", Data::text((command.complete_access).to_string())),
-            ("depends_on", Data::text(depends_on(command.depends_on_slot, command.depends_on_slot_group))),
-            ("data", Data::text(literal::bytes(&command.data))),
+            ("sub_index", Doc::from(format!("0x{:02X}", command.sub_index))),
+            ("complete_access", Doc::from((command.complete_access).to_string())),
+            ("depends_on", Doc::from(depends_on(command.depends_on_slot, command.depends_on_slot_group))),
+            ("data", Doc::from(literal::bytes(&command.data))),
         ],
     )
 }
@@ -183,14 +183,14 @@ fn known_transitions<'a>(names: impl Iterator<Item = &'a str>) -> Vec<&'static s
 }
 
 fn transitions(names: Vec<&str>) -> Doc {
-    let list = names.into_iter().map(|name| Data::text(format!("rt::ethercat::Transition::{name}")));
+    let list = names.into_iter().map(|name| Doc::from(format!("rt::ethercat::Transition::{name}")));
     Data::call("rt::ethercat::Transitions::of", vec![Data::slice(list)])
 }
 
 /// When the list of modules goes out: on PS where the description doesn't say anything that the runtime knows.
 fn download(rules: &SlotRules) -> Doc {
     if !rules.download_idents {
-        return Data::text("rt::ethercat::Transitions::NONE");
+        return Doc::from("rt::ethercat::Transitions::NONE");
     }
     let names = rules.download_transition.split(|letter: char| !letter.is_ascii_alphabetic());
     let known = known_transitions(names);
@@ -203,7 +203,7 @@ fn slots(device: &Device, rules: &SlotRules, modules: &ModulePaths) -> Doc {
         "rt::ethercat::Slots",
         vec![
             ("slots", Data::slice(device.slots.iter().map(slot))),
-            ("modules", Data::slice(known.map(|path| Data::text(format!("&{path}"))))),
+            ("modules", Data::slice(known.map(|path| Doc::from(format!("&{path}"))))),
             ("pdo_groups", Data::slice(rules.pdo_groups.iter().map(pdo_group))),
             ("download_idents", download(rules)),
         ],
@@ -212,9 +212,9 @@ fn slots(device: &Device, rules: &SlotRules, modules: &ModulePaths) -> Doc {
 
 fn slot(slot: &Slot) -> Doc {
     let fit = |fit: &Fit| match fit {
-        Fit::Ident(ident) => Data::text(format!("rt::ethercat::Fit::Ident(0x{ident:08X})")),
+        Fit::Ident(ident) => Doc::from(format!("rt::ethercat::Fit::Ident(0x{ident:08X})")),
         Fit::Class(name) | Fit::Name(name) => {
-            Data::call("rt::ethercat::Fit::Class", vec![Data::text(literal::string(name))])
+            Data::call("rt::ethercat::Fit::Class", vec![Doc::from(literal::string(name))])
         }
     };
     let default = match &slot.default {
@@ -224,25 +224,25 @@ fn slot(slot: &Slot) -> Doc {
     Data::fields(
         "rt::ethercat::Slot",
         vec![
-            ("name", Data::text(literal::string(&slot.name))),
-            ("min", Data::text(slot.instances.0.to_string())),
-            ("max", Data::text(slot.instances.1.to_string())),
+            ("name", Doc::from(literal::string(&slot.name))),
+            ("min", Doc::from(slot.instances.0.to_string())),
+            ("max", Doc::from(slot.instances.1.to_string())),
             ("fits", Data::slice(slot.fits.iter().map(fit))),
             ("default", Data::option(default)),
             ("increments", increments(slot.index_increment, slot.pdo_increment)),
-            ("group", slot.group.map_or_else(|| Data::text("None"), |number| slot_group(number, slot))),
+            ("group", slot.group.map_or_else(|| Doc::from("None"), |number| slot_group(number, slot))),
         ],
     )
 }
 
 fn increments(index: u16, pdo: u16) -> Doc {
-    let numbers = [index, pdo].map(|number| Data::text(format!("0x{number:X}")));
+    let numbers = [index, pdo].map(|number| Doc::from(format!("0x{number:X}")));
     Data::call("rt::ethercat::Increments::new", numbers)
 }
 
 fn slot_group(number: u16, slot: &Slot) -> Doc {
     let own = increments(slot.group_index_increment, slot.group_pdo_increment);
-    let group = Data::call("rt::ethercat::SlotGroup::new", vec![Data::text(number.to_string()), own]);
+    let group = Data::call("rt::ethercat::SlotGroup::new", vec![Doc::from(number.to_string()), own]);
     Data::call("Some", vec![group])
 }
 
@@ -251,7 +251,7 @@ fn pdo_group(group: &ModulePdoGroup) -> Doc {
     Data::fields(
         "rt::ethercat::PdoGroup",
         vec![
-            ("alignment", Data::text(group.alignment.to_string())),
+            ("alignment", Doc::from(group.alignment.to_string())),
             ("rx_pdo", index(group.rx_pdo)),
             ("tx_pdo", index(group.tx_pdo)),
         ],

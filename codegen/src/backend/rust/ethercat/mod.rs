@@ -77,9 +77,9 @@ fn fmmu(fmmu: &Fmmu) -> Doc {
     Data::fields(
         "rt::ethercat::Fmmu",
         vec![
-            ("purpose", Data::text(format!("rt::ethercat::FmmuPurpose::{purpose}"))),
+            ("purpose", Doc::from(format!("rt::ethercat::FmmuPurpose::{purpose}"))),
             ("sync_manager", Data::option(fmmu.sync_manager)),
-            ("op_only", Data::text((fmmu.op_only).to_string())),
+            ("op_only", Doc::from((fmmu.op_only).to_string())),
         ],
     )
 }
@@ -87,13 +87,13 @@ fn fmmu(fmmu: &Fmmu) -> Doc {
 fn clock_mode(mode: &ClockMode) -> Doc {
     let time = |time: &ClockTime| {
         let factor = time.factor.unwrap_or(0);
-        Data::text(format!("rt::ethercat::ClockTime::new({}, {factor})", time.nanoseconds))
+        Doc::from(format!("rt::ethercat::ClockTime::new({}, {factor})", time.nanoseconds))
     };
     Data::fields(
         "rt::ethercat::ClockMode",
         vec![
-            ("name", Data::text(literal::string(&mode.name))),
-            ("description", Data::text(literal::string(&mode.description))),
+            ("name", Doc::from(literal::string(&mode.name))),
+            ("description", Doc::from(literal::string(&mode.description))),
             ("assign_activate", Data::index(mode.assign_activate as u16)),
             ("cycle_sync0", time(&mode.cycle_sync0)),
             ("shift_sync0", time(&mode.shift_sync0)),

@@ -1,7 +1,7 @@
 //! The writes that set up the assignment by default: what `rt::ethercat::Assignment::by_default` gives, as a constant.
 
 use super::Assigned;
-use crate::backend::rust::code::{Data, Doc};
+use crate::backend::rust::code::Doc;
 use crate::ir::{Device, EtherCatSettings, SyncManager, SyncManagerPurpose, MAX_PDO_SUBS};
 
 /// Index of the assignment object of sync manager 0 (ETG.1000.6 5.6.7.4).
@@ -49,5 +49,5 @@ pub(super) fn commands(device: &Device, settings: &EtherCatSettings, assigned: &
 }
 
 fn write(ty: &str, index: u16, sub: u8, value: &str) -> Doc {
-    Data::text(format!("rt::SdoWrite::new_{ty}(0x{index:04X}, 0x{sub:02X}, {value})"))
+    Doc::from(format!("rt::SdoWrite::new_{ty}(0x{index:04X}, 0x{sub:02X}, {value})"))
 }

@@ -11,7 +11,7 @@ const ROOM: u32 = 256;
 
 /// The expression of the framing; `None` where frames have no last byte, or their check is one that the runtime hasn't.
 pub(super) fn constant(framing: &Framing, shaped: &[Shaped<'_>]) -> Option<Doc> {
-    let byte = |byte: u8| Data::text(format!("0x{byte:02X}"));
+    let byte = |byte: u8| Doc::from(format!("0x{byte:02X}"));
     let max = framing.max_data.map_or_else(|| "usize::MAX".to_owned(), |max| max.to_string());
     let from = framing.check_from.as_deref().and_then(|field| place(field, shaped)).unwrap_or(0);
     let escape = |escape: u8| {
@@ -22,11 +22,11 @@ pub(super) fn constant(framing: &Framing, shaped: &[Shaped<'_>]) -> Option<Doc> 
     let fields = vec![
         ("start", Data::option(framing.start.map(|start| format!("0x{start:02X}")))),
         ("end", byte(framing.end?)),
-        ("escape", framing.escape.map_or_else(|| Data::text("None"), escape)),
-        ("check", Data::text(format!("rt::framing::Check::{}", check(framing)?))),
-        ("check_from", Data::text(from.to_string())),
-        ("is_check_escaped", Data::text((framing.check_escaped).to_string())),
-        ("max_data", Data::text(max)),
+        ("escape", framing.escape.map_or_else(|| Doc::from("None"), escape)),
+        ("check", Doc::from(format!("rt::framing::Check::{}", check(framing)?))),
+        ("check_from", Doc::from(from.to_string())),
+        ("is_check_escaped", Doc::from((framing.check_escaped).to_string())),
+        ("max_data", Doc::from(max)),
     ];
     Some(Data::fields("rt::framing::Delimited", fields))
 }

@@ -16,8 +16,7 @@ use super::context::Context;
 use super::docs::{self, WORDS};
 use super::links::{self, Here};
 use super::named::Types;
-use super::naming;
-use super::naming::messages::MessageNames as Names;
+use super::naming::messages::{MessageNames as Names, NamedMessages};
 use super::options::RustOptions;
 use crate::ir::{Completion, Message};
 use crate::resolve::messages::{self, Shaped, Step};
@@ -94,11 +93,10 @@ impl ProtocolModel {
     /// The protocol of a device; `None` where it has none. Its methods must not be called as `taken`.
     pub(super) fn new(context: &Context<'_>, options: &RustOptions, types: &Types, taken: &[&str]) -> Option<Self> {
         let device = context.device?;
-        let shapes = messages::shapes(device);
+        let NamedMessages { shapes, names } = &context.names.messages;
         if shapes.is_empty() {
             return None;
         }
-        let names = naming::messages::names(&shapes);
         let own_types: Vec<&str> = names.iter().flatten().map(String::as_str).collect();
         let steps = shapes.iter().flat_map(|own| own.request.steps.iter().chain(&own.reply.steps));
         let rules = Rules::new(context, device, steps, &own_types);
@@ -109,27 +107,27 @@ impl ProtocolModel {
             polled: completion::conditions(device),
             selectors: shapes.iter().filter_map(|own| Some(own.message.after.as_ref()?.as_str())).collect(),
             rules: &rules,
-            shapes: &shapes,
-            names: &names,
+            shapes,
+            names,
             states: &states,
         };
         let mut outcomes = outcomes::models(context, device, types);
         let mut messages: Vec<MessageModel> =
-            shapes.iter().zip(&names).map(|(own, names)| make.message(own, names)).collect();
+            shapes.iter().zip(names).map(|(own, names)| make.message(own, names)).collect();
         for (own, model) in shapes.iter().zip(&mut messages) {
             model.outcomes = outcomes.remove(own.message.name.as_str()).unwrap_or_default();
         }
-        let calls = if options.accessors { device::calls(&shapes, &messages, &rules, taken) } else { Vec::new() };
+        let calls = if options.accessors { device::calls(shapes, &messages, &rules, taken) } else { Vec::new() };
         Some(ProtocolModel {
-            framing: device.framing.as_deref().and_then(|own| framing::constant(own, &shapes)),
+            framing: device.framing.as_deref().and_then(|own| framing::constant(own, shapes)),
             framing_docs: device.framing.as_deref().map(|own| framing::documentation(own, context)).unwrap_or_default(),
-            max_data: framing::max_data(device, &shapes),
+            max_data: framing::max_data(device, shapes),
             derives: options.derives(true),
-            has_station: framing::has_station(&shapes),
-            parameters: parameters::model(device, &shapes, &messages, &rules),
+            has_station: framing::has_station(shapes),
+            parameters: parameters::model(device, shapes, &messages, &rules),
             requests: requests(&messages),
             request_derives: make.derives(true),
-            by_default: device::by_default(&shapes, &messages, &calls),
+            by_default: device::by_default(shapes, &messages, &calls),
             calls,
             messages,
             rules: rules.models,

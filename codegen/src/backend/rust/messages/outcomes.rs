@@ -75,10 +75,10 @@ pub(super) fn links(context: &Context<'_>, device: &Device, types: &Types) -> Ha
 }
 
 fn row_data(row: &CommandOutcomes, states: &str, variants: &HashMap<String, String>) -> Doc {
-    let state = |name: &str| Some(Data::text(format!("{states}::{}", variants.get(name)?)));
+    let state = |name: &str| Some(Doc::from(format!("{states}::{}", variants.get(name)?)));
     let outcome = |own: &Outcome| match own {
-        Outcome::Unchanged => Data::text("rt::message::Outcome::Unchanged"),
-        Outcome::Refused => Data::text("rt::message::Outcome::Refused"),
+        Outcome::Unchanged => Doc::from("rt::message::Outcome::Unchanged"),
+        Outcome::Refused => Doc::from("rt::message::Outcome::Refused"),
         Outcome::States(to) => {
             let to = to.iter().filter_map(|name| state(name)).collect::<Vec<_>>();
             Data::call("rt::message::Outcome::States", vec![Data::slice(to)])

@@ -8,7 +8,7 @@ use crate::names::{self, Case};
 const BESIDE: [&str; 6] = ["device", "axes", "module", "entries", "identity", "node_id"];
 
 /// The names of the constants.
-pub(in crate::backend::rust) fn names(device: &Device) -> Vec<String> {
+pub(super) fn names(device: &Device) -> Vec<String> {
     let wishes = names::numbered(device.composites.iter().map(|own| own.name.as_str()), "composite");
     let reserved: Vec<&str> = bus_facts::RESERVED.iter().chain(&BESIDE).copied().collect();
     let names = names::unique(&wishes, &reserved, Case::Snake);

@@ -1,4 +1,4 @@
-//! The names of state machines: the types of their states and commands, and the methods of bit fields that tell and give them.
+//! The names of state machines: the types of their states and commands, and the methods of bit fields that read and write them.
 
 use crate::ir::StateMachine;
 use crate::names::{self, Case, Wish};

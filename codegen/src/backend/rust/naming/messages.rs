@@ -10,7 +10,7 @@ const RESERVED: [&str; 10] = ["Self", "Option", "Result", "Some", "None", "Ok", 
 /// The names of the types of each message: request, reply, and what is repeated in each.
 pub(in crate::backend::rust) type MessageNames = [String; 4];
 
-pub(in crate::backend::rust) fn names(shapes: &[Shaped<'_>]) -> Vec<MessageNames> {
+fn names(shapes: &[Shaped<'_>]) -> Vec<MessageNames> {
     let wished = shapes.iter().enumerate().flat_map(|(at, own)| wished(own.message).map(|name| (name, at)));
     let wished: Vec<(String, usize)> = wished.collect();
     let wishes: Vec<Wish<'_>> = wished.iter().map(|(name, at)| Wish::new(name, "message", at)).collect();
@@ -35,19 +35,27 @@ pub(in crate::backend::rust) struct MessagePath {
     pub path: String,
 }
 
-/// The paths of all messages.
-pub(in crate::backend::rust) fn paths(device: &Device) -> Vec<MessagePath> {
-    let shapes = messages::shapes(device);
-    let names = names(&shapes);
-    let path = |(own, [request, reply, ..]): (&Shaped<'_>, &MessageNames)| {
-        let is_request = !own.message.request.is_empty();
-        let path = format!("messages::{}", if is_request { request } else { reply });
-        MessagePath { name: own.message.name.to_string(), is_request, path }
-    };
-    shapes
-        .iter()
-        .zip(&names)
-        .filter(|(own, _)| !own.message.request.is_empty() || !own.message.reply.is_empty())
-        .map(path)
-        .collect()
+/// The messages of a device that have a shape, and their names.
+#[derive(Default)]
+pub(in crate::backend::rust) struct NamedMessages<'a> {
+    pub shapes: Vec<Shaped<'a>>,
+    pub names: Vec<MessageNames>,
+}
+
+impl<'a> NamedMessages<'a> {
+    pub(super) fn of(device: &'a Device) -> Self {
+        let shapes = messages::shapes(device);
+        NamedMessages { names: names(&shapes), shapes }
+    }
+
+    /// The paths of all messages.
+    pub fn paths(&self) -> impl Iterator<Item = MessagePath> + use<'_> {
+        let path = |(own, [request, reply, ..]): (&Shaped<'_>, &MessageNames)| {
+            let is_request = !own.message.request.is_empty();
+            let path = format!("messages::{}", if is_request { request } else { reply });
+            MessagePath { name: own.message.name.to_string(), is_request, path }
+        };
+        let named = self.shapes.iter().zip(&self.names);
+        named.filter(|(own, _)| !own.message.request.is_empty() || !own.message.reply.is_empty()).map(path)
+    }
 }

@@ -154,7 +154,7 @@ impl<'a> Alike<'a> {
         alike
     }
 
-    /// What tells types of one name apart: the integer below, or else their positions.
+    /// How types with the same name differ: by their integer, or by their position if the integers are equal.
     fn suffix(&self, scope: &Scope<'_>, own: &TypeDef, position: u32) -> String {
         let base = below(scope, own);
         let name = own.name.as_str();

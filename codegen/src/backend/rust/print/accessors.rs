@@ -6,7 +6,7 @@ use crate::backend::rust::messages::{CallModel, ProtocolModel};
 use crate::backend::rust::model::Model;
 use crate::backend::rust::objects::ObjectModel;
 
-pub(super) fn write(code: &mut Code, model: &Model<'_>) {
+pub(super) fn write(code: &mut Code, model: &Model) {
     if !model.has_accessors {
         return;
     }
@@ -20,7 +20,7 @@ pub(super) fn write(code: &mut Code, model: &Model<'_>) {
 }
 
 /// What the type of a device is followed by where it knows which request was sent last.
-fn selected(model: &Model<'_>) -> &'static str {
+fn selected(model: &Model) -> &'static str {
     if model.selects() {
         ", S"
     } else {
@@ -28,7 +28,7 @@ fn selected(model: &Model<'_>) -> &'static str {
     }
 }
 
-fn structure(code: &mut Code, model: &Model<'_>) {
+fn structure(code: &mut Code, model: &Model) {
     let name = &model.device_name;
     if !model.selects() {
         open!(code, "pub struct ", name, "<C> {");
@@ -51,7 +51,7 @@ fn structure(code: &mut Code, model: &Model<'_>) {
     code.close("}");
 }
 
-fn methods(code: &mut Code, model: &Model<'_>) {
+fn methods(code: &mut Code, model: &Model) {
     let (name, state) = (&model.device_name, selected(model));
     code.lines(&model.method_allow);
     open!(code, "impl<C", state, "> ", name, "<C", state, "> {");
@@ -107,7 +107,7 @@ fn accessor(code: &mut Code, object: &ObjectModel) {
 }
 
 /// The methods that send requests.
-fn requests(code: &mut Code, model: &Model<'_>, protocol: &ProtocolModel) {
+fn requests(code: &mut Code, model: &Model, protocol: &ProtocolModel) {
     if protocol.calls.is_empty() {
         return;
     }

@@ -4,12 +4,13 @@ use crate::backend::rust::code::{line, open, Code};
 use crate::backend::rust::ethercat::EtherCatModel;
 use crate::backend::rust::identity::IdentityModel;
 use crate::backend::rust::model::Model;
+use crate::backend::rust::INTERFACE_VERSION;
 
-pub(super) fn write(code: &mut Code, model: &Model<'_>) {
+pub(super) fn write(code: &mut Code, model: &Model) {
     code.use_runtime();
-    line!(code, "const _: () = rt::interface::assert_version(", model.interface_version, ");");
+    line!(code, "const _: () = rt::interface::assert_version(", INTERFACE_VERSION, ");");
     if let Some(own) = &model.identity {
-        identity(code, own, &model.title);
+        identity(code, own, &format!("Who made {}, and which device it is.", model.title));
     }
     if let Some(node_id) = model.node_id {
         code.doc("The node-ID that the configuration file gives this device.");
@@ -32,8 +33,9 @@ pub(super) fn write(code: &mut Code, model: &Model<'_>) {
     }
 }
 
-fn identity(code: &mut Code, own: &IdentityModel, title: &str) {
-    code.doc(&format!("Who made {title}, and which device it is."));
+/// `IDENTITY`, with its doc comment.
+pub(super) fn identity(code: &mut Code, own: &IdentityModel, about: &str) {
+    code.doc(about);
     open!(code, "pub const IDENTITY: rt::Identity = rt::Identity {");
     line!(code, "vendor_id: ", own.vendor_id, ",");
     line!(code, "product_code: ", own.product_code, ",");

@@ -3,6 +3,8 @@
 use crate::backend::rust::code::{call, generic, line, open, seq, Code, Doc, Stop};
 use crate::backend::rust::ethercat::{EtherCatModel, ImageModel};
 
+const ERROR: &str = "When `data` has fewer bytes than the image.";
+
 pub(super) fn write(code: &mut Code, ethercat: Option<&EtherCatModel>) {
     let Some(ethercat) = ethercat.filter(|own| !own.images.is_empty()) else { return };
     code.doc("The process image by default, sync manager by sync manager.");
@@ -13,16 +15,6 @@ pub(super) fn write(code: &mut Code, ethercat: Option<&EtherCatModel>) {
         view(code, image);
     }
     code.close("}");
-}
-
-/// A doc comment with the errors of what takes the bytes of an image.
-fn docs(code: &mut Code, first: &str) {
-    code.doc(first);
-    code.doc("");
-    code.doc("# Errors");
-    code.doc("");
-    code.doc("When `data` has fewer bytes than the image.");
-    line!(code, "#[inline]");
 }
 
 fn structure(code: &mut Code, image: &ImageModel) {
@@ -54,7 +46,8 @@ fn structure(code: &mut Code, image: &ImageModel) {
 }
 
 fn unpack(code: &mut Code, image: &ImageModel) {
-    docs(code, "The PDOs of an image. Bytes behind it are not looked at.");
+    code.docs_with_error("The PDOs of an image. Bytes behind it are not looked at.", ERROR);
+    line!(code, "#[inline]");
     open!(code, "pub fn unpack(data: &[u8]) -> Result<Self, rt::LengthError> {");
     line!(code, "rt::bits::check_length(data, ", image.bits, ")?;");
     open!(code, "let image = Self {");
@@ -77,7 +70,8 @@ fn view(code: &mut Code, image: &ImageModel) {
     code.close("}");
     code.lines(image.view_allow());
     open!(code, "impl<B: AsRef<[u8]>> ", image.name, "View<B> {");
-    docs(code, "The image in `data`.");
+    code.docs_with_error("The image in `data`.", ERROR);
+    line!(code, "#[inline]");
     open!(code, "pub fn new(data: B) -> Result<Self, rt::LengthError> {");
     line!(code, "rt::bits::check_length(data.as_ref(), ", image.bits, ")?;");
     line!(code, "Ok(Self { data })");

@@ -4,7 +4,7 @@ use crate::backend::rust::code::{line, list, open, Code, Stop};
 use crate::backend::rust::model::Model;
 use crate::backend::rust::remap::RemappableModel;
 
-pub(super) fn write(code: &mut Code, model: &Model<'_>) {
+pub(super) fn write(code: &mut Code, model: &Model) {
     if model.remappable.is_empty() {
         return;
     }
@@ -28,7 +28,7 @@ fn remappable(code: &mut Code, own: &RemappableModel) {
     code.close("}");
 }
 
-fn mappable(code: &mut Code, model: &Model<'_>) {
+fn mappable(code: &mut Code, model: &Model) {
     code.doc("What can be mapped into PDOs, by the names of the accessors: `lexibus::pdo!` looks it up here.");
     line!(code, "#[allow(missing_docs, non_camel_case_types)]");
     open!(code, "pub mod mappable {");

@@ -7,7 +7,7 @@ use crate::backend::rust::messages::{
 };
 use crate::backend::rust::model::Model;
 
-pub(super) fn write(code: &mut Code, model: &Model<'_>) {
+pub(super) fn write(code: &mut Code, model: &Model) {
     let Some(protocol) = &model.protocol else { return };
     code.doc("Requests and replies.");
     if protocol.has_real_limits() {
@@ -153,7 +153,7 @@ fn lifetime(own: &DataModel) -> &'static str {
     }
 }
 
-fn request(code: &mut Code, model: &Model<'_>, message: &MessageModel, own: &DataModel) {
+fn request(code: &mut Code, model: &Model, message: &MessageModel, own: &DataModel) {
     data(code, own);
     let (name, lifetime) = (&own.name, lifetime(own));
     open!(code, "impl", lifetime, " rt::message::Message for ", name, lifetime, " {");
@@ -283,9 +283,7 @@ fn data(code: &mut Code, own: &DataModel) {
 
 fn fields(code: &mut Code, fields: &[Field]) {
     for field in fields {
-        code.docs(&field.docs);
-        code.lines(&field.attribute);
-        line!(code, "pub ", field.name, ": ", field.ty, ",");
+        code.field(&field.docs, field.attribute.as_ref(), &field.name, &field.ty);
     }
 }
 

@@ -6,7 +6,7 @@ use crate::backend::rust::model::Model;
 use crate::backend::rust::objects::ObjectModel;
 use crate::backend::rust::window_model::WindowModel;
 
-pub(super) fn write(code: &mut Code, model: &Model<'_>) {
+pub(super) fn write(code: &mut Code, model: &Model) {
     windows(code, &model.windows);
     if model.objects.is_empty() {
         return;
@@ -45,7 +45,7 @@ fn windows(code: &mut Code, windows: &[WindowModel]) {
 }
 
 /// The types of locations that the runtime has no name for, and the functions that make those which several items have.
-fn locations(code: &mut Code, model: &Model<'_>) {
+fn locations(code: &mut Code, model: &Model) {
     for (name, docs, fields) in &model.locations {
         open!(code, "rt::location! {");
         code.doc(docs);
@@ -63,7 +63,7 @@ fn locations(code: &mut Code, model: &Model<'_>) {
     }
 }
 
-fn handle_types(code: &mut Code, model: &Model<'_>) {
+fn handle_types(code: &mut Code, model: &Model) {
     let [_, start, within] = model.handles;
     let parameter = seq!["L = ", model.location];
     let stop = Stop;

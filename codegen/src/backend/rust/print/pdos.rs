@@ -19,9 +19,7 @@ fn pdo(code: &mut Code, pdo: &PdoModel) {
     code.lines(&pdo.derives);
     open!(code, "pub struct ", pdo.name, " {");
     for field in &pdo.fields {
-        code.docs(&field.docs);
-        code.lines(&field.attribute);
-        line!(code, "pub ", field.name, ": ", field.ty, ",");
+        code.field(&field.docs, field.attribute.as_ref(), &field.name, &field.ty);
     }
     code.close("}");
     open!(code, "impl ", pdo.name, " {");
@@ -74,11 +72,8 @@ fn pack(code: &mut Code, pdo: &PdoModel) {
 }
 
 fn unpack(code: &mut Code, pdo: &PdoModel) {
-    code.doc("The fields of a frame. Bytes behind the mapped ones are not looked at.");
-    code.doc("");
-    code.doc("# Errors");
-    code.doc("");
-    code.doc("When `data` has fewer bytes than the PDO.");
+    let about = "The fields of a frame. Bytes behind the mapped ones are not looked at.";
+    code.docs_with_error(about, "When `data` has fewer bytes than the PDO.");
     line!(code, "#[inline]");
     open!(code, "pub ", pdo.constant, "fn unpack(data: &[u8]) -> Result<Self, rt::LengthError> {");
     open!(code, "let Some(data) = data.first_chunk::<", pdo.length, ">() else {");

@@ -5,6 +5,7 @@ mod image;
 mod record;
 mod values;
 
+use super::device::identity;
 use crate::backend::rust::code::{line, list, open, Code, Data, Doc};
 use crate::backend::rust::profinet::{DapModel, FieldModel, FileModel, ModuleModel, SubmoduleModel};
 
@@ -15,38 +16,31 @@ pub(in crate::backend::rust) fn write(code: &mut Code, file: &FileModel<'_>) {
             access_point(code, point);
             continue;
         }
-        module(code, &point.heading, point.name, |code| {
+        code.module(&point.heading, point.name, |code| {
             code.use_runtime();
             access_point(code, point);
         });
     }
     if !file.modules.is_empty() {
-        module(code, "Modules that can be plugged into the device.", "modules", |code| {
+        code.module("Modules that can be plugged into the device.", "modules", |code| {
             file.modules.iter().for_each(|own| self::pluggable(code, own));
         });
     }
     if !file.submodules.is_empty() {
-        module(code, "Submodules: their data and parameter records.", "submodules", |code| {
+        code.module("Submodules: their data and parameter records.", "submodules", |code| {
             file.submodules.iter().for_each(|own| submodule(code, own));
         });
     }
     if !file.values.is_empty() {
-        module(code, "Enumerations: named values of fields.", "values", |code| {
+        code.module("Enumerations: named values of fields.", "values", |code| {
             file.values.iter().for_each(|own| values::write(code, own));
         });
     }
     if !file.errors.is_empty() || !file.units.is_empty() {
-        module(code, "Diagnosis: what error types and user structures mean.", "diagnosis", |code| {
+        code.module("Diagnosis: what error types and user structures mean.", "diagnosis", |code| {
             diagnosis::write(code, file);
         });
     }
-}
-
-fn module(code: &mut Code, heading: &str, name: &str, content: impl FnOnce(&mut Code)) {
-    code.doc(heading);
-    open!(code, "pub mod ", name, " {");
-    content(code);
-    code.close("}");
 }
 
 fn hexadecimal(number: impl Into<u32>, digits: usize) -> String {
@@ -61,7 +55,7 @@ fn access_point(code: &mut Code, own: &DapModel<'_>) {
     line!(code, "slot: ", own.slot, ",");
     open!(code, "module: rt::profinet::Module {");
     line!(code, "ident: ", hexadecimal(own.ident, 8), ",");
-    line!(code, "name: ", own.title, ",");
+    line!(code, "name: ", own.identity.product_name, ",");
     line!(code, "submodules: ", list("&[", &own.submodules, "]"), ",");
     line!(code, "subslots: &[],");
     code.close("},");
@@ -75,19 +69,9 @@ fn access_point(code: &mut Code, own: &DapModel<'_>) {
     code.close("},");
     line!(code, "max_record_size: ", own.max_record_size, ",");
     code.close("};");
-    identity(code, own);
-}
-
-fn identity(code: &mut Code, own: &DapModel<'_>) {
-    code.doc("Who made the device, and which one it is: the product code is the number that PROFINET calls DeviceID.");
-    open!(code, "pub const IDENTITY: rt::Identity = rt::Identity {");
-    line!(code, "vendor_id: Some(", hexadecimal(own.vendor_id, 4), "),");
-    line!(code, "product_code: Some(", hexadecimal(own.device_id, 4), "),");
-    line!(code, "revision_number: None,");
-    line!(code, "vendor_name: ", own.vendor_name, ",");
-    line!(code, "product_name: ", own.title, ",");
-    line!(code, "order_code: ", own.order_code, ",");
-    code.close("};");
+    let about =
+        "Who made the device, and which one it is: the product code is the number that PROFINET calls DeviceID.";
+    identity(code, &own.identity, about);
 }
 
 fn pluggable(code: &mut Code, own: &ModuleModel<'_>) {
@@ -133,9 +117,7 @@ fn submodule(code: &mut Code, own: &SubmoduleModel<'_>) {
 /// The fields of a struct.
 fn fields(code: &mut Code, fields: &[FieldModel]) {
     for field in fields {
-        code.docs(&field.docs);
-        code.lines(&field.attribute);
-        line!(code, "pub ", field.name, ": ", field.ty, ",");
+        code.field(&field.docs, field.attribute.as_ref(), &field.name, &field.ty);
     }
 }
 
@@ -145,13 +127,4 @@ fn literal(fields: Vec<(&str, Doc)>) -> Doc {
         return Doc::from("Self {}");
     }
     Data::fields("Self", fields)
-}
-
-/// The lines of a doc comment with the errors of a function.
-fn docs_with_error(code: &mut Code, first: &str, error: &str) {
-    code.doc(first);
-    code.doc("");
-    code.doc("# Errors");
-    code.doc("");
-    code.doc(error);
 }

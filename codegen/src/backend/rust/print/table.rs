@@ -4,7 +4,7 @@ use crate::backend::rust::code::{call, line, open, Code, Doc};
 use crate::backend::rust::model::Model;
 use crate::backend::rust::table::EntryModel;
 
-pub(super) fn write(code: &mut Code, model: &Model<'_>) {
+pub(super) fn write(code: &mut Code, model: &Model) {
     let Some(table) = &model.table else { return };
     code.doc("All items, by index and sub-index; registers that are no objects come first, by their addresses.");
     if let Some(feature) = &model.table_feature {

@@ -4,7 +4,9 @@ use crate::backend::rust::code::{call, line, open, seq, Code};
 use crate::backend::rust::model::Model;
 use crate::backend::rust::pdo::PdoModel;
 
-pub(super) fn write(code: &mut Code, model: &Model<'_>) {
+const ERROR: &str = "When `data` ends before the PDO does.";
+
+pub(super) fn write(code: &mut Code, model: &Model) {
     if !model.has_views {
         return;
     }
@@ -44,19 +46,13 @@ fn view(code: &mut Code, pdo: &PdoModel) {
 }
 
 fn constructors(code: &mut Code, pdo: &PdoModel) {
-    let errors = |code: &mut Code, first: &str| {
-        code.doc(first);
-        code.doc("");
-        code.doc("# Errors");
-        code.doc("");
-        code.doc("When `data` ends before the PDO does.");
-        line!(code, "#[inline]");
-    };
-    errors(code, "The PDO at the start of `data`.");
+    code.docs_with_error("The PDO at the start of `data`.", ERROR);
+    line!(code, "#[inline]");
     open!(code, "pub fn new(data: B) -> Result<Self, rt::LengthError> {");
     line!(code, "Self::at(data, 0)");
     code.close("}");
-    errors(code, "The PDO that starts at this bit of `data`.");
+    code.docs_with_error("The PDO that starts at this bit of `data`.", ERROR);
+    line!(code, "#[inline]");
     open!(code, "pub fn at(data: B, bit: usize) -> Result<Self, rt::LengthError> {");
     line!(code, "rt::bits::check_length(data.as_ref(), bit.saturating_add(", pdo.bits, "))?;");
     line!(code, "Ok(Self { data, bit })");

@@ -8,6 +8,7 @@ use super::record::{self, RecordModel};
 use super::scope::{AccessPoint, Scope};
 use crate::backend::rust::code::{call, seq, slice, Doc};
 use crate::backend::rust::doc_table;
+use crate::backend::rust::identity::IdentityModel;
 use crate::ir::{Direction, IoData, Module, ModuleUse, Numbers, Places, Submodule, SubmoduleUse};
 
 /// A submodule, ready to be written.
@@ -148,9 +149,7 @@ pub(in crate::backend::rust) struct DapModel<'a> {
     pub device_id: u16,
     pub slot: u16,
     pub ident: u32,
-    pub title: String,
-    pub vendor_name: String,
-    pub order_code: String,
+    pub identity: IdentityModel,
     pub submodules: Vec<Doc>,
     pub slots: Vec<String>,
     pub modules: Vec<Doc>,
@@ -165,19 +164,25 @@ pub(super) fn access_point<'s>(scope: &'s Scope<'_>, point: &'s AccessPoint<'_>)
     let mut docs = vec![docs::titled(&device.name, &facts)];
     docs::paragraphs(&device.name, device.documentation.as_deref(), &mut docs);
     let lengths = settings.max_lengths;
+    let vendor_id = device.identity.vendor_id.map_or(0, |id| (id & 0xFFFF) as u16);
     let fixed = settings.places.fixed.iter().next();
     let slot = fixed.or_else(|| settings.places.allowed.iter().next()).unwrap_or(0);
     DapModel {
         name,
         docs,
         heading: docs::titled(&device.name, &facts),
-        vendor_id: device.identity.vendor_id.map_or(0, |id| (id & 0xFFFF) as u16),
+        vendor_id,
         device_id: settings.device_id,
         slot,
         ident: settings.ident,
-        title: literal::string(&device.name),
-        vendor_name: literal::string(&device.identity.vendor_name),
-        order_code: literal::string(&device.identity.order_code),
+        identity: IdentityModel {
+            vendor_id: format!("Some(0x{vendor_id:04X})"),
+            product_code: format!("Some(0x{:04X})", settings.device_id),
+            revision_number: "None".to_owned(),
+            vendor_name: literal::string(&device.identity.vendor_name),
+            product_name: literal::string(&device.name),
+            order_code: literal::string(&device.identity.order_code),
+        },
         submodules: submodule_uses(scope, &device.submodules, outer),
         slots: numbers(&settings.slots),
         modules: module_uses(scope, &device.modules, outer),

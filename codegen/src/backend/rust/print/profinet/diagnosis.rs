@@ -1,6 +1,6 @@
 //! Errors of channels, and user structures.
 
-use super::{docs_with_error, fields, hexadecimal, literal};
+use super::{fields, hexadecimal, literal};
 use crate::backend::rust::code::{call, line, list, open, Code};
 use crate::backend::rust::profinet::{FileModel, UnitModel};
 
@@ -38,7 +38,7 @@ fn unit(code: &mut Code, own: &UnitModel) {
     code.doc("Length in bytes up to the end of its last field.");
     line!(code, "pub const LEN: usize = ", own.length, ";");
     let first = "The fields of a structure. Bytes behind these are not looked at.";
-    docs_with_error(code, first, "When `data` has fewer bytes than the structure.");
+    code.docs_with_error(first, "When `data` has fewer bytes than the structure.");
     open!(code, "pub fn decode(data: &[u8]) -> Result<Self, rt::LengthError> {");
     line!(code, "let data = rt::profinet::be::chunk::<", own.length, ">(data)?;");
     let values = own.fields.iter().map(|field| (field.name.as_str(), field.read.clone()));

@@ -1,6 +1,6 @@
 //! Cyclic data: structs, and views of the bytes.
 
-use super::{docs_with_error, fields, literal};
+use super::{fields, literal};
 use crate::backend::rust::code::{call, line, open, seq, Break, Code, Doc};
 use crate::backend::rust::profinet::ImageModel;
 
@@ -17,7 +17,7 @@ pub(super) fn write(code: &mut Code, own: &ImageModel) {
     code.doc("Length of the user data in bytes.");
     line!(code, "pub const LEN: usize = ", own.length, ";");
     pack(code, own);
-    docs_with_error(code, "The fields of the user data. Bytes behind these are not looked at.", ERROR);
+    code.docs_with_error("The fields of the user data. Bytes behind these are not looked at.", ERROR);
     line!(code, "#[inline]");
     open!(code, "pub fn unpack(data: &[u8]) -> Result<Self, rt::LengthError> {");
     line!(code, "let view = ", name, "View::new(data)?;");
@@ -71,7 +71,7 @@ fn view(code: &mut Code, own: &ImageModel) {
     line!(code, "pub struct ", name, "View<'a>(&'a [u8; ", own.length, "]);");
     code.lines(own.allow);
     open!(code, "impl<'a> ", name, "View<'a> {");
-    docs_with_error(code, "The user data at the start of `data`.", ERROR);
+    code.docs_with_error("The user data at the start of `data`.", ERROR);
     line!(code, "#[inline]");
     open!(code, "pub const fn new(data: &'a [u8]) -> Result<Self, rt::LengthError> {");
     open!(code, "match rt::profinet::be::chunk(data) {");
@@ -91,7 +91,7 @@ fn view_mut(code: &mut Code, own: &ImageModel) {
     code.doc(&format!("{name} in place: fields are written to the bytes without a copy of these."));
     line!(code, "pub struct ", name, "Mut<'a>(&'a mut [u8; ", own.length, "]);");
     open!(code, "impl<'a> ", name, "Mut<'a> {");
-    docs_with_error(code, "The user data at the start of `data`.", ERROR);
+    code.docs_with_error("The user data at the start of `data`.", ERROR);
     line!(code, "#[inline]");
     open!(code, "pub fn new(data: &'a mut [u8]) -> Result<Self, rt::LengthError> {");
     line!(code, "Ok(Self(rt::profinet::be::chunk_mut(data)?))");

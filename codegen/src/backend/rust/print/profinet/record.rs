@@ -1,6 +1,6 @@
 //! Parameter records.
 
-use super::{docs_with_error, fields, hexadecimal, literal};
+use super::{fields, hexadecimal, literal};
 use crate::backend::rust::code::{call, line, list, open, Code};
 use crate::backend::rust::profinet::{FRecordModel, RecordModel};
 
@@ -58,7 +58,7 @@ fn constants(code: &mut Code, own: &RecordModel) {
 
 fn check(code: &mut Code, own: &RecordModel) {
     let first = "Checks the fields against the values that the device allows.";
-    docs_with_error(code, first, "When a field has another value.");
+    code.docs_with_error(first, "When a field has another value.");
     allow_real(code, own);
     open!(code, "pub fn check(&self) -> Result<(), rt::profinet::NotAllowed> {");
     code.lines(&own.checks);
@@ -68,7 +68,7 @@ fn check(code: &mut Code, own: &RecordModel) {
 
 fn encode(code: &mut Code, own: &RecordModel) {
     let first = "The record's bytes: its constants and fields; what neither covers is 0.";
-    docs_with_error(code, first, "When a field has a value that the device doesn't allow.");
+    code.docs_with_error(first, "When a field has a value that the device doesn't allow.");
     let function = call!("pub fn encode", "&self");
     open!(code, function, " -> Result<[u8; ", own.length, "], rt::profinet::NotAllowed> {");
     line!(code, "self.check()?;");
@@ -84,7 +84,7 @@ fn encode(code: &mut Code, own: &RecordModel) {
 
 fn decode(code: &mut Code, own: &RecordModel) {
     let first = "The fields of a record that was read from the device. Bytes behind it are not looked at.";
-    docs_with_error(code, first, "When `data` has fewer bytes than the record.");
+    code.docs_with_error(first, "When `data` has fewer bytes than the record.");
     open!(code, "pub fn decode(data: &[u8]) -> Result<Self, rt::LengthError> {");
     let data = if own.fields.is_empty() { "" } else { "let data = " };
     line!(code, data, "rt::profinet::be::chunk::<", own.length, ">(data)?;");
