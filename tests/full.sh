@@ -13,7 +13,7 @@ export CARGO_TERM_COLOR=never CARGO_INCREMENTAL=0 LEXIBUS_LANE=full
 target=${CARGO_TARGET_DIR:-target}
 logs=$target/full
 
-parts=(programs format clippy features outside rustdoc build sample bindings units doctests ui corpus generated packing \
+parts=(programs format clippy features outside packages rustdoc build sample bindings units doctests ui corpus generated packing \
     differential arbitrary mutations nested site browser book pages rest examples)
 
 # Names of test programs, as arguments of cargo. Each program of the workspace is in one part; `rest` runs what no other part names.
@@ -70,6 +70,8 @@ part_outside() {
     done
     return $failed
 }
+# Each crate as crates.io would get it, and a build against the packages.
+part_packages() { CARGO_TARGET_DIR=$(realpath "$target") tests/packages.sh; }
 part_rustdoc() {
     RUSTDOCFLAGS='-D warnings' cargo doc --quiet --workspace --all-features --no-deps --lib --bins --examples
 }
