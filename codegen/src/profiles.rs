@@ -8,7 +8,7 @@ use std::sync::OnceLock;
 
 use crate::diagnostics::{Diagnostic, Diagnostics};
 use crate::frontend::table::overlay::{Completion, Profile};
-use crate::ir::{Catalog, Device, Group, Value};
+use crate::ir::{Bus, Buses, Catalog, Device, Group, Value};
 use crate::source::{FileId, Source};
 
 /// The files, in the order in which they are applied: what one of them says, later ones leave alone.
@@ -51,8 +51,7 @@ pub(crate) fn apply(catalog: &mut Catalog) {
         let mut completion = None;
         for device in devices.iter_mut().filter(|device| is_device_of(device, profile)) {
             let completion = completion.get_or_insert_with(|| Completion::new(profile));
-            let (canopen, ethercat) = completion.buses();
-            if is_on(device, canopen, ethercat) {
+            if is_on(device, completion.buses()) {
                 completion.device(device, &is_table);
             }
         }
@@ -66,7 +65,8 @@ pub(crate) fn apply(catalog: &mut Catalog) {
     }
 }
 
-fn is_on(device: &Device, canopen: bool, ethercat: bool) -> bool {
+fn is_on(device: &Device, buses: Buses) -> bool {
+    let [canopen, ethercat] = [Bus::CanOpen, Bus::EtherCat].map(|bus| buses.contains(bus));
     let has_object = device.groups.iter().any(|group| group.index().is_some());
     let is_ethercat = device.ethercat.is_some() || device.dictionary_only;
     has_object && ((canopen && !is_ethercat) || (ethercat && (is_ethercat || device.canopen.is_none())))

@@ -6,7 +6,7 @@ use std::collections::BTreeSet;
 
 use eco_support::*;
 use lexibus_codegen::ir::{
-    BitFieldEntry, BitMeaning, CodeRow, CodeTable, Device, EnumValue, Shape, Trigger, Value, Zone,
+    BitFieldEntry, BitMeaning, Bus, CodeRow, CodeTable, Device, EnumValue, Shape, Trigger, Value, Zone,
 };
 
 fn codes<'d>(device: &'d Device, name: &str) -> &'d CodeTable {
@@ -62,7 +62,7 @@ fn alarms_are_the_printed_ones() {
     let of_alarms: Vec<String> =
         codes(device, "ethercat_alarms").rows.iter().map(|row| text(row.cells.first())).collect();
     assert_eq!(of_alarms.iter().filter(|own| !own.is_empty()).collect::<BTreeSet<_>>().len(), 18);
-    let buses = |name| codes(device, name).buses.iter().map(|own| own.as_str()).collect::<Vec<_>>();
+    let buses = |name| codes(device, name).buses.iter().map(Bus::name).collect::<Vec<_>>();
     assert_eq!((buses("ethercat_alarms"), buses("profinet_alarms")), (vec!["ethercat"], vec!["profinet"]));
 }
 
@@ -131,12 +131,12 @@ fn modes_profiles_and_bit_rates_are_the_printed_ones() {
     };
     assert_eq!(values("Mode"), with_csp(in_registers));
     // What 0x6060 takes on each bus.
-    let there = |bus: &str| -> BTreeSet<i128> {
+    let there = |bus: Bus| -> BTreeSet<i128> {
         let limits = item(device, "modes_of_operation").limits_on(bus).expect("limits");
         limits.allowed.iter().filter_map(|(value, _)| value.as_int()).collect()
     };
-    assert_eq!(there("canopen"), of_lines(3946, 3952));
-    assert_eq!(there("ethercat"), with_csp(of_lines(3946, 3952)));
+    assert_eq!(there(Bus::CanOpen), of_lines(3946, 3952));
+    assert_eq!(there(Bus::EtherCat), with_csp(of_lines(3946, 3952)));
     assert_eq!(values("MotionProfile"), of_lines(3969, 3972));
     let rates = lines(&manual, 3422, 3429).filter_map(|(_, text)| text.split_whitespace().nth(2)?.parse::<i128>().ok());
     assert_eq!(values("BitRate"), rates.collect::<BTreeSet<i128>>());

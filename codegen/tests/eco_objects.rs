@@ -6,7 +6,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use eco_support::*;
 use lexibus_codegen::compile::{check, Options};
-use lexibus_codegen::ir::{Access, Binding, Direction, ObjectBuses, PdoEntryKind, Step};
+use lexibus_codegen::ir::{Access, Binding, Bus, Direction, ObjectBuses, PdoEntryKind, Step};
 use lexibus_codegen::source::Source;
 use lexibus_export::eds::{export, Flavour, NoteKind};
 
@@ -98,7 +98,7 @@ fn every_object_is_there_at_its_line() {
         let is_long = sub == Some(0) && LONG.contains(&index);
         let facts = [
             ("line", item_cites(item, row.line)),
-            ("access", Some(item.access_on("canopen")) == row.access),
+            ("access", Some(item.access_on(Bus::CanOpen)) == row.access),
             ("mappable", item.mappable.any() == row.mappable),
             ("length", Some(bytes(device, item)) == row.bytes || is_long && !item.doubts.is_empty()),
         ];
@@ -296,7 +296,7 @@ fn what_the_examples_write_can_be_written() {
             true => *types.entry(ty.to_owned()).or_default() += 1,
             false => reads += 1,
         }
-        assert!(if is_write { item.access_on("canopen").writable() } else { item.access.readable() }, "L{}", row[0]);
+        assert!(if is_write { item.access_on(Bus::CanOpen).writable() } else { item.access.readable() }, "L{}", row[0]);
     }
     assert_eq!((rows.len(), reads), (109, 3));
     let counts: Vec<(String, usize)> = types.into_iter().collect();
@@ -372,6 +372,6 @@ fn its_eds_has_the_objects_of_canopen() {
         let place = item.object().expect("an object");
         let printed = object(own, place.0, place.1).unwrap_or_else(|| panic!("{place:X?}"));
         let lengths = (base(there, item.ty).bits(), base(own, printed.ty).bits());
-        assert_eq!((item.access, lengths.0), (printed.access_on("canopen"), lengths.1), "{}", item.name);
+        assert_eq!((item.access, lengths.0), (printed.access_on(Bus::CanOpen), lengths.1), "{}", item.name);
     }
 }

@@ -2,7 +2,7 @@
 //! controllers.
 
 use lexibus_codegen::compile::{check, Compilation, Options};
-use lexibus_codegen::ir::{Access, Binding, Item, Type};
+use lexibus_codegen::ir::{Access, Binding, Bus, Item, Type};
 use lexibus_codegen::source::Source;
 use lexibus_codegen::RustOptions;
 
@@ -111,9 +111,9 @@ fn code_of_an_image() {
     insta::assert_snapshot!("widths", part(&text, "    /// Mode.", "    /// Alarm."));
     let compilation = read(&table("", rows, images));
     let mode = item(&compilation, "Mode");
-    assert_eq!((mode.type_on("canopen"), mode.access_on("canopen")), (Type::Integer(8), Access::WriteOnly));
-    assert_eq!((mode.type_on("modbus"), mode.access_on("modbus")), (Type::Integer(32), Access::ReadWrite));
-    assert!(mode.limits_on("canopen").is_some() && mode.limits_on("modbus").is_none());
+    assert_eq!((mode.type_on(Bus::CanOpen), mode.access_on(Bus::CanOpen)), (Type::Integer(8), Access::WriteOnly));
+    assert_eq!((mode.type_on(Bus::Modbus), mode.access_on(Bus::Modbus)), (Type::Integer(32), Access::ReadWrite));
+    assert!(mode.limits_on(Bus::CanOpen).is_some() && mode.limits_on(Bus::Modbus).is_none());
     let is_narrow =
         |own: &Binding| matches!(own, Binding::Image(own) if own.bits == 8 && own.ty == Some(Type::Integer(8)));
     assert!(mode.bindings.iter().any(is_narrow));

@@ -38,7 +38,7 @@ fn table(table: &CodeTable, device: &Device, manual: &Manual, names: &mut Names)
     let anchor = names.anchor(&table.name);
     let mut facts = PLAIN.description(table.documentation.as_deref());
     if !table.buses.is_empty() {
-        let buses: Vec<&str> = table.buses.iter().map(|bus| lexibus_codegen::facts::words::bus_name(bus)).collect();
+        let buses: Vec<&str> = table.buses.iter().map(lexibus_codegen::facts::words::bus_name).collect();
         facts.push(format!("On {}.", buses.join(", ")));
     }
     facts.extend(PLAIN.place(manual, "", table.documentation.as_deref(), &[]));

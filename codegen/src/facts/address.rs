@@ -28,7 +28,7 @@ fn address(binding: &Binding, item: &Item, tables: &[ModbusTable]) -> Address {
         Binding::Record { index, bit_offset, bits } => format!("record 0x{index:04X}, {}", bits_of(*bit_offset, *bits)),
         Binding::EscMemory { address, length } => format!("0x{address:04X}, {length} bytes"),
         Binding::Indirect(window) => {
-            let buses: Vec<&str> = window.buses.iter().map(|bus| bus_name(bus)).collect();
+            let buses: Vec<&str> = window.buses.iter().map(bus_name).collect();
             format!("{} on {}", number(binding), buses.join(", "))
         }
         Binding::Image(image) => format!("{}, {}", image.image, bits_of(image.bit_offset, image.bits)),

@@ -1,6 +1,6 @@
 //! Addresses on Modbus: as the manual prints them, and on the wire.
 
-use crate::ir::{Item, ModbusTable, RegisterBinding, RegisterSpace};
+use crate::ir::{Bus, Item, ModbusTable, RegisterBinding, RegisterSpace};
 
 impl RegisterSpace {
     /// The table's name.
@@ -61,7 +61,7 @@ pub fn text(register: &RegisterBinding, item: &Item, tables: &[ModbusTable]) -> 
         facts.push(format!("from bit {bit}"));
     }
     let is_word = matches!(register.space, RegisterSpace::Holding | RegisterSpace::Input);
-    if is_word && register.count > 1 && !item.type_on("modbus").is_bytes() {
+    if is_word && register.count > 1 && !item.type_on(Bus::Modbus).is_bytes() {
         let order = if register.low_word_first { "low word first" } else { "high word first" };
         facts.push(format!("{order}{}", if register.is_order_assumed { " (assumed)" } else { "" }));
     }
@@ -88,7 +88,7 @@ fn functions(register: &RegisterBinding, item: &Item, tables: &[ModbusTable]) ->
         _ if is_one || is_split => one,
         _ => several,
     };
-    let access = item.access_on("modbus");
+    let access = item.access_on(Bus::Modbus);
     let reads = reads.iter().filter(|_| access.readable());
     let writes = writes.iter().filter(|_| access.writable());
     reads.chain(writes).filter(is_accepted).map(u8::to_string).collect()

@@ -3,7 +3,7 @@
 use crate::facts::cob_id;
 use crate::facts::physical::{self, depends_on_node, shown_unit, Physical};
 use crate::ir::{
-    Availability, Behaviour, Binding, CiteUnit, CompactString, Condition, Device, Direction, Documentation, Doubt,
+    Availability, Behaviour, Binding, Bus, CiteUnit, CompactString, Condition, Device, Direction, Documentation, Doubt,
     Item, ItemVariant, Limits, LocalText, Manual, Quantity, Scale, Severity, Shape, Step, Storage, TypeDef, Value,
     PRINTED_NAME,
 };
@@ -97,14 +97,13 @@ pub fn capital(text: &str) -> String {
 }
 
 /// A bus as people write it.
-pub fn bus_name(key: &str) -> &str {
-    match key {
-        "canopen" => "CANopen",
-        "ethercat" => "EtherCAT",
-        "modbus" => "Modbus",
-        "profinet" => "PROFINET",
-        "serial" => "a serial line",
-        other => other,
+pub fn bus_name(bus: Bus) -> &'static str {
+    match bus {
+        Bus::CanOpen => "CANopen",
+        Bus::EtherCat => "EtherCAT",
+        Bus::Modbus => "Modbus",
+        Bus::Profinet => "PROFINET",
+        Bus::Serial => "a serial line",
     }
 }
 
@@ -346,8 +345,8 @@ impl Words<'_> {
             sentences.push(format!("Replaced by {}.", self.name(other)));
         }
         if !availability.buses.is_empty() {
-            let buses: Vec<CompactString> = availability.buses.iter().map(|bus| bus_name(bus).into()).collect();
-            sentences.push(format!("Only on {}.", self.list(&buses)));
+            let buses: Vec<&str> = availability.buses.iter().map(bus_name).collect();
+            sentences.push(format!("Only on {}.", buses.join(", ")));
         }
         if !availability.options.is_empty() {
             sentences.push(format!("Needs {}.", self.list(&availability.options)));
@@ -504,8 +503,8 @@ impl Words<'_> {
         };
         let who = match (variant.models.is_empty(), variant.buses.is_empty()) {
             (false, true) => format!("Of {}", self.list(&variant.models)),
-            (false, false) => format!("Of {} on {}", self.list(&variant.models), self.list(&variant.buses)),
-            (true, _) => format!("On {}", self.list(&variant.buses)),
+            (false, false) => format!("Of {} on {}", self.list(&variant.models), variant.buses),
+            (true, _) => format!("On {}", variant.buses),
         };
         let mut facts = Vec::new();
         facts.extend(variant.ty.map(|ty| ty.to_string()));

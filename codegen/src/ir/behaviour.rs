@@ -1,6 +1,6 @@
 //! Access, bindings, units, storage and availability of items.
 
-use super::{CompactString, Condition, Documentation, Doubts, ItemRef, ProcedureRef, Scale, Texts, Type, Value};
+use super::{Buses, CompactString, Condition, Documentation, Doubts, ItemRef, ProcedureRef, Scale, Texts, Type, Value};
 use crate::source::{Origin, Span};
 
 /// Access rights of an item, seen from the bus (CiA 306; ETG.2000 Flags/Access).
@@ -153,6 +153,8 @@ impl ObjectBuses {
     pub const CANOPEN: ObjectBuses = ObjectBuses { canopen: true, coe: false };
     /// EtherCAT only.
     pub const COE: ObjectBuses = ObjectBuses { canopen: false, coe: true };
+    /// Neither.
+    pub const NONE: ObjectBuses = ObjectBuses { canopen: false, coe: false };
 }
 
 impl Binding {
@@ -258,8 +260,8 @@ pub struct IndirectBinding {
     pub space: CompactString,
     /// Which window of the space it is, counted from 0.
     pub window: u8,
-    /// The buses on which it serves, by their names in register tables.
-    pub buses: Vec<CompactString>,
+    /// The buses on which it serves.
+    pub buses: Buses,
     /// The number.
     pub number: u32,
     /// How the value is read.
@@ -431,7 +433,7 @@ pub struct Availability {
     pub replaced_by: Option<ItemRef>,
     /// Options that have to be fitted.
     pub options: Vec<CompactString>,
-    /// The only buses on which it exists, by their names in register tables, where its addresses don't tell; empty = all.
-    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Vec::is_empty"))]
-    pub buses: Vec<CompactString>,
+    /// The only buses on which it exists, where its addresses don't tell; empty = all.
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Buses::is_empty"))]
+    pub buses: Buses,
 }

@@ -4,8 +4,8 @@ use smallvec::SmallVec;
 use thin_vec::ThinVec;
 
 use super::{
-    Access, Availability, Behaviour, Binding, CompactString, Documentation, Doubts, Extensions, ItemRef, ItemVariant,
-    Limits, Mappable, Quantity, Texts, Type, Value,
+    Access, Availability, Behaviour, Binding, Bus, CompactString, Documentation, Doubts, Extensions, ItemRef,
+    ItemVariant, Limits, Mappable, Quantity, Texts, Type, Value,
 };
 use crate::source::{Origin, Span};
 
@@ -120,30 +120,32 @@ impl Item {
         }
     }
 
-    /// What differs on a bus, by its name in register tables, whatever the model.
-    fn variants_on<'i, 'b>(&'i self, bus: &'b str) -> impl Iterator<Item = &'i ItemVariant> + use<'i, 'b> {
-        self.variants.iter().filter(move |own| own.models.is_empty() && own.buses.iter().any(|name| name == bus))
+    /// What differs on a bus, whatever the model.
+    fn variants_on(&self, bus: Bus) -> impl Iterator<Item = &ItemVariant> {
+        self.variants.iter().filter(move |variant| variant.models.is_empty() && variant.buses.contains(bus))
     }
 
-    /// The type that the value has on a bus, by its name in register tables.
-    pub fn type_on(&self, bus: &str) -> Type {
-        self.variants_on(bus).find_map(|own| own.ty).unwrap_or(self.ty)
+    /// The type that the value has on a bus.
+    pub fn type_on(&self, bus: Bus) -> Type {
+        self.variants_on(bus).find_map(|variant| variant.ty).unwrap_or(self.ty)
     }
 
     /// The type that the value has as an object: on CANopen, or on EtherCAT where it is no object of CANopen.
     pub fn object_type(&self) -> Type {
         let is_on_canopen = |binding: &Binding| matches!(binding, Binding::Object { buses, .. } if buses.canopen);
-        self.type_on(if self.bindings.iter().any(is_on_canopen) { "canopen" } else { "ethercat" })
+        self.type_on(if self.bindings.iter().any(is_on_canopen) { Bus::CanOpen } else { Bus::EtherCat })
     }
 
-    /// What may be done on a bus, by its name in register tables.
-    pub fn access_on(&self, bus: &str) -> Access {
-        self.variants_on(bus).find_map(|own| own.access).unwrap_or(self.access)
+    /// What may be done on a bus.
+    pub fn access_on(&self, bus: Bus) -> Access {
+        self.variants_on(bus).find_map(|variant| variant.access).unwrap_or(self.access)
     }
 
-    /// The only values on a bus, by its name in register tables, where they are fewer than elsewhere.
-    pub fn limits_on(&self, bus: &str) -> Option<&Limits> {
-        self.variants_on(bus).map(|own| &own.limits).find(|own| !own.is_empty() || !own.allowed.is_empty())
+    /// The only values on a bus, where they are fewer than elsewhere.
+    pub fn limits_on(&self, bus: Bus) -> Option<&Limits> {
+        self.variants_on(bus)
+            .map(|variant| &variant.limits)
+            .find(|limits| !limits.is_empty() || !limits.allowed.is_empty())
     }
 
     /// The value a device starts with: the configured one of a DCF, else the default.

@@ -1,7 +1,7 @@
 //! Command protocols and code tables.
 
 use super::{
-    Availability, CompactString, Condition, Documentation, Doubts, Item, MessageRef, SharedList, Texts, Value,
+    Availability, Buses, CompactString, Condition, Documentation, Doubts, Item, MessageRef, SharedList, Texts, Value,
 };
 use crate::source::{Origin, Span};
 
@@ -248,8 +248,8 @@ pub struct CodeTable {
     /// Its rows.
     pub rows: SharedList<CodeRow>,
     /// The only buses on which its codes mean this; all of them where it is empty.
-    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Vec::is_empty"))]
-    pub buses: Vec<CompactString>,
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Buses::is_empty"))]
+    pub buses: Buses,
     /// What it is.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub documentation: Option<Box<Documentation>>,

@@ -20,6 +20,7 @@
 //! The IR is never wrong by construction: it holds what a source says, even where that makes no sense. Passes check it.
 
 mod behaviour;
+mod bus;
 mod catalog;
 mod composite;
 mod device;
@@ -43,6 +44,7 @@ mod value;
 mod variant;
 
 pub use behaviour::*;
+pub use bus::*;
 pub use catalog::*;
 pub use composite::*;
 pub use device::*;

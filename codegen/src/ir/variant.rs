@@ -1,6 +1,6 @@
 //! What differs of an item between models, or between buses.
 
-use super::{Access, CompactString, Documentation, Limits, Scale, Type, Value};
+use super::{Access, Buses, CompactString, Documentation, Limits, Scale, Type, Value};
 use crate::source::Span;
 
 /// Facts of an item that hold on some models or buses only; those that aren't given are the item's.
@@ -9,8 +9,8 @@ use crate::source::Span;
 pub struct ItemVariant {
     /// The models, in which `*` stands for any letters; empty = all.
     pub models: Vec<CompactString>,
-    /// The buses by their names in register tables; empty = all.
-    pub buses: Vec<CompactString>,
+    /// The buses; empty = all.
+    pub buses: Buses,
     /// The type that the value has there: another width, on some buses.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub ty: Option<Type>,

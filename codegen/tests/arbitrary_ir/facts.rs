@@ -37,7 +37,7 @@ pub fn availability(b: &mut Bytes<'_>) -> Availability {
         until: b.maybe(3, names::version),
         replaced_by: b.maybe(4, names::name).map(Into::into),
         options: b.few(4, 2, names::name),
-        buses: b.few(4, 1, names::name),
+        buses: b.maybe(4, names::buses).unwrap_or_default(),
     }
 }
 

@@ -1,8 +1,8 @@
 //! Names and texts: ordinary ones, and those that clash with Rust, with generated code or with one another.
 
 use lexibus_codegen::ir::{
-    CiteUnit, CompactString, Documentation, Doubt, Doubts, Extension, Extensions, LocalText, Manual, ManualSection,
-    Severity, Subject, SubjectKind, Texts,
+    Bus, Buses, CiteUnit, CompactString, Documentation, Doubt, Doubts, Extension, Extensions, LocalText, Manual,
+    ManualSection, Severity, Subject, SubjectKind, Texts,
 };
 use lexibus_codegen::source::Origin;
 
@@ -241,9 +241,8 @@ pub fn model(b: &mut Bytes<'_>) -> CompactString {
     b.pick(&["A1", "B*", "*", "type", "", "Some"]).into()
 }
 
-/// Buses by their names in register tables.
-pub fn buses(b: &mut Bytes<'_>) -> Vec<CompactString> {
-    b.list(2, |b| b.pick(&["canopen", "ethercat", "modbus", "serial", "profinet", "odd"]).into())
+pub fn buses(b: &mut Bytes<'_>) -> Buses {
+    b.list(2, |b| b.pick(&Bus::ALL)).into()
 }
 
 pub fn texts(b: &mut Bytes<'_>) -> Texts {

@@ -157,7 +157,7 @@ fn item(item: &Item, types: &[TypeDef]) -> String {
 }
 
 fn variant(own: &ItemVariant) -> String {
-    let mut parts = vec![format!("on {} {}", own.models.join(" "), own.buses.join(" "))];
+    let mut parts = vec![format!("on {} {}", own.models.join(" "), own.buses.to_string().replace(',', ""))];
     parts.extend(own.ty.map(|ty| ty.to_string()));
     parts.extend(own.access.map(|access| access.name().to_owned()));
     parts.extend(own.default.as_ref().map(value));
@@ -217,7 +217,13 @@ fn address(binding: &Binding) -> String {
 fn indirect(own: &IndirectBinding) -> String {
     let side =
         |own: &Option<WindowSide>| own.as_ref().map(|own| format!("{} {}", own.number, own.value)).unwrap_or_default();
-    format!("indirect {:05} [{}; {}; {}]", own.number, own.buses.join(" "), side(&own.read), side(&own.write))
+    format!(
+        "indirect {:05} [{}; {}; {}]",
+        own.number,
+        own.buses.to_string().replace(',', ""),
+        side(&own.read),
+        side(&own.write)
+    )
 }
 
 fn register(own: &RegisterBinding) -> String {

@@ -10,7 +10,9 @@ use super::section::indices;
 use super::value::{self, Form, Role};
 use super::writer::Writer;
 use super::{Context, Flavour};
-use lexibus_codegen::ir::{Access, Configured, Extension, Group, Item, Mappable, ObjectCode, Type, TypeDef, Value};
+use lexibus_codegen::ir::{
+    Access, Bus, Configured, Extension, Group, Item, Mappable, ObjectCode, Type, TypeDef, Value,
+};
 
 /// The sections of `objects`.
 pub(super) fn all<'g>(writer: &mut Writer, context: &Context<'_>, objects: impl Iterator<Item = &'g &'g Group>) {
@@ -171,7 +173,7 @@ impl<'a> Object<'a> {
     }
 
     fn data_type(&self, item: &Item) -> DataType {
-        data_type(item.type_on("canopen"), self.types, self.context.is_canopen, self.context.is_verbatim)
+        data_type(item.type_on(Bus::CanOpen), self.types, self.context.is_canopen, self.context.is_verbatim)
     }
 
     /// The form of numbers. Communication objects contain identifiers, mappings and masks, which are hexadecimal.
@@ -190,7 +192,7 @@ impl<'a> Object<'a> {
         if let Some(code) = data_type.code {
             writer.entry("DataType", format_args!("0x{code:04X}"));
         }
-        let (access, is_mappable, note) = access(item.access_on("canopen"), item.mappable);
+        let (access, is_mappable, note) = access(item.access_on(Bus::CanOpen), item.mappable);
         if let Some(note) = note {
             writer.notes.add(note, place);
         }

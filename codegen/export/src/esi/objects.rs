@@ -2,7 +2,7 @@
 
 use crate::note::{NoteKind, Notes, Place};
 use crate::registers;
-use lexibus_codegen::ir::{Binding, CompactString, Device, Group, Item};
+use lexibus_codegen::ir::{Binding, Bus, Buses, Device, Group, Item};
 
 /// Index and sub-index on EtherCAT; those on CANopen of an item that has no address of its own there.
 pub(super) fn address(item: &Item) -> Option<(u16, u8)> {
@@ -23,9 +23,9 @@ pub(super) fn of_registers(device: &Device, notes: &mut Notes) -> Vec<Group> {
 
 /// Whether an item is there on EtherCAT. Of a device that isn't an EtherCAT slave, all objects are.
 fn is_on_ethercat(device: &Device, item: &Item) -> bool {
-    let buses = item.availability.as_ref().map_or(&[] as &[CompactString], |own| &own.buses);
+    let buses = item.availability.as_ref().map_or(Buses::NONE, |availability| availability.buses);
     let has_address = item.bindings.iter().any(|binding| matches!(binding, Binding::Object { buses, .. } if buses.coe));
-    device.ethercat.is_none() || has_address && (buses.is_empty() || buses.iter().any(|bus| bus == "ethercat"))
+    device.ethercat.is_none() || has_address && (buses.is_empty() || buses.contains(Bus::EtherCat))
 }
 
 /// The objects of a device, with those that were `made` of registers. Those that aren't on EtherCAT are left out: what the source

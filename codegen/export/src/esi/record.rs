@@ -4,11 +4,11 @@ use compact_str::{format_compact, CompactString};
 
 use super::types::{unique, Made, MadeField, Types};
 use crate::note::{NoteKind, Notes, Place};
-use lexibus_codegen::ir::{Access, Documentation, Field, Group, Item, Mappable, ObjectCode, Texts, Type};
+use lexibus_codegen::ir::{Access, Bus, Documentation, Field, Group, Item, Mappable, ObjectCode, Texts, Type};
 use lexibus_codegen::unique::Unique;
 
-/// The bus by its name in register tables.
-pub(super) const BUS: &str = "ethercat";
+/// The bus whose facts of items are exported.
+pub(super) const BUS: Bus = Bus::EtherCat;
 
 /// One sub-index of an object of a record.
 #[derive(Clone, Copy, Debug)]

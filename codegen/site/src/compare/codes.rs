@@ -2,7 +2,7 @@
 
 use super::change::Judgement;
 use super::comparison::{compare_fields, fact, ignored, judged, list, text, Comparison, Elements, COMPARED, POSITION};
-use super::conditions::{availability, restricted};
+use super::conditions::{availability, only_on};
 use super::names::identifier;
 use super::texts::{documentation, renamed};
 use lexibus_codegen::facts::code;
@@ -20,7 +20,7 @@ fn table(old: &CodeTable, new: &CodeTable, comparison: &mut Comparison<'_>) {
         name: judged("name", renamed),
         columns: fact("columns", Judgement::API),
         rows: list(rows(), row),
-        buses: restricted("only on"),
+        buses: only_on,
         documentation: documentation,
         origin: ignored(POSITION),
     });

@@ -5,7 +5,7 @@ use std::fmt::Debug;
 use super::change::Judgement;
 use super::comparison::{compare_fields, fact, judged, or_default, text, Comparison};
 use super::show::Show;
-use lexibus_codegen::ir::{Availability, Condition};
+use lexibus_codegen::ir::{Availability, Bus, Buses, Condition};
 
 /// A list that restricts what is possible unless it is empty.
 pub(super) fn restricted<T: PartialEq + Debug + Show>(
@@ -33,6 +33,11 @@ pub(super) fn conditions(name: &'static str) -> impl Fn(&Vec<Condition>, &Vec<Co
     }
 }
 
+/// Compares the only buses that have an element.
+pub(super) fn only_on(old: &Buses, new: &Buses, comparison: &mut Comparison<'_>) {
+    restricted("only on")(&Vec::<Bus>::from(*old), &Vec::from(*new), comparison);
+}
+
 /// Models, firmware versions, options and buses that have an element.
 pub(super) fn availability(
     old: &Option<Box<Availability>>,
@@ -46,7 +51,7 @@ pub(super) fn availability(
             until: fact("until firmware", Judgement::BEHAVIOR),
             replaced_by: text("replaced by"),
             options: fact("needs", Judgement::BEHAVIOR),
-            buses: restricted("only on"),
+            buses: only_on,
         });
     })(old, new, comparison);
 }

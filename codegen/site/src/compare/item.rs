@@ -156,7 +156,8 @@ fn is_narrower(old: &Limits, new: &Limits) -> bool {
 /// Variants are paired by the models and buses that they are about.
 fn variants() -> Elements<ItemVariant> {
     Elements::titled(|variant: &ItemVariant| {
-        let all: Vec<&str> = variant.models.iter().chain(&variant.buses).map(CompactString::as_str).collect();
+        let models = variant.models.iter().map(CompactString::as_str);
+        let all: Vec<&str> = models.chain(variant.buses.iter().map(|bus| bus.name())).collect();
         format!("on {}", all.join(", "))
     })
     .judged(|_| Judgement::BEHAVIOR, |_| Judgement::BEHAVIOR)

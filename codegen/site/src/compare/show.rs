@@ -2,8 +2,8 @@
 
 use lexibus_codegen::facts::words::PLAIN;
 use lexibus_codegen::ir::{
-    Access, AxisStep, Category, CompactString, Condition, Direction, Fit, LocalText, Numbers, ObjectBuses, ObjectCode,
-    Oversampling, Places, Reference, SharedList, Trigger, Value, Zone,
+    Access, AxisStep, Bus, Buses, Category, CompactString, Condition, Direction, Fit, LocalText, Numbers, ObjectBuses,
+    ObjectCode, Oversampling, Places, Reference, SharedList, Trigger, Value, Zone,
 };
 
 /// A text for reports. Values that differ have different texts.
@@ -22,7 +22,7 @@ macro_rules! show_as_text {
     };
 }
 
-show_as_text!(u8, u16, u32, u64, i32, i64, i128, f64, CompactString, String, Value);
+show_as_text!(u8, u16, u32, u64, i32, i64, i128, f64, Bus, Buses, CompactString, String, Value);
 
 impl<Id> Show for Reference<Id> {
     fn show(&self) -> String {

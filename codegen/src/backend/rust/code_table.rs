@@ -51,7 +51,7 @@ fn model(
     );
     docs::doubts_about(context, SubjectKind::Codes, &table.name, &mut docs);
     if !table.buses.is_empty() {
-        docs.extend([String::new(), format!("On {}.", docs::escape(&table.buses.join(", ")))]);
+        docs.extend([String::new(), format!("On {}.", table.buses)]);
     }
     if !table.columns.is_empty() {
         let columns: Vec<String> = table.columns.iter().map(|column| docs::escape(column)).collect();

@@ -1,7 +1,7 @@
 //! The route to an item on each bus: its type, and the code that makes it.
 
 use super::code::{call, generic, seq, slice, Doc};
-use crate::ir::{Limits, Value};
+use crate::ir::{Bus, Limits, Value};
 
 /// The buses of a location, in the order of its fields, except the records of PROFINET, which tables have no items in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -17,14 +17,14 @@ pub(super) enum Net {
 impl Net {
     pub const ALL: [Net; 6] = [Net::CanOpen, Net::CoE, Net::Modbus, Net::Serial, Net::Image, Net::Esc];
 
-    /// Its name in register tables.
-    pub fn in_tables(self) -> &'static str {
+    /// The bus that facts of items are about.
+    pub fn of_items(self) -> Bus {
         match self {
-            Net::CanOpen => "canopen",
-            Net::CoE | Net::Esc => "ethercat",
-            Net::Modbus => "modbus",
-            Net::Serial => "serial",
-            Net::Image => "profinet",
+            Net::CanOpen => Bus::CanOpen,
+            Net::CoE | Net::Esc => Bus::EtherCat,
+            Net::Modbus => Bus::Modbus,
+            Net::Serial => Bus::Serial,
+            Net::Image => Bus::Profinet,
         }
     }
 

@@ -8,7 +8,7 @@ use super::place::{ObjectAddress, Place};
 use super::reachable::{addressable, is_module};
 use super::value_type::ValueType;
 use super::variant;
-use crate::ir::{Access, Item, Type, Value};
+use crate::ir::{Access, Bus, Item, Type, Value};
 
 /// A row of the table.
 pub(super) struct EntryModel {
@@ -49,8 +49,8 @@ fn entries(context: &Context<'_>, item: &Item, name: &str, rows: &mut Vec<(Key, 
     let place = Place::of(context, item);
     let [object, other] = place.objects();
     let (mut register, key) = (place.register_code(), place.register_key());
-    let at_object = Form::on(item, if place.is_on_canopen() { "canopen" } else { "ethercat" });
-    let at_register = Form::on(item, "modbus");
+    let at_object = Form::on(item, if place.is_on_canopen() { Bus::CanOpen } else { Bus::EtherCat });
+    let at_register = Form::on(item, Bus::Modbus);
     // As a register, the item may have another width, or another access.
     if object.is_some() && register.is_some() && at_object != at_register {
         rows.push(((None, key), entry(context, item, name, (None, register.take()), at_register)));
@@ -59,7 +59,7 @@ fn entries(context: &Context<'_>, item: &Item, name: &str, rows: &mut Vec<(Key, 
         let form = if object.is_some() { at_object } else { at_register };
         rows.push(((object, key), entry(context, item, name, (object, register), form)));
     }
-    let form = Form::on(item, "ethercat");
+    let form = Form::on(item, Bus::EtherCat);
     rows.extend(other.map(|other| ((Some(other), None), entry(context, item, name, (Some(other), None), form))));
 }
 
@@ -71,7 +71,7 @@ struct Form {
 }
 
 impl Form {
-    fn on(item: &Item, bus: &str) -> Self {
+    fn on(item: &Item, bus: Bus) -> Self {
         Form { ty: item.type_on(bus), access: item.access_on(bus) }
     }
 }

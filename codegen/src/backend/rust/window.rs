@@ -63,7 +63,7 @@ pub(super) fn indirect(binding: &Binding) -> Option<&IndirectBinding> {
 }
 
 fn is_on(binding: &IndirectBinding, net: Net) -> bool {
-    net != Net::Esc && binding.buses.iter().any(|bus| bus == net.in_tables())
+    net != Net::Esc && binding.buses.contains(net.of_items())
 }
 
 /// The position of the window of an item on a bus.
@@ -87,7 +87,7 @@ fn window(scope: &Scope<'_>, device: &Device, side: &WindowSide, key: (String, u
     let (_, _, net, is_write) = key;
     let (number, value) = (scope.item(&side.number)?, scope.item(&side.value)?);
     let addresses = [place::address(scope, number, net, true)?, place::address(scope, value, net, is_write)?];
-    let [number_type, value_type] = [number, value].map(|item| scope.base(item.type_on(net.in_tables())));
+    let [number_type, value_type] = [number, value].map(|item| scope.base(item.type_on(net.of_items())));
     let bits = |ty: crate::ir::Type| ty.bits().filter(|bits| (1..=64).contains(bits));
     let procedure = side.procedure.as_ref().and_then(|name| device.procedures.iter().find(|own| own.name == *name));
     let told = procedure.map(|own| Told::of(own, side)).unwrap_or_default();

@@ -6,7 +6,7 @@ use super::windows::{behind, windows};
 use crate::check::context::Context;
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
 use crate::ir::owner::Owner;
-use crate::ir::{Binding, CompactString, Item, Procedure, Step, Value, WindowSide};
+use crate::ir::{Binding, Bus, CompactString, Item, Procedure, Step, Value, WindowSide};
 use crate::text::brief;
 
 pub(crate) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
@@ -30,12 +30,12 @@ fn width<'d>(
     let bits_of = |item: &Item| context.owner.basic(item.ty).bits();
     let Some(bits) = bits_of(item).map(|bits| bits.min(needed(context.owner, item))) else { return };
     // On each bus, the widest window counts.
-    let mut widest: BTreeMap<(&str, &str), (u32, &CompactString)> = BTreeMap::new();
+    let mut widest: BTreeMap<(&str, Bus), (u32, &CompactString)> = BTreeMap::new();
     for window in windows(item) {
         let sides = [("read", &window.read), ("written", &window.write)];
         for (verb, side) in sides.into_iter().filter_map(|(verb, side)| Some((verb, side.as_ref()?))) {
             let Some(own) = context.device.referred(&side.value).and_then(bits_of) else { continue };
-            for bus in &window.buses {
+            for bus in window.buses.iter() {
                 let entry = widest.entry((verb, bus)).or_insert((own, &side.value));
                 *entry = if own > entry.0 { (own, &side.value) } else { *entry };
             }

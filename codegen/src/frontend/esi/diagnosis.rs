@@ -9,7 +9,7 @@ use super::data_type::enum_value;
 use super::reader::{Names, Reader};
 use crate::diagnostics::codes;
 use crate::frontend::xml::Read;
-use crate::ir::{CodeRow, CodeTable, Documentation, LocalText, SharedList, Value};
+use crate::ir::{Buses, CodeRow, CodeTable, Documentation, LocalText, SharedList, Value};
 use crate::source::Span;
 use crate::syntax::xml::Tag;
 
@@ -23,7 +23,7 @@ pub(super) fn read<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>) -> Read<Ve
         name: CompactString::const_new(name),
         columns: columns.iter().map(|name| CompactString::const_new(name)).collect(),
         rows: SharedList::default(),
-        buses: Vec::new(),
+        buses: Buses::NONE,
         documentation: None,
         origin,
     };

@@ -6,7 +6,7 @@ use super::location::Location;
 use super::reader::Reader;
 use crate::frontend::xml::Read;
 use crate::ir::{
-    Catalog, CodeRow, CodeTable, CompactString, Documentation, Type, UnitDiagnosis, UnitDiagnosisField, Value,
+    Buses, Catalog, CodeRow, CodeTable, CompactString, Documentation, Type, UnitDiagnosis, UnitDiagnosisField, Value,
 };
 use crate::source::Origin;
 use crate::syntax::xml::Tag;
@@ -248,7 +248,7 @@ fn table(name: &'static str, columns: &[&'static str], rows: Vec<CodeRow>, origi
         name: name.into(),
         columns: columns.iter().map(|&name| name.into()).collect(),
         rows: rows.into(),
-        buses: Vec::new(),
+        buses: Buses::NONE,
         documentation: None,
         origin,
     }

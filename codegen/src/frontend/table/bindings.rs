@@ -3,7 +3,7 @@
 use smallvec::SmallVec;
 
 use super::at::{At, TextOr};
-use super::buses::{self, Buses};
+use super::buses;
 use super::definitions::Kind;
 use super::format::{NumberOrText, Row};
 use super::numbered::Numbered;
@@ -13,7 +13,7 @@ use super::spaces::{self, Numbers};
 use super::tree::Reader;
 use super::{lints, place, types};
 use crate::diagnostics::{codes, Diagnostic};
-use crate::ir::{Binding, Item, ObjectBuses, RegisterSpace, Type};
+use crate::ir::{Binding, Buses, Item, ObjectBuses, RegisterSpace, Type};
 use crate::limits;
 use crate::text::brief;
 
@@ -314,26 +314,26 @@ impl Rows {
         let Some(list) = &row.buses else { return self.buses };
         let mut found = Buses::NONE;
         for name in list {
-            let own = buses::read(reader, std::slice::from_ref(name));
-            if own != Buses::NONE && own.and(self.buses) == Buses::NONE {
+            let bus = buses::read(reader, std::slice::from_ref(name));
+            if !bus.is_empty() && bus.and(self.buses).is_empty() {
                 let message = format!("the device isn't on {}", brief(&name.value));
                 let wrong = Diagnostic::new(&codes::TABLE_VALUE, reader.span(name), message);
                 reader.diagnostics.push(wrong.help("`buses` of `[device]` has those that it is on"));
             }
-            found = found.or(own);
+            found = found.or(bus);
         }
         found.and(self.buses)
     }
 
     /// The buses of the object of a row, on one of which it has to be.
     pub(super) fn object_buses(&self, reader: &mut Reader<'_, '_>, row: &Row, at: &At<impl Clone>) -> ObjectBuses {
-        let buses = self.buses_of(reader, row);
-        if !buses.canopen && !buses.ethercat {
+        let objects = self.buses_of(reader, row).with_objects();
+        if Buses::from(objects).is_empty() {
             let message = "objects are found on CANopen and EtherCAT, and the row is on neither";
             let found = Diagnostic::new(&codes::TABLE_PLACE, reader.span(at), message);
             reader.diagnostics.push(found.help("`buses` of the row, its defaults or the device leaves both out"));
         }
-        ObjectBuses { canopen: buses.canopen || !buses.ethercat, coe: buses.ethercat }
+        ObjectBuses { canopen: objects.canopen || !objects.coe, ..objects }
     }
 }
 

@@ -53,14 +53,11 @@ pub(super) fn table(reader: &mut Reader<'_, '_>, name: &At<String>, table: &Code
             cells: row.cells.iter().map(cell).collect(),
         });
     }
-    if let Some(list) = &table.buses {
-        buses::read(reader, list);
-    }
     device.code_tables.push(CodeTable {
         name: name.value.as_str().into(),
         columns: table.columns.iter().map(|column| column.as_str().into()).collect(),
         rows: rows.into(),
-        buses: table.buses.iter().flatten().map(|bus| bus.value.as_str().into()).collect(),
+        buses: table.buses.as_ref().map(|list| buses::read(reader, list)).unwrap_or_default(),
         documentation: reader.documentation(table.doc.as_deref(), table.cite.as_ref().map(cited)),
         origin: reader.origin(name),
     });

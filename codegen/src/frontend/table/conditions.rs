@@ -67,16 +67,13 @@ pub(super) fn availability(
 ) -> Option<Box<Availability>> {
     let models = given.models.into_iter().flatten();
     references.extend(models.clone().map(|model| (model.clone(), "model")));
-    if let Some(buses) = given.buses {
-        buses::read(reader, buses);
-    }
     let [since, until] = given.versions;
     let own = Availability {
         models: models.map(|model| model.value.as_str().into()).collect(),
         since: since.map(CompactString::from),
         until: until.map(CompactString::from),
         replaced_by: given.replaced_by.map(ItemRef::from),
-        buses: given.buses.into_iter().flatten().map(|bus| bus.value.as_str().into()).collect(),
+        buses: given.buses.map(|list| buses::read(reader, list)).unwrap_or_default(),
         ..Availability::default()
     };
     (own != Availability::default()).then(|| Box::new(own))

@@ -1,15 +1,15 @@
 //! The head of a table: the device, its models, its axes.
 
 use super::at::At;
-use super::buses::{self, Buses};
+use super::buses;
 use super::format::{AxesTable, DeviceTable, ManualTable, ModelTable, NumberOrText};
 use super::place;
 use super::tree::{about, cited, Reader};
 use super::{lints, value};
 use crate::diagnostics::{codes, Diagnostic};
 use crate::ir::{
-    AxisRange, AxisRule, AxisStep, CanOpenSettings, CiteUnit, CompactString, Device, EtherCatSettings, Identity,
-    Manual, ManualSection, SubjectKind, Type, Variant,
+    AxisRange, AxisRule, AxisStep, Bus, Buses, CanOpenSettings, CiteUnit, CompactString, Device, EtherCatSettings,
+    Identity, Manual, ManualSection, SubjectKind, Type, Variant,
 };
 use crate::text::brief;
 
@@ -37,7 +37,7 @@ pub(super) fn head(reader: &mut Reader<'_, '_>, table: &At<DeviceTable>, device:
     device.documentation = reader.documentation(own.doc.as_deref(), cite.clone());
     device.doubts = reader.doubts([own.doubt.as_ref(), own.doubts.as_ref()], device.origin, cite.as_deref());
     let buses = own.buses.as_ref().map_or(Buses::ALL, |list| buses::read(reader, list));
-    if buses.canopen && own.buses.is_some() {
+    if buses.contains(Bus::CanOpen) && own.buses.is_some() {
         device.canopen = Some(Box::new(CanOpenSettings {
             bit_rates: own.bit_rates.clone(),
             granularity: own.granularity,
@@ -47,7 +47,7 @@ pub(super) fn head(reader: &mut Reader<'_, '_>, table: &At<DeviceTable>, device:
             ..CanOpenSettings::default()
         }));
     }
-    if buses.ethercat && own.buses.is_some() {
+    if buses.contains(Bus::EtherCat) && own.buses.is_some() {
         device.ethercat = Some(Box::<EtherCatSettings>::default());
     }
     buses

@@ -1,11 +1,10 @@
 //! What a master has to know of an EtherCAT slave beside its objects and PDOs: mailbox protocols and sync managers.
 
 use super::at::{At, FlagOr};
-use super::buses::Buses;
 use super::format::{CoeTable, EtherCatTable, SyncManagerTable};
 use super::tree::{cited, Reader};
 use crate::diagnostics::{codes, Diagnostic};
-use crate::ir::{Coe, Device, Mailbox, Protocol, SyncManager, SyncManagerPurpose};
+use crate::ir::{Bus, Buses, Coe, Device, Mailbox, Protocol, SyncManager, SyncManagerPurpose};
 
 /// The words of `purpose`.
 const PURPOSES: [(&str, SyncManagerPurpose); 4] = [
@@ -18,7 +17,7 @@ const PURPOSES: [(&str, SyncManagerPurpose); 4] = [
 /// Reads `[ethercat]`.
 pub(super) fn settings(reader: &mut Reader<'_, '_>, table: &At<EtherCatTable>, buses: Buses, device: &mut Device) {
     let own = &table.value;
-    if !buses.ethercat {
+    if !buses.contains(Bus::EtherCat) {
         let found = Diagnostic::new(&codes::TABLE_VALUE, reader.span(table), "the device isn't on EtherCAT");
         reader.diagnostics.push(found.help("`buses` of `[device]` has those that it is on"));
         return;

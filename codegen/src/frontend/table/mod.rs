@@ -77,10 +77,9 @@ use toml::de::DeValue;
 
 use self::machine_budget::MachineBudget;
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
-use crate::ir::{Catalog, Device, Group, GroupKind, ObjectCode};
+use crate::ir::{Buses, Catalog, Device, Group, GroupKind, ObjectCode};
 use crate::source::{FileId, Source, Span};
 use at::{At, Entries};
-use buses::Buses;
 use by_name::ByName;
 use definitions::Definitions;
 use format::{ChapterTable, DeviceTable, OptionTable, Row};

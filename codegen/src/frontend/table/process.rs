@@ -73,8 +73,8 @@ pub(super) fn pdo(reader: &mut Reader<'_, '_>, table: &At<PdoTable>, targets: &T
     }
     if let Some(list) = &own.buses {
         let buses = buses::read(reader, list);
-        pdo.buses = Some(ObjectBuses { canopen: buses.canopen, coe: buses.ethercat });
-        if !buses.canopen && !buses.ethercat {
+        pdo.buses = Some(buses.with_objects());
+        if buses.with_objects() == ObjectBuses::NONE {
             let message = "PDOs are found on CANopen and EtherCAT, and this one is on neither";
             reader.report(&codes::TABLE_VALUE, reader.span(table), message);
         }

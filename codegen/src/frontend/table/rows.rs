@@ -3,7 +3,6 @@
 use compact_str::CompactString;
 
 use super::at::{At, Entries, Literal, OneOrMany, TextOr};
-use super::buses::Buses;
 use super::definitions::{Definitions, Kind};
 use super::format::{ConversionTable, FlagOrText, NumberOrText, Row};
 use super::numbered::Numbered;
@@ -16,8 +15,8 @@ use super::words::{ACCESSES, DIRECTIONS};
 use super::{conditions, given, scale, types, value};
 use crate::diagnostics::{codes, Code, Diagnostic};
 use crate::ir::{
-    Access, Availability, Behaviour, Binding, Conversion, Documentation, Item, ItemRef, ModbusTable, Quantity,
-    RegisterSpace, RelatedItems, Shape, Storage, Type, TypeDef, TypeId,
+    Access, Availability, Behaviour, Binding, Bus, Buses, Conversion, Documentation, Item, ItemRef, ModbusTable,
+    Quantity, RegisterSpace, RelatedItems, Shape, Storage, Type, TypeDef, TypeId,
 };
 use crate::source::Span;
 use crate::text::brief;
@@ -395,10 +394,9 @@ impl Rows {
             self.references.push((replaced.clone(), ITEM));
         }
         // Of other buses, the addresses tell.
-        let untold =
-            |list: &&Vec<At<String>>| list.iter().any(|bus| matches!(bus.value.as_str(), "profinet" | "serial"));
-        if let Some(buses) = row.buses.as_ref().filter(untold) {
-            own.buses = buses.iter().map(|bus| bus.value.as_str().into()).collect();
+        let buses = row.buses.iter().flatten().filter_map(|bus| Bus::from_name(&bus.value)).collect::<Buses>();
+        if buses.contains(Bus::Profinet) || buses.contains(Bus::Serial) {
+            own.buses = buses;
         }
         if let Some(OneOrMany(needs)) = &row.needs {
             own.options = needs.iter().map(|need| need.as_str().into()).collect();

@@ -3,12 +3,11 @@
 use compact_str::{format_compact, CompactString};
 
 use super::at::{At, Entries, FlagOr};
-use super::buses::Buses;
 use super::format::{ModbusRule, ObjectRule, SpaceTable};
 use super::tree::Reader;
 use super::windows::{self, Window};
 use crate::diagnostics::codes;
-use crate::ir::{Binding, ModbusTable, ObjectBuses, RegisterBinding, RegisterSpace};
+use crate::ir::{Binding, Bus, Buses, ModbusTable, ObjectBuses, RegisterBinding, RegisterSpace};
 use crate::source::Span;
 
 /// Bits of a number where the space doesn't say.
@@ -173,7 +172,7 @@ impl Space {
     /// Where a register is on each bus. A number that a bus has no address for is reported.
     pub fn bindings(&self, reader: &mut Reader<'_, '_>, numbers: Numbers, buses: Buses, span: Span) -> Vec<Binding> {
         let mut bindings = self.object_bindings(reader, numbers, buses, span);
-        if let Some(rule) = self.modbus.filter(|_| buses.modbus) {
+        if let Some(rule) = self.modbus.filter(|_| buses.contains(Bus::Modbus)) {
             bindings.extend(self.register(reader, rule, numbers, span));
         }
         if self.parameter {
@@ -191,8 +190,8 @@ impl Space {
     }
 
     fn object_bindings(&self, reader: &mut Reader<'_, '_>, numbers: Numbers, buses: Buses, span: Span) -> Vec<Binding> {
-        let canopen = self.canopen.filter(|_| buses.canopen);
-        let ethercat = self.ethercat.filter(|_| buses.ethercat);
+        let canopen = self.canopen.filter(|_| buses.contains(Bus::CanOpen));
+        let ethercat = self.ethercat.filter(|_| buses.contains(Bus::EtherCat));
         let mut bindings = Vec::new();
         let mut add = |rule: Option<Objects>, buses: ObjectBuses| {
             let Some(rule) = rule else { return };

@@ -8,7 +8,7 @@ use compact_str::{format_compact, CompactString};
 use super::tree::Reader;
 use crate::diagnostics::{codes, Diagnostic};
 use crate::ir::firmware::apart;
-use crate::ir::{Availability, Binding, Item, ObjectBuses, RegisterBinding, RegisterSpace};
+use crate::ir::{Availability, Binding, Buses, Item, ObjectBuses, RegisterBinding, RegisterSpace};
 use crate::source::Span;
 use crate::text::brief;
 
@@ -43,10 +43,8 @@ impl Holder {
         if is_same(self, other) || is_same(other, self) {
             return true;
         }
-        let by_bus = self
-            .buses
-            .zip(other.buses)
-            .is_some_and(|(one, other)| !(one.canopen && other.canopen || one.coe && other.coe));
+        let by_bus =
+            self.buses.zip(other.buses).is_some_and(|(one, other)| Buses::from(one).and(other.into()).is_empty());
         by_bus || apart(self.availability.as_deref(), other.availability.as_deref())
     }
 }

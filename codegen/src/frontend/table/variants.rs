@@ -9,7 +9,7 @@ use super::tree::{cited, Reader};
 use super::words::ACCESSES;
 use super::{buses, scale, types, value};
 use crate::diagnostics::{codes, Diagnostic};
-use crate::ir::{Binding, Item, ItemVariant, Limits, RegisterSpace, Type, Value};
+use crate::ir::{Binding, Bus, Item, ItemVariant, Limits, RegisterSpace, Type, Value};
 
 impl Rows {
     /// Puts the variants of a row into its item.
@@ -18,7 +18,9 @@ impl Rows {
         let base = self.definitions.underlying(item.ty);
         item.variants = list.iter().map(|given| self.variant(reader, given, base)).collect();
         // Another width takes another number of registers.
-        let Some(bits) = item.type_on("modbus").bits().filter(|_| item.type_on("modbus") != item.ty) else { return };
+        let Some(bits) = item.type_on(Bus::Modbus).bits().filter(|_| item.type_on(Bus::Modbus) != item.ty) else {
+            return;
+        };
         for binding in &mut item.bindings {
             if let Binding::Register(own) = binding {
                 let is_word = matches!(own.space, RegisterSpace::Holding | RegisterSpace::Input);
@@ -29,13 +31,9 @@ impl Rows {
 
     fn variant(&mut self, reader: &mut Reader<'_, '_>, given: &At<VariantTable>, base: Type) -> ItemVariant {
         let own = &given.value;
-        let names = |list: &Option<Vec<At<String>>>| {
-            list.iter().flatten().map(|name| name.value.as_str().into()).collect::<Vec<_>>()
-        };
-        self.references.extend(own.models.iter().flatten().map(|model| (model.clone(), "model")));
-        if let Some(buses) = &own.buses {
-            buses::read(reader, buses);
-        }
+        let models = own.models.iter().flatten();
+        self.references.extend(models.clone().map(|model| (model.clone(), "model")));
+        let buses = own.buses.as_ref().map(|list| buses::read(reader, list));
         let ty = own.ty.as_ref().and_then(|given| self.other_type(reader, given, base));
         let allowed = own.allowed.as_ref();
         let allowed = allowed.map(|list| value::ranges(reader, (&list.value, (list.start, list.end)), base));
@@ -48,8 +46,8 @@ impl Rows {
         let mut value = |literal: &Option<At<_>>| literal.as_ref().map(|own| value::value(reader, own, base));
         let (default, low, high, step) = (value(&own.default), value(&own.min), value(&own.max), value(&own.step));
         let found = ItemVariant {
-            models: names(&own.models),
-            buses: names(&own.buses),
+            models: models.map(|model| model.value.as_str().into()).collect(),
+            buses: buses.unwrap_or_default(),
             ty,
             access: own.access.as_ref().and_then(|access| reader.word(access, "access", &ACCESSES)),
             default,
@@ -67,7 +65,7 @@ impl Rows {
             || own.max.is_some()
             || own.step.is_some();
         let message = match () {
-            () if found.models.is_empty() && found.buses.is_empty() => "the variant says neither `models` nor `buses`",
+            () if found.models.is_empty() && own.buses.as_ref().is_none_or(Vec::is_empty) => "the variant says neither `models` nor `buses`",
             () if !differs && own.scale.is_none() && found.documentation.is_none() => {
                 "the variant says nothing that differs: `type`, `access`, `allowed`, `default`, `min`, `max`, `step` or `scale`"
             }

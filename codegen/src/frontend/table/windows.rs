@@ -1,13 +1,13 @@
 //! Windows: items through which the values of a space are reached by their numbers.
 
 use super::at::{At, Entries, TextOr};
-use super::buses::{self, Buses};
+use super::buses;
 use super::format::{IndirectRule, SpaceTable, WindowTable};
 use super::place;
 use super::references::{References, ITEM};
 use super::tree::Reader;
 use crate::diagnostics::codes;
-use crate::ir::{Binding, IndirectBinding, WindowSide};
+use crate::ir::{Binding, Buses, IndirectBinding, WindowSide};
 
 /// A window of a space.
 #[derive(Clone, Debug)]
@@ -118,13 +118,13 @@ pub(super) fn bindings<'w>(
         let number = u32::try_from(i64::from(first).checked_add(window.add)?).ok()?;
         let is_within = |(low, high): (i128, i128)| (low..=high).contains(&number.into());
         let buses = buses.and(window.buses);
-        if buses == Buses::NONE || !window.numbers.is_none_or(is_within) {
+        if buses.is_empty() || !window.numbers.is_none_or(is_within) {
             return None;
         }
         Some(Binding::Indirect(Box::new(IndirectBinding {
             space: space.into(),
             window: u8::try_from(at).unwrap_or(u8::MAX),
-            buses: buses.names().map(Into::into).collect(),
+            buses,
             number,
             read: window.read.clone(),
             write: window.write.clone(),

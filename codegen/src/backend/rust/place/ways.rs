@@ -24,7 +24,7 @@ impl<'i> Place<'i> {
 
     /// Whether a bus lets the item be read, or written, at its address.
     pub(super) fn is_possible(&self, item: &Item, net: Net, writes: bool) -> bool {
-        let access = if net == Net::Esc { item.access } else { item.access_on(net.in_tables()) };
+        let access = if net == Net::Esc { item.access } else { item.access_on(net.of_items()) };
         let allows = if writes { access.writable() } else { access.readable() };
         let goes = match (net, self.image) {
             (Net::Image, Some(field)) => field.is_output == writes,
@@ -46,14 +46,14 @@ impl<'i> Place<'i> {
 
     /// The way to the item's own address; none where its type can't have the width that it has there.
     fn own_way(&self, located: &Located<'_>, item: &'i Item, net: Net) -> Option<Way<'i>> {
-        let (own, there) = (located.base(item.ty), located.base(item.type_on(net.in_tables())));
+        let (own, there) = (located.base(item.ty), located.base(item.type_on(net.of_items())));
         let there = match (net, self.image, self.esc) {
             (Net::Image, Some(field), _) => field.ty.map_or(own, |ty| located.base(ty)),
             (Net::Esc, _, Some((_, length))) => in_memory(own, length),
             _ => there,
         };
         let limited =
-            item.limits_on(net.in_tables()).filter(|_| is_integer(own)).map(|own_limits| (own_limits, own.is_signed()));
+            item.limits_on(net.of_items()).filter(|_| is_integer(own)).map(|own_limits| (own_limits, own.is_signed()));
         let resized = own.bits() != there.bits() && own.bits().is_some();
         let is_signed = if resized { narrower(own, there).is_signed() } else { own.is_signed() };
         let bits = there.bits().filter(|bits| (1..=64).contains(bits)).and_then(|bits| u8::try_from(bits).ok());

@@ -2,7 +2,6 @@
 
 use std::collections::{HashMap, HashSet};
 
-use super::super::buses::Buses;
 use super::super::definitions::Kind;
 use super::super::format::AppliesTable;
 use super::super::machine_budget::MachineBudget;
@@ -12,8 +11,8 @@ use super::change::{ObjectSet, Outcome, RowPatcher};
 use super::{item_name, name_conditions, Overlay, PatchRow, Target};
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
 use crate::ir::{
-    Catalog, CodeTable, CompactString, Device, Doubts, Group, Identity, Item, Module, ModuleId, ObjectBuses, Submodule,
-    SubmoduleId, SubmoduleUse, TypeDef,
+    Bus, Buses, Catalog, CodeTable, CompactString, Device, Doubts, Group, Identity, Item, Module, ModuleId,
+    ObjectBuses, Submodule, SubmoduleId, SubmoduleUse, TypeDef,
 };
 use crate::source::{FileId, Source, Span};
 use crate::text::brief;
@@ -270,7 +269,7 @@ impl<'o> Applied<'o> {
         let made = place.types.len();
         self.patcher.rows.definitions.types = std::mem::take(place.types);
         self.patcher.rows.definitions.made.clear();
-        self.patcher.rows.buses = Buses { canopen: place.buses.canopen, ethercat: place.buses.coe, ..Buses::ALL };
+        self.patcher.rows.buses = Buses::from_iter([Bus::Modbus, Bus::Profinet, Bus::Serial]).or(place.buses.into());
         let overlay = self.patcher.overlay;
         let mut best = Outcome::NoMatch;
         for (position, row) in overlay.patch.rows.iter().enumerate() {
@@ -383,7 +382,7 @@ impl Elsewhere {
 
 impl<'c> ObjectSet<'c> {
     fn of_submodule(submodule: &'c mut Submodule, types: &'c mut Vec<TypeDef>) -> Self {
-        let buses = ObjectBuses { canopen: false, coe: false };
+        let buses = ObjectBuses::NONE;
         ObjectSet { groups: &mut submodule.records, types, extensions: &mut submodule.extensions, buses }
     }
 }

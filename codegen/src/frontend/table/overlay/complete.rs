@@ -5,7 +5,7 @@
 
 use std::collections::HashMap;
 
-use super::super::buses::{self, Buses};
+use super::super::buses;
 use super::super::format::{ImageTable, Row};
 use super::super::process;
 use super::super::rows::{Named, Rows};
@@ -14,8 +14,8 @@ use super::super::types;
 use super::{at_place, in_range, item_name, name_conditions, Patch, PatchRow, Profile, Target};
 use crate::diagnostics::Diagnostics;
 use crate::ir::{
-    Binding, CodeTable, CompactString, Device, Direction, Documentation, Group, IoData, Item, Module, Pdo, PdoEntry,
-    PdoEntryKind, Quantity, Shape, StateMachine, Submodule, Type, TypeDef, TypeId, TypeRef,
+    Binding, Buses, CodeTable, CompactString, Device, Direction, Documentation, Group, IoData, Item, Module, Pdo,
+    PdoEntry, PdoEntryKind, Quantity, Shape, StateMachine, Submodule, Type, TypeDef, TypeId, TypeRef,
 };
 use crate::source::{FileId, Origin};
 use crate::text::standard_and_clause;
@@ -47,11 +47,9 @@ impl<'p> Completion<'p> {
     }
 
     /// The buses that devices which follow the profile are on.
-    pub(crate) fn buses(&mut self) -> (bool, bool) {
+    pub(crate) fn buses(&mut self) -> Buses {
         let buses = self.profile.head.buses.as_ref();
-        let all = Buses::ALL;
-        let buses = buses.map_or(all, |list| self.with_reader(|reader, _| buses::read(reader, list)));
-        (buses.canopen, buses.ethercat)
+        buses.map_or(Buses::ALL, |list| self.with_reader(|reader, _| buses::read(reader, list)))
     }
 
     fn with_reader<T>(&mut self, act: impl FnOnce(&mut Reader<'_, '_>, &mut Rows) -> T) -> T {
@@ -210,7 +208,7 @@ impl<'p> Completion<'p> {
         }
         let wanted = self.with_reader(|reader, rows| rows.buses_of(reader, row));
         item.bindings.iter().any(|binding| match binding {
-            Binding::Object { buses, .. } => (buses.canopen && wanted.canopen) || (buses.coe && wanted.ethercat),
+            Binding::Object { buses, .. } => !wanted.and((*buses).into()).is_empty(),
             _ => false,
         })
     }

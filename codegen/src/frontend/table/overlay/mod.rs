@@ -14,7 +14,6 @@ pub use apply::apply;
 pub(crate) use complete::Completion;
 
 use super::at::At;
-use super::buses::Buses;
 use super::definitions::Definitions;
 use super::format::{
     AxesTable, ChapterTable, CodesTable, DoubtTable, ImageTable, MachineTable, ManualTable, OverlayTable,
@@ -28,7 +27,8 @@ use super::tree::Reader;
 use super::{code_tables, machines, Table};
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
 use crate::ir::{
-    CodeTable, CompactString, Device, Doubts, Format, Group, Item, ItemRef, ObjectCode, StateMachine, Type, TypeDef,
+    Buses, CodeTable, CompactString, Device, Doubts, Format, Group, Item, ItemRef, ObjectCode, StateMachine, Type,
+    TypeDef,
 };
 use crate::source::{FileId, Origin, Source, Span};
 use crate::text::brief;
