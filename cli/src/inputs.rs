@@ -8,15 +8,13 @@ use std::sync::mpsc;
 use indicatif::{ProgressBar, ProgressStyle};
 use lexibus_codegen::compile::{self, Compilation, Options};
 use lexibus_codegen::diagnostics::{codes, Diagnostic, Diagnostics};
-use lexibus_codegen::frontend::detect;
+use lexibus_codegen::frontend::{self, detect};
+use lexibus_codegen::ir::Format;
 use lexibus_codegen::limits::MAX_FOLDER_DEPTH;
 use lexibus_codegen::source::{FileId, Source, Span};
 
 use super::args::Inputs;
 use super::Failure;
-
-/// Endings of the files that a folder is searched for.
-const ENDINGS: [&str; 5] = ["eds", "dcf", "xdd", "xdc", "xpd"];
 
 /// Compiles every input, several at a time, and hands the results to `use_it` in the order of the command line.
 pub(super) fn each(
@@ -175,12 +173,13 @@ fn is_description(path: &Path) -> bool {
     if extension.eq_ignore_ascii_case("toml") {
         return is_table_of_device(path);
     }
-    ENDINGS.iter().any(|ending| ending.eq_ignore_ascii_case(extension))
+    let mut endings = Format::ALL.iter().flat_map(|format| format.endings());
+    endings.any(|ending| ending.eq_ignore_ascii_case(extension))
 }
 
 fn is_xml_description(path: &Path) -> bool {
     // One that can't be read is worth an error.
-    head(path).is_none_or(|head| detect::format(&head, FileId(0)).is_ok())
+    head(path).is_none_or(|head| frontend::format(&head, FileId(0)).is_ok())
 }
 
 /// Whether a TOML file is a register table; overlays and profiles describe no device by themselves.

@@ -14,17 +14,12 @@ use crate::diagnostics::codes::*;
 use crate::diagnostics::Code;
 use crate::ir::Format;
 
-const ALL: &[Format] = &[Format::Eds, Format::Dcf, Format::Xdd, Format::Esi, Format::Gsdml, Format::Table];
-const TABLES: &[Format] = &[Format::Table];
-/// All but register tables.
-const FILES: &[Format] = &[Format::Eds, Format::Dcf, Format::Xdd, Format::Esi, Format::Gsdml];
-
 /// A catalogue that comes from no file is checked like a file of this format.
 pub(super) const WITHOUT_FILE: Format = Format::Eds;
 
 /// A lint for every format and device.
 const fn lint(name: &'static str, codes: &'static [&'static Code], run: Run) -> Lint {
-    Lint { name, codes, formats: ALL, on_request: false, needs: None, run }
+    Lint { name, codes, formats: Format::ALL, on_request: false, needs: None, run }
 }
 
 impl Lint {
@@ -48,16 +43,16 @@ pub static LINTS: &[Lint] = &[
         &[&MAPPED_OBJECT_MISSING, &MAPPED_LENGTH, &NOT_MAPPABLE, &WRONG_DIRECTION, &PDO_TOO_LONG],
         Run::Device(declared_pdos::check),
     )
-    .of(TABLES),
+    .of(Format::TABLES),
     lint("identity", &[&IDENTITY_MISMATCH], Run::Device(identity::check)),
-    lint("objects", OBJECTS, Run::Device(objects::check)).of(FILES),
-    lint("rows-of-objects", OBJECTS, Run::Device(objects::rows)).of(TABLES),
+    lint("objects", OBJECTS, Run::Device(objects::check)).of(Format::OF_VENDORS),
+    lint("rows-of-objects", OBJECTS, Run::Device(objects::rows)).of(Format::TABLES),
     lint("limits", &[&DEFAULT_OUT_OF_LIMITS, &LIMITS_SWAPPED], Run::ItemsAndRecords(limits::check)),
     lint("entry-lengths", &[&ENTRY_TOO_LONG], Run::Pdos(pdo_mapping::lengths)),
     lint("pdo-mapping", PDO_MAPPING, Run::Device(pdo_mapping::check)).needs(Need::CanOpen),
     lint("pdo-entries", &[&DUPLICATE_PDO, &MAPPED_LENGTH], Run::Pdos(pdo_entries::check)).needs(Need::EtherCat),
     lint("pdo-directions", &[&NOT_MAPPABLE, &WRONG_DIRECTION, &MAPPED_READ_ONLY], Run::Pdos(pdo_directions::check))
-        .of(FILES)
+        .of(Format::OF_VENDORS)
         .needs(Need::EtherCat),
     lint("excluded-pdos", &[&EXCLUDED_PDO_MISSING], Run::Pdos(process_image::excluded)).needs(Need::EtherCat),
     lint(
@@ -71,13 +66,13 @@ pub static LINTS: &[Lint] = &[
     lint("named-values", &[&UNNAMED_VALUE, &NAME_OUTSIDE_LIMITS, &RESERVED_BITS], Run::Items(named_values::check)),
     lint("lengths", &[&LENGTH_MISMATCH, &REGISTER_SPAN], Run::Items(lengths::check)),
     lint("code-tables", &[&VALUE_NAMED_TWICE], Run::Device(enumerations::code_tables)),
-    lint("access-conflicts", &[&ACCESS_CONFLICT], Run::Device(access::conflicts)).of(TABLES).on_request(),
+    lint("access-conflicts", &[&ACCESS_CONFLICT], Run::Device(access::conflicts)).of(Format::TABLES).on_request(),
     lint("readings", &[&READING_LIMITS], Run::Device(access::readings)),
     lint("single-limits", &[&ONE_LIMIT], Run::Device(limits::one_given)),
-    lint("empty-limits", &[&EMPTY_LIMIT], Run::Device(row_limits::check)).of(TABLES),
+    lint("empty-limits", &[&EMPTY_LIMIT], Run::Device(row_limits::check)).of(Format::TABLES),
     lint("conditions", &[&UNNAMED_VALUE, &MODE_WITHOUT_BITS], Run::Device(conditions::check)),
-    lint("row-names", &[&NAME_TWICE, &BROKEN_NAME, &EMPTY_NAME], Run::Device(row_names::check)).of(TABLES),
-    lint("names", &[&NAME_TWICE], Run::Device(names::check)).of(TABLES).on_request(),
+    lint("row-names", &[&NAME_TWICE, &BROKEN_NAME, &EMPTY_NAME], Run::Device(row_names::check)).of(Format::TABLES),
+    lint("names", &[&NAME_TWICE], Run::Device(names::check)).of(Format::TABLES).on_request(),
     lint("titles", &[&BROKEN_NAME], Run::Device(titles::check)),
     lint("availability", &[&VERSION_FORM, &FIRMWARE_WINDOW], Run::Device(availability::check)),
     lint("aliases", &[&SAME_VALUE_DIFFERS], Run::Device(aliases::check)),
@@ -88,7 +83,8 @@ pub static LINTS: &[Lint] = &[
         Run::Device(procedures::check),
     )
     .needs(Need::Procedures),
-    lint("default-assignments", &[&ASSIGNED_PDO_MISSING], Run::Device(procedures::default_assignments)).of(TABLES),
+    lint("default-assignments", &[&ASSIGNED_PDO_MISSING], Run::Device(procedures::default_assignments))
+        .of(Format::TABLES),
     lint(
         "mapping-steps",
         &[&STEP_IMPOSSIBLE, &MAPPED_OBJECT_MISSING, &MAPPED_LENGTH, &NOT_MAPPABLE, &WRONG_DIRECTION, &PDO_TOO_LONG],
@@ -96,22 +92,22 @@ pub static LINTS: &[Lint] = &[
     )
     .needs(Need::Procedures),
     lint("message-shapes", &[&MESSAGE_UNSHAPED, &PARAMETERS_ALIKE], Run::Device(message_shapes::check))
-        .of(TABLES)
+        .of(Format::TABLES)
         .needs(Need::Messages),
-    lint("messages", MESSAGES, Run::Device(messages::check)).of(TABLES).needs(Need::Messages),
-    lint("quantities", &[&QUANTITIES_DIFFER], Run::Device(quantities::check)).of(TABLES),
-    lint("conversions", &[&CONVERSION_DIFFERS], Run::Device(conversions::check)).of(TABLES),
+    lint("messages", MESSAGES, Run::Device(messages::check)).of(Format::TABLES).needs(Need::Messages),
+    lint("quantities", &[&QUANTITIES_DIFFER], Run::Device(quantities::check)).of(Format::TABLES),
+    lint("conversions", &[&CONVERSION_DIFFERS], Run::Device(conversions::check)).of(Format::TABLES),
     lint("modbus-examples", &[&EXAMPLE_DIFFERS], Run::Device(modbus_examples::check))
-        .of(TABLES)
+        .of(Format::TABLES)
         .needs(Need::ModbusExamples),
-    lint("number-gaps", &[&NUMBER_GAP], Run::Device(number_gaps::check)).of(TABLES),
-    lint("mentioned-objects", &[&MENTIONED_OBJECT], Run::Device(mentions::check)).of(TABLES),
-    lint("names-in-texts", &[&MENTIONED_OBJECT], Run::Device(item_names::check)).of(TABLES),
+    lint("number-gaps", &[&NUMBER_GAP], Run::Device(number_gaps::check)).of(Format::TABLES),
+    lint("mentioned-objects", &[&MENTIONED_OBJECT], Run::Device(mentions::check)).of(Format::TABLES),
+    lint("names-in-texts", &[&MENTIONED_OBJECT], Run::Device(item_names::check)).of(Format::TABLES),
     lint("window-widths", &[&NARROW_WINDOW, &WINDOW_ORDER], Run::Device(window_widths::check))
-        .of(TABLES)
+        .of(Format::TABLES)
         .needs(Need::Windows),
     lint("window-numbers", &[&TABLE_VALUE, &TABLE_PLACE], Run::Device(window_numbers::check))
-        .of(TABLES)
+        .of(Format::TABLES)
         .needs(Need::Windows),
     lint("records", &[&RECORD_BOUNDS, &PARAMETERS_OVERLAP], Run::Records(records::check)),
     lint("modules", &[&IO_LENGTH, &RECORD_SIZE, &SLOT_RANGE], Run::Catalog(modules::check)),

@@ -1,81 +1,125 @@
-//! Which format a file has: by its content, but that EDS and DCF, which share every section, go by the name.
+//! How the content of a file shows its format. Only EDS and DCF, which share every section, go by the name.
 
 use crate::diagnostics::{codes, Diagnostic};
 use crate::ir::Format;
 use crate::source::{FileId, Source, Span};
-use crate::syntax::ini::Document;
+use crate::syntax::ini::{Document, Section};
 
 /// How much of a file is looked at to find its root element or first sections.
 pub const LOOK_AHEAD: usize = 64 * 1024;
 
-/// The format of `source`, or an error that says what it is instead.
-///
-/// # Errors
-///
-/// One diagnostic: an EtherNet/IP EDS, an XML of another kind, or nothing that Lexibus knows.
-pub fn format(source: &Source, file: FileId) -> Result<Format, Box<Diagnostic>> {
+/// Recognizes a register table by the name of the file or its first key.
+pub(super) fn table(source: &Source) -> Option<Format> {
+    let start = source.text().trim_start();
+    let by_name = source.name().rsplit_once('.').is_some_and(|(_, extension)| extension.eq_ignore_ascii_case("toml"));
+    let mut lines = start.lines().map(str::trim).filter(|line| !line.is_empty() && !line.starts_with('#'));
+    let first = lines.next().unwrap_or_default();
+    let is_table = by_name || first.strip_prefix("lexibus").is_some_and(|rest| rest.trim_start().starts_with('='));
+    (is_table && !start.is_empty()).then_some(Format::Table)
+}
+
+/// Recognizes a GSDML file.
+pub(super) fn gsdml(source: &Source) -> Option<Format> {
+    (root_name(source)? == "ISO15745Profile" && is_gsdml(source.text())).then_some(Format::Gsdml)
+}
+
+/// Recognizes an XDD or XDC file.
+pub(super) fn xdd(source: &Source) -> Option<Format> {
+    matches!(root_name(source)?, "ISO15745ProfileContainer" | "ISO15745Profile").then_some(Format::Xdd)
+}
+
+/// Recognizes an ESI file, also one that has only modules, a dictionary or diagnosis messages.
+pub(super) fn esi(source: &Source) -> Option<Format> {
+    let roots = ["EtherCATInfo", "EtherCATInfoList", "EtherCATModule", "EtherCATDict", "EtherCATDiag"];
+    roots.contains(&root_name(source)?).then_some(Format::Esi)
+}
+
+/// Recognizes an EDS or DCF file of CANopen.
+pub(super) fn eds(source: &Source) -> Option<Format> {
+    if is_xml(source) {
+        return None;
+    }
+    let extension = source.name().rsplit_once('.').map(|(_, extension)| extension.to_ascii_lowercase());
+    let by_name = match extension.as_deref() {
+        Some("eds") => Some(Format::Eds),
+        Some("dcf") => Some(Format::Dcf),
+        _ => None,
+    };
+    // Nearly every file says in its first line what it is.
+    if by_name.is_some() && starts_as_canopen(source.text()) {
+        return by_name;
+    }
+    let document = Document::parse(source.text(), FileId(0));
+    let is_canopen = document.sections().iter().any(|section| is_canopen_section(document.name(section)));
+    if !is_canopen && (by_name.is_none() || cip_section(&document).is_some() || source.text().trim_start().is_empty()) {
+        return None;
+    }
+    let is_configuration = |section: &Section| {
+        let name = document.name(section);
+        ["DeviceComissioning", "DeviceCommissioning", "ConnectedModules"]
+            .iter()
+            .any(|known| known.eq_ignore_ascii_case(name))
+            || (name.eq_ignore_ascii_case("FileInfo")
+                && document.entries(section).any(|entry| document.key(&entry).eq_ignore_ascii_case("LastEDS")))
+    };
+    by_name.or_else(|| Some(if document.sections().iter().any(is_configuration) { Format::Dcf } else { Format::Eds }))
+}
+
+/// Returns the error for a file that no front end recognizes. It says what the file is instead.
+pub(super) fn unknown(source: &Source, file: FileId) -> Diagnostic {
     let text = source.text();
     let start = text.trim_start();
     let at = (text.len() - start.len()) as u32;
-    let whole = Span::new(file, at, at);
     if start.is_empty() {
-        return Err(Box::new(unknown(whole, "the file is empty")));
-    }
-    if is_table(source.name(), start) {
-        return Ok(Format::Table);
+        return unknown_format(Span::new(file, at, at), "the file is empty");
     }
     if start.starts_with('<') {
-        return xml(start, whole);
+        return unknown_xml(start, Span::new(file, at, at));
     }
-    ini(source, file)
+    match cip_section(&Document::parse(text, file)) {
+        Some(span) => Diagnostic::new(&codes::ETHERNET_IP_EDS, span, "this is an EtherNet/IP EDS, not a CANopen one")
+            .label("a section of ODVA's format")
+            .help("both kinds of file share the ending .eds and nothing else; ask the vendor for the CANopen EDS"),
+        None => unknown_format(Span::new(file, 0, 0), "this is no device description"),
+    }
 }
 
-/// Whether a file is a register table: by its name, or by its first key.
-fn is_table(name: &str, start: &str) -> bool {
-    let by_name = name.rsplit_once('.').is_some_and(|(_, extension)| extension.eq_ignore_ascii_case("toml"));
-    let mut lines = start.lines().map(str::trim).filter(|line| !line.is_empty() && !line.starts_with('#'));
-    let first = lines.next().unwrap_or_default();
-    by_name || first.strip_prefix("lexibus").is_some_and(|rest| rest.trim_start().starts_with('='))
-}
-
-/// The error for a format whose front end was left out of the build.
-#[cfg(not(all(feature = "eds", feature = "xdd", feature = "esi", feature = "gsdml")))]
-pub fn without_feature(format: Format, file: FileId) -> Diagnostic {
-    let feature = match format {
-        Format::Dcf => "eds",
-        _ => format.name(),
-    };
-    let message = format!("`lexibus-codegen` was built without the feature `{feature}`, which reads this format");
-    let help = format!("add it to the dependency: `lexibus-codegen = {{ …, features = [\"{feature}\"] }}`");
-    Diagnostic::new(&codes::UNKNOWN_FORMAT, Span::new(file, 0, 0), message).help(help)
-}
-
-fn unknown(span: Span, message: &str) -> Diagnostic {
+fn unknown_format(span: Span, message: &str) -> Diagnostic {
     Diagnostic::new(&codes::UNKNOWN_FORMAT, span, message)
         .help("Lexibus reads EDS and DCF files (CiA 306), XDD and XDC files (CiA 311), ESI (ETG.2000) and GSDML files")
 }
 
-fn xml(text: &str, span: Span) -> Result<Format, Box<Diagnostic>> {
-    let Some(root) = root_element(text) else {
-        return Err(Box::new(Diagnostic::new(&codes::MALFORMED_XML, span, "the file has no root element")));
+fn unknown_xml(text: &str, span: Span) -> Diagnostic {
+    let Some((root, offset)) = root_element(text) else {
+        return Diagnostic::new(&codes::MALFORMED_XML, span, "the file has no root element");
     };
-    let (root, offset) = root;
     let start = span.start + offset as u32;
     let at = Span::new(span.file, start, start + root.len() as u32);
-    match root.rsplit(':').next().unwrap_or(root) {
-        "ISO15745Profile" if is_gsdml(text) => Ok(Format::Gsdml),
-        "ISO15745ProfileContainer" | "ISO15745Profile" => Ok(Format::Xdd),
-        "EtherCATInfo" | "EtherCATInfoList" | "EtherCATModule" | "EtherCATDict" | "EtherCATDiag" => Ok(Format::Esi),
+    match local_name(root) {
         "EtherCATConfig" => {
             let message = "this is the configuration of an EtherCAT network (ENI), not the description of a device";
-            Err(Box::new(unknown(at, message).label("made by a master's tool from ESI files")))
+            unknown_format(at, message).label("made by a master's tool from ESI files")
         }
         name if name.starts_with("EtherCAT") || name == "SscToolConfiguration" => {
             let message = format!("this is no EtherCAT slave information: the root is <{name}>");
-            Err(Box::new(unknown(at, &message).label("expected EtherCATInfo or EtherCATInfoList")))
+            unknown_format(at, &message).label("expected EtherCATInfo or EtherCATInfoList")
         }
-        other => Err(Box::new(unknown(at, &format!("<{other}> is the root of no device description")).label("here"))),
+        other => unknown_format(at, &format!("<{other}> is the root of no device description")).label("here"),
     }
+}
+
+fn is_xml(source: &Source) -> bool {
+    source.text().trim_start().starts_with('<')
+}
+
+/// Returns the name of the root element without its prefix.
+fn root_name(source: &Source) -> Option<&str> {
+    let start = source.text().trim_start();
+    start.starts_with('<').then(|| root_element(start))?.map(|(name, _)| local_name(name))
+}
+
+fn local_name(name: &str) -> &str {
+    name.rsplit(':').next().unwrap_or(name)
 }
 
 /// Whether an ISO 15745 profile is that of a PROFINET device: a CANopen XDD has the same root element.
@@ -123,44 +167,11 @@ const CIP_SECTIONS: [&str; 9] = [
     "ParamClass",
 ];
 
-fn ini(source: &Source, file: FileId) -> Result<Format, Box<Diagnostic>> {
-    let extension = source.name().rsplit_once('.').map(|(_, extension)| extension.to_ascii_lowercase());
-    let by_name = match extension.as_deref() {
-        Some("eds") => Some(Format::Eds),
-        Some("dcf") => Some(Format::Dcf),
-        _ => None,
-    };
-    // Nearly every file says in its first line what it is.
-    if let Some(format) = by_name.filter(|_| starts_as_canopen(source.text())) {
-        return Ok(format);
-    }
-    let doc = Document::parse(source.text(), file);
-    let mut dcf = false;
-    let mut canopen = false;
-    let mut cip = None;
-    for section in doc.sections() {
-        let name = doc.name(section);
-        canopen |= is_canopen_section(name);
-        if cip.is_none() && CIP_SECTIONS.iter().any(|known| known.eq_ignore_ascii_case(name)) {
-            cip = Some(doc.name_span(section));
-        }
-        dcf |= ["DeviceComissioning", "DeviceCommissioning", "ConnectedModules"]
-            .iter()
-            .any(|known| known.eq_ignore_ascii_case(name));
-        dcf |= name.eq_ignore_ascii_case("FileInfo")
-            && doc.entries(section).any(|entry| doc.key(&entry).eq_ignore_ascii_case("LastEDS"));
-    }
-    if let (Some(span), false) = (cip, canopen) {
-        return Err(Box::new(
-            Diagnostic::new(&codes::ETHERNET_IP_EDS, span, "this is an EtherNet/IP EDS, not a CANopen one")
-                .label("a section of ODVA's format")
-                .help("both kinds of file share the ending .eds and nothing else; ask the vendor for the CANopen EDS"),
-        ));
-    }
-    if !canopen && by_name.is_none() {
-        return Err(Box::new(unknown(Span::new(file, 0, 0), "this is no device description")));
-    }
-    Ok(by_name.unwrap_or(if dcf { Format::Dcf } else { Format::Eds }))
+/// Returns the place of the first section that only ODVA's format has.
+fn cip_section(document: &Document<'_>) -> Option<Span> {
+    let mut sections = document.sections().iter();
+    let is_cip = |name: &str| CIP_SECTIONS.iter().any(|known| known.eq_ignore_ascii_case(name));
+    sections.find(|&section| is_cip(document.name(section))).map(|section| document.name_span(section))
 }
 
 /// Whether the first section is one that only CANopen has.
@@ -178,7 +189,9 @@ fn is_canopen_section(name: &str) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
+    use crate::frontend::format;
+    use crate::ir::Format;
+    use crate::source::{FileId, Source};
 
     fn detect(name: &str, text: &str) -> Result<Format, &'static str> {
         let source = Source::new(name, text.as_bytes().to_vec());

@@ -19,4 +19,5 @@ pub mod xdd;
 #[cfg_attr(not(all(feature = "esi", feature = "gsdml", feature = "xdd")), allow(dead_code, unused_imports))]
 mod xml;
 
+pub use read::format;
 pub(crate) use read::{read, Description};

@@ -1,19 +1,11 @@
-//! From a file to the front end of its format.
+//! The front ends: how each recognizes its files, and the function that reads them.
 
 use std::path::PathBuf;
 
-#[cfg(feature = "eds")]
-use super::eds;
-#[cfg(feature = "esi")]
-use super::esi;
-#[cfg(feature = "gsdml")]
-use super::gsdml;
-#[cfg(feature = "xdd")]
-use super::xdd;
 use super::{detect, table};
-use crate::diagnostics::Diagnostics;
+use crate::diagnostics::{codes, Diagnostic, Diagnostics};
 use crate::ir::{Catalog, Format};
-use crate::source::{FileId, References, Source};
+use crate::source::{FileId, References, Source, Span};
 
 /// What a file describes.
 pub(crate) struct Description {
@@ -27,6 +19,92 @@ pub(crate) struct Description {
     pub missing: Vec<PathBuf>,
 }
 
+/// What a front end reads.
+// Each front end uses a part of it.
+#[cfg_attr(not(all(feature = "eds", feature = "esi")), allow(dead_code))]
+struct Input<'s> {
+    source: &'s Source,
+    file: FileId,
+    /// Further names of `$NODEID` in formulas.
+    node_id_aliases: &'s [String],
+    /// Choices of the options of a register table.
+    choices: &'s [(String, String)],
+    /// Files that the source refers to.
+    references: References<'s>,
+}
+
+type Read = fn(&mut Input<'_>, &mut Diagnostics) -> Option<Catalog>;
+
+/// A front end in the order in which they are asked.
+struct FrontEnd {
+    /// Returns the format of a file of this front end.
+    recognize: fn(&Source) -> Option<Format>,
+    /// The cargo feature that includes it.
+    feature: &'static str,
+    /// `None` without the feature.
+    read: Option<Read>,
+}
+
+/// Names a function of a front end, or `None` without its feature.
+macro_rules! with_feature {
+    ($feature:literal, $read:expr) => {{
+        #[cfg(feature = $feature)]
+        let read: Option<Read> = Some($read);
+        #[cfg(not(feature = $feature))]
+        let read: Option<Read> = None;
+        read
+    }};
+}
+
+/// All front ends. The first one that recognizes a file reads it.
+const FRONT_ENDS: &[FrontEnd] = &[
+    FrontEnd {
+        recognize: detect::table,
+        feature: "table",
+        read: Some(|input, diagnostics| table::read(input.source, input.file, input.choices, diagnostics)),
+    },
+    FrontEnd {
+        recognize: detect::gsdml,
+        feature: "gsdml",
+        read: with_feature!("gsdml", |input, diagnostics| super::gsdml::read(input.source, input.file, diagnostics)),
+    },
+    FrontEnd {
+        recognize: detect::xdd,
+        feature: "xdd",
+        read: with_feature!("xdd", |input, diagnostics| {
+            super::xdd::read(input.source, input.file, input.node_id_aliases, diagnostics)
+        }),
+    },
+    FrontEnd {
+        recognize: detect::esi,
+        feature: "esi",
+        read: with_feature!("esi", |input, diagnostics| {
+            super::esi::read(input.source, input.file, &mut input.references, diagnostics)
+        }),
+    },
+    FrontEnd {
+        recognize: detect::eds,
+        feature: "eds",
+        read: with_feature!("eds", |input, diagnostics| {
+            super::eds::read(input.source, input.file, input.node_id_aliases, diagnostics)
+        }),
+    },
+];
+
+/// Returns the format of `source`.
+///
+/// # Errors
+///
+/// One diagnostic: an EtherNet/IP EDS, an XML of another kind, or nothing that Lexibus reads.
+pub fn format(source: &Source, file: FileId) -> Result<Format, Box<Diagnostic>> {
+    recognized(source, file).map(|(format, _)| format)
+}
+
+fn recognized(source: &Source, file: FileId) -> Result<(Format, &'static FrontEnd), Box<Diagnostic>> {
+    let found = FRONT_ENDS.iter().find_map(|front_end| Some(((front_end.recognize)(source)?, front_end)));
+    found.ok_or_else(|| Box::new(detect::unknown(source, file)))
+}
+
 /// Reads a file by the front end of its format. `node_id_aliases` are further names of `$NODEID`, `choices` those of the options of a
 /// register table.
 pub(crate) fn read(
@@ -35,37 +113,32 @@ pub(crate) fn read(
     choices: &[(String, String)],
     diagnostics: &mut Diagnostics,
 ) -> Description {
-    #[cfg(not(any(feature = "eds", feature = "xdd")))]
-    let _ = node_id_aliases;
     let file = FileId(0);
-    let format = match detect::format(source, file) {
-        Ok(format) => format,
+    let (format, front_end) = match recognized(source, file) {
+        Ok(recognized) => recognized,
         Err(diagnostic) => {
             diagnostics.push(*diagnostic);
             return Description { format: None, catalog: None, others: Vec::new(), missing: Vec::new() };
         }
     };
-    #[cfg_attr(not(feature = "esi"), allow(unused_mut))]
-    let mut references = References::new(source);
-    let catalog = match format {
-        #[cfg(feature = "eds")]
-        Format::Eds | Format::Dcf => eds::read(source, file, node_id_aliases, diagnostics),
-        #[cfg(feature = "xdd")]
-        Format::Xdd => xdd::read(source, file, node_id_aliases, diagnostics),
-        #[cfg(feature = "esi")]
-        Format::Esi => esi::read(source, file, &mut references, diagnostics),
-        #[cfg(feature = "gsdml")]
-        Format::Gsdml => gsdml::read(source, file, diagnostics),
-        Format::Table => table::read(source, file, choices, diagnostics),
-        #[cfg(not(all(feature = "eds", feature = "xdd", feature = "esi", feature = "gsdml")))]
-        _ => {
-            diagnostics.push(detect::without_feature(format, file));
+    let mut input = Input { source, file, node_id_aliases, choices, references: References::new(source) };
+    let catalog = match front_end.read {
+        Some(read) => read(&mut input, diagnostics),
+        None => {
+            diagnostics.push(without_feature(front_end.feature, file));
             None
         }
     };
     // A DCF differs from an EDS by the commissioning of the device, not by its file name.
     let mut devices = catalog.iter().flat_map(|catalog| &catalog.devices);
     let is_configuration = format == Format::Eds && devices.any(|device| device.commissioning.is_some());
-    let (others, missing) = references.into_files();
+    let (others, missing) = input.references.into_files();
     Description { format: Some(if is_configuration { Format::Dcf } else { format }), catalog, others, missing }
+}
+
+/// The error for a format whose front end was left out of the build.
+fn without_feature(feature: &str, file: FileId) -> Diagnostic {
+    let message = format!("`lexibus-codegen` was built without the feature `{feature}`, which reads this format");
+    let help = format!("add it to the dependency: `lexibus-codegen = {{ …, features = [\"{feature}\"] }}`");
+    Diagnostic::new(&codes::UNKNOWN_FORMAT, Span::new(file, 0, 0), message).help(help)
 }

@@ -3,8 +3,8 @@
 use thin_vec::ThinVec;
 
 use super::{
-    CodeTable, CompactString, Device, Family, Graphic, Module, ModuleId, ModuleUse, Places, Submodule, Texts, TypeDef,
-    UnitDiagnosis,
+    CodeTable, CompactString, Device, Family, Format, Graphic, Module, ModuleId, ModuleUse, Places, Submodule, Texts,
+    TypeDef, UnitDiagnosis,
 };
 use crate::source::{Encoding, Origin, Span};
 
@@ -41,58 +41,10 @@ impl Catalog {
         device.modules.extend(places.map(|module| ModuleUse { module, places: Places::default() }));
         Catalog { devices: vec![device], modules, ..Catalog::default() }
     }
-}
 
-/// The formats that Lexibus reads.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(rename_all = "lowercase"))]
-pub enum Format {
-    /// CANopen electronic data sheet (CiA 306).
-    Eds,
-    /// CANopen device configuration file (CiA 306).
-    Dcf,
-    /// CANopen device description or configuration in XML (CiA 311).
-    Xdd,
-    /// EtherCAT slave information (ETG.2000).
-    Esi,
-    /// PROFINET device description (GSDML).
-    Gsdml,
-    /// A register table of Lexibus.
-    Table,
-}
-
-impl Format {
-    /// The name that `lexibus info` prints.
-    pub fn name(self) -> &'static str {
-        match self {
-            Format::Eds => "eds",
-            Format::Dcf => "dcf",
-            Format::Xdd => "xdd",
-            Format::Esi => "esi",
-            Format::Gsdml => "gsdml",
-            Format::Table => "table",
-        }
-    }
-
-    /// Whether the format can describe the sub-indices of an object at once (CompactSubObj of CiA 306).
-    pub fn has_compact_objects(self) -> bool {
-        matches!(self, Format::Eds | Format::Dcf)
-    }
-
-    /// Whether the format gives defaults as bytes too (DefaultData of ETG.2000).
-    pub fn has_default_data(self) -> bool {
-        self == Format::Esi
-    }
-
-    /// Whether one element of the format can describe several items: a row of a table, a type or parameter of XML.
-    pub fn has_shared_descriptions(self) -> bool {
-        matches!(self, Format::Table | Format::Esi | Format::Xdd)
-    }
-
-    /// Whether the format is a transcript of a manual.
-    pub fn is_of_manual(self) -> bool {
-        self == Format::Table
+    /// Whether it describes devices and submodules of PROFINET.
+    pub fn is_of_profinet(&self) -> bool {
+        !self.submodules.is_empty() || self.devices.iter().any(|device| device.profinet.is_some())
     }
 }
 

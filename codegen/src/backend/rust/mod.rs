@@ -74,7 +74,7 @@ pub const INTERFACE_VERSION: u32 = 1;
 pub fn emit_catalog(catalog: &Catalog, options: &RustOptions) -> Option<String> {
     let file = catalog.files.first()?;
     #[cfg(feature = "gsdml")]
-    if file.format == crate::ir::Format::Gsdml {
+    if catalog.is_of_profinet() {
         return profinet::emit(catalog, file, options);
     }
     catalog::emit(catalog, file, options)

@@ -1,0 +1,74 @@
+//! The formats of descriptions.
+
+/// A format that Lexibus reads.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "lowercase"))]
+pub enum Format {
+    /// CANopen electronic data sheet (CiA 306).
+    Eds,
+    /// CANopen device configuration file (CiA 306).
+    Dcf,
+    /// CANopen device description or configuration in XML (CiA 311).
+    Xdd,
+    /// EtherCAT slave information (ETG.2000).
+    Esi,
+    /// PROFINET device description (GSDML).
+    Gsdml,
+    /// A register table of Lexibus.
+    Table,
+}
+
+impl Format {
+    /// All formats.
+    pub const ALL: &'static [Format] =
+        &[Format::Eds, Format::Dcf, Format::Xdd, Format::Esi, Format::Gsdml, Format::Table];
+
+    /// The formats of files by vendors: all except register tables.
+    pub const OF_VENDORS: &'static [Format] = &[Format::Eds, Format::Dcf, Format::Xdd, Format::Esi, Format::Gsdml];
+
+    /// Register tables alone.
+    pub const TABLES: &'static [Format] = &[Format::Table];
+
+    /// Returns the name that `lexibus info` prints.
+    pub fn name(self) -> &'static str {
+        match self {
+            Format::Eds => "eds",
+            Format::Dcf => "dcf",
+            Format::Xdd => "xdd",
+            Format::Esi => "esi",
+            Format::Gsdml => "gsdml",
+            Format::Table => "table",
+        }
+    }
+
+    /// Returns the endings of file names that only this format has.
+    pub fn endings(self) -> &'static [&'static str] {
+        match self {
+            Format::Eds => &["eds"],
+            Format::Dcf => &["dcf"],
+            Format::Xdd => &["xdd", "xdc", "xpd"],
+            Format::Esi | Format::Gsdml | Format::Table => &[],
+        }
+    }
+
+    /// Whether the format can describe the sub-indices of an object at once (CompactSubObj of CiA 306).
+    pub fn has_compact_objects(self) -> bool {
+        matches!(self, Format::Eds | Format::Dcf)
+    }
+
+    /// Whether the format gives defaults as bytes too (DefaultData of ETG.2000).
+    pub fn has_default_data(self) -> bool {
+        self == Format::Esi
+    }
+
+    /// Whether one element of the format can describe several items: a row of a table, a type or parameter of XML.
+    pub fn has_shared_descriptions(self) -> bool {
+        matches!(self, Format::Table | Format::Esi | Format::Xdd)
+    }
+
+    /// Whether the format is a transcript of a manual.
+    pub fn is_of_manual(self) -> bool {
+        self == Format::Table
+    }
+}
