@@ -7,7 +7,7 @@ use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use compile_support::{compile, compile_by_rustc, compile_in, document};
-use corpus_support::lane;
+use corpus_support::{lane, File};
 use lexibus_codegen::compile::{check, Options};
 use lexibus_codegen::source::Source;
 use lexibus_codegen::{Presence, RustOptions};
@@ -28,6 +28,24 @@ fn every_file_of_the_corpus_compiles_or_is_rejected_with_a_reason() {
         compile(name, text)
     });
     assert!(compiled > lane::at_least(500), "only {compiled} different devices");
+}
+
+/// Devices and modules of a file re-export the definitions that an earlier one has.
+#[test]
+fn all_devices_of_a_file_compile_and_are_documented_together() {
+    let cases = Path::new(env!("CARGO_MANIFEST_DIR")).join("../tests/ui/quirks-esi");
+    let case = std::fs::read(cases.join("equal-definitions-of-devices/input.xml")).expect("a case");
+    let mut files = vec![File { name: "a case".to_owned(), bytes: case }];
+    files.extend(corpus_support::files_of("esi").into_iter().flatten());
+    let options = Options { rust: everything(), ..Options::default() };
+    corpus_support::bindings::on_all_processors(files, |File { name, bytes }| {
+        let compilation = check(Source::new(name.as_str(), bytes), &options);
+        let count = compilation.catalog.as_ref().map_or(0, |own| own.devices.len());
+        if let Some(text) = compilation.rust(&options.rust).filter(|text| count > 1 && text.contains("pub use super")) {
+            compile(&name, &text).unwrap_or_else(|message| panic!("{message}"));
+            document(&name, &[&text]).unwrap_or_else(|message| panic!("{message}"));
+        }
+    });
 }
 
 const NASTY_NAMES: &str = "[DeviceInfo]\nProductName=\n\

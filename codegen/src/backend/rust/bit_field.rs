@@ -38,6 +38,18 @@ pub(super) struct BitFieldModel {
     pub views: Vec<ViewModel>,
 }
 
+impl BitFieldModel {
+    /// The names of the type and of its views.
+    pub(super) fn names(&self) -> Vec<&str> {
+        std::iter::once(&self.name).chain(self.views.iter().map(|view| &view.name)).map(String::as_str).collect()
+    }
+
+    /// The types of all fields.
+    pub(super) fn type_names(&self) -> impl Iterator<Item = &str> {
+        self.fields.iter().chain(self.views.iter().flat_map(|view| &view.fields)).map(|field| field.ty.as_str())
+    }
+}
+
 /// How a bit field is printed.
 pub(super) struct DebugModel {
     /// The attribute in front of it.

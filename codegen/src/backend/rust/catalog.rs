@@ -3,6 +3,7 @@
 use std::collections::{HashMap, HashSet};
 
 use super::code::Code;
+use super::definitions::Definitions;
 use super::device_names::module_name;
 use super::ethercat::ModulePaths;
 use super::model::Model;
@@ -46,8 +47,10 @@ pub(super) fn emit(catalog: &Catalog, file: &FileInfo, options: &RustOptions) ->
         }
         devices => {
             let paths = paths(&modules, &names, "super::modules");
+            let mut definitions = Definitions::new(&options.runtime);
             for (device, name) in devices.iter().zip(device_names(devices, file)) {
-                let model = Model::new(device, file, options, &paths);
+                let mut model = Model::new(device, file, options, &paths);
+                definitions.share(&mut model, &name);
                 code.module(&heading(&device.name, &name), &name, |code| print::model(code, &model));
             }
         }
@@ -55,9 +58,11 @@ pub(super) fn emit(catalog: &Catalog, file: &FileInfo, options: &RustOptions) ->
     if !modules.is_empty() {
         let about = "Modules that can be plugged in. Indices that depend on the slot are those of slot 0.";
         code.module(about, "modules", |code| {
-            for ((_, own), name) in modules.iter().zip(&names) {
-                let model = Model::of_module(own, options);
-                code.module(&heading(&own.name, name), name, |code| print::model(code, &model));
+            let mut definitions = Definitions::new(&options.runtime);
+            for ((_, module), name) in modules.iter().zip(&names) {
+                let mut model = Model::of_module(module, options);
+                definitions.share(&mut model, name);
+                code.module(&heading(&module.name, name), name, |code| print::model(code, &model));
             }
         });
     }

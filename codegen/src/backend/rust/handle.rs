@@ -28,8 +28,8 @@ pub(super) fn aliases(objects: &[ObjectModel]) -> Vec<Alias> {
 }
 
 /// Each type of a handle once, sorted by name.
-pub(super) fn types(objects: &[ObjectModel]) -> Vec<(String, &'static str, Vec<Doc>)> {
-    let all = objects.iter().flat_map(|object| &object.items);
+pub(super) fn types<'o>(objects: impl IntoIterator<Item = &'o ObjectModel>) -> Vec<(String, &'static str, Vec<Doc>)> {
+    let all = objects.into_iter().flat_map(|object| &object.items);
     let names: BTreeMap<&str, &ItemModel> = all.map(|item| (item.alias.as_str(), item)).collect();
     names.into_iter().map(|(name, item)| (name.to_owned(), item.access, item.arguments_beside.clone())).collect()
 }

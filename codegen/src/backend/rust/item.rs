@@ -25,6 +25,8 @@ pub(super) struct ItemModel {
     pub arguments: Vec<Doc>,
     pub arguments_at_top: Vec<Doc>,
     pub arguments_beside: Vec<Doc>,
+    /// The enumeration or the bit field that the value is.
+    pub type_name: Option<String>,
     /// The private name of the handle's type: one without parameters, so that `rustc` has nothing to infer.
     pub alias: String,
     /// The call that makes the handle, without its type.
@@ -99,6 +101,7 @@ pub(super) fn model(
         arguments: types(outer),
         arguments_at_top: types(""),
         arguments_beside: types("super::"),
+        type_name: ty.named.map(str::to_owned),
         alias: format!("{}{}{on}", alias(item.access), ty.word()),
         constructor: arguments.constructor(&place, || locations.code(context, &place, outer)),
         real: ty.basic.is_real() && (item.default.is_some() || !item.limits.is_empty()),

@@ -25,6 +25,20 @@ pub(super) struct MachineModel {
 }
 
 impl MachineModel {
+    fn types(&self) -> impl Iterator<Item = &PatternsModel> {
+        self.states.iter().chain(&self.commands)
+    }
+
+    /// The types of states and of commands.
+    pub(super) fn names(&self) -> impl Iterator<Item = &str> {
+        self.types().map(|own| own.name.as_str())
+    }
+
+    /// The bit fields that it adds methods to.
+    pub(super) fn bit_fields(&self) -> impl Iterator<Item = &str> {
+        self.types().filter_map(|own| Some(own.bits.as_ref()?.0.as_str()))
+    }
+
     /// Whether there is a list of transitions.
     pub(super) fn has_transitions(&self) -> bool {
         self.states.is_some() && self.commands.is_some() && self.transitions.is_some()

@@ -25,6 +25,7 @@ use super::objects::{self, ObjectModel};
 use super::options::{Presence, RustOptions};
 use super::pdo::{self, PdoModel};
 use super::procedure::{self, ProcedureModel};
+use super::reexport::Reexport;
 use super::remap::{self, RemappableModel};
 use super::scope::{ObjectBus, Scope};
 use super::table::{self, EntryModel};
@@ -91,6 +92,10 @@ pub(super) struct Model {
     pub module: Option<Doc>,
     pub table: Option<Vec<EntryModel>>,
     pub table_feature: Option<String>,
+    /// Whether the file has further devices or modules, which may use its definitions.
+    pub is_one_of_several: bool,
+    /// The definitions that earlier ones of these have.
+    pub reexports: Vec<Reexport>,
 }
 
 impl Model {

@@ -15,6 +15,8 @@ pub(super) struct Types {
     /// By the positions of their definitions.
     pub bit_fields: Vec<(u32, BitFieldModel)>,
     pub machines: Vec<MachineModel>,
+    /// Whether the device has bit fields, which an earlier device may have, too.
+    pub has_bit_fields: bool,
 }
 
 impl Types {
@@ -33,7 +35,7 @@ impl Types {
         };
         let bit_fields: Vec<_> = names.bit_fields.iter().map(bit_field).collect();
         let machines = machine::models(context, machines, &bit_fields, &enumerations, options);
-        Types { enumerations, bit_fields, machines }
+        Types { has_bit_fields: !bit_fields.is_empty(), enumerations, bit_fields, machines }
     }
 
     pub(super) fn is_empty(&self) -> bool {

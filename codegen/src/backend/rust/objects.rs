@@ -20,6 +20,8 @@ pub(super) struct ObjectModel {
     pub constants: String,
     pub items: Vec<ItemModel>,
     pub is_module: bool,
+    /// Whether an earlier device of the file has the definition.
+    pub is_reexported: bool,
     pub method_allow: Option<String>,
 }
 
@@ -56,6 +58,7 @@ fn register(context: &Context<'_>, locations: &Locations, chapter: &str, own: &I
         name: names::escaped(name),
         items: vec![model],
         is_module: false,
+        is_reexported: false,
     }
 }
 
@@ -86,6 +89,7 @@ fn object(context: &Context<'_>, locations: &Locations, group: &Group, name: &st
         name: names::escaped(name),
         items,
         is_module,
+        is_reexported: false,
     }
 }
 

@@ -342,6 +342,14 @@ impl<'a> PdoModels<'a> {
 }
 
 impl PdoModel {
+    /// The enumerations that its fields are.
+    pub(super) fn type_names(&self) -> impl Iterator<Item = &str> {
+        self.fields.iter().filter_map(|field| match &field.kind {
+            FieldType::Named(name, _) => Some(name.as_str()),
+            _ => None,
+        })
+    }
+
     /// The attribute that the names of a view's methods need.
     pub(super) fn view_allow(&self) -> Option<String> {
         method_allow(self.fields.iter().map(|field| field.getter.as_str()))

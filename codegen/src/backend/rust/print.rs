@@ -1,21 +1,22 @@
 //! The last stage: writes the models down. The functions have the order and the shape of the output.
 
 mod accessors;
-mod bit_field;
-mod codes;
+pub(super) mod bit_field;
+pub(super) mod codes;
 mod device;
 mod given;
-mod image;
+pub(super) mod image;
 mod mapping;
 mod messages;
-mod objects;
-mod pdos;
+pub(super) mod objects;
+pub(super) mod pdos;
 mod procedures;
 #[cfg(feature = "gsdml")]
 pub(super) mod profinet;
+mod section;
 mod table;
-mod types;
-mod views;
+pub(super) mod types;
+pub(super) mod views;
 
 use super::code::Code;
 use super::model::Model;
@@ -28,13 +29,13 @@ pub(super) fn model(code: &mut Code, model: &Model) {
     given::models(code, &model.models);
     given::machine(code, model.given.as_ref());
     messages::write(code, model);
-    types::write(code, &model.types);
-    codes::write(code, &model.code_tables);
+    types::write(code, model);
+    codes::write(code, model);
     procedures::write(code, &model.procedures);
     objects::write(code, model);
     mapping::write(code, model);
-    pdos::write(code, &model.pdos);
+    pdos::write(code, model);
     views::write(code, model);
-    image::write(code, model.ethercat.as_ref());
+    image::write(code, model);
     table::write(code, model);
 }

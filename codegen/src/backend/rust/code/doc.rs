@@ -20,7 +20,7 @@ pub(super) enum Mark {
     Open,
     /// Begins the fields of a struct's literal; `is_long` if they are never on one line.
     OpenStruct { is_long: bool },
-    /// Begins a list of numbers: a broken line has as many as fit.
+    /// Begins a list of numbers or names: a broken line has as many as fit.
     OpenNumbers,
     /// Is between members.
     Next,
@@ -272,6 +272,16 @@ impl Data {
         if members.iter().all(is_number) {
             doc.marks[0].1 = Mark::OpenNumbers;
         }
+        doc
+    }
+
+    /// The end of an import: the name, or `{…}` filled with as many names a line as fit.
+    pub fn names(names: &[String]) -> Doc {
+        if let [only] = names {
+            return Doc::from(only.as_str());
+        }
+        let mut doc = list("{", names, "}");
+        doc.marks[0].1 = Mark::OpenNumbers;
         doc
     }
 

@@ -33,6 +33,11 @@ pub(in super::super) struct ImageField {
 }
 
 impl ImageModel {
+    /// The name of its view.
+    pub(in super::super) fn view_name(&self) -> String {
+        format!("{}View", self.name)
+    }
+
     /// The attribute that the names of the view's methods need.
     pub(in super::super) fn view_allow(&self) -> Option<String> {
         method_allow(self.fields.iter().map(|field| field.name.as_str()))

@@ -4,7 +4,7 @@ use crate::backend::rust::bit_field::{BitFieldModel, DebugModel, FieldModel, Vie
 use crate::backend::rust::code::{call, line, open, seq, Code};
 use crate::backend::rust::links;
 
-pub(super) fn write(code: &mut Code, own: &BitFieldModel) {
+pub(in crate::backend::rust) fn write(code: &mut Code, own: &BitFieldModel) {
     code.docs(&own.docs);
     code.lines(&own.derives);
     line!(code, "pub struct ", own.name, "(", own.native, ");");

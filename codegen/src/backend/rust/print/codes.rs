@@ -1,31 +1,33 @@
 //! Tables of codes.
 
+use super::section;
 use crate::backend::rust::code::{line, open, Code};
 use crate::backend::rust::code_table::CodeTableModel;
 use crate::backend::rust::code_type::CodeTypeModel;
+use crate::backend::rust::model::Model;
+use crate::backend::rust::reexport::Section;
 
-pub(super) fn write(code: &mut Code, tables: &[CodeTableModel]) {
-    if tables.is_empty() {
-        return;
+pub(super) fn write(code: &mut Code, model: &Model) {
+    let tables = &model.code_tables;
+    let heading = "Tables of codes. `rt::codes::find` looks a code up.";
+    section::write(code, model, Section::Codes, heading, (!tables.is_empty()).then_some(true), |code| {
+        tables.iter().for_each(|own| table(code, own));
+    });
+}
+
+pub(in crate::backend::rust) fn table(code: &mut Code, table: &CodeTableModel) {
+    code.docs(&table.docs);
+    if table.has_real {
+        line!(code, "#[allow(clippy::approx_constant)]");
     }
-    code.doc("Tables of codes. `rt::codes::find` looks a code up.");
-    open!(code, "pub mod codes {");
-    code.use_runtime();
-    for table in tables {
-        code.docs(&table.docs);
-        if table.has_real {
-            line!(code, "#[allow(clippy::approx_constant)]");
-        }
-        open!(code, "pub static ", table.name, ": &[rt::codes::Code] = &[");
-        for row in &table.rows {
-            line!(code, row, ",");
-        }
-        code.close("];");
-        if let Some(own) = &table.ty {
-            self::ty(code, table, own);
-        }
+    open!(code, "pub static ", table.name, ": &[rt::codes::Code] = &[");
+    for row in &table.rows {
+        line!(code, row, ",");
     }
-    code.close("}");
+    code.close("];");
+    if let Some(own) = &table.ty {
+        self::ty(code, table, own);
+    }
 }
 
 fn ty(code: &mut Code, table: &CodeTableModel, own: &CodeTypeModel) {

@@ -1,20 +1,24 @@
 //! The process image by default.
 
+use super::section;
 use crate::backend::rust::code::{call, generic, line, open, seq, Code, Doc, Stop};
-use crate::backend::rust::ethercat::{EtherCatModel, ImageModel};
+use crate::backend::rust::ethercat::ImageModel;
+use crate::backend::rust::model::Model;
+use crate::backend::rust::reexport::Section;
 
 const ERROR: &str = "When `data` has fewer bytes than the image.";
 
-pub(super) fn write(code: &mut Code, ethercat: Option<&EtherCatModel>) {
-    let Some(ethercat) = ethercat.filter(|own| !own.images.is_empty()) else { return };
-    code.doc("The process image by default, sync manager by sync manager.");
-    open!(code, "pub mod image {");
-    code.use_runtime();
-    for image in &ethercat.images {
-        structure(code, image);
-        view(code, image);
-    }
-    code.close("}");
+pub(super) fn write(code: &mut Code, model: &Model) {
+    let images = model.ethercat.as_ref().map_or(&[][..], |own| &own.images);
+    let heading = "The process image by default, sync manager by sync manager.";
+    section::write(code, model, Section::Image, heading, (!images.is_empty()).then_some(true), |code| {
+        images.iter().for_each(|own| image(code, own));
+    });
+}
+
+pub(in crate::backend::rust) fn image(code: &mut Code, image: &ImageModel) {
+    structure(code, image);
+    view(code, image);
 }
 
 fn structure(code: &mut Code, image: &ImageModel) {
@@ -65,11 +69,11 @@ fn unpack(code: &mut Code, image: &ImageModel) {
 
 fn view(code: &mut Code, image: &ImageModel) {
     code.doc(&format!("{} Read and written where it stands.", image.title));
-    open!(code, "pub struct ", image.name, "View<B> {");
+    open!(code, "pub struct ", image.view_name(), "<B> {");
     line!(code, "data: B,");
     code.close("}");
     code.lines(image.view_allow());
-    open!(code, "impl<B: AsRef<[u8]>> ", image.name, "View<B> {");
+    open!(code, "impl<B: AsRef<[u8]>> ", image.view_name(), "<B> {");
     code.docs_with_error("The image in `data`.", ERROR);
     line!(code, "#[inline]");
     open!(code, "pub fn new(data: B) -> Result<Self, rt::LengthError> {");
@@ -82,7 +86,7 @@ fn view(code: &mut Code, image: &ImageModel) {
     }
     code.close("}");
     code.lines(image.view_mut_allow());
-    open!(code, "impl<B: AsMut<[u8]>> ", image.name, "View<B> {");
+    open!(code, "impl<B: AsMut<[u8]>> ", image.view_name(), "<B> {");
     for field in &image.fields {
         let method = call!(seq!["pub fn ", field.name_mut], "&mut self");
         pdo(code, [&field.docs, &field.pdo], (method, "&mut [u8]", "as_mut"), field.bit);

@@ -1,9 +1,11 @@
 //! The handles of objects and registers, and the windows through which some are found.
 
+use super::section;
 use crate::backend::rust::code::{call, generic, line, list, open, seq, Code, Doc, Stop};
 use crate::backend::rust::item::ItemModel;
 use crate::backend::rust::model::Model;
 use crate::backend::rust::objects::ObjectModel;
+use crate::backend::rust::reexport::Section;
 use crate::backend::rust::window_model::WindowModel;
 
 pub(super) fn write(code: &mut Code, model: &Model) {
@@ -11,19 +13,12 @@ pub(super) fn write(code: &mut Code, model: &Model) {
     if model.objects.is_empty() {
         return;
     }
-    code.doc(&format!("A handle for every {}.", model.handles[0]));
-    open!(code, "pub mod objects {");
-    code.use_runtime();
-    locations(code, model);
-    handle_types(code, model);
-    for object in &model.objects {
-        if object.is_module {
-            self::object(code, object, model.has_accessors);
-        } else {
-            object.items.iter().for_each(|item| handle(code, item, ""));
-        }
-    }
-    code.close("}");
+    let heading = format!("A handle for every {}.", model.handles[0]);
+    section::write(code, model, Section::Objects, &heading, Some(true), |code| {
+        locations(code, model);
+        handle_types(code, model);
+        model.objects.iter().filter(|own| !own.is_reexported).for_each(|own| object(code, model, own));
+    });
 }
 
 fn windows(code: &mut Code, windows: &[WindowModel]) {
@@ -90,18 +85,23 @@ fn handle_types(code: &mut Code, model: &Model) {
     }
 }
 
-/// An object of several values.
-fn object(code: &mut Code, object: &ObjectModel, has_accessors: bool) {
+/// An object: the module of its values, or its only one.
+pub(in crate::backend::rust) fn object(code: &mut Code, model: &Model, object: &ObjectModel) {
+    if !object.is_module {
+        return object.items.iter().for_each(|item| handle(code, item, ""));
+    }
     code.docs(&object.docs);
     open!(code, "pub mod ", object.name, " {");
     if object.names_runtime() {
         code.use_runtime();
     }
     object.items.iter().for_each(|item| handle(code, item, "super::"));
-    if has_accessors {
+    if model.has_accessors {
         code.doc(&format!("Access to the entries of {}", object.heading));
         open!(code, "pub struct Accessors<'c, C> {");
-        line!(code, "pub(in super::super) client: &'c mut C,");
+        // Methods of the device make it, those of other devices too if there are several.
+        let users = if model.is_one_of_several { "super::super::super" } else { "super::super" };
+        line!(code, "pub(in ", users, ") client: &'c mut C,");
         code.close("}");
         code.lines(&object.method_allow);
         open!(code, "impl<C> Accessors<'_, C> {");

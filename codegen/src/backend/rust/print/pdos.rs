@@ -1,20 +1,19 @@
 //! PDO structs.
 
+use super::section;
 use crate::backend::rust::code::{line, open, Code};
+use crate::backend::rust::model::Model;
 use crate::backend::rust::pdo::PdoModel;
+use crate::backend::rust::reexport::Section;
 
-pub(super) fn write(code: &mut Code, pdos: &[PdoModel]) {
-    if pdos.is_empty() {
-        return;
-    }
-    code.doc("Process data objects as they are mapped by default.");
-    open!(code, "pub mod pdo {");
-    code.use_runtime();
-    pdos.iter().for_each(|own| pdo(code, own));
-    code.close("}");
+pub(super) fn write(code: &mut Code, model: &Model) {
+    let heading = "Process data objects as they are mapped by default.";
+    section::write(code, model, Section::Pdo, heading, (!model.pdos.is_empty()).then_some(true), |code| {
+        model.pdos.iter().for_each(|own| pdo(code, own));
+    });
 }
 
-fn pdo(code: &mut Code, pdo: &PdoModel) {
+pub(in crate::backend::rust) fn pdo(code: &mut Code, pdo: &PdoModel) {
     code.docs(&pdo.docs);
     code.lines(&pdo.derives);
     open!(code, "pub struct ", pdo.name, " {");

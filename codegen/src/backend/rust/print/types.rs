@@ -1,30 +1,27 @@
 //! Enumerations, bit fields and state machines.
 
-use super::bit_field;
+use super::{bit_field, section};
 use crate::backend::rust::code::{call, generic, line, open, seq, Code};
 use crate::backend::rust::enumeration::EnumerationModel;
 use crate::backend::rust::machine::{MachineModel, PatternsModel};
-use crate::backend::rust::named::Types;
+use crate::backend::rust::model::Model;
+use crate::backend::rust::reexport::Section;
 
-pub(super) fn write(code: &mut Code, types: &Types) {
-    if types.is_empty() {
-        return;
-    }
-    code.doc(match types.bit_fields.is_empty() {
-        true => "Values that have names.",
-        false => "Values and bits that have names.",
+pub(super) fn write(code: &mut Code, model: &Model) {
+    let types = &model.types;
+    let heading = match types.has_bit_fields {
+        false => "Values that have names.",
+        true => "Values and bits that have names.",
+    };
+    let names_runtime = (!types.is_empty()).then(|| types.names_runtime());
+    section::write(code, model, Section::Types, heading, names_runtime, |code| {
+        types.enumerations.iter().for_each(|(_, own)| enumeration(code, own));
+        types.bit_fields.iter().for_each(|(_, own)| bit_field::write(code, own));
+        types.machines.iter().for_each(|own| machine(code, own));
     });
-    open!(code, "pub mod types {");
-    if types.names_runtime() {
-        code.use_runtime();
-    }
-    types.enumerations.iter().for_each(|(_, own)| enumeration(code, own));
-    types.bit_fields.iter().for_each(|(_, own)| bit_field::write(code, own));
-    types.machines.iter().for_each(|own| machine(code, own));
-    code.close("}");
 }
 
-fn enumeration(code: &mut Code, own: &EnumerationModel) {
+pub(in crate::backend::rust) fn enumeration(code: &mut Code, own: &EnumerationModel) {
     let (name, native) = (&own.name, own.native);
     code.docs(&own.docs);
     code.lines(&own.derives);
@@ -85,7 +82,7 @@ fn from_raw(code: &mut Code, own: &EnumerationModel) {
     code.close("}");
 }
 
-fn machine(code: &mut Code, own: &MachineModel) {
+pub(in crate::backend::rust) fn machine(code: &mut Code, own: &MachineModel) {
     if let Some(own) = &own.states {
         states(code, own);
     }

@@ -1,8 +1,10 @@
 //! Views of PDOs within a process image.
 
+use super::section;
 use crate::backend::rust::code::{call, line, open, seq, Code};
 use crate::backend::rust::model::Model;
 use crate::backend::rust::pdo::PdoModel;
+use crate::backend::rust::reexport::Section;
 
 const ERROR: &str = "When `data` ends before the PDO does.";
 
@@ -10,18 +12,19 @@ pub(super) fn write(code: &mut Code, model: &Model) {
     if !model.has_views {
         return;
     }
-    code.doc("PDOs within a process image, read and written where they stand.");
-    open!(code, "pub mod view {");
-    code.use_runtime();
-    model.pdos.iter().for_each(|pdo| view(code, pdo));
-    code.close("}");
+    let heading = "PDOs within a process image, read and written where they stand.";
+    section::write(code, model, Section::View, heading, (!model.pdos.is_empty()).then_some(true), |code| {
+        model.pdos.iter().for_each(|pdo| view(code, pdo, model.is_one_of_several));
+    });
 }
 
-fn view(code: &mut Code, pdo: &PdoModel) {
+/// The view of a PDO. Images make views, those of other devices too if there are several.
+pub(in crate::backend::rust) fn view(code: &mut Code, pdo: &PdoModel, is_one_of_several: bool) {
+    let visibility = if is_one_of_several { "pub(in super::super)" } else { "pub(super)" };
     code.docs(&pdo.view_docs);
     open!(code, "pub struct ", pdo.name, "<B> {");
-    line!(code, "pub(super) data: B,");
-    line!(code, "pub(super) bit: usize,");
+    line!(code, visibility, " data: B,");
+    line!(code, visibility, " bit: usize,");
     code.close("}");
     code.lines(pdo.view_allow());
     open!(code, "impl<B: AsRef<[u8]>> ", pdo.name, "<B> {");

@@ -1,0 +1,174 @@
+//! Definitions that several devices or modules of a file have in common: the first one has them, the others re-export them.
+
+use std::collections::HashMap;
+
+use super::bit_field::BitFieldModel;
+use super::code::Code;
+use super::handle;
+use super::machine::MachineModel;
+use super::model::Model;
+use super::naming::handles::is_cased;
+use super::objects::ObjectModel;
+use super::print;
+use super::reexport::{Reexport, Section};
+
+/// The definitions of all devices so far.
+pub(super) struct Definitions {
+    runtime: String,
+    /// By the code and the numbers of the definitions that the code names: equal code may name different types.
+    numbers: HashMap<(String, Vec<usize>), usize>,
+    /// The module of the device that has each definition, by its number.
+    homes: Vec<String>,
+}
+
+impl Definitions {
+    /// No definitions. Their code names the runtime by this path.
+    pub fn new(runtime: &str) -> Self {
+        Definitions { runtime: runtime.to_owned(), numbers: HashMap::new(), homes: Vec::new() }
+    }
+
+    /// Replaces the definitions of `model`, which is in `module`, that an earlier device has by re-exports.
+    pub fn share(&mut self, model: &mut Model, module: &str) {
+        model.is_one_of_several = true;
+        let mut device = Device { all: self, module, numbers: HashMap::new(), reexports: Vec::new() };
+        device.share_types(model);
+        device.share_codes(model);
+        device.share_objects(model);
+        device.share_process_data(model);
+        model.reexports = device.reexports;
+    }
+}
+
+/// The definitions of one device.
+struct Device<'d> {
+    all: &'d mut Definitions,
+    module: &'d str,
+    /// The numbers of the definitions so far, by section and name.
+    numbers: HashMap<(Section, String), usize>,
+    reexports: Vec<Reexport>,
+}
+
+impl Device<'_> {
+    /// Adds a definition of these names, whose code names `used` as far as the device has them. Returns whether no earlier device has it.
+    fn is_new<'n>(
+        &mut self,
+        sections: &[Section],
+        names: &[&str],
+        used: impl Iterator<Item = (Section, &'n str)>,
+        write: &dyn Fn(&mut Code),
+    ) -> bool {
+        let mut code = Code::new(String::new(), &self.all.runtime);
+        write(&mut code);
+        let used = used.filter_map(|(section, name)| self.numbers.get(&(section, name.to_owned())).copied()).collect();
+        let next = self.all.homes.len();
+        let number = *self.all.numbers.entry((code.finish(), used)).or_insert(next);
+        let is_new = number == next;
+        if is_new {
+            self.all.homes.push(self.module.to_owned());
+        }
+        for section in sections {
+            self.numbers.extend(names.iter().map(|name| ((*section, (*name).to_owned()), number)));
+            if !is_new {
+                self.reexport(*section, number, names);
+            }
+        }
+        is_new
+    }
+
+    fn reexport(&mut self, section: Section, number: usize, names: &[&str]) {
+        let home = &self.all.homes[number];
+        let names = names.iter().map(|name| (*name).to_owned());
+        match self.reexports.iter_mut().find(|own| own.section == section && own.home == *home) {
+            Some(own) => own.names.extend(names),
+            None => self.reexports.push(Reexport { section, home: home.clone(), names: names.collect() }),
+        }
+    }
+
+    fn share_types(&mut self, model: &mut Model) {
+        let types = &mut model.types;
+        types.enumerations.retain(|(_, enumeration)| {
+            let write = |code: &mut Code| print::types::enumeration(code, enumeration);
+            self.is_new(&[Section::Types], &[&enumeration.name], std::iter::empty(), &write)
+        });
+        // Machines add methods to bit fields, so these are only shared together.
+        let machines = std::mem::take(&mut types.machines);
+        let has_methods =
+            |own: &BitFieldModel| machines.iter().flat_map(MachineModel::bit_fields).any(|name| name == own.name);
+        types.bit_fields.retain(|(_, own)| {
+            let write = |code: &mut Code| print::bit_field::write(code, own);
+            has_methods(own) || self.is_new(&[Section::Types], &own.names(), in_types(own.type_names()), &write)
+        });
+        if machines.is_empty() {
+            return;
+        }
+        let with_methods: Vec<&BitFieldModel> =
+            types.bit_fields.iter().map(|(_, own)| own).filter(|own| has_methods(own)).collect();
+        let names =
+            machines.iter().flat_map(MachineModel::names).chain(with_methods.iter().flat_map(|own| own.names()));
+        let write = |code: &mut Code| {
+            with_methods.iter().for_each(|own| print::bit_field::write(code, own));
+            machines.iter().for_each(|own| print::types::machine(code, own));
+        };
+        let used = in_types(with_methods.iter().flat_map(|own| own.type_names()));
+        if self.is_new(&[Section::Types], &names.collect::<Vec<_>>(), used, &write) {
+            types.machines = machines;
+        } else {
+            types.bit_fields.retain(|(_, own)| !has_methods(own));
+        }
+    }
+
+    fn share_codes(&mut self, model: &mut Model) {
+        model.code_tables.retain(|table| {
+            let mut names = vec![table.name.as_str()];
+            names.extend(table.ty.as_ref().map(|own| own.name.as_str()).filter(|name| *name != table.name));
+            self.is_new(&[Section::Codes], &names, std::iter::empty(), &|code| print::codes::table(code, table))
+        });
+    }
+
+    fn share_objects(&mut self, model: &mut Model) {
+        if model.has_locations || !model.makers.is_empty() || !model.windows.is_empty() {
+            return;
+        }
+        let is_reexported = |object: &ObjectModel| {
+            let name = match object.items.as_slice() {
+                [only] if !object.is_module => &only.constant,
+                _ => &object.name,
+            };
+            let write = |code: &mut Code| {
+                code.line(&[&model.location]);
+                print::objects::object(code, model, object);
+            };
+            let used = in_types(object.items.iter().filter_map(|item| item.type_name.as_deref()));
+            // A constant and a module may have one name without letters, which would re-export both.
+            is_cased(&object.name) && !self.is_new(&[Section::Objects], &[name], used, &write)
+        };
+        let reexported: Vec<bool> = model.objects.iter().map(is_reexported).collect();
+        for (object, is_reexported) in model.objects.iter_mut().zip(reexported) {
+            object.is_reexported = is_reexported;
+        }
+        model.handle_types = handle::types(model.objects.iter().filter(|object| !object.is_reexported));
+    }
+
+    fn share_process_data(&mut self, model: &mut Model) {
+        let sections = if model.has_views { &[Section::Pdo, Section::View][..] } else { &[Section::Pdo] };
+        model.pdos.retain(|pdo| {
+            let write = |code: &mut Code| {
+                print::pdos::pdo(code, pdo);
+                print::views::view(code, pdo, true);
+            };
+            self.is_new(sections, &[&pdo.name], in_types(pdo.type_names()), &write)
+        });
+        let Some(ethercat) = &mut model.ethercat else { return };
+        ethercat.images.retain(|image| {
+            let used = image.fields.iter().map(|field| (Section::Pdo, field.pdo.as_str()));
+            let names = [image.name.clone(), image.view_name()];
+            self.is_new(&[Section::Image], &names.each_ref().map(String::as_str), used, &|code| {
+                print::image::image(code, image)
+            })
+        });
+    }
+}
+
+fn in_types<'n>(names: impl Iterator<Item = &'n str>) -> impl Iterator<Item = (Section, &'n str)> {
+    names.map(|name| (Section::Types, name))
+}

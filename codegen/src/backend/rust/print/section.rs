@@ -1,0 +1,34 @@
+//! Modules of definitions.
+
+use crate::backend::rust::code::{line, Code, Data};
+use crate::backend::rust::model::Model;
+use crate::backend::rust::reexport::{Reexport, Section};
+
+/// A section of a device: the definitions of earlier devices, and those of its own. Nothing if there are none.
+///
+/// `names_runtime` is `None` if the device has none of its own, and tells whether their code names the runtime if it has some.
+pub(super) fn write(
+    code: &mut Code,
+    model: &Model,
+    section: Section,
+    heading: &str,
+    names_runtime: Option<bool>,
+    content: impl FnOnce(&mut Code),
+) {
+    let mut reexports = model.reexports.iter().filter(|own| own.section == section).peekable();
+    if names_runtime.is_none() && reexports.peek().is_none() {
+        return;
+    }
+    code.module(heading, section.name(), |code| {
+        reexports.for_each(|own| reexport(code, own));
+        if names_runtime == Some(true) {
+            code.use_runtime();
+        }
+        content(code);
+    });
+}
+
+fn reexport(code: &mut Code, own: &Reexport) {
+    let names = Data::names(&own.names);
+    line!(code, "pub use super::super::", own.home, "::", own.section.name(), "::", names, ";");
+}

@@ -1,0 +1,115 @@
+    /// Values that have names.
+    pub mod types {
+        use ::lexibus as rt;
+        /// DT0800EN08.
+        ///
+        /// Values of [`MODE`](super::objects::MODE).
+        ///
+        /// | Value | Name |
+        /// |---|---|
+        /// | 0 | [`Off`](Self::Off) |
+        #[derive(Clone, Copy, Debug, PartialEq)]
+        pub enum Dt0800En08 {
+            /// 0: Off.
+            Off,
+            /// Any other number.
+            Unknown(u8),
+        }
+        impl Dt0800En08 {
+            /// The value of a number.
+            pub const fn from_raw(raw: u8) -> Self {
+                match raw {
+                    0 => Self::Off,
+                    other => Self::Unknown(other),
+                }
+            }
+            /// The number of a value.
+            pub const fn raw(self) -> u8 {
+                match self {
+                    Self::Off => 0,
+                    Self::Unknown(other) => other,
+                }
+            }
+        }
+        impl rt::Enumeration for Dt0800En08 {
+            type Base = u8;
+            fn from_native(native: u8) -> Self {
+                Self::from_raw(native)
+            }
+            fn native(self) -> u8 {
+                self.raw()
+            }
+        }
+    }
+    /// Values that have names.
+    pub mod types {
+        pub use super::super::d1::types::Dt0800En08;
+    }
+    /// Values that have names.
+    pub mod types {
+        use ::lexibus as rt;
+        /// DT0800EN08.
+        ///
+        /// Values of [`MODE`](super::objects::MODE).
+        ///
+        /// | Value | Name |
+        /// |---|---|
+        /// | 0 | [`Stopped`](Self::Stopped) |
+        #[derive(Clone, Copy, Debug, PartialEq)]
+        pub enum Dt0800En08 {
+            /// 0: Stopped.
+            Stopped,
+            /// Any other number.
+            Unknown(u8),
+        }
+        impl Dt0800En08 {
+            /// The value of a number.
+            pub const fn from_raw(raw: u8) -> Self {
+                match raw {
+                    0 => Self::Stopped,
+                    other => Self::Unknown(other),
+                }
+            }
+            /// The number of a value.
+            pub const fn raw(self) -> u8 {
+                match self {
+                    Self::Stopped => 0,
+                    Self::Unknown(other) => other,
+                }
+            }
+        }
+        impl rt::Enumeration for Dt0800En08 {
+            type Base = u8;
+            fn from_native(native: u8) -> Self {
+                Self::from_raw(native)
+            }
+            fn native(self) -> u8 {
+                self.raw()
+            }
+        }
+    }
+    /// Values that have names.
+    pub mod types {
+        pub use super::super::d3::types::Dt0800En08;
+    }
+        pub use super::super::d1::types::Dt0800En08;
+        pub use super::super::d1::codes::{EMERGENCY, Emergency};
+        pub use super::super::d1::pdo::Sensors;
+        pub use super::super::d1::view::Sensors;
+        pub use super::super::d1::image::{Inputs, InputsView};
+        pub use super::super::d3::types::Dt0800En08;
+        pub use super::super::d3::pdo::Sensors;
+        pub use super::super::d3::view::Sensors;
+        pub use super::super::d3::image::{Inputs, InputsView};
+        /// TxPDO 0x1A00: Sensors.
+        ///
+        /// Mapping 0x1A00, 8 bits.
+        ///
+        /// | Bytes | Field | Object | Type |
+        /// |---|---|---|---|
+        /// | 0 | [`mode`](Self::mode) | [0x2000:00](super::objects::MODE) | [`Dt0800En08`](super::types::Dt0800En08) |
+        #[derive(Clone, Copy, Debug, PartialEq)]
+        pub struct Sensors {
+            /// Mode: [0x2000:00](super::objects::MODE), 8 bits from bit 0.
+            pub mode: super::types::Dt0800En08,
+        }
