@@ -1,9 +1,9 @@
 //! The call that makes a handle.
 
 use super::code::{call, list, seq, Doc};
+use super::item_addresses::ItemAddresses;
 use super::item_type::ItemType;
 use super::literal;
-use super::place::Place;
 use super::value_type::ValueType;
 use super::variant;
 use crate::ir::{Item, Value};
@@ -47,8 +47,8 @@ impl<'i> Arguments<'i> {
     }
 
     /// The shortest call that says everything: every argument costs `rustc` a tenth of what the rest of the handle does.
-    pub fn constructor(&self, place: &Place<'_>, location: impl FnOnce() -> Doc) -> Doc {
-        self.of_object(place).or_else(|| self.of_register(place)).unwrap_or_else(|| {
+    pub fn constructor(&self, addresses: &ItemAddresses<'_>, location: impl FnOnce() -> Doc) -> Doc {
+        self.of_object(addresses).or_else(|| self.of_register(addresses)).unwrap_or_else(|| {
             let Arguments { name, range, initial, flags, .. } = self;
             call!("new", location(), name, range, initial, literal::string(self.unit), flags)
         })
@@ -65,8 +65,8 @@ impl<'i> Arguments<'i> {
     }
 
     /// The call for what is an object, and nothing else.
-    fn of_object(&self, place: &Place<'_>) -> Option<Doc> {
-        let (object, index, sub) = place.only_object().filter(|_| self.is_plain())?;
+    fn of_object(&self, addresses: &ItemAddresses<'_>) -> Option<Doc> {
+        let (object, index, sub) = addresses.only_object().filter(|_| self.is_plain())?;
         let (name, flags) = (&self.name, self.flags);
         let [index, sub] = [format!("0x{index:04X}"), format!("0x{sub:02X}")];
         match (&self.default, flags) {
@@ -81,8 +81,8 @@ impl<'i> Arguments<'i> {
     }
 
     /// The call for a register, which may be an object as well.
-    fn of_register(&self, place: &Place<'_>) -> Option<Doc> {
-        let address = place.with_register().filter(|_| self.initial.text() == UNKNOWN)?;
+    fn of_register(&self, addresses: &ItemAddresses<'_>) -> Option<Doc> {
+        let address = addresses.with_register().filter(|_| self.initial.text() == UNKNOWN)?;
         let Arguments { name, range, flags, .. } = self;
         let address = address.into_iter().map(Doc::from);
         let text = |text: &str| Doc::from(text);

@@ -3,8 +3,8 @@
 use std::fmt::Write;
 
 use super::context::Context;
+use super::item_addresses::ItemAddresses;
 use super::links::Here;
-use super::place::Place;
 use super::variant;
 pub(super) use super::words::{escape, WORDS};
 use crate::facts::physical::Physical;
@@ -152,7 +152,7 @@ pub(super) fn of_type(context: &Context<'_>, position: u32) -> Vec<String> {
 fn facts(item: &Item, context: &Context<'_>, words: &Words<'_>) -> String {
     let base = context.base(item.ty);
     let mut line = String::with_capacity(64);
-    let place = Place::of(context, item).facts(context, item);
+    let place = ItemAddresses::of(context, item).facts(context, item);
     if !place.is_empty() {
         let _ = write!(line, "{}, ", capital(&place));
     }

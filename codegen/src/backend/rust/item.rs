@@ -4,10 +4,10 @@ use super::code::{call, seq, Doc};
 use super::constructor::Arguments;
 use super::context::Context;
 use super::docs;
+use super::item_addresses::ItemAddresses;
 use super::item_type::ItemType;
 use super::links::Here;
 use super::locations::Locations;
-use super::place::Place;
 use crate::ir::{Access, Item};
 use crate::names;
 
@@ -80,11 +80,11 @@ pub(super) fn model(
         Some(path) => (Here::new(outer, path), Here::new(outer, path)),
         None => (Here::OBJECTS, Here::TOP),
     };
-    let place = Place::of(context, item);
-    let heading = heading(original, &place.heading());
+    let addresses = ItemAddresses::of(context, item);
+    let heading = heading(original, &addresses.heading());
     let ty = ItemType::of(context, item);
-    let location = |outer: &str| locations.argument(place.buses(), outer);
-    let on = location("").map(|_| place.buses().word()).unwrap_or_default();
+    let location = |outer: &str| locations.argument(addresses.buses(), outer);
+    let on = location("").map(|_| addresses.buses().word()).unwrap_or_default();
     let types = |outer: &str| std::iter::once(ty.path(outer)).chain(location(outer).map(Doc::from)).collect();
     let arguments = Arguments::of(item, original, &ty, outer);
     ItemModel {
@@ -103,9 +103,9 @@ pub(super) fn model(
         arguments_beside: types("super::"),
         type_name: ty.named.map(str::to_owned),
         alias: format!("{}{}{on}", alias(item.access), ty.word()),
-        constructor: arguments.constructor(&place, || locations.code(context, &place, outer)),
+        constructor: arguments.constructor(&addresses, || locations.code(context, &addresses, outer)),
         real: ty.basic.is_real() && (item.default.is_some() || !item.limits.is_empty()),
-        object: place.object_on(context.bus),
+        object: addresses.object_on(context.bus),
         mappable: None,
     }
 }

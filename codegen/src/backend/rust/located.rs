@@ -2,7 +2,7 @@
 
 use std::ops::Deref;
 
-use super::place::Place;
+use super::item_addresses::ItemAddresses;
 use super::reachable::addressable;
 use super::scope::Scope;
 use super::window::{self, Window};
@@ -55,5 +55,5 @@ fn registers<'a>(located: &Located<'a>) -> Vec<(&'a str, &'a Item)> {
     // An image is told with the place of its fields.
     let title = |group: &'a Group| if group.kind == GroupKind::Chapter { group.name.as_str() } else { "" };
     let items = chapters.flat_map(|group| group.items.iter().map(move |item| (title(group), item)));
-    items.filter(|(_, item)| !Place::of(located, item).buses().is_empty()).collect()
+    items.filter(|(_, item)| !ItemAddresses::of(located, item).buses().is_empty()).collect()
 }

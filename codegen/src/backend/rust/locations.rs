@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::code::{list, Doc};
 use super::context::Context;
-use super::place::{Buses, Place};
+use super::item_addresses::{Buses, ItemAddresses};
 use super::reachable::addressable;
 
 /// Where the windows are, as seen from the handles.
@@ -38,17 +38,17 @@ impl Locations {
     pub fn of(context: &Context<'_>) -> Self {
         let objects = addressable(context).flat_map(|group| &group.items);
         let items = objects.chain(context.registers.iter().map(|(_, item)| *item));
-        let places: Vec<Place<'_>> = items.map(|item| Place::of(context, item)).collect();
+        let items_addresses: Vec<ItemAddresses<'_>> = items.map(|item| ItemAddresses::of(context, item)).collect();
         let mut each: BTreeMap<Buses, usize> = BTreeMap::new();
-        for place in &places {
-            *each.entry(place.buses()).or_default() += 1;
+        for addresses in &items_addresses {
+            *each.entry(addresses.buses()).or_default() += 1;
         }
         let usual = usual(&each);
         Locations {
             several: each.keys().any(|own| *own != usual),
             usual,
             each: each.into_keys().chain([usual]).collect(),
-            shared: shared(context, &places),
+            shared: shared(context, &items_addresses),
         }
     }
 
@@ -61,14 +61,14 @@ impl Locations {
     }
 
     /// The code of an item's location; `outer` leads from the handle's place to the device's.
-    pub fn code(&self, context: &Context<'_>, place: &Place<'_>, outer: &str) -> Doc {
-        let found = place.maker(context, WINDOWS).and_then(|own| {
+    pub fn code(&self, context: &Context<'_>, addresses: &ItemAddresses<'_>, outer: &str) -> Doc {
+        let found = addresses.maker(context, WINDOWS).and_then(|own| {
             let is_own = |shared: &Shared| shared.body == own.body && shared.parameters == own.parameters;
             let at = self.shared.iter().position(is_own)?;
             Some(list(&format!("{}{}(", beside_handles(outer), maker(at)), own.arguments, ")"))
         });
-        let path = self.name(place.buses(), beside_handles(outer));
-        found.unwrap_or_else(|| place.code(context, &path, &format!("{outer}windows::")))
+        let path = self.name(addresses.buses(), beside_handles(outer));
+        found.unwrap_or_else(|| addresses.code(context, &path, &format!("{outer}windows::")))
     }
 
     /// The name of a location's type; `outer` leads from where it stands to the device's place.
@@ -110,11 +110,11 @@ fn usual(each: &BTreeMap<Buses, usize>) -> Buses {
 }
 
 /// What makes more than one of these places.
-fn shared(context: &Context<'_>, places: &[Place<'_>]) -> Vec<Shared> {
+fn shared(context: &Context<'_>, items_addresses: &[ItemAddresses<'_>]) -> Vec<Shared> {
     let mut makers: BTreeMap<(Doc, Vec<String>), (usize, Buses)> = BTreeMap::new();
-    for place in places {
-        if let Some(own) = place.maker(context, WINDOWS) {
-            makers.entry((own.body, own.parameters)).or_insert((0, place.buses())).0 += 1;
+    for addresses in items_addresses {
+        if let Some(own) = addresses.maker(context, WINDOWS) {
+            makers.entry((own.body, own.parameters)).or_insert((0, addresses.buses())).0 += 1;
         }
     }
     let makers = makers.into_iter().filter(|(_, (count, _))| *count > 1);

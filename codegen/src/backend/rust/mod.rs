@@ -25,6 +25,7 @@ mod given;
 mod handle;
 mod identity;
 mod item;
+mod item_addresses;
 mod item_type;
 mod links;
 mod literal;
@@ -39,7 +40,6 @@ mod naming;
 mod objects;
 mod options;
 mod pdo;
-mod place;
 mod print;
 mod procedure;
 #[cfg(feature = "gsdml")]

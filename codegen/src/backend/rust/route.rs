@@ -3,9 +3,9 @@
 use super::code::{call, generic, seq, slice, Doc};
 use crate::ir::{Bus, Limits, Value};
 
-/// The buses of a location, in the order of its fields, except the records of PROFINET, which tables have no items in.
+/// A bus of a location, in the order of its fields, except the records of PROFINET, which tables have no items in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) enum Net {
+pub(super) enum RouteBus {
     CanOpen,
     CoE,
     Modbus,
@@ -14,36 +14,37 @@ pub(super) enum Net {
     Esc,
 }
 
-impl Net {
-    pub const ALL: [Net; 6] = [Net::CanOpen, Net::CoE, Net::Modbus, Net::Serial, Net::Image, Net::Esc];
+impl RouteBus {
+    pub const ALL: [RouteBus; 6] =
+        [RouteBus::CanOpen, RouteBus::CoE, RouteBus::Modbus, RouteBus::Serial, RouteBus::Image, RouteBus::Esc];
 
     /// The bus that facts of items are about.
     pub fn of_items(self) -> Bus {
         match self {
-            Net::CanOpen => Bus::CanOpen,
-            Net::CoE | Net::Esc => Bus::EtherCat,
-            Net::Modbus => Bus::Modbus,
-            Net::Serial => Bus::Serial,
-            Net::Image => Bus::Profinet,
+            RouteBus::CanOpen => Bus::CanOpen,
+            RouteBus::CoE | RouteBus::Esc => Bus::EtherCat,
+            RouteBus::Modbus => Bus::Modbus,
+            RouteBus::Serial => Bus::Serial,
+            RouteBus::Image => Bus::Profinet,
         }
     }
 
     /// Its name as a part of another one.
     pub fn word(self) -> &'static str {
         match self {
-            Net::CanOpen => "CanOpen",
-            Net::CoE => "CoE",
-            Net::Modbus => "Modbus",
-            Net::Serial => "Serial",
-            Net::Image => "Image",
-            Net::Esc => "Esc",
+            RouteBus::CanOpen => "CanOpen",
+            RouteBus::CoE => "CoE",
+            RouteBus::Modbus => "Modbus",
+            RouteBus::Serial => "Serial",
+            RouteBus::Image => "Image",
+            RouteBus::Esc => "Esc",
         }
     }
 
     /// The runtime's type of the bus.
-    pub fn bus(self) -> &'static str {
+    pub fn type_name(self) -> &'static str {
         match self {
-            Net::Image => "ProcessImage",
+            RouteBus::Image => "ProcessImage",
             _ => self.word(),
         }
     }
@@ -56,30 +57,30 @@ impl Net {
     /// Its name in a sentence.
     pub fn title(self) -> &'static str {
         match self {
-            Net::CanOpen => "CANopen",
-            Net::CoE => "EtherCAT",
-            Net::Modbus => "Modbus",
-            Net::Serial => "the serial line",
-            Net::Image => "PROFINET",
-            Net::Esc => "the slave controller",
+            RouteBus::CanOpen => "CANopen",
+            RouteBus::CoE => "EtherCAT",
+            RouteBus::Modbus => "Modbus",
+            RouteBus::Serial => "the serial line",
+            RouteBus::Image => "PROFINET",
+            RouteBus::Esc => "the slave controller",
         }
     }
 
     /// The type of its addresses.
-    pub fn address(self) -> &'static str {
+    pub fn address_type(self) -> &'static str {
         match self {
-            Net::CanOpen | Net::CoE => "rt::Object",
-            Net::Modbus => "rt::Register",
-            Net::Serial => "rt::Parameter",
-            Net::Image => "rt::ImageField",
-            Net::Esc => "rt::EscMemory",
+            RouteBus::CanOpen | RouteBus::CoE => "rt::Object",
+            RouteBus::Modbus => "rt::Register",
+            RouteBus::Serial => "rt::Parameter",
+            RouteBus::Image => "rt::ImageField",
+            RouteBus::Esc => "rt::EscMemory",
         }
     }
 }
 
-/// What lies between an item and an address.
+/// What is between an item and the address.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) enum Leg {
+pub(super) enum PathKind {
     Direct,
     Resized,
     Limited,
@@ -87,71 +88,71 @@ pub(super) enum Leg {
     Window,
 }
 
-impl Leg {
-    fn ty(self, net: Net, reads: bool) -> Doc {
-        let address = net.address();
+impl PathKind {
+    fn ty(self, bus: RouteBus, reads: bool) -> Doc {
+        let address = bus.address_type();
         match self {
-            Leg::Direct => Doc::from(address),
-            Leg::Resized => generic!("rt::Resized", address),
-            Leg::Limited => generic!("rt::Limited", address),
-            Leg::LimitedResized => generic!("rt::Limited", generic!("rt::Resized", address)),
-            Leg::Window if reads => generic!("rt::Through", generic!("rt::ReadWindow", address)),
-            Leg::Window => generic!("rt::Through", generic!("rt::WriteWindow", address)),
+            PathKind::Direct => Doc::from(address),
+            PathKind::Resized => generic!("rt::Resized", address),
+            PathKind::Limited => generic!("rt::Limited", address),
+            PathKind::LimitedResized => generic!("rt::Limited", generic!("rt::Resized", address)),
+            PathKind::Window if reads => generic!("rt::Through", generic!("rt::ReadWindow", address)),
+            PathKind::Window => generic!("rt::Through", generic!("rt::WriteWindow", address)),
         }
     }
 
     fn word(self) -> &'static str {
         match self {
-            Leg::Direct => "",
-            Leg::Resized => "Resized",
-            Leg::Limited => "Limited",
-            Leg::LimitedResized => "LimitedResized",
-            Leg::Window => "Window",
+            PathKind::Direct => "",
+            PathKind::Resized => "Resized",
+            PathKind::Limited => "Limited",
+            PathKind::LimitedResized => "LimitedResized",
+            PathKind::Window => "Window",
         }
     }
 }
 
 /// The kind of a route.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) enum Kind {
+pub(super) enum RouteKind {
     #[default]
     Absent,
     /// One for whatever the item's access allows.
-    One(Leg),
-    Reads(Leg),
-    Writes(Leg),
-    Both(Leg, Leg),
+    One(PathKind),
+    Reads(PathKind),
+    Writes(PathKind),
+    Both(PathKind, PathKind),
 }
 
-impl Kind {
+impl RouteKind {
     /// Its type, if there is a route.
-    pub fn ty(self, net: Net) -> Option<Doc> {
+    pub fn ty(self, bus: RouteBus) -> Option<Doc> {
         Some(match self {
-            Kind::Absent => return None,
-            Kind::One(leg) => leg.ty(net, true),
-            Kind::Reads(leg) => generic!("rt::Split", leg.ty(net, true), "rt::Closed"),
-            Kind::Writes(leg) => generic!("rt::Split", "rt::Closed", leg.ty(net, false)),
-            Kind::Both(read, write) => generic!("rt::Split", read.ty(net, true), write.ty(net, false)),
+            RouteKind::Absent => return None,
+            RouteKind::One(path_kind) => path_kind.ty(bus, true),
+            RouteKind::Reads(path_kind) => generic!("rt::Split", path_kind.ty(bus, true), "rt::Closed"),
+            RouteKind::Writes(path_kind) => generic!("rt::Split", "rt::Closed", path_kind.ty(bus, false)),
+            RouteKind::Both(read, write) => generic!("rt::Split", read.ty(bus, true), write.ty(bus, false)),
         })
     }
 
     /// Its name as a part of another one.
-    pub fn word(self, net: Net) -> String {
-        let bus = net.word();
+    pub fn word(self, bus: RouteBus) -> String {
+        let bus = bus.word();
         match self {
-            Kind::Absent => String::new(),
-            Kind::One(leg) => format!("{bus}{}", leg.word()),
-            Kind::Reads(leg) => format!("{bus}{}In", leg.word()),
-            Kind::Writes(leg) => format!("{bus}{}Out", leg.word()),
-            Kind::Both(Leg::Window, Leg::Window) => format!("{bus}Windows"),
-            Kind::Both(read, write) => format!("{bus}{}In{}Out", read.word(), write.word()),
+            RouteKind::Absent => String::new(),
+            RouteKind::One(path_kind) => format!("{bus}{}", path_kind.word()),
+            RouteKind::Reads(path_kind) => format!("{bus}{}In", path_kind.word()),
+            RouteKind::Writes(path_kind) => format!("{bus}{}Out", path_kind.word()),
+            RouteKind::Both(PathKind::Window, PathKind::Window) => format!("{bus}Windows"),
+            RouteKind::Both(read, write) => format!("{bus}{}In{}Out", read.word(), write.word()),
         }
     }
 }
 
-/// Where one direction of the traffic to an item goes on one bus.
+/// How an item is read, or written, on one bus.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Way<'i> {
+pub(super) struct AccessPath<'i> {
     /// The window, by its position; none where the item has an address of its own.
     pub window: Option<(usize, u32)>,
     /// Bits of the number there, where they aren't those of the item.
@@ -162,14 +163,14 @@ pub(super) struct Way<'i> {
     pub is_signed: bool,
 }
 
-impl Way<'_> {
-    pub fn leg(&self) -> Leg {
+impl AccessPath<'_> {
+    pub fn kind(&self) -> PathKind {
         match (self.window, self.resized, self.limited) {
-            (Some(_), ..) => Leg::Window,
-            (None, None, None) => Leg::Direct,
-            (None, Some(_), None) => Leg::Resized,
-            (None, None, Some(_)) => Leg::Limited,
-            (None, Some(_), Some(_)) => Leg::LimitedResized,
+            (Some(_), ..) => PathKind::Window,
+            (None, None, None) => PathKind::Direct,
+            (None, Some(_), None) => PathKind::Resized,
+            (None, None, Some(_)) => PathKind::Limited,
+            (None, Some(_), Some(_)) => PathKind::LimitedResized,
         }
     }
 
@@ -204,45 +205,49 @@ fn runs(limits: &Limits) -> Vec<String> {
     runs.map(|(first, last)| format!("({first}, {last})")).collect()
 }
 
-/// The way in and the way out on one bus.
+/// How an item is read and written on one bus.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Route<'i> {
-    pub read: Option<Way<'i>>,
-    pub write: Option<Way<'i>>,
+    pub read: Option<AccessPath<'i>>,
+    pub write: Option<AccessPath<'i>>,
     /// Whether the item's access, whatever the bus, has a direction that this bus doesn't.
     pub is_partial: bool,
 }
 
 impl Route<'_> {
-    pub fn kind(&self) -> Kind {
+    pub fn kind(&self) -> RouteKind {
         match (&self.read, &self.write) {
-            (None, None) => Kind::Absent,
-            (Some(read), Some(write)) if read == write => Kind::One(read.leg()),
-            (Some(read), Some(write)) => Kind::Both(read.leg(), write.leg()),
+            (None, None) => RouteKind::Absent,
+            (Some(read), Some(write)) if read == write => RouteKind::One(read.kind()),
+            (Some(read), Some(write)) => RouteKind::Both(read.kind(), write.kind()),
             // A window is one for reading or for writing by its type.
-            (Some(way), None) if self.is_partial || way.window.is_some() => Kind::Reads(way.leg()),
-            (None, Some(way)) if self.is_partial || way.window.is_some() => Kind::Writes(way.leg()),
-            (Some(way), None) | (None, Some(way)) => Kind::One(way.leg()),
+            (Some(access_path), None) if self.is_partial || access_path.window.is_some() => {
+                RouteKind::Reads(access_path.kind())
+            }
+            (None, Some(access_path)) if self.is_partial || access_path.window.is_some() => {
+                RouteKind::Writes(access_path.kind())
+            }
+            (Some(access_path), None) | (None, Some(access_path)) => RouteKind::One(access_path.kind()),
         }
     }
 
-    /// The ways that there are.
-    pub fn ways(&self) -> impl Iterator<Item = &Way<'_>> {
+    /// The paths that exist.
+    pub fn access_paths(&self) -> impl Iterator<Item = &AccessPath<'_>> {
         self.read.iter().chain(&self.write)
     }
 
     /// The code that makes it, if there is one; `address` is that of the address, `window` names a window, and `number` stands
     /// for its number.
     pub fn code(&self, address: &str, window: impl Fn(usize) -> String, number: Option<&str>) -> Option<Doc> {
-        let way = |way: &Way<'_>| match way.window {
-            Some((at, _)) => way.code(&window(at), number),
-            None => way.code(address, None),
+        let code_of = |access_path: &AccessPath<'_>| match access_path.window {
+            Some((at, _)) => access_path.code(&window(at), number),
+            None => access_path.code(address, None),
         };
         Some(match (self.kind(), &self.read, &self.write) {
-            (Kind::Reads(_), Some(read), _) => call!("rt::Split::reading", way(read)),
-            (Kind::Writes(_), _, Some(write)) => call!("rt::Split::writing", way(write)),
-            (Kind::Both(..), Some(read), Some(write)) => call!("rt::Split::new", way(read), way(write)),
-            (Kind::One(_), Some(only), _) | (Kind::One(_), None, Some(only)) => way(only),
+            (RouteKind::Reads(_), Some(read), _) => call!("rt::Split::reading", code_of(read)),
+            (RouteKind::Writes(_), _, Some(write)) => call!("rt::Split::writing", code_of(write)),
+            (RouteKind::Both(..), Some(read), Some(write)) => call!("rt::Split::new", code_of(read), code_of(write)),
+            (RouteKind::One(_), Some(only), _) | (RouteKind::One(_), None, Some(only)) => code_of(only),
             _ => return None,
         })
     }

@@ -3,8 +3,8 @@
 use super::code::{call, Doc};
 use super::constructor::flags;
 use super::context::Context;
+use super::item_addresses::{ItemAddresses, ObjectAddress};
 use super::literal;
-use super::place::{ObjectAddress, Place};
 use super::reachable::{addressable, is_module};
 use super::value_type::ValueType;
 use super::variant;
@@ -46,10 +46,10 @@ type Key = (Option<ObjectAddress>, Option<(u8, u16, Option<u8>)>);
 
 /// The row of an item: two where its objects on CANopen and on EtherCAT differ, none of a parameter of a serial protocol.
 fn entries(context: &Context<'_>, item: &Item, name: &str, rows: &mut Vec<(Key, EntryModel)>) {
-    let place = Place::of(context, item);
-    let [object, other] = place.objects();
-    let (mut register, key) = (place.register_code(), place.register_key());
-    let at_object = Form::on(item, if place.is_on_canopen() { Bus::CanOpen } else { Bus::EtherCat });
+    let addresses = ItemAddresses::of(context, item);
+    let [object, other] = addresses.objects();
+    let (mut register, key) = (addresses.register_code(), addresses.register_key());
+    let at_object = Form::on(item, if addresses.is_on_canopen() { Bus::CanOpen } else { Bus::EtherCat });
     let at_register = Form::on(item, Bus::Modbus);
     // As a register, the item may have another width, or another access.
     if object.is_some() && register.is_some() && at_object != at_register {

@@ -1,7 +1,7 @@
 //! Windows: what takes the number of an item, and what has its value then.
 
-use super::place;
-use super::route::Net;
+use super::item_addresses;
+use super::route::RouteBus;
 use super::scope::Scope;
 use crate::ir::{Binding, Device, IndirectBinding, Item, Procedure, Step, WindowSide};
 use crate::names::{self, Case, Wish};
@@ -12,7 +12,7 @@ const POLLS: u32 = 100;
 /// A window in one direction on one bus.
 #[derive(Clone, Debug)]
 pub(super) struct Window {
-    pub key: (String, u8, Net, bool),
+    pub key: (String, u8, RouteBus, bool),
     pub side: WindowSide,
     /// Bits of the number.
     pub number_bits: u32,
@@ -30,11 +30,11 @@ pub(super) fn windows(scope: &Scope<'_>, device: &Device) -> Vec<Window> {
     let mut found: Vec<Window> = Vec::new();
     for item in scope.groups.iter().flat_map(|group| &group.items) {
         for binding in item.bindings.iter().filter_map(indirect) {
-            for net in Net::ALL {
+            for bus in RouteBus::ALL {
                 for (side, is_write) in [(&binding.read, false), (&binding.write, true)] {
                     let Some(side) = side else { continue };
-                    let key = (binding.space.to_string(), binding.window, net, is_write);
-                    if !is_on(binding, net) || found.iter().any(|own| own.key == key && own.side == *side) {
+                    let key = (binding.space.to_string(), binding.window, bus, is_write);
+                    if !is_on(binding, bus) || found.iter().any(|own| own.key == key && own.side == *side) {
                         continue;
                     }
                     found.extend(window(scope, device, side, key));
@@ -62,32 +62,33 @@ pub(super) fn indirect(binding: &Binding) -> Option<&IndirectBinding> {
     }
 }
 
-fn is_on(binding: &IndirectBinding, net: Net) -> bool {
-    net != Net::Esc && binding.buses.contains(net.of_items())
+fn is_on(binding: &IndirectBinding, bus: RouteBus) -> bool {
+    bus != RouteBus::Esc && binding.buses.contains(bus.of_items())
 }
 
 /// The position of the window of an item on a bus.
-pub(super) fn position(windows: &[Window], binding: &IndirectBinding, net: Net, is_write: bool) -> Option<usize> {
+pub(super) fn position(windows: &[Window], binding: &IndirectBinding, bus: RouteBus, is_write: bool) -> Option<usize> {
     let side = if is_write { &binding.write } else { &binding.read }.as_ref()?;
     let number = u64::from(binding.number);
     windows.iter().position(|own| {
         let (space, window, of, writes) = &own.key;
-        let is_own = *space == binding.space && *window == binding.window && *of == net && *writes == is_write;
-        is_own && own.side == *side && is_on(binding, net) && (own.number_bits >= 64 || number >> own.number_bits == 0)
+        let is_own = *space == binding.space && *window == binding.window && *of == bus && *writes == is_write;
+        is_own && own.side == *side && is_on(binding, bus) && (own.number_bits >= 64 || number >> own.number_bits == 0)
     })
 }
 
 fn title(own: &Window) -> String {
-    let (space, _, net, is_write) = &own.key;
-    format!("{space} {} {}", if *is_write { "write" } else { "read" }, net.word().to_lowercase())
+    let (space, _, bus, is_write) = &own.key;
+    format!("{space} {} {}", if *is_write { "write" } else { "read" }, bus.word().to_lowercase())
 }
 
 /// The window, where the bus has all of it.
-fn window(scope: &Scope<'_>, device: &Device, side: &WindowSide, key: (String, u8, Net, bool)) -> Option<Window> {
-    let (_, _, net, is_write) = key;
+fn window(scope: &Scope<'_>, device: &Device, side: &WindowSide, key: (String, u8, RouteBus, bool)) -> Option<Window> {
+    let (_, _, bus, is_write) = key;
     let (number, value) = (scope.item(&side.number)?, scope.item(&side.value)?);
-    let addresses = [place::address(scope, number, net, true)?, place::address(scope, value, net, is_write)?];
-    let [number_type, value_type] = [number, value].map(|item| scope.base(item.type_on(net.of_items())));
+    let addresses =
+        [item_addresses::address(scope, number, bus, true)?, item_addresses::address(scope, value, bus, is_write)?];
+    let [number_type, value_type] = [number, value].map(|item| scope.base(item.type_on(bus.of_items())));
     let bits = |ty: crate::ir::Type| ty.bits().filter(|bits| (1..=64).contains(bits));
     let procedure = side.procedure.as_ref().and_then(|name| device.procedures.iter().find(|own| own.name == *name));
     let told = procedure.map(|own| Told::of(own, side)).unwrap_or_default();

@@ -21,7 +21,7 @@ pub(super) fn models(context: &Context<'_>) -> Vec<WindowModel> {
 }
 
 fn model(context: &Context<'_>, own: &Window) -> WindowModel {
-    let (_, _, net, is_write) = own.key;
+    let (_, _, bus, is_write) = own.key;
     let [number, value] = &own.addresses;
     let mut facts = vec![
         format!("number: {number}"),
@@ -38,9 +38,9 @@ fn model(context: &Context<'_>, own: &Window) -> WindowModel {
     let verb = if is_write { "takes" } else { "gives" };
     let kind = if is_write { "rt::WriteWindow" } else { "rt::ReadWindow" };
     WindowModel {
-        docs: vec![format!("On {}: {number} takes a number, and {value} {verb} its value.", net.title())],
+        docs: vec![format!("On {}: {number} takes a number, and {value} {verb} its value.", bus.title())],
         name: own.name.clone(),
-        ty: generic!(kind, net.address()),
+        ty: generic!(kind, bus.address_type()),
         kind,
         facts,
     }

@@ -1,8 +1,8 @@
 //! The names of handles: those of objects, of their entries, and of registers.
 
+use crate::backend::rust::item_addresses::ItemAddresses;
 use crate::backend::rust::located::Located;
 use crate::backend::rust::method_names::{BESIDE_MESSAGES, RESERVED};
-use crate::backend::rust::place::Place;
 use crate::backend::rust::reachable::{addressable, is_module};
 use crate::ir::{Group, Item};
 use crate::names::{self, Case, Wish};
@@ -30,7 +30,7 @@ impl HandleNames {
 /// The names of the registers and of the objects.
 pub(super) fn names(scope: &Located<'_>) -> HandleNames {
     let groups: Vec<&Group> = addressable(scope).collect();
-    let register = |(_, item): &(&'_ str, &Item)| Place::of(scope, item).suffix();
+    let register = |(_, item): &(&'_ str, &Item)| ItemAddresses::of(scope, item).suffix();
     let suffixes: Vec<String> = scope.registers.iter().map(register).collect();
     let registers = scope.registers.iter().zip(suffixes);
     let registers = registers.map(|((_, item), suffix)| Wish::new(&item.name, "register", suffix));

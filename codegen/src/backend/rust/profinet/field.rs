@@ -11,17 +11,17 @@ const WORD: u32 = 64;
 
 /// Where bits stand. A field that spans bytes without filling them is a part of the big-endian number in these bytes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Place {
+pub(super) struct FieldPosition {
     pub byte: u32,
     /// Bits below it in the byte, or in the number.
     pub bit: u32,
     pub bits: u32,
 }
 
-impl Place {
+impl FieldPosition {
     /// `bits` bits from `offset` on, where they lie within `length` bytes.
     pub(super) fn within(length: u32, offset: u32, bits: u32) -> Option<Self> {
-        let place = Place { byte: offset / 8, bit: offset % 8, bits };
+        let place = FieldPosition { byte: offset / 8, bit: offset % 8, bits };
         let last_bit = (place.bit + 8).checked_add(bits)?;
         let end = place.byte.checked_add(last_bit.div_ceil(8))? - 1;
         (bits > 0 && end <= length).then_some(place)
@@ -50,7 +50,7 @@ impl Place {
 
 /// How the bits of a field are to be read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Kind {
+enum FieldKind {
     /// One bit.
     Bit,
     /// A byte that is zero or not.
@@ -81,8 +81,8 @@ pub(super) enum Use {
 /// A field, ready to be written as code.
 #[derive(Clone, Copy)]
 pub(super) struct Field<'v> {
-    kind: Kind,
-    pub place: Place,
+    kind: FieldKind,
+    pub place: FieldPosition,
     pub enumeration: Option<&'v Enumeration>,
     usage: Use,
 }
@@ -97,10 +97,10 @@ impl<'v> Field<'v> {
         length: u32,
         usage: Use,
     ) -> Option<Self> {
-        let place = Place::within(length, offset, bits)?;
+        let place = FieldPosition::within(length, offset, bits)?;
         let (base, enumeration) = values.resolve(ty);
         let kind = kind(base, place)?;
-        let enumeration = enumeration.filter(|_| matches!(kind, Kind::Native { .. } | Kind::Number { .. }));
+        let enumeration = enumeration.filter(|_| matches!(kind, FieldKind::Native { .. } | FieldKind::Number { .. }));
         Some(Field { kind, place, enumeration, usage })
     }
 
@@ -109,8 +109,8 @@ impl<'v> Field<'v> {
         let place = self.place.words();
         match self.kind {
             // Single bits and bit areas have no other type than their bits.
-            Kind::Bit => place,
-            Kind::Number { .. } if !self.place.is_bytes() => place,
+            FieldKind::Bit => place,
+            FieldKind::Number { .. } if !self.place.is_bytes() => place,
             _ => format!("{}, {place}", type_name(types, ty)),
         }
     }
@@ -129,15 +129,15 @@ impl<'v> Field<'v> {
             return enumeration.path.clone();
         }
         match self.kind {
-            Kind::Bit | Kind::Flag => "bool".to_owned(),
-            Kind::Number { signed } if self.usage == Use::Image => {
+            FieldKind::Bit | FieldKind::Flag => "bool".to_owned(),
+            FieldKind::Number { signed } if self.usage == Use::Image => {
                 format!("rt::{}<{}>", if signed { "Int" } else { "Uint" }, self.place.bits)
             }
-            Kind::Native { .. } | Kind::Number { .. } => self.native().to_owned(),
-            Kind::Real => format!("f{}", self.place.bits),
-            Kind::Time("time_of_day") => "rt::TimeOfDay".to_owned(),
-            Kind::Time(_) => "rt::TimeDifference".to_owned(),
-            Kind::Bytes => format!("[u8; {}]", self.place.bits / 8),
+            FieldKind::Native { .. } | FieldKind::Number { .. } => self.native().to_owned(),
+            FieldKind::Real => format!("f{}", self.place.bits),
+            FieldKind::Time("time_of_day") => "rt::TimeOfDay".to_owned(),
+            FieldKind::Time(_) => "rt::TimeDifference".to_owned(),
+            FieldKind::Bytes => format!("[u8; {}]", self.place.bits / 8),
         }
     }
 
@@ -150,30 +150,32 @@ impl<'v> Field<'v> {
     }
 
     fn is_signed(&self) -> bool {
-        matches!(self.kind, Kind::Native { signed: true } | Kind::Number { signed: true })
+        matches!(self.kind, FieldKind::Native { signed: true } | FieldKind::Number { signed: true })
     }
 
     /// Whether it is a real number.
     pub(super) fn is_real(&self) -> bool {
-        self.kind == Kind::Real
+        self.kind == FieldKind::Real
     }
 
     /// Whether it is a truth value.
     pub(super) fn is_bool(&self) -> bool {
-        matches!(self.kind, Kind::Bit | Kind::Flag)
+        matches!(self.kind, FieldKind::Bit | FieldKind::Flag)
     }
 
     /// Length of a byte string.
     pub(super) fn byte_string(&self) -> Option<u32> {
-        (self.kind == Kind::Bytes).then_some(self.place.bits / 8)
+        (self.kind == FieldKind::Bytes).then_some(self.place.bits / 8)
     }
 
     /// Least and greatest value of an integer.
     pub(super) fn range(&self) -> Option<(i128, i128)> {
         let bits = u8::try_from(self.place.bits).ok()?;
         match self.kind {
-            Kind::Native { signed: true } | Kind::Number { signed: true } => Type::Integer(bits).integer_range(),
-            Kind::Native { .. } | Kind::Number { .. } => Type::Unsigned(bits).integer_range(),
+            FieldKind::Native { signed: true } | FieldKind::Number { signed: true } => {
+                Type::Integer(bits).integer_range()
+            }
+            FieldKind::Native { .. } | FieldKind::Number { .. } => Type::Unsigned(bits).integer_range(),
             _ => None,
         }
     }
@@ -181,59 +183,59 @@ impl<'v> Field<'v> {
     /// Whether the type has values that the field has no bits for.
     pub(super) fn is_narrow(&self) -> bool {
         self.usage == Use::Record
-            && matches!(self.kind, Kind::Number { .. })
+            && matches!(self.kind, FieldKind::Number { .. })
             && !matches!(self.place.bits, 8 | 16 | 32 | 64)
     }
 
     /// Whether the field can be read in a constant by the oldest Rust that the runtime supports.
     pub(super) fn is_const(&self) -> bool {
-        self.kind != Kind::Real
+        self.kind != FieldKind::Real
     }
 
     /// The field's value, from the reference `data` to an array of bytes.
     pub(super) fn read(&self, data: &str) -> Doc {
-        let Place { byte, bit, bits } = self.place;
+        let FieldPosition { byte, bit, bits } = self.place;
         let bytes = || call!("rt::profinet::be::bytes", data, byte);
         let from_bytes = |ty: &str| call!(seq![ty, "::from_be_bytes"], bytes());
         let at = || seq![data, "[", byte, "]"];
         let cut = |name: &str| call!(seq!["rt::profinet::be::", name], data, byte, bit, bits);
         if let Some(enumeration) = self.enumeration {
             let raw = match self.kind {
-                Kind::Native { signed: false } if bits == 8 => at(),
-                Kind::Native { .. } if bits > 8 => from_bytes(enumeration.native),
+                FieldKind::Native { signed: false } if bits == 8 => at(),
+                FieldKind::Native { .. } if bits > 8 => from_bytes(enumeration.native),
                 _ => cut(&format!("bits_{}", enumeration.native)),
             };
             return call!(seq![enumeration.path, "::from_raw"], raw);
         }
         match self.kind {
-            Kind::Bit => seq![at(), format_args!(" & 0x{:02X} != 0", 1 << bit)],
-            Kind::Flag => seq![at(), " != 0"],
-            Kind::Native { signed: false } if bits == 8 => at(),
-            Kind::Native { .. } if bits == 8 => seq![at(), " as i8"],
-            Kind::Native { .. } | Kind::Real => from_bytes(&self.rust_type()),
-            Kind::Number { signed } if self.usage == Use::Image => {
+            FieldKind::Bit => seq![at(), format_args!(" & 0x{:02X} != 0", 1 << bit)],
+            FieldKind::Flag => seq![at(), " != 0"],
+            FieldKind::Native { signed: false } if bits == 8 => at(),
+            FieldKind::Native { .. } if bits == 8 => seq![at(), " as i8"],
+            FieldKind::Native { .. } | FieldKind::Real => from_bytes(&self.rust_type()),
+            FieldKind::Number { signed } if self.usage == Use::Image => {
                 call!(seq!["rt::", if signed { "Int" } else { "Uint" }, "::from_raw"], cut("number"))
             }
-            Kind::Number { .. } => cut(&format!("bits_{}", self.native())),
-            Kind::Time(name) => call!(seq!["rt::profinet::be::", name], data, byte),
-            Kind::Bytes => bytes(),
+            FieldKind::Number { .. } => cut(&format!("bits_{}", self.native())),
+            FieldKind::Time(name) => call!(seq!["rt::profinet::be::", name], data, byte),
+            FieldKind::Bytes => bytes(),
         }
     }
 
     /// The statement that puts `value` into an array of bytes: `data` names the array, `reference` is a mutable
     /// reference to it.
     pub(super) fn write(&self, data: &str, reference: &str, value: &str) -> Doc {
-        let Place { byte, bit, bits } = self.place;
+        let FieldPosition { byte, bit, bits } = self.place;
         let raw = if self.enumeration.is_some() { format!("{value}.raw()") } else { value.to_owned() };
         let at = || seq![data, "[", byte, "] = "];
         let put = |bytes: Doc| seq![call!("rt::profinet::be::put", reference, byte, bytes), ";"];
         match self.kind {
-            Kind::Bit => seq![call!("rt::profinet::be::put_bit", reference, byte, bit, value), ";"],
-            Kind::Native { signed: false } if bits == 8 => seq![at(), raw, ";"],
-            Kind::Flag => seq![at(), value, " as u8;"],
-            Kind::Native { .. } if bits == 8 => seq![at(), raw, " as u8;"],
-            Kind::Native { .. } | Kind::Real => put(seq!["&", raw, ".to_be_bytes()"]),
-            Kind::Number { .. } => {
+            FieldKind::Bit => seq![call!("rt::profinet::be::put_bit", reference, byte, bit, value), ";"],
+            FieldKind::Native { signed: false } if bits == 8 => seq![at(), raw, ";"],
+            FieldKind::Flag => seq![at(), value, " as u8;"],
+            FieldKind::Native { .. } if bits == 8 => seq![at(), raw, " as u8;"],
+            FieldKind::Native { .. } | FieldKind::Real => put(seq!["&", raw, ".to_be_bytes()"]),
+            FieldKind::Number { .. } => {
                 let number = match (self.usage, self.enumeration, self.native()) {
                     (Use::Image, None, _) => format!("{value}.raw()"),
                     (_, _, "u64") => raw,
@@ -241,30 +243,30 @@ impl<'v> Field<'v> {
                 };
                 seq![call!("rt::profinet::be::put_number", reference, byte, bit, bits, number), ";"]
             }
-            Kind::Time(name) => put(call!(seq!["&rt::profinet::be::from_", name], value)),
-            Kind::Bytes => put(seq!["&", value]),
+            FieldKind::Time(name) => put(call!(seq!["&rt::profinet::be::from_", name], value)),
+            FieldKind::Bytes => put(seq!["&", value]),
         }
     }
 }
 
 /// The kind of a field of a basic type.
-fn kind(base: Type, place: Place) -> Option<Kind> {
-    let Place { bit, bits, .. } = place;
+fn kind(base: Type, place: FieldPosition) -> Option<FieldKind> {
+    let FieldPosition { bit, bits, .. } = place;
     let is_bytes = place.is_bytes();
     let fits = is_bytes && base.bits() == Some(bits);
     let signed = matches!(base, Type::Integer(_));
     let integer = match bits {
-        8 | 16 | 32 | 64 if is_bytes => Some(Kind::Native { signed }),
-        _ if bit + bits <= WORD => Some(Kind::Number { signed }),
+        8 | 16 | 32 | 64 if is_bytes => Some(FieldKind::Native { signed }),
+        _ if bit + bits <= WORD => Some(FieldKind::Number { signed }),
         _ => None,
     };
-    let bytes = is_bytes.then_some(Kind::Bytes);
+    let bytes = is_bytes.then_some(FieldKind::Bytes);
     match base {
-        Type::Boolean if bits == 1 => Some(Kind::Bit),
-        Type::Boolean if is_bytes && bits == 8 => Some(Kind::Flag),
-        Type::Real32 | Type::Real64 if fits => Some(Kind::Real),
-        Type::TimeOfDay if fits => Some(Kind::Time("time_of_day")),
-        Type::TimeDifference if fits => Some(Kind::Time("time_difference")),
+        Type::Boolean if bits == 1 => Some(FieldKind::Bit),
+        Type::Boolean if is_bytes && bits == 8 => Some(FieldKind::Flag),
+        Type::Real32 | Type::Real64 if fits => Some(FieldKind::Real),
+        Type::TimeOfDay if fits => Some(FieldKind::Time("time_of_day")),
+        Type::TimeDifference if fits => Some(FieldKind::Time("time_difference")),
         Type::Boolean | Type::Integer(_) | Type::Unsigned(_) => integer.or(bytes),
         Type::Time(TimeFormat::TimeOfDay | TimeFormat::TimeDifference) if fits => integer,
         _ => bytes.or(integer),
@@ -275,8 +277,8 @@ fn kind(base: Type, place: Place) -> Option<Kind> {
 mod tests {
     use super::*;
 
-    fn place(offset: u32, bits: u32) -> Place {
-        Place::within(100, offset, bits).unwrap()
+    fn place(offset: u32, bits: u32) -> FieldPosition {
+        FieldPosition::within(100, offset, bits).unwrap()
     }
 
     #[test]
@@ -291,20 +293,23 @@ mod tests {
 
     #[test]
     fn fields_lie_within_their_bytes() {
-        assert!(Place::within(2, 8, 8).is_some() && Place::within(2, 9, 8).is_none());
-        assert!(Place::within(2, 0, 0).is_none());
-        assert!(Place::within(u32::MAX, u32::MAX, 64).is_some() && Place::within(u32::MAX, 9, u32::MAX).is_none());
+        assert!(FieldPosition::within(2, 8, 8).is_some() && FieldPosition::within(2, 9, 8).is_none());
+        assert!(FieldPosition::within(2, 0, 0).is_none());
+        assert!(
+            FieldPosition::within(u32::MAX, u32::MAX, 64).is_some()
+                && FieldPosition::within(u32::MAX, 9, u32::MAX).is_none()
+        );
     }
 
     #[test]
     fn kinds() {
-        assert_eq!(kind(Type::Unsigned(16), place(8, 16)), Some(Kind::Native { signed: false }));
-        assert_eq!(kind(Type::Integer(24), place(8, 24)), Some(Kind::Number { signed: true }));
-        assert_eq!(kind(Type::Unsigned(16), place(9, 16)), Some(Kind::Number { signed: false }));
+        assert_eq!(kind(Type::Unsigned(16), place(8, 16)), Some(FieldKind::Native { signed: false }));
+        assert_eq!(kind(Type::Integer(24), place(8, 24)), Some(FieldKind::Number { signed: true }));
+        assert_eq!(kind(Type::Unsigned(16), place(9, 16)), Some(FieldKind::Number { signed: false }));
         assert_eq!(kind(Type::Unsigned(64), place(9, 64)), None, "more than a word");
-        assert_eq!(kind(Type::Boolean, place(8, 8)), Some(Kind::Flag));
-        assert_eq!(kind(Type::Opaque(None), place(8, 80)), Some(Kind::Bytes));
-        assert_eq!(kind(Type::Opaque(None), place(9, 3)), Some(Kind::Number { signed: false }));
-        assert_eq!(kind(Type::Real32, place(0, 16)), Some(Kind::Bytes), "a number of the wrong length");
+        assert_eq!(kind(Type::Boolean, place(8, 8)), Some(FieldKind::Flag));
+        assert_eq!(kind(Type::Opaque(None), place(8, 80)), Some(FieldKind::Bytes));
+        assert_eq!(kind(Type::Opaque(None), place(9, 3)), Some(FieldKind::Number { signed: false }));
+        assert_eq!(kind(Type::Real32, place(0, 16)), Some(FieldKind::Bytes), "a number of the wrong length");
     }
 }

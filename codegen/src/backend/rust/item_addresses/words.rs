@@ -1,13 +1,13 @@
 //! What documentation calls the places of an item.
 
-use super::{Field, Place};
-use crate::backend::rust::route::{Net, Route};
+use super::{Field, ItemAddresses};
+use crate::backend::rust::route::{Route, RouteBus};
 use crate::backend::rust::scope::Scope;
 use crate::backend::rust::words::escape;
 use crate::facts::{address, register};
 use crate::ir::{Item, RegisterSpace};
 
-impl Place<'_> {
+impl ItemAddresses<'_> {
     /// What the documentation calls the places of an item.
     pub fn facts(&self, scope: &Scope<'_>, item: &Item) -> String {
         let object = |(index, sub)| address::object(index, sub);
@@ -46,15 +46,19 @@ impl Place<'_> {
     /// The buses on which the item is behind a window, and its number there.
     fn numbers(&self) -> Option<String> {
         let number = self.number()?;
-        let window = |route: &Route<'_>| route.ways().find_map(|way| way.window);
-        let on = Net::ALL.iter().zip(&self.routes).filter(|(_, route)| window(route).is_some());
-        let on: Vec<&str> = on.map(|(net, _)| net.title()).collect();
+        let window = |route: &Route<'_>| route.access_paths().find_map(|access_path| access_path.window);
+        let on = RouteBus::ALL.iter().zip(&self.routes).filter(|(_, route)| window(route).is_some());
+        let on: Vec<&str> = on.map(|(bus, _)| bus.title()).collect();
         Some(format!("number 0x{number:04X} behind a window on {}", on.join(", ")))
     }
 
     /// Its number behind a window.
     fn number(&self) -> Option<u32> {
-        self.routes.iter().flat_map(Route::ways).find_map(|way| way.window).map(|(_, number)| number)
+        self.routes
+            .iter()
+            .flat_map(Route::access_paths)
+            .find_map(|access_path| access_path.window)
+            .map(|(_, number)| number)
     }
 
     /// What tells the item from others of its name.

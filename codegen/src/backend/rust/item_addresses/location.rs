@@ -1,9 +1,9 @@
 //! The code that makes the location of an item.
 
-use super::Place;
+use super::ItemAddresses;
 use crate::backend::rust::code::{call, list, seq, Doc};
 use crate::backend::rust::located::Located;
-use crate::backend::rust::route::{Net, Route};
+use crate::backend::rust::route::{Route, RouteBus};
 
 /// What makes a location.
 pub(in crate::backend::rust) struct Maker {
@@ -12,7 +12,7 @@ pub(in crate::backend::rust) struct Maker {
     pub body: Doc,
 }
 
-impl Place<'_> {
+impl ItemAddresses<'_> {
     /// What the constructors of objects are called here, and the object, where the item is nothing else.
     pub fn only_object(&self) -> Option<(&'static str, u16, u8)> {
         let routed = self.routed();
@@ -42,16 +42,16 @@ impl Place<'_> {
         }
     }
 
-    /// The place with nothing but addresses that a route leads to: some buses let an item be neither read nor written.
+    /// Nothing but the addresses that a route leads to: some buses let an item be neither read nor written.
     fn routed(&self) -> Self {
-        let is_routed = |net: Net| self.routes[net as usize].ways().next().is_some();
-        Place {
-            canopen: self.canopen.filter(|_| is_routed(Net::CanOpen)),
-            coe: self.coe.filter(|_| is_routed(Net::CoE)),
-            modbus: self.modbus.filter(|_| is_routed(Net::Modbus)),
-            serial: self.serial.filter(|_| is_routed(Net::Serial)),
-            image: self.image.filter(|_| is_routed(Net::Image)),
-            esc: self.esc.filter(|_| is_routed(Net::Esc)),
+        let is_routed = |bus: RouteBus| self.routes[bus as usize].access_paths().next().is_some();
+        ItemAddresses {
+            canopen: self.canopen.filter(|_| is_routed(RouteBus::CanOpen)),
+            coe: self.coe.filter(|_| is_routed(RouteBus::CoE)),
+            modbus: self.modbus.filter(|_| is_routed(RouteBus::Modbus)),
+            serial: self.serial.filter(|_| is_routed(RouteBus::Serial)),
+            image: self.image.filter(|_| is_routed(RouteBus::Image)),
+            esc: self.esc.filter(|_| is_routed(RouteBus::Esc)),
             ..*self
         }
     }
@@ -66,7 +66,7 @@ impl Place<'_> {
         if self.buses().path().is_none() {
             return self.new_location(located, path, windows);
         }
-        let Place { canopen, coe, modbus, serial, image, esc, .. } = self.routed();
+        let ItemAddresses { canopen, coe, modbus, serial, image, esc, .. } = self.routed();
         let same = canopen.is_none() || coe.is_none() || canopen == coe;
         match (canopen.or(coe), modbus, serial) {
             (Some((index, sub)), None, None) if same => {
@@ -94,7 +94,7 @@ impl Place<'_> {
     }
 
     fn new_location(&self, located: &Located<'_>, path: &str, windows: &str) -> Doc {
-        self.location_of(located, path, windows, |net| self.address(net).unwrap_or_default(), None)
+        self.location_of(located, path, windows, |bus| self.address(bus).unwrap_or_default(), None)
     }
 
     /// The code of a location of type `path` whose addresses are `address`, and whose numbers behind windows `number`.
@@ -103,12 +103,12 @@ impl Place<'_> {
         located: &Located<'_>,
         path: &str,
         windows: &str,
-        address: impl Fn(Net) -> String,
+        address: impl Fn(RouteBus) -> String,
         number: Option<&str>,
     ) -> Doc {
         let window = |at: usize| format!("{windows}{}", located.windows.get(at).map_or("", |own| own.name.as_str()));
-        let route = |net: Net| self.routes[net as usize].code(&address(net), window, number);
-        list(&format!("{path}::new("), Net::ALL.into_iter().filter_map(route), ")")
+        let route = |bus: RouteBus| self.routes[bus as usize].code(&address(bus), window, number);
+        list(&format!("{path}::new("), RouteBus::ALL.into_iter().filter_map(route), ")")
     }
 
     /// The location as a function of what items differ in, for one that the runtime has no name for: `rustc` takes a third of
@@ -118,17 +118,18 @@ impl Place<'_> {
         if buses.is_empty() || buses.path().is_some() {
             return None;
         }
-        let ways = || self.routes.iter().flat_map(Route::ways);
-        let mut numbers = ways().filter_map(|way| Some(way.window?.1));
+        let access_paths = || self.routes.iter().flat_map(Route::access_paths);
+        let mut numbers = access_paths().filter_map(|access_path| Some(access_path.window?.1));
         let number = numbers.next();
         if numbers.any(|other| Some(other) != number) {
             return None;
         }
-        let is_addressed = |net: &Net| self.routes[*net as usize].ways().any(|way| way.window.is_none());
-        let addressed = || Net::ALL.into_iter().filter(is_addressed);
+        let is_addressed =
+            |bus: &RouteBus| self.routes[*bus as usize].access_paths().any(|access_path| access_path.window.is_none());
+        let addressed = || RouteBus::ALL.into_iter().filter(is_addressed);
         let mut parameters: Vec<String> =
-            addressed().map(|net| format!("{}: {}", net.field(), net.address())).collect();
-        let mut arguments: Vec<String> = addressed().filter_map(|net| self.address(net)).collect();
+            addressed().map(|bus| format!("{}: {}", bus.field(), bus.address_type())).collect();
+        let mut arguments: Vec<String> = addressed().filter_map(|bus| self.address(bus)).collect();
         if let Some(number) = number {
             parameters.push("number: u32".to_owned());
             arguments.push(format!("0x{number:04X}"));
@@ -136,20 +137,20 @@ impl Place<'_> {
         Some(Maker {
             parameters,
             arguments,
-            body: self.location_of(located, &buses.word(), windows, Net::field, Some("number")),
+            body: self.location_of(located, &buses.word(), windows, RouteBus::field, Some("number")),
         })
     }
 
     /// The code that makes the item's address on a bus.
-    pub(super) fn address(&self, net: Net) -> Option<String> {
+    pub(super) fn address(&self, bus: RouteBus) -> Option<String> {
         let object = |(index, sub): (u16, u8)| format!("rt::Object::new(0x{index:04X}, 0x{sub:02X})");
-        match net {
-            Net::CanOpen => self.canopen.map(object),
-            Net::CoE => self.coe.map(object),
-            Net::Modbus => self.register_code(),
-            Net::Serial => self.serial.map(|code| format!("rt::Parameter({code})")),
-            Net::Image => self.image.map(|field| field.code(self.is_bytes)),
-            Net::Esc => self.esc.map(|(address, length)| format!("rt::EscMemory::new(0x{address:04X}, {length})")),
+        match bus {
+            RouteBus::CanOpen => self.canopen.map(object),
+            RouteBus::CoE => self.coe.map(object),
+            RouteBus::Modbus => self.register_code(),
+            RouteBus::Serial => self.serial.map(|code| format!("rt::Parameter({code})")),
+            RouteBus::Image => self.image.map(|field| field.code(self.is_bytes)),
+            RouteBus::Esc => self.esc.map(|(address, length)| format!("rt::EscMemory::new(0x{address:04X}, {length})")),
         }
     }
 }

@@ -1,15 +1,15 @@
-//! Where an item is found: its addresses, and the routes to it.
+//! The addresses of an item, and the routes to it.
 
 mod buses;
 mod field;
 mod location;
+mod paths;
 mod register;
-mod ways;
 mod words;
 
 pub(super) use buses::Buses;
 
-use super::route::{Net, Route};
+use super::route::{Route, RouteBus};
 use super::scope::{ObjectBus, Scope};
 use crate::ir::{Binding, Item, RegisterBinding, Type};
 use field::Field;
@@ -19,7 +19,7 @@ pub(super) type ObjectAddress = (u16, u8);
 
 /// An item's address on each bus that generated code can reach, and the routes to it.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Place<'i> {
+pub(super) struct ItemAddresses<'i> {
     canopen: Option<(u16, u8)>,
     coe: Option<(u16, u8)>,
     modbus: Option<&'i RegisterBinding>,
@@ -38,30 +38,30 @@ pub(super) struct Place<'i> {
 }
 
 /// The code that makes the address of an item on a bus, where it has one there, and it can be read or written.
-pub(super) fn address(scope: &Scope<'_>, item: &Item, net: Net, writes: bool) -> Option<String> {
-    let place = Place::addresses(scope, item);
-    place.is_possible(item, net, writes).then(|| place.address(net))?
+pub(super) fn address(scope: &Scope<'_>, item: &Item, bus: RouteBus, writes: bool) -> Option<String> {
+    let addresses = ItemAddresses::without_routes(scope, item);
+    addresses.is_possible(item, bus, writes).then(|| addresses.address(bus))?
 }
 
-impl<'i> Place<'i> {
+impl<'i> ItemAddresses<'i> {
     /// The addresses of an item, as yet without routes.
-    fn addresses(scope: &Scope<'_>, item: &'i Item) -> Self {
+    fn without_routes(scope: &Scope<'_>, item: &'i Item) -> Self {
         let base = scope.base(item.ty);
-        let mut place = Place::of_value(base);
+        let mut addresses = ItemAddresses::of_value(base);
         for binding in &item.bindings {
-            place.add(scope, base, binding);
+            addresses.add(scope, base, binding);
         }
-        place
+        addresses
     }
 
-    /// No place yet, of a value of this type.
+    /// No address yet, of a value of this type.
     fn of_value(base: Type) -> Self {
-        Place {
+        ItemAddresses {
             bits: base.bits().unwrap_or(0),
             is_bytes: base.is_bytes(),
             is_wide: matches!(base, Type::UnicodeString(_)),
             is_signed: matches!(base, Type::Integer(_)),
-            ..Place::default()
+            ..ItemAddresses::default()
         }
     }
 
@@ -82,14 +82,14 @@ impl<'i> Place<'i> {
     }
 
     /// Whether the item has an address on a bus.
-    fn has(&self, net: Net) -> bool {
-        match net {
-            Net::CanOpen => self.canopen.is_some(),
-            Net::CoE => self.coe.is_some(),
-            Net::Modbus => self.modbus.is_some(),
-            Net::Serial => self.serial.is_some(),
-            Net::Image => self.image.is_some(),
-            Net::Esc => self.esc.is_some(),
+    fn has(&self, bus: RouteBus) -> bool {
+        match bus {
+            RouteBus::CanOpen => self.canopen.is_some(),
+            RouteBus::CoE => self.coe.is_some(),
+            RouteBus::Modbus => self.modbus.is_some(),
+            RouteBus::Serial => self.serial.is_some(),
+            RouteBus::Image => self.image.is_some(),
+            RouteBus::Esc => self.esc.is_some(),
         }
     }
 

@@ -1,9 +1,9 @@
 //! The code that makes a register, and the order in which registers are sorted.
 
-use super::Place;
+use super::ItemAddresses;
 use crate::ir::{RegisterBinding, RegisterSpace};
 
-impl Place<'_> {
+impl ItemAddresses<'_> {
     /// The call that makes the register.
     pub fn register_code(&self) -> Option<String> {
         self.modbus.map(|register| self.register(register))

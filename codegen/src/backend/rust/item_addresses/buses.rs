@@ -1,11 +1,11 @@
 //! The buses of a location, which are its type.
 
 use crate::backend::rust::code::{seq, Doc};
-use crate::backend::rust::route::{Kind, Leg, Net, Route};
+use crate::backend::rust::route::{PathKind, Route, RouteBus, RouteKind};
 
 /// The buses of a location, and what the route is on each.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
-pub(in crate::backend::rust) struct Buses([Kind; 6]);
+pub(in crate::backend::rust) struct Buses([RouteKind; 6]);
 
 impl Buses {
     pub fn of(routes: &[Route<'_>; 6]) -> Self {
@@ -19,7 +19,7 @@ impl Buses {
 
     /// Whether every route is an address.
     pub fn is_direct(self) -> bool {
-        self.0.iter().all(|kind| matches!(kind, Kind::Absent | Kind::One(Leg::Direct)))
+        self.0.iter().all(|kind| matches!(kind, RouteKind::Absent | RouteKind::One(PathKind::Direct)))
     }
 
     /// The buses of both.
@@ -29,7 +29,7 @@ impl Buses {
 
     /// The runtime's name of the location, where it has one.
     pub fn path(self) -> Option<&'static str> {
-        let [canopen, coe, modbus, serial, image, esc] = self.0.map(|kind| kind != Kind::Absent);
+        let [canopen, coe, modbus, serial, image, esc] = self.0.map(|kind| kind != RouteKind::Absent);
         if !self.is_direct() {
             return None;
         }
@@ -50,20 +50,20 @@ impl Buses {
 
     /// The fields of the location: its buses, each with its route.
     pub fn fields(self) -> Vec<Doc> {
-        let fields = Net::ALL.iter().zip(self.0).filter_map(|(net, kind)| Some((net, kind.ty(*net)?)));
-        fields.map(|(net, ty)| seq![net.field(), ": rt::", net.bus(), " => ", ty]).collect()
+        let fields = RouteBus::ALL.iter().zip(self.0).filter_map(|(bus, kind)| Some((bus, kind.ty(*bus)?)));
+        fields.map(|(bus, ty)| seq![bus.field(), ": rt::", bus.type_name(), " => ", ty]).collect()
     }
 
     /// Its name as a part of another one.
     pub fn word(self) -> String {
-        let words: String = Net::ALL.iter().zip(self.0).map(|(net, kind)| kind.word(*net)).collect();
+        let words: String = RouteBus::ALL.iter().zip(self.0).map(|(bus, kind)| kind.word(*bus)).collect();
         format!("On{}", if words.is_empty() { "NoBus" } else { words.as_str() })
     }
 
     /// The buses, for a sentence.
     pub fn titles(self) -> String {
-        let present = Net::ALL.iter().zip(self.0).filter(|(_, kind)| *kind != Kind::Absent);
-        let titles: Vec<&str> = present.map(|(net, _)| net.title()).collect();
+        let present = RouteBus::ALL.iter().zip(self.0).filter(|(_, kind)| *kind != RouteKind::Absent);
+        let titles: Vec<&str> = present.map(|(bus, _)| bus.title()).collect();
         if titles.is_empty() {
             "no bus".to_owned()
         } else {

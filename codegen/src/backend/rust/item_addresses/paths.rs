@@ -1,0 +1,111 @@
+//! The paths to an item: to its own address on a bus, and through a window.
+
+use super::ItemAddresses;
+use crate::backend::rust::located::Located;
+use crate::backend::rust::route::{AccessPath, Route, RouteBus};
+use crate::backend::rust::window;
+use crate::ir::{Binding, Item, Type};
+
+impl<'i> ItemAddresses<'i> {
+    /// The addresses of an item, and the routes to it.
+    pub fn of(located: &Located<'_>, item: &'i Item) -> Self {
+        let mut addresses = ItemAddresses::without_routes(located, item);
+        addresses.routes = addresses.routes(located, item);
+        addresses
+    }
+
+    /// The routes to an item on all buses.
+    pub(super) fn routes(&self, located: &Located<'_>, item: &'i Item) -> [Route<'i>; 6] {
+        if !is_plain(item) {
+            return RouteBus::ALL.map(|bus| self.route(located, item, bus));
+        }
+        RouteBus::ALL.map(|bus| if self.has(bus) { plain(item) } else { Route::default() })
+    }
+
+    /// Whether a bus lets the item be read, or written, at its address.
+    pub(super) fn is_possible(&self, item: &Item, bus: RouteBus, writes: bool) -> bool {
+        let access = if bus == RouteBus::Esc { item.access } else { item.access_on(bus.of_items()) };
+        let allows = if writes { access.writable() } else { access.readable() };
+        let has_direction = match (bus, self.image) {
+            (RouteBus::Image, Some(field)) => field.is_output == writes,
+            _ => true,
+        };
+        self.has(bus) && allows && has_direction
+    }
+
+    fn route(&self, located: &Located<'_>, item: &'i Item, bus: RouteBus) -> Route<'i> {
+        let access_path = |writes: bool| {
+            let is_allowed = if writes { item.access.writable() } else { item.access.readable() };
+            let direct = || self.is_possible(item, bus, writes).then(|| self.direct_path(located, item, bus))?;
+            is_allowed.then(|| direct().or_else(|| through(located, item, bus, writes)))?
+        };
+        let (read, write) = (access_path(false), access_path(true));
+        let is_partial = item.access.readable() && item.access.writable();
+        Route { read, write, is_partial }
+    }
+
+    /// The path to the item's own address; none where its type can't have the width that it has there.
+    fn direct_path(&self, located: &Located<'_>, item: &'i Item, bus: RouteBus) -> Option<AccessPath<'i>> {
+        let (ty, type_there) = (located.base(item.ty), located.base(item.type_on(bus.of_items())));
+        let type_there = match (bus, self.image, self.esc) {
+            (RouteBus::Image, Some(field), _) => field.ty.map_or(ty, |field_type| located.base(field_type)),
+            (RouteBus::Esc, _, Some((_, length))) => in_memory(ty, length),
+            _ => type_there,
+        };
+        let limited = item.limits_on(bus.of_items()).filter(|_| is_integer(ty)).map(|limits| (limits, ty.is_signed()));
+        let resized = ty.bits() != type_there.bits() && ty.bits().is_some();
+        let is_signed = if resized { narrower(ty, type_there).is_signed() } else { ty.is_signed() };
+        let bits = type_there.bits().filter(|bits| (1..=64).contains(bits)).and_then(|bits| u8::try_from(bits).ok());
+        if resized && !(is_integer(ty) && is_integer(type_there)) {
+            return None;
+        }
+        Some(AccessPath { window: None, resized: bits.filter(|_| resized), limited, is_signed })
+    }
+}
+
+/// The route to an item that is the same everywhere.
+fn plain<'i>(item: &Item) -> Route<'i> {
+    let access_path = Some(AccessPath { window: None, resized: None, limited: None, is_signed: false });
+    let (read, write) =
+        (access_path.filter(|_| item.access.readable()), access_path.filter(|_| item.access.writable()));
+    Route { read, write, is_partial: false }
+}
+
+/// The path through a window of the item's space on a bus.
+fn through<'i>(located: &Located<'_>, item: &Item, bus: RouteBus, writes: bool) -> Option<AccessPath<'i>> {
+    item.bindings.iter().filter_map(window::indirect).find_map(|binding| {
+        let at = window::position(&located.windows, binding, bus, writes)?;
+        let own = located.windows.get(at).filter(|own| window::carries(located, item, own))?;
+        let (bits, is_signed) = own.value;
+        let base = located.base(item.ty);
+        let is_signed = if base.bits().unwrap_or(0) <= bits { base.is_signed() } else { is_signed };
+        Some(AccessPath { window: Some((at, binding.number)), resized: None, limited: None, is_signed })
+    })
+}
+
+/// Whether an item is the same on every bus on which it has an address, and nowhere else.
+fn is_plain(item: &Item) -> bool {
+    let is_address =
+        |binding: &Binding| !matches!(binding, Binding::Indirect(_) | Binding::Image(_) | Binding::EscMemory { .. });
+    item.variants.is_empty() && item.bindings.iter().all(is_address)
+}
+
+/// A number in so many bytes of a slave controller.
+fn in_memory(ty: Type, length: u16) -> Type {
+    match (ty.bits(), u8::try_from(length)) {
+        (Some(bits), Ok(length @ 1..=8)) if bits.div_ceil(8) != u32::from(length) => Type::Unsigned(8 * length),
+        _ => ty,
+    }
+}
+
+fn is_integer(ty: Type) -> bool {
+    matches!(ty, Type::Boolean | Type::Integer(1..=64) | Type::Unsigned(1..=64))
+}
+
+fn narrower(one: Type, other: Type) -> Type {
+    if one.bits() <= other.bits() {
+        one
+    } else {
+        other
+    }
+}
