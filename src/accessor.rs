@@ -18,8 +18,8 @@ use crate::value_error::LengthError;
 /// Reads and writes one [`Item`] through one client; made by [`Item::at`].
 ///
 /// Which methods compile depends on the access rights `A`, on the location `L` and on the bus of the client `C`; their
-/// arguments depend on the type `V`. Those without a suffix ask for a [`Client`], those that end in `_async` for an
-/// [`AsyncClient`].
+/// arguments depend on the type `V`. Those without a suffix ask for a [`Client`]; those that end in `_async` ask for an
+/// [`AsyncClient`], and do the same without blocking.
 ///
 /// Every method fails as the client does (see [`Client::read`]); its own documentation names the other errors. An
 /// answer that doesn't fit is always [`Error::Length`], never a panic.
@@ -49,43 +49,34 @@ impl<'c, C, V: Value, A, L> Accessor<'c, C, V, A, L> {
     pub const fn item(&self) -> &Item<V, A, L> {
         &self.item
     }
-
-    #[inline]
-    fn fetch<'b>(&mut self, buffer: &'b mut [u8]) -> Result<&'b [u8], Error<C::Error>>
-    where
-        C: Client,
-        L: On<C::Bus, Route: ReadRoute<C::Bus>>,
-    {
-        let length = self.item.location().route().read(self.client, buffer)?;
-        Ok(filled(buffer, length)?)
-    }
-
-    async fn fetch_async<'b>(&mut self, buffer: &'b mut [u8]) -> Result<&'b [u8], Error<C::Error>>
-    where
-        C: AsyncClient,
-        L: On<C::Bus, Route: ReadRoute<C::Bus>>,
-    {
-        let length = self.item.location().route().read_async(self.client, buffer).await?;
-        Ok(filled(buffer, length)?)
-    }
-
-    #[inline]
-    fn send(&mut self, data: &[u8]) -> Result<(), Error<C::Error>>
-    where
-        C: Client,
-        L: On<C::Bus, Route: WriteRoute<C::Bus>>,
-    {
-        self.item.location().route().write(self.client, data)
-    }
-
-    async fn send_async(&mut self, data: &[u8]) -> Result<(), Error<C::Error>>
-    where
-        C: AsyncClient,
-        L: On<C::Bus, Route: WriteRoute<C::Bus>>,
-    {
-        self.item.location().route().write_async(self.client, data).await
-    }
 }
+
+/// Transfers of bytes, blocking and not.
+macro_rules! transfers {
+    ($Client:ident $fetch:ident $read:ident $send:ident $write:ident $($async:ident $await:ident)?) => {
+        impl<C: $Client, V: Value, A, L> Accessor<'_, C, V, A, L> {
+            #[inline]
+            $($async)? fn $fetch<'b>(&mut self, buffer: &'b mut [u8]) -> Result<&'b [u8], Error<C::Error>>
+            where
+                L: On<C::Bus, Route: ReadRoute<C::Bus>>,
+            {
+                let length = self.item.location().route().$read(self.client, buffer)$(.$await)??;
+                Ok(filled(buffer, length)?)
+            }
+
+            #[inline]
+            $($async)? fn $send(&mut self, data: &[u8]) -> Result<(), Error<C::Error>>
+            where
+                L: On<C::Bus, Route: WriteRoute<C::Bus>>,
+            {
+                self.item.location().route().$write(self.client, data)$(.$await)?
+            }
+        }
+    };
+}
+
+transfers! { Client fetch read send write }
+transfers! { AsyncClient fetch_async read_async send_async write_async async await }
 
 impl<C, V: Value, A, L: fmt::Debug> fmt::Debug for Accessor<'_, C, V, A, L>
 where

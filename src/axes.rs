@@ -126,49 +126,34 @@ pub trait AxisBus: Bus<Address = Object> {}
 impl AxisBus for CanOpen {}
 impl AxisBus for CoE {}
 
-impl<C: Client> Client for Axis<C>
-where
-    C::Bus: AxisBus,
-{
-    type Bus = C::Bus;
-    type Error = C::Error;
+macro_rules! axis {
+    ($Client:ident $($async:ident $await:ident)?) => {
+        impl<C: $Client> $Client for Axis<C>
+        where
+            C::Bus: AxisBus,
+        {
+            type Bus = C::Bus;
+            type Error = C::Error;
 
-    fn read(&mut self, address: Object, buffer: &mut [u8]) -> Result<usize, Error<C::Error>> {
-        let address = self.object(address)?;
-        self.client.read(address, buffer)
-    }
+            $($async)? fn read(&mut self, address: Object, buffer: &mut [u8]) -> Result<usize, Error<C::Error>> {
+                let address = self.object(address)?;
+                self.client.read(address, buffer)$(.$await)?
+            }
 
-    fn write(&mut self, address: Object, data: &[u8]) -> Result<(), Error<C::Error>> {
-        let address = self.object(address)?;
-        self.client.write(address, data)
-    }
+            $($async)? fn write(&mut self, address: Object, data: &[u8]) -> Result<(), Error<C::Error>> {
+                let address = self.object(address)?;
+                self.client.write(address, data)$(.$await)?
+            }
 
-    fn wait(&mut self, time: Duration) -> Result<(), Error<C::Error>> {
-        self.client.wait(time)
-    }
+            $($async)? fn wait(&mut self, time: Duration) -> Result<(), Error<C::Error>> {
+                self.client.wait(time)$(.$await)?
+            }
+        }
+    };
 }
 
-impl<C: AsyncClient> AsyncClient for Axis<C>
-where
-    C::Bus: AxisBus,
-{
-    type Bus = C::Bus;
-    type Error = C::Error;
-
-    async fn read(&mut self, address: Object, buffer: &mut [u8]) -> Result<usize, Error<C::Error>> {
-        let address = self.object(address)?;
-        self.client.read(address, buffer).await
-    }
-
-    async fn write(&mut self, address: Object, data: &[u8]) -> Result<(), Error<C::Error>> {
-        let address = self.object(address)?;
-        self.client.write(address, data).await
-    }
-
-    async fn wait(&mut self, time: Duration) -> Result<(), Error<C::Error>> {
-        self.client.wait(time).await
-    }
-}
+axis! { Client }
+axis! { AsyncClient async await }
 
 #[cfg(test)]
 mod tests {

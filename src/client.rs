@@ -179,99 +179,72 @@ impl<C, D> Timed<C, D> {
     }
 }
 
-impl<C: Client, D: FnMut(Duration)> Client for Timed<C, D> {
-    type Bus = C::Bus;
-    type Error = C::Error;
+/// Clients that hand everything, or all but the time, to another one; blocking and not.
+macro_rules! forwarding {
+    ($Client:ident [$($future:tt)*] $($async:ident $await:ident)?) => {
+        impl<C: $Client, D: FnMut(Duration) $($future)*> $Client for Timed<C, D> {
+            type Bus = C::Bus;
+            type Error = C::Error;
 
-    fn read(&mut self, address: <Self::Bus as Bus>::Address, buffer: &mut [u8]) -> Result<usize, Error<Self::Error>> {
-        self.client.read(address, buffer)
-    }
+            $($async)? fn read(
+                &mut self,
+                address: <Self::Bus as Bus>::Address,
+                buffer: &mut [u8],
+            ) -> Result<usize, Error<Self::Error>> {
+                self.client.read(address, buffer)$(.$await)?
+            }
 
-    fn write(&mut self, address: <Self::Bus as Bus>::Address, data: &[u8]) -> Result<(), Error<Self::Error>> {
-        self.client.write(address, data)
-    }
+            $($async)? fn write(
+                &mut self,
+                address: <Self::Bus as Bus>::Address,
+                data: &[u8],
+            ) -> Result<(), Error<Self::Error>> {
+                self.client.write(address, data)$(.$await)?
+            }
 
-    fn write_both(&mut self, writes: [Write<'_, Self::Bus>; 2]) -> Result<(), Error<Self::Error>> {
-        self.client.write_both(writes)
-    }
+            $($async)? fn write_both(&mut self, writes: [Write<'_, Self::Bus>; 2]) -> Result<(), Error<Self::Error>> {
+                self.client.write_both(writes)$(.$await)?
+            }
 
-    fn wait(&mut self, time: Duration) -> Result<(), Error<Self::Error>> {
-        (self.delay)(time);
-        Ok(())
-    }
+            $($async)? fn wait(&mut self, time: Duration) -> Result<(), Error<Self::Error>> {
+                (self.delay)(time)$(.$await)?;
+                Ok(())
+            }
+        }
+
+        impl<T: $Client + ?Sized> $Client for &mut T {
+            type Bus = T::Bus;
+            type Error = T::Error;
+
+            $($async)? fn read(
+                &mut self,
+                address: <Self::Bus as Bus>::Address,
+                buffer: &mut [u8],
+            ) -> Result<usize, Error<Self::Error>> {
+                T::read(self, address, buffer)$(.$await)?
+            }
+
+            $($async)? fn write(
+                &mut self,
+                address: <Self::Bus as Bus>::Address,
+                data: &[u8],
+            ) -> Result<(), Error<Self::Error>> {
+                T::write(self, address, data)$(.$await)?
+            }
+
+            $($async)? fn write_both(&mut self, writes: [Write<'_, Self::Bus>; 2]) -> Result<(), Error<Self::Error>> {
+                T::write_both(self, writes)$(.$await)?
+            }
+
+            $($async)? fn wait(&mut self, time: Duration) -> Result<(), Error<Self::Error>> {
+                T::wait(self, time)$(.$await)?
+            }
+        }
+    };
 }
 
-impl<C: AsyncClient, D: FnMut(Duration) -> F, F: Future<Output = ()>> AsyncClient for Timed<C, D> {
-    type Bus = C::Bus;
-    type Error = C::Error;
-
-    async fn read(
-        &mut self,
-        address: <Self::Bus as Bus>::Address,
-        buffer: &mut [u8],
-    ) -> Result<usize, Error<Self::Error>> {
-        self.client.read(address, buffer).await
-    }
-
-    async fn write(&mut self, address: <Self::Bus as Bus>::Address, data: &[u8]) -> Result<(), Error<Self::Error>> {
-        self.client.write(address, data).await
-    }
-
-    async fn write_both(&mut self, writes: [Write<'_, Self::Bus>; 2]) -> Result<(), Error<Self::Error>> {
-        self.client.write_both(writes).await
-    }
-
-    async fn wait(&mut self, time: Duration) -> Result<(), Error<Self::Error>> {
-        (self.delay)(time).await;
-        Ok(())
-    }
-}
-
-impl<T: Client + ?Sized> Client for &mut T {
-    type Bus = T::Bus;
-    type Error = T::Error;
-
-    fn read(&mut self, address: <Self::Bus as Bus>::Address, buffer: &mut [u8]) -> Result<usize, Error<Self::Error>> {
-        T::read(self, address, buffer)
-    }
-
-    fn write(&mut self, address: <Self::Bus as Bus>::Address, data: &[u8]) -> Result<(), Error<Self::Error>> {
-        T::write(self, address, data)
-    }
-
-    fn write_both(&mut self, writes: [Write<'_, Self::Bus>; 2]) -> Result<(), Error<Self::Error>> {
-        T::write_both(self, writes)
-    }
-
-    fn wait(&mut self, time: Duration) -> Result<(), Error<Self::Error>> {
-        T::wait(self, time)
-    }
-}
-
-impl<T: AsyncClient + ?Sized> AsyncClient for &mut T {
-    type Bus = T::Bus;
-    type Error = T::Error;
-
-    async fn read(
-        &mut self,
-        address: <Self::Bus as Bus>::Address,
-        buffer: &mut [u8],
-    ) -> Result<usize, Error<Self::Error>> {
-        T::read(self, address, buffer).await
-    }
-
-    async fn write(&mut self, address: <Self::Bus as Bus>::Address, data: &[u8]) -> Result<(), Error<Self::Error>> {
-        T::write(self, address, data).await
-    }
-
-    async fn write_both(&mut self, writes: [Write<'_, Self::Bus>; 2]) -> Result<(), Error<Self::Error>> {
-        T::write_both(self, writes).await
-    }
-
-    async fn wait(&mut self, time: Duration) -> Result<(), Error<Self::Error>> {
-        T::wait(self, time).await
-    }
-}
+forwarding! { Client [] }
+forwarding! { AsyncClient [-> F, F: Future<Output = ()>] async await }
 
 #[cfg(test)]
 mod tests {

@@ -16,7 +16,7 @@ mod plan;
 mod startup;
 mod sync_manager;
 
-pub use assignment::{Assignment, AssignmentError, Placed};
+pub use assignment::{AssignedPdo, Assignment, AssignmentError};
 pub use clock::{ClockMode, ClockTime};
 pub use depends_on::DependsOn;
 pub use mailbox::{Coe, InitCommand, Mailbox, Transition, Transitions};

@@ -77,22 +77,6 @@ pub trait AsyncExchange {
     async fn exchange(&mut self, request: &[u8], reply: &mut [u8]) -> Result<usize, Error<Self::Error>>;
 }
 
-impl<T: Exchange + ?Sized> Exchange for &mut T {
-    type Error = T::Error;
-
-    fn exchange(&mut self, request: &[u8], reply: &mut [u8]) -> Result<usize, Error<T::Error>> {
-        T::exchange(self, request, reply)
-    }
-}
-
-impl<T: AsyncExchange + ?Sized> AsyncExchange for &mut T {
-    type Error = T::Error;
-
-    async fn exchange(&mut self, request: &[u8], reply: &mut [u8]) -> Result<usize, Error<T::Error>> {
-        T::exchange(self, request, reply).await
-    }
-}
-
 /// The messages of a protocol that read and write numbered parameters.
 ///
 /// Values are as in a [`Client`]: the least significant byte first. A protocol with another order turns them around.
@@ -203,62 +187,47 @@ fn filled(buffer: &[u8], length: usize) -> Result<&[u8], LengthError> {
     buffer.get(..length).ok_or(LengthError::new(buffer.len(), length))
 }
 
-impl<X: Exchange, M: ParameterMessages, const N: usize> Client for Parameters<X, M, N> {
-    type Bus = Serial;
-    type Error = X::Error;
+macro_rules! clients {
+    ($Exchange:ident $Client:ident $MessageClient:ident $($async:ident $await:ident)?) => {
+        impl<T: $Exchange + ?Sized> $Exchange for &mut T {
+            type Error = T::Error;
 
-    fn read(&mut self, parameter: Parameter, buffer: &mut [u8]) -> Result<usize, Error<X::Error>> {
-        let length = self.messages.read_request(parameter, buffer.len(), &mut self.request)?;
-        let request = filled(&self.request, length)?;
-        let length = self.exchange.exchange(request, &mut self.reply)?;
-        self.messages.read_reply(parameter, request, filled(&self.reply, length)?, buffer)
-    }
+            $($async)? fn exchange(&mut self, request: &[u8], reply: &mut [u8]) -> Result<usize, Error<T::Error>> {
+                T::exchange(self, request, reply)$(.$await)?
+            }
+        }
 
-    fn write(&mut self, parameter: Parameter, data: &[u8]) -> Result<(), Error<X::Error>> {
-        let length = self.messages.write_request(parameter, data, &mut self.request)?;
-        let request = filled(&self.request, length)?;
-        let length = self.exchange.exchange(request, &mut self.reply)?;
-        self.messages.write_reply(parameter, request, filled(&self.reply, length)?)
-    }
+        impl<X: $Exchange, M: ParameterMessages, const N: usize> $Client for Parameters<X, M, N> {
+            type Bus = Serial;
+            type Error = X::Error;
+
+            $($async)? fn read(&mut self, parameter: Parameter, buffer: &mut [u8]) -> Result<usize, Error<X::Error>> {
+                let length = self.messages.read_request(parameter, buffer.len(), &mut self.request)?;
+                let request = filled(&self.request, length)?;
+                let length = self.exchange.exchange(request, &mut self.reply)$(.$await)??;
+                self.messages.read_reply(parameter, request, filled(&self.reply, length)?, buffer)
+            }
+
+            $($async)? fn write(&mut self, parameter: Parameter, data: &[u8]) -> Result<(), Error<X::Error>> {
+                let length = self.messages.write_request(parameter, data, &mut self.request)?;
+                let request = filled(&self.request, length)?;
+                let length = self.exchange.exchange(request, &mut self.reply)$(.$await)??;
+                self.messages.write_reply(parameter, request, filled(&self.reply, length)?)
+            }
+        }
+
+        impl<X: $Exchange, S: Station, const N: usize> $MessageClient for Parameters<X, S, N> {
+            type Error = X::Error;
+
+            $($async)? fn call<M: Message>(&mut self, message: &M) -> Answer<M::Reply<'_>, X::Error, M> {
+                let mut request = Writer::new(&mut self.request);
+                message.write(self.messages.station(), &mut request)?;
+                let length = self.exchange.exchange(request.written(), &mut self.reply)$(.$await)??;
+                answer::<_, M>(request.written(), filled(&self.reply, length)?)
+            }
+        }
+    };
 }
 
-impl<X: AsyncExchange, M: ParameterMessages, const N: usize> AsyncClient for Parameters<X, M, N> {
-    type Bus = Serial;
-    type Error = X::Error;
-
-    async fn read(&mut self, parameter: Parameter, buffer: &mut [u8]) -> Result<usize, Error<X::Error>> {
-        let length = self.messages.read_request(parameter, buffer.len(), &mut self.request)?;
-        let request = filled(&self.request, length)?;
-        let length = self.exchange.exchange(request, &mut self.reply).await?;
-        self.messages.read_reply(parameter, request, filled(&self.reply, length)?, buffer)
-    }
-
-    async fn write(&mut self, parameter: Parameter, data: &[u8]) -> Result<(), Error<X::Error>> {
-        let length = self.messages.write_request(parameter, data, &mut self.request)?;
-        let request = filled(&self.request, length)?;
-        let length = self.exchange.exchange(request, &mut self.reply).await?;
-        self.messages.write_reply(parameter, request, filled(&self.reply, length)?)
-    }
-}
-
-impl<X: Exchange, S: Station, const N: usize> MessageClient for Parameters<X, S, N> {
-    type Error = X::Error;
-
-    fn call<M: Message>(&mut self, message: &M) -> Answer<M::Reply<'_>, X::Error, M> {
-        let mut request = Writer::new(&mut self.request);
-        message.write(self.messages.station(), &mut request)?;
-        let length = self.exchange.exchange(request.written(), &mut self.reply)?;
-        answer::<_, M>(request.written(), filled(&self.reply, length)?)
-    }
-}
-
-impl<X: AsyncExchange, S: Station, const N: usize> AsyncMessageClient for Parameters<X, S, N> {
-    type Error = X::Error;
-
-    async fn call<M: Message>(&mut self, message: &M) -> Answer<M::Reply<'_>, X::Error, M> {
-        let mut request = Writer::new(&mut self.request);
-        message.write(self.messages.station(), &mut request)?;
-        let length = self.exchange.exchange(request.written(), &mut self.reply).await?;
-        answer::<_, M>(request.written(), filled(&self.reply, length)?)
-    }
-}
+clients! { Exchange Client MessageClient }
+clients! { AsyncExchange AsyncClient AsyncMessageClient async await }

@@ -174,129 +174,86 @@ macro_rules! like_its_base {
     };
 }
 
-like_its_base!([B: Fixed, const NUM: i64, const DEN: i64, const OFFSET: i64] Scaled<B, NUM, DEN, OFFSET>, B);
-like_its_base!([B: Fixed, const NUM: i64, const DEN: i64] Reciprocal<B, NUM, DEN>, B);
-like_its_base!([B: Fixed, const BITS_OF_FRACTION: u32] Fraction<B, BITS_OF_FRACTION>, B);
-like_its_base!([B: Fixed, const NUM: i64, const DEN: i64] PerItem<B, NUM, DEN>, B);
-like_its_base!([B: Fixed, const BASE: u32, const BITS_OF_FRACTION: u32] Exponential<B, BASE, BITS_OF_FRACTION>, B);
 like_its_base!([V: Fixed, const RAW: i128] OrNone<V, RAW>, V);
 
 fn nearest<N: Number>(real: f64) -> Result<N, OutOfRange> {
     N::nearest(real).ok_or(OutOfRange)
 }
 
-impl<B, const NUM: i64, const DEN: i64, const OFFSET: i64> Quantity for Scaled<B, NUM, DEN, OFFSET>
-where
-    B: Fixed,
-    B::Native: Number,
-{
-    type Physical = f64;
-    type Other = ();
+/// A quantity over a number: the physical number of a raw one, and the nearest raw number of a physical one.
+macro_rules! quantity {
+    (
+        [$($generics:tt)*] $quantity:ty, $Other:ty:
+        |$raw:ident, $other:pat_param| $physical:expr, |$number:ident| $nearest:expr
+    ) => {
+        like_its_base!([B: Fixed, $($generics)*] $quantity, B);
 
-    #[inline]
-    fn physical(raw: B::Native, _: ()) -> f64 {
-        (raw.real() * NUM as f64 + OFFSET as f64) / DEN as f64
-    }
+        impl<B, $($generics)*> Quantity for $quantity
+        where
+            B: Fixed,
+            B::Native: Number,
+        {
+            type Physical = f64;
+            type Other = $Other;
 
-    #[inline]
-    fn raw(physical: f64, _: ()) -> Result<B::Native, OutOfRange> {
-        nearest((physical * DEN as f64 - OFFSET as f64) / NUM as f64)
-    }
+            #[inline]
+            fn physical($raw: B::Native, $other: $Other) -> f64 {
+                $physical
+            }
+
+            #[inline]
+            fn raw($number: f64, $other: $Other) -> Result<B::Native, OutOfRange> {
+                $nearest
+            }
+        }
+    };
 }
 
-impl<B, const NUM: i64, const DEN: i64> Quantity for Reciprocal<B, NUM, DEN>
-where
-    B: Fixed,
-    B::Native: Number,
-{
-    type Physical = f64;
-    type Other = ();
+quantity!(
+    [const NUM: i64, const DEN: i64, const OFFSET: i64] Scaled<B, NUM, DEN, OFFSET>, ():
+    |raw, _| (raw.real() * NUM as f64 + OFFSET as f64) / DEN as f64,
+    |physical| nearest((physical * DEN as f64 - OFFSET as f64) / NUM as f64)
+);
 
-    #[inline]
-    fn physical(raw: B::Native, _: ()) -> f64 {
-        NUM as f64 / (DEN as f64 * raw.real())
-    }
-
-    #[inline]
-    fn raw(physical: f64, _: ()) -> Result<B::Native, OutOfRange> {
+quantity!(
+    [const NUM: i64, const DEN: i64] Reciprocal<B, NUM, DEN>, ():
+    |raw, _| NUM as f64 / (DEN as f64 * raw.real()),
+    |physical| {
         let raw: B::Native = nearest(NUM as f64 / (DEN as f64 * physical))?;
         if raw.real() == 0.0 {
             return Err(OutOfRange);
         }
         Ok(raw)
     }
-}
+);
 
-impl<B, const BITS_OF_FRACTION: u32> Quantity for Fraction<B, BITS_OF_FRACTION>
-where
-    B: Fixed,
-    B::Native: Number,
-{
-    type Physical = f64;
-    type Other = f64;
+quantity!(
+    [const BITS_OF_FRACTION: u32] Fraction<B, BITS_OF_FRACTION>, f64:
+    |raw, base| raw.real() * base / one_shifted(BITS_OF_FRACTION),
+    |physical| nearest(physical * one_shifted(BITS_OF_FRACTION) / base)
+);
 
-    #[inline]
-    fn physical(raw: B::Native, base: f64) -> f64 {
-        raw.real() * base / one_shifted(BITS_OF_FRACTION)
-    }
-
-    #[inline]
-    fn raw(physical: f64, base: f64) -> Result<B::Native, OutOfRange> {
-        nearest(physical * one_shifted(BITS_OF_FRACTION) / base)
-    }
-}
-
-impl<B, const NUM: i64, const DEN: i64> Quantity for PerItem<B, NUM, DEN>
-where
-    B: Fixed,
-    B::Native: Number,
-{
-    type Physical = f64;
-    type Other = f64;
-
-    #[inline]
-    fn physical(raw: B::Native, divisor: f64) -> f64 {
-        raw.real() * NUM as f64 / (DEN as f64 * divisor)
-    }
-
-    #[inline]
-    fn raw(physical: f64, divisor: f64) -> Result<B::Native, OutOfRange> {
+quantity!(
+    [const NUM: i64, const DEN: i64] PerItem<B, NUM, DEN>, f64:
+    |raw, divisor| raw.real() * NUM as f64 / (DEN as f64 * divisor),
+    |physical| {
         if divisor == 0.0 {
             return Err(OutOfRange);
         }
         nearest(physical * (DEN as f64 * divisor) / NUM as f64)
     }
-}
+);
 
-impl<B, const BASE: u32, const BITS_OF_FRACTION: u32> Quantity for Exponential<B, BASE, BITS_OF_FRACTION>
-where
-    B: Fixed,
-    B::Native: Number,
-{
-    type Physical = f64;
-    type Other = f64;
-
-    #[inline]
-    fn physical(raw: B::Native, exponent: f64) -> f64 {
-        let mantissa = raw.real() / one_shifted(BITS_OF_FRACTION);
-        match exponent < 0.0 {
-            true => mantissa / power(BASE, -exponent),
-            false => mantissa * power(BASE, exponent),
-        }
-    }
-
-    #[inline]
-    fn raw(physical: f64, exponent: f64) -> Result<B::Native, OutOfRange> {
+quantity!(
+    [const BASE: u32, const BITS_OF_FRACTION: u32] Exponential<B, BASE, BITS_OF_FRACTION>, f64:
+    |raw, exponent| scaled_by_power(raw.real() / one_shifted(BITS_OF_FRACTION), BASE, exponent),
+    |physical| {
         if !exponent.is_finite() {
             return Err(OutOfRange);
         }
-        let mantissa = match exponent < 0.0 {
-            true => physical * power(BASE, -exponent),
-            false => physical / power(BASE, exponent),
-        };
-        nearest(mantissa * one_shifted(BITS_OF_FRACTION))
+        nearest(scaled_by_power(physical, BASE, -exponent) * one_shifted(BITS_OF_FRACTION))
     }
-}
+);
 
 impl<V, const RAW: i128> Quantity for OrNone<V, RAW>
 where
@@ -327,6 +284,14 @@ where
 const fn one_shifted(bits: u32) -> f64 {
     // 63 bits are more than the mantissa has.
     (1_u64 << if bits > 63 { 63 } else { bits }) as f64
+}
+
+/// `number` × `base`^`exponent`.
+fn scaled_by_power(number: f64, base: u32, exponent: f64) -> f64 {
+    match exponent < 0.0 {
+        true => number / power(base, -exponent),
+        false => number * power(base, exponent),
+    }
 }
 
 /// `base`^`exponent`. Without the standard library there is no `powi`; 2^1100 is beyond all that there is.

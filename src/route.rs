@@ -1,9 +1,5 @@
 //! Routes: how an item's value travels on one bus, directly to its address or otherwise.
 
-mod limited;
-mod resized;
-mod window;
-
 use crate::bus::{Bus, EscMemory, Object, Parameter, Record};
 use crate::client::{AsyncClient, Client};
 use crate::error::Error;
@@ -108,6 +104,24 @@ pub trait WriteRoute<B: Bus>: Copy {
     async fn write_async<C: AsyncClient<Bus = B>>(&self, client: &mut C, data: &[u8]) -> Result<(), Error<C::Error>>;
 }
 
+/// The methods of a [`ReadRoute`] that reads as `self.$route` does.
+macro_rules! read_by {
+    ($route:tt) => {
+        #[inline]
+        fn read<C: Client<Bus = B>>(&self, client: &mut C, buffer: &mut [u8]) -> Result<usize, Error<C::Error>> {
+            self.$route.read(client, buffer)
+        }
+
+        async fn read_async<C: AsyncClient<Bus = B>>(
+            &self,
+            client: &mut C,
+            buffer: &mut [u8],
+        ) -> Result<usize, Error<C::Error>> {
+            self.$route.read_async(client, buffer).await
+        }
+    };
+}
+
 macro_rules! direct {
     ($($address:ty),*) => {$(
         impl<B: Bus<Address = $address>> Direct<B> for $address {
@@ -149,6 +163,10 @@ macro_rules! direct {
 }
 
 direct!(Object, Register, Record, Parameter, ImageField, EscMemory);
+
+mod limited;
+mod resized;
+mod window;
 
 /// The direction of a [`Split`] that its bus doesn't have.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -218,18 +236,7 @@ impl<R: Route, W: Route> Route for Split<R, W> {
 }
 
 impl<B: Bus, R: ReadRoute<B>, W: Copy> ReadRoute<B> for Split<R, W> {
-    #[inline]
-    fn read<C: Client<Bus = B>>(&self, client: &mut C, buffer: &mut [u8]) -> Result<usize, Error<C::Error>> {
-        self.read.read(client, buffer)
-    }
-
-    async fn read_async<C: AsyncClient<Bus = B>>(
-        &self,
-        client: &mut C,
-        buffer: &mut [u8],
-    ) -> Result<usize, Error<C::Error>> {
-        self.read.read_async(client, buffer).await
-    }
+    read_by!(read);
 }
 
 impl<B: Bus, R: Copy, W: WriteRoute<B>> WriteRoute<B> for Split<R, W> {

@@ -8,35 +8,25 @@ use crate::location::On;
 use crate::route::{ReadRoute, WriteRoute};
 use crate::text::{Domain, OctetString, Opaque};
 
+/// The methods of byte strings, blocking and not.
 macro_rules! octets {
-    ($($marker:ident)*) => {$(
+    (
+        $marker:ident: $Client:ident $fetch:ident $send:ident $read_into:ident $write:ident
+        $($async:ident $await:ident)?
+    ) => {
         impl<C, A, L> Accessor<'_, C, $marker, A, L> {
             /// Reads the bytes into `buffer` and returns the part of it that the device filled.
             ///
             /// # Errors
             ///
             /// [`Error::Length`] where the device sends more than `buffer` holds.
-            pub fn read_into<'b>(&mut self, buffer: &'b mut [u8]) -> Result<&'b [u8], Error<C::Error>>
+            pub $($async)? fn $read_into<'b>(&mut self, buffer: &'b mut [u8]) -> Result<&'b [u8], Error<C::Error>>
             where
                 A: Readable,
-                C: Client,
+                C: $Client,
                 L: On<C::Bus, Route: ReadRoute<C::Bus>>,
             {
-                self.fetch(buffer)
-            }
-
-            /// Reads the bytes into `buffer` without blocking and returns the part of it that the device filled.
-            ///
-            /// # Errors
-            ///
-            /// [`Error::Length`] where the device sends more than `buffer` holds.
-            pub async fn read_into_async<'b>(&mut self, buffer: &'b mut [u8]) -> Result<&'b [u8], Error<C::Error>>
-            where
-                A: Readable,
-                C: AsyncClient,
-                L: On<C::Bus, Route: ReadRoute<C::Bus>>,
-            {
-                self.fetch_async(buffer).await
+                self.$fetch(buffer)$(.$await)?
             }
 
             /// Writes the bytes.
@@ -44,29 +34,19 @@ macro_rules! octets {
             /// # Errors
             ///
             /// Only those of the client.
-            pub fn write(&mut self, data: &[u8]) -> Result<(), Error<C::Error>>
+            pub $($async)? fn $write(&mut self, data: &[u8]) -> Result<(), Error<C::Error>>
             where
                 A: Writable,
-                C: Client,
+                C: $Client,
                 L: On<C::Bus, Route: WriteRoute<C::Bus>>,
             {
-                self.send(data)
-            }
-
-            /// Writes the bytes without blocking.
-            ///
-            /// # Errors
-            ///
-            /// Only those of the client.
-            pub async fn write_async(&mut self, data: &[u8]) -> Result<(), Error<C::Error>>
-            where
-                A: Writable,
-                C: AsyncClient,
-                L: On<C::Bus, Route: WriteRoute<C::Bus>>,
-            {
-                self.send_async(data).await
+                self.$send(data)$(.$await)?
             }
         }
+    };
+    ($($marker:ident)*) => {$(
+        octets! { $marker: Client fetch send read_into write }
+        octets! { $marker: AsyncClient fetch_async send_async read_into_async write_async async await }
     )*};
 }
 

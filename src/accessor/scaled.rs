@@ -8,122 +8,80 @@ use crate::location::On;
 use crate::quantity::Quantity;
 use crate::route::{ReadRoute, WriteRoute};
 
-impl<C, V: Quantity<Other = ()>, A, L> Accessor<'_, C, V, A, L> {
-    /// Reads the value in its unit: an `f64`, or `None` where the raw number means something else.
-    ///
-    /// # Errors
-    ///
-    /// Those of [`read`](Accessor::read).
-    pub fn read_scaled(&mut self) -> Result<V::Physical, Error<C::Error>>
-    where
-        A: Readable,
-        C: Client,
-        L: On<C::Bus, Route: ReadRoute<C::Bus>>,
-    {
-        self.read().map(|raw| V::physical(raw, ()))
-    }
+/// The methods for physical values, blocking and not.
+macro_rules! scaled {
+    (
+        $Client:ident $read:ident $write:ident: $read_scaled:ident $write_scaled:ident $read_scaled_by:ident
+        $write_scaled_by:ident $($async:ident $await:ident)?
+    ) => {
+        impl<C, V: Quantity<Other = ()>, A, L> Accessor<'_, C, V, A, L> {
+            /// Reads the value in its unit: an `f64`, or `None` where the raw number means something else.
+            ///
+            /// # Errors
+            ///
+            /// Those of [`read`](Accessor::read).
+            pub $($async)? fn $read_scaled(&mut self) -> Result<V::Physical, Error<C::Error>>
+            where
+                A: Readable,
+                C: $Client,
+                L: On<C::Bus, Route: ReadRoute<C::Bus>>,
+            {
+                self.$read()$(.$await)?.map(|raw| V::physical(raw, ()))
+            }
 
-    /// Reads the value in its unit without blocking.
-    ///
-    /// # Errors
-    ///
-    /// Those of [`read`](Accessor::read).
-    pub async fn read_scaled_async(&mut self) -> Result<V::Physical, Error<C::Error>>
-    where
-        A: Readable,
-        C: AsyncClient,
-        L: On<C::Bus, Route: ReadRoute<C::Bus>>,
-    {
-        self.read_async().await.map(|raw| V::physical(raw, ()))
-    }
+            /// Writes the value that is nearest to `physical`, which is in the item's unit.
+            ///
+            /// # Errors
+            ///
+            /// [`Error::OutOfRange`] where that is outside the item's range, doesn't fit its type, or means something else;
+            /// nothing is sent then.
+            pub $($async)? fn $write_scaled(&mut self, physical: f64) -> Result<(), Error<C::Error>>
+            where
+                A: Writable,
+                C: $Client,
+                L: On<C::Bus, Route: WriteRoute<C::Bus>>,
+            {
+                self.$write(V::raw(physical, ())?)$(.$await)?
+            }
+        }
 
-    /// Writes the value that is nearest to `physical`, which is in the item's unit.
-    ///
-    /// # Errors
-    ///
-    /// [`Error::OutOfRange`] where that is outside the item's range, doesn't fit its type, or means something else; nothing
-    /// is sent then.
-    pub fn write_scaled(&mut self, physical: f64) -> Result<(), Error<C::Error>>
-    where
-        A: Writable,
-        C: Client,
-        L: On<C::Bus, Route: WriteRoute<C::Bus>>,
-    {
-        self.write(V::raw(physical, ())?)
-    }
+        /// Values whose scale depends on another one, which the caller gives: the documentation of the item says which one.
+        impl<C, V: Quantity<Other = f64>, A, L> Accessor<'_, C, V, A, L> {
+            /// Reads the value in its unit. `other` is the value that its scale depends on.
+            ///
+            /// # Errors
+            ///
+            /// Those of [`read`](Accessor::read).
+            pub $($async)? fn $read_scaled_by(&mut self, other: f64) -> Result<V::Physical, Error<C::Error>>
+            where
+                A: Readable,
+                C: $Client,
+                L: On<C::Bus, Route: ReadRoute<C::Bus>>,
+            {
+                self.$read()$(.$await)?.map(|raw| V::physical(raw, other))
+            }
 
-    /// Writes the value that is nearest to `physical`, which is in the item's unit, without blocking.
-    ///
-    /// # Errors
-    ///
-    /// Those of [`write_scaled`](Accessor::write_scaled).
-    pub async fn write_scaled_async(&mut self, physical: f64) -> Result<(), Error<C::Error>>
-    where
-        A: Writable,
-        C: AsyncClient,
-        L: On<C::Bus, Route: WriteRoute<C::Bus>>,
-    {
-        self.write_async(V::raw(physical, ())?).await
-    }
+            /// Writes the value that is nearest to `physical`. `other` is the value that its scale depends on.
+            ///
+            /// # Errors
+            ///
+            /// Those of [`write_scaled`](Accessor::write_scaled).
+            pub $($async)? fn $write_scaled_by(&mut self, physical: f64, other: f64) -> Result<(), Error<C::Error>>
+            where
+                A: Writable,
+                C: $Client,
+                L: On<C::Bus, Route: WriteRoute<C::Bus>>,
+            {
+                self.$write(V::raw(physical, other)?)$(.$await)?
+            }
+        }
+    };
 }
 
-/// Values whose scale depends on another one, which the caller gives: the documentation of the item says which one.
-impl<C, V: Quantity<Other = f64>, A, L> Accessor<'_, C, V, A, L> {
-    /// Reads the value in its unit. `other` is the value that its scale depends on.
-    ///
-    /// # Errors
-    ///
-    /// Those of [`read`](Accessor::read).
-    pub fn read_scaled_by(&mut self, other: f64) -> Result<V::Physical, Error<C::Error>>
-    where
-        A: Readable,
-        C: Client,
-        L: On<C::Bus, Route: ReadRoute<C::Bus>>,
-    {
-        self.read().map(|raw| V::physical(raw, other))
-    }
-
-    /// Reads the value in its unit without blocking. `other` is the value that its scale depends on.
-    ///
-    /// # Errors
-    ///
-    /// Those of [`read`](Accessor::read).
-    pub async fn read_scaled_by_async(&mut self, other: f64) -> Result<V::Physical, Error<C::Error>>
-    where
-        A: Readable,
-        C: AsyncClient,
-        L: On<C::Bus, Route: ReadRoute<C::Bus>>,
-    {
-        self.read_async().await.map(|raw| V::physical(raw, other))
-    }
-
-    /// Writes the value that is nearest to `physical`. `other` is the value that its scale depends on.
-    ///
-    /// # Errors
-    ///
-    /// Those of [`write_scaled`](Accessor::write_scaled).
-    pub fn write_scaled_by(&mut self, physical: f64, other: f64) -> Result<(), Error<C::Error>>
-    where
-        A: Writable,
-        C: Client,
-        L: On<C::Bus, Route: WriteRoute<C::Bus>>,
-    {
-        self.write(V::raw(physical, other)?)
-    }
-
-    /// Writes the value that is nearest to `physical` without blocking. `other` is the value that its scale depends on.
-    ///
-    /// # Errors
-    ///
-    /// Those of [`write_scaled`](Accessor::write_scaled).
-    pub async fn write_scaled_by_async(&mut self, physical: f64, other: f64) -> Result<(), Error<C::Error>>
-    where
-        A: Writable,
-        C: AsyncClient,
-        L: On<C::Bus, Route: WriteRoute<C::Bus>>,
-    {
-        self.write_async(V::raw(physical, other)?).await
-    }
+scaled! { Client read write: read_scaled write_scaled read_scaled_by write_scaled_by }
+scaled! {
+    AsyncClient read_async write_async:
+    read_scaled_async write_scaled_async read_scaled_by_async write_scaled_by_async async await
 }
 
 #[cfg(test)]

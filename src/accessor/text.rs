@@ -8,121 +8,73 @@ use crate::location::On;
 use crate::route::{ReadRoute, WriteRoute};
 use crate::text::{decode_visible, encode_utf16, encode_visible, UnicodeString, Utf16, VisibleString};
 
-impl<C, A, L> Accessor<'_, C, VisibleString, A, L> {
-    /// Reads the text into `buffer`. It ends at the first NUL, with which devices fill up to a fixed length.
-    ///
-    /// # Errors
-    ///
-    /// [`Error::Length`] where the text is longer than `buffer`, [`Error::Text`] where it isn't ASCII or UTF-8.
-    pub fn read_into<'b>(&mut self, buffer: &'b mut [u8]) -> Result<&'b str, Error<C::Error>>
-    where
-        A: Readable,
-        C: Client,
-        L: On<C::Bus, Route: ReadRoute<C::Bus>>,
-    {
-        Ok(decode_visible(self.fetch(buffer)?)?)
-    }
+/// The methods of texts, blocking and not.
+macro_rules! texts {
+    ($Client:ident $fetch:ident $send:ident: $read_into:ident $write:ident $($async:ident $await:ident)?) => {
+        impl<C, A, L> Accessor<'_, C, VisibleString, A, L> {
+            /// Reads the text into `buffer`. It ends at the first NUL, with which devices fill up to a fixed length.
+            ///
+            /// # Errors
+            ///
+            /// [`Error::Length`] where the text is longer than `buffer`, [`Error::Text`] where it isn't ASCII or UTF-8.
+            pub $($async)? fn $read_into<'b>(&mut self, buffer: &'b mut [u8]) -> Result<&'b str, Error<C::Error>>
+            where
+                A: Readable,
+                C: $Client,
+                L: On<C::Bus, Route: ReadRoute<C::Bus>>,
+            {
+                Ok(decode_visible(self.$fetch(buffer)$(.$await)??)?)
+            }
 
-    /// Reads the text into `buffer` without blocking.
-    ///
-    /// # Errors
-    ///
-    /// [`Error::Length`] where the text is longer than `buffer`, [`Error::Text`] where it isn't ASCII or UTF-8.
-    pub async fn read_into_async<'b>(&mut self, buffer: &'b mut [u8]) -> Result<&'b str, Error<C::Error>>
-    where
-        A: Readable,
-        C: AsyncClient,
-        L: On<C::Bus, Route: ReadRoute<C::Bus>>,
-    {
-        Ok(decode_visible(self.fetch_async(buffer).await?)?)
-    }
+            /// Writes the text.
+            ///
+            /// # Errors
+            ///
+            /// [`Error::Text`] where a character isn't in 0x20 to 0x7E; nothing is sent then.
+            pub $($async)? fn $write(&mut self, text: &str) -> Result<(), Error<C::Error>>
+            where
+                A: Writable,
+                C: $Client,
+                L: On<C::Bus, Route: WriteRoute<C::Bus>>,
+            {
+                self.$send(encode_visible(text)?)$(.$await)?
+            }
+        }
 
-    /// Writes the text.
-    ///
-    /// # Errors
-    ///
-    /// [`Error::Text`] where a character isn't in 0x20 to 0x7E; nothing is sent then.
-    pub fn write(&mut self, text: &str) -> Result<(), Error<C::Error>>
-    where
-        A: Writable,
-        C: Client,
-        L: On<C::Bus, Route: WriteRoute<C::Bus>>,
-    {
-        self.send(encode_visible(text)?)
-    }
+        impl<C, A, L> Accessor<'_, C, UnicodeString, A, L> {
+            /// Reads the text into `buffer`, two bytes a unit. It ends at the first NUL.
+            ///
+            /// # Errors
+            ///
+            /// [`Error::Length`] where the text is longer than `buffer`, [`Error::Text`] where it isn't UTF-16.
+            pub $($async)? fn $read_into<'b>(&mut self, buffer: &'b mut [u8]) -> Result<Utf16<'b>, Error<C::Error>>
+            where
+                A: Readable,
+                C: $Client,
+                L: On<C::Bus, Route: ReadRoute<C::Bus>>,
+            {
+                Ok(Utf16::new(self.$fetch(buffer)$(.$await)??)?)
+            }
 
-    /// Writes the text without blocking.
-    ///
-    /// # Errors
-    ///
-    /// [`Error::Text`] where a character isn't in 0x20 to 0x7E; nothing is sent then.
-    pub async fn write_async(&mut self, text: &str) -> Result<(), Error<C::Error>>
-    where
-        A: Writable,
-        C: AsyncClient,
-        L: On<C::Bus, Route: WriteRoute<C::Bus>>,
-    {
-        self.send_async(encode_visible(text)?).await
-    }
+            /// Writes the text, which is put together in `scratch`: two bytes a unit.
+            ///
+            /// # Errors
+            ///
+            /// [`Error::Length`] where `scratch` is too short; nothing is sent then.
+            pub $($async)? fn $write(&mut self, text: &str, scratch: &mut [u8]) -> Result<(), Error<C::Error>>
+            where
+                A: Writable,
+                C: $Client,
+                L: On<C::Bus, Route: WriteRoute<C::Bus>>,
+            {
+                self.$send(encode_utf16(text, scratch)?)$(.$await)?
+            }
+        }
+    };
 }
 
-impl<C, A, L> Accessor<'_, C, UnicodeString, A, L> {
-    /// Reads the text into `buffer`, two bytes a unit. It ends at the first NUL.
-    ///
-    /// # Errors
-    ///
-    /// [`Error::Length`] where the text is longer than `buffer`, [`Error::Text`] where it isn't UTF-16.
-    pub fn read_into<'b>(&mut self, buffer: &'b mut [u8]) -> Result<Utf16<'b>, Error<C::Error>>
-    where
-        A: Readable,
-        C: Client,
-        L: On<C::Bus, Route: ReadRoute<C::Bus>>,
-    {
-        Ok(Utf16::new(self.fetch(buffer)?)?)
-    }
-
-    /// Reads the text into `buffer` without blocking, two bytes a unit.
-    ///
-    /// # Errors
-    ///
-    /// [`Error::Length`] where the text is longer than `buffer`, [`Error::Text`] where it isn't UTF-16.
-    pub async fn read_into_async<'b>(&mut self, buffer: &'b mut [u8]) -> Result<Utf16<'b>, Error<C::Error>>
-    where
-        A: Readable,
-        C: AsyncClient,
-        L: On<C::Bus, Route: ReadRoute<C::Bus>>,
-    {
-        Ok(Utf16::new(self.fetch_async(buffer).await?)?)
-    }
-
-    /// Writes the text, which is put together in `scratch`: two bytes a unit.
-    ///
-    /// # Errors
-    ///
-    /// [`Error::Length`] where `scratch` is too short; nothing is sent then.
-    pub fn write(&mut self, text: &str, scratch: &mut [u8]) -> Result<(), Error<C::Error>>
-    where
-        A: Writable,
-        C: Client,
-        L: On<C::Bus, Route: WriteRoute<C::Bus>>,
-    {
-        self.send(encode_utf16(text, scratch)?)
-    }
-
-    /// Writes the text without blocking; it is put together in `scratch`: two bytes a unit.
-    ///
-    /// # Errors
-    ///
-    /// [`Error::Length`] where `scratch` is too short; nothing is sent then.
-    pub async fn write_async(&mut self, text: &str, scratch: &mut [u8]) -> Result<(), Error<C::Error>>
-    where
-        A: Writable,
-        C: AsyncClient,
-        L: On<C::Bus, Route: WriteRoute<C::Bus>>,
-    {
-        self.send_async(encode_utf16(text, scratch)?).await
-    }
-}
+texts! { Client fetch send: read_into write }
+texts! { AsyncClient fetch_async send_async: read_into_async write_async async await }
 
 #[cfg(test)]
 mod tests {

@@ -155,9 +155,9 @@ impl<'m> Sdo<'m> {
         let request = protocol::upload(object, complete);
         let begun = self.mailbox.exchange(&request, &[], |answer| match answer {
             Answer::Upload { object: of, size, data } if of == object => {
-                let taken = fill(buffer, 0, data);
+                let filled = fill(buffer, 0, data);
                 // Where no length was sent, there are as many bytes as asked for.
-                Sought::Found((size.unwrap_or(data.len().min(buffer.len())), taken))
+                Sought::Found((size.unwrap_or(data.len().min(buffer.len())), filled))
             }
             // The next part of a value that nobody waits for any more.
             Answer::UploadSegment { .. } => Sought::Other,

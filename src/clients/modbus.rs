@@ -186,79 +186,46 @@ impl From<ModbusError> for Error<ModbusError> {
 
 type Reply = tokio_modbus::Result<Response>;
 
-impl<T: sync::Client> Client for ModbusClient<T> {
-    type Bus = Modbus;
-    type Error = ModbusError;
+macro_rules! clients {
+    ([$($generics:tt)*] $context:ident: $Client:ident $RegisterClient:ident $($async:ident $await:ident)?) => {
+        impl<$($generics)*> $Client for ModbusClient<$context> {
+            type Bus = Modbus;
+            type Error = ModbusError;
 
-    fn read(&mut self, register: Register, buffer: &mut [u8]) -> Result<usize, Error<ModbusError>> {
-        let mut answer = Answer::new(register, &self.limits)?;
-        while let Some(request) = answer.request() {
-            answer.add(self.context.call(request))?;
-        }
-        answer.value(buffer)
-    }
-
-    fn write(&mut self, register: Register, data: &[u8]) -> Result<(), Error<ModbusError>> {
-        let writes = Writes::new(register, &self.limits, self.single)?;
-        let held = match writes.held(&self.limits)? {
-            Some(mut answer) => {
+            $($async)? fn read(&mut self, register: Register, buffer: &mut [u8]) -> Result<usize, Error<ModbusError>> {
+                let mut answer = Answer::new(register, &self.limits)?;
                 while let Some(request) = answer.request() {
-                    answer.add(self.context.call(request))?;
+                    answer.add(self.context.call(request)$(.$await)?)?;
                 }
-                Some(answer.into_words())
+                answer.value(buffer)
             }
-            None => None,
-        };
-        for request in writes.requests(held, data)? {
-            let echo = Echo::of(&request);
-            echo.check(self.context.call(request))?;
-        }
-        Ok(())
-    }
-}
 
-impl AsyncClient for ModbusClient<Context> {
-    type Bus = Modbus;
-    type Error = ModbusError;
-
-    async fn read(&mut self, register: Register, buffer: &mut [u8]) -> Result<usize, Error<ModbusError>> {
-        let mut answer = Answer::new(register, &self.limits)?;
-        while let Some(request) = answer.request() {
-            answer.add(self.context.call(request).await)?;
-        }
-        answer.value(buffer)
-    }
-
-    async fn write(&mut self, register: Register, data: &[u8]) -> Result<(), Error<ModbusError>> {
-        let writes = Writes::new(register, &self.limits, self.single)?;
-        let held = match writes.held(&self.limits)? {
-            Some(mut answer) => {
-                while let Some(request) = answer.request() {
-                    answer.add(self.context.call(request).await)?;
+            $($async)? fn write(&mut self, register: Register, data: &[u8]) -> Result<(), Error<ModbusError>> {
+                let writes = Writes::new(register, &self.limits, self.single)?;
+                let mut held = writes.held(&self.limits)?;
+                if let Some(answer) = &mut held {
+                    while let Some(request) = answer.request() {
+                        answer.add(self.context.call(request)$(.$await)?)?;
+                    }
                 }
-                Some(answer.into_words())
+                for request in writes.requests(held.map(Answer::into_words), data)? {
+                    let echo = Echo::of(&request);
+                    echo.check(self.context.call(request)$(.$await)?)?;
+                }
+                Ok(())
             }
-            None => None,
-        };
-        for request in writes.requests(held, data)? {
-            let echo = Echo::of(&request);
-            echo.check(self.context.call(request).await)?;
         }
-        Ok(())
-    }
+
+        impl<$($generics)*> $RegisterClient for ModbusClient<$context> {
+            fn limits(&self) -> &Limits {
+                &self.limits
+            }
+        }
+    };
 }
 
-impl<T: sync::Client> RegisterClient for ModbusClient<T> {
-    fn limits(&self) -> &Limits {
-        &self.limits
-    }
-}
-
-impl AsyncRegisterClient for ModbusClient<Context> {
-    fn limits(&self) -> &Limits {
-        &self.limits
-    }
-}
+clients! { [T: sync::Client] T: Client RegisterClient }
+clients! { [] Context: AsyncClient AsyncRegisterClient async await }
 
 #[cfg(test)]
 mod tests;

@@ -108,7 +108,7 @@ impl<S, F: Framing, const N: usize> SerialLine<S, F, N> {
     ) -> Result<Option<usize>, Error<SerialError<E>>> {
         match self.framing.decode(decoder, byte, reply) {
             Err(FrameError::Interrupted) => Ok(None),
-            taken => taken.map_err(|error| Error::Client(SerialError::Frame(error))),
+            decoded => decoded.map_err(|error| Error::Client(SerialError::Frame(error))),
         }
     }
 }
@@ -156,52 +156,35 @@ fn one<E>(byte: [u8; 1], count: usize) -> Result<u8, Error<SerialError<E>>> {
     }
 }
 
-impl<S, F, const N: usize> Exchange for SerialLine<S, F, N>
-where
-    S: embedded_io::Read + embedded_io::Write,
-    F: Framing,
-{
-    type Error = SerialError<S::Error>;
+macro_rules! exchanges {
+    ($Exchange:ident $io:ident $($async:ident $await:ident)?) => {
+        impl<S, F, const N: usize> $Exchange for SerialLine<S, F, N>
+        where
+            S: $io::Read + $io::Write,
+            F: Framing,
+        {
+            type Error = SerialError<S::Error>;
 
-    fn exchange(&mut self, request: &[u8], reply: &mut [u8]) -> Result<usize, Error<Self::Error>> {
-        let mut frame = [0; N];
-        let length = self.framing.encode(request, &mut frame)?;
-        self.stream.write_all(frame.get(..length).unwrap_or_default()).map_err(failed)?;
-        self.stream.flush().map_err(failed)?;
-        let mut decoder = self.decoder();
-        loop {
-            let mut byte = [0];
-            let count = self.stream.read(&mut byte).map_err(failed)?;
-            match self.take(&mut decoder, one(byte, count)?, reply) {
-                Ok(None) => {}
-                Ok(Some(length)) => return Ok(length),
-                Err(error) => return Err(self.failed(decoder, error)),
+            $($async)? fn exchange(&mut self, request: &[u8], reply: &mut [u8]) -> Result<usize, Error<Self::Error>> {
+                let mut frame = [0; N];
+                let length = self.framing.encode(request, &mut frame)?;
+                let sent = self.stream.write_all(frame.get(..length).unwrap_or_default())$(.$await)?;
+                sent.map_err(failed)?;
+                self.stream.flush()$(.$await)?.map_err(failed)?;
+                let mut decoder = self.decoder();
+                loop {
+                    let mut byte = [0];
+                    let count = self.stream.read(&mut byte)$(.$await)?.map_err(failed)?;
+                    match self.take(&mut decoder, one(byte, count)?, reply) {
+                        Ok(None) => {}
+                        Ok(Some(length)) => return Ok(length),
+                        Err(error) => return Err(self.failed(decoder, error)),
+                    }
+                }
             }
         }
-    }
+    };
 }
 
-impl<S, F, const N: usize> AsyncExchange for SerialLine<S, F, N>
-where
-    S: embedded_io_async::Read + embedded_io_async::Write,
-    F: Framing,
-{
-    type Error = SerialError<S::Error>;
-
-    async fn exchange(&mut self, request: &[u8], reply: &mut [u8]) -> Result<usize, Error<Self::Error>> {
-        let mut frame = [0; N];
-        let length = self.framing.encode(request, &mut frame)?;
-        self.stream.write_all(frame.get(..length).unwrap_or_default()).await.map_err(failed)?;
-        self.stream.flush().await.map_err(failed)?;
-        let mut decoder = self.decoder();
-        loop {
-            let mut byte = [0];
-            let count = self.stream.read(&mut byte).await.map_err(failed)?;
-            match self.take(&mut decoder, one(byte, count)?, reply) {
-                Ok(None) => {}
-                Ok(Some(length)) => return Ok(length),
-                Err(error) => return Err(self.failed(decoder, error)),
-            }
-        }
-    }
-}
+exchanges! { Exchange embedded_io }
+exchanges! { AsyncExchange embedded_io_async async await }

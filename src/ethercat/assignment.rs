@@ -14,7 +14,7 @@ pub(super) const ASSIGN: u16 = 0x1C10;
 
 /// A PDO at its place in the process image of its sync manager.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Placed {
+pub struct AssignedPdo {
     /// The PDO.
     pub pdo: &'static PdoInfo,
     /// Number of the sync manager.
@@ -33,7 +33,7 @@ pub struct Placed {
 #[derive(Clone, Copy, Debug)]
 pub struct Assignment<const N: usize = 32> {
     device: &'static Device,
-    placed: [Option<Placed>; N],
+    assigned: [Option<AssignedPdo>; N],
     len: usize,
 }
 
@@ -103,7 +103,7 @@ impl<const N: usize> Assignment<N> {
     ///
     /// Why they can't be assigned together.
     pub fn new(device: &'static Device, pdos: &[u16]) -> Result<Self, AssignmentError> {
-        let mut assignment = Self { device, placed: [None; N], len: 0 };
+        let mut assignment = Self { device, assigned: [None; N], len: 0 };
         for &index in pdos {
             assignment.add(index)?;
         }
@@ -124,14 +124,15 @@ impl<const N: usize> Assignment<N> {
     /// write its mapping, and [`AssignmentError::TooLong`].
     pub fn with_mapping<P: Pdo>(mut self) -> Result<Self, AssignmentError> {
         let configures = self.device.mailbox.coe.is_some_and(|coe| coe.pdo_config);
-        let mut placed = self.placed.iter_mut().flatten();
-        let placed = placed.find(|placed| placed.pdo.index == P::INDEX).ok_or(AssignmentError::Unknown(P::INDEX))?;
-        if placed.pdo.fixed || !configures {
+        let mut assigned = self.assigned.iter_mut().flatten();
+        let assigned =
+            assigned.find(|assigned| assigned.pdo.index == P::INDEX).ok_or(AssignmentError::Unknown(P::INDEX))?;
+        if assigned.pdo.fixed || !configures {
             return Err(AssignmentError::Fixed(P::INDEX));
         }
-        (placed.mapping, placed.bits) = (P::MAPPING, crate::pdo::custom::bits(P::MAPPING));
+        (assigned.mapping, assigned.bits) = (P::MAPPING, crate::pdo::custom::bits(P::MAPPING));
         for at in 0..self.len {
-            let (before, rest) = self.placed.split_at_mut(at);
+            let (before, rest) = self.assigned.split_at_mut(at);
             let Some(Some(moved)) = rest.first_mut() else { continue };
             moved.bit = bits_of(before, moved.sync_manager);
         }
@@ -164,27 +165,28 @@ impl<const N: usize> Assignment<N> {
         if self.pdos().filter(|other| other.sync_manager == sync_manager).count() >= usize::from(u8::MAX) {
             return Err(AssignmentError::TooMany);
         }
-        let placed = Placed { pdo, sync_manager, bit: self.bits(sync_manager), bits: pdo.bits, mapping: pdo.mapping };
-        *self.placed.get_mut(self.len).ok_or(AssignmentError::TooMany)? = Some(placed);
+        let assigned =
+            AssignedPdo { pdo, sync_manager, bit: self.bits(sync_manager), bits: pdo.bits, mapping: pdo.mapping };
+        *self.assigned.get_mut(self.len).ok_or(AssignmentError::TooMany)? = Some(assigned);
         self.len += 1;
         Ok(())
     }
 
     /// The PDOs, in the order in which they are assigned.
-    pub fn pdos(&self) -> impl Iterator<Item = Placed> + '_ {
-        self.placed.iter().copied().flatten()
+    pub fn pdos(&self) -> impl Iterator<Item = AssignedPdo> + '_ {
+        self.assigned.iter().copied().flatten()
     }
 
     /// The PDO with this index, where it is assigned.
     #[must_use]
-    pub fn find(&self, index: u16) -> Option<Placed> {
-        self.pdos().find(|placed| placed.pdo.index == index)
+    pub fn find(&self, index: u16) -> Option<AssignedPdo> {
+        self.pdos().find(|assigned| assigned.pdo.index == index)
     }
 
     /// Length in bits of the data of a sync manager.
     #[must_use]
     pub fn bits(&self, sync_manager: u8) -> u32 {
-        bits_of(&self.placed, sync_manager)
+        bits_of(&self.assigned, sync_manager)
     }
 
     /// Length in bytes of the data of a sync manager, the last one perhaps not full.
@@ -210,20 +212,21 @@ impl<const N: usize> Assignment<N> {
         let managers =
             move || self.device.sync_managers.iter().filter(move |manager| assigns && manager.carries_data());
         let clear = managers().map(|manager| SdoWrite::new_u8(manager.assignment(), 0, 0));
-        let mappings = self.pdos().filter(move |placed| configures && placed.pdo.holds(placed.mapping));
-        let mappings = mappings.flat_map(|placed| mapping_writes(placed.pdo.index, placed.mapping, Growth::default()));
+        let mappings = self.pdos().filter(move |assigned| configures && assigned.pdo.holds(assigned.mapping));
+        let mappings =
+            mappings.flat_map(|assigned| mapping_writes(assigned.pdo.index, assigned.mapping, Growth::default()));
         let assign = managers().flat_map(move |manager| {
-            let placed = move || self.pdos().filter(move |placed| placed.sync_manager == manager.number);
-            assignment_writes(manager.assignment(), move || placed().map(|placed| placed.pdo.index))
+            let assigned = move || self.pdos().filter(move |assigned| assigned.sync_manager == manager.number);
+            assignment_writes(manager.assignment(), move || assigned().map(|assigned| assigned.pdo.index))
         });
         clear.chain(mappings).chain(assign)
     }
 }
 
-/// Length in bits of those of `placed` that are on this sync manager.
-fn bits_of(placed: &[Option<Placed>], sync_manager: u8) -> u32 {
-    let pdos = placed.iter().flatten().filter(|placed| placed.sync_manager == sync_manager);
-    pdos.fold(0, |bits, placed| bits.saturating_add(placed.bits))
+/// Length in bits of those of `assigned` that are on this sync manager.
+fn bits_of(assigned: &[Option<AssignedPdo>], sync_manager: u8) -> u32 {
+    let pdos = assigned.iter().flatten().filter(|assigned| assigned.sync_manager == sync_manager);
+    pdos.fold(0, |bits, assigned| bits.saturating_add(assigned.bits))
 }
 
 impl super::SyncManager {
@@ -274,10 +277,10 @@ mod tests {
     #[test]
     fn layout_follows_the_order() {
         let assignment = Assignment::<8>::new(&DRIVE, &[0x1601, 0x1600, 0x1A00]).unwrap();
-        let places: Vec<_> = assignment.pdos().map(|one| (one.pdo.index, one.sync_manager, one.bit)).collect();
-        assert_eq!(places, [(0x1601, 2, 0), (0x1600, 2, 3), (0x1A00, 3, 0)]);
+        let pdos: Vec<_> = assignment.pdos().map(|one| (one.pdo.index, one.sync_manager, one.bit)).collect();
+        assert_eq!(pdos, [(0x1601, 2, 0), (0x1600, 2, 3), (0x1A00, 3, 0)]);
         assert_eq!((assignment.bits(2), assignment.bytes(2), assignment.bytes(3), assignment.bytes(4)), (19, 3, 2, 0));
-        assert_eq!(assignment.find(0x1600).map(|placed| placed.bit), Some(3));
+        assert_eq!(assignment.find(0x1600).map(|assigned| assigned.bit), Some(3));
     }
 
     #[test]
@@ -294,9 +297,9 @@ mod tests {
     }
 
     /// A mapping of one's own: the status word and a gap of 5 bits, or a `LONG` one of 50.
-    struct Own<const INDEX: u16, const LONG: bool>;
+    struct Custom<const INDEX: u16, const LONG: bool>;
 
-    impl<const INDEX: u16, const LONG: bool> Pdo for Own<INDEX, LONG> {
+    impl<const INDEX: u16, const LONG: bool> Pdo for Custom<INDEX, LONG> {
         const INDEX: u16 = INDEX;
         const MAPPING: &'static [MappedEntry] =
             &[MappedEntry::new(0x6041, 0, 16), MappedEntry::new(0, 0, if LONG { 50 } else { 5 })];
@@ -306,7 +309,7 @@ mod tests {
     #[test]
     fn a_mapping_of_ones_own_takes_the_place_of_the_description_s() {
         let assignment = Assignment::<8>::by_default(&DRIVE).unwrap();
-        let custom = assignment.with_mapping::<Own<0x1A00, false>>().unwrap();
+        let custom = assignment.with_mapping::<Custom<0x1A00, false>>().unwrap();
         assert_eq!((assignment.bits(3), custom.bits(2), custom.bits(3)), (16, 16, 21));
         let commands: Vec<_> = custom.commands().filter(|write| write.object().index == 0x1A00).collect();
         assert_eq!(
@@ -323,11 +326,11 @@ mod tests {
     #[test]
     fn mappings_that_the_device_does_not_take_are_refused() {
         let assignment = Assignment::<8>::by_default(&DRIVE).unwrap();
-        let long = assignment.with_mapping::<Own<0x1A00, true>>().map(|_| ()).unwrap_err();
+        let long = assignment.with_mapping::<Custom<0x1A00, true>>().map(|_| ()).unwrap_err();
         assert_eq!(long, AssignmentError::TooLong { sync_manager: 3, bytes: 9, max: 8 });
-        let fixed = assignment.with_mapping::<Own<0x1600, false>>().map(|_| ()).unwrap_err();
+        let fixed = assignment.with_mapping::<Custom<0x1600, false>>().map(|_| ()).unwrap_err();
         assert_eq!(fixed, AssignmentError::Fixed(0x1600));
-        let unknown = assignment.with_mapping::<Own<0x1A01, false>>().map(|_| ()).unwrap_err();
+        let unknown = assignment.with_mapping::<Custom<0x1A01, false>>().map(|_| ()).unwrap_err();
         assert_eq!(unknown, AssignmentError::Unknown(0x1A01));
     }
 
@@ -367,8 +370,8 @@ mod tests {
             &[init(Transition::PS, 0x6060), init(Transition::OP, 0x2000), init(Transition::IP, 0x2001)];
         const COE: Coe =
             Coe { sdo_info: false, pdo_assign: false, pdo_config: false, complete_access: false, init_commands: INIT };
-        static OWN: Device = Device { mailbox: Mailbox { coe: Some(COE), ..Mailbox::NONE }, ..DRIVE };
-        let assignment = Assignment::<8>::by_default(&OWN).unwrap();
+        static CUSTOM: Device = Device { mailbox: Mailbox { coe: Some(COE), ..Mailbox::NONE }, ..DRIVE };
+        let assignment = Assignment::<8>::by_default(&CUSTOM).unwrap();
         let commands: Vec<_> = assignment.startup().map(|command| (command.object.index, command.transition)).collect();
         // Of the assignment, nothing can be written.
         assert_eq!(commands, [(0x2001, Transition::IP), (0x6060, Transition::PS)]);

@@ -39,22 +39,6 @@ pub trait AsyncMessageClient {
     async fn call<M: Message>(&mut self, message: &M) -> Answer<M::Reply<'_>, Self::Error, M>;
 }
 
-impl<T: MessageClient + ?Sized> MessageClient for &mut T {
-    type Error = T::Error;
-
-    fn call<M: Message>(&mut self, message: &M) -> Answer<M::Reply<'_>, T::Error, M> {
-        T::call(self, message)
-    }
-}
-
-impl<T: AsyncMessageClient + ?Sized> AsyncMessageClient for &mut T {
-    type Error = T::Error;
-
-    async fn call<M: Message>(&mut self, message: &M) -> Answer<M::Reply<'_>, T::Error, M> {
-        T::call(self, message).await
-    }
-}
-
 /// What comes of a message `M`: `T`, or why not. `E` is the client's own error.
 pub type Answer<T, E, M> = Result<T, Failure<E, <M as Message>::Refusal>>;
 
@@ -115,7 +99,7 @@ pub(crate) fn answer<'r, E, M: Message>(request: &[u8], reply: &'r [u8]) -> Answ
     }
 }
 
-/// A message that is ready to be sent through a client.
+/// A message that is ready to be sent through a client. The methods that end in `_async` don't block.
 #[derive(Debug)]
 #[must_use = "nothing is sent before `send` or `send_async`"]
 pub struct Call<'c, C, M> {
@@ -129,64 +113,48 @@ impl<'c, C, M: Message> Call<'c, C, M> {
     pub fn new(client: &'c mut C, message: M) -> Self {
         Self { client, message }
     }
-
-    /// Sends the message and waits for the reply.
-    ///
-    /// # Errors
-    ///
-    /// [`Failure::Refused`] where the device refuses, [`Failure::Error`] where a field is outside its limits, the line fails, or
-    /// the reply is another one.
-    pub fn send(self) -> Answer<M::Reply<'c>, C::Error, M>
-    where
-        C: MessageClient,
-    {
-        self.client.call(&self.message)
-    }
-
-    /// Sends the message and takes the reply without blocking.
-    ///
-    /// # Errors
-    ///
-    /// The same as of [`send`](Self::send).
-    pub async fn send_async(self) -> Answer<M::Reply<'c>, C::Error, M>
-    where
-        C: AsyncMessageClient,
-    {
-        self.client.call(&self.message).await
-    }
-
-    /// Sends the message, and gives the device that has the messages whose meaning it decides. As long as that is in use, no
-    /// other message of the kind can be sent.
-    ///
-    /// # Errors
-    ///
-    /// The same as of [`send`](Self::send).
-    pub fn select(self) -> Answer<M::Device<&'c mut C>, C::Error, M>
-    where
-        C: MessageClient,
-        M: Selector,
-    {
-        match self.client.call(&self.message) {
-            Ok(_) => {}
-            Err(failure) => return Err(failure),
-        }
-        Ok(M::device(self.client))
-    }
-
-    /// The same as [`select`](Self::select), without blocking.
-    ///
-    /// # Errors
-    ///
-    /// The same as of [`send`](Self::send).
-    pub async fn select_async(self) -> Answer<M::Device<&'c mut C>, C::Error, M>
-    where
-        C: AsyncMessageClient,
-        M: Selector,
-    {
-        match self.client.call(&self.message).await {
-            Ok(_) => {}
-            Err(failure) => return Err(failure),
-        }
-        Ok(M::device(self.client))
-    }
 }
+
+macro_rules! calls {
+    ($MessageClient:ident $send:ident $select:ident $($async:ident $await:ident)?) => {
+        impl<T: $MessageClient + ?Sized> $MessageClient for &mut T {
+            type Error = T::Error;
+
+            $($async)? fn call<M: Message>(&mut self, message: &M) -> Answer<M::Reply<'_>, T::Error, M> {
+                T::call(self, message)$(.$await)?
+            }
+        }
+
+        impl<'c, C: $MessageClient, M: Message> Call<'c, C, M> {
+            /// Sends the message and waits for the reply.
+            ///
+            /// # Errors
+            ///
+            /// [`Failure::Refused`] where the device refuses, [`Failure::Error`] where a field is outside its limits, the line
+            /// fails, or the reply is another one.
+            pub $($async)? fn $send(self) -> Answer<M::Reply<'c>, C::Error, M> {
+                self.client.call(&self.message)$(.$await)?
+            }
+
+            /// Sends the message, and gives the device that has the messages whose meaning it decides. As long as that is in
+            /// use, no other message of the kind can be sent.
+            ///
+            /// # Errors
+            ///
+            /// The same as of [`send`](Self::send).
+            pub $($async)? fn $select(self) -> Answer<M::Device<&'c mut C>, C::Error, M>
+            where
+                M: Selector,
+            {
+                match self.client.call(&self.message)$(.$await)? {
+                    Ok(_) => {}
+                    Err(failure) => return Err(failure),
+                }
+                Ok(M::device(self.client))
+            }
+        }
+    };
+}
+
+calls! { MessageClient send select }
+calls! { AsyncMessageClient send_async select_async async await }

@@ -87,26 +87,21 @@ pub trait AsyncRegisterClient: AsyncClient<Bus = Modbus> {
     }
 }
 
-impl<C: RegisterClient, D: FnMut(Duration)> RegisterClient for Timed<C, D> {
-    fn limits(&self) -> &Limits {
-        self.inner().limits()
-    }
+macro_rules! forwarding {
+    ($RegisterClient:ident $($future:tt)*) => {
+        impl<C: $RegisterClient, D: FnMut(Duration) $($future)*> $RegisterClient for Timed<C, D> {
+            fn limits(&self) -> &Limits {
+                self.inner().limits()
+            }
+        }
+
+        impl<T: $RegisterClient> $RegisterClient for &mut T {
+            fn limits(&self) -> &Limits {
+                T::limits(self)
+            }
+        }
+    };
 }
 
-impl<C: AsyncRegisterClient, D: FnMut(Duration) -> F, F: Future<Output = ()>> AsyncRegisterClient for Timed<C, D> {
-    fn limits(&self) -> &Limits {
-        self.inner().limits()
-    }
-}
-
-impl<T: RegisterClient> RegisterClient for &mut T {
-    fn limits(&self) -> &Limits {
-        T::limits(self)
-    }
-}
-
-impl<T: AsyncRegisterClient> AsyncRegisterClient for &mut T {
-    fn limits(&self) -> &Limits {
-        T::limits(self)
-    }
-}
+forwarding! { RegisterClient }
+forwarding! { AsyncRegisterClient -> F, F: Future<Output = ()> }

@@ -50,16 +50,16 @@ impl<const N: usize> Plan<N> {
         while let Some(first) = plan.leftmost(&items) {
             let start = items[first];
             let end = plan.reach(&items, first, limits);
-            let (mut at, mut taken) = (0, 0);
+            let (mut at, mut count) = (0, 0);
             while at < N {
                 let is_within = is_alike(&items[at], &start) && end_of(&items[at]) <= end;
                 if plan.request_of[at] == N && is_within || at == first {
                     plan.request_of[at] = plan.len;
-                    taken += 1;
+                    count += 1;
                 }
                 at += 1;
             }
-            plan.requests[plan.len] = if taken == 1 { start } else { joined(&start, end) };
+            plan.requests[plan.len] = if count == 1 { start } else { joined(&start, end) };
             plan.len += 1;
         }
         Ok(plan)

@@ -121,28 +121,6 @@ fn span_of(span: Option<IoSpan>) -> Result<IoSpan, LengthError> {
     span.ok_or(LengthError::new(1, 0))
 }
 
-impl<I: ImageClient, O: AsRef<[u8]> + AsMut<[u8]>, N: AsRef<[u8]> + AsMut<[u8]>> Cyclic<I, O, N> {
-    /// Sends the outputs, and takes the inputs.
-    ///
-    /// # Errors
-    ///
-    /// Those of [`ImageClient::cycle`].
-    pub fn cycle(&mut self) -> Result<(), Error<I::Error>> {
-        self.image.cycle(self.outputs.as_ref(), self.inputs.as_mut())
-    }
-}
-
-impl<I: AsyncImageClient, O: AsRef<[u8]> + AsMut<[u8]>, N: AsRef<[u8]> + AsMut<[u8]>> Cyclic<I, O, N> {
-    /// Sends the outputs, and takes the inputs, without blocking.
-    ///
-    /// # Errors
-    ///
-    /// Those of [`ImageClient::cycle`].
-    pub async fn cycle_async(&mut self) -> Result<(), Error<I::Error>> {
-        self.image.cycle(self.outputs.as_ref(), self.inputs.as_mut()).await
-    }
-}
-
 /// The next step of a time that has to pass with cycles in between.
 fn step(left: &mut Duration) -> Option<Duration> {
     let step = (*left).min(CYCLE);
@@ -150,80 +128,60 @@ fn step(left: &mut Duration) -> Option<Duration> {
     (!step.is_zero()).then_some(step)
 }
 
-impl<I: ImageClient, O: AsRef<[u8]> + AsMut<[u8]>, N: AsRef<[u8]> + AsMut<[u8]>> Client for Cyclic<I, O, N> {
-    type Bus = ProcessImage;
-    type Error = I::Error;
-
-    fn read(&mut self, field: ImageField, buffer: &mut [u8]) -> Result<usize, Error<I::Error>> {
-        if !self.is_by_hand {
-            self.cycle()?;
+macro_rules! clients {
+    ($ImageClient:ident $Client:ident: $cycle:ident $($async:ident $await:ident)?) => {
+        impl<I: $ImageClient, O: AsRef<[u8]> + AsMut<[u8]>, N: AsRef<[u8]> + AsMut<[u8]>> Cyclic<I, O, N> {
+            /// Sends the outputs, and takes the inputs.
+            ///
+            /// # Errors
+            ///
+            /// Those of [`ImageClient::cycle`].
+            pub $($async)? fn $cycle(&mut self) -> Result<(), Error<I::Error>> {
+                self.image.cycle(self.outputs.as_ref(), self.inputs.as_mut())$(.$await)?
+            }
         }
-        self.get(field, buffer)
-    }
 
-    fn write(&mut self, field: ImageField, data: &[u8]) -> Result<(), Error<I::Error>> {
-        self.put(field, data)?;
-        if self.is_by_hand {
-            return Ok(());
-        }
-        self.cycle()
-    }
+        impl<I: $ImageClient, O: AsRef<[u8]> + AsMut<[u8]>, N: AsRef<[u8]> + AsMut<[u8]>> $Client for Cyclic<I, O, N> {
+            type Bus = ProcessImage;
+            type Error = I::Error;
 
-    /// Both go out in the same cycle.
-    fn write_both(&mut self, writes: [Write<'_, ProcessImage>; 2]) -> Result<(), Error<I::Error>> {
-        writes.into_iter().try_for_each(|(field, data)| self.put(field, data))?;
-        if self.is_by_hand {
-            return Ok(());
-        }
-        self.cycle()
-    }
+            $($async)? fn read(&mut self, field: ImageField, buffer: &mut [u8]) -> Result<usize, Error<I::Error>> {
+                if !self.is_by_hand {
+                    self.$cycle()$(.$await)??;
+                }
+                self.get(field, buffer)
+            }
 
-    /// Cycles go on meanwhile.
-    fn wait(&mut self, time: Duration) -> Result<(), Error<I::Error>> {
-        let mut left = time;
-        self.cycle()?;
-        while let Some(step) = step(&mut left) {
-            self.image.wait(step)?;
-            self.cycle()?;
+            $($async)? fn write(&mut self, field: ImageField, data: &[u8]) -> Result<(), Error<I::Error>> {
+                self.put(field, data)?;
+                if self.is_by_hand {
+                    return Ok(());
+                }
+                self.$cycle()$(.$await)?
+            }
+
+            /// Both go out in the same cycle.
+            $($async)? fn write_both(&mut self, writes: [Write<'_, ProcessImage>; 2]) -> Result<(), Error<I::Error>> {
+                writes.into_iter().try_for_each(|(field, data)| self.put(field, data))?;
+                if self.is_by_hand {
+                    return Ok(());
+                }
+                self.$cycle()$(.$await)?
+            }
+
+            /// Cycles go on meanwhile.
+            $($async)? fn wait(&mut self, time: Duration) -> Result<(), Error<I::Error>> {
+                let mut left = time;
+                self.$cycle()$(.$await)??;
+                while let Some(step) = step(&mut left) {
+                    self.image.wait(step)$(.$await)??;
+                    self.$cycle()$(.$await)??;
+                }
+                Ok(())
+            }
         }
-        Ok(())
-    }
+    };
 }
 
-impl<I: AsyncImageClient, O: AsRef<[u8]> + AsMut<[u8]>, N: AsRef<[u8]> + AsMut<[u8]>> AsyncClient for Cyclic<I, O, N> {
-    type Bus = ProcessImage;
-    type Error = I::Error;
-
-    async fn read(&mut self, field: ImageField, buffer: &mut [u8]) -> Result<usize, Error<I::Error>> {
-        if !self.is_by_hand {
-            self.cycle_async().await?;
-        }
-        self.get(field, buffer)
-    }
-
-    async fn write(&mut self, field: ImageField, data: &[u8]) -> Result<(), Error<I::Error>> {
-        self.put(field, data)?;
-        if self.is_by_hand {
-            return Ok(());
-        }
-        self.cycle_async().await
-    }
-
-    async fn write_both(&mut self, writes: [Write<'_, ProcessImage>; 2]) -> Result<(), Error<I::Error>> {
-        writes.into_iter().try_for_each(|(field, data)| self.put(field, data))?;
-        if self.is_by_hand {
-            return Ok(());
-        }
-        self.cycle_async().await
-    }
-
-    async fn wait(&mut self, time: Duration) -> Result<(), Error<I::Error>> {
-        let mut left = time;
-        self.cycle_async().await?;
-        while let Some(step) = step(&mut left) {
-            self.image.wait(step).await?;
-            self.cycle_async().await?;
-        }
-        Ok(())
-    }
-}
+clients! { ImageClient Client: cycle }
+clients! { AsyncImageClient AsyncClient: cycle_async async await }

@@ -102,29 +102,24 @@ pub trait AsyncImageClient {
     }
 }
 
-impl<T: ImageClient + ?Sized> ImageClient for &mut T {
-    type Error = T::Error;
+macro_rules! borrowed {
+    ($Client:ident $($async:ident $await:ident)?) => {
+        impl<T: $Client + ?Sized> $Client for &mut T {
+            type Error = T::Error;
 
-    fn cycle(&mut self, outputs: &[u8], inputs: &mut [u8]) -> Result<(), Error<T::Error>> {
-        T::cycle(self, outputs, inputs)
-    }
+            $($async)? fn cycle(&mut self, outputs: &[u8], inputs: &mut [u8]) -> Result<(), Error<T::Error>> {
+                T::cycle(self, outputs, inputs)$(.$await)?
+            }
 
-    fn wait(&mut self, time: Duration) -> Result<(), Error<T::Error>> {
-        T::wait(self, time)
-    }
+            $($async)? fn wait(&mut self, time: Duration) -> Result<(), Error<T::Error>> {
+                T::wait(self, time)$(.$await)?
+            }
+        }
+    };
 }
 
-impl<T: AsyncImageClient + ?Sized> AsyncImageClient for &mut T {
-    type Error = T::Error;
-
-    async fn cycle(&mut self, outputs: &[u8], inputs: &mut [u8]) -> Result<(), Error<T::Error>> {
-        T::cycle(self, outputs, inputs).await
-    }
-
-    async fn wait(&mut self, time: Duration) -> Result<(), Error<T::Error>> {
-        T::wait(self, time).await
-    }
-}
+borrowed! { ImageClient }
+borrowed! { AsyncImageClient async await }
 
 /// Some bytes of a frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

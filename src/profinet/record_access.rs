@@ -118,96 +118,61 @@ impl<T: RecordData, const N: usize> Fits<T, N> {
     const CHECKED: () = assert!(T::LEN <= N, "the record is longer than the buffer of its `RecordAccess`");
 }
 
-impl<C: RecordClient, const N: usize> RecordAccess<C, N> {
-    /// Reads the record `T` of a submodule.
-    ///
-    /// # Errors
-    ///
-    /// Those of [`RecordClient::read_record`], and [`Error::Length`] where the device's record is shorter than `T`.
-    pub fn read<T: RecordData>(&mut self, submodule: SubmoduleAddress) -> Result<T, Error<C::Error>> {
-        let () = Fits::<T, N>::CHECKED;
-        let length = self.client.read_record(submodule.record(T::INDEX), &mut self.buffer)?;
-        Ok(T::decode(self.filled(length)?)?)
-    }
-
-    /// Writes the record `T` of a submodule.
-    ///
-    /// # Errors
-    ///
-    /// [`Error::NotAllowed`] where a field has a value that isn't allowed; nothing was sent then. Else those of
-    /// [`RecordClient::write_record`].
-    pub fn write<T: RecordData>(&mut self, submodule: SubmoduleAddress, record: &T) -> Result<(), Error<C::Error>> {
-        let () = Fits::<T, N>::CHECKED;
-        let data = record.encode_into(&mut self.buffer)?;
-        self.client.write_record(submodule.record(T::INDEX), data)
-    }
-}
-
-impl<C: AsyncRecordClient, const N: usize> RecordAccess<C, N> {
-    /// Reads the record `T` of a submodule.
-    ///
-    /// # Errors
-    ///
-    /// Those of [`RecordClient::read_record`], and [`Error::Length`] where the device's record is shorter than `T`.
-    pub async fn read_async<T: RecordData>(&mut self, submodule: SubmoduleAddress) -> Result<T, Error<C::Error>> {
-        let () = Fits::<T, N>::CHECKED;
-        let length = self.client.read_record(submodule.record(T::INDEX), &mut self.buffer).await?;
-        Ok(T::decode(self.filled(length)?)?)
-    }
-
-    /// Writes the record `T` of a submodule.
-    ///
-    /// # Errors
-    ///
-    /// [`Error::NotAllowed`] where a field has a value that isn't allowed; nothing was sent then. Else those of
-    /// [`RecordClient::write_record`].
-    pub async fn write_async<T: RecordData>(
-        &mut self,
-        submodule: SubmoduleAddress,
-        record: &T,
-    ) -> Result<(), Error<C::Error>> {
-        let () = Fits::<T, N>::CHECKED;
-        let data = record.encode_into(&mut self.buffer)?;
-        self.client.write_record(submodule.record(T::INDEX), data).await
-    }
-}
-
 impl From<Record> for RecordAddress {
     fn from(part: Record) -> Self {
         Self { api: part.api, slot: part.slot, subslot: part.subslot, index: part.index }
     }
 }
 
-impl<C: RecordClient, const N: usize> Client for RecordAccess<C, N> {
-    type Bus = Profinet;
-    type Error = C::Error;
+macro_rules! access {
+    ($RecordClient:ident $Client:ident: $read:ident $write:ident $($async:ident $await:ident)?) => {
+        impl<C: $RecordClient, const N: usize> RecordAccess<C, N> {
+            /// Reads the record `T` of a submodule.
+            ///
+            /// # Errors
+            ///
+            /// Those of [`RecordClient::read_record`], and [`Error::Length`] where the device's record is shorter than `T`.
+            pub $($async)? fn $read<T: RecordData>(&mut self, submodule: SubmoduleAddress) -> Result<T, Error<C::Error>> {
+                let () = Fits::<T, N>::CHECKED;
+                let length = self.client.read_record(submodule.record(T::INDEX), &mut self.buffer)$(.$await)??;
+                Ok(T::decode(self.filled(length)?)?)
+            }
 
-    fn read(&mut self, address: Record, buffer: &mut [u8]) -> Result<usize, Error<C::Error>> {
-        let length = self.client.read_record(address.into(), &mut self.buffer)?;
-        Ok(self.part(length, address, buffer)?)
-    }
+            /// Writes the record `T` of a submodule.
+            ///
+            /// # Errors
+            ///
+            /// [`Error::NotAllowed`] where a field has a value that isn't allowed; nothing was sent then. Else those of
+            /// [`RecordClient::write_record`].
+            pub $($async)? fn $write<T: RecordData>(
+                &mut self,
+                submodule: SubmoduleAddress,
+                record: &T,
+            ) -> Result<(), Error<C::Error>> {
+                let () = Fits::<T, N>::CHECKED;
+                let data = record.encode_into(&mut self.buffer)?;
+                self.client.write_record(submodule.record(T::INDEX), data)$(.$await)?
+            }
+        }
 
-    fn write(&mut self, address: Record, data: &[u8]) -> Result<(), Error<C::Error>> {
-        let length = self.client.read_record(address.into(), &mut self.buffer)?;
-        self.replace(length, address, data)?;
-        let record = self.buffer.get(..length).unwrap_or_default();
-        self.client.write_record(address.into(), record)
-    }
+        impl<C: $RecordClient, const N: usize> $Client for RecordAccess<C, N> {
+            type Bus = Profinet;
+            type Error = C::Error;
+
+            $($async)? fn read(&mut self, address: Record, buffer: &mut [u8]) -> Result<usize, Error<C::Error>> {
+                let length = self.client.read_record(address.into(), &mut self.buffer)$(.$await)??;
+                Ok(self.part(length, address, buffer)?)
+            }
+
+            $($async)? fn write(&mut self, address: Record, data: &[u8]) -> Result<(), Error<C::Error>> {
+                let length = self.client.read_record(address.into(), &mut self.buffer)$(.$await)??;
+                self.replace(length, address, data)?;
+                let record = self.buffer.get(..length).unwrap_or_default();
+                self.client.write_record(address.into(), record)$(.$await)?
+            }
+        }
+    };
 }
 
-impl<C: AsyncRecordClient, const N: usize> AsyncClient for RecordAccess<C, N> {
-    type Bus = Profinet;
-    type Error = C::Error;
-
-    async fn read(&mut self, address: Record, buffer: &mut [u8]) -> Result<usize, Error<C::Error>> {
-        let length = self.client.read_record(address.into(), &mut self.buffer).await?;
-        Ok(self.part(length, address, buffer)?)
-    }
-
-    async fn write(&mut self, address: Record, data: &[u8]) -> Result<(), Error<C::Error>> {
-        let length = self.client.read_record(address.into(), &mut self.buffer).await?;
-        self.replace(length, address, data)?;
-        let record = self.buffer.get(..length).unwrap_or_default();
-        self.client.write_record(address.into(), record).await
-    }
-}
+access! { RecordClient Client: read write }
+access! { AsyncRecordClient AsyncClient: read_async write_async async await }

@@ -178,42 +178,33 @@ pub trait AsyncRecordClient {
     async fn pause(&mut self) {}
 }
 
-impl<T: RecordClient + ?Sized> RecordClient for &mut T {
-    type Error = T::Error;
+macro_rules! borrowed {
+    ($Client:ident $($async:ident $await:ident)?) => {
+        impl<T: $Client + ?Sized> $Client for &mut T {
+            type Error = T::Error;
 
-    fn read_record(&mut self, address: RecordAddress, buffer: &mut [u8]) -> Result<usize, Error<T::Error>> {
-        T::read_record(self, address, buffer)
-    }
+            $($async)? fn read_record(
+                &mut self,
+                address: RecordAddress,
+                buffer: &mut [u8],
+            ) -> Result<usize, Error<T::Error>> {
+                T::read_record(self, address, buffer)$(.$await)?
+            }
 
-    fn write_record(&mut self, address: RecordAddress, data: &[u8]) -> Result<(), Error<T::Error>> {
-        T::write_record(self, address, data)
-    }
+            $($async)? fn write_record(&mut self, address: RecordAddress, data: &[u8]) -> Result<(), Error<T::Error>> {
+                T::write_record(self, address, data)$(.$await)?
+            }
 
-    fn is_busy(&self, error: &T::Error) -> bool {
-        T::is_busy(self, error)
-    }
+            fn is_busy(&self, error: &T::Error) -> bool {
+                T::is_busy(self, error)
+            }
 
-    fn pause(&mut self) {
-        T::pause(self);
-    }
+            $($async)? fn pause(&mut self) {
+                T::pause(self)$(.$await)?;
+            }
+        }
+    };
 }
 
-impl<T: AsyncRecordClient + ?Sized> AsyncRecordClient for &mut T {
-    type Error = T::Error;
-
-    async fn read_record(&mut self, address: RecordAddress, buffer: &mut [u8]) -> Result<usize, Error<T::Error>> {
-        T::read_record(self, address, buffer).await
-    }
-
-    async fn write_record(&mut self, address: RecordAddress, data: &[u8]) -> Result<(), Error<T::Error>> {
-        T::write_record(self, address, data).await
-    }
-
-    fn is_busy(&self, error: &T::Error) -> bool {
-        T::is_busy(self, error)
-    }
-
-    async fn pause(&mut self) {
-        T::pause(self).await;
-    }
-}
+borrowed! { RecordClient }
+borrowed! { AsyncRecordClient async await }

@@ -66,18 +66,7 @@ impl<R: Route> Route for Limited<R> {
 }
 
 impl<B: Bus, R: ReadRoute<B>> ReadRoute<B> for Limited<R> {
-    #[inline]
-    fn read<C: Client<Bus = B>>(&self, client: &mut C, buffer: &mut [u8]) -> Result<usize, Error<C::Error>> {
-        self.at.read(client, buffer)
-    }
-
-    async fn read_async<C: AsyncClient<Bus = B>>(
-        &self,
-        client: &mut C,
-        buffer: &mut [u8],
-    ) -> Result<usize, Error<C::Error>> {
-        self.at.read_async(client, buffer).await
-    }
+    read_by!(at);
 }
 
 impl<B: Bus, R: WriteRoute<B>> WriteRoute<B> for Limited<R> {

@@ -157,52 +157,36 @@ fn unless_no_clock<E>(waited: Result<(), Error<E>>) -> Result<(), Error<E>> {
     }
 }
 
-/// Waits until the device has done it.
-fn settle<C: Client>(
-    client: &mut C,
-    number: <C::Bus as Bus>::Address,
-    bits: u8,
-    handshake: Handshake,
-) -> Result<(), Error<C::Error>> {
-    if handshake.polls == 0 {
-        return if handshake.wait == 0 { Ok(()) } else { client.wait(handshake.time()) };
-    }
-    for poll in 0..handshake.polls {
-        if poll > 0 {
-            unless_no_clock(client.wait(INTERVAL))?;
+macro_rules! settle {
+    ($settle:ident $Client:ident $($async:ident $await:ident)?) => {
+        /// Waits until the device has done it.
+        $($async)? fn $settle<C: $Client>(
+            client: &mut C,
+            number: <C::Bus as Bus>::Address,
+            bits: u8,
+            handshake: Handshake,
+        ) -> Result<(), Error<C::Error>> {
+            if handshake.polls == 0 {
+                return if handshake.wait == 0 { Ok(()) } else { client.wait(handshake.time())$(.$await)? };
+            }
+            for poll in 0..handshake.polls {
+                if poll > 0 {
+                    unless_no_clock(client.wait(INTERVAL)$(.$await)?)?;
+                }
+                let mut raw = [0; 8];
+                let raw = resized::room(&mut raw, bits.into());
+                resized::check(raw.len(), client.read(number, raw)$(.$await)??)?;
+                if raw.iter().all(|byte| *byte == 0) {
+                    return Ok(());
+                }
+            }
+            Err(Error::Timeout)
         }
-        let mut raw = [0; 8];
-        let raw = resized::room(&mut raw, bits.into());
-        resized::check(raw.len(), client.read(number, raw)?)?;
-        if raw.iter().all(|byte| *byte == 0) {
-            return Ok(());
-        }
-    }
-    Err(Error::Timeout)
+    };
 }
 
-async fn settle_async<C: AsyncClient>(
-    client: &mut C,
-    number: <C::Bus as Bus>::Address,
-    bits: u8,
-    handshake: Handshake,
-) -> Result<(), Error<C::Error>> {
-    if handshake.polls == 0 {
-        return if handshake.wait == 0 { Ok(()) } else { client.wait(handshake.time()).await };
-    }
-    for poll in 0..handshake.polls {
-        if poll > 0 {
-            unless_no_clock(client.wait(INTERVAL).await)?;
-        }
-        let mut raw = [0; 8];
-        let raw = resized::room(&mut raw, bits.into());
-        resized::check(raw.len(), client.read(number, raw).await?)?;
-        if raw.iter().all(|byte| *byte == 0) {
-            return Ok(());
-        }
-    }
-    Err(Error::Timeout)
-}
+settle! { settle Client }
+settle! { settle_async AsyncClient async await }
 
 /// A window is no address of the value's own.
 impl<W> Route for Through<W> {}

@@ -64,50 +64,38 @@ impl From<Fault> for Error<Fault> {
     }
 }
 
-macro_rules! clients {
-    ($($bus:ident, $address:ty, $read:expr, $write:expr;)*) => {$(
-        impl<D: BorrowMut<Device>> Client for Connection<$bus, D> {
+macro_rules! client {
+    ($Client:ident $($async:ident)?: $bus:ident, $address:ty, $read:expr, $write:expr) => {
+        impl<D: BorrowMut<Device>> $Client for Connection<$bus, D> {
             type Bus = $bus;
             type Error = Fault;
 
-            fn read(&mut self, address: $address, buffer: &mut [u8]) -> Result<usize, Error<Fault>> {
+            $($async)? fn read(&mut self, address: $address, buffer: &mut [u8]) -> Result<usize, Error<Fault>> {
                 $read(self.device(), address, buffer)
             }
 
-            fn write(&mut self, address: $address, data: &[u8]) -> Result<(), Error<Fault>> {
+            $($async)? fn write(&mut self, address: $address, data: &[u8]) -> Result<(), Error<Fault>> {
                 $write(self.device(), address, data)
             }
 
             /// Simulated devices need no time.
-            fn wait(&mut self, _: Duration) -> Result<(), Error<Fault>> {
+            $($async)? fn wait(&mut self, _: Duration) -> Result<(), Error<Fault>> {
                 Ok(())
             }
         }
-
-        impl<D: BorrowMut<Device>> AsyncClient for Connection<$bus, D> {
-            type Bus = $bus;
-            type Error = Fault;
-
-            async fn read(&mut self, address: $address, buffer: &mut [u8]) -> Result<usize, Error<Fault>> {
-                $read(self.device(), address, buffer)
-            }
-
-            async fn write(&mut self, address: $address, data: &[u8]) -> Result<(), Error<Fault>> {
-                $write(self.device(), address, data)
-            }
-
-            async fn wait(&mut self, _: Duration) -> Result<(), Error<Fault>> {
-                Ok(())
-            }
-        }
-    )*};
+    };
 }
 
-clients! {
-    CanOpen, Object, upload, |device, object, data| download(device, Network::CanOpen, object, data);
-    CoE, Object, upload, |device, object, data| download(device, Network::EtherCat, object, data);
-    Modbus, Register, Device::read_register, Device::write_register;
+macro_rules! clients {
+    ($($client:tt)*) => {
+        client! { Client: $($client)* }
+        client! { AsyncClient async: $($client)* }
+    };
 }
+
+clients! { CanOpen, Object, upload, |device, object, data| download(device, Network::CanOpen, object, data) }
+clients! { CoE, Object, upload, |device, object, data| download(device, Network::EtherCat, object, data) }
+clients! { Modbus, Register, Device::read_register, Device::write_register }
 
 fn upload(device: &mut Device, object: Object, buffer: &mut [u8]) -> Result<usize, Error<Fault>> {
     let value = device.upload(object)?;

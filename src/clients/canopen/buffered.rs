@@ -83,45 +83,32 @@ impl<P, const N: usize> Buffered<P, N> {
     }
 }
 
-impl<P: CanPort, const N: usize> CanPort for Buffered<P, N> {
-    type Error = P::Error;
+macro_rules! buffered {
+    ($Port:ident $($async:ident $await:ident)?) => {
+        impl<P: $Port, const N: usize> $Port for Buffered<P, N> {
+            type Error = P::Error;
 
-    fn send(&mut self, frame: &CanFrame, patience: Duration) -> Result<bool, P::Error> {
-        self.port.send(frame, patience)
-    }
+            $($async)? fn send(&mut self, frame: &CanFrame, patience: Duration) -> Result<bool, P::Error> {
+                self.port.send(frame, patience)$(.$await)?
+            }
 
-    fn receive(
-        &mut self,
-        patience: Duration,
-        wanted: &mut dyn FnMut(&CanFrame) -> bool,
-    ) -> Result<Option<CanFrame>, P::Error> {
-        if let Some(frame) = self.kept.take(wanted) {
-            return Ok(Some(frame));
+            $($async)? fn receive(
+                &mut self,
+                patience: Duration,
+                wanted: &mut dyn FnMut(&CanFrame) -> bool,
+            ) -> Result<Option<CanFrame>, P::Error> {
+                if let Some(frame) = self.kept.take(wanted) {
+                    return Ok(Some(frame));
+                }
+                let kept = &mut self.kept;
+                self.port.receive(patience, &mut |frame| kept.check(frame, wanted))$(.$await)?
+            }
         }
-        let kept = &mut self.kept;
-        self.port.receive(patience, &mut |frame| kept.check(frame, wanted))
-    }
+    };
 }
 
-impl<P: AsyncCanPort, const N: usize> AsyncCanPort for Buffered<P, N> {
-    type Error = P::Error;
-
-    async fn send(&mut self, frame: &CanFrame, patience: Duration) -> Result<bool, P::Error> {
-        self.port.send(frame, patience).await
-    }
-
-    async fn receive(
-        &mut self,
-        patience: Duration,
-        wanted: &mut dyn FnMut(&CanFrame) -> bool,
-    ) -> Result<Option<CanFrame>, P::Error> {
-        if let Some(frame) = self.kept.take(wanted) {
-            return Ok(Some(frame));
-        }
-        let kept = &mut self.kept;
-        self.port.receive(patience, &mut |frame| kept.check(frame, wanted)).await
-    }
-}
+buffered! { CanPort }
+buffered! { AsyncCanPort async await }
 
 #[cfg(test)]
 mod tests {

@@ -95,34 +95,25 @@ pub trait AsyncCanPort {
     ) -> Result<Option<CanFrame>, Self::Error>;
 }
 
-impl<P: CanPort + ?Sized> CanPort for &mut P {
-    type Error = P::Error;
+macro_rules! borrowed {
+    ($Port:ident $($async:ident $await:ident)?) => {
+        impl<P: $Port + ?Sized> $Port for &mut P {
+            type Error = P::Error;
 
-    fn send(&mut self, frame: &CanFrame, patience: Duration) -> Result<bool, P::Error> {
-        P::send(self, frame, patience)
-    }
+            $($async)? fn send(&mut self, frame: &CanFrame, patience: Duration) -> Result<bool, P::Error> {
+                P::send(self, frame, patience)$(.$await)?
+            }
 
-    fn receive(
-        &mut self,
-        patience: Duration,
-        wanted: &mut dyn FnMut(&CanFrame) -> bool,
-    ) -> Result<Option<CanFrame>, P::Error> {
-        P::receive(self, patience, wanted)
-    }
+            $($async)? fn receive(
+                &mut self,
+                patience: Duration,
+                wanted: &mut dyn FnMut(&CanFrame) -> bool,
+            ) -> Result<Option<CanFrame>, P::Error> {
+                P::receive(self, patience, wanted)$(.$await)?
+            }
+        }
+    };
 }
 
-impl<P: AsyncCanPort + ?Sized> AsyncCanPort for &mut P {
-    type Error = P::Error;
-
-    async fn send(&mut self, frame: &CanFrame, patience: Duration) -> Result<bool, P::Error> {
-        P::send(self, frame, patience).await
-    }
-
-    async fn receive(
-        &mut self,
-        patience: Duration,
-        wanted: &mut dyn FnMut(&CanFrame) -> bool,
-    ) -> Result<Option<CanFrame>, P::Error> {
-        P::receive(self, patience, wanted).await
-    }
-}
+borrowed! { CanPort }
+borrowed! { AsyncCanPort async await }

@@ -187,84 +187,54 @@ impl Done {
     }
 }
 
-impl<P: CanPort> Node<P> {
-    fn run(&mut self, mut transfer: Transfer) -> Result<Done, Error<P::Error>> {
-        let (mut of_node, timeout) = (Transfer::is_answer(transfer.answers), self.timeout());
-        // Answers to requests that were given up may have come late.
-        let mut old = BACKLOG;
-        while old > 0 && self.port().receive(Duration::ZERO, &mut of_node).map_err(Error::Client)?.is_some() {
-            old -= 1;
-        }
-        loop {
-            while let Some(frame) = transfer.request() {
-                self.send(&frame)?;
-            }
-            if let Some(end) = transfer.end() {
-                return end;
-            }
-            match self.port().receive(timeout, &mut of_node) {
-                Ok(answer) => transfer.answer(answer),
-                Err(error) => {
-                    // The node needn't wait for the rest. Whether that reaches it doesn't matter to the caller.
-                    if let Some(abort) = transfer.broken() {
-                        let _ = self.send(&abort);
+macro_rules! transfers {
+    ($Port:ident $Client:ident $send:ident $run:ident $($async:ident $await:ident)?) => {
+        impl<P: $Port> Node<P> {
+            $($async)? fn $run(&mut self, mut transfer: Transfer) -> Result<Done, Error<P::Error>> {
+                let (mut of_node, timeout) = (Transfer::is_answer(transfer.answers), self.timeout());
+                // Answers to requests that were given up may have come late.
+                let mut old = BACKLOG;
+                while old > 0 {
+                    let late = self.port().receive(Duration::ZERO, &mut of_node)$(.$await)?;
+                    old = if late.map_err(Error::Client)?.is_some() { old - 1 } else { 0 };
+                }
+                loop {
+                    while let Some(frame) = transfer.request() {
+                        self.$send(&frame)$(.$await)??;
                     }
-                    return Err(Error::Client(error));
+                    if let Some(end) = transfer.end() {
+                        return end;
+                    }
+                    match self.port().receive(timeout, &mut of_node)$(.$await)? {
+                        Ok(answer) => transfer.answer(answer),
+                        Err(error) => {
+                            // The node needn't wait for the rest. Whether that reaches it doesn't matter to the caller.
+                            if let Some(abort) = transfer.broken() {
+                                let _ = self.$send(&abort)$(.$await)?;
+                            }
+                            return Err(Error::Client(error));
+                        }
+                    }
                 }
             }
         }
-    }
-}
 
-impl<P: CanPort> Client for Node<P> {
-    type Bus = CanOpen;
-    type Error = P::Error;
+        impl<P: $Port> $Client for Node<P> {
+            type Bus = CanOpen;
+            type Error = P::Error;
 
-    fn read(&mut self, address: Object, buffer: &mut [u8]) -> Result<usize, Error<P::Error>> {
-        self.run(Transfer::upload(self.id(), address, buffer.len())?)?.uploaded(buffer)
-    }
-
-    fn write(&mut self, address: Object, data: &[u8]) -> Result<(), Error<P::Error>> {
-        self.run(Transfer::download(self.id(), address, data)?).map(|_| ())
-    }
-}
-
-impl<P: AsyncCanPort> Node<P> {
-    async fn run_async(&mut self, mut transfer: Transfer) -> Result<Done, Error<P::Error>> {
-        let (mut of_node, timeout) = (Transfer::is_answer(transfer.answers), self.timeout());
-        let mut old = BACKLOG;
-        while old > 0 && self.port().receive(Duration::ZERO, &mut of_node).await.map_err(Error::Client)?.is_some() {
-            old -= 1;
-        }
-        loop {
-            while let Some(frame) = transfer.request() {
-                self.send_async(&frame).await?;
+            $($async)? fn read(&mut self, address: Object, buffer: &mut [u8]) -> Result<usize, Error<P::Error>> {
+                let transfer = Transfer::upload(self.id(), address, buffer.len())?;
+                self.$run(transfer)$(.$await)??.uploaded(buffer)
             }
-            if let Some(end) = transfer.end() {
-                return end;
-            }
-            match self.port().receive(timeout, &mut of_node).await {
-                Ok(answer) => transfer.answer(answer),
-                Err(error) => {
-                    if let Some(abort) = transfer.broken() {
-                        let _ = self.send_async(&abort).await;
-                    }
-                    return Err(Error::Client(error));
-                }
+
+            $($async)? fn write(&mut self, address: Object, data: &[u8]) -> Result<(), Error<P::Error>> {
+                let transfer = Transfer::download(self.id(), address, data)?;
+                self.$run(transfer)$(.$await)?.map(|_| ())
             }
         }
-    }
+    };
 }
 
-impl<P: AsyncCanPort> AsyncClient for Node<P> {
-    type Bus = CanOpen;
-    type Error = P::Error;
-
-    async fn read(&mut self, address: Object, buffer: &mut [u8]) -> Result<usize, Error<P::Error>> {
-        self.run_async(Transfer::upload(self.id(), address, buffer.len())?).await?.uploaded(buffer)
-    }
-
-    async fn write(&mut self, address: Object, data: &[u8]) -> Result<(), Error<P::Error>> {
-        self.run_async(Transfer::download(self.id(), address, data)?).await.map(|_| ())
-    }
-}
+transfers! { CanPort Client send run }
+transfers! { AsyncCanPort AsyncClient send_async run_async async await }

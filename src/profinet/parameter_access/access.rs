@@ -23,7 +23,8 @@ pub const BLOCK_LEN: usize = 240;
 /// How often a response is read where nothing else is said.
 const POLLS: u32 = 200;
 
-/// Reads and changes parameters of a drive, through a submodule that has a record for it.
+/// Reads and changes parameters of a drive, through a submodule that has a record for it. The methods that end in `_async` don't
+/// block.
 ///
 /// A call writes a request and reads the response until the drive has one: as long as the record is empty, or the client says
 /// that the device is busy ([`RecordClient::is_busy`]), at most so many times ([`with_polls`](Self::with_polls)), with
@@ -140,138 +141,87 @@ fn decoded<'b, E>(request: &[u8], buffer: &'b [u8], length: usize) -> Result<Res
     Ok(Response::decode(request, data)?)
 }
 
-impl<C: RecordClient> ParameterAccess<C> {
-    /// Reads one value of a parameter of `axis`. The subindex of a parameter that is no array is 0.
-    pub fn read<T: ParameterValue>(&mut self, axis: u8, pnu: u16, subindex: u16) -> Result<T, Error<C::Error>> {
-        let (mut request, mut response) = ([0; BLOCK_LEN], [0; BLOCK_LEN]);
-        let request = self.reading(&mut request, axis, ParameterAddress::value(pnu, subindex))?;
-        Ok(self.request(request, &mut response)?.values()?.get(0)?)
-    }
-
-    /// Reads values of an array, from `subindex` on, until `values` are full.
-    pub fn read_array<T: ParameterValue>(
-        &mut self,
-        axis: u8,
-        pnu: u16,
-        subindex: u16,
-        values: &mut [T],
-    ) -> Result<(), Error<C::Error>> {
-        let (mut request, mut response) = ([0; BLOCK_LEN], [0; BLOCK_LEN]);
-        let address = ParameterAddress::values(pnu, subindex, elements(values)?);
-        let request = self.reading(&mut request, axis, address)?;
-        Ok(copy(&self.request(request, &mut response)?, values)?)
-    }
-
-    /// Changes one value of a parameter of `axis`.
-    pub fn write<T: ParameterValue + Copy>(
-        &mut self,
-        axis: u8,
-        pnu: u16,
-        subindex: u16,
-        value: T,
-    ) -> Result<(), Error<C::Error>> {
-        self.write_array(axis, pnu, subindex, &[value])
-    }
-
-    /// Changes values of an array, from `subindex` on.
-    pub fn write_array<T: ParameterValue + Copy>(
-        &mut self,
-        axis: u8,
-        pnu: u16,
-        subindex: u16,
-        values: &[T],
-    ) -> Result<(), Error<C::Error>> {
-        let (mut request, mut response) = ([0; BLOCK_LEN], [0; BLOCK_LEN]);
-        let address = ParameterAddress::values(pnu, subindex, elements(values)?);
-        let request = self.changing(&mut request, axis, address, values)?;
-        Ok(self.request(request, &mut response)?.done()?)
-    }
-
-    /// Sends any request, of [`read_request`] or [`change_request`] with the [next reference](Self::next_reference), and returns
-    /// the response, which is in `buffer` then. What the drive refuses is in the response.
-    pub fn request<'b>(&mut self, request: &[u8], buffer: &'b mut [u8]) -> Result<Response<'b>, Error<C::Error>> {
-        self.client.write_record(self.record, request)?;
-        let mut left = self.polls.max(1);
-        loop {
-            let outcome = self.client.read_record(self.record, buffer);
-            match response_length(outcome, |error| self.client.is_busy(error))? {
-                Ok(length) => return decoded(request, buffer, length),
-                Err(error) if left == 1 => return Err(error),
-                Err(_) => left -= 1,
+macro_rules! calls {
+    (
+        $RecordClient:ident: $read:ident $read_array:ident $write:ident $write_array:ident $request:ident
+        $($async:ident $await:ident)?
+    ) => {
+        impl<C: $RecordClient> ParameterAccess<C> {
+            /// Reads one value of a parameter of `axis`. The subindex of a parameter that is no array is 0.
+            pub $($async)? fn $read<T: ParameterValue>(
+                &mut self,
+                axis: u8,
+                pnu: u16,
+                subindex: u16,
+            ) -> Result<T, Error<C::Error>> {
+                let (mut request, mut response) = ([0; BLOCK_LEN], [0; BLOCK_LEN]);
+                let request = self.reading(&mut request, axis, ParameterAddress::value(pnu, subindex))?;
+                Ok(self.$request(request, &mut response)$(.$await)??.values()?.get(0)?)
             }
-            self.client.pause();
+
+            /// Reads values of an array, from `subindex` on, until `values` are full.
+            pub $($async)? fn $read_array<T: ParameterValue>(
+                &mut self,
+                axis: u8,
+                pnu: u16,
+                subindex: u16,
+                values: &mut [T],
+            ) -> Result<(), Error<C::Error>> {
+                let (mut request, mut response) = ([0; BLOCK_LEN], [0; BLOCK_LEN]);
+                let address = ParameterAddress::values(pnu, subindex, elements(values)?);
+                let request = self.reading(&mut request, axis, address)?;
+                Ok(copy(&self.$request(request, &mut response)$(.$await)??, values)?)
+            }
+
+            /// Changes one value of a parameter of `axis`.
+            pub $($async)? fn $write<T: ParameterValue + Copy>(
+                &mut self,
+                axis: u8,
+                pnu: u16,
+                subindex: u16,
+                value: T,
+            ) -> Result<(), Error<C::Error>> {
+                self.$write_array(axis, pnu, subindex, &[value])$(.$await)?
+            }
+
+            /// Changes values of an array, from `subindex` on.
+            pub $($async)? fn $write_array<T: ParameterValue + Copy>(
+                &mut self,
+                axis: u8,
+                pnu: u16,
+                subindex: u16,
+                values: &[T],
+            ) -> Result<(), Error<C::Error>> {
+                let (mut request, mut response) = ([0; BLOCK_LEN], [0; BLOCK_LEN]);
+                let address = ParameterAddress::values(pnu, subindex, elements(values)?);
+                let request = self.changing(&mut request, axis, address, values)?;
+                Ok(self.$request(request, &mut response)$(.$await)??.done()?)
+            }
+
+            /// Sends any request, of [`read_request`] or [`change_request`] with the [next reference](Self::next_reference),
+            /// and returns the response, which is in `buffer` then. What the drive refuses is in the response.
+            pub $($async)? fn $request<'b>(
+                &mut self,
+                request: &[u8],
+                buffer: &'b mut [u8],
+            ) -> Result<Response<'b>, Error<C::Error>> {
+                self.client.write_record(self.record, request)$(.$await)??;
+                let mut left = self.polls.max(1);
+                loop {
+                    let outcome = self.client.read_record(self.record, buffer)$(.$await)?;
+                    match response_length(outcome, |error| self.client.is_busy(error))? {
+                        Ok(length) => return decoded(request, buffer, length),
+                        Err(error) if left == 1 => return Err(error),
+                        Err(_) => left -= 1,
+                    }
+                    self.client.pause()$(.$await)?;
+                }
+            }
         }
-    }
+    };
 }
 
-impl<C: AsyncRecordClient> ParameterAccess<C> {
-    /// Reads one value, as [`read`](Self::read) does.
-    pub async fn read_async<T: ParameterValue>(
-        &mut self,
-        axis: u8,
-        pnu: u16,
-        subindex: u16,
-    ) -> Result<T, Error<C::Error>> {
-        let (mut request, mut response) = ([0; BLOCK_LEN], [0; BLOCK_LEN]);
-        let request = self.reading(&mut request, axis, ParameterAddress::value(pnu, subindex))?;
-        Ok(self.request_async(request, &mut response).await?.values()?.get(0)?)
-    }
-
-    /// Reads values of an array, as [`read_array`](Self::read_array) does.
-    pub async fn read_array_async<T: ParameterValue>(
-        &mut self,
-        axis: u8,
-        pnu: u16,
-        subindex: u16,
-        values: &mut [T],
-    ) -> Result<(), Error<C::Error>> {
-        let (mut request, mut response) = ([0; BLOCK_LEN], [0; BLOCK_LEN]);
-        let address = ParameterAddress::values(pnu, subindex, elements(values)?);
-        let request = self.reading(&mut request, axis, address)?;
-        Ok(copy(&self.request_async(request, &mut response).await?, values)?)
-    }
-
-    /// Changes one value, as [`write`](Self::write) does.
-    pub async fn write_async<T: ParameterValue + Copy>(
-        &mut self,
-        axis: u8,
-        pnu: u16,
-        subindex: u16,
-        value: T,
-    ) -> Result<(), Error<C::Error>> {
-        self.write_array_async(axis, pnu, subindex, &[value]).await
-    }
-
-    /// Changes values of an array, as [`write_array`](Self::write_array) does.
-    pub async fn write_array_async<T: ParameterValue + Copy>(
-        &mut self,
-        axis: u8,
-        pnu: u16,
-        subindex: u16,
-        values: &[T],
-    ) -> Result<(), Error<C::Error>> {
-        let (mut request, mut response) = ([0; BLOCK_LEN], [0; BLOCK_LEN]);
-        let address = ParameterAddress::values(pnu, subindex, elements(values)?);
-        let request = self.changing(&mut request, axis, address, values)?;
-        Ok(self.request_async(request, &mut response).await?.done()?)
-    }
-
-    /// Sends any request, as [`request`](Self::request) does.
-    pub async fn request_async<'b>(
-        &mut self,
-        request: &[u8],
-        buffer: &'b mut [u8],
-    ) -> Result<Response<'b>, Error<C::Error>> {
-        self.client.write_record(self.record, request).await?;
-        let mut left = self.polls.max(1);
-        loop {
-            let outcome = self.client.read_record(self.record, buffer).await;
-            match response_length(outcome, |error| self.client.is_busy(error))? {
-                Ok(length) => return decoded(request, buffer, length),
-                Err(error) if left == 1 => return Err(error),
-                Err(_) => left -= 1,
-            }
-            self.client.pause().await;
-        }
-    }
+calls! { RecordClient: read read_array write write_array request }
+calls! {
+    AsyncRecordClient: read_async read_array_async write_async write_array_async request_async async await
 }
