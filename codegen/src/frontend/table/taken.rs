@@ -131,7 +131,7 @@ impl Taken {
                 brief(&other.name),
                 numbers(*start, other.last)
             );
-            let found = Diagnostic::new(&codes::REGISTERS_SHARED, item.at.name, message);
+            let found = Diagnostic::new(&codes::SHARED_REGISTERS, item.at.name, message);
             let found = found.note_at(other.span, "the other one is here");
             reader.diagnostics.push(found.help("one of the two has the wrong number, or a type that is too long"));
         }
@@ -153,7 +153,7 @@ impl Taken {
         if let Some(other) = parts.iter().find(shares) {
             let (own, its) = (brief(&item.name), brief(&other.name));
             let message = format!("`{own}` and `{its}` are parts of {address} and share bits");
-            let found = Diagnostic::new(&codes::REGISTERS_SHARED, item.at.name, message);
+            let found = Diagnostic::new(&codes::SHARED_REGISTERS, item.at.name, message);
             let found = found.note_at(other.span, "the other one is here");
             reader.diagnostics.push(found.help("one of the two has the wrong bits in `part`, or the wrong number"));
         }
