@@ -1,4 +1,4 @@
-//! The door for `build.rs`.
+//! The entry point for `build.rs`.
 
 use std::fmt;
 use std::path::{Path, PathBuf};

@@ -1,4 +1,4 @@
-//! The pipeline: source → syntax → IR → passes → output. The three doors (build script, macro, command line) all end here.
+//! The pipeline: source → syntax → IR → passes → output. The three entry points (build script, macro, command line) all end here.
 
 use std::path::PathBuf;
 
@@ -81,7 +81,7 @@ impl Compilation {
     }
 }
 
-/// The choice of an option as the doors take it: `NAME=CHOICE`.
+/// The choice of an option as the entry points take it: `NAME=CHOICE`.
 pub fn choice(text: &str) -> Option<(String, String)> {
     let (name, choice) = text.split_once('=')?;
     let (name, choice) = (name.trim(), choice.trim());

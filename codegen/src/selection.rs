@@ -164,8 +164,8 @@ fn keep_latest(catalog: &Catalog, found: &mut Vec<usize>) {
     };
     let mut latest: HashMap<_, Option<u32>> = HashMap::new();
     for &at in &*found {
-        let own = latest.entry(product(at)).or_default();
-        *own = (*own).max(catalog.devices[at].identity.revision_number);
+        let greatest = latest.entry(product(at)).or_default();
+        *greatest = (*greatest).max(catalog.devices[at].identity.revision_number);
     }
     found.retain(|&at| latest.get(&product(at)) == Some(&catalog.devices[at].identity.revision_number));
 }
@@ -173,17 +173,17 @@ fn keep_latest(catalog: &Catalog, found: &mut Vec<usize>) {
 /// Takes out of `catalog` the modules that no device takes, and the submodules that neither a device nor a module takes.
 fn drop_unreached(catalog: &mut Catalog) {
     let Catalog { devices, modules, submodules, .. } = catalog;
-    let reached = devices.iter().flat_map(|device| &device.modules).map(|own| own.module.0);
-    let places = keep_reached(modules, reached.collect());
-    for own in devices.iter_mut().flat_map(|device| &mut device.modules) {
-        own.module.0 = places.get(own.module.0 as usize).copied().unwrap_or(u32::MAX);
+    let reached = devices.iter().flat_map(|device| &device.modules).map(|used| used.module.0);
+    let positions = keep_reached(modules, reached.collect());
+    for used in devices.iter_mut().flat_map(|device| &mut device.modules) {
+        used.module.0 = positions.get(used.module.0 as usize).copied().unwrap_or(u32::MAX);
     }
     let of_devices = devices.iter().flat_map(|device| &device.submodules);
-    let reached = of_devices.chain(modules.iter().flat_map(|module| &module.submodules)).map(|own| own.submodule.0);
-    let places = keep_reached(submodules, reached.collect());
+    let reached = of_devices.chain(modules.iter().flat_map(|module| &module.submodules)).map(|used| used.submodule.0);
+    let positions = keep_reached(submodules, reached.collect());
     let of_devices = devices.iter_mut().flat_map(|device| &mut device.submodules);
-    for own in of_devices.chain(modules.iter_mut().flat_map(|module| &mut module.submodules)) {
-        own.submodule.0 = places.get(own.submodule.0 as usize).copied().unwrap_or(u32::MAX);
+    for used in of_devices.chain(modules.iter_mut().flat_map(|module| &mut module.submodules)) {
+        used.submodule.0 = positions.get(used.submodule.0 as usize).copied().unwrap_or(u32::MAX);
     }
 }
 
@@ -191,14 +191,14 @@ fn drop_unreached(catalog: &mut Catalog) {
 fn keep_reached<T>(list: &mut Vec<T>, reached: HashSet<u32>) -> Vec<u32> {
     let is_kept = |at: u32| reached.contains(&at);
     let mut kept = 0;
-    let mut places = Vec::with_capacity(list.len());
+    let mut positions = Vec::with_capacity(list.len());
     for at in (0..).take(list.len()) {
-        places.push(kept);
+        positions.push(kept);
         kept += u32::from(is_kept(at));
     }
     let mut at = 0..;
     list.retain(|_| at.next().is_some_and(is_kept));
-    places
+    positions
 }
 
 impl Selection {
@@ -284,8 +284,8 @@ impl Selection {
         }
         let is = |list: &[bool], at: u32| list.get(at as usize).copied().unwrap_or(false);
         for device in &mut catalog.devices {
-            device.modules.retain(|own| !own.places.fixed.is_empty() || is(&wanted_modules, own.module.0));
-            device.submodules.retain(|own| !own.places.fixed.is_empty() || is(&wanted_submodules, own.submodule.0));
+            device.modules.retain(|used| !used.places.fixed.is_empty() || is(&wanted_modules, used.module.0));
+            device.submodules.retain(|used| !used.places.fixed.is_empty() || is(&wanted_submodules, used.submodule.0));
         }
         if catalog.devices.is_empty() {
             // A file of modules alone.
@@ -393,7 +393,7 @@ mod tests {
 
     #[test]
     fn what_only_others_take_goes_with_them() {
-        let own = |module| ModuleUse { module: ModuleId(module), places: Places::default() };
+        let used = |module| ModuleUse { module: ModuleId(module), places: Places::default() };
         let part = |submodule| SubmoduleUse { submodule: SubmoduleId(submodule), places: Places::default() };
         let module = |name: &str, parts: &[u32]| Module {
             name: name.into(),
@@ -402,9 +402,9 @@ mod tests {
         };
         let submodule = |name: &str| Submodule { name: name.into(), ..Submodule::default() };
         let mut one = device("One", "", 1, 1);
-        (one.modules, one.submodules) = (vec![own(2), own(1)], vec![part(3)]);
+        (one.modules, one.submodules) = (vec![used(2), used(1)], vec![part(3)]);
         let mut other = device("Other", "", 2, 1);
-        (other.modules, other.submodules) = (vec![own(0), own(1)], vec![part(0)]);
+        (other.modules, other.submodules) = (vec![used(0), used(1)], vec![part(0)]);
         let mut catalog = Catalog {
             devices: vec![other, one],
             modules: vec![module("a", &[1]), module("b", &[2, 3]), module("c", &[]), module("d", &[4])],
@@ -416,10 +416,10 @@ mod tests {
         Selection { devices, ..Selection::default() }.devices_and_modules(&mut catalog, &mut diagnostics);
         let names: Vec<&str> = catalog.modules.iter().map(|module| module.name.as_str()).collect();
         assert_eq!(names, ["b", "c"]);
-        let names: Vec<&str> = catalog.submodules.iter().map(|own| own.name.as_str()).collect();
+        let names: Vec<&str> = catalog.submodules.iter().map(|submodule| submodule.name.as_str()).collect();
         assert_eq!(names, ["r", "s"]);
         let [device] = &catalog.devices[..] else { panic!("one device") };
-        assert_eq!((&device.modules, &device.submodules), (&vec![own(1), own(0)], &vec![part(1)]));
+        assert_eq!((&device.modules, &device.submodules), (&vec![used(1), used(0)], &vec![part(1)]));
         assert_eq!(catalog.modules[0].submodules, [part(0), part(1)]);
     }
 

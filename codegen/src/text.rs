@@ -42,6 +42,14 @@ pub fn edit_distance(a: &str, b: &str) -> usize {
     row[row.len() - 1]
 }
 
+/// Says how many more there are, with `text`; nothing if there are none.
+pub(crate) fn more(count: usize, text: impl FnOnce(usize) -> String) -> String {
+    match count {
+        0 => String::new(),
+        count => text(count),
+    }
+}
+
 /// `CiA 402, 17.3.7`.
 pub(crate) fn standard_and_clause(standard: &str, clause: &str) -> String {
     match clause {

@@ -1,9 +1,9 @@
 //! Access rights against storage, PDOs and limits.
 
 use super::context::Context;
-use crate::diagnostics::{codes, Diagnostic, Diagnostics};
+use crate::diagnostics::{codes, Diagnostics};
 use crate::ir::owner::Owner;
-use crate::ir::{Item, Storage, Value};
+use crate::ir::{Item, Storage};
 use crate::source::Span;
 use crate::text::brief;
 
@@ -13,9 +13,9 @@ pub(super) fn conflicts(context: &Context<'_>, diagnostics: &mut Diagnostics) {
     for item in context.owner.items() {
         for (span, problem) in contradictions(item).into_iter().flatten() {
             let message = format!("`{}` is {} and {problem}", brief(&item.name), item.access.name());
-            let found = Diagnostic::new(&codes::ACCESS_CONFLICT, place(item, span), message);
-            diagnostics
-                .push(found.help("one of the two is misprinted: keep what the manual's text supports, with a `doubt`"));
+            let found = codes::ACCESS_CONFLICT.at(place(item, span), message);
+            let help = "one of the two is misprinted: keep what the manual's text supports, with a `doubt`";
+            diagnostics.push(found.help(help));
         }
     }
 }
@@ -26,9 +26,8 @@ pub(super) fn readings(context: &Context<'_>, diagnostics: &mut Diagnostics) {
         let Some(low) = positive_limit_of_reading(context.owner, item) else { continue };
         let (name, access) = (brief(&item.name), item.access.name());
         let message = format!("`{name}` is {access} and signed, and has the lower limit {low}");
-        let found = Diagnostic::new(&codes::READING_LIMITS, place(item, item.at.low), message);
-        diagnostics
-            .push(found.help("if it can be zero, the limit is that of a set-point; if not, the type is unsigned"));
+        let help = "if it can be zero, the limit is that of a set-point; if not, the type is unsigned";
+        diagnostics.push(codes::READING_LIMITS.at(place(item, item.at.low), message).help(help));
     }
 }
 
@@ -41,34 +40,33 @@ fn contradictions(item: &Item) -> [Option<(Span, &'static str)>; 3] {
     let (readable, writable) = (item.access.readable(), item.access.writable());
     let conflict = |span, text| Some((span, text));
     let behaviour = item.behaviour.as_deref();
-    let is_saved = behaviour.is_some_and(|own| matches!(own.storage, Storage::Immediate | Storage::OnCommand(_)));
-    let saved = match behaviour {
-        Some(_) if is_saved && !writable => conflict(Span::default(), "saved, though nobody can write it"),
-        Some(own) if is_saved && own.self_clearing => conflict(Span::default(), "saved, though the device clears it"),
+    let saved = behaviour.filter(|behaviour| matches!(behaviour.storage, Storage::Immediate | Storage::OnCommand(_)));
+    let saved = match saved {
+        Some(_) if !writable => conflict(Span::default(), "saved, though nobody can write it"),
+        Some(saved) if saved.self_clearing => conflict(Span::default(), "saved, though the device clears it"),
         _ => None,
     };
     let mapped = match item.mappable {
-        own if own.rpdo && !writable => conflict(item.at.mappable, "may come in an RPDO"),
-        own if own.tpdo && !readable => conflict(item.at.mappable, "may go into a TPDO"),
+        mappable if mappable.rpdo && !writable => conflict(item.at.mappable, "may come in an RPDO"),
+        mappable if mappable.tpdo && !readable => conflict(item.at.mappable, "may go into a TPDO"),
         _ => None,
     };
-    let written = behaviour.filter(|own| !writable && !own.writable_values.is_empty());
-    let written = written.and_then(|_| conflict(Span::default(), "has values that may be written"));
+    let is_written = !writable && behaviour.is_some_and(|behaviour| !behaviour.writable_values.is_empty());
+    let written = is_written.then_some((Span::default(), "has values that may be written"));
     [saved, mapped, written]
 }
 
 /// What is measured passes through zero, or it would need no sign. Returns the lower limit of a reading that doesn't.
 fn positive_limit_of_reading(owner: Owner<'_>, item: &Item) -> Option<i128> {
-    let low = item.limits.low.as_ref().and_then(Value::as_int).filter(|&low| low > 0)?;
-    let high = item.limits.high.as_ref().and_then(Value::as_int);
-    let is_measured = owner.basic(item.ty).is_signed() && !item.access.writable() && high != Some(low);
-    is_measured.then_some(low)
+    let (low, high) = item.limits.integers();
+    let is_measured = owner.basic(item.ty).is_signed() && !item.access.writable() && high != low;
+    low.filter(|&low| low > 0 && is_measured)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::ir::{Access, Behaviour, Binding, Mappable, Type};
+    use crate::ir::{Access, Behaviour, Binding, Mappable, Type, Value};
 
     fn found(change: impl FnOnce(&mut Item)) -> Vec<&'static str> {
         let mut item = Item::new(Binding::canopen(0x2000, 0));

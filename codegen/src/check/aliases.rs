@@ -3,23 +3,22 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::context::Context;
-use crate::diagnostics::{codes, Diagnostic, Diagnostics};
+use crate::diagnostics::{codes, Diagnostics};
 use crate::ir::owner::Owner;
-use crate::ir::{BitFieldEntry, BitMeaning, Device, Item, ItemRef, Quantity, Scale, Shape};
+use crate::ir::{Device, Item, ItemRef, Quantity, Scale, Shape};
 use crate::source::Span;
-use crate::text::brief;
+use crate::text::{brief, more};
 
 pub(super) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
     for item in context.owner.items() {
         replacement(context.device, item, diagnostics);
-        let Some(alias) = item.related.as_ref().and_then(|own| own.same_as.as_ref()) else { continue };
+        let Some(alias) = item.related.as_ref().and_then(|related| related.same_as.as_ref()) else { continue };
         let Some(other) = context.device.referred(alias).filter(|other| !std::ptr::eq(*other, item)) else { continue };
         let differences = differences(context.owner, item, other);
         if !differences.is_empty() {
-            let (name, other_name) = (brief(&item.name), brief(alias));
-            let message =
-                format!("`{name}` is the same value as `{other_name}`, but differs: {}", differences.join("; "));
-            let found = Diagnostic::new(&codes::SAME_VALUE_DIFFERS, place(item, alias), message);
+            let (name, other_name, differences) = (brief(&item.name), brief(alias), differences.join("; "));
+            let message = format!("`{name}` is the same value as `{other_name}`, but differs: {differences}");
+            let found = codes::SAME_VALUE_DIFFERS.at(place(item, alias), message);
             diagnostics.push(found.note_at(other.origin.span, "the other one"));
         }
     }
@@ -27,25 +26,25 @@ pub(super) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
 
 /// Where an overlay says what differs, else the row.
 fn place(item: &Item, alias: &ItemRef) -> Span {
-    let own = item.origin.span;
+    let row = item.origin.span;
     let facts = [alias.span, item.at.ty, item.at.low, item.at.high];
-    facts.into_iter().find(|fact| !fact.is_empty() && fact.file != own.file).unwrap_or(own)
+    facts.into_iter().find(|fact| !fact.is_empty() && fact.file != row.file).unwrap_or(row)
 }
 
 /// An item and its replacement are used alike. What only a default says of either isn't compared.
 fn replacement(device: &Device, item: &Item, diagnostics: &mut Diagnostics) {
-    let reference = item.availability.as_ref().and_then(|own| own.replaced_by.as_ref());
-    let Some(other) = reference.and_then(|own| device.referred(own)) else { return };
+    let reference = item.availability.as_ref().and_then(|availability| availability.replaced_by.as_ref());
+    let Some(other) = reference.and_then(|reference| device.referred(reference)) else { return };
     let is_stated = |item: &Item| {
         let (row, access) = (item.origin.span, item.at.access);
         !access.is_empty() && row.start <= access.start && access.end <= row.end
     };
     let rights = |item: &Item| (item.access.readable(), item.access.writable());
     if is_stated(item) && is_stated(other) && rights(item) != rights(other) {
-        let (own, its) = (item.access.name(), other.access.name());
-        let message =
-            format!("`{}` is {own}, and `{}`, which replaces it, {its}", brief(&item.name), brief(&other.name));
-        let found = Diagnostic::new(&codes::SAME_VALUE_DIFFERS, item.at.access, message);
+        let (name, other_name) = (brief(&item.name), brief(&other.name));
+        let (access, its) = (item.access.name(), other.access.name());
+        let message = format!("`{name}` is {access}, and `{other_name}`, which replaces it, {its}");
+        let found = codes::SAME_VALUE_DIFFERS.at(item.at.access, message);
         diagnostics.push(found.note_at(other.at.access, "the replacement"));
     }
 }
@@ -55,7 +54,7 @@ fn differences(owner: Owner<'_>, one: &Item, other: &Item) -> Vec<String> {
     let mut found = Vec::new();
     let types = (owner.basic(one.ty), owner.basic(other.ty));
     // A part of a value, such as its lower half, has other limits and names.
-    if types.0.bits().zip(types.1.bits()).is_some_and(|(own, others)| own < others) {
+    if types.0.bits().zip(types.1.bits()).is_some_and(|(one, other)| one < other) {
         return found;
     }
     if types.0 != types.1 {
@@ -70,10 +69,9 @@ fn differences(owner: Owner<'_>, one: &Item, other: &Item) -> Vec<String> {
             }
         }
     }
-    let shapes = (owner.definition(one.ty).map(|own| &own.shape), owner.definition(other.ty).map(|own| &own.shape));
-    if let (Some(one), Some(other)) = shapes {
-        found.extend(meanings(one, other));
-        found.extend(names(one, other));
+    if let (Some(one), Some(other)) = (owner.definition(one.ty), owner.definition(other.ty)) {
+        found.extend(meanings(&one.shape, &other.shape));
+        found.extend(names(&one.shape, &other.shape));
     }
     if let (Some(one), Some(other)) = (&one.quantity, &other.quantity) {
         found.extend(quantities(one, other));
@@ -113,16 +111,13 @@ fn names(one: &Shape, other: &Shape) -> Option<String> {
         Some((place, names.values().next()?, others.values().next()?))
     });
     let (place, one, other) = differing.next()?;
-    let more = match differing.count() {
-        0 => String::new(),
-        more => format!(", and {more} more names"),
-    };
+    let more = more(differing.count(), |more| format!(", and {more} more names"));
     Some(format!("{what} {} is `{}` and `{}`{more}", range(place), brief(one), brief(other)))
 }
 
 type Labels<'n> = BTreeMap<(i128, i128), BTreeMap<String, &'n str>>;
 
-/// What the values, or the bits, are called, by the name without case and punctuation.
+/// The names of the values, or of the bits, by the name without case and punctuation.
 fn labels(shape: &Shape) -> Labels<'_> {
     let mut labels = Labels::new();
     fn add<'n>(labels: &mut Labels<'n>, place: (i128, i128), name: &'n str) {
@@ -131,24 +126,19 @@ fn labels(shape: &Shape) -> Labels<'_> {
     }
     match shape {
         Shape::Enumeration { values, .. } => {
-            for value in values.iter().filter(|value| value.zone.is_none()) {
-                add(&mut labels, (value.value, value.last.unwrap_or(value.value)), &value.name);
+            for value in values.iter().filter(|value| value.is_named()) {
+                add(&mut labels, value.range(), &value.name);
             }
         }
         Shape::BitField { fields, .. } => {
-            for field in fields.iter().filter(|field| !matches!(field.meaning, BitMeaning::Reserved { .. })) {
-                add(&mut labels, bits_of(field), &field.name);
+            for field in fields.iter().filter(|field| !field.is_reserved()) {
+                let first = i128::from(field.offset);
+                add(&mut labels, (first, first + i128::from(field.bits.max(1)) - 1), &field.name);
             }
         }
         _ => {}
     }
     labels
-}
-
-/// First and last bit.
-fn bits_of(field: &BitFieldEntry) -> (i128, i128) {
-    let first = i128::from(field.offset);
-    (first, first + i128::from(field.bits.max(1)) - 1)
 }
 
 /// What is named in one of two types and not in the other.
@@ -162,8 +152,8 @@ fn meanings(one: &Shape, other: &Shape) -> Option<String> {
     (!only.is_empty()).then(|| format!("the {what} {} have a meaning in one of them only", only.join(", ")))
 }
 
-fn range(own: &(i128, i128)) -> String {
-    match own {
+fn range(range: &(i128, i128)) -> String {
+    match range {
         (first, last) if first == last => first.to_string(),
         (first, last) => format!("{first} to {last}"),
     }
@@ -171,17 +161,7 @@ fn range(own: &(i128, i128)) -> String {
 
 /// First and last of the values, or of the bits, that have a meaning.
 fn named(shape: &Shape) -> BTreeSet<(i128, i128)> {
-    match shape {
-        Shape::Enumeration { values, .. } => {
-            let named = values.iter().filter(|value| value.zone.is_none());
-            named.map(|value| (value.value, value.last.unwrap_or(value.value))).collect()
-        }
-        Shape::BitField { fields, .. } => {
-            let named = fields.iter().filter(|field| !matches!(field.meaning, BitMeaning::Reserved { .. }));
-            named.map(bits_of).collect()
-        }
-        _ => BTreeSet::new(),
-    }
+    labels(shape).into_keys().collect()
 }
 
 #[cfg(test)]

@@ -2,54 +2,52 @@
 
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
 use crate::ir::firmware::apart;
-use crate::ir::owner::{reserved, Owner, Places};
+use crate::ir::owner::{reserved, Owner, TypeUses};
 use crate::ir::{BitFieldEntry, BitMeaning, Condition, Shape, Type, TypeDef, TypeId, Value};
-use crate::text::brief;
+use crate::source::Span;
+use crate::text::{brief, more};
 
 /// The widest field of which every value is looked for.
 const MAX_LISTED_BITS: u8 = 4;
 
 pub(super) fn check(owner: Owner<'_>, diagnostics: &mut Diagnostics) {
-    let places = Places::new(owner);
+    let uses = TypeUses::new(owner);
     for (definition, id) in owner.types.iter().zip(0..) {
         let Shape::BitField { base, fields } = &definition.shape else { continue };
         let Some(width) = base.bits().filter(|&bits| bits <= 64) else { continue };
-        outside((&places, TypeId(id)), definition, (*base, width), fields, diagnostics);
+        if let Some(found) = outside(definition, *base, fields, || uses.first(TypeId(id))) {
+            diagnostics.push(found);
+        }
         overlaps(definition, fields, diagnostics);
         unnamed(owner, definition, width, fields, diagnostics);
     }
 }
 
-/// What a message calls a field.
+/// The name of a field in messages.
 pub(super) fn called(field: &BitFieldEntry) -> String {
-    let bits = match field.bits {
-        1 => format!("bit {}", field.offset),
-        bits => format!("bits {}-{}", u32::from(field.offset) + u32::from(bits) - 1, field.offset),
-    };
-    match (&field.meaning, field.name.is_empty()) {
-        (BitMeaning::Reserved { .. }, _) => format!("{bits} (reserved)"),
-        (_, true) => bits,
-        _ => format!("{bits} (`{}`)", brief(&field.name)),
+    let bits = field.place();
+    match field.name.is_empty() {
+        _ if field.is_reserved() => format!("{bits} (reserved)"),
+        true => bits,
+        false => format!("{bits} (`{}`)", brief(&field.name)),
     }
 }
 
+/// Fields beyond the integer. `used` is where the type is used first.
 fn outside(
-    (places, id): (&Places<'_>, TypeId),
     definition: &TypeDef,
-    (base, width): (Type, u32),
+    base: Type,
     fields: &[BitFieldEntry],
-    diagnostics: &mut Diagnostics,
-) {
-    let mut beyond = fields.iter().filter(|field| u32::from(field.offset) + u32::from(field.bits) > width);
-    let Some(first) = beyond.next() else { return };
-    let others = match beyond.count() {
-        0 => String::new(),
-        others => format!(", and {others} more fields reach further too"),
-    };
+    used: impl FnOnce() -> Span,
+) -> Option<Diagnostic> {
+    let width = base.bits()?;
+    let mut beyond = fields.iter().filter(|field| field.end() > width);
+    let first = beyond.next()?;
+    let others = more(beyond.count(), |others| format!(", and {others} more fields reach further too"));
     let message = format!("{base} has {width} bits, and `{}` names {}{others}", brief(&definition.name), called(first));
-    let found = Diagnostic::new(&codes::BIT_OUTSIDE_TYPE, places.of(id), message);
+    let found = codes::BIT_OUTSIDE_TYPE.at(used(), message);
     let found = found.note_at(first.at.0.or(definition.origin.span), "the bits are named here");
-    diagnostics.push(found.help("the type is too short, or the bits are counted from 1"));
+    Some(found.help("the type is too short, or the bits are counted from 1"))
 }
 
 /// Of each field, the first one above it with which it shares bits: all pairs would be too many, and each field is named so.
@@ -58,7 +56,7 @@ fn overlaps(definition: &TypeDef, fields: &[BitFieldEntry], diagnostics: &mut Di
         let clashes = |one: &&BitFieldEntry| one.mask() & other.mask() != 0 && !told_apart(one, other);
         let Some(one) = fields.iter().take(at).find(clashes) else { continue };
         let message = format!("{} and {} of `{}` share bits", called(one), called(other), brief(&definition.name));
-        let found = Diagnostic::new(&codes::BITS_OVERLAP, other.at.0.or(definition.origin.span), message);
+        let found = codes::BITS_OVERLAP.at(other.at.0.or(definition.origin.span), message);
         diagnostics.push(found.help("bits of several meanings have a `when`, `since`, `until` or `models` in each"));
     }
 }
@@ -97,7 +95,7 @@ fn unnamed(
     let missing: Vec<String> = (0..width).filter(|bit| named >> bit & 1 == 0).map(|bit| bit.to_string()).collect();
     if !missing.is_empty() {
         let message = format!("`{}` says nothing of the bits {}", brief(&definition.name), missing.join(", "));
-        diagnostics.push(Diagnostic::new(&codes::UNNAMED_BITS, definition.origin.span, message));
+        diagnostics.push(codes::UNNAMED_BITS.at(definition.origin.span, message));
     }
     fields.iter().for_each(|field| unnamed_values(owner, definition, field, diagnostics));
 }
@@ -113,7 +111,7 @@ fn unnamed_values(owner: Owner<'_>, definition: &TypeDef, field: &BitFieldEntry,
     if !missing.is_empty() {
         let (name, missing) = (brief(&definition.name), missing.join(", "));
         let message = format!("{} of `{name}` says nothing of the values {missing}", called(field));
-        diagnostics.push(Diagnostic::new(&codes::UNNAMED_BITS, definition.origin.span, message));
+        diagnostics.push(codes::UNNAMED_BITS.at(definition.origin.span, message));
     }
 }
 
@@ -123,19 +121,7 @@ mod tests {
     use crate::diagnostics::{Level, Levels};
 
     fn field(name: &str, offset: u8, bits: u8) -> BitFieldEntry {
-        BitFieldEntry {
-            name: name.into(),
-            names: Default::default(),
-            offset,
-            bits,
-            meaning: BitMeaning::Number,
-            when: None,
-            trigger: None,
-            access: None,
-            availability: None,
-            documentation: None,
-            at: Default::default(),
-        }
+        BitFieldEntry::new(name.into(), offset, bits, BitMeaning::Number)
     }
 
     fn found(fields: Vec<BitFieldEntry>) -> Vec<String> {

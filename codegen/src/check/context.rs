@@ -9,7 +9,7 @@ pub(super) struct Context<'a> {
     /// All modules of the catalogue.
     pub modules: &'a [Module],
     /// The format of the file that describes the devices.
-    pub format: Option<Format>,
+    pub format: Format,
     /// The items and types of the device.
     pub owner: Owner<'a>,
 }

@@ -3,23 +3,24 @@
 use super::context::Context;
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
 use crate::ir::firmware::apart;
-use crate::ir::owner::{Owner, Places};
+use crate::ir::owner::{Owner, TypeUses};
 use crate::ir::{CodeRow, EnumValue, Shape, Type, TypeDef, TypeId};
 use crate::source::Span;
-use crate::text::brief;
+use crate::text::{brief, more};
 
 pub(super) fn check(owner: Owner<'_>, diagnostics: &mut Diagnostics) {
-    let places = Places::new(owner);
+    let uses = TypeUses::new(owner);
     for (definition, id) in owner.types.iter().zip(0..) {
         let Shape::Enumeration { base, values, .. } = &definition.shape else { continue };
-        outside((&places, TypeId(id)), definition, *base, values, diagnostics);
+        if let Some(found) = outside(definition, *base, values, || uses.first(TypeId(id))) {
+            diagnostics.push(found);
+        }
         let mut sorted: Vec<&EnumValue> = values.iter().collect();
         sorted.sort_by_key(|value| value.value);
         let told_apart =
             |one: &EnumValue, other: &EnumValue| apart(one.availability.as_deref(), other.availability.as_deref());
-        let range = |value: &EnumValue| (value.value, value.last.unwrap_or(value.value));
-        if let Some((one, other)) = overlap(&sorted, range, told_apart) {
-            let names = [one, other].map(|value| (printed(value), value.name.as_str()));
+        if let Some((one, other)) = overlap(&sorted, EnumValue::range, told_apart) {
+            let names = [one, other].map(|value| (value.numbers(), value.name.as_str()));
             report(&definition.name, other.at.0.or(definition.origin.span), names, diagnostics);
         }
     }
@@ -57,43 +58,27 @@ fn overlap<'v, V>(
     })
 }
 
-/// A value, or a range of values, in messages.
-fn printed(value: &EnumValue) -> String {
-    match value.last {
-        Some(last) => format!("{} to {last}", value.value),
-        None => value.value.to_string(),
-    }
-}
-
 /// Reports two elements that have a number in common, each with its number and name.
 fn report(owner: &str, span: Span, names: [(String, &str); 2], diagnostics: &mut Diagnostics) {
     let [one, other] = names.map(|(number, name)| format!("`{}` ({number})", brief(name)));
     let message = format!("{one} and {other} of `{}` are the same value", brief(owner));
-    diagnostics.push(Diagnostic::new(&codes::VALUE_NAMED_TWICE, span, message));
+    diagnostics.push(codes::VALUE_NAMED_TWICE.at(span, message));
 }
 
-fn outside(
-    (places, id): (&Places<'_>, TypeId),
-    definition: &TypeDef,
-    base: Type,
-    values: &[EnumValue],
-    diagnostics: &mut Diagnostics,
-) {
-    let Some((low, high)) = base.integer_range() else { return };
-    let mut beyond = values.iter().filter(|value| value.value < low || value.last.unwrap_or(value.value) > high);
-    let Some(first) = beyond.next() else { return };
-    let others = match beyond.count() {
-        0 => String::new(),
-        others => format!(" and {others} more"),
-    };
-    let value = if first.value < low { first.value } else { first.last.unwrap_or(first.value) };
+/// Values beyond the integer. `used` is where the type is used first.
+fn outside(definition: &TypeDef, base: Type, values: &[EnumValue], used: impl FnOnce() -> Span) -> Option<Diagnostic> {
+    let (low, high) = base.integer_range()?;
+    let mut beyond = values.iter().filter(|value| value.value < low || value.range().1 > high);
+    let first = beyond.next()?;
+    let others = more(beyond.count(), |others| format!(" and {others} more"));
+    let value = if first.value < low { first.value } else { first.range().1 };
     let message = format!("{base} is never {value} (`{}`{others})", brief(&first.name));
-    let found = Diagnostic::new(&codes::NAME_OUTSIDE_TYPE, places.of(id), message);
+    let found = codes::NAME_OUTSIDE_TYPE.at(used(), message);
     let found = found.note_at(first.at.0.or(definition.origin.span), "the values are named here");
-    diagnostics.push(match (base, value) {
+    Some(match (base, value) {
         (Type::Unsigned(bits), ..0) => found.help(format!("is the type `i{bits}`?")),
         _ => found.help("the type is too short, or the value is wrong"),
-    });
+    })
 }
 
 #[cfg(test)]
@@ -101,17 +86,7 @@ mod tests {
     use super::*;
 
     fn value(name: &str, first: i128, last: Option<i128>) -> EnumValue {
-        EnumValue {
-            name: name.into(),
-            value: first,
-            last,
-            zone: None,
-            names: Default::default(),
-            when: None,
-            availability: None,
-            documentation: None,
-            at: Default::default(),
-        }
+        EnumValue { last, ..EnumValue::new(name.into(), first) }
     }
 
     fn found(base: Type, values: Vec<EnumValue>) -> Vec<String> {

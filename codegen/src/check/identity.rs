@@ -1,7 +1,7 @@
 //! Identity: the numbers of the device against object 0x1018 (CiA 301 7.5.2.19).
 
 use super::context::Context;
-use crate::diagnostics::{codes, Diagnostic, Diagnostics};
+use crate::diagnostics::{codes, Diagnostics};
 use crate::resolve::IdentityNumber;
 
 /// Reports numbers of object 0x1018 that are not those of the device. Tools fill an unused field with zero.
@@ -12,7 +12,7 @@ pub(super) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
         if stated != value && value != 0 {
             let name = number.name();
             let message = format!("the {name} in 0x1018 is {value:#x}, the one of the device {stated:#x}");
-            diagnostics.push(Diagnostic::new(&codes::IDENTITY_MISMATCH, span, message).label("the device's is used"));
+            diagnostics.push(codes::IDENTITY_MISMATCH.at(span, message).label("the device's is used"));
         }
     }
 }

@@ -1,6 +1,6 @@
 //! Lengths of bindings, types and texts of an item against each other.
 
-use crate::diagnostics::{codes, Code, Diagnostic, Diagnostics};
+use crate::diagnostics::{codes, Code, Diagnostics};
 use crate::ir::owner::Owner;
 use crate::ir::{Binding, Item, RegisterSpace, Type, Value};
 use crate::source::Span;
@@ -16,23 +16,23 @@ pub(super) fn check(owner: Owner<'_>, diagnostics: &mut Diagnostics) {
 }
 
 fn report(item: &Item, code: &'static Code, span: Span, message: String, diagnostics: &mut Diagnostics) {
-    diagnostics.push(Diagnostic::new(code, span.or(item.at.ty).or(item.origin.span), message));
+    diagnostics.push(code.at(span.or(item.at.ty).or(item.origin.span), message));
 }
 
 fn bound(owner: Owner<'_>, item: &Item, binding: &Binding, diagnostics: &mut Diagnostics) {
-    let own = || match item.ty {
+    let basic = || match item.ty {
         Type::OctetString(bytes) | Type::VisibleString(bytes) => bytes?.checked_mul(8),
         ty => ty.bits(),
     };
-    let Some(bits) = owner.definition(item.ty).map_or_else(own, |definition| definition.bits) else { return };
+    let Some(bits) = owner.definition(item.ty).map_or_else(basic, |definition| definition.bits) else { return };
     let name = brief(&item.name);
     match binding {
         Binding::EscMemory { length, .. } if bits.div_ceil(8) != u32::from(*length) => {
             let message = format!("`{name}` has {length} bytes there, and its type {bits} bits");
             report(item, &codes::LENGTH_MISMATCH, Span::default(), message, diagnostics);
         }
-        Binding::Register(own) if is_odd(owner, item, bits) && own.bit_offset.is_none() => {
-            if matches!(own.space, RegisterSpace::Holding | RegisterSpace::Input) {
+        Binding::Register(register) if is_odd(owner, item, bits) && register.bit_offset.is_none() => {
+            if matches!(register.space, RegisterSpace::Holding | RegisterSpace::Input) {
                 let message = format!("`{name}` has {bits} bits, which is neither a register nor a half of one");
                 report(item, &codes::REGISTER_SPAN, Span::default(), message, diagnostics);
             }

@@ -3,10 +3,9 @@
 use std::cmp::Ordering;
 
 use super::context::Context;
-use crate::diagnostics::{codes, Diagnostic, Diagnostics};
+use crate::diagnostics::{codes, Diagnostics};
 use crate::ir::owner::Owner;
 use crate::ir::{excluded, Excluded, Item, Type, Value};
-use crate::source::Span;
 use crate::text::brief;
 
 /// Reports defaults outside of their limits, and limits that are swapped.
@@ -27,7 +26,7 @@ pub(super) fn one_given(context: &Context<'_>, diagnostics: &mut Diagnostics) {
             _ => continue,
         };
         let message = format!("`{}` has {given} limit and no {other} one", brief(&item.name));
-        diagnostics.push(Diagnostic::new(&codes::ONE_LIMIT, span.or(item.origin.span), message));
+        diagnostics.push(codes::ONE_LIMIT.at(span.or(item.origin.span), message));
     }
 }
 
@@ -52,8 +51,8 @@ fn limits(owner: Owner<'_>, item: &Item, diagnostics: &mut Diagnostics) {
     if let (Some(low), Some(high)) = (low, high) {
         if low.compare(high) == Some(Ordering::Greater) {
             let message = format!("the lower limit {low} is greater than the upper limit {high}");
-            let found = Diagnostic::new(&codes::LIMITS_SWAPPED, item.at.low.or(item.origin.span), message)
-                .label("the limits are kept, and not checked by generated code");
+            let found = codes::LIMITS_SWAPPED.at(item.at.low.or(item.origin.span), message);
+            let found = found.label("the limits are kept, and not checked by generated code");
             diagnostics.push(match with_other_sign(owner.basic(item.ty), low, high) {
                 Some(help) => found.help(help),
                 None => found,
@@ -61,24 +60,24 @@ fn limits(owner: Owner<'_>, item: &Item, diagnostics: &mut Diagnostics) {
             return;
         }
     }
-    let configured = item.configured.as_ref().and_then(|configured| configured.value.as_ref());
-    let values = [(item.default.as_ref(), item.at.default, "default"), (configured, item.at.configured, "value")];
-    for (value, span, what) in values {
+    let default = (item.default.as_ref(), item.at.default, "default");
+    for (value, span, what) in [default, (item.configured_value(), item.at.configured, "value")] {
         let Some(value) = value else { continue };
         let Some(reason) = excluded(&item.limits, value) else { continue };
         let limit = match reason {
             Excluded::Above(_) => item.at.high,
             _ => item.at.low,
         };
-        report(diagnostics, span.or(item.origin.span), format!("the {what} {value} is {reason}"), limit);
+        let message = format!("the {what} {value} is {reason}");
+        let help = "one of the numbers is misprinted: compare them with the manual, and correct it";
+        let found = codes::DEFAULT_OUT_OF_LIMITS.at(span.or(item.origin.span), message).help(help);
+        diagnostics.push(if limit.is_empty() { found } else { found.note_at(limit, "the limit") });
     }
 }
 
-fn report(diagnostics: &mut Diagnostics, span: Span, message: String, limit: Span) {
-    let mut diagnostic = Diagnostic::new(&codes::DEFAULT_OUT_OF_LIMITS, span, message)
-        .help("one of the numbers is misprinted: compare them with the manual, and correct it");
-    if !limit.is_empty() {
-        diagnostic = diagnostic.note_at(limit, "the limit");
-    }
-    diagnostics.push(diagnostic);
+/// The limit that a number lies beyond: `lower limit is 5`.
+pub(super) fn beyond(item: &Item, number: i128) -> Option<String> {
+    let (low, high) = item.limits.integers();
+    let low = low.filter(|&low| number < low).map(|low| format!("lower limit is {low}"));
+    low.or_else(|| high.filter(|&high| number > high).map(|high| format!("upper limit is {high}")))
 }

@@ -50,8 +50,7 @@ impl Need {
             Need::ModbusExamples => !device.modbus_examples.is_empty(),
             Need::Procedures => !device.procedures.is_empty(),
             Need::Windows => {
-                let mut bindings = device.groups.iter().flat_map(|group| &group.items).flat_map(|item| &item.bindings);
-                bindings.any(|binding| matches!(binding, Binding::Indirect(_)))
+                device.items().flat_map(|item| &item.bindings).any(|binding| matches!(binding, Binding::Indirect(_)))
             }
         }
     }

@@ -3,7 +3,7 @@
 use std::cell::OnceCell;
 use std::collections::HashSet;
 
-use crate::diagnostics::{codes, Code, Diagnostic, Diagnostics};
+use crate::diagnostics::{codes, Code, Diagnostics};
 use crate::ir::owner::Owner;
 use crate::ir::{AxisStep, Device, Direction, Entries, Item, Mappable};
 use crate::source::Span;
@@ -54,7 +54,7 @@ impl Mapped {
         (index >= 0x20).then_some(Mapped { object: (index, sub_index), bits: word & 0xFF, direction, span })
     }
 
-    /// Holds it against its item. Where other checks look for missing objects and at lengths, this one doesn't.
+    /// Compares it with its item. Where other checks look for missing objects and at lengths, this one doesn't.
     pub fn check(&self, described: &Described<'_>, is_resolved: bool, diagnostics: &mut Diagnostics) {
         let item = described.entries.get(self.object.0, self.object.1);
         let found = match item {
@@ -63,7 +63,7 @@ impl Mapped {
         };
         for (code, problem) in found.into_iter().flatten() {
             let message = format!("0x{:04X} sub-index {:#x} {problem}", self.object.0, self.object.1);
-            let found = Diagnostic::new(code, self.span, message);
+            let found = code.at(self.span, message);
             diagnostics.push(match item {
                 Some(item) => found.note_at(item.origin.span, "the mapped object"),
                 None => found,
@@ -95,10 +95,10 @@ impl Mapped {
 
 /// Returns why an item can't be mapped into PDOs of a direction: its access rights, or else the only direction that it has.
 pub(super) fn wrong_direction(item: &Item, direction: Direction) -> Option<String> {
-    let (access, own, name) = (Mappable::by_access(item.access), item.mappable, pdo_name(direction));
+    let (access, mappable, name) = (Mappable::by_access(item.access), item.mappable, pdo_name(direction));
     let (is_accessible, other) = match direction {
-        Direction::Receive => (access.rpdo, (own.tpdo && !own.rpdo).then_some(Direction::Transmit)),
-        Direction::Transmit => (access.tpdo, (own.rpdo && !own.tpdo).then_some(Direction::Receive)),
+        Direction::Receive => (access.rpdo, (mappable.tpdo && !mappable.rpdo).then_some(Direction::Transmit)),
+        Direction::Transmit => (access.tpdo, (mappable.rpdo && !mappable.tpdo).then_some(Direction::Receive)),
     };
     match other {
         _ if !is_accessible => Some(format!("is {} and can't be mapped into {name}", item.access.name())),
@@ -117,8 +117,7 @@ pub(super) fn pdo_name(direction: Direction) -> &'static str {
 
 /// The indices that a device has, those of further axes among them; none where it has no objects.
 pub(super) fn indices(device: &Device) -> HashSet<u16> {
-    let items = device.groups.iter().flat_map(|group| &group.items);
-    let mut known: HashSet<u16> = items.filter_map(|item| Some(item.object()?.0)).collect();
+    let mut known: HashSet<u16> = device.items().filter_map(|item| Some(item.object()?.0)).collect();
     if known.is_empty() {
         return known;
     }
@@ -131,10 +130,10 @@ pub(super) fn indices(device: &Device) -> HashSet<u16> {
 /// The indices of further axes.
 fn of_axes(device: &Device, known: &mut HashSet<u16>) {
     let Some(axes) = &device.axes else { return };
-    for own in known.clone() {
-        let rule = axes.rules.iter().find(|rule| (rule.indices.0..=rule.indices.1).contains(&own));
+    for index in known.clone() {
+        let rule = axes.rules.iter().find(|rule| (rule.indices.0..=rule.indices.1).contains(&index));
         if let Some(AxisStep::Index(step)) = rule.map(|rule| rule.step) {
-            known.extend((1..u16::from(axes.axes)).filter_map(|axis| own.checked_add(axis.checked_mul(step)?)));
+            known.extend((1..u16::from(axes.axes)).filter_map(|axis| index.checked_add(axis.checked_mul(step)?)));
         }
     }
 }

@@ -4,8 +4,8 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::context::Context;
 use super::mapped_object::{direction_of, Described, Mapped, CAN_BITS};
-use crate::diagnostics::{codes, Diagnostic, Diagnostics};
-use crate::ir::{Item, Procedure, Step, Value};
+use crate::diagnostics::{codes, Diagnostics};
+use crate::ir::{Item, Procedure, Step};
 use crate::source::Span;
 use crate::text::brief;
 
@@ -36,17 +36,16 @@ struct Mapping<'a> {
 }
 
 impl Mapping<'_> {
-    fn step(&mut self, (index, sub): (u16, u8), value: i128, span: Span, diagnostics: &mut Diagnostics) {
+    fn step(&mut self, object: (u16, u8), value: i128, span: Span, diagnostics: &mut Diagnostics) {
+        let (index, sub) = object;
         let Some(direction) = direction_of(index) else { return };
+        let name = brief(&self.procedure.name);
         if sub > 0 {
             let before = self.words.entry(index).or_default().insert(sub, value);
             if before.is_some() && self.cleared.contains(&index) {
-                let name = brief(&self.procedure.name);
                 let message = format!("`{name}`: writes entry {sub} of 0x{index:04X} a second time");
-                diagnostics.push(
-                    Diagnostic::new(&codes::STEP_IMPOSSIBLE, span, message)
-                        .help(format!("the entry behind it is {}", sub.saturating_add(1))),
-                );
+                let found = codes::STEP_IMPOSSIBLE.at(span, message);
+                diagnostics.push(found.help(format!("the entry behind it is {}", sub.saturating_add(1))));
             }
             if let Some(mapped) = Mapped::word(value, direction, span) {
                 mapped.check(self.described, false, diagnostics);
@@ -54,16 +53,13 @@ impl Mapping<'_> {
             return;
         }
         if let Some(problem) = self.count(index, value) {
-            let message = format!(
-                "`{}`: writes {value} as the number of entries of 0x{index:04X}, {problem}",
-                brief(&self.procedure.name)
-            );
-            diagnostics.push(Diagnostic::new(&codes::STEP_IMPOSSIBLE, span, message));
+            let message = format!("`{name}`: writes {value} as the number of entries of 0x{index:04X}, {problem}");
+            diagnostics.push(codes::STEP_IMPOSSIBLE.at(span, message));
         }
         let bits = self.bits(index, value);
         if self.described.device.ethercat.is_none() && bits > i128::from(CAN_BITS) {
             let message = format!("the mapping 0x{index:04X} has {bits} bits by then, and a CAN frame has 64");
-            diagnostics.push(Diagnostic::new(&codes::PDO_TOO_LONG, span, message));
+            diagnostics.push(codes::PDO_TOO_LONG.at(span, message));
         }
     }
 
@@ -85,9 +81,9 @@ impl Mapping<'_> {
 
     /// The length of so many entries: those that were written, and by default the others.
     fn bits(&self, index: u16, count: i128) -> i128 {
-        let by_default = |sub| self.described.entries.get(index, sub)?.default.as_ref().and_then(Value::as_int);
-        let written = self.words.get(&index);
-        let word = |sub: u8| written.and_then(|own| own.get(&sub).copied()).or_else(|| by_default(sub)).unwrap_or(0);
+        let by_default = |sub| self.described.entries.get(index, sub)?.default_integer();
+        let written = |sub| self.words.get(&index)?.get(&sub).copied();
+        let word = |sub| written(sub).or_else(|| by_default(sub)).unwrap_or(0);
         let last = u8::try_from(count.clamp(0, 64)).unwrap_or(0);
         (1..=last).map(|sub| word(sub) & 0xFF).sum()
     }

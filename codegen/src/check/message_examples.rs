@@ -1,9 +1,12 @@
 //! Example frames of a manual against the fields of their messages.
 
+use std::ops::Range;
+
 use super::context::Context;
-use crate::diagnostics::{codes, Diagnostic, Diagnostics};
+use super::limits::beyond;
+use crate::diagnostics::{codes, Diagnostics};
 use crate::ir::owner::{fixed, reserved, Owner};
-use crate::ir::{BitMeaning, Item, Message, MessageField, MessageValue, Shape, Type, Value};
+use crate::ir::{BitMeaning, Item, Message, MessageField, MessageValue, Shape, Type};
 use crate::source::Span;
 use crate::text::brief;
 
@@ -16,20 +19,18 @@ pub(super) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
                 request: Some((&message.request, &example.request)),
                 ..Frame::new(owner, &message.reply, &example.reply)
             };
-            for (frame, what, span) in [(request, "request", example.request_at), (reply, "reply", example.reply_at)] {
-                report(message, what, (frame, span), diagnostics);
-            }
+            report(message, "request", &request, example.request_at, diagnostics);
+            report(message, "reply", &reply, example.reply_at, diagnostics);
         }
     }
 }
 
-fn report(message: &Message, what: &str, (frame, span): (Frame<'_>, Span), diagnostics: &mut Diagnostics) {
+fn report(message: &Message, what: &str, frame: &Frame<'_>, span: Span, diagnostics: &mut Diagnostics) {
     if frame.bytes.is_empty() {
         return;
     }
     for problem in frame.problems() {
-        let text = format!("`{}`: the {what} {problem}", brief(&message.name));
-        let found = Diagnostic::new(&codes::EXAMPLE_DIFFERS, span, text);
+        let found = codes::EXAMPLE_DIFFERS.at(span, format!("`{}`: the {what} {problem}", brief(&message.name)));
         diagnostics.push(found.help("keep what the other frames of the manual support, with a `doubt`"));
     }
 }
@@ -59,7 +60,7 @@ impl<'a> Frame<'a> {
                 problems.push(format!("has {} bytes, and its fields go on", self.bytes.len()));
                 return problems;
             }
-            problems.extend(self.field(field, (at, bits)));
+            problems.extend(self.field(field, at..last));
             at = last;
         }
         if at.div_ceil(8) != self.bytes.len() {
@@ -75,7 +76,7 @@ impl<'a> Frame<'a> {
             MessageField::Value(value) => self.owner.basic(value.item.ty).bits().map(|bits| bits as usize),
             MessageField::Echo { field, bytes: None } => {
                 let (fields, _) = self.request?;
-                fields.iter().find(|own| name(own) == Some(field)).and_then(|own| self.bits(own))
+                fields.iter().find(|other| name(other) == Some(field)).and_then(|other| self.bits(other))
             }
             MessageField::Echo { bytes: Some((first, last)), .. } => Some((usize::from(last - first) + 1) * 8),
             MessageField::ItemCode { bits, .. } => Some(usize::from(*bits)),
@@ -87,43 +88,41 @@ impl<'a> Frame<'a> {
         }
     }
 
-    fn field(&self, field: &MessageField, (at, bits): (usize, usize)) -> Vec<String> {
-        match field {
+    fn field(&self, field: &MessageField, place: Range<usize>) -> Vec<String> {
+        let problem = match field {
             MessageField::Constant(expected) => {
-                let own = self.bytes.get(at / 8..(at + bits) / 8).unwrap_or_default();
-                let differs = (own != expected).then(|| format!("has {} for {}", hex(own), hex(expected)));
-                differs.into_iter().collect()
+                let found = self.bytes.get(place.start / 8..place.end / 8).unwrap_or_default();
+                (found != expected).then(|| format!("has {} for {}", hex(found), hex(expected)))
             }
-            MessageField::Value(value) => self.value(value, number(self.bytes, (at, bits), &value.byte_order)),
-            MessageField::Echo { field, bytes: part } => self.echo(field, *part, (at, bits)).into_iter().collect(),
-            MessageField::FixedBits { value, .. } => {
-                let own = number(self.bytes, (at, bits), &[]);
-                let differs = (own != *value).then(|| format!("has {own:#X} in {bits} bits for {value:#X}"));
-                differs.into_iter().collect()
+            MessageField::Value(value) => return self.value(value, number(self.bytes, place, &value.byte_order)),
+            MessageField::Echo { field, bytes } => self.echo(field, *bytes, place),
+            MessageField::FixedBits { bits, value } => {
+                let found = number(self.bytes, place, &[]);
+                (found != *value).then(|| format!("has {found:#X} in {bits} bits for {value:#X}"))
             }
-            MessageField::Copy { first, .. } => self.copy(usize::from(*first), (at, bits)).into_iter().collect(),
-            _ => Vec::new(),
-        }
+            MessageField::Copy { first, .. } => self.copy(usize::from(*first), place),
+            _ => None,
+        };
+        problem.into_iter().collect()
     }
 
     /// What is wrong with bytes of the request that come back, as far as it has them.
-    fn copy(&self, first: usize, (at, bits): (usize, usize)) -> Option<String> {
+    fn copy(&self, first: usize, place: Range<usize>) -> Option<String> {
         let sent = self.request?.1.get(first..)?;
-        let own = self.bytes.get(at / 8..(at + bits) / 8).filter(|_| at.is_multiple_of(8))?;
-        let count = own.len().min(sent.len());
-        let (own, sent) = (own.get(..count)?, sent.get(..count)?);
-        (own != sent).then(|| format!("has {} for bytes from {first} on, and {} was sent", hex(own), hex(sent)))
+        let found = self.bytes.get(place.start / 8..place.end / 8).filter(|_| place.start.is_multiple_of(8))?;
+        let count = found.len().min(sent.len());
+        let (found, sent) = (found.get(..count)?, sent.get(..count)?);
+        (found != sent).then(|| format!("has {} for bytes from {first} on, and {} was sent", hex(found), hex(sent)))
     }
 
     fn value(&self, value: &MessageValue, number: u64) -> Vec<String> {
         let item = &value.item;
         let name = brief(&item.name);
         let mut problems = Vec::new();
-        if let Some(expected) =
-            fixed(item).filter(|&only| signed(self.owner, item, number).is_some_and(|own| own != only))
-        {
+        let signed = signed(self.owner, item, number);
+        if let Some(expected) = fixed(item).filter(|&only| signed.is_some_and(|signed| signed != only)) {
             problems.push(format!("has {number:#X} for `{name}`, which is always {expected:#X}"));
-        } else if let Some(limit) = beyond(self.owner, item, number) {
+        } else if let Some(limit) = signed.and_then(|signed| beyond(item, signed)) {
             problems.push(format!("has {number:#X} for `{name}`, whose {limit}"));
         }
         if let Some(counted) = value.counts.as_ref().and_then(|from| self.counted(from)) {
@@ -131,12 +130,12 @@ impl<'a> Frame<'a> {
                 problems.push(format!("has {number} for `{name}`, and {counted} bytes are counted"));
             }
         }
-        problems.extend(self.meaning(item.ty, (name, number)));
+        problems.extend(self.meaning(item.ty, name, number));
         problems
     }
 
     /// What is wrong with a number by the names of its values and bits.
-    fn meaning(&self, ty: Type, (name, number): (&str, u64)) -> Vec<String> {
+    fn meaning(&self, ty: Type, name: &str, number: u64) -> Vec<String> {
         match self.owner.definition(ty).map(|definition| &definition.shape) {
             Some(Shape::Enumeration { values, .. }) => {
                 let problem = match reserved(values, number.into()) {
@@ -150,13 +149,13 @@ impl<'a> Frame<'a> {
                 let mut problems = Vec::new();
                 for field in fields.iter().filter(|field| field.when.is_none()) {
                     let mask = u64::MAX.checked_shr(64u32.saturating_sub(field.bits.into())).unwrap_or(0);
-                    let own = number.checked_shr(field.offset.into()).unwrap_or(0) & mask;
+                    let bits = number.checked_shr(field.offset.into()).unwrap_or(0) & mask;
                     match field.meaning {
                         BitMeaning::Enumeration(id) => {
-                            problems.extend(self.meaning(Type::Named(id), (&format!("{name}/{}", field.name), own)));
+                            problems.extend(self.meaning(Type::Named(id), &format!("{name}/{}", field.name), bits));
                         }
-                        BitMeaning::Reserved { write: Some(set) } if own != if set { mask } else { 0 } => {
-                            problems.push(format!("sets reserved bits of `{name}` to {own:#X}"));
+                        BitMeaning::Reserved { write: Some(set) } if bits != if set { mask } else { 0 } => {
+                            problems.push(format!("sets reserved bits of `{name}` to {bits:#X}"));
                         }
                         _ => {}
                     }
@@ -171,7 +170,7 @@ impl<'a> Frame<'a> {
     fn counted(&self, from: &str) -> Option<usize> {
         let mut at = 0usize;
         for field in self.fields {
-            if name(field).is_some_and(|own| own == from) {
+            if name(field) == Some(from) {
                 return Some(self.bytes.len().saturating_sub(at / 8));
             }
             at += self.bits(field)?;
@@ -179,21 +178,17 @@ impl<'a> Frame<'a> {
         None
     }
 
-    fn echo(&self, field: &str, part: Option<(u8, u8)>, (at, bits): (usize, usize)) -> Option<String> {
+    fn echo(&self, field: &str, part: Option<(u8, u8)>, place: Range<usize>) -> Option<String> {
         let (fields, bytes) = self.request?;
         let request = Frame::new(self.owner, fields, bytes);
-        let mut sent = 0usize;
-        for own in fields {
-            if name(own).is_some_and(|own| own == field) {
-                break;
-            }
-            sent += request.bits(own)?;
+        let mut start = part.map_or(0, |(first, _)| usize::from(first) * 8);
+        for before in fields.iter().take_while(|other| name(other) != Some(field)) {
+            start += request.bits(before)?;
         }
-        sent += part.map_or(0, |(first, _)| usize::from(first) * 8);
-        let is_whole = at.is_multiple_of(8) && sent.is_multiple_of(8) && bits.is_multiple_of(8);
-        let part = |bytes: &'a [u8], at: usize| bytes.get(at / 8..(at + bits) / 8);
-        let (own, sent) = (part(self.bytes, at)?, part(bytes, sent).filter(|_| is_whole)?);
-        (own != sent).then(|| format!("has {} for `{}`, and {} was sent", hex(own), brief(field), hex(sent)))
+        let is_whole = [place.start, place.len(), start].iter().all(|bits| bits.is_multiple_of(8));
+        let part = |bytes: &'a [u8], start: usize| bytes.get(start / 8..(start + place.len()) / 8);
+        let (found, sent) = (part(self.bytes, place.start)?, part(bytes, start).filter(|_| is_whole)?);
+        (found != sent).then(|| format!("has {} for `{}`, and {} was sent", hex(found), brief(field), hex(sent)))
     }
 }
 
@@ -206,16 +201,16 @@ fn name(field: &MessageField) -> Option<&str> {
     }
 }
 
-/// The number in so many bits from a bit on, the first byte's most significant bit being the first; bytes in the order given.
-fn number(bytes: &[u8], (at, bits): (usize, usize), order: &[u8]) -> u64 {
+/// The number in these bits, the first byte's most significant bit being the first; bytes in the order given.
+fn number(bytes: &[u8], place: Range<usize>, order: &[u8]) -> u64 {
     let bit = |at: usize| bytes.get(at / 8).map_or(0, |byte| u64::from(byte >> (7 - at % 8) & 1));
-    if order.is_empty() || order.len() * 8 != bits {
-        return (at..at + bits).fold(0, |number, at| number << 1 | bit(at));
+    if order.is_empty() || order.len() * 8 != place.len() {
+        return place.fold(0, |number, at| number << 1 | bit(at));
     }
-    let byte = |number: usize| (0..8).fold(0, |value, own| value << 1 | bit(at + number * 8 + own));
-    order.iter().enumerate().fold(0, |number, (place, significance)| {
+    let byte = |number: usize| (0..8).fold(0, |value, at| value << 1 | bit(place.start + number * 8 + at));
+    order.iter().enumerate().fold(0, |number, (position, significance)| {
         let shift = (order.len() - 1).saturating_sub(usize::from(*significance)) * 8;
-        number | byte(place).checked_shl(shift as u32).unwrap_or(0)
+        number | byte(position).checked_shl(shift as u32).unwrap_or(0)
     })
 }
 
@@ -225,14 +220,6 @@ fn signed(owner: Owner<'_>, item: &Item, number: u64) -> Option<i128> {
     let bits = ty.bits().filter(|bits| (1..=64).contains(bits))?;
     let is_negative = ty.is_signed() && number >> (bits - 1) == 1;
     Some(i128::from(number) - if is_negative { 1i128 << bits } else { 0 })
-}
-
-/// The limit that a number lies beyond.
-fn beyond(owner: Owner<'_>, item: &Item, number: u64) -> Option<String> {
-    let number = signed(owner, item, number)?;
-    let limit = |limit: &Option<Value>| limit.as_ref().and_then(Value::as_int);
-    let low = limit(&item.limits.low).filter(|&low| number < low).map(|low| format!("lower limit is {low}"));
-    low.or_else(|| limit(&item.limits.high).filter(|&high| number > high).map(|high| format!("upper limit is {high}")))
 }
 
 fn hex(bytes: &[u8]) -> String {
@@ -246,9 +233,9 @@ mod tests {
     #[test]
     fn numbers_lie_in_the_order_of_the_wire() {
         let bytes = [0x12, 0x34, 0x56, 0x78, 0xA5];
-        assert_eq!(number(&bytes, (0, 16), &[]), 0x1234);
-        assert_eq!(number(&bytes, (0, 16), &[1, 0]), 0x3412);
-        assert_eq!(number(&bytes, (0, 32), &[2, 3, 0, 1]), 0x5678_1234);
-        assert_eq!((number(&bytes, (32, 4), &[]), number(&bytes, (36, 4), &[])), (0xA, 0x5));
+        assert_eq!(number(&bytes, 0..16, &[]), 0x1234);
+        assert_eq!(number(&bytes, 0..16, &[1, 0]), 0x3412);
+        assert_eq!(number(&bytes, 0..32, &[2, 3, 0, 1]), 0x5678_1234);
+        assert_eq!((number(&bytes, 32..36, &[]), number(&bytes, 36..40, &[])), (0xA, 0x5));
     }
 }

@@ -28,12 +28,15 @@ impl Limits {
         }
     }
 
+    /// The smaller of the limits of both.
     fn narrow(&mut self, other: Limits) {
-        let least = |own: &mut Limit, other: Limit| *own = [*own, other].into_iter().flatten().min();
-        least(&mut self.input, other.input);
-        least(&mut self.output, other.output);
-        least(&mut self.data, other.data);
-        least(&mut self.record, other.record);
+        let smaller = |one: Limit, other: Limit| [one, other].into_iter().flatten().min();
+        *self = Limits {
+            input: smaller(self.input, other.input),
+            output: smaller(self.output, other.output),
+            data: smaller(self.data, other.data),
+            record: smaller(self.record, other.record),
+        };
     }
 }
 
@@ -43,28 +46,28 @@ pub(super) fn check(catalog: &Catalog, diagnostics: &mut Diagnostics) {
     let mut of_submodules = vec![Limits::default(); submodules.len()];
     for (position, device) in devices.iter().enumerate() {
         let Some(settings) = &device.profinet else { continue };
-        let own = Limits::of(settings, position);
+        let of_device = Limits::of(settings, position);
         for module in &device.modules {
             if let Some(limits) = of_modules.get_mut(module.module.0 as usize) {
-                limits.narrow(own);
+                limits.narrow(of_device);
             }
         }
-        narrow_uses(&device.submodules, own, &mut of_submodules);
+        narrow_uses(&device.submodules, of_device, &mut of_submodules);
         slots(device, settings, modules, diagnostics);
     }
-    for (module, &own) in modules.iter().zip(&of_modules) {
-        narrow_uses(&module.submodules, own, &mut of_submodules);
-        lengths(module, own, catalog, diagnostics);
+    for (module, &limits) in modules.iter().zip(&of_modules) {
+        narrow_uses(&module.submodules, limits, &mut of_submodules);
+        lengths(module, limits, catalog, diagnostics);
     }
-    for (submodule, own) in submodules.iter().zip(of_submodules) {
-        records(submodule, own.record, devices, diagnostics);
+    for (submodule, limits) in submodules.iter().zip(of_submodules) {
+        records(submodule, limits.record, devices, diagnostics);
     }
 }
 
-fn narrow_uses(uses: &[SubmoduleUse], own: Limits, of_submodules: &mut [Limits]) {
+fn narrow_uses(uses: &[SubmoduleUse], of_owner: Limits, of_submodules: &mut [Limits]) {
     for submodule in uses {
         if let Some(limits) = of_submodules.get_mut(submodule.submodule.0 as usize) {
-            limits.narrow(own);
+            limits.narrow(of_owner);
         }
     }
 }
@@ -73,8 +76,8 @@ fn narrow_uses(uses: &[SubmoduleUse], own: Limits, of_submodules: &mut [Limits])
 fn lengths(module: &Module, limits: Limits, catalog: &Catalog, diagnostics: &mut Diagnostics) {
     let bytes = |data: &Option<Box<IoData>>| data.as_ref().map_or(0, |data| data.image.length + data.image.overhead);
     let (mut input, mut output) = (0u32, 0u32);
-    let built_in = module.submodules.iter().filter(|own| !own.places.fixed.is_empty());
-    for submodule in built_in.filter_map(|own| catalog.submodules.get(own.submodule.0 as usize)) {
+    let built_in = module.submodules.iter().filter(|part| !part.places.fixed.is_empty());
+    for submodule in built_in.filter_map(|part| catalog.submodules.get(part.submodule.0 as usize)) {
         input = input.saturating_add(bytes(&submodule.input));
         output = output.saturating_add(bytes(&submodule.output));
     }
@@ -86,8 +89,7 @@ fn lengths(module: &Module, limits: Limits, catalog: &Catalog, diagnostics: &mut
     for (bytes, limit, what) in sums {
         let Some((limit, device)) = limit.filter(|&(limit, _)| bytes > limit) else { continue };
         let message = format!("the module has {bytes} bytes of {what}; a device that takes it exchanges {limit}");
-        let diagnostic = Diagnostic::new(&codes::IO_LENGTH, module.origin.span, message);
-        diagnostics.push(noted(diagnostic, catalog.devices.get(device)));
+        diagnostics.push(noted(codes::IO_LENGTH.at(module.origin.span, message), catalog.devices.get(device)));
     }
 }
 
@@ -106,8 +108,7 @@ fn records(submodule: &Submodule, limit: Limit, devices: &[Device], diagnostics:
     };
     for group in submodule.records.iter().filter(|group| length(group) > limit) {
         let message = format!("the record has {} bytes; a device that has it takes {limit}", length(group));
-        let diagnostic = Diagnostic::new(&codes::RECORD_SIZE, group.origin.span, message);
-        diagnostics.push(noted(diagnostic, devices.get(device)));
+        diagnostics.push(noted(codes::RECORD_SIZE.at(group.origin.span, message), devices.get(device)));
     }
 }
 
@@ -117,16 +118,14 @@ fn slots(device: &Device, settings: &ProfinetSettings, modules: &[Module], diagn
         return;
     }
     let present = merged(&settings.slots);
-    for own in &device.modules {
-        let places = [&own.places.allowed, &own.places.fixed, &own.places.used];
-        let ranges = places.into_iter().flat_map(|numbers| &numbers.0);
+    for module in &device.modules {
+        let slots = [&module.places.allowed, &module.places.fixed, &module.places.used];
+        let ranges = slots.into_iter().flat_map(|numbers| &numbers.0);
         let Some(&(first, last)) = ranges.into_iter().find(|range| !contains(&present, **range)) else { continue };
-        let name = modules.get(own.module.0 as usize).map_or("", |module| module.id.as_str());
+        let name = modules.get(module.module.0 as usize).map_or("", |module| module.id.as_str());
         let range = if first == last { first.to_string() } else { format!("{first}..{last}") };
         let message = format!("the module `{name}` is for the slots {range}, which the device doesn't all have");
-        diagnostics.push(
-            Diagnostic::new(&codes::SLOT_RANGE, device.origin.span, message).label("its slots are in PhysicalSlots"),
-        );
+        diagnostics.push(codes::SLOT_RANGE.at(device.origin.span, message).label("its slots are in PhysicalSlots"));
     }
 }
 
@@ -144,7 +143,8 @@ fn merged(numbers: &Numbers) -> Vec<(u16, u16)> {
     merged
 }
 
-fn contains(ranges: &[(u16, u16)], (first, last): (u16, u16)) -> bool {
+fn contains(ranges: &[(u16, u16)], range: (u16, u16)) -> bool {
+    let (first, last) = range;
     let at = ranges.partition_point(|&(_, end)| end < first);
     ranges.get(at).is_some_and(|&(start, end)| start <= first && last <= end)
 }

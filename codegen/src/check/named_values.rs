@@ -1,11 +1,11 @@
 //! Limits and defaults of enumerations and bit fields against the values and bits that have a meaning.
 
 use super::bit_fields::called;
-use crate::diagnostics::{codes, Code, Diagnostic, Diagnostics};
+use crate::diagnostics::{codes, Code, Diagnostics};
 use crate::ir::owner::{fixed, reserved, Owner};
 use crate::ir::{BitFieldEntry, BitMeaning, EnumValue, Item, Shape, Type, TypeDef, Value};
 use crate::source::Span;
-use crate::text::brief;
+use crate::text::{brief, more};
 
 /// So many values are listed in a message.
 const MAX_LISTED: usize = 6;
@@ -13,8 +13,8 @@ const MAX_LISTED: usize = 6;
 pub(super) fn check(owner: Owner<'_>, diagnostics: &mut Diagnostics) {
     for item in owner.items() {
         // What a profile says fits more devices than this one.
-        let own = |definition: &&TypeDef| !definition.origin.span.is_empty();
-        let Some(definition) = owner.definition(item.ty).filter(own) else { continue };
+        let is_described = |definition: &&TypeDef| !definition.origin.span.is_empty();
+        let Some(definition) = owner.definition(item.ty).filter(is_described) else { continue };
         let mut check = Check { owner, item, definition, diagnostics };
         match &definition.shape {
             Shape::Enumeration { base, values, closed } => check.enumeration(*base, values, *closed),
@@ -31,12 +31,23 @@ struct Check<'a, 'd> {
     diagnostics: &'d mut Diagnostics,
 }
 
-/// A number of an item: what it is, its value, and where it stands.
-type Number = (&'static str, i128, Span);
+/// A number of an item.
+#[derive(Clone, Copy)]
+struct Number {
+    what: &'static str,
+    value: i128,
+    span: Span,
+}
+
+impl Number {
+    fn of(what: &'static str, value: Option<&Value>, span: Span) -> Option<Self> {
+        Some(Number { what, value: value?.as_int()?, span })
+    }
+}
 
 impl Check<'_, '_> {
     fn report(&mut self, code: &'static Code, span: Span, message: String) {
-        let found = Diagnostic::new(code, span.or(self.item.origin.span), message);
+        let found = code.at(span.or(self.item.origin.span), message);
         let found = found.note_at(self.definition.origin.span, "the names are given here");
         self.diagnostics.push(found.help(match code.id {
             "TAB016" => "widen the limit, or give the item an enumeration or bits of its own",
@@ -47,13 +58,12 @@ impl Check<'_, '_> {
 
     /// The default, and what is set for one device.
     fn values(&self) -> Vec<Number> {
-        let configured = self.item.configured.as_ref().and_then(|configured| configured.value.as_ref());
-        let (what, at) = match fixed(self.item) {
-            Some(_) => ("fixed value", self.item.at.default.or(self.item.at.low)),
-            None => ("default", self.item.at.default),
+        let (default, at) = (self.item.default.as_ref(), &self.item.at);
+        let default = match fixed(self.item) {
+            Some(_) => Number::of("fixed value", default, at.default.or(at.low)),
+            None => Number::of("default", default, at.default),
         };
-        let numbers = [(what, self.item.default.as_ref(), at), ("value", configured, self.item.at.configured)];
-        numbers.into_iter().filter_map(|(what, value, span)| Some((what, value?.as_int()?, span))).collect()
+        default.into_iter().chain(Number::of("value", self.item.configured_value(), at.configured)).collect()
     }
 
     /// The lower and the upper limit, where they differ.
@@ -61,49 +71,39 @@ impl Check<'_, '_> {
         if fixed(self.item).is_some() {
             return Vec::new();
         }
-        let limits = &self.item.limits;
-        let numbers = [
-            ("lower limit", limits.low.as_ref(), self.item.at.low),
-            ("upper limit", limits.high.as_ref(), self.item.at.high),
-        ];
-        numbers
-            .into_iter()
-            .filter_map(|(what, value, span)| Some((what, value.and_then(Value::as_int)?, span)))
-            .collect()
+        let (limits, at) = (&self.item.limits, &self.item.at);
+        let low = Number::of("lower limit", limits.low.as_ref(), at.low);
+        low.into_iter().chain(Number::of("upper limit", limits.high.as_ref(), at.high)).collect()
     }
 
     fn enumeration(&mut self, base: Type, values: &[EnumValue], closed: bool) {
-        for (what, value, span) in self.values() {
-            self.named(values, closed, (what, value, span));
+        for number in self.values() {
+            self.named(values, closed, number);
         }
         let behaviour = self.item.behaviour.as_deref();
-        for value in behaviour.iter().flat_map(|own| &own.writable_values).filter_map(Value::as_int) {
-            self.named(values, true, ("writable value", value, Span::default()));
+        for value in behaviour.iter().flat_map(|behaviour| &behaviour.writable_values).filter_map(Value::as_int) {
+            self.named(values, true, Number { what: "writable value", value, span: Span::default() });
         }
-        let extremes = base.integer_range();
-        for (what, value, span) in self.limits() {
-            let is_upper = what == "upper limit";
-            self.within(values, is_upper, value, span);
-            if extremes.is_some_and(|(low, high)| value == low || value == high) {
+        for limit in self.limits() {
+            let (value, is_upper) = (limit.value, limit.what == "upper limit");
+            self.within(values, is_upper, limit);
+            if base.integer_range().is_some_and(|(low, high)| value == low || value == high) {
                 continue;
             }
             // A limit that is one off the last name is a slip; one far from it leaves room.
-            let is_next = |label: &EnumValue| {
-                let named = label.zone.is_none();
-                named
-                    && if is_upper { label.last.unwrap_or(label.value) + 1 == value } else { label.value - 1 == value }
+            let named = || values.iter().filter(|label| label.is_named());
+            let is_slip = match is_upper {
+                true => named().any(|label| label.range().1 + 1 == value) && !named().any(|label| label.value > value),
+                false => named().any(|label| label.value - 1 == value) && !named().any(|label| label.value < value),
             };
-            let beyond = |label: &EnumValue| {
-                label.zone.is_none() && if is_upper { label.value > value } else { label.value < value }
-            };
-            let is_slip = values.iter().any(is_next) && !values.iter().any(beyond);
-            self.named(values, closed || is_slip, (what, value, span));
+            self.named(values, closed || is_slip, limit);
         }
     }
 
     /// Whether a number has a name that may be used. `strict`: it has to have one.
-    fn named(&mut self, values: &[EnumValue], strict: bool, (what, value, span): Number) {
-        let name = brief(&self.definition.name).to_owned();
+    fn named(&mut self, values: &[EnumValue], strict: bool, number: Number) {
+        let Number { what, value, span } = number;
+        let name = brief(&self.definition.name);
         let message = match reserved(values, value) {
             Some(true) => format!("the {what} {value} is reserved in `{name}`"),
             None if strict => format!("the {what} {value} has no name in `{name}`"),
@@ -113,113 +113,103 @@ impl Check<'_, '_> {
     }
 
     /// Whether the limit leaves out values that have a name.
-    fn within(&mut self, values: &[EnumValue], is_upper: bool, limit: i128, span: Span) {
-        let is_beyond = |label: &&EnumValue| {
-            let beyond = if is_upper { label.last.unwrap_or(label.value) > limit } else { label.value < limit };
-            label.zone.is_none() && beyond
-        };
-        let mut beyond = values.iter().filter(is_beyond);
+    fn within(&mut self, values: &[EnumValue], is_upper: bool, limit: Number) {
+        let Number { value: limit, span, .. } = limit;
+        let extreme = |label: &EnumValue| if is_upper { label.range().1 } else { label.value };
+        let is_beyond = |value: i128| if is_upper { value > limit } else { value < limit };
+        let mut beyond = values.iter().filter(|label| label.is_named() && is_beyond(extreme(label)));
         let Some(first) = beyond.next() else { return };
-        let others = match beyond.count() {
-            0 => String::new(),
-            others => format!(", and so are {others} more"),
-        };
+        let others = more(beyond.count(), |others| format!(", and so are {others} more"));
         let side = if is_upper { "above the upper" } else { "below the lower" };
-        let value = if is_upper { first.last.unwrap_or(first.value) } else { first.value };
-        let message = format!("`{}` is {value}, {side} limit {limit}{others}", brief(&first.name));
+        let message = format!("`{}` is {}, {side} limit {limit}{others}", brief(&first.name), extreme(first));
         self.report(&codes::NAME_OUTSIDE_LIMITS, span, message);
     }
 
     fn bits(&mut self, base: Type, fields: &[BitFieldEntry]) {
         let Some(width) = base.bits().filter(|&bits| bits <= 64) else { return };
         let pattern = |value: i128| value as u64 & u64::MAX >> (64 - width.clamp(1, 64));
-        for (what, value, span) in self.values() {
-            self.meaningless(fields, (what, value, span), pattern(value));
-            if pattern(value) != pattern(-1) {
-                self.known(fields, what, pattern(value), span);
+        for number in self.values() {
+            let bits = pattern(number.value);
+            self.meaningless(fields, number, bits);
+            if bits != pattern(-1) {
+                self.known(fields, number, bits);
             }
         }
-        for (what, value, span) in self.limits() {
-            let bits = pattern(value);
+        for limit in self.limits() {
+            let bits = pattern(limit.value);
             if !is_count(bits, width, fields) && !base.is_signed() {
-                self.meaningless(fields, (what, value, span), bits);
+                self.meaningless(fields, limit, bits);
             }
-            if what == "upper limit" && !base.is_signed() {
-                self.reaches(fields, bits, span);
+            if limit.what == "upper limit" && !base.is_signed() {
+                self.reaches(fields, bits, limit.span);
             }
         }
     }
 
     /// Whether a value sets bits that mean nothing, or lacks some that are always set.
-    fn meaningless(&mut self, fields: &[BitFieldEntry], (what, _, span): Number, bits: u64) {
-        let always = fields.iter().filter(|field| field.when.is_none() && field.availability.is_none());
-        for field in always {
+    fn meaningless(&mut self, fields: &[BitFieldEntry], number: Number, bits: u64) {
+        let Number { what, span, .. } = number;
+        for field in always(fields) {
             let BitMeaning::Reserved { write } = field.meaning else { continue };
             let problem = match write {
                 Some(true) if !what.ends_with("limit") && bits & field.mask() != field.mask() => "lacks",
                 Some(false) | None if bits & field.mask() != 0 => "sets",
                 _ => continue,
             };
-            let named = called(field);
-            let message = format!("the {what} {bits:#X} {problem} {named} of `{}`", brief(&self.definition.name));
+            let (named, name) = (called(field), brief(&self.definition.name));
+            let message = format!("the {what} {bits:#X} {problem} {named} of `{name}`");
             self.report(&codes::RESERVED_BITS, span, message);
         }
     }
 
     /// Whether every bit that a value sets has a meaning, and every field of it a value that has a name.
-    fn known(&mut self, fields: &[BitFieldEntry], what: &str, bits: u64, span: Span) {
+    fn known(&mut self, fields: &[BitFieldEntry], number: Number, bits: u64) {
+        let Number { what, span, .. } = number;
         let named = fields.iter().fold(0, |all, field| all | field.mask());
-        let name = brief(&self.definition.name).to_owned();
         if bits & !named != 0 && named != 0 {
-            let message = format!("the {what} {bits:#X} sets bits {:#X}, which `{name}` doesn't name", bits & !named);
+            let (unnamed, name) = (bits & !named, brief(&self.definition.name));
+            let message = format!("the {what} {bits:#X} sets bits {unnamed:#X}, which `{name}` doesn't name");
             self.report(&codes::RESERVED_BITS, span, message);
         }
-        for field in fields.iter().filter(|field| field.when.is_none() && field.availability.is_none()) {
+        for field in always(fields) {
             let BitMeaning::Enumeration(id) = field.meaning else { continue };
             let Some((values, _)) = self.owner.enumeration(Type::Named(id)) else { continue };
             let value = i128::from((bits & field.mask()).checked_shr(field.offset.into()).unwrap_or(0));
-            if !values.is_empty() && reserved(values, value) != Some(false) {
-                let what = format!("the {what} {bits:#X} has {value} in {}", called(field));
-                let message = match reserved(values, value) {
-                    Some(_) => format!("{what}, which is reserved"),
-                    None => format!("{what}, where only {} named", listed(values)),
-                };
-                self.report(&codes::UNNAMED_VALUE, span, message);
-            }
+            let problem = match reserved(values, value) {
+                _ if values.is_empty() => continue,
+                Some(false) => continue,
+                Some(true) => "which is reserved".to_owned(),
+                None => format!("where only {} named", listed(values)),
+            };
+            let message = format!("the {what} {bits:#X} has {value} in {}, {problem}", called(field));
+            self.report(&codes::UNNAMED_VALUE, span, message);
         }
     }
 
     /// Whether an upper limit lets every named bit be set.
     fn reaches(&mut self, fields: &[BitFieldEntry], limit: u64, span: Span) {
-        let is_beyond = |field: &&BitFieldEntry| {
-            !matches!(field.meaning, BitMeaning::Reserved { .. }) && 1u64.checked_shl(field.offset.into()) > Some(limit)
-        };
-        let mut beyond = fields.iter().filter(is_beyond);
+        let is_beyond = |field: &&BitFieldEntry| 1u64.checked_shl(field.offset.into()) > Some(limit);
+        let mut beyond = fields.iter().filter(|field| !field.is_reserved()).filter(is_beyond);
         let Some(first) = beyond.next() else { return };
-        let others = match beyond.count() {
-            0 => String::new(),
-            others => format!(", and neither can {others} more"),
-        };
+        let others = more(beyond.count(), |others| format!(", and neither can {others} more"));
         let message = format!("{} can't be set below the upper limit {limit}{others}", called(first));
         self.report(&codes::NAME_OUTSIDE_LIMITS, span, message);
     }
 }
 
+/// The fields that mean the same under all conditions, and in every firmware.
+fn always(fields: &[BitFieldEntry]) -> impl Iterator<Item = &BitFieldEntry> {
+    fields.iter().filter(|field| field.when.is_none() && field.availability.is_none())
+}
+
 /// The values that have names: `1 is`, `0, 1 and 3 are`.
 fn listed(values: &[EnumValue]) -> String {
-    let named: Vec<String> = values.iter().filter(|value| value.zone.is_none()).map(range).collect();
+    let named: Vec<String> = values.iter().filter(|value| value.is_named()).map(EnumValue::numbers).collect();
     match named.as_slice() {
         [] => "reserved values are".to_owned(),
         [one] => format!("{one} is"),
         [.., _] if named.len() > MAX_LISTED => format!("{} other values are", named.len()),
         [first @ .., last] => format!("{} and {last} are", first.join(", ")),
-    }
-}
-
-fn range(value: &EnumValue) -> String {
-    match value.last {
-        Some(last) => format!("{} to {last}", value.value),
-        None => value.value.to_string(),
     }
 }
 
@@ -229,8 +219,7 @@ fn is_count(bits: u64, width: u32, fields: &[BitFieldEntry]) -> bool {
     if bits & bits.wrapping_add(1) != 0 {
         return bits.is_power_of_two();
     }
-    let named = fields.iter().filter(|field| !matches!(field.meaning, BitMeaning::Reserved { .. }));
-    let last = named.map(|field| u32::from(field.offset) + u32::from(field.bits)).max();
+    let last = fields.iter().filter(|field| !field.is_reserved()).map(BitFieldEntry::end).max();
     bits.count_ones() <= 1 || bits.count_ones() == width || Some(bits.count_ones()) == last
 }
 
@@ -242,10 +231,10 @@ mod tests {
 
     fn found(shape: Shape, item: impl FnOnce(&mut Item)) -> Vec<(&'static str, String)> {
         let mut group = Group::object(0x2000, ObjectCode::Var);
-        let mut own = Item::new(Binding::canopen(0x2000, 0));
-        own.ty = Type::Named(TypeId(0));
-        item(&mut own);
-        group.items.push(own);
+        let mut mode = Item::new(Binding::canopen(0x2000, 0));
+        mode.ty = Type::Named(TypeId(0));
+        item(&mut mode);
+        group.items.push(mode);
         let definition = TypeDef {
             name: "Mode".into(),
             code: None,
@@ -260,22 +249,9 @@ mod tests {
     }
 
     fn modes(closed: bool) -> Shape {
-        let value = |name: &str, value, last, zone| EnumValue {
-            name: name.into(),
-            value,
-            last,
-            zone,
-            names: Default::default(),
-            when: None,
-            availability: None,
-            documentation: None,
-            at: Default::default(),
-        };
-        let values = vec![
-            value("off", 0, None, None),
-            value("on", 1, None, None),
-            value("reserved", 8, Some(127), Some(Zone::Reserved)),
-        ];
+        let mut reserved = EnumValue::new("reserved".into(), 8);
+        (reserved.last, reserved.zone) = (Some(127), Some(Zone::Reserved));
+        let values = vec![EnumValue::new("off".into(), 0), EnumValue::new("on".into(), 1), reserved];
         Shape::Enumeration { base: Type::Unsigned(8), values, closed }
     }
 
@@ -305,19 +281,7 @@ mod tests {
 
     #[test]
     fn limits_and_constants_of_bits() {
-        let field = |name: &str, offset, bits, meaning| BitFieldEntry {
-            name: name.into(),
-            names: Default::default(),
-            offset,
-            bits,
-            meaning,
-            when: None,
-            trigger: None,
-            access: None,
-            availability: None,
-            documentation: None,
-            at: Default::default(),
-        };
+        let field = |name: &str, offset, bits, meaning| BitFieldEntry::new(name.into(), offset, bits, meaning);
         let flags = || Shape::BitField {
             base: Type::Unsigned(16),
             fields: vec![

@@ -4,9 +4,9 @@ use std::collections::HashMap;
 
 use super::bit_fields::told_apart;
 use super::context::Context;
-use crate::diagnostics::{codes, Diagnostic, Diagnostics};
+use crate::diagnostics::{codes, Diagnostics};
 use crate::ir::firmware::apart;
-use crate::ir::{BitFieldEntry, EnumValue, Group, GroupKind, Item, Shape, TypeDef};
+use crate::ir::{EnumValue, Group, GroupKind, Item, Shape, TypeDef};
 use crate::source::Span;
 use crate::text::brief;
 
@@ -39,17 +39,13 @@ pub(super) fn is_meant(item: &&Item) -> bool {
 fn meanings(definition: &TypeDef, diagnostics: &mut Diagnostics) {
     let twice: Option<(&str, String, String)> = match &definition.shape {
         Shape::BitField { fields, .. } => {
-            let place = |field: &BitFieldEntry| match field.bits {
-                1 => format!("bit {}", field.offset),
-                bits => format!("bits {}-{}", u32::from(field.offset) + u32::from(bits) - 1, field.offset),
-            };
             let found = repeated(fields.iter(), |field| field.name.as_str(), told_apart);
-            found.map(|(one, other)| (one.name.as_str(), place(one), place(other)))
+            found.map(|(one, other)| (one.name.as_str(), one.place(), other.place()))
         }
         Shape::Enumeration { values, .. } => {
             let apart =
                 |one: &EnumValue, other: &EnumValue| apart(one.availability.as_deref(), other.availability.as_deref());
-            let named = values.iter().filter(|value| value.zone.is_none());
+            let named = values.iter().filter(|value| value.is_named());
             let found = repeated(named, |value| value.name.as_str(), apart);
             found.map(|(one, other)| (one.name.as_str(), one.value.to_string(), other.value.to_string()))
         }
@@ -57,7 +53,7 @@ fn meanings(definition: &TypeDef, diagnostics: &mut Diagnostics) {
     };
     if let Some((name, one, other)) = twice {
         let message = format!("{one} and {other} of `{}` are both called `{}`", brief(&definition.name), brief(name));
-        let found = Diagnostic::new(&codes::NAME_TWICE, definition.origin.span, message);
+        let found = codes::NAME_TWICE.at(definition.origin.span, message);
         diagnostics.push(found.help("give one of them the name that the manual means, or say what tells them apart"));
     }
 }
@@ -69,10 +65,10 @@ fn repeated<'v, V>(
     apart: impl Fn(&V, &V) -> bool,
 ) -> Option<(&'v V, &'v V)> {
     let mut seen: HashMap<&str, &V> = HashMap::new();
-    for own in list.filter(|own| !name(own).is_empty()) {
-        match seen.get(name(own)) {
-            Some(first) if !apart(first, own) => return Some((*first, own)),
-            _ => seen.insert(name(own), own),
+    for element in list.filter(|element| !name(element).is_empty()) {
+        match seen.get(name(element)) {
+            Some(first) if !apart(first, element) => return Some((*first, element)),
+            _ => seen.insert(name(element), element),
         };
     }
     None
@@ -93,6 +89,6 @@ fn once<'n>(seen: &mut HashMap<&'n str, Span>, name: &'n str, at: Span, whose: &
     let first = *seen.entry(name).or_insert(at);
     if first != at {
         let message = format!("{whose} is called `{}` too", brief(name));
-        diagnostics.push(Diagnostic::new(&codes::NAME_TWICE, at, message).note_at(first, "the first one"));
+        diagnostics.push(codes::NAME_TWICE.at(at, message).note_at(first, "the first one"));
     }
 }

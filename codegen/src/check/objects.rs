@@ -1,8 +1,10 @@
 //! Objects of a dictionary, on CANopen or EtherCAT, against CiA 301 7.4.3.
 
 use super::context::Context;
-use crate::diagnostics::{codes, Diagnostic, Diagnostics};
-use crate::ir::{excluded, AxisStep, Device, Format, Group, Item, ObjectCode, Shape, Type, TypeDef, TypeId, Value};
+use crate::diagnostics::{codes, Diagnostics};
+use crate::ir::owner::Owner;
+use crate::ir::{excluded, AxisStep, Device, Format, Group, Item, ObjectCode, Value};
+use crate::text::more;
 
 /// Reports objects that contradict themselves, and mandatory ones that are missing.
 pub(super) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
@@ -17,7 +19,7 @@ pub(super) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
 
 /// The same for the rows of a register table. Rows that already failed are skipped: what follows from that is nothing new.
 pub(super) fn rows(context: &Context<'_>, diagnostics: &mut Diagnostics) {
-    let errors = diagnostics.error_places();
+    let errors = diagnostics.error_spans();
     for (index, group) in described(context) {
         if !errors.any_in(group.origin.span) {
             names(group, index, diagnostics);
@@ -52,7 +54,7 @@ fn object(context: &Context<'_>, group: &Group, index: u16, diagnostics: &mut Di
     }
     sub0_access(group, index, diagnostics);
     if code == ObjectCode::Array {
-        element_types(group, index, &context.device.types, diagnostics);
+        element_types(group, index, context.owner, diagnostics);
     }
 }
 
@@ -67,7 +69,7 @@ fn highest(group: &Group) -> u8 {
 
 fn names(group: &Group, index: u16, diagnostics: &mut Diagnostics) {
     let mut nameless = |span, what: String| {
-        diagnostics.push(Diagnostic::new(&codes::EMPTY_NAME, span, format!("{what} has no name")));
+        diagnostics.push(codes::EMPTY_NAME.at(span, format!("{what} has no name")));
     };
     if group.name.is_empty() {
         nameless(group.name_at.or(group.origin.span), format!("0x{index:04X}"));
@@ -78,31 +80,19 @@ fn names(group: &Group, index: u16, diagnostics: &mut Diagnostics) {
     let mut items = described_items(group).filter(|item| item.name.is_empty());
     let Some(first) = items.next() else { return };
     // An array of a hundred nameless elements is one finding.
-    let others = match items.count() {
-        0 => String::new(),
-        others => format!(" (and {others} more of the object)"),
-    };
+    let others = more(items.count(), |others| format!(" (and {others} more of the object)"));
     nameless(first.at.name.or(first.origin.span), format!("0x{index:04X} sub-index {:#x}{others}", sub_of(first)));
 }
 
-fn structure(group: &Group, index: u16, format: Option<Format>, diagnostics: &mut Diagnostics) {
+fn structure(group: &Group, index: u16, format: Format, diagnostics: &mut Diagnostics) {
     let span = group.origin.span;
     if described_items(group).next().is_none() {
-        let (message, help) = match format.is_some_and(Format::has_compact_objects) {
-            true => (
-                format!("0x{index:04X} has neither sub-indices nor CompactSubObj"),
-                "give it SubNumber and the sections of its sub-indices, or CompactSubObj".to_owned(),
-            ),
-            false => (
-                format!("0x{index:04X} has no sub-indices"),
-                "describe them, sub-index 0 included; an object that is one value is a VAR".to_owned(),
-            ),
-        };
-        diagnostics.push(Diagnostic::new(&codes::NO_SUBS, span, message).help(help));
+        let (lacks, help) = format.missing_subs();
+        diagnostics.push(codes::NO_SUBS.at(span, format!("0x{index:04X} has {lacks}")).help(help));
     } else if sub0(group).is_none() {
         let message = format!("sub-index 0 of 0x{index:04X} isn't described");
         let help = format!("describe it: UNSIGNED8, the highest sub-index, which is {}", highest(group));
-        diagnostics.push(Diagnostic::new(&codes::NO_SUB0, span, message).help(help));
+        diagnostics.push(codes::NO_SUB0.at(span, message).help(help));
     }
 }
 
@@ -118,23 +108,20 @@ fn has_entries_of_axes(device: &Device, index: u16) -> bool {
     rule.is_some_and(|rule| !matches!(rule.step, AxisStep::Index(_)))
 }
 
-fn highest_sub(group: &Group, index: u16, format: Option<Format>, diagnostics: &mut Diagnostics) {
+fn highest_sub(group: &Group, index: u16, format: Format, diagnostics: &mut Diagnostics) {
     let Some(sub0) = sub0(group).filter(|_| !is_counter(index)) else { return };
-    let Some(default) = sub0.default.as_ref().and_then(Value::as_int) else { return };
+    let Some(default) = sub0.default_integer() else { return };
     let highest = highest(group);
     if default != i128::from(highest) {
         let span = sub0.at.default.or(sub0.origin.span);
         let message = format!("sub-index 0 of 0x{index:04X} says {default}, but the highest sub-index is {highest}");
-        let found = Diagnostic::new(&codes::SUB0_MISMATCH, span, message);
+        let found = codes::SUB0_MISMATCH.at(span, message);
         // Another number must be one that sub-index 0 may have.
         let is_possible = excluded(&sub0.limits, &Value::Int(highest.into())).is_none();
-        diagnostics.push(match format {
-            // The form depends on the element that gives the default.
-            Some(format) if format.has_default_data() => {
-                found.help(format!("write `{highest:02X}` in DefaultData, or `{highest}` in DefaultValue"))
-            }
-            _ if is_possible && !sub0.at.default.is_empty() => found.fix(highest.to_string()),
-            _ => found,
+        diagnostics.push(match format.default_forms(highest) {
+            Some(help) => found.help(help),
+            None if is_possible && !sub0.at.default.is_empty() => found.fix(highest.to_string()),
+            None => found,
         });
     }
 }
@@ -150,27 +137,17 @@ fn sub0_access(group: &Group, index: u16, diagnostics: &mut Diagnostics) {
         _ => return,
     };
     let span = sub0.at.access.or(sub0.origin.span);
-    diagnostics.push(Diagnostic::new(&codes::SUB0_ACCESS, span, format!("sub-index 0 of 0x{index:04X} {message}")));
+    diagnostics.push(codes::SUB0_ACCESS.at(span, format!("sub-index 0 of 0x{index:04X} {message}")));
 }
 
-/// The type below an enumeration or a bit field: what the bits mean is no matter of the dictionary.
-fn basic(types: &[TypeDef], ty: Type) -> Type {
-    let Type::Named(TypeId(id)) = ty else { return ty };
-    match types.get(id as usize).map(|def| &def.shape) {
-        Some(Shape::Enumeration { base, .. } | Shape::BitField { base, .. }) => *base,
-        _ => ty,
-    }
-}
-
-fn element_types(group: &Group, index: u16, types: &[TypeDef], diagnostics: &mut Diagnostics) {
+fn element_types(group: &Group, index: u16, owner: Owner<'_>, diagnostics: &mut Diagnostics) {
     let mut elements = described_items(group).filter(|item| !matches!(sub_of(item), 0 | 0xFF));
     let Some(first) = elements.next() else { return };
-    if let Some(other) = elements.find(|item| basic(types, item.ty) != basic(types, first.ty)) {
+    // What the bits and values mean is no matter of the dictionary.
+    if let Some(other) = elements.find(|item| owner.integer(item.ty) != owner.integer(first.ty)) {
         let message = format!("an element of the array 0x{index:04X} is {}, the first is {}", other.ty, first.ty);
-        diagnostics.push(
-            Diagnostic::new(&codes::ARRAY_TYPES, other.at.ty.or(other.origin.span), message)
-                .note_at(first.at.ty.or(first.origin.span), "the first element"),
-        );
+        let found = codes::ARRAY_TYPES.at(other.at.ty.or(other.origin.span), message);
+        diagnostics.push(found.note_at(first.at.ty.or(first.origin.span), "the first element"));
     }
 }
 
@@ -182,7 +159,7 @@ fn mandatory(device: &Device, diagnostics: &mut Diagnostics) {
     for index in [0x1000, 0x1001, 0x1018] {
         if device.object(index).is_none() {
             let message = format!("the mandatory object 0x{index:04X} isn't described");
-            diagnostics.push(Diagnostic::new(&codes::MISSING_MANDATORY_OBJECT, device.origin.span, message));
+            diagnostics.push(codes::MISSING_MANDATORY_OBJECT.at(device.origin.span, message));
         }
     }
 }

@@ -1,7 +1,7 @@
 //! Directions of the PDOs of an EtherCAT slave or module against its dictionary.
 
 use super::context::PdoOwner;
-use crate::diagnostics::{codes, Code, Diagnostic, Diagnostics};
+use crate::diagnostics::{codes, Code, Diagnostics};
 use crate::ir::{Direction, Item, Mappable, PdoEntry, PdoEntryKind};
 
 /// Reports entries whose item says that it is not mapped, or not in this direction.
@@ -35,7 +35,6 @@ fn against(entry: &PdoEntry, direction: Direction, item: &Item, diagnostics: &mu
     };
     if let Some((code, problem)) = problem {
         let message = format!("0x{:04X} sub-index {:#x} {problem}", entry.index, entry.sub_index);
-        let found = Diagnostic::new(code, entry.origin.span, message);
-        diagnostics.push(found.note_at(item.origin.span, "the mapped object"));
+        diagnostics.push(code.at(entry.origin.span, message).note_at(item.origin.span, "the mapped object"));
     }
 }

@@ -14,7 +14,7 @@ pub(super) fn check(owner: &PdoOwner<'_>, diagnostics: &mut Diagnostics) {
     let mut seen: HashMap<(u16, Option<bool>), Span> = HashMap::with_capacity(owner.data.pdos.len());
     for pdo in &owner.data.pdos {
         if pdo.mapping_index != 0 {
-            let key = (pdo.mapping_index, pdo.buses.map(|own| own.coe));
+            let key = (pdo.mapping_index, pdo.buses.map(|buses| buses.coe));
             let first = *seen.entry(key).or_insert(pdo.origin.span);
             if first != pdo.origin.span {
                 diagnostics.push(duplicate(pdo, first));
@@ -31,14 +31,13 @@ pub(super) fn check(owner: &PdoOwner<'_>, diagnostics: &mut Diagnostics) {
 
 fn duplicate(pdo: &Pdo, first: Span) -> Diagnostic {
     let message = format!("two PDOs have the index 0x{:04X}", pdo.mapping_index);
-    Diagnostic::new(&codes::DUPLICATE_PDO, pdo.origin.span, message)
-        .label("both are kept")
-        .note_at(first, "the first one")
+    codes::DUPLICATE_PDO.at(pdo.origin.span, message).label("both are kept").note_at(first, "the first one")
 }
 
 fn length(entry: &PdoEntry, item: &Item, bits: u32) -> Diagnostic {
     let message = format!("{} is mapped with {} bits, but has {bits}", address(entry), entry.bits);
-    Diagnostic::new(&codes::MAPPED_LENGTH, entry.origin.span, message)
+    codes::MAPPED_LENGTH
+        .at(entry.origin.span, message)
         .label("the entry decides the layout")
         .note_at(item.origin.span, "the mapped object")
 }

@@ -2,7 +2,7 @@
 
 use super::context::{Context, PdoOwner};
 use super::mapped_object::{pdo_name, wrong_direction, CAN_BITS};
-use crate::diagnostics::{codes, Code, Diagnostic, Diagnostics};
+use crate::diagnostics::{codes, Code, Diagnostics};
 use crate::ir::{Access, CanOpenSettings, Direction, Group, Item, Type, Value};
 use crate::resolve::{
     announced_count, is_dummy, is_multiplexed, mapping_values, MappableItems, MappingValue, MappingWord, PdoObjects,
@@ -27,8 +27,7 @@ pub(super) fn lengths(owner: &PdoOwner<'_>, diagnostics: &mut Diagnostics) {
     for pdo in &owner.data.pdos {
         for entry in pdo.entries.iter().filter(|entry| entry.index != 0 && entry.bits > crate::limits::MAX_FIELD_BITS) {
             let message = format!("an entry of the PDO 0x{:04X} has {} bits", pdo.mapping_index, entry.bits);
-            let found = Diagnostic::new(&codes::ENTRY_TOO_LONG, entry.origin.span, message);
-            diagnostics.push(found.label("the PDO gets no struct"));
+            diagnostics.push(codes::ENTRY_TOO_LONG.at(entry.origin.span, message).label("the PDO gets no struct"));
         }
     }
 }
@@ -58,7 +57,7 @@ impl Mapping<'_, '_> {
     }
 
     fn report(&mut self, code: &'static Code, span: Span, message: String) {
-        self.diagnostics.push(Diagnostic::new(code, span, message));
+        self.diagnostics.push(code.at(span, message));
     }
 
     fn both_halves(&mut self, objects: &PdoObjects<'_>) {
@@ -181,7 +180,7 @@ impl Mapping<'_, '_> {
     }
 
     fn mapped_report(&mut self, item: &Item, code: &'static Code, span: Span, message: String) {
-        let mut diagnostic = Diagnostic::new(code, span, message);
+        let mut diagnostic = code.at(span, message);
         if !item.origin.span.is_empty() {
             diagnostic = diagnostic.note_at(item.origin.span, "the mapped object");
         }

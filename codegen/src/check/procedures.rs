@@ -3,7 +3,8 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::context::Context;
-use crate::diagnostics::{codes, Diagnostic, Diagnostics};
+use super::limits::beyond;
+use crate::diagnostics::{codes, Diagnostics};
 use crate::ir::owner::{reserved, Owner};
 use crate::ir::{Device, Item, ItemRef, Procedure, Step, Value};
 use crate::source::Span;
@@ -18,8 +19,7 @@ pub(super) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
     for procedure in &device.procedures {
         for (step, span) in procedure.spanned() {
             for problem in problems(*owner, device, step) {
-                let message = format!("`{}`: {problem}", brief(&procedure.name));
-                diagnostics.push(Diagnostic::new(&codes::STEP_IMPOSSIBLE, span, message));
+                diagnostics.push(codes::STEP_IMPOSSIBLE.at(span, format!("`{}`: {problem}", brief(&procedure.name))));
             }
         }
         assignments(device, procedure, diagnostics);
@@ -29,8 +29,7 @@ pub(super) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
 /// Reports PDOs that are assigned by default and don't exist.
 pub(super) fn default_assignments(context: &Context<'_>, diagnostics: &mut Diagnostics) {
     for item in context.owner.items() {
-        let value = item.default.as_ref().and_then(Value::as_int);
-        if let (Some((0x1C12 | 0x1C13, 1..)), Some(value)) = (item.object(), value) {
+        if let (Some((0x1C12 | 0x1C13, 1..)), Some(value)) = (item.object(), item.default_integer()) {
             assigned(context.device, value, item.at.default.or(item.origin.span), diagnostics);
         }
     }
@@ -78,23 +77,19 @@ fn shown(step: &Step) -> String {
 /// Why an item can't have a value.
 fn refused(owner: Owner<'_>, item: &Item, number: i128) -> Option<String> {
     let ty = owner.basic(item.ty);
-    let (low, high) = (item.limits.low.as_ref(), item.limits.high.as_ref());
-    let (low, high) = (low.and_then(Value::as_int), high.and_then(Value::as_int));
     // The bits of a negative number are written as they are.
     let signed = ty.bits().filter(|&bits| ty.is_signed() && bits <= 64 && number >> (bits - 1) == 1);
     let number = signed.map_or(number, |bits| number - (1i128 << bits));
-    let in_order = low.zip(high).is_none_or(|(low, high)| low <= high);
     if ty.integer_range().is_some_and(|(low, high)| number < low || number > high) {
         return Some(format!("which is {ty}"));
     }
-    if let Some(low) = low.filter(|&low| in_order && number < low) {
-        return Some(format!("whose lower limit is {low}"));
+    let (low, high) = item.limits.integers();
+    let are_ordered = low.zip(high).is_none_or(|(low, high)| low <= high);
+    if let Some(limit) = beyond(item, number).filter(|_| are_ordered) {
+        return Some(format!("whose {limit}"));
     }
-    if let Some(high) = high.filter(|&high| in_order && number > high) {
-        return Some(format!("whose upper limit is {high}"));
-    }
-    let writable = item.behaviour.iter().flat_map(|own| &own.writable_values).filter_map(Value::as_int);
-    let writable: Vec<i128> = writable.collect();
+    let writable = item.behaviour.iter().flat_map(|behaviour| &behaviour.writable_values);
+    let writable: Vec<i128> = writable.filter_map(Value::as_int).collect();
     if !writable.is_empty() && !writable.contains(&number) {
         return Some("which isn't among the values that may be written".to_owned());
     }
@@ -107,29 +102,34 @@ fn refused(owner: Owner<'_>, item: &Item, number: i128) -> Option<String> {
 
 /// What a procedure maps it also assigns, and what it assigns exists. COB-IDs are those of one PDO.
 fn assignments(device: &Device, procedure: &Procedure, diagnostics: &mut Diagnostics) {
-    let (mut mapped, mut taken) = (BTreeMap::new(), [BTreeSet::new(), BTreeSet::new()]);
+    let (mut mapped, mut assigned_to) = (BTreeMap::new(), [BTreeSet::new(), BTreeSet::new()]);
+    let name = brief(&procedure.name);
     for (step, span) in procedure.spanned() {
-        let Step::Write(name, value) = step else { continue };
-        let (Some(object), Some(value)) = (device.referred(name).and_then(Item::object), value.as_int()) else {
+        let Step::Write(item, value) = step else { continue };
+        let (Some(object), Some(value)) = (device.referred(item).and_then(Item::object), value.as_int()) else {
             continue;
         };
         match object {
             (index @ (0x1600..=0x17FF | 0x1A00..=0x1BFF), 1..) => _ = mapped.entry(index).or_insert(span),
             (index @ (0x1C12 | 0x1C13), 1..) => {
-                taken[usize::from(index - ASSIGNMENTS[0])].insert(value);
+                assigned_to[usize::from(index - ASSIGNMENTS[0])].insert(value);
                 assigned(device, value, span, diagnostics);
             }
             (index @ (0x1400..=0x15FF | 0x1800..=0x19FF), 1) => {
-                cob_id(device, (index, value), (procedure, span), diagnostics)
+                if let Some(other) = owner_of_cob_id(device, index, value) {
+                    let (cob_id, other) = (format!("{value:#X}"), format!("0x{other:04X}"));
+                    let message = format!("`{name}` gives 0x{index:04X} the COB-ID {cob_id}, which is that of {other}");
+                    diagnostics.push(codes::STEP_IMPOSSIBLE.at(span, message));
+                }
             }
             _ => {}
         }
     }
     for (index, span) in mapped {
-        let own = &taken[usize::from(index >= 0x1A00)];
-        if !own.is_empty() && !own.contains(&i128::from(index)) {
-            let message = format!("`{}` maps 0x{index:04X}, and assigns other PDOs", brief(&procedure.name));
-            diagnostics.push(Diagnostic::new(&codes::MAPPED_NOT_ASSIGNED, span, message));
+        let assigned = &assigned_to[usize::from(index >= 0x1A00)];
+        if !assigned.is_empty() && !assigned.contains(&i128::from(index)) {
+            let message = format!("`{name}` maps 0x{index:04X}, and assigns other PDOs");
+            diagnostics.push(codes::MAPPED_NOT_ASSIGNED.at(span, message));
         }
     }
 }
@@ -140,29 +140,20 @@ fn assigned(device: &Device, value: i128, span: Span, diagnostics: &mut Diagnost
     };
     if value != 0 && !u16::try_from(value).is_ok_and(described) {
         let message = format!("the PDO 0x{value:04X} is assigned, and isn't described");
-        diagnostics.push(Diagnostic::new(&codes::ASSIGNED_PDO_MISSING, span, message));
+        diagnostics.push(codes::ASSIGNED_PDO_MISSING.at(span, message));
     }
 }
 
-/// Whether a COB-ID is another PDO's by default: that of some node, while its own would be of none.
-fn cob_id(
-    device: &Device,
-    (index, value): (u16, i128),
-    (procedure, span): (&Procedure, Span),
-    diagnostics: &mut Diagnostics,
-) {
-    let of_some_node = |item: &Item| match item.default {
+/// The other PDO whose COB-ID this is by default: that of some node, while that of the PDO itself would be of none.
+fn owner_of_cob_id(device: &Device, index: u16, value: i128) -> Option<u16> {
+    let is_of_some_node = |item: &Item| match item.default {
         Some(Value::NodeId(base)) => value.checked_sub(base).is_some_and(|node| (1..=127).contains(&node)),
         Some(Value::Int(default)) => default == value,
         _ => false,
     };
-    let communication = |index: u16| matches!(index, 0x1400..=0x15FF | 0x1800..=0x19FF);
-    let others = device.groups.iter().filter_map(|group| Some((group.index()?, group.sub(1)?)));
-    let others = others.filter(|(index, _)| communication(*index));
-    let owners: Vec<u16> = others.filter(|(_, item)| of_some_node(item)).map(|(index, _)| index).collect();
-    if let (Some(other), false) = (owners.first(), owners.contains(&index)) {
-        let name = brief(&procedure.name);
-        let message = format!("`{name}` gives 0x{index:04X} the COB-ID {value:#X}, which is that of 0x{other:04X}");
-        diagnostics.push(Diagnostic::new(&codes::STEP_IMPOSSIBLE, span, message));
-    }
+    let is_communication = |index: u16| matches!(index, 0x1400..=0x15FF | 0x1800..=0x19FF);
+    let pdos = device.groups.iter().filter_map(|group| Some((group.index()?, group.sub(1)?)));
+    let owners = pdos.filter(|(index, item)| is_communication(*index) && is_of_some_node(item));
+    let owners: Vec<u16> = owners.map(|(index, _)| index).collect();
+    owners.first().copied().filter(|_| !owners.contains(&index))
 }

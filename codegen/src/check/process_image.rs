@@ -3,7 +3,7 @@
 use std::collections::HashSet;
 
 use super::context::{Context, PdoOwner};
-use crate::diagnostics::{codes, Diagnostic, Diagnostics};
+use crate::diagnostics::{codes, Diagnostics};
 use crate::ir::{DefaultAssignment, Pdo, ProcessData, SyncManager, MAX_PDO_SUBS};
 
 /// Reports PDOs that an EtherCAT slave can't assign as it does by default.
@@ -25,7 +25,7 @@ pub(super) fn excluded(owner: &PdoOwner<'_>, diagnostics: &mut Diagnostics) {
         let missing = pdo.excludes.iter().find(|index| !known.contains(index));
         if let Some(index) = missing {
             let message = format!("0x{:04X} excludes 0x{index:04X}, which isn't described", pdo.mapping_index);
-            diagnostics.push(Diagnostic::new(&codes::EXCLUDED_PDO_MISSING, pdo.origin.span, message));
+            diagnostics.push(codes::EXCLUDED_PDO_MISSING.at(pdo.origin.span, message));
         }
     }
 }
@@ -33,23 +33,17 @@ pub(super) fn excluded(owner: &PdoOwner<'_>, diagnostics: &mut Diagnostics) {
 fn sync_manager_exists(pdo: &Pdo, data: &ProcessData, diagnostics: &mut Diagnostics) {
     let Some(number) = pdo.sync_manager.filter(|&number| !data.has_sync_manager(number)) else { return };
     let message = format!("0x{:04X} is assigned to sync manager {number}, which isn't described", pdo.mapping_index);
-    diagnostics.push(
-        Diagnostic::new(&codes::NO_SUCH_SYNC_MANAGER, pdo.origin.span, message).label("not part of the process image"),
-    );
+    diagnostics.push(codes::NO_SUCH_SYNC_MANAGER.at(pdo.origin.span, message).label("not part of the process image"));
 }
 
 fn conflicts(by_default: &DefaultAssignment, diagnostics: &mut Diagnostics) {
     // One described twice has a finding of its own.
     for (pdo, other) in by_default.left_out.iter().filter(|(pdo, other)| other.mapping_index != pdo.mapping_index) {
-        let message = format!(
-            "0x{:04X} and 0x{:04X} are both assigned by default, and exclude each other",
-            other.mapping_index, pdo.mapping_index
-        );
-        diagnostics.push(
-            Diagnostic::new(&codes::DEFAULT_PDOS_CONFLICT, pdo.origin.span, message)
-                .label("left out of the process image by default")
-                .note_at(other.origin.span, "this one is in it"),
-        );
+        let (first, second) = (other.mapping_index, pdo.mapping_index);
+        let message = format!("0x{first:04X} and 0x{second:04X} are both assigned by default, and exclude each other");
+        let found = codes::DEFAULT_PDOS_CONFLICT.at(pdo.origin.span, message);
+        let found = found.label("left out of the process image by default");
+        diagnostics.push(found.note_at(other.origin.span, "this one is in it"));
     }
 }
 
@@ -61,23 +55,20 @@ fn lengths(by_default: &DefaultAssignment, sync_managers: &[SyncManager], diagno
         *count += 1;
         *bits += u64::from(pdo.bits());
     }
-    for own in sync_managers {
-        let (count, bits) = inside[usize::from(own.number)];
+    for manager in sync_managers {
+        let number = manager.number;
+        let (count, bits) = inside[usize::from(number)];
         if count > MAX_PDO_SUBS {
-            let message = format!(
-                "sync manager {} has {count} PDOs by default, and a list of them at most {MAX_PDO_SUBS}",
-                own.number
-            );
-            diagnostics.push(Diagnostic::new(&codes::TOO_MANY_PDOS, own.origin.span, message));
+            let message =
+                format!("sync manager {number} has {count} PDOs by default, and a list of them at most {MAX_PDO_SUBS}");
+            diagnostics.push(codes::TOO_MANY_PDOS.at(manager.origin.span, message));
         }
-        let Some(max) = own.size_range.1.filter(|&max| max > 0) else { continue };
-        if bits.div_ceil(8) > u64::from(max) {
-            let message = format!(
-                "the PDOs of sync manager {} have {} bytes by default, and at most {max} fit",
-                own.number,
-                bits.div_ceil(8)
-            );
-            diagnostics.push(Diagnostic::new(&codes::IMAGE_TOO_LONG, own.origin.span, message));
+        let Some(max) = manager.size_range.1.filter(|&max| max > 0) else { continue };
+        let bytes = bits.div_ceil(8);
+        if bytes > u64::from(max) {
+            let message =
+                format!("the PDOs of sync manager {number} have {bytes} bytes by default, and at most {max} fit");
+            diagnostics.push(codes::IMAGE_TOO_LONG.at(manager.origin.span, message));
         }
     }
 }

@@ -1,6 +1,6 @@
 //! Parameter records of PROFINET submodules: parameters within their record, and no two on the same bits.
 
-use crate::diagnostics::{codes, Diagnostic, Diagnostics};
+use crate::diagnostics::{codes, Diagnostics};
 use crate::ir::{Binding, Group, GroupKind, Item, Record};
 
 pub(super) fn check(groups: &[Group], diagnostics: &mut Diagnostics) {
@@ -27,47 +27,35 @@ fn bounds(group: &Group, record: &Record, diagnostics: &mut Diagnostics) {
         let end = (offset + bits).div_ceil(8);
         if end > length {
             let message = format!("the parameter reaches to byte {end} of a record of {length} bytes");
-            diagnostics.push(
-                Diagnostic::new(&codes::RECORD_BOUNDS, item.origin.span, message)
-                    .label("kept as it is")
-                    .note_at(group.origin.span, "the record"),
-            );
+            let found = codes::RECORD_BOUNDS.at(item.origin.span, message).label("kept as it is");
+            diagnostics.push(found.note_at(group.origin.span, "the record"));
         }
     }
     for (offset, bytes) in &record.constants {
         let end = u64::from(*offset) + bytes.len() as u64;
         if end > length {
             let message = format!("a constant reaches to byte {end} of a record of {length} bytes");
-            diagnostics.push(Diagnostic::new(&codes::RECORD_BOUNDS, group.origin.span, message).label("kept as it is"));
+            diagnostics.push(codes::RECORD_BOUNDS.at(group.origin.span, message).label("kept as it is"));
         }
     }
 }
 
 fn overlaps(group: &Group, diagnostics: &mut Diagnostics) {
-    let mut places: Vec<(u64, u64, &Item)> = Vec::with_capacity(group.items.len());
-    places.extend(group.items.iter().filter_map(|item| bits_of(item).map(|(offset, bits)| (offset, bits, item))));
-    if !places.is_sorted_by_key(|&(offset, ..)| offset) {
-        places.sort_by_key(|&(offset, ..)| offset);
-    }
+    let mut items: Vec<(u64, u64, &Item)> = Vec::with_capacity(group.items.len());
+    items.extend(group.items.iter().filter_map(|item| bits_of(item).map(|(offset, bits)| (offset, bits, item))));
+    items.sort_by_key(|&(offset, ..)| offset);
     // The item that reaches farthest so far.
     let mut last: Option<(u64, &Item)> = None;
-    for (offset, bits, item) in places {
+    for (offset, bits, item) in items {
         let end = offset + bits;
         if let Some((reach, other)) = last.filter(|&(reach, _)| offset < reach && bits > 0) {
-            report(item, other, diagnostics);
+            let message = format!("the parameter `{}` shares bits with `{}`", item.name, other.name);
+            let found = codes::PARAMETERS_OVERLAP.at(item.origin.span, message).label("both are kept");
+            diagnostics.push(found.note_at(other.origin.span, "the other one"));
             if end <= reach {
                 continue;
             }
         }
         last = Some((end, item));
     }
-}
-
-fn report(item: &Item, other: &Item, diagnostics: &mut Diagnostics) {
-    let message = format!("the parameter `{}` shares bits with `{}`", item.name, other.name);
-    diagnostics.push(
-        Diagnostic::new(&codes::PARAMETERS_OVERLAP, item.origin.span, message)
-            .label("both are kept")
-            .note_at(other.origin.span, "the other one"),
-    );
 }

@@ -19,22 +19,21 @@ impl Lint {
     }
 
     /// Whether it runs for a format, and any of its codes is wanted.
-    fn is_active(&self, format: Option<Format>, diagnostics: &Diagnostics) -> bool {
+    fn is_active(&self, format: Format, diagnostics: &Diagnostics) -> bool {
         let is_requested = || self.on_request && self.codes.iter().any(|code| diagnostics.asks_for(code));
-        (self.formats.contains(&format.unwrap_or(WITHOUT_FILE)) || is_requested())
-            && self.codes.iter().any(|code| diagnostics.wants(code))
+        (self.formats.contains(&format) || is_requested()) && self.codes.iter().any(|code| diagnostics.wants(code))
     }
 }
 
 fn run(lints: &[Lint], catalog: &Catalog, diagnostics: &mut Diagnostics) {
     // The first file describes the devices; the others only refer to it, or are overlays.
-    let format = catalog.files.first().map(|file| file.format);
+    let format = catalog.files.first().map_or(WITHOUT_FILE, |file| file.format);
     let lints: Vec<&Lint> = lints.iter().filter(|lint| lint.is_active(format, diagnostics)).collect();
-    for own in &catalog.devices {
-        device(&lints, own, &catalog.modules, format, diagnostics);
+    for device in &catalog.devices {
+        check_device(&lints, device, &catalog.modules, format, diagnostics);
     }
-    for own in &catalog.modules {
-        module(&lints, own, diagnostics);
+    for module in &catalog.modules {
+        check_module(&lints, module, diagnostics);
     }
     records(&lints, catalog, diagnostics);
     for lint in lints {
@@ -44,7 +43,7 @@ fn run(lints: &[Lint], catalog: &Catalog, diagnostics: &mut Diagnostics) {
     }
 }
 
-fn device(lints: &[&Lint], device: &Device, modules: &[Module], format: Option<Format>, diagnostics: &mut Diagnostics) {
+fn check_device(lints: &[&Lint], device: &Device, modules: &[Module], format: Format, diagnostics: &mut Diagnostics) {
     let groups = [device.groups.as_slice()];
     let owner = Owner { types: &device.types, groups: &groups };
     let context = Context { device, modules, format, owner };
@@ -58,7 +57,7 @@ fn device(lints: &[&Lint], device: &Device, modules: &[Module], format: Option<F
     }
 }
 
-fn module(lints: &[&Lint], module: &Module, diagnostics: &mut Diagnostics) {
+fn check_module(lints: &[&Lint], module: &Module, diagnostics: &mut Diagnostics) {
     let groups = [module.fixed_objects.as_slice(), module.groups.as_slice()];
     let owner = Owner { types: &module.types, groups: &groups };
     for lint in lints {

@@ -1,6 +1,6 @@
 //! Subslots of the built-in submodules of a PROFINET module or device.
 
-use crate::diagnostics::{codes, Diagnostic, Diagnostics};
+use crate::diagnostics::{codes, Diagnostics};
 use crate::ir::{Catalog, Submodule, SubmoduleId, SubmoduleKind, SubmoduleUse};
 
 pub(super) fn check(catalog: &Catalog, diagnostics: &mut Diagnostics) {
@@ -14,18 +14,20 @@ pub(super) fn check(catalog: &Catalog, diagnostics: &mut Diagnostics) {
 
 fn distinct(uses: &[SubmoduleUse], submodules: &[Submodule], diagnostics: &mut Diagnostics) {
     let mut ranges: Vec<(u16, u16, SubmoduleId)> = Vec::new();
-    let kind = |own: &SubmoduleUse| submodules.get(own.submodule.0 as usize).map(|submodule| submodule.kind);
-    for own in uses.iter().filter(|own| kind(own).is_some_and(|kind| kind != SubmoduleKind::Pluggable)) {
-        let fixed = own.places.fixed.0.iter();
-        ranges.extend(fixed.map(|&(first, last)| (first, last, own.submodule)));
+    let kind = |submodule: SubmoduleId| submodules.get(submodule.0 as usize).map(|submodule| submodule.kind);
+    for of_module in
+        uses.iter().filter(|of_module| kind(of_module.submodule).is_some_and(|kind| kind != SubmoduleKind::Pluggable))
+    {
+        let fixed = of_module.places.fixed.0.iter();
+        ranges.extend(fixed.map(|&(first, last)| (first, last, of_module.submodule)));
     }
     ranges.sort_by_key(|&(first, ..)| first);
     let mut before: Option<(u16, SubmoduleId)> = None;
     for (first, last, submodule) in ranges {
-        if let Some((_, other)) = before.filter(|&(taken, other)| first <= taken && other != submodule) {
+        if let Some((_, other)) = before.filter(|&(end, other)| first <= end && other != submodule) {
             report(first, [other, submodule].map(|SubmoduleId(at)| submodules.get(at as usize)), diagnostics);
         }
-        if before.is_none_or(|(taken, _)| last > taken) {
+        if before.is_none_or(|(end, _)| last > end) {
             before = Some((last, submodule));
         }
     }
@@ -34,9 +36,6 @@ fn distinct(uses: &[SubmoduleUse], submodules: &[Submodule], diagnostics: &mut D
 fn report(subslot: u16, pair: [Option<&Submodule>; 2], diagnostics: &mut Diagnostics) {
     let [Some(first), Some(second)] = pair else { return };
     let message = format!("subslot {subslot:#06x} is that of another submodule");
-    diagnostics.push(
-        Diagnostic::new(&codes::SUBSLOT_TAKEN, second.origin.span, message)
-            .label("both are kept")
-            .note_at(first.origin.span, "the other one"),
-    );
+    let found = codes::SUBSLOT_TAKEN.at(second.origin.span, message).label("both are kept");
+    diagnostics.push(found.note_at(first.origin.span, "the other one"));
 }

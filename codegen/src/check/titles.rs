@@ -1,7 +1,7 @@
 //! Titles of columns in the place of the name of a bit or value.
 
 use super::context::Context;
-use crate::diagnostics::{codes, Diagnostic, Diagnostics};
+use crate::diagnostics::{codes, Diagnostics};
 use crate::ir::{Shape, TypeDef};
 use crate::text::brief;
 
@@ -23,11 +23,9 @@ const TITLES: [&str; 11] = [
 pub(super) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
     for definition in context.owner.types {
         match &definition.shape {
-            Shape::BitField { fields, .. } => {
-                titles(definition, fields.iter().map(|field| field.name.as_str()), diagnostics);
-            }
+            Shape::BitField { fields, .. } => titles(definition, fields.iter().map(|field| &*field.name), diagnostics),
             Shape::Enumeration { values, .. } => {
-                titles(definition, values.iter().map(|value| value.name.as_str()), diagnostics);
+                titles(definition, values.iter().map(|value| &*value.name), diagnostics)
             }
             _ => {}
         }
@@ -38,7 +36,7 @@ fn titles<'n>(definition: &TypeDef, names: impl Iterator<Item = &'n str>, diagno
     let is_title = |name: &&str| TITLES.contains(&name.trim().trim_end_matches('.').to_lowercase().as_str());
     for name in names.filter(is_title) {
         let message = format!("`{}` of `{}` is the title of a column", brief(name), brief(&definition.name));
-        let found = Diagnostic::new(&codes::BROKEN_NAME, definition.origin.span, message);
+        let found = codes::BROKEN_NAME.at(definition.origin.span, message);
         diagnostics.push(found.help("a line of the printed table slid down or up: look at the values beside it"));
     }
 }

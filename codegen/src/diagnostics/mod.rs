@@ -5,13 +5,13 @@
 
 mod allowed;
 pub mod codes;
-mod error_places;
+mod error_spans;
 mod levels;
 pub mod render;
 
 use allowed::Allowed;
 pub use codes::{Class, Code};
-pub(crate) use error_places::ErrorPlaces;
+pub(crate) use error_spans::ErrorSpans;
 pub use levels::{Level, Levels, UnknownCode};
 
 use std::collections::{BTreeMap, HashMap};
@@ -69,6 +69,13 @@ pub struct Note {
     pub span: Option<Span>,
     /// The fact.
     pub message: String,
+}
+
+impl Code {
+    /// A finding of this kind at `span`.
+    pub(crate) fn at(&'static self, span: Span, message: impl Into<String>) -> Diagnostic {
+        Diagnostic::new(self, span, message)
+    }
 }
 
 impl Diagnostic {
@@ -172,34 +179,39 @@ impl Diagnostics {
     pub fn allow(&mut self, spans: impl IntoIterator<Item = (Span, &'static Code)>) {
         self.allowed.extend(spans.into_iter().filter(|(_, code)| code.class != Class::Error));
         let (allowed, kept) = (&self.allowed, &mut self.kept);
-        self.list.retain(|own| {
-            let is_allowed = allowed.contains(own.span, own.code);
-            if let Some(kept) = kept.get_mut(&(own.span.file, own.code.id)).filter(|_| is_allowed) {
+        self.list.retain(|diagnostic| {
+            let is_allowed = allowed.contains(diagnostic.span, diagnostic.code);
+            if let Some(kept) = kept.get_mut(&(diagnostic.span.file, diagnostic.code.id)).filter(|_| is_allowed) {
                 *kept -= 1;
             }
             !is_allowed
         });
-        self.beyond.retain(|own| !allowed.contains(own.span, own.code));
+        self.beyond.retain(|diagnostic| !allowed.contains(diagnostic.span, diagnostic.code));
     }
 
     /// Forgets findings from `first` on that are there already: the same of the same place.
     pub(crate) fn forget_repeated(&mut self, first: usize) {
         let mut seen = std::collections::HashSet::new();
         let tail = self.list.split_off(first.min(self.list.len()));
-        let is_new = |own: &Diagnostic| seen.insert((own.code, own.span, hash(&own.message)));
+        let is_new =
+            |diagnostic: &Diagnostic| seen.insert((diagnostic.code, diagnostic.span, hash(&diagnostic.message)));
         self.list.extend(tail.into_iter().filter(is_new));
-        self.beyond.retain(|own| seen.insert((own.code, own.span, own.message)));
+        self.beyond.retain(|diagnostic| seen.insert((diagnostic.code, diagnostic.span, diagnostic.message)));
         self.kept.clear();
-        for own in &self.list {
-            *self.kept.entry((own.span.file, own.code.id)).or_default() += 1;
+        for diagnostic in &self.list {
+            *self.kept.entry((diagnostic.span.file, diagnostic.code.id)).or_default() += 1;
         }
     }
 
-    /// Returns the places of all errors so far.
-    pub(crate) fn error_places(&self) -> ErrorPlaces {
-        let is_error = |own: &&Beyond| self.levels.severity(own.code) == Some(Severity::Error);
-        let kept = self.list.iter().filter(|own| own.severity == Severity::Error).map(|own| own.span);
-        ErrorPlaces::new(kept.chain(self.beyond.iter().filter(is_error).map(|own| own.span)))
+    /// Returns where all errors so far are.
+    pub(crate) fn error_spans(&self) -> ErrorSpans {
+        let is_error = |diagnostic: &&Beyond| self.levels.severity(diagnostic.code) == Some(Severity::Error);
+        let kept = self
+            .list
+            .iter()
+            .filter(|diagnostic| diagnostic.severity == Severity::Error)
+            .map(|diagnostic| diagnostic.span);
+        ErrorSpans::new(kept.chain(self.beyond.iter().filter(is_error).map(|diagnostic| diagnostic.span)))
     }
 
     /// Whether findings of this kind are wanted: lets a stage skip the work of phrasing one that isn't.
@@ -227,8 +239,8 @@ impl Diagnostics {
     pub fn sort(&mut self) {
         if !std::mem::replace(&mut self.is_closed, true) {
             let mut counts: BTreeMap<(FileId, &'static str), (&'static Code, usize)> = BTreeMap::new();
-            for own in &self.beyond {
-                counts.entry((own.span.file, own.code.id)).or_insert((own.code, 0)).1 += 1;
+            for diagnostic in &self.beyond {
+                counts.entry((diagnostic.span.file, diagnostic.code.id)).or_insert((diagnostic.code, 0)).1 += 1;
             }
             for ((file, _), (code, count)) in counts {
                 let severity = self.levels.severity(code).unwrap_or(Severity::Warning);
@@ -245,16 +257,17 @@ impl Diagnostics {
 
     /// How many findings have this severity, those that are only counted included.
     pub fn count(&self, severity: Severity) -> usize {
-        let kept = self.list.iter().filter(|own| own.severity == severity && !is_closing(own)).count();
-        kept + self.beyond.iter().filter(|own| self.levels.severity(own.code) == Some(severity)).count()
+        let kept =
+            self.list.iter().filter(|diagnostic| diagnostic.severity == severity && !is_closing(diagnostic)).count();
+        kept + self.beyond.iter().filter(|diagnostic| self.levels.severity(diagnostic.code) == Some(severity)).count()
     }
 }
 
 /// Behind all places of a file.
 const END: u32 = u32::MAX;
 
-fn is_closing(own: &Diagnostic) -> bool {
-    own.span.start == END
+fn is_closing(diagnostic: &Diagnostic) -> bool {
+    diagnostic.span.start == END
 }
 
 /// Says how many more diagnostics of a code a file has.
@@ -290,7 +303,8 @@ mod tests {
         diagnostics.sort();
         diagnostics.sort();
         assert_eq!((diagnostics.list().len(), diagnostics.count(severity)), (total - 2, total));
-        let of_first: Vec<_> = diagnostics.list().iter().filter(|own| own.span.file == FileId(0)).collect();
+        let of_first: Vec<_> =
+            diagnostics.list().iter().filter(|diagnostic| diagnostic.span.file == FileId(0)).collect();
         let last = of_first.last().expect("a diagnostic");
         assert_eq!(last.message, "3 more diagnostics of EDS003 in this file");
     }

@@ -56,7 +56,7 @@ pub fn lcid(tag: &str) -> Option<u32> {
         return number.parse().ok();
     }
     let exact = LANGUAGES.iter().find(|(_, other)| other.eq_ignore_ascii_case(tag));
-    let of_language = |other: &str| other.split('-').next().is_some_and(|own| own.eq_ignore_ascii_case(tag));
+    let of_language = |other: &str| other.split('-').next().is_some_and(|language| language.eq_ignore_ascii_case(tag));
     // Chinese without a region is written with simplified characters, Portuguese is Portugal's.
     let region = match tag {
         "zh" => return Some(2052),

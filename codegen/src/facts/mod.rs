@@ -11,6 +11,7 @@
 //! | `pattern` | bits that have to be 0 or 1 |
 //! | `pdo` | names of PDOs on CANopen and EtherCAT |
 //! | `physical` | physical values next to the raw ones |
+//! | `referrers` | which elements refer to an item |
 //! | `register` | printed and wire addresses on Modbus |
 //! | `types` | types of values |
 //! | `words` | sentences about elements, for documentation of any kind |
@@ -24,6 +25,7 @@ pub mod markdown;
 pub mod pattern;
 pub mod pdo;
 pub mod physical;
+pub mod referrers;
 pub mod register;
 pub mod types;
 pub mod words;

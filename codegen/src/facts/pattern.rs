@@ -5,7 +5,7 @@ use crate::ir::Pattern;
 /// How many bits patterns have: those of their item, or without an item the fewest of 8, 16 and 32 that hold all of them.
 pub fn width(of_item: Option<u32>, patterns: &[Pattern]) -> u32 {
     of_item.unwrap_or_else(|| {
-        let used = patterns.iter().fold(0, |used, own| used | own.mask);
+        let used = patterns.iter().fold(0, |used, pattern| used | pattern.mask);
         match used {
             0..=0xFF => 8,
             0x100..=0xFFFF => 16,

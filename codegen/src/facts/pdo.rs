@@ -1,6 +1,8 @@
 //! Names of PDOs: by number on CANopen, by index on EtherCAT.
 
-use crate::ir::{Device, Direction, ObjectBuses, Pdo};
+use std::collections::HashMap;
+
+use crate::ir::{Device, Direction, Mappable, ObjectBuses, Pdo, PdoEntryKind};
 
 /// The buses whose objects a device has.
 pub fn buses(device: &Device) -> ObjectBuses {
@@ -24,4 +26,17 @@ pub fn title(pdo: &Pdo, buses: ObjectBuses) -> String {
         (true, false) => format!("{canopen} {}", pdo.number),
         (true, true) => format!("{canopen} {} / {by_index}", pdo.number),
     }
+}
+
+/// The objects that PDOs map, and into which PDOs. What is mapped can be mapped, even if the description forgets to say so.
+pub fn mapped_objects(pdos: &[Pdo]) -> HashMap<(u16, u8), Mappable> {
+    let mut mapped: HashMap<(u16, u8), Mappable> = HashMap::new();
+    for pdo in pdos {
+        for entry in pdo.entries.iter().filter(|entry| entry.kind == PdoEntryKind::Item) {
+            let mappable = mapped.entry((entry.index, entry.sub_index)).or_default();
+            mappable.rpdo |= pdo.direction == Direction::Receive;
+            mappable.tpdo |= pdo.direction == Direction::Transmit;
+        }
+    }
+    mapped
 }

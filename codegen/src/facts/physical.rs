@@ -44,10 +44,11 @@ impl<'q> Physical<'q> {
     /// `-20.0 … 200.0 °C (raw -200 … 2000)`; a missing limit is left out, as in `≥ -20.0 °C (raw ≥ -200)`.
     pub fn range(
         &self,
-        (low, high): (Option<&Value>, Option<&Value>),
+        limits: (Option<&Value>, Option<&Value>),
         raw: &dyn Fn(&Value) -> String,
         unit: &dyn Fn(&str) -> String,
     ) -> String {
+        let (low, high) = limits;
         let raw = span((low.map(raw), high.map(raw)));
         let numbers = (low.map(|low| self.number(low)), high.map(|high| self.number(high)));
         let numbers = match numbers {
@@ -89,7 +90,7 @@ impl<'q> Physical<'q> {
     fn with_unit(&self, number: &str, unit: &dyn Fn(&str) -> String) -> String {
         match self.unit {
             "" => number.to_owned(),
-            own => format!("{number} {}", unit(own)),
+            text => format!("{number} {}", unit(text)),
         }
     }
 }

@@ -115,10 +115,10 @@ mod tests {
     }
 
     #[track_caller]
-    fn is(own: &RegisterBinding, (ty, access): (Type, Access), tables: &[ModbusTable], expected: &str) {
-        let mut item = Item::new(Binding::Register(Box::new(own.clone())));
-        (item.ty, item.access) = (ty, access);
-        assert_eq!(text(own, &item, tables), expected);
+    fn is(binding: &RegisterBinding, kind: (Type, Access), tables: &[ModbusTable], expected: &str) {
+        let mut item = Item::new(Binding::Register(Box::new(binding.clone())));
+        (item.ty, item.access) = kind;
+        assert_eq!(text(binding, &item, tables), expected);
     }
 
     const NUMBER: (Type, Access) = (Type::Integer(32), Access::ReadWrite);
@@ -129,14 +129,14 @@ mod tests {
         is(&register(2), NUMBER, &[], "40102–40103 (holding; wire 101–102; FC 3/16; low word first)");
         is(&register(1), NUMBER, &[], "40102 (holding; wire 101; FC 3/6/16)");
         is(&register(1), READ_ONLY, &[], "40102 (holding; wire 101; FC 3)");
-        let own =
+        let binding =
             RegisterBinding { space: RegisterSpace::Coil, bytes_swapped: true, printed: "".into(), ..register(1) };
-        is(&own, (Type::Boolean, Access::WriteOnly), &[], "101 (coil; wire 101; FC 5/15; bytes swapped)");
-        let own =
+        is(&binding, (Type::Boolean, Access::WriteOnly), &[], "101 (coil; wire 101; FC 5/15; bytes swapped)");
+        let binding =
             RegisterBinding { words_per_address: 2, low_word_first: false, printed: "40102".into(), ..register(2) };
-        is(&own, READ_ONLY, &[], "40102 (holding; wire 101; FC 3; 32 bits an address; high word first)");
-        let own = RegisterBinding { bit_offset: Some(8), ..register(1) };
-        is(&own, READ_ONLY, &[], "40102 (holding; wire 101; FC 3; from bit 8)");
+        is(&binding, READ_ONLY, &[], "40102 (holding; wire 101; FC 3; 32 bits an address; high word first)");
+        let binding = RegisterBinding { bit_offset: Some(8), ..register(1) };
+        is(&binding, READ_ONLY, &[], "40102 (holding; wire 101; FC 3; from bit 8)");
     }
 
     #[test]

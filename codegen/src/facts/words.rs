@@ -110,7 +110,7 @@ pub fn bus_name(bus: Bus) -> &'static str {
 /// What a raw value means that is no number.
 fn sentinel<'i>(item: &'i Item, value: &Value) -> Option<&'i str> {
     let quantity = item.quantity.as_deref()?;
-    quantity.sentinels.iter().find(|(own, _)| own == value).map(|(_, meaning)| meaning.as_str())
+    quantity.sentinels.iter().find(|(sentinel, _)| sentinel == value).map(|(_, meaning)| meaning.as_str())
 }
 
 /// Whether the values of an item are indices or mappings of objects: mapping parameters and assignments of PDOs.
@@ -216,10 +216,10 @@ impl Words<'_> {
     }
 
     /// What a step of a procedure does.
-    pub fn step(&self, own: &Step) -> String {
+    pub fn step(&self, step: &Step) -> String {
         let value = |value| self.step_value(value);
         let name = |name: &str| self.escaped(name);
-        match own {
+        match step {
             Step::Write(item, to) => format!("Write {} to {}.", value(to), name(item)),
             Step::WriteBits(item, mask, to) => {
                 format!("Write {} to the bits 0x{mask:X} of {}.", self.bits(to), name(item))
@@ -474,31 +474,31 @@ impl Words<'_> {
     /// `steps of 0.5 K (raw 5)`.
     fn step_of(&self, step: &Value, physical: Option<Physical<'_>>) -> String {
         let raw = |value: &Value| self.value(value);
-        let step = physical.map_or_else(|| raw(step), |own| own.step(step, &raw, &|unit| self.escaped(unit)));
+        let step = physical.map_or_else(|| raw(step), |physical| physical.step(step, &raw, &|unit| self.escaped(unit)));
         format!("steps of {step}")
     }
 
     /// What differs on some models or buses, and that the row of the item is about the others.
     pub fn variants(&self, item: &Item, manual: &Manual) -> Vec<String> {
-        let is_by_model = item.variants.iter().any(|own| !own.models.is_empty());
+        let is_by_model = item.variants.iter().any(|variant| !variant.models.is_empty());
         let others = is_by_model.then(|| "Default and range of the row apply to the other models.".to_owned());
-        let of_item = item.documentation.as_deref().and_then(|own| own.cite.as_ref());
-        let variant = |own: &ItemVariant| {
-            let documentation = own.documentation.as_deref().filter(|own| own.cite.as_ref() != of_item);
+        let of_item = item.documentation.as_deref().and_then(|documentation| documentation.cite.as_ref());
+        let sentences = |variant: &ItemVariant| {
+            let documentation = variant.documentation.as_deref().filter(|text| text.cite.as_ref() != of_item);
             let place = self.place(manual, "", documentation, &[]);
-            std::iter::once(self.variant(own, item)).chain(place).collect::<Vec<_>>().join(" ")
+            std::iter::once(self.variant(variant, item)).chain(place).collect::<Vec<_>>().join(" ")
         };
-        others.into_iter().chain(item.variants.iter().map(variant)).collect()
+        others.into_iter().chain(item.variants.iter().map(sentences)).collect()
     }
 
     /// What of an item differs on some models or buses.
     fn variant(&self, variant: &ItemVariant, item: &Item) -> String {
         let own_unit = item.quantity.as_ref().map_or("", |quantity| quantity.unit.as_str());
-        let own = variant.scale.as_ref().map(|scale| Physical::scaled(scale, own_unit));
-        let physical = || own.unwrap_or_else(|| Physical::of(item.quantity.as_deref()));
+        let scaled = variant.scale.as_ref().map(|scale| Physical::scaled(scale, own_unit));
+        let physical = || scaled.unwrap_or_else(|| Physical::of(item.quantity.as_deref()));
         let raw = |value: &Value| self.value(value);
         let shown = |value: &Value| match physical() {
-            Some(own) => own.value(value, &raw, &|unit| self.escaped(unit)),
+            Some(physical) => physical.value(value, &raw, &|unit| self.escaped(unit)),
             None => raw(value),
         };
         let who = match (variant.models.is_empty(), variant.buses.is_empty()) {

@@ -1,9 +1,9 @@
 //! A device: identity, file header, bus settings, and what it consists of.
 
 use super::{
-    CodeTable, CompactString, Composite, Documentation, Doubts, EtherCatSettings, Extensions, Framing, Group, Message,
-    Module, ModuleUse, Procedure, ProcessData, ProfinetSettings, RegisterSpace, Slot, StateMachine, SubmoduleUse,
-    Texts, TypeDef, Value,
+    CodeTable, CompactString, Composite, Documentation, Doubts, EtherCatSettings, Extensions, Framing, Group, Item,
+    Message, Module, ModuleUse, Procedure, ProcessData, ProfinetSettings, RegisterSpace, Slot, StateMachine,
+    SubmoduleUse, Texts, TypeDef, Value,
 };
 use crate::source::{Origin, Span};
 
@@ -90,6 +90,11 @@ pub struct Device {
 }
 
 impl Device {
+    /// All items, group by group.
+    pub fn items(&self) -> impl Iterator<Item = &Item> + Clone {
+        self.groups.iter().flat_map(|group| &group.items)
+    }
+
     /// The object with this index. The objects have to be sorted, and to stand behind groups that are none.
     pub fn object(&self, index: u16) -> Option<&Group> {
         let position = self.groups.binary_search_by_key(&Some(index), Group::index).ok()?;

@@ -52,14 +52,21 @@ impl Format {
         }
     }
 
-    /// Whether the format can describe the sub-indices of an object at once (CompactSubObj of CiA 306).
-    pub fn has_compact_objects(self) -> bool {
-        matches!(self, Format::Eds | Format::Dcf)
+    /// What an object without sub-indices lacks, and how to describe them (CompactSubObj of CiA 306).
+    pub(crate) fn missing_subs(self) -> (&'static str, &'static str) {
+        match self {
+            Format::Eds | Format::Dcf => (
+                "neither sub-indices nor CompactSubObj",
+                "give it SubNumber and the sections of its sub-indices, or CompactSubObj",
+            ),
+            _ => ("no sub-indices", "describe them, sub-index 0 included; an object that is one value is a VAR"),
+        }
     }
 
-    /// Whether the format gives defaults as bytes too (DefaultData of ETG.2000).
-    pub fn has_default_data(self) -> bool {
-        self == Format::Esi
+    /// How to write a default, if its form depends on the element that gives it (DefaultData of ETG.2000).
+    pub(crate) fn default_forms(self, default: u8) -> Option<String> {
+        let forms = || format!("write `{default:02X}` in DefaultData, or `{default}` in DefaultValue");
+        (self == Format::Esi).then(forms)
     }
 
     /// Whether one element of the format can describe several items: a row of a table, a type or parameter of XML.

@@ -148,9 +148,19 @@ impl Item {
             .find(|limits| !limits.is_empty() || !limits.allowed.is_empty())
     }
 
+    /// The value that a DCF sets.
+    pub fn configured_value(&self) -> Option<&Value> {
+        self.configured.as_ref()?.value.as_ref()
+    }
+
     /// The value a device starts with: the configured one of a DCF, else the default.
     pub fn initial(&self) -> Option<&Value> {
-        self.configured.as_ref().and_then(|configured| configured.value.as_ref()).or(self.default.as_ref())
+        self.configured_value().or(self.default.as_ref())
+    }
+
+    /// The default, if it is an integer.
+    pub fn default_integer(&self) -> Option<i128> {
+        self.default.as_ref().and_then(Value::as_int)
     }
 }
 
@@ -173,6 +183,12 @@ pub struct RelatedItems {
 }
 
 impl RelatedItems {
+    /// Returns all references.
+    pub fn all(&self) -> impl Iterator<Item = &ItemRef> {
+        let RelatedItems { same_as, same_quantity, upper_half, valid_count } = self;
+        [same_as, same_quantity, upper_half, valid_count].into_iter().flatten()
+    }
+
     /// Returns all references, to be changed.
     pub(crate) fn all_mut(&mut self) -> impl Iterator<Item = &mut ItemRef> {
         let RelatedItems { same_as, same_quantity, upper_half, valid_count } = self;

@@ -161,3 +161,14 @@ pub enum Step {
     /// Something a person has to do.
     Manual(String),
 }
+
+impl Step {
+    /// The item that it writes, reads or waits for.
+    pub fn item(&self) -> Option<&ItemRef> {
+        match self {
+            Step::Write(item, _) | Step::WriteBits(item, ..) | Step::WriteArgument(item, _) => Some(item),
+            Step::Read(item) | Step::WaitFor(item, ..) => Some(item),
+            Step::Delay(_) | Step::Send(_) | Step::Exchange(_) | Step::Manual(_) => None,
+        }
+    }
+}

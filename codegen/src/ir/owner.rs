@@ -79,6 +79,15 @@ impl<'a> Owner<'a> {
         ty
     }
 
+    /// The integer below an enumeration or a bit field; any other type as it is.
+    pub(crate) fn integer(self, ty: Type) -> Type {
+        let Type::Named(TypeId(id)) = ty else { return ty };
+        match self.types.get(id as usize).map(|definition| &definition.shape) {
+            Some(Shape::Enumeration { base, .. } | Shape::BitField { base, .. }) => *base,
+            _ => ty,
+        }
+    }
+
     /// The values of an enumeration, and whether there are no others.
     pub fn enumeration(self, ty: Type) -> Option<(&'a [EnumValue], bool)> {
         match &self.definition(ty)?.shape {
@@ -88,25 +97,25 @@ impl<'a> Owner<'a> {
     }
 }
 
-/// Where types are used. The list is made when it is first asked for: most types are as they should be.
-pub(crate) struct Places<'a> {
-    first: OnceCell<HashMap<TypeId, Span>>,
+/// The first use of each type. The list is made when it is first asked for: most types are as they should be.
+pub(crate) struct TypeUses<'a> {
+    uses: OnceCell<HashMap<TypeId, Span>>,
     owner: Owner<'a>,
 }
 
-impl<'a> Places<'a> {
+impl<'a> TypeUses<'a> {
     pub fn new(owner: Owner<'a>) -> Self {
-        Places { first: OnceCell::new(), owner }
+        TypeUses { uses: OnceCell::new(), owner }
     }
 
     /// Where a type is used first, else where it is defined.
-    pub fn of(&self, id: TypeId) -> Span {
+    pub fn first(&self, id: TypeId) -> Span {
         let defined = || self.owner.types.get(id.0 as usize).map(|definition| definition.origin.span);
-        self.first().get(&id).copied().or_else(defined).unwrap_or_default()
+        self.uses().get(&id).copied().or_else(defined).unwrap_or_default()
     }
 
-    fn first(&self) -> &HashMap<TypeId, Span> {
-        self.first.get_or_init(|| {
+    fn uses(&self) -> &HashMap<TypeId, Span> {
+        self.uses.get_or_init(|| {
             let mut first = HashMap::new();
             for item in self.owner.items() {
                 if let Type::Named(id) = item.ty {
@@ -231,7 +240,7 @@ mod tests {
         }
         let all = [groups.as_slice()];
         let owner = Owner { types: &[], groups: &all };
-        assert_eq!(Places::new(owner).of(TypeId(0)).start, 5);
-        assert_eq!(Places::new(owner).of(TypeId(1)), Span::default());
+        assert_eq!(TypeUses::new(owner).first(TypeId(0)).start, 5);
+        assert_eq!(TypeUses::new(owner).first(TypeId(1)), Span::default());
     }
 }

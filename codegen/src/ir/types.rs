@@ -302,6 +302,41 @@ pub struct BitFieldEntry {
 }
 
 impl BitFieldEntry {
+    /// Bits of which nothing else is known.
+    pub fn new(name: CompactString, offset: u8, bits: u8, meaning: BitMeaning) -> Self {
+        BitFieldEntry {
+            name,
+            names: Texts::default(),
+            offset,
+            bits,
+            meaning,
+            when: None,
+            trigger: None,
+            access: None,
+            availability: None,
+            documentation: None,
+            at: Default::default(),
+        }
+    }
+
+    /// Whether the bits are reserved.
+    pub fn is_reserved(&self) -> bool {
+        matches!(self.meaning, BitMeaning::Reserved { .. })
+    }
+
+    /// The first bit behind the field.
+    pub fn end(&self) -> u32 {
+        u32::from(self.offset) + u32::from(self.bits)
+    }
+
+    /// `bit 3`, `bits 7-4`: the bits in messages.
+    pub(crate) fn place(&self) -> String {
+        match self.bits {
+            1 => format!("bit {}", self.offset),
+            _ => format!("bits {}-{}", self.end().saturating_sub(1), self.offset),
+        }
+    }
+
     /// Returns the bits of the field.
     pub(crate) fn mask(&self) -> u64 {
         let bits = u64::MAX.checked_shr(64u32.saturating_sub(self.bits.into())).unwrap_or(0);
@@ -384,6 +419,24 @@ impl EnumValue {
             availability: None,
             documentation: None,
             at: Default::default(),
+        }
+    }
+
+    /// The first and the last value.
+    pub fn range(&self) -> (i128, i128) {
+        (self.value, self.last.unwrap_or(self.value))
+    }
+
+    /// Whether it is a name, and no zone.
+    pub fn is_named(&self) -> bool {
+        self.zone.is_none()
+    }
+
+    /// `3`, `4 to 7`: the value, or the range of values, in messages.
+    pub(crate) fn numbers(&self) -> String {
+        match self.last {
+            Some(last) => format!("{} to {last}", self.value),
+            None => self.value.to_string(),
         }
     }
 }

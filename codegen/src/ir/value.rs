@@ -106,6 +106,12 @@ impl Limits {
         self.low.is_none() && self.high.is_none()
     }
 
+    /// Returns the lower and the upper limit that are integers.
+    pub fn integers(&self) -> (Option<i128>, Option<i128>) {
+        let integer = |limit: &Option<Value>| limit.as_ref().and_then(Value::as_int);
+        (integer(&self.low), integer(&self.high))
+    }
+
     /// Returns whether the lower limit is above the upper one. Limits of an integer are rounded to the integers between them.
     pub fn are_swapped(&self, ty: Type) -> bool {
         let (Some(low), Some(high)) = (&self.low, &self.high) else { return false };

@@ -9,18 +9,21 @@ use crate::ir::{Condition, Device, ItemId, Value};
 /// Corrects the signs of the conditions of a device, whose references are resolved.
 pub(super) fn run(device: &mut Device) {
     // Some bits of an item have no sign.
-    let can_be_negative =
-        |own: &Condition| own.mask.is_none() && own.values.iter().any(|value| value.as_int() > Some(0));
+    let can_be_negative = |condition: &Condition| {
+        condition.mask.is_none() && condition.values.iter().any(|value| value.as_int() > Some(0))
+    };
     let mut signed: HashMap<ItemId, Option<u32>> = HashMap::new();
-    for_each(device, &mut |own| signed.extend(own.item.id.filter(|_| can_be_negative(own)).map(|id| (id, None))));
+    for_each(device, &mut |condition| {
+        signed.extend(condition.item.id.filter(|_| can_be_negative(condition)).map(|id| (id, None)))
+    });
     for (id, bits) in &mut signed {
         let ty = device.item(*id).map(|item| Owner::of_types(&device.types).basic(item.ty));
         *bits = ty.filter(|ty| ty.is_signed()).and_then(|ty| ty.bits()).filter(|bits| (1..=64).contains(bits));
     }
-    for_each(device, &mut |own| {
-        let bits = own.item.id.and_then(|id| signed.get(&id).copied().flatten());
-        if let Some(bits) = bits.filter(|_| own.mask.is_none()) {
-            own.values.iter_mut().for_each(|value| as_signed(value, bits));
+    for_each(device, &mut |condition| {
+        let bits = condition.item.id.and_then(|id| signed.get(&id).copied().flatten());
+        if let Some(bits) = bits.filter(|_| condition.mask.is_none()) {
+            condition.values.iter_mut().for_each(|value| as_signed(value, bits));
         }
     });
 }
@@ -34,6 +37,6 @@ fn as_signed(value: &mut Value, bits: u32) {
 fn for_each(device: &mut Device, visit: &mut dyn FnMut(&mut Condition)) {
     let items = device.groups.iter_mut().flat_map(|group| &mut group.items);
     let behaviours = items.filter_map(|item| item.behaviour.as_deref_mut());
-    behaviours.flat_map(|own| &mut own.write_when).for_each(&mut *visit);
+    behaviours.flat_map(|behaviour| &mut behaviour.write_when).for_each(&mut *visit);
     for_each_condition(&mut device.types, visit);
 }

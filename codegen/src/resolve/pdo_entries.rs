@@ -1,7 +1,7 @@
 //! Entries of the PDOs of an EtherCAT slave or module: bit positions, and the types of the items that they map (ETG.2000, RxPdo
 //! and TxPdo).
 
-use crate::diagnostics::{codes, Diagnostic, Diagnostics};
+use crate::diagnostics::{codes, Diagnostics};
 use crate::ir::owner::Owner;
 use crate::ir::{CompactString, Device, Entries, Item, Module, Pdo, PdoEntry, PdoEntryKind, Type, TypeDef};
 
@@ -43,10 +43,8 @@ fn resolve(entry: &mut PdoEntry, dictionary: &Dictionary<'_>, diagnostics: &mut 
         // The objects of a slot belong to its module, and without a dictionary there is nothing to hold against.
         if !entry.depends_on_slot && !dictionary.items.is_empty() && diagnostics.wants(&codes::MAPPED_OBJECT_MISSING) {
             let message = format!("{} is mapped, but the dictionary doesn't have it", address(entry));
-            diagnostics.push(
-                Diagnostic::new(&codes::MAPPED_OBJECT_MISSING, entry.origin.span, message)
-                    .label("taken as the entry describes it"),
-            );
+            let found = codes::MAPPED_OBJECT_MISSING.at(entry.origin.span, message);
+            diagnostics.push(found.label("taken as the entry describes it"));
         }
         return;
     };

@@ -174,7 +174,7 @@ fn pdo(device: &Device, items: &MappableItems<'_>, objects: &PdoObjects<'_>) -> 
         ..Pdo::new(objects.direction, objects.mapping_index())
     };
     // Where the source says what it carries on EtherCAT, the objects' own mapping is that of CANopen.
-    let declared = |own: &Pdo| own.mapping_index == pdo.mapping_index && own.buses == Some(ObjectBuses::COE);
+    let declared = |other: &Pdo| other.mapping_index == pdo.mapping_index && other.buses == Some(ObjectBuses::COE);
     if device.process_data.pdos.iter().any(declared) {
         pdo.buses = Some(ObjectBuses::CANOPEN);
     }

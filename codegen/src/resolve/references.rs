@@ -29,10 +29,12 @@ pub(super) fn module(module: &mut Module) {
     let mut names = HashMap::new();
     let Module { fixed_objects, groups, types, process_data, .. } = module;
     mapped_items(&mut process_data.pdos, groups, fixed_objects.len() as u32);
-    of_items_and_types(fixed_objects.iter_mut().chain(&mut *groups), types, &mut |own| collect(&mut names, own));
+    of_items_and_types(fixed_objects.iter_mut().chain(&mut *groups), types, &mut |reference| {
+        collect(&mut names, reference)
+    });
     if !names.is_empty() {
         find(&mut names, &[fixed_objects, groups], types);
-        let mut resolve = |own: &mut ItemRef| own.id = names.get(&own.name).copied().flatten();
+        let mut resolve = |reference: &mut ItemRef| reference.id = names.get(&reference.name).copied().flatten();
         of_items_and_types(fixed_objects.iter_mut().chain(groups), types, &mut resolve);
     }
 }
@@ -62,11 +64,12 @@ fn messages(device: &mut Device) {
     if device.messages.is_empty() {
         return;
     }
-    let positions = Positions::new(device.messages.iter().map(|own| &own.name));
-    let of_messages = device.messages.iter_mut().flat_map(|own| [&mut own.after, &mut own.error]);
-    let of_spaces = device.parameter_spaces.iter_mut().flat_map(|own| [&mut own.read, &mut own.write, &mut own.store]);
-    of_messages.chain(of_spaces).flatten().for_each(|own| positions.resolve(own, MessageId));
-    for step in device.procedures.iter_mut().flat_map(|own| &mut own.steps) {
+    let positions = Positions::new(device.messages.iter().map(|message| &message.name));
+    let of_messages = device.messages.iter_mut().flat_map(|message| [&mut message.after, &mut message.error]);
+    let of_spaces =
+        device.parameter_spaces.iter_mut().flat_map(|space| [&mut space.read, &mut space.write, &mut space.store]);
+    of_messages.chain(of_spaces).flatten().for_each(|reference| positions.resolve(reference, MessageId));
+    for step in device.procedures.iter_mut().flat_map(|procedure| &mut procedure.steps) {
         if let Step::Send(message) = step {
             positions.resolve(message, MessageId);
         }
@@ -77,20 +80,20 @@ fn procedures(device: &mut Device) {
     if device.procedures.is_empty() {
         return;
     }
-    let positions = Positions::new(device.procedures.iter().map(|own| &own.name));
+    let positions = Positions::new(device.procedures.iter().map(|procedure| &procedure.name));
     let items = device.groups.iter_mut().flat_map(|group| &mut group.items);
     for side in items.flat_map(|item| &mut item.bindings).flat_map(window_sides) {
-        side.procedure.iter_mut().for_each(|own| positions.resolve(own, ProcedureId));
+        side.procedure.iter_mut().for_each(|reference| positions.resolve(reference, ProcedureId));
     }
 }
 
 fn state_types(device: &mut Device) {
-    let mut types = device.machines.iter_mut().filter_map(|own| own.state_type.as_mut()).peekable();
+    let mut types = device.machines.iter_mut().filter_map(|machine| machine.state_type.as_mut()).peekable();
     if types.peek().is_some() {
-        let is_enumeration = |own: &TypeDef| matches!(own.shape, Shape::Enumeration { .. });
-        let enumerations = (0..).zip(&device.types).filter(|(_, own)| is_enumeration(own));
-        let positions = Positions::of(enumerations.map(|(position, own)| (position, &own.name)));
-        types.for_each(|own| positions.resolve(own, TypeId));
+        let is_enumeration = |definition: &TypeDef| matches!(definition.shape, Shape::Enumeration { .. });
+        let enumerations = (0..).zip(&device.types).filter(|(_, definition)| is_enumeration(definition));
+        let positions = Positions::of(enumerations.map(|(position, definition)| (position, &definition.name)));
+        types.for_each(|reference| positions.resolve(reference, TypeId));
     }
 }
 
@@ -106,7 +109,7 @@ fn window_sides(binding: &mut Binding) -> impl Iterator<Item = &mut WindowSide> 
 /// Finds the items that PDOs map, in groups that come after `first` others.
 fn mapped_items(pdos: &mut [Pdo], groups: &[Group], first: u32) {
     let items = Entries::new(groups);
-    for entry in pdos.iter_mut().flat_map(|pdo| &mut pdo.entries).filter(|own| own.kind == PdoEntryKind::Item) {
+    for entry in pdos.iter_mut().flat_map(|pdo| &mut pdo.entries).filter(|entry| entry.kind == PdoEntryKind::Item) {
         let id = items.find(entry.index, entry.sub_index);
         entry.item = id.map(|id| ItemId { group: id.group + first, ..id });
     }
@@ -132,7 +135,7 @@ fn find(names: &mut Found, groups: &[&[Group]], types: &[TypeDef]) {
 fn for_each(device: &mut Device, visit: &mut dyn FnMut(&mut ItemRef)) {
     of_items_and_types(device.groups.iter_mut(), &mut device.types, visit);
     for message in &mut device.messages {
-        message.accepted_when.iter_mut().for_each(|own| visit(&mut own.item));
+        message.accepted_when.iter_mut().for_each(|condition| visit(&mut condition.item));
         of_fields(&mut message.request, visit);
         of_fields(&mut message.reply, visit);
     }
@@ -140,7 +143,7 @@ fn for_each(device: &mut Device, visit: &mut dyn FnMut(&mut ItemRef)) {
         visit(&mut machine.status_item);
         visit(&mut machine.control_item);
     }
-    device.procedures.iter_mut().flat_map(|own| &mut own.steps).filter_map(target).for_each(&mut *visit);
+    device.procedures.iter_mut().flat_map(|procedure| &mut procedure.steps).filter_map(target).for_each(&mut *visit);
     for composite in &mut device.composites {
         composite.parts.iter_mut().for_each(&mut *visit);
         composite.sign.iter_mut().for_each(|(item, _)| visit(item));
@@ -160,7 +163,7 @@ fn of_items_and_types<'g>(
 
 fn of_item(item: &mut Item, visit: &mut dyn FnMut(&mut ItemRef)) {
     if let Some(behaviour) = &mut item.behaviour {
-        behaviour.write_when.iter_mut().for_each(|own| visit(&mut own.item));
+        behaviour.write_when.iter_mut().for_each(|condition| visit(&mut condition.item));
     }
     if let Some(availability) = &mut item.availability {
         availability.replaced_by.iter_mut().for_each(&mut *visit);
@@ -209,10 +212,10 @@ pub(super) fn for_each_condition(types: &mut [TypeDef], visit: &mut dyn FnMut(&m
     for definition in types {
         match &mut definition.shape {
             Shape::Enumeration { values, .. } => {
-                values.iter_mut().filter_map(|own| own.when.as_mut()).for_each(&mut *visit)
+                values.iter_mut().filter_map(|value| value.when.as_mut()).for_each(&mut *visit)
             }
             Shape::BitField { fields, .. } => {
-                fields.iter_mut().filter_map(|own| own.when.as_mut()).for_each(&mut *visit)
+                fields.iter_mut().filter_map(|field| field.when.as_mut()).for_each(&mut *visit)
             }
             _ => {}
         }
@@ -274,12 +277,13 @@ mod tests {
         let ids: Vec<_> = device.procedures[0].steps.iter_mut().filter_map(|step| target(step)?.id).collect();
         assert_eq!(ids.into_iter().map(Some).collect::<Vec<_>>(), [id(0, 0), id(0, 1), id(1, 0)]);
         let related = device.groups[0].items[0].related.as_deref().expect("relations");
-        assert_eq!(related.same_as.as_ref().and_then(|own| own.id), id(0, 1));
-        assert_eq!(related.same_quantity.as_ref().and_then(|own| own.id), None);
+        assert_eq!(related.same_as.as_ref().and_then(|reference| reference.id), id(0, 1));
+        assert_eq!(related.same_quantity.as_ref().and_then(|reference| reference.id), None);
         // Ids follow when a group is removed.
         device.groups.remove(0);
         super::device(&mut device);
-        let ids: Vec<_> = device.procedures[0].steps.iter_mut().filter_map(target).map(|own| own.id).collect();
+        let ids: Vec<_> =
+            device.procedures[0].steps.iter_mut().filter_map(target).map(|reference| reference.id).collect();
         assert_eq!(ids, [None, None, id(0, 0)]);
     }
 }

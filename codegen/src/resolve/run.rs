@@ -6,15 +6,15 @@ use crate::ir::{Catalog, Device, Module};
 
 /// Computes what follows from the descriptions in `catalog`, and reports references that lead nowhere.
 pub fn resolve(catalog: &mut Catalog, diagnostics: &mut Diagnostics) {
-    for own in &mut catalog.devices {
-        device(own, &catalog.modules, diagnostics);
+    for device in &mut catalog.devices {
+        resolve_device(device, &catalog.modules, diagnostics);
     }
-    for own in &mut catalog.modules {
-        module(own, diagnostics);
+    for module in &mut catalog.modules {
+        resolve_module(module, diagnostics);
     }
 }
 
-fn device(device: &mut Device, modules: &[Module], diagnostics: &mut Diagnostics) {
+fn resolve_device(device: &mut Device, modules: &[Module], diagnostics: &mut Diagnostics) {
     identity::run(device);
     implicit_pdos::run(device);
     pdo_mapping::run(device, modules);
@@ -27,7 +27,7 @@ fn device(device: &mut Device, modules: &[Module], diagnostics: &mut Diagnostics
     }
 }
 
-fn module(module: &mut Module, diagnostics: &mut Diagnostics) {
+fn resolve_module(module: &mut Module, diagnostics: &mut Diagnostics) {
     pdo_entries::module(module, diagnostics);
     mapped_objects::module(module);
     references::module(module);
@@ -35,8 +35,8 @@ fn module(module: &mut Module, diagnostics: &mut Diagnostics) {
 
 /// Resolves all references again, after elements were added or removed.
 pub(crate) fn resolve_references(catalog: &mut Catalog) {
-    for own in &mut catalog.devices {
-        references::device(own);
+    for device in &mut catalog.devices {
+        references::device(device);
     }
     catalog.modules.iter_mut().for_each(references::module);
 }

@@ -11,7 +11,8 @@ use super::objects::ObjectModel;
 use super::pdo;
 use super::reachable::addressable;
 use super::scope::ObjectBus;
-use crate::ir::{Device, Direction, Item, Mappable, Pdo, PdoEntryKind, Type, MAX_PDO_SUBS};
+use crate::facts::pdo::mapped_objects;
+use crate::ir::{Device, Direction, Item, Mappable, Pdo, Type, MAX_PDO_SUBS};
 
 /// The most bits that the length of an entry can say.
 const MAX_ENTRY: u32 = 0xFF;
@@ -147,7 +148,7 @@ fn word(index: u16, sub_index: u8, bits: u32) -> String {
 fn set_mappable(context: &Context<'_>, objects: &mut [ObjectModel]) -> bool {
     let items = context.groups.iter().flat_map(|group| &group.items);
     let items: HashMap<(u16, u8), &Item> = items.filter_map(|item| Some((item.object()?, item))).collect();
-    let by_default = mapped_by_default(context);
+    let by_default = mapped_objects(context.pdos);
     let mut any = false;
     for object in objects {
         let outer = if object.is_module { "super::super::" } else { "super::" };
@@ -165,19 +166,6 @@ fn set_mappable(context: &Context<'_>, objects: &mut [ObjectModel]) -> bool {
         }
     }
     any
-}
-
-/// What is mapped by default can be mapped in that direction, even where the description forgets to say so.
-fn mapped_by_default(context: &Context<'_>) -> HashMap<(u16, u8), Mappable> {
-    let mut mapped: HashMap<(u16, u8), Mappable> = HashMap::new();
-    for pdo in context.pdos {
-        for entry in pdo.entries.iter().filter(|entry| entry.kind == PdoEntryKind::Item) {
-            let own = mapped.entry((entry.index, entry.sub_index)).or_default();
-            own.rpdo |= pdo.direction == Direction::Receive;
-            own.tpdo |= pdo.direction == Direction::Transmit;
-        }
-    }
-    mapped
 }
 
 /// The arguments of `rt::Mappable`: the type of the field, the direction, the entry of the mapping.

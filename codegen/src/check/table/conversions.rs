@@ -2,7 +2,7 @@
 
 use super::physical;
 use crate::check::context::Context;
-use crate::diagnostics::{codes, Diagnostic, Diagnostics};
+use crate::diagnostics::{codes, Diagnostics};
 use crate::ir::{Conversion, Device, Item, MachineUnit, Quantity, Scale};
 use crate::text::brief;
 
@@ -14,9 +14,9 @@ pub(crate) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
     let fields = device.messages.iter().flat_map(|message| message.values().map(|value| &value.item));
     for item in owner.items().chain(fields) {
         let Some(quantity) = &item.quantity else { continue };
-        for own in &quantity.conversions {
-            if let Some(text) = problem(device, item, quantity, own) {
-                let found = Diagnostic::new(&codes::CONVERSION_DIFFERS, own.at, text);
+        for conversion in &quantity.conversions {
+            if let Some(text) = problem(device, item, quantity, conversion) {
+                let found = codes::CONVERSION_DIFFERS.at(conversion.at, text);
                 diagnostics.push(found.help("keep the numbers that fit each other, with a `doubt`"));
             }
         }
@@ -24,12 +24,13 @@ pub(crate) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
 }
 
 /// What is wrong with a conversion; a number beyond a count from what the raw one stands for, or one that can't be computed.
-fn problem(device: &Device, item: &Item, quantity: &Quantity, own: &Conversion) -> Option<String> {
-    let (raw, value) = (own.raw? as f64, own.value?);
+fn problem(device: &Device, item: &Item, quantity: &Quantity, conversion: &Conversion) -> Option<String> {
+    let (raw, value) = (conversion.raw? as f64, conversion.value?);
     let name = brief(&item.name);
-    let unit = own.unit.as_ref().unwrap_or(&quantity.unit);
-    let convert =
-        |raw: f64| physical(device, quantity, own, raw).and_then(|number| in_unit(device, quantity, own, number));
+    let unit = conversion.unit.as_ref().unwrap_or(&quantity.unit);
+    let convert = |raw: f64| {
+        physical(device, quantity, conversion, raw).and_then(|number| in_unit(device, quantity, conversion, number))
+    };
     let (below, exact, above) = match (convert(raw - 1.0), convert(raw), convert(raw + 1.0)) {
         (Ok(below), Ok(exact), Ok(above)) => (below, exact, above),
         (Err(why), ..) | (_, Err(why), _) | (.., Err(why)) => return Some(format!("`{name}`: {why}")),
@@ -42,28 +43,28 @@ fn problem(device: &Device, item: &Item, quantity: &Quantity, own: &Conversion) 
 }
 
 /// The physical number that a raw one stands for.
-fn physical(device: &Device, quantity: &Quantity, own: &Conversion, raw: f64) -> Result<f64, String> {
-    let model = device.variants.iter().find(|variant| Some(&variant.name) == own.model.as_ref());
+fn physical(device: &Device, quantity: &Quantity, conversion: &Conversion, raw: f64) -> Result<f64, String> {
+    let model = device.variants.iter().find(|variant| Some(&variant.name) == conversion.model.as_ref());
     physical::of_raw(quantity.scale.as_ref(), raw, |name| {
         let constant = matches!(quantity.scale, Some(Scale::Fraction { .. })).then(|| physical::constant(model, name));
-        constant.flatten().or(own.by).ok_or_else(|| format!("say `by`, the value of `{}`", brief(name)))
+        constant.flatten().or(conversion.by).ok_or_else(|| format!("say `by`, the value of `{}`", brief(name)))
     })
 }
 
 /// The number in the unit that the example has.
-fn in_unit(device: &Device, quantity: &Quantity, own: &Conversion, number: f64) -> Result<f64, String> {
-    let Some(unit) = own.unit.as_ref().filter(|unit| **unit != quantity.unit) else { return Ok(number) };
+fn in_unit(device: &Device, quantity: &Quantity, conversion: &Conversion, number: f64) -> Result<f64, String> {
+    let Some(unit) = conversion.unit.as_ref().filter(|unit| **unit != quantity.unit) else { return Ok(number) };
     match quantity.machine.as_deref().filter(|machine| machine.unit == *unit) {
-        Some(machine) => Ok(number * ratio(device, machine, own)?),
+        Some(machine) => Ok(number * ratio(device, machine, conversion)?),
         None => Err(format!("`{}` is neither the item's unit nor the machine's", brief(unit))),
     }
 }
 
 /// What a number of the machine is multiplied with.
-fn ratio(device: &Device, unit: &MachineUnit, own: &Conversion) -> Result<f64, String> {
+fn ratio(device: &Device, unit: &MachineUnit, conversion: &Conversion) -> Result<f64, String> {
     physical::ratio(unit, |name| {
-        let given = own.given.iter().find(|(own, _)| own == name).map(|(_, number)| *number);
-        let number = given.or_else(|| physical::given(device, own.model.as_deref(), name));
+        let given = conversion.given.iter().find(|(given, _)| given == name).map(|(_, number)| *number);
+        let number = given.or_else(|| physical::given(device, conversion.model.as_deref(), name));
         number.ok_or_else(|| format!("say what `{}` is, in `given`", brief(name)))
     })
 }

@@ -2,8 +2,8 @@
 
 use crate::check::context::Context;
 use crate::check::mapped_object::{direction_of, Described, Mapped, CAN_BITS};
-use crate::diagnostics::{codes, Diagnostic, Diagnostics};
-use crate::ir::{Device, Group, Item, Pdo, PdoEntryKind, Value};
+use crate::diagnostics::{codes, Diagnostics};
+use crate::ir::{Device, Group, Item, Pdo, PdoEntryKind};
 
 /// Reports mapped objects that don't fit. Those of CANopen mapping objects and of EtherCAT have checks of their own.
 pub(crate) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
@@ -25,7 +25,7 @@ pub(crate) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
 
 fn length(device: &Device, pdo: &Pdo, diagnostics: &mut Diagnostics) {
     let (bits, index) = (pdo.bits(), pdo.mapping_index);
-    let mut report = |message| diagnostics.push(Diagnostic::new(&codes::PDO_TOO_LONG, pdo.origin.span, message));
+    let mut report = |message| diagnostics.push(codes::PDO_TOO_LONG.at(pdo.origin.span, message));
     if let Some(max) = pdo.max_bytes.filter(|&max| bits > u32::from(max) * 8) {
         report(format!("the PDO 0x{index:04X} has {bits} bits, and at most {max} bytes"));
     }
@@ -37,14 +37,12 @@ fn length(device: &Device, pdo: &Pdo, diagnostics: &mut Diagnostics) {
 /// What a mapping object maps by its defaults.
 fn defaults(described: &Described<'_>, group: &Group, diagnostics: &mut Diagnostics) {
     let Some(direction) = group.index().and_then(direction_of) else { return };
-    let number = |item: &Item| item.default.as_ref().and_then(Value::as_int);
-    let count = group.sub(0).and_then(number).unwrap_or(i128::MAX);
+    let count = group.sub(0).and_then(Item::default_integer).unwrap_or(i128::MAX);
     for item in &group.items {
         let Some((_, sub @ 1..)) = item.object() else { continue };
         let span = item.at.default.or(item.origin.span);
-        let mapped =
-            number(item).filter(|_| i128::from(sub) <= count).and_then(|word| Mapped::word(word, direction, span));
-        if let Some(mapped) = mapped {
+        let word = item.default_integer().filter(|_| i128::from(sub) <= count);
+        if let Some(mapped) = word.and_then(|word| Mapped::word(word, direction, span)) {
             mapped.check(described, false, diagnostics);
         }
     }

@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::check::context::Context;
-use crate::diagnostics::{codes, Diagnostic, Diagnostics};
+use crate::diagnostics::{codes, Diagnostics};
 use crate::ir::{texts, Device};
 use crate::limits;
 use crate::text::{brief, edit_distance};
@@ -30,7 +30,7 @@ pub(crate) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
             let Some(meant) = meant.filter(|_| said.insert((text.span, word))) else { continue };
             let of = if text.of.is_empty() { String::new() } else { format!(" in `{}`", brief(text.of)) };
             let message = format!("`{}` is mentioned{of}, and no item is called so", brief(word));
-            let found = Diagnostic::new(&codes::MENTIONED_OBJECT, text.span, message);
+            let found = codes::MENTIONED_OBJECT.at(text.span, message);
             diagnostics.push(found.help(format!("did you mean `{}`?", brief(meant))));
         }
     }
@@ -45,17 +45,17 @@ struct Names<'a> {
 
 impl<'a> Names<'a> {
     fn new(device: &'a Device) -> Self {
-        let items = device.groups.iter().flat_map(|group| &group.items).map(|item| item.name.as_str());
-        let own = || items.clone().chain(device.groups.iter().map(|group| group.name.as_str()));
+        let items = device.items().map(|item| item.name.as_str());
+        let of_items = || items.clone().chain(device.groups.iter().map(|group| group.name.as_str()));
         // Types, procedures and messages have names of the same kind.
-        let others = device.types.iter().map(|own| own.name.as_str());
-        let others = others.chain(device.procedures.iter().map(|own| own.name.as_str()));
-        let all = own().chain(others.chain(device.messages.iter().map(|own| own.name.as_str())));
+        let others = device.types.iter().map(|definition| definition.name.as_str());
+        let others = others.chain(device.procedures.iter().map(|procedure| procedure.name.as_str()));
+        let all = of_items().chain(others.chain(device.messages.iter().map(|message| message.name.as_str())));
         let single =
             |name: &&str| name.len() <= 2 * LETTERS.end() && name.chars().all(|c| c.is_alphanumeric() || c == '_');
         let prefix = prefix(items.clone().filter(single));
-        let is_like = |name: &&str| prefix.is_some_and(|own| has_prefix(name, own)) || is_composed(name);
-        let like_identifiers = own().filter(single).filter(is_like).take(limits::MAX_SEARCHED_NAMES).collect();
+        let is_like = |name: &&str| prefix.is_some_and(|prefix| has_prefix(name, prefix)) || is_composed(name);
+        let like_identifiers = of_items().filter(single).filter(is_like).take(limits::MAX_SEARCHED_NAMES).collect();
         Names { all: all.map(str::to_lowercase).collect(), like_identifiers }
     }
 
@@ -90,8 +90,8 @@ fn prefix<'n>(names: impl Iterator<Item = &'n str>) -> Option<char> {
             *by_letter.entry(first).or_insert(0) += 1;
         }
     }
-    let (best, own) = by_letter.into_iter().max_by_key(|(_, own): &(char, usize)| *own)?;
-    (best.is_uppercase() && own >= CONVENTION && own * 10 >= count * 9).then_some(best)
+    let (best, with_best) = by_letter.into_iter().max_by_key(|(_, count): &(char, usize)| *count)?;
+    (best.is_uppercase() && with_best >= CONVENTION && with_best * 10 >= count * 9).then_some(best)
 }
 
 fn has_prefix(name: &str, prefix: char) -> bool {

@@ -4,7 +4,7 @@ use std::ops::RangeInclusive;
 
 use crate::check::context::Context;
 use crate::check::mapped_object::indices;
-use crate::diagnostics::{codes, Diagnostic, Diagnostics};
+use crate::diagnostics::{codes, Diagnostics};
 use crate::ir::texts;
 
 /// Indices that are told from other numbers by themselves: those of the first axis of a drive profile.
@@ -19,7 +19,7 @@ pub(crate) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
     for text in texts::all(device) {
         for index in mentions(text.words).filter(|index| !known.contains(index)) {
             let message = format!("object 0x{index:04X} is mentioned, and the table doesn't have it");
-            diagnostics.push(Diagnostic::new(&codes::MENTIONED_OBJECT, text.span, message));
+            diagnostics.push(codes::MENTIONED_OBJECT.at(text.span, message));
         }
     }
 }

@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, HashSet};
 
 use crate::check::context::Context;
-use crate::diagnostics::{codes, Diagnostic, Diagnostics};
+use crate::diagnostics::{codes, Diagnostics};
 use crate::ir::{Device, Framing, Type};
 use crate::resolve::messages::{
     carrier_problems, is_told, numbered, problem, refusal, shapes, Problem, Shaped, LONGEST,
@@ -23,18 +23,19 @@ pub(in crate::check) fn check(context: &Context<'_>, diagnostics: &mut Diagnosti
     let device = context.device;
     let shapes = shapes(device);
     every_message(device, &shapes, diagnostics);
-    if let Some((own, problem)) = device.framing.as_ref().and_then(|own| Some((own, framing(own)?))) {
-        left_out(own.origin.span, format!("no code for how frames are delimited: {problem}"), diagnostics);
+    if let Some((framing, problem)) = device.framing.as_ref().and_then(|framing| Some((framing, no_framing(framing)?)))
+    {
+        left_out(framing.origin.span, format!("no code for how frames are delimited: {problem}"), diagnostics);
     }
     parameters(context, &shapes, diagnostics);
 }
 
 fn left_out(at: Span, text: String, diagnostics: &mut Diagnostics) {
-    diagnostics.push(Diagnostic::new(&codes::MESSAGE_UNSHAPED, at, text));
+    diagnostics.push(codes::MESSAGE_UNSHAPED.at(at, text));
 }
 
 fn every_message(device: &Device, shapes: &[Shaped<'_>], diagnostics: &mut Diagnostics) {
-    let known: HashSet<&str> = shapes.iter().map(|own| own.message.name.as_str()).collect();
+    let known: HashSet<&str> = shapes.iter().map(|shaped| shaped.message.name.as_str()).collect();
     for message in &device.messages {
         let name = brief(&message.name);
         let span = message.origin.span;
@@ -58,7 +59,7 @@ fn every_message(device: &Device, shapes: &[Shaped<'_>], diagnostics: &mut Diagn
 
 /// Why no code is generated for a framing. Where nothing delimits frames, such as on a bus that has packets of its own, none is
 /// needed.
-fn framing(framing: &Framing) -> Option<Problem> {
+fn no_framing(framing: &Framing) -> Option<Problem> {
     let is_delimited = framing.start.is_some() || framing.escape.is_some() || !framing.check.is_empty();
     match framing.check.as_str() {
         _ if framing.end.is_none() => is_delimited.then_some(NO_END),
@@ -72,8 +73,8 @@ fn parameters(context: &Context<'_>, shapes: &[Shaped<'_>], diagnostics: &mut Di
     let mut carried: BTreeMap<u32, &str> = BTreeMap::new();
     for space in &context.device.parameter_spaces {
         for (verb, name, problem) in carrier_problems(space, shapes) {
-            let (name, own) = (brief(name), brief(&space.name));
-            let text = format!("no client {verb} parameters of `{own}` by `{name}`: {problem}");
+            let (name, space_name) = (brief(name), brief(&space.name));
+            let text = format!("no client {verb} parameters of `{space_name}` by `{name}`: {problem}");
             left_out(space.origin.span, text, diagnostics);
         }
         if space.read.is_none() && space.write.is_none() {
@@ -90,12 +91,10 @@ fn parameters(context: &Context<'_>, shapes: &[Shaped<'_>], diagnostics: &mut Di
             match carried.get(&code) {
                 None => _ = carried.insert(code, &space.name),
                 Some(first) => {
-                    let text = format!(
-                        "`{}` has the number {code:#X}, which is one of the space `{}`, too: clients reach that one alone",
-                        brief(&item.name),
-                        brief(first)
-                    );
-                    diagnostics.push(Diagnostic::new(&codes::PARAMETERS_ALIKE, item.origin.span, text));
+                    let (name, first) = (brief(&item.name), brief(first));
+                    let text = format!("`{name}` has the number {code:#X}, which is one of the space `{first}`, too");
+                    let text = text + ": clients reach that one alone";
+                    diagnostics.push(codes::PARAMETERS_ALIKE.at(item.origin.span, text));
                 }
             }
         }

@@ -28,8 +28,8 @@ pub(crate) fn check<'d>(context: &Context<'d>, diagnostics: &mut Diagnostics) {
     };
     let all: Vec<Framed<'_>> = device.messages.iter().map(frame).collect();
     let max = device.framing.as_ref().and_then(|framing| framing.max_data).map(usize::from);
-    for own in &all {
-        length(own, max, diagnostics);
+    for framed in &all {
+        length(framed, max, diagnostics);
     }
     replies_of_others(&all, diagnostics);
     like_their_errors(&all, diagnostics);
@@ -38,22 +38,22 @@ pub(crate) fn check<'d>(context: &Context<'d>, diagnostics: &mut Diagnostics) {
     states(device, diagnostics);
 }
 
-fn report(own: &Framed<'_>, code: &'static Code, message: String) -> Diagnostic {
-    Diagnostic::new(code, own.message.origin.span, message)
+fn report(framed: &Framed<'_>, code: &'static Code, message: String) -> Diagnostic {
+    code.at(framed.message.origin.span, message)
 }
 
 /// The same, beside another message.
-fn both(own: &Framed<'_>, other: &Framed<'_>, code: &'static Code, message: String) -> Diagnostic {
-    report(own, code, message).note_at(other.message.origin.span, "the other one")
+fn both(framed: &Framed<'_>, other: &Framed<'_>, code: &'static Code, message: String) -> Diagnostic {
+    report(framed, code, message).note_at(other.message.origin.span, "the other one")
 }
 
 /// Whole bytes, and no more than a frame holds.
-fn length(own: &Framed<'_>, max: Option<usize>, diagnostics: &mut Diagnostics) {
-    for (what, frame) in [("request", &own.request), ("reply", &own.reply)] {
-        let name = brief(&own.message.name);
+fn length(framed: &Framed<'_>, max: Option<usize>, diagnostics: &mut Diagnostics) {
+    for (what, frame) in [("request", &framed.request), ("reply", &framed.reply)] {
+        let name = brief(&framed.message.name);
         if let Some(bit) = frame.broken {
             let message = format!("the {what} of `{name}` has bits up to bit {bit} that are no whole bytes");
-            let found = report(own, &codes::MESSAGE_LENGTH, message);
+            let found = report(framed, &codes::MESSAGE_LENGTH, message);
             diagnostics.push(found.help("fields of less than a byte follow each other, and fill bytes"));
         }
         let Some(max) = max else { continue };
@@ -63,46 +63,43 @@ fn length(own: &Framed<'_>, max: Option<usize>, diagnostics: &mut Diagnostics) {
             _ => continue,
         };
         let message = format!("the {what} of `{name}` {problem}, and a frame holds {max}");
-        let found = report(own, &codes::MESSAGE_LENGTH, message);
+        let found = report(framed, &codes::MESSAGE_LENGTH, message);
         diagnostics.push(found.help("`max` of repeated fields is how many fit, or one of the lengths is another"));
     }
 }
 
-/// Replies whose first constant is that of another message, and isn't in their own requests.
+/// Replies whose first constant is that of another message, and isn't in their framed requests.
 fn replies_of_others(all: &[Framed<'_>], diagnostics: &mut Diagnostics) {
-    let first = |own: &Framed<'_>| own.reply.constants.first_key_value().map(|(place, byte)| (*place, *byte));
-    let asks = |own: &Framed<'_>, byte: u8| own.request.constants.values().any(|own| *own == byte);
+    let first = |framed: &Framed<'_>| framed.reply.constants.first_key_value().map(|(place, byte)| (*place, *byte));
+    let asks = |framed: &Framed<'_>, byte: u8| framed.request.constants.values().any(|constant| *constant == byte);
     let mut owners: BTreeMap<(usize, u8), &Framed<'_>> = BTreeMap::new();
-    for own in all {
-        if let Some(first) = first(own).filter(|(_, byte)| asks(own, *byte)) {
-            owners.entry(first).or_insert(own);
+    for framed in all {
+        if let Some(first) = first(framed).filter(|(_, byte)| asks(framed, *byte)) {
+            owners.entry(first).or_insert(framed);
         }
     }
-    for own in all.iter().filter(|own| !own.request.constants.is_empty()) {
-        let Some((place, byte)) = first(own).filter(|(_, byte)| !asks(own, *byte)) else { continue };
+    for framed in all.iter().filter(|framed| !framed.request.constants.is_empty()) {
+        let Some((place, byte)) = first(framed).filter(|(_, byte)| !asks(framed, *byte)) else { continue };
         let Some(other) = owners.get(&(place, byte)) else { continue };
+        let (name, other_name) = (brief(&framed.message.name), brief(&other.message.name));
         let message = format!(
-            "the reply of `{}` has the constant 0x{byte:02X} of `{}`, which its request doesn't have",
-            brief(&own.message.name),
-            brief(&other.message.name)
+            "the reply of `{name}` has the constant 0x{byte:02X} of `{other_name}`, which its request doesn't have"
         );
-        let found = both(own, other, &codes::REPLY_OF_ANOTHER, message);
+        let found = both(framed, other, &codes::REPLY_OF_ANOTHER, message);
         diagnostics.push(found.help("the table of one was copied from the other: compare both with their texts"));
     }
 }
 
 /// Replies that can't be told from what comes where the device refuses.
 fn like_their_errors(all: &[Framed<'_>], diagnostics: &mut Diagnostics) {
-    for own in all.iter().filter(|own| !own.message.reply.is_empty()) {
-        let id = own.message.error.as_ref().and_then(|own| own.id);
+    for framed in all.iter().filter(|framed| !framed.message.reply.is_empty()) {
+        let id = framed.message.error.as_ref().and_then(|error| error.id);
         let Some(other) = id.and_then(|id| all.get(id.0 as usize)) else { continue };
-        if own.reply.overlaps(&other.reply) {
-            let message = format!(
-                "the reply of `{}` can have the same bytes as `{}`, which comes in its place",
-                brief(&own.message.name),
-                brief(&other.message.name)
-            );
-            let found = both(own, other, &codes::ERROR_ALIKE, message);
+        if framed.reply.overlaps(&other.reply) {
+            let (name, other_name) = (brief(&framed.message.name), brief(&other.message.name));
+            let message =
+                format!("the reply of `{name}` can have the same bytes as `{other_name}`, which comes in its place");
+            let found = both(framed, other, &codes::ERROR_ALIKE, message);
             diagnostics.push(found.help("where the device never refuses it, leave out `error`"));
         }
     }
@@ -111,19 +108,19 @@ fn like_their_errors(all: &[Framed<'_>], diagnostics: &mut Diagnostics) {
 /// Requests that a device can't tell apart, where no earlier message decides. Sorted by their first constants, those that can be
 /// alike follow each other.
 fn requests_alike(all: &[Framed<'_>], diagnostics: &mut Diagnostics) {
-    let runs = all.iter().enumerate().filter(|(_, own)| !own.message.request.is_empty());
+    let runs = all.iter().enumerate().filter(|(_, framed)| !framed.message.request.is_empty());
     let mut runs: Vec<(Option<usize>, Vec<u8>, usize, &Framed<'_>)> = runs
-        .map(|(at, own)| (own.request.constants.keys().next().copied(), own.request.first_run(), at, own))
+        .map(|(at, framed)| (framed.request.constants.keys().next().copied(), framed.request.first_run(), at, framed))
         .collect();
     runs.sort_by(|one, other| (one.0, &one.1, one.2).cmp(&(other.0, &other.1, other.2)));
     let (mut before, mut found): (Vec<usize>, Vec<(usize, usize)>) = (Vec::new(), Vec::new());
-    for (at, (place, run, index, own)) in runs.iter().enumerate() {
+    for (at, (place, run, index, framed)) in runs.iter().enumerate() {
         let begins = |other: &usize| {
             runs.get(*other).is_some_and(|(others, shorter, ..)| others == place && run.starts_with(shorter))
         };
         while before.pop_if(|other| !begins(other)).is_some() {}
         let is_same = |other: &&Framed<'_>| {
-            own.message.after.is_none() && other.message.after.is_none() && own.request.overlaps(&other.request)
+            framed.message.after.is_none() && other.message.after.is_none() && framed.request.overlaps(&other.request)
         };
         let others = before.iter().filter_map(|other| runs.get(*other));
         if let Some((.., other, _)) = others.clone().find(|(.., other)| is_same(other)) {
@@ -132,10 +129,10 @@ fn requests_alike(all: &[Framed<'_>], diagnostics: &mut Diagnostics) {
         before.push(at);
     }
     found.sort_unstable();
-    for (own, other) in found.into_iter().filter_map(|(own, other)| Some((all.get(own)?, all.get(other)?))) {
-        let names = (brief(&other.message.name), brief(&own.message.name));
+    for (framed, other) in found.into_iter().filter_map(|(framed, other)| Some((all.get(framed)?, all.get(other)?))) {
+        let names = (brief(&other.message.name), brief(&framed.message.name));
         let message = format!("the requests `{}` and `{}` can have the same bytes", names.0, names.1);
-        let found = both(own, other, &codes::MESSAGES_ALIKE, message);
+        let found = both(framed, other, &codes::MESSAGES_ALIKE, message);
         diagnostics.push(found.help("one has a wrong constant; where an earlier message decides, say `after`"));
     }
 }
@@ -143,26 +140,23 @@ fn requests_alike(all: &[Framed<'_>], diagnostics: &mut Diagnostics) {
 /// The only request that begins with another constant than all others of several constants.
 fn odd_request(all: &[Framed<'_>], diagnostics: &mut Diagnostics) {
     let mut groups: BTreeMap<(usize, u8), Vec<&Framed<'_>>> = BTreeMap::new();
-    for own in all.iter().filter(|own| own.request.first_run().len() > 1) {
-        if let Some((place, byte)) = own.request.constants.first_key_value() {
-            groups.entry((*place, *byte)).or_default().push(own);
+    for framed in all.iter().filter(|framed| framed.request.first_run().len() > 1) {
+        if let Some((place, byte)) = framed.request.constants.first_key_value() {
+            groups.entry((*place, *byte)).or_default().push(framed);
         }
     }
     let groups: Vec<_> = groups.into_iter().collect();
     let [one, other] = groups.as_slice() else { return };
     let (odd, others) = if one.1.len() < other.1.len() { (one, other) } else { (other, one) };
-    let ((_, byte), [own]) = (odd.0, odd.1.as_slice()) else { return };
+    let ((_, byte), [framed]) = (odd.0, odd.1.as_slice()) else { return };
     if others.1.len() < ALIKE {
         return;
     }
+    let (name, ((place, common), others)) = (brief(&framed.message.name), (others.0, others.1.len()));
     let message = format!(
-        "`{}` has the constant 0x{byte:02X} where {} other requests have 0x{:02X}, in byte {}",
-        brief(&own.message.name),
-        others.1.len(),
-        others.0 .1,
-        others.0 .0
+        "`{name}` has the constant 0x{byte:02X} where {others} other requests have 0x{common:02X}, in byte {place}"
     );
-    let found = report(own, &codes::ODD_REQUEST, message);
+    let found = report(framed, &codes::ODD_REQUEST, message);
     diagnostics.push(found.help("it is an exception or a misprint: say which with a `doubt`, and allow this code"));
 }
 
@@ -186,14 +180,10 @@ fn cells(machine: &str, row: &CommandOutcomes, message: &Message, diagnostics: &
         if says == can {
             continue;
         }
-        let (own, table) = if says { ("accepted", "refuses") } else { ("not accepted", "accepts") };
-        let text = format!(
-            "`{}` is {own} in `{}`, and the table of `{}` {table} it there",
-            brief(&message.name),
-            brief(&cell.state),
-            brief(machine)
-        );
-        let found = Diagnostic::new(&codes::STATES_DIFFER, message.origin.span, text);
+        let (stated, table) = if says { ("accepted", "refuses") } else { ("not accepted", "accepts") };
+        let (name, state, machine) = (brief(&message.name), brief(&cell.state), brief(machine));
+        let text = format!("`{name}` is {stated} in `{state}`, and the table of `{machine}` {table} it there");
+        let found = codes::STATES_DIFFER.at(message.origin.span, text);
         diagnostics.push(found.help("keep what the manual says state by state, with a `doubt`"));
     }
 }

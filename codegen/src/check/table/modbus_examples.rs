@@ -2,7 +2,7 @@
 //! the serial line.
 
 use crate::check::context::Context;
-use crate::diagnostics::{codes, Diagnostic, Diagnostics};
+use crate::diagnostics::{codes, Diagnostics};
 use crate::ir::{Binding, RegisterBinding, RegisterSpace};
 use crate::source::Span;
 
@@ -17,7 +17,7 @@ pub(crate) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
     for example in &context.device.modbus_examples {
         let mut report = |what: &str, span: Span, problems: Vec<String>| {
             for problem in problems {
-                let found = Diagnostic::new(&codes::EXAMPLE_DIFFERS, span, format!("the {what} {problem}"));
+                let found = codes::EXAMPLE_DIFFERS.at(span, format!("the {what} {problem}"));
                 diagnostics.push(found.help("keep what the other frames of the manual support, with a `doubt`"));
             }
         };
@@ -63,10 +63,10 @@ impl Request {
     fn problems(&self, registers: &[&RegisterBinding], bytes: &[u8]) -> Vec<String> {
         let space = if self.function == 4 { RegisterSpace::Input } else { RegisterSpace::Holding };
         let mut problems = Vec::new();
-        let own: Vec<_> = registers.iter().filter(|own| own.space == space).collect();
-        if !own.iter().any(|own| own.address == self.start) {
+        let of_space = || registers.iter().filter(|register| register.space == space);
+        if !of_space().any(|register| register.address == self.start) {
             problems.push(format!("begins with the address 0x{:04X}, which no row has", self.start));
-        } else if !own.iter().any(|own| self.covers(own)) {
+        } else if !of_space().any(|register| self.covers(register)) {
             let quantity = self.quantity;
             problems.push(format!("is about {quantity} registers of 16 bits, and no value ends there"));
         }
@@ -79,14 +79,14 @@ impl Request {
     }
 
     /// Whether the last register that the request is about is the last one of this value.
-    fn covers(&self, own: &RegisterBinding) -> bool {
+    fn covers(&self, register: &RegisterBinding) -> bool {
         // A device answers a request for one register of a longer value with its lower half.
         if matches!(self.function, 3 | 4 | 6) && self.quantity == 1 {
-            return own.address == self.start;
+            return register.address == self.start;
         }
-        let words = u32::from(own.words_per_address.max(1));
-        let last = (u32::from(own.address).saturating_sub(self.start.into())) * words + u32::from(own.count);
-        own.address >= self.start && last == u32::from(self.quantity)
+        let words = u32::from(register.words_per_address.max(1));
+        let last = (u32::from(register.address).saturating_sub(self.start.into())) * words + u32::from(register.count);
+        register.address >= self.start && last == u32::from(self.quantity)
     }
 }
 

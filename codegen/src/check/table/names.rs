@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use crate::check::context::Context;
 use crate::check::names::{is_meant, place};
-use crate::diagnostics::{codes, Diagnostic, Diagnostics};
+use crate::diagnostics::{codes, Diagnostics};
 use crate::ir::{CompactString, Device, Group, GroupKind, Item};
 use crate::source::Span;
 use crate::text::brief;
@@ -40,7 +40,7 @@ fn case_only<'g>(names: &mut HashMap<CompactString, &'g Item>, item: &'g Item, d
     if first.name != item.name {
         let (name, other) = (brief(&item.name), brief(&first.name));
         let message = format!("`{name}` and `{other}` differ by upper and lower case only");
-        let found = Diagnostic::new(&codes::NAME_TWICE, place(item), message).note_at(place(first), "the other one");
+        let found = codes::NAME_TWICE.at(place(item), message).note_at(place(first), "the other one");
         diagnostics.push(found.help("manuals often spell one name in two ways"));
     }
 }
@@ -51,12 +51,11 @@ fn registers(group: &Group, are_words: bool, diagnostics: &mut Diagnostics) {
         let at = place(item);
         case_only(&mut names, item, diagnostics);
         if item.name.trim().is_empty() {
-            diagnostics.push(Diagnostic::new(&codes::EMPTY_NAME, at, "the row has no name"));
+            diagnostics.push(codes::EMPTY_NAME.at(at, "the row has no name"));
         }
         if let Some(what) = description(&item.name, are_words) {
             let message = format!("`{}` has {what} in it", brief(&item.name));
-            let found = Diagnostic::new(&codes::BROKEN_NAME, at, message);
-            diagnostics.push(found.help("write the name alone, and the rest as `doc`"));
+            diagnostics.push(codes::BROKEN_NAME.at(at, message).help("write the name alone, and the rest as `doc`"));
         } else if !unbroken(&item.name, at, diagnostics) {
             syllables(&item.name, at, diagnostics);
         }
@@ -110,6 +109,6 @@ fn unbroken(name: &str, at: Span, diagnostics: &mut Diagnostics) -> bool {
 
 fn broken(name: &str, whole: &str, at: Span, diagnostics: &mut Diagnostics) {
     let message = format!("`{}` has the hyphen of a line break in it", brief(name));
-    let found = Diagnostic::new(&codes::BROKEN_NAME, at, message);
+    let found = codes::BROKEN_NAME.at(at, message);
     diagnostics.push(found.help(format!("write `{}`, if the manual's text does", brief(whole))));
 }

@@ -1,7 +1,7 @@
 //! Numbers of parameters that are missing between others.
 
 use crate::check::context::Context;
-use crate::diagnostics::{codes, Diagnostic, Diagnostics};
+use crate::diagnostics::{codes, Diagnostics};
 use crate::ir::{Binding, Group, GroupKind, Item};
 use crate::text::brief;
 
@@ -31,7 +31,7 @@ fn chapter(group: &Group, diagnostics: &mut Diagnostics) {
         if (at + 1).checked_sub(ROW).is_some_and(counts_up) && counts_up(at + 1) {
             let message =
                 format!("`{}` has the number 0x{after:04X}, and nothing has 0x{:04X}", brief(&item.name), before + 1);
-            let found = Diagnostic::new(&codes::NUMBER_GAP, item.at.name.or(item.origin.span), message);
+            let found = codes::NUMBER_GAP.at(item.at.name.or(item.origin.span), message);
             diagnostics.push(found.help("a row of the manual's table is missing, or the device has no such parameter"));
         }
     }

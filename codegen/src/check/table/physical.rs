@@ -1,6 +1,6 @@
 //! Physical numbers: what a raw number stands for, and what it is on the machine that the device drives.
 
-use crate::ir::{CompactString, Device, MachineUnit, Scale, Value, Variant};
+use crate::ir::{CompactString, Device, MachineUnit, Scale, Variant};
 
 /// What a raw number stands for. `other` knows the values that scales depend on: constants of a model, and other items.
 pub(super) fn of_raw<E>(
@@ -29,13 +29,14 @@ pub(super) fn ratio<E>(unit: &MachineUnit, number: impl Fn(&CompactString) -> Re
 
 /// A constant of a model.
 pub(super) fn constant(model: Option<&Variant>, name: &str) -> Option<f64> {
-    model?.constants.iter().find(|(own, _)| own == name)?.1.as_real()
+    model?.constants.iter().find(|(constant, _)| constant == name)?.1.as_real()
 }
 
 /// A given number that a model knows.
 pub(super) fn given(device: &Device, model: Option<&str>, name: &str) -> Option<f64> {
-    let own = device.given.iter().find(|own| own.name == name)?;
-    own.models.iter().find(|(own, _)| Some(own.as_str()) == model).and_then(|(_, value)| Value::as_real(value))
+    let given = device.given.iter().find(|given| given.name == name)?;
+    let (_, value) = given.models.iter().find(|(other, _)| Some(other.as_str()) == model)?;
+    value.as_real()
 }
 
 /// A number with so many digits behind its first one.

@@ -4,7 +4,7 @@ use std::convert::Infallible;
 
 use super::physical;
 use crate::check::context::Context;
-use crate::diagnostics::{codes, Diagnostic, Diagnostics};
+use crate::diagnostics::{codes, Diagnostics};
 use crate::ir::{CompactString, Device, Item, MachineUnit, Scale, Value, Variant};
 use crate::text::{brief, glob};
 
@@ -17,16 +17,15 @@ const DIGITS: f64 = 4.0;
 pub(crate) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
     let Context { device, owner, .. } = context;
     for item in owner.items() {
-        let view = item.related.as_ref().and_then(|own| own.same_quantity.as_ref());
-        let other = view.and_then(|own| device.referred(own)).filter(|other| !std::ptr::eq(*other, item));
+        let view = item.related.as_ref().and_then(|related| related.same_quantity.as_ref());
+        let other = view.and_then(|view| device.referred(view)).filter(|other| !std::ptr::eq(*other, item));
         let Some(other) = other else { continue };
         let differences = differences(device, item, other);
         if !differences.is_empty() {
-            let (name, other_name) = (brief(&item.name), brief(&other.name));
-            let differences = differences.join("; ");
+            let (name, other_name, differences) = (brief(&item.name), brief(&other.name), differences.join("; "));
             let message =
                 format!("`{name}` is the same quantity as `{other_name}`, and the defaults differ: {differences}");
-            let found = Diagnostic::new(&codes::QUANTITIES_DIFFER, item.at.default.or(item.origin.span), message);
+            let found = codes::QUANTITIES_DIFFER.at(item.at.default.or(item.origin.span), message);
             diagnostics.push(found.note_at(other.at.default.or(other.origin.span), "the other one"));
         }
     }
@@ -44,7 +43,7 @@ fn differences(device: &Device, one: &Item, other: &Item) -> Vec<String> {
         let (Some(one), Some(other)) = (of(one), of(other)) else { continue };
         let (one, other) = match (&one.machine, &other.machine) {
             _ if one.unit == other.unit => ((one.number, one.unit), (other.number, other.unit)),
-            (Some(own), Some(others)) if own.1 == others.1 => (own.clone(), others.clone()),
+            (Some(machine), Some(others)) if machine.1 == others.1 => (machine.clone(), others.clone()),
             _ => {
                 found.push(format!("the units `{}` and `{}`", brief(&one.unit), brief(&other.unit)));
                 break;
@@ -52,12 +51,8 @@ fn differences(device: &Device, one: &Item, other: &Item) -> Vec<String> {
         };
         if (one.0 - other.0).abs() > TOLERANCE * one.0.abs().max(other.0.abs()) {
             let of = model.map(|model| format!(" ({})", brief(&model.name))).unwrap_or_default();
-            found.push(format!(
-                "{} and {} {}{of}",
-                physical::rounded(one.0, DIGITS),
-                physical::rounded(other.0, DIGITS),
-                brief(&one.1)
-            ));
+            let [number, other] = [one.0, other.0].map(|number| physical::rounded(number, DIGITS));
+            found.push(format!("{number} and {other} {}{of}", brief(&one.1)));
         }
     }
     found
@@ -87,7 +82,7 @@ impl Physical {
             return None;
         }
         let number = physical::of_raw(quantity.scale.as_ref(), raw, other).ok()?;
-        let machine = quantity.machine.as_ref().map(|own| (number * machine(device, own, model), own.unit.clone()));
+        let machine = quantity.machine.as_ref().map(|unit| (number * machine(device, unit, model), unit.unit.clone()));
         Some(Physical { number, unit: quantity.unit.clone(), machine })
     }
 }
@@ -102,7 +97,7 @@ fn machine(device: &Device, unit: &MachineUnit, model: Option<&Variant>) -> f64 
 
 /// The default of an item on a model.
 fn default(item: &Item, model: Option<&Variant>) -> Option<f64> {
-    let is_own = |name: &CompactString| model.is_some_and(|model| glob(name, &model.name));
-    let variant = item.variants.iter().filter(|own| own.models.iter().any(is_own)).find_map(|own| own.default.as_ref());
-    variant.or(item.default.as_ref()).and_then(Value::as_real)
+    let is_model = |name: &CompactString| model.is_some_and(|model| glob(name, &model.name));
+    let variants = item.variants.iter().filter(|variant| variant.models.iter().any(is_model));
+    variants.filter_map(|variant| variant.default.as_ref()).next().or(item.default.as_ref()).and_then(Value::as_real)
 }

@@ -16,7 +16,7 @@ pub(crate) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
             for side in [&window.read, &window.write].into_iter().flatten() {
                 let (taker, holder) = (context.device.referred(&side.number), context.device.referred(&side.value));
                 for (part, what) in [(taker, "the number"), (holder, "the value")] {
-                    let Some(part) = part.filter(|own| integer(context.owner, own).is_none()) else { continue };
+                    let Some(part) = part.filter(|part| integer(context.owner, part).is_none()) else { continue };
                     if told.insert(part.name.as_str()) {
                         diagnostics.push(no_integer(part, what));
                     }
@@ -31,7 +31,7 @@ pub(crate) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
 /// A part of a window that is none.
 fn no_integer(part: &Item, what: &str) -> Diagnostic {
     let message = format!("`{}` has {what} of a window, which is an integer of up to 64 bits", brief(&part.name));
-    Diagnostic::new(&codes::TABLE_VALUE, part.at.ty.or(part.at.name), message)
+    codes::TABLE_VALUE.at(part.at.ty.or(part.at.name), message)
 }
 
 /// Bits of an integer.
@@ -51,7 +51,7 @@ fn number(owner: Owner<'_>, item: &Item, number: u32, taker: Option<&Item>, diag
     }
     let (name, taker) = (brief(&item.name), brief(&taker.name));
     let message = format!("the number {number} of `{name}` doesn't fit `{taker}`, which has {bits} bits");
-    let found = Diagnostic::new(&codes::TABLE_PLACE, item.at.name.or(item.origin.span), message);
+    let found = codes::TABLE_PLACE.at(item.at.name.or(item.origin.span), message);
     diagnostics.push(found.help("`numbers` of the window says which it takes"));
 }
 
@@ -62,6 +62,6 @@ fn value(owner: Owner<'_>, item: &Item, diagnostics: &mut Diagnostics) {
     if is_only && !is_number {
         let name = brief(&item.name);
         let message = format!("`{name}` is only found behind a window, which has integers, and is none");
-        diagnostics.push(Diagnostic::new(&codes::TABLE_VALUE, item.at.ty.or(item.at.name), message));
+        diagnostics.push(codes::TABLE_VALUE.at(item.at.ty.or(item.at.name), message));
     }
 }

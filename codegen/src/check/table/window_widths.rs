@@ -4,9 +4,9 @@ use std::collections::{BTreeMap, HashSet};
 
 use super::windows::{behind, windows};
 use crate::check::context::Context;
-use crate::diagnostics::{codes, Diagnostic, Diagnostics};
+use crate::diagnostics::{codes, Diagnostics};
 use crate::ir::owner::Owner;
-use crate::ir::{Binding, Bus, CompactString, Item, Procedure, Step, Value, WindowSide};
+use crate::ir::{Binding, Bus, CompactString, Item, Procedure, Step, WindowSide};
 use crate::text::brief;
 
 pub(crate) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
@@ -14,7 +14,7 @@ pub(crate) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
     for item in behind(context) {
         width(context, item, &mut narrow, diagnostics);
         for side in windows(item).filter_map(|window| window.write.as_ref()).filter(|side| seen.insert(*side)) {
-            let procedure = side.procedure.as_ref().and_then(|own| context.device.procedure(own));
+            let procedure = side.procedure.as_ref().and_then(|procedure| context.device.procedure(procedure));
             order(context, side, procedure, item, diagnostics);
         }
     }
@@ -34,19 +34,19 @@ fn width<'d>(
     for window in windows(item) {
         let sides = [("read", &window.read), ("written", &window.write)];
         for (verb, side) in sides.into_iter().filter_map(|(verb, side)| Some((verb, side.as_ref()?))) {
-            let Some(own) = context.device.referred(&side.value).and_then(bits_of) else { continue };
+            let Some(bits) = context.device.referred(&side.value).and_then(bits_of) else { continue };
             for bus in window.buses.iter() {
-                let entry = widest.entry((verb, bus)).or_insert((own, &side.value));
-                *entry = if own > entry.0 { (own, &side.value) } else { *entry };
+                let entry = widest.entry((verb, bus)).or_insert((bits, &side.value));
+                *entry = if bits > entry.0 { (bits, &side.value) } else { *entry };
             }
         }
     }
-    for ((verb, _), (own, name)) in widest {
-        if own < bits && told.insert(name) {
+    for ((verb, _), (width, name)) in widest {
+        if width < bits && told.insert(name) {
             let (item_name, through) = (brief(&item.name), brief(name));
-            let message = format!("`{item_name}` has {bits} bits, and is {verb} through `{through}`, which has {own}");
-            let found = Diagnostic::new(&codes::NARROW_WINDOW, item.at.name, message);
-            diagnostics.push(found.label("the first that doesn't fit"));
+            let message =
+                format!("`{item_name}` has {bits} bits, and is {verb} through `{through}`, which has {width}");
+            diagnostics.push(codes::NARROW_WINDOW.at(item.at.name, message).label("the first that doesn't fit"));
         }
     }
 }
@@ -61,8 +61,8 @@ fn order(
     diagnostics: &mut Diagnostics,
 ) {
     let number = context.device.referred(&side.number);
-    let is_cyclic = |own: &Item| own.bindings.iter().any(|binding| matches!(binding, Binding::Image(_)));
-    let by_row = number.and_then(|own| own.behaviour.as_ref()).is_some_and(|own| own.self_clearing);
+    let is_cyclic = |item: &Item| item.bindings.iter().any(|binding| matches!(binding, Binding::Image(_)));
+    let by_row = number.and_then(|number| number.behaviour.as_ref()).is_some_and(|behaviour| behaviour.self_clearing);
     if context.device.referred(&side.value).is_some_and(is_cyclic) || !(by_row || side.clears == Some(true)) {
         return;
     }
@@ -70,10 +70,9 @@ fn order(
     let begins = "the device begins with the number";
     if side.number_first == Some(true) {
         let message = format!("the number is written to `{address}` before the value to `{value}`, and {begins}");
-        let found = Diagnostic::new(&codes::WINDOW_ORDER, number.map_or(item.at.name, |own| own.at.name), message);
-        diagnostics.push(
-            found.help("`first = \"value\"`, or no `clears` at the row where the device doesn't clear the number"),
-        );
+        let found = codes::WINDOW_ORDER.at(number.unwrap_or(item).at.name, message);
+        let help = "`first = \"value\"`, or no `clears` at the row where the device doesn't clear the number";
+        diagnostics.push(found.help(help));
     }
     let Some(procedure) = procedure else { return };
     let writes = |step: &Step, wanted: &CompactString| match step {
@@ -86,14 +85,13 @@ fn order(
     let name = brief(&procedure.name);
     let message = format!("`{name}` writes the number to `{address}` before the value to `{value}`, and {begins}");
     let span = procedure.step_spans.get(at).copied().unwrap_or(procedure.origin.span);
-    diagnostics.push(Diagnostic::new(&codes::WINDOW_ORDER, span, message).help("write the value first"));
+    diagnostics.push(codes::WINDOW_ORDER.at(span, message).help("write the value first"));
 }
 
 /// How many bits the greatest value has, where none is below zero and the greatest is known; else any number.
 fn needed(owner: Owner<'_>, item: &Item) -> u32 {
-    let limit = |limit: &Option<Value>| limit.as_ref().and_then(Value::as_int);
-    let low = limit(&item.limits.low).or_else(|| Some(owner.basic(item.ty).integer_range()?.0));
-    match (low, limit(&item.limits.high)) {
+    let (low, high) = item.limits.integers();
+    match (low.or_else(|| Some(owner.basic(item.ty).integer_range()?.0)), high) {
         (Some(0..), Some(high @ 0..)) => i128::BITS - high.leading_zeros(),
         _ => u32::MAX,
     }

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use crate::ir::owner::Owner;
-use crate::ir::{Binding, Device, Item, MessageField};
+use crate::ir::{Binding, Device, MessageField};
 
 /// A frame: its data, without start, check and end.
 #[derive(Clone, Debug, Default)]
@@ -43,7 +43,7 @@ impl Frame {
             (false, true) => other.least <= self.least,
             (true, true) => true,
         };
-        lengths && shared.all(|(own, other)| own == other)
+        lengths && shared.all(|(one, other)| one == other)
     }
 
     /// The constants that stand together first.
@@ -130,19 +130,17 @@ impl Reader<'_, '_> {
 
     /// The length of a field of the request.
     fn echoed(&self, name: &str) -> Option<u32> {
-        let own = |field: &MessageField| match field {
+        let bits_of = |field: &MessageField| match field {
             MessageField::Value(value) if value.item.name == name => Some(self.owner.basic(value.item.ty).bits()),
             _ => None,
         };
-        self.request.iter().find_map(own).flatten()
+        self.request.iter().find_map(bits_of).flatten()
     }
 
     /// The length of the shortest value in a space.
     fn least_value(&self, space: &str) -> usize {
-        let is_own = |item: &&Item| {
-            item.bindings.iter().any(|binding| matches!(binding, Binding::Parameter { space: own, .. } if own == space))
-        };
-        let items = self.device.groups.iter().flat_map(|group| &group.items).filter(is_own);
+        let is_in = |binding: &Binding| matches!(binding, Binding::Parameter { space: other, .. } if other == space);
+        let items = self.device.items().filter(|item| item.bindings.iter().any(is_in));
         items.filter_map(|item| self.owner.basic(item.ty).bits()).min().unwrap_or(0) as usize
     }
 }

@@ -27,10 +27,10 @@ pub(crate) fn carriers<'d>(device: &'d Device, shapes: &[Shaped<'_>]) -> Vec<Car
     let with = device.parameter_spaces.iter().filter(|space| !numbered(device, &space.name).is_empty());
     let all = with.map(|space| Carriers {
         space: &space.name,
-        read: carrier(shapes, &space.read, |own| reads(own, &space.name)).and_then(Result::ok),
-        write: carrier(shapes, &space.write, |own| writes(own, &space.name)).and_then(Result::ok),
+        read: carrier(shapes, &space.read, |shaped| reads(shaped, &space.name)).and_then(Result::ok),
+        write: carrier(shapes, &space.write, |shaped| writes(shaped, &space.name)).and_then(Result::ok),
     });
-    all.filter(|own| own.read.is_some() || own.write.is_some()).collect()
+    all.filter(|carriers| carriers.read.is_some() || carriers.write.is_some()).collect()
 }
 
 /// The place of the message called `name`, or why it doesn't do; `None` where there is no name.
@@ -40,22 +40,27 @@ fn carrier(
     check: impl Fn(&Shaped<'_>) -> Result<(), Problem>,
 ) -> Option<Result<usize, Problem>> {
     let name = name.as_ref()?;
-    let Some(at) = shapes.iter().position(|own| own.is_called(name)) else { return Some(Err(NO_CODE)) };
+    let Some(at) = shapes.iter().position(|shaped| shaped.is_called(name)) else { return Some(Err(NO_CODE)) };
     Some(shapes.get(at).map_or(Err(NO_CODE), check).map(|()| at))
 }
 
 /// Whether a message reads a parameter of a space whose number alone is given.
-fn reads(own: &Shaped<'_>, space: &str) -> Result<(), Problem> {
+fn reads(shaped: &Shaped<'_>, space: &str) -> Result<(), Problem> {
     let mut found = false;
-    for step in &own.request.steps {
+    for step in &shaped.request.steps {
         match step {
-            Step::Code { space: own, .. } | Step::Blank { space: own, .. } if *own == space && !found => found = true,
+            Step::Code { space: other, .. } | Step::Blank { space: other, .. } if *other == space && !found => {
+                found = true
+            }
             step if has_value(step) => return Err(OTHERS),
             _ => {}
         }
     }
-    let gives = |step: &Step<'_>| matches!(step, Step::Setting { space: own, .. } | Step::ValueOnly { space: own, .. } if *own == space);
-    match (found, own.reply.steps.iter().any(gives)) {
+    let gives = |step: &Step<'_>| match step {
+        Step::Setting { space: other, .. } | Step::ValueOnly { space: other, .. } => *other == space,
+        _ => false,
+    };
+    match (found, shaped.reply.steps.iter().any(gives)) {
         (false, _) => Err(NO_NUMBER),
         (true, false) => Err(NO_VALUE),
         (true, true) => Ok(()),
@@ -63,11 +68,11 @@ fn reads(own: &Shaped<'_>, space: &str) -> Result<(), Problem> {
 }
 
 /// Whether a message writes a parameter of a space that alone is given, with its value.
-fn writes(own: &Shaped<'_>, space: &str) -> Result<(), Problem> {
+fn writes(shaped: &Shaped<'_>, space: &str) -> Result<(), Problem> {
     let mut found = false;
-    for step in &own.request.steps {
+    for step in &shaped.request.steps {
         match step {
-            Step::Setting { space: own, .. } | Step::Settings { space: own, .. } if *own == space && !found => {
+            Step::Setting { space: other, .. } | Step::Settings { space: other, .. } if *other == space && !found => {
                 found = true;
             }
             Step::Code { .. } | Step::Blank { .. } => return Err(NO_SETTING),
@@ -90,10 +95,9 @@ fn has_value(step: &Step<'_>) -> bool {
 
 /// The parameters of a space, by their numbers.
 pub(crate) fn numbered<'d>(device: &'d Device, space: &str) -> BTreeMap<u32, &'d Item> {
-    let items = device.groups.iter().flat_map(|group| &group.items);
-    let numbered = items.flat_map(|item| {
+    let numbered = device.items().flat_map(|item| {
         item.bindings.iter().filter_map(move |binding| match binding {
-            Binding::Parameter { space: own, code } if own == space => Some((*code, item)),
+            Binding::Parameter { space: other, code } if other == space => Some((*code, item)),
             _ => None,
         })
     });
@@ -109,8 +113,8 @@ pub(crate) fn carrier_problems<'d>(
     space: &'d ParameterSpace,
     shapes: &[Shaped<'_>],
 ) -> impl Iterator<Item = (&'static str, &'d str, Problem)> {
-    let read = carrier(shapes, &space.read, |own| reads(own, &space.name));
-    let write = carrier(shapes, &space.write, |own| writes(own, &space.name));
+    let read = carrier(shapes, &space.read, |shaped| reads(shaped, &space.name));
+    let write = carrier(shapes, &space.write, |shaped| writes(shaped, &space.name));
     let all = [("reads", &space.read, read), ("writes", &space.write, write)];
     all.into_iter().filter_map(|(verb, name, found)| Some((verb, name.as_ref()?.as_str(), found?.err()?)))
 }

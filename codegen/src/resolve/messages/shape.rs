@@ -38,18 +38,18 @@ impl<'a> Shaped<'a> {
 pub(crate) fn shapes(device: &Device) -> Vec<Shaped<'_>> {
     let all: Vec<Shaped<'_>> = device.messages.iter().filter_map(|message| Shaped::new(device, message).ok()).collect();
     let lost = without_selector(&all);
-    all.into_iter().zip(lost).filter(|(_, is_lost)| !is_lost).map(|(own, _)| own).collect()
+    all.into_iter().zip(lost).filter(|(_, is_lost)| !is_lost).map(|(shaped, _)| shaped).collect()
 }
 
 /// Which messages depend on one that can't select anything, or on one that is lost for that.
 fn without_selector(all: &[Shaped<'_>]) -> Vec<bool> {
     let mut selectors: HashMap<&str, usize> = HashMap::new();
     let mut dependents: HashMap<&str, Vec<usize>> = HashMap::new();
-    for (at, own) in all.iter().enumerate() {
-        if own.can_select() {
-            *selectors.entry(&own.message.name).or_default() += 1;
+    for (at, shaped) in all.iter().enumerate() {
+        if shaped.can_select() {
+            *selectors.entry(&shaped.message.name).or_default() += 1;
         }
-        if let Some(after) = own.message.after.as_deref() {
+        if let Some(after) = shaped.message.after.as_deref() {
             dependents.entry(after).or_default().push(at);
         }
     }
@@ -76,7 +76,9 @@ fn without_selector(all: &[Shaped<'_>]) -> Vec<bool> {
 /// What comes where a device refuses a message; `None` where it doesn't, or no code can be generated for that.
 pub(crate) fn refusal(shapes: &[Shaped<'_>], message: &Message) -> Option<usize> {
     let name = message.error.as_deref()?;
-    shapes.iter().position(|own| own.is_called(name) && !own.message.reply.is_empty() && !own.reply.borrows())
+    shapes
+        .iter()
+        .position(|shaped| shaped.is_called(name) && !shaped.message.reply.is_empty() && !shaped.reply.borrows())
 }
 
 /// Returns why a message has no shape.

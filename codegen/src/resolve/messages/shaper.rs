@@ -35,7 +35,7 @@ pub(crate) struct Side<'a> {
 impl Side<'_> {
     /// The byte at which a value begins.
     pub(crate) fn place(&self, name: &str) -> Option<u32> {
-        let (_, at, _) = self.places.iter().find(|(own, ..)| *own == name)?;
+        let (_, at, _) = self.places.iter().find(|(other, ..)| *other == name)?;
         Some(at / 8)
     }
 
@@ -197,23 +197,23 @@ impl<'a> Shaper<'a, '_> {
 
     /// The byte of the request at which it has a parameter's number of so many bits.
     fn asked(&self, bits: u32) -> Option<u32> {
-        let (at, own) = self.request?.code?;
-        (own == bits && at.is_multiple_of(8) && bits.is_multiple_of(8)).then_some(at / 8)
+        let (at, length) = self.request?.code?;
+        (length == bits && at.is_multiple_of(8) && bits.is_multiple_of(8)).then_some(at / 8)
     }
 
     /// A parameter's number, with what stands behind it. In a reply without its value it is that of the request.
     fn code(&self, space: &'a str, bits: u32, rest: &[MessageField]) -> (Step<'a>, usize) {
         match (rest.first(), self.asked(bits)) {
-            (Some(MessageField::ItemValue { space: own }), _) if own == space => (Step::Setting { bits, space }, 1),
-            (Some(MessageField::ItemPadding { space: own }), _) if own == space => (Step::Blank { bits, space }, 1),
+            (Some(MessageField::ItemValue { space: other }), _) if other == space => (Step::Setting { bits, space }, 1),
+            (Some(MessageField::ItemPadding { space: other }), _) if other == space => (Step::Blank { bits, space }, 1),
             (_, Some(first)) => (Step::Echo { first, count: bits / 8 }, 0),
             _ => (Step::Code { bits, space }, 0),
         }
     }
 
     fn repeat(&self, is_counted: bool, max: Option<u16>, fields: &'a [MessageField]) -> Result<Step<'a>, Problem> {
-        if let [MessageField::ItemCode { space, bits }, MessageField::ItemValue { space: own }] = fields {
-            let is_alone = space == own && !is_counted && *bits <= 32;
+        if let [MessageField::ItemCode { space, bits }, MessageField::ItemValue { space: other }] = fields {
+            let is_alone = space == other && !is_counted && *bits <= 32;
             return if is_alone { Ok(Step::Settings { bits: (*bits).into(), space, max }) } else { Err(REPEATED) };
         }
         let mut steps = Vec::new();
@@ -257,7 +257,7 @@ fn orders(steps: &[Step<'_>]) -> Result<(), Problem> {
 /// The greatest number of repetitions of a field that has its number from this one; `None` for another field.
 fn counts(field: &MessageField, name: &str) -> Option<Option<u16>> {
     match field {
-        MessageField::Repeat { count: Some(own), max, .. } if own == name => Some(*max),
+        MessageField::Repeat { count: Some(count), max, .. } if count == name => Some(*max),
         _ => None,
     }
 }

@@ -289,7 +289,7 @@ impl<'o> Applied<'o> {
 
     /// Tells of rows that match nothing or change nothing, and of definitions that nothing names.
     fn report(&self, reader: &mut Reader<'_, '_>) {
-        let errors = reader.diagnostics.error_places();
+        let errors = reader.diagnostics.error_spans();
         for (row, outcome) in self.patcher.overlay.patch.rows.iter().zip(&self.outcomes) {
             let span = Span { end: row.row.end, ..reader.span(&row.key) };
             if errors.any_in(span) {
@@ -307,7 +307,7 @@ impl<'o> Applied<'o> {
         }
         // A row that couldn't be applied is what would have named them.
         let whole = Span::new(reader.file, 0, u32::MAX);
-        if self.outcomes.contains(&Outcome::NoMatch) || reader.diagnostics.error_places().any_in(whole) {
+        if self.outcomes.contains(&Outcome::NoMatch) || reader.diagnostics.error_spans().any_in(whole) {
             return;
         }
         let definitions = &self.patcher.overlay.patch.definitions;

@@ -1,0 +1,127 @@
+//! Which elements of a device refer to an item.
+
+use std::collections::HashMap;
+
+use crate::ir::{
+    Composite, Condition, Device, Item, ItemId, ItemRef, Message, Pdo, Procedure, Shape, StateMachine, Step, TypeDef,
+};
+
+/// An element that refers to an item.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Referrer<'d> {
+    /// A PDO that maps it.
+    Pdo(&'d Pdo),
+    /// A machine whose state it holds, or that it commands.
+    Machine(&'d StateMachine),
+    /// A procedure that writes it, reads it or waits for it.
+    Procedure(&'d Procedure),
+    /// A message that is accepted only for some of its values.
+    Message(&'d Message),
+    /// A composite value that it is a part of.
+    Composite(&'d Composite),
+    /// A type whose bits or values depend on it.
+    Type(&'d TypeDef),
+    /// An item that can be written only for some of its values.
+    WritableWhen(&'d Item),
+    /// An item that it replaces.
+    Replaced(&'d Item),
+    /// An item that is the same value, the same quantity, its other half or its count.
+    Related(&'d Item),
+}
+
+/// The elements that refer to each item.
+#[derive(Debug, Default)]
+pub struct Referrers<'d>(HashMap<ItemId, Vec<Referrer<'d>>>);
+
+impl<'d> Referrers<'d> {
+    /// Collects the resolved references of a device.
+    pub fn new(device: &'d Device) -> Self {
+        let mut referrers = Referrers::default();
+        for pdo in &device.process_data.pdos {
+            pdo.entries.iter().for_each(|entry| referrers.add(entry.item, Referrer::Pdo(pdo)));
+        }
+        for machine in &device.machines {
+            referrers.add_all([&machine.status_item, &machine.control_item], Referrer::Machine(machine));
+        }
+        for procedure in &device.procedures {
+            let items = procedure.steps.iter().filter_map(Step::item);
+            referrers.add_all(items, Referrer::Procedure(procedure));
+        }
+        for message in &device.messages {
+            referrers.add_all(items_of(&message.accepted_when), Referrer::Message(message));
+        }
+        for composite in &device.composites {
+            referrers.add_all(&composite.parts, Referrer::Composite(composite));
+        }
+        device.types.iter().for_each(|definition| referrers.of_type(definition));
+        device.items().for_each(|item| referrers.of_item(item));
+        referrers
+    }
+
+    /// Returns the elements that refer to an item, in the order of the device's parts.
+    pub fn of(&self, item: ItemId) -> &[Referrer<'d>] {
+        self.0.get(&item).map_or(&[], Vec::as_slice)
+    }
+
+    fn of_type(&mut self, definition: &'d TypeDef) {
+        let conditions: Vec<&Condition> = match &definition.shape {
+            Shape::BitField { fields, .. } => fields.iter().filter_map(|field| field.when.as_ref()).collect(),
+            Shape::Enumeration { values, .. } => values.iter().filter_map(|value| value.when.as_ref()).collect(),
+            _ => return,
+        };
+        self.add_all(items_of(conditions), Referrer::Type(definition));
+    }
+
+    fn of_item(&mut self, item: &'d Item) {
+        if let Some(behaviour) = &item.behaviour {
+            self.add_all(items_of(&behaviour.write_when), Referrer::WritableWhen(item));
+        }
+        let availability = item.availability.as_ref();
+        self.add_all(availability.and_then(|availability| availability.replaced_by.as_ref()), Referrer::Replaced(item));
+        self.add_all(item.related.iter().flat_map(|related| related.all()), Referrer::Related(item));
+    }
+
+    fn add_all(&mut self, items: impl IntoIterator<Item = &'d ItemRef>, referrer: Referrer<'d>) {
+        items.into_iter().for_each(|item| self.add(item.id, referrer));
+    }
+
+    /// Adds a referrer. One that refers to an item several times is listed once.
+    fn add(&mut self, item: Option<ItemId>, referrer: Referrer<'d>) {
+        let Some(item) = item else { return };
+        let referrers = self.0.entry(item).or_default();
+        if referrers.last() != Some(&referrer) {
+            referrers.push(referrer);
+        }
+    }
+}
+
+fn items_of<'d>(conditions: impl IntoIterator<Item = &'d Condition>) -> impl Iterator<Item = &'d ItemRef> {
+    conditions.into_iter().map(|condition| &condition.item)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::ir::{Binding, Direction, Group, ObjectCode, PdoEntry, RelatedItems};
+
+    #[test]
+    fn each_referrer_is_listed_once() {
+        let id = ItemId { group: 0, item: 0 };
+        let reference = || ItemRef { id: Some(id), ..ItemRef::from("Speed") };
+        let mut speed = Group::object(0x2000, ObjectCode::Var);
+        speed.items.push(Item::new(Binding::canopen(0x2000, 0)));
+        let mut limit = Group::object(0x2001, ObjectCode::Var);
+        limit.items.push(Item::new(Binding::canopen(0x2001, 0)));
+        let related = RelatedItems { same_quantity: Some(reference()), ..RelatedItems::default() };
+        limit.items[0].related = Some(Box::new(related));
+        let mut pdo = Pdo::new(Direction::Transmit, 0x1A00);
+        let entry = PdoEntry { item: Some(id), ..PdoEntry::new(0x2000, 0, 8) };
+        pdo.entries = vec![entry.clone(), entry];
+        let mut device = Device { groups: vec![speed, limit], ..Device::default() };
+        device.process_data.pdos.push(pdo);
+        let referrers = Referrers::new(&device);
+        let expected = [Referrer::Pdo(&device.process_data.pdos[0]), Referrer::Related(&device.groups[1].items[0])];
+        assert_eq!(referrers.of(id), expected);
+        assert_eq!(referrers.of(ItemId { group: 1, item: 0 }), []);
+    }
+}
