@@ -11,7 +11,7 @@ pub(super) fn write(code: &mut Code, model: &Model) {
     let tables = &model.code_tables;
     let heading = "Tables of codes. `rt::codes::find` looks a code up.";
     section::write(code, model, Section::Codes, heading, (!tables.is_empty()).then_some(true), |code| {
-        tables.iter().for_each(|own| table(code, own));
+        tables.iter().for_each(|table| self::table(code, table));
     });
 }
 
@@ -25,48 +25,48 @@ pub(in crate::backend::rust) fn table(code: &mut Code, table: &CodeTableModel) {
         line!(code, row, ",");
     }
     code.close("];");
-    if let Some(own) = &table.ty {
-        self::ty(code, table, own);
+    if let Some(ty) = &table.ty {
+        self::ty(code, table, ty);
     }
 }
 
-fn ty(code: &mut Code, table: &CodeTableModel, own: &CodeTypeModel) {
+fn ty(code: &mut Code, table: &CodeTableModel, ty: &CodeTypeModel) {
     code.doc(&format!("A code of {}.", table.link));
-    code.docs(&own.table);
-    code.lines(&own.derives);
-    open!(code, "pub enum ", own.name, " {");
-    for variant in &own.variants {
+    code.docs(&ty.table);
+    code.lines(&ty.derives);
+    open!(code, "pub enum ", ty.name, " {");
+    for variant in &ty.variants {
         code.doc(&variant.docs);
         match variant.code {
             Some(_) => line!(code, variant.name, ","),
-            None => line!(code, variant.name, "(", own.native, "),"),
+            None => line!(code, variant.name, "(", ty.native, "),"),
         }
     }
     code.doc("Any other number.");
-    line!(code, "Unknown(", own.native, "),");
+    line!(code, "Unknown(", ty.native, "),");
     code.close("}");
-    conversions(code, table, own);
+    conversions(code, table, ty);
 }
 
-fn conversions(code: &mut Code, table: &CodeTableModel, own: &CodeTypeModel) {
-    open!(code, "impl rt::codes::CodeTable for ", own.name, " {");
-    line!(code, "type Raw = ", own.native, ";");
+fn conversions(code: &mut Code, table: &CodeTableModel, ty: &CodeTypeModel) {
+    open!(code, "impl rt::codes::CodeTable for ", ty.name, " {");
+    line!(code, "type Raw = ", ty.native, ";");
     open!(code, "fn codes() -> &'static [rt::codes::Code] {");
     line!(code, table.name);
     code.close("}");
-    open!(code, "fn from_raw(code: ", own.native, ") -> Self {");
+    open!(code, "fn from_raw(code: ", ty.native, ") -> Self {");
     open!(code, "match code {");
-    for (pattern, variant) in &own.arms {
+    for (pattern, variant) in &ty.arms {
         line!(code, pattern, " => Self::", variant, ",");
     }
-    if !own.complete {
+    if !ty.complete {
         line!(code, "_ => Self::Unknown(code),");
     }
     code.close("}");
     code.close("}");
-    open!(code, "fn raw(self) -> ", own.native, " {");
+    open!(code, "fn raw(self) -> ", ty.native, " {");
     open!(code, "match self {");
-    for variant in &own.variants {
+    for variant in &ty.variants {
         match &variant.code {
             Some(number) => line!(code, "Self::", variant.name, " => ", number, ","),
             None => line!(code, "Self::", variant.name, "(code) => code,"),

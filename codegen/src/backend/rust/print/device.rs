@@ -9,8 +9,8 @@ use crate::backend::rust::INTERFACE_VERSION;
 pub(super) fn write(code: &mut Code, model: &Model) {
     code.use_runtime();
     line!(code, "const _: () = rt::interface::assert_version(", INTERFACE_VERSION, ");");
-    if let Some(own) = &model.identity {
-        identity(code, own, &format!("Who made {}, and which device it is.", model.title));
+    if let Some(identity) = &model.identity {
+        self::identity(code, identity, &format!("Who made {}, and which device it is.", model.title));
     }
     if let Some(node_id) = model.node_id {
         code.doc("The node-ID that the configuration file gives this device.");
@@ -24,8 +24,8 @@ pub(super) fn write(code: &mut Code, model: &Model) {
         code.doc(&format!("What a master has to know of {}.", model.title));
         line!(code, "pub static MODULE: rt::ethercat::Module = ", module, ";");
     }
-    if let Some(own) = &model.ethercat {
-        ethercat(code, own, &model.title);
+    if let Some(ethercat) = &model.ethercat {
+        self::ethercat(code, ethercat, &model.title);
     }
     if let Some(axes) = &model.axes {
         code.doc(&format!("The axes{}, and where their objects are.", axes.models));
@@ -34,34 +34,34 @@ pub(super) fn write(code: &mut Code, model: &Model) {
 }
 
 /// `IDENTITY`, with its doc comment.
-pub(super) fn identity(code: &mut Code, own: &IdentityModel, about: &str) {
+pub(super) fn identity(code: &mut Code, identity: &IdentityModel, about: &str) {
     code.doc(about);
     open!(code, "pub const IDENTITY: rt::Identity = rt::Identity {");
-    line!(code, "vendor_id: ", own.vendor_id, ",");
-    line!(code, "product_code: ", own.product_code, ",");
-    line!(code, "revision_number: ", own.revision_number, ",");
-    line!(code, "vendor_name: ", own.vendor_name, ",");
-    line!(code, "product_name: ", own.product_name, ",");
-    line!(code, "order_code: ", own.order_code, ",");
+    line!(code, "vendor_id: ", identity.vendor_id, ",");
+    line!(code, "product_code: ", identity.product_code, ",");
+    line!(code, "revision_number: ", identity.revision_number, ",");
+    line!(code, "vendor_name: ", identity.vendor_name, ",");
+    line!(code, "product_name: ", identity.product_name, ",");
+    line!(code, "order_code: ", identity.order_code, ",");
     code.close("};");
 }
 
-fn ethercat(code: &mut Code, own: &EtherCatModel, title: &str) {
+fn ethercat(code: &mut Code, ethercat: &EtherCatModel, title: &str) {
     code.doc(&format!("What a master has to know of {title}."));
-    line!(code, "pub static DEVICE: rt::ethercat::Device = ", own.device, ";");
-    if let Some(fmmus) = &own.fmmus {
+    line!(code, "pub static DEVICE: rt::ethercat::Device = ", ethercat.device, ";");
+    if let Some(fmmus) = &ethercat.fmmus {
         code.doc("The FMMUs, in the order of the slave controller.");
         line!(code, "pub const FMMUS: &[rt::ethercat::Fmmu] = ", fmmus, ";");
     }
-    if let Some(modes) = &own.clock_modes {
+    if let Some(modes) = &ethercat.clock_modes {
         code.doc("The modes of the distributed clocks, the default one first.");
         line!(code, "pub const CLOCK_MODES: &[rt::ethercat::ClockMode] = ", modes, ";");
     }
-    if let Some(startup) = &own.startup {
+    if let Some(startup) = &ethercat.startup {
         code.doc("The writes that set up the PDOs by default, in Pre-Operational.");
         line!(code, "pub const STARTUP: &[rt::SdoWrite] = ", startup, ";");
     }
-    for (name, title, bytes) in &own.bytes {
+    for (name, title, bytes) in &ethercat.bytes {
         code.doc(title);
         line!(code, "pub const ", name, ": &[u8] = ", bytes, ";");
     }

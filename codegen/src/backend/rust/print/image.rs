@@ -9,10 +9,10 @@ use crate::backend::rust::reexport::Section;
 const ERROR: &str = "When `data` has fewer bytes than the image.";
 
 pub(super) fn write(code: &mut Code, model: &Model) {
-    let images = model.ethercat.as_ref().map_or(&[][..], |own| &own.images);
+    let images = model.ethercat.as_ref().map_or(&[][..], |ethercat| &ethercat.images);
     let heading = "The process image by default, sync manager by sync manager.";
     section::write(code, model, Section::Image, heading, (!images.is_empty()).then_some(true), |code| {
-        images.iter().for_each(|own| image(code, own));
+        images.iter().for_each(|image| self::image(code, image));
     });
 }
 

@@ -11,18 +11,18 @@ pub(super) fn write(code: &mut Code, model: &Model) {
     code.doc("PDOs whose mapping can be changed: `lexibus::pdo!` looks them up here.");
     open!(code, "pub mod remappable {");
     code.use_runtime();
-    model.remappable.iter().for_each(|own| remappable(code, own));
+    model.remappable.iter().for_each(|remappable| self::remappable(code, remappable));
     code.close("}");
     mappable(code, model);
 }
 
-fn remappable(code: &mut Code, own: &RemappableModel) {
-    code.doc(&own.title);
-    line!(code, "pub enum ", own.name, " {}");
-    open!(code, "impl rt::Remappable for ", own.name, " {");
-    line!(code, "type Direction = ", own.direction, ";");
-    line!(code, "type CobId = ", own.cob_id, ";");
-    for constant in &own.constants {
+fn remappable(code: &mut Code, remappable: &RemappableModel) {
+    code.doc(&remappable.title);
+    line!(code, "pub enum ", remappable.name, " {}");
+    open!(code, "impl rt::Remappable for ", remappable.name, " {");
+    line!(code, "type Direction = ", remappable.direction, ";");
+    line!(code, "type CobId = ", remappable.cob_id, ";");
+    for constant in &remappable.constants {
         line!(code, "const ", constant, ";");
     }
     code.close("}");
@@ -40,9 +40,9 @@ fn mappable(code: &mut Code, model: &Model) {
             line!(code, "use super::rt;");
         }
         for item in &object.items {
-            let Some(own) = &item.mappable else { continue };
+            let Some(arguments) = &item.mappable else { continue };
             let name = if object.is_module { item.mappable_name() } else { object.name.clone() };
-            line!(code, "pub type ", name, " = ", stop, list("rt::Mappable<", own, ">"), ";");
+            line!(code, "pub type ", name, " = ", stop, list("rt::Mappable<", arguments, ">"), ";");
         }
         if object.is_module {
             code.close("}");

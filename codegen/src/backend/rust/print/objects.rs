@@ -17,7 +17,11 @@ pub(super) fn write(code: &mut Code, model: &Model) {
     section::write(code, model, Section::Objects, &heading, Some(true), |code| {
         locations(code, model);
         handle_types(code, model);
-        model.objects.iter().filter(|own| !own.is_reexported).for_each(|own| object(code, model, own));
+        model
+            .objects
+            .iter()
+            .filter(|object| !object.is_reexported)
+            .for_each(|object| self::object(code, model, object));
     });
 }
 
@@ -62,25 +66,25 @@ fn handle_types(code: &mut Code, model: &Model) {
     let [_, start, within] = model.handles;
     let parameter = seq!["L = ", model.location];
     let stop = Stop;
-    for own in &model.aliases {
-        code.doc(&format!("{start} {}.", own.text));
+    for alias in &model.aliases {
+        code.doc(&format!("{start} {}.", alias.text));
         let (parameters, location) = match model.has_locations {
-            true => (generic!(own.name, "V", parameter), "L"),
-            false => (generic!(own.name, "V"), model.location.as_str()),
+            true => (generic!(alias.name, "V", parameter), "L"),
+            false => (generic!(alias.name, "V"), model.location.as_str()),
         };
-        line!(code, "pub type ", parameters, " = ", stop, generic!("rt::Item", "V", own.marker, location), ";");
+        line!(code, "pub type ", parameters, " = ", stop, generic!("rt::Item", "V", alias.marker, location), ";");
     }
     for (name, access, value) in &model.handle_types {
         line!(code, "type ", name, " = ", list(&format!("{access}<"), value, ">"), ";");
     }
-    for own in model.aliases.iter().filter(|_| model.has_accessors) {
-        code.doc(&format!("Access to {within} {}.", own.text));
-        let name = seq![own.name, "Access"];
+    for alias in model.aliases.iter().filter(|_| model.has_accessors) {
+        code.doc(&format!("Access to {within} {}.", alias.text));
+        let name = seq![alias.name, "Access"];
         let (parameters, location) = match model.has_locations {
             true => (generic!(name, "'c", "C", "V", parameter), "L"),
             false => (generic!(name, "'c", "C", "V"), model.location.as_str()),
         };
-        let accessor = generic!("rt::Accessor", "'c", "C", "V", own.marker, location);
+        let accessor = generic!("rt::Accessor", "'c", "C", "V", alias.marker, location);
         line!(code, "pub type ", parameters, " = ", stop, accessor, ";");
     }
 }

@@ -9,7 +9,7 @@ use crate::backend::rust::reexport::Section;
 pub(super) fn write(code: &mut Code, model: &Model) {
     let heading = "Process data objects as they are mapped by default.";
     section::write(code, model, Section::Pdo, heading, (!model.pdos.is_empty()).then_some(true), |code| {
-        model.pdos.iter().for_each(|own| pdo(code, own));
+        model.pdos.iter().for_each(|pdo| self::pdo(code, pdo));
     });
 }
 

@@ -23,17 +23,17 @@ pub(in crate::backend::rust) fn write(code: &mut Code, file: &FileModel<'_>) {
     }
     if !file.modules.is_empty() {
         code.module("Modules that can be plugged into the device.", "modules", |code| {
-            file.modules.iter().for_each(|own| self::pluggable(code, own));
+            file.modules.iter().for_each(|module| self::pluggable(code, module));
         });
     }
     if !file.submodules.is_empty() {
         code.module("Submodules: their data and parameter records.", "submodules", |code| {
-            file.submodules.iter().for_each(|own| submodule(code, own));
+            file.submodules.iter().for_each(|submodule| self::submodule(code, submodule));
         });
     }
     if !file.values.is_empty() {
         code.module("Enumerations: named values of fields.", "values", |code| {
-            file.values.iter().for_each(|own| values::write(code, own));
+            file.values.iter().for_each(|enumeration| values::write(code, enumeration));
         });
     }
     if !file.errors.is_empty() || !file.units.is_empty() {
@@ -47,68 +47,68 @@ fn hexadecimal(number: impl Into<u32>, digits: usize) -> String {
     format!("0x{:0digits$X}", number.into())
 }
 
-fn access_point(code: &mut Code, own: &DapModel<'_>) {
-    code.docs(&own.docs);
+fn access_point(code: &mut Code, access_point: &DapModel<'_>) {
+    code.docs(&access_point.docs);
     open!(code, "pub static DAP: rt::profinet::Dap = rt::profinet::Dap {");
-    line!(code, "vendor_id: ", hexadecimal(own.vendor_id, 4), ",");
-    line!(code, "device_id: ", hexadecimal(own.device_id, 4), ",");
-    line!(code, "slot: ", own.slot, ",");
+    line!(code, "vendor_id: ", hexadecimal(access_point.vendor_id, 4), ",");
+    line!(code, "device_id: ", hexadecimal(access_point.device_id, 4), ",");
+    line!(code, "slot: ", access_point.slot, ",");
     open!(code, "module: rt::profinet::Module {");
-    line!(code, "ident: ", hexadecimal(own.ident, 8), ",");
-    line!(code, "name: ", own.identity.product_name, ",");
-    line!(code, "submodules: ", list("&[", &own.submodules, "]"), ",");
+    line!(code, "ident: ", hexadecimal(access_point.ident, 8), ",");
+    line!(code, "name: ", access_point.identity.product_name, ",");
+    line!(code, "submodules: ", list("&[", &access_point.submodules, "]"), ",");
     line!(code, "subslots: &[],");
     code.close("},");
-    line!(code, "slots: ", list("&[", &own.slots, "]"), ",");
-    line!(code, "modules: ", list("&[", &own.modules, "]"), ",");
+    line!(code, "slots: ", list("&[", &access_point.slots, "]"), ",");
+    line!(code, "modules: ", list("&[", &access_point.modules, "]"), ",");
     open!(code, "max_lengths: rt::profinet::IoLengths {");
-    let [input, output, data] = &own.max_lengths;
+    let [input, output, data] = &access_point.max_lengths;
     line!(code, "input: ", input, ",");
     line!(code, "output: ", output, ",");
     line!(code, "data: ", data, ",");
     code.close("},");
-    line!(code, "max_record_size: ", own.max_record_size, ",");
+    line!(code, "max_record_size: ", access_point.max_record_size, ",");
     code.close("};");
     let about =
         "Who made the device, and which one it is: the product code is the number that PROFINET calls DeviceID.";
-    identity(code, &own.identity, about);
+    identity(code, &access_point.identity, about);
 }
 
-fn pluggable(code: &mut Code, own: &ModuleModel<'_>) {
-    code.docs(&own.docs);
-    open!(code, "pub mod ", own.name, " {");
+fn pluggable(code: &mut Code, module: &ModuleModel<'_>) {
+    code.docs(&module.docs);
+    open!(code, "pub mod ", module.name, " {");
     code.use_runtime();
     code.doc("The module, as a plan names it.");
     open!(code, "pub static MODULE: rt::profinet::Module = rt::profinet::Module {");
-    line!(code, "ident: ", hexadecimal(own.ident, 8), ",");
-    line!(code, "name: ", own.title, ",");
-    line!(code, "submodules: ", list("&[", &own.submodules, "]"), ",");
-    line!(code, "subslots: ", list("&[", &own.subslots, "]"), ",");
+    line!(code, "ident: ", hexadecimal(module.ident, 8), ",");
+    line!(code, "name: ", module.title, ",");
+    line!(code, "submodules: ", list("&[", &module.submodules, "]"), ",");
+    line!(code, "subslots: ", list("&[", &module.subslots, "]"), ",");
     code.close("};");
     code.close("}");
 }
 
-fn submodule(code: &mut Code, own: &SubmoduleModel<'_>) {
-    code.docs(&own.docs);
-    open!(code, "pub mod ", own.name, " {");
+fn submodule(code: &mut Code, submodule: &SubmoduleModel<'_>) {
+    code.docs(&submodule.docs);
+    open!(code, "pub mod ", submodule.name, " {");
     code.use_runtime();
-    if own.uses_values {
+    if submodule.uses_values {
         line!(code, "use super::super::values;");
     }
     code.doc("The submodule, as modules and plans name it.");
     open!(code, "pub static SUBMODULE: rt::profinet::Submodule = rt::profinet::Submodule {");
-    line!(code, "ident: ", hexadecimal(own.ident, 8), ",");
-    line!(code, "api: ", hexadecimal(own.api, 4), ",");
-    line!(code, "name: ", own.title, ",");
-    line!(code, "input_len: ", own.input_len, ",");
-    line!(code, "output_len: ", own.output_len, ",");
-    line!(code, "provider_len: ", own.provider_len, ",");
-    line!(code, "consumer_len: ", own.consumer_len, ",");
-    line!(code, "records: ", list("&[", &own.record_list, "]"), ",");
+    line!(code, "ident: ", hexadecimal(submodule.ident, 8), ",");
+    line!(code, "api: ", hexadecimal(submodule.api, 4), ",");
+    line!(code, "name: ", submodule.title, ",");
+    line!(code, "input_len: ", submodule.input_len, ",");
+    line!(code, "output_len: ", submodule.output_len, ",");
+    line!(code, "provider_len: ", submodule.provider_len, ",");
+    line!(code, "consumer_len: ", submodule.consumer_len, ",");
+    line!(code, "records: ", list("&[", &submodule.record_list, "]"), ",");
     code.close("};");
-    own.images.iter().for_each(|image| image::write(code, image));
-    own.records.iter().for_each(|record| record::write(code, record));
-    if let Some(record) = &own.f_record {
+    submodule.images.iter().for_each(|image| image::write(code, image));
+    submodule.records.iter().for_each(|record| record::write(code, record));
+    if let Some(record) = &submodule.f_record {
         record::f_parameters(code, record);
     }
     code.close("}");

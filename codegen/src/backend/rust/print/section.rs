@@ -15,12 +15,12 @@ pub(super) fn write(
     names_runtime: Option<bool>,
     content: impl FnOnce(&mut Code),
 ) {
-    let mut reexports = model.reexports.iter().filter(|own| own.section == section).peekable();
+    let mut reexports = model.reexports.iter().filter(|reexport| reexport.section == section).peekable();
     if names_runtime.is_none() && reexports.peek().is_none() {
         return;
     }
     code.module(heading, section.name(), |code| {
-        reexports.for_each(|own| reexport(code, own));
+        reexports.for_each(|reexport| self::reexport(code, reexport));
         if names_runtime == Some(true) {
             code.use_runtime();
         }
@@ -28,7 +28,7 @@ pub(super) fn write(
     });
 }
 
-fn reexport(code: &mut Code, own: &Reexport) {
-    let names = Data::names(&own.names);
-    line!(code, "pub use super::super::", own.home, "::", own.section.name(), "::", names, ";");
+fn reexport(code: &mut Code, reexport: &Reexport) {
+    let names = Data::names(&reexport.names);
+    line!(code, "pub use super::super::", reexport.home, "::", reexport.section.name(), "::", names, ";");
 }

@@ -16,27 +16,27 @@ pub(super) fn write(code: &mut Code, model: &Model) {
         return;
     }
     open!(code, "pub static ENTRIES: &[rt::table::Entry] = &[");
-    table.iter().for_each(|own| entry(code, own));
+    table.iter().for_each(|entry| self::entry(code, entry));
     code.close("];");
 }
 
-fn entry(code: &mut Code, own: &EntryModel) {
+fn entry(code: &mut Code, entry: &EntryModel) {
     open!(code, "rt::table::Entry {");
-    match own.object {
+    match entry.object {
         Some((index, sub_index)) => {
             line!(code, format_args!("object: Some(rt::Object::new(0x{index:04X}, 0x{sub_index:02X})),"));
         }
         None => line!(code, "object: None,"),
     }
-    let register = own.register.as_ref().map_or(Doc::from("None"), |register| call!("Some", register));
+    let register = entry.register.as_ref().map_or(Doc::from("None"), |register| call!("Some", register));
     line!(code, "register: ", register, ",");
-    line!(code, "name: ", own.name, ",");
-    line!(code, "data_type: rt::DataType::", own.data_type, ",");
-    line!(code, "access: rt::AccessRights::", own.access, ",");
-    line!(code, "flags: ", own.flags, ",");
-    line!(code, "initial: ", own.initial, ",");
-    line!(code, "low: ", own.low, ",");
-    line!(code, "high: ", own.high, ",");
-    line!(code, "unit: ", own.unit, ",");
+    line!(code, "name: ", entry.name, ",");
+    line!(code, "data_type: rt::DataType::", entry.data_type, ",");
+    line!(code, "access: rt::AccessRights::", entry.access, ",");
+    line!(code, "flags: ", entry.flags, ",");
+    line!(code, "initial: ", entry.initial, ",");
+    line!(code, "low: ", entry.low, ",");
+    line!(code, "high: ", entry.high, ",");
+    line!(code, "unit: ", entry.unit, ",");
     code.close("},");
 }

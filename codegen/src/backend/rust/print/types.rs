@@ -15,42 +15,42 @@ pub(super) fn write(code: &mut Code, model: &Model) {
     };
     let names_runtime = (!types.is_empty()).then(|| types.names_runtime());
     section::write(code, model, Section::Types, heading, names_runtime, |code| {
-        types.enumerations.iter().for_each(|(_, own)| enumeration(code, own));
-        types.bit_fields.iter().for_each(|(_, own)| bit_field::write(code, own));
-        types.machines.iter().for_each(|own| machine(code, own));
+        types.enumerations.iter().for_each(|(_, enumeration)| self::enumeration(code, enumeration));
+        types.bit_fields.iter().for_each(|(_, bits)| bit_field::write(code, bits));
+        types.machines.iter().for_each(|machine| self::machine(code, machine));
     });
 }
 
-pub(in crate::backend::rust) fn enumeration(code: &mut Code, own: &EnumerationModel) {
-    let (name, native) = (&own.name, own.native);
-    code.docs(&own.docs);
-    code.lines(&own.derives);
+pub(in crate::backend::rust) fn enumeration(code: &mut Code, enumeration: &EnumerationModel) {
+    let (name, native) = (&enumeration.name, enumeration.native);
+    code.docs(&enumeration.docs);
+    code.lines(&enumeration.derives);
     open!(code, "pub enum ", name, " {");
-    for variant in &own.variants {
+    for variant in &enumeration.variants {
         code.doc(&variant.docs);
         line!(code, variant.name, ",");
     }
-    if own.complete.is_none() {
+    if enumeration.complete.is_none() {
         code.doc("Any other number.");
         line!(code, "Unknown(", native, "),");
     }
     code.close("}");
     open!(code, "impl ", name, " {");
-    from_raw(code, own);
+    from_raw(code, enumeration);
     code.doc("The number of a value.");
     open!(code, "pub const fn raw(self) -> ", native, " {");
     open!(code, "match self {");
-    for variant in &own.variants {
+    for variant in &enumeration.variants {
         line!(code, "Self::", variant.name, " => ", variant.value, ",");
     }
-    if own.complete.is_none() {
+    if enumeration.complete.is_none() {
         line!(code, "Self::Unknown(other) => other,");
     }
     code.close("}");
     code.close("}");
     code.close("}");
     open!(code, "impl rt::Enumeration for ", name, " {");
-    line!(code, "type Base = ", own.base, ";");
+    line!(code, "type Base = ", enumeration.base, ";");
     open!(code, "fn from_native(native: ", native, ") -> Self {");
     line!(code, "Self::from_raw(native)");
     code.close("}");
@@ -60,33 +60,35 @@ pub(in crate::backend::rust) fn enumeration(code: &mut Code, own: &EnumerationMo
     code.close("}");
 }
 
-fn from_raw(code: &mut Code, own: &EnumerationModel) {
-    code.doc(match own.complete {
+fn from_raw(code: &mut Code, enumeration: &EnumerationModel) {
+    code.doc(match enumeration.complete {
         Some(_) => "The value of a number; higher bits are ignored.",
         None => "The value of a number.",
     });
-    open!(code, "pub const fn from_raw(raw: ", own.native, ") -> Self {");
-    match &own.complete {
+    open!(code, "pub const fn from_raw(raw: ", enumeration.native, ") -> Self {");
+    match &enumeration.complete {
         Some(mask) => open!(code, "match raw & ", mask, " {"),
         None => open!(code, "match raw {"),
     }
-    for (left, variant) in (0..own.variants.len()).rev().zip(&own.variants) {
-        let is_rest = left == 0 && own.complete.is_some();
+    for (left, variant) in (0..enumeration.variants.len()).rev().zip(&enumeration.variants) {
+        let is_rest = left == 0 && enumeration.complete.is_some();
         let pattern = if is_rest { "_" } else { variant.value.as_str() };
         line!(code, pattern, " => Self::", variant.name, ",");
     }
-    if own.complete.is_none() {
+    if enumeration.complete.is_none() {
         line!(code, "other => Self::Unknown(other),");
     }
     code.close("}");
     code.close("}");
 }
 
-pub(in crate::backend::rust) fn machine(code: &mut Code, own: &MachineModel) {
-    if let Some(own) = &own.states {
-        states(code, own);
+pub(in crate::backend::rust) fn machine(code: &mut Code, machine: &MachineModel) {
+    if let Some(states) = &machine.states {
+        self::states(code, states);
     }
-    if let (Some(states), Some(commands), Some(transitions)) = (&own.states, &own.commands, &own.transitions) {
+    if let (Some(states), Some(commands), Some(transitions)) =
+        (&machine.states, &machine.commands, &machine.transitions)
+    {
         let (states, commands) = (&states.name, &commands.name);
         open!(code, "impl ", states, " {");
         line!(code, "const TRANSITIONS: &'static [rt::Transition<", commands, ">] = ", transitions, ";");
@@ -97,28 +99,28 @@ pub(in crate::backend::rust) fn machine(code: &mut Code, own: &MachineModel) {
         code.close("}");
         code.close("}");
     }
-    if let Some(own) = &own.commands {
-        commands(code, own);
+    if let Some(commands) = &machine.commands {
+        self::commands(code, commands);
     }
 }
 
-fn patterns(code: &mut Code, own: &PatternsModel) {
-    code.docs(&own.docs);
-    code.lines(&own.derives);
-    open!(code, "pub enum ", own.name, " {");
-    for pattern in &own.patterns {
+fn patterns(code: &mut Code, patterns: &PatternsModel) {
+    code.docs(&patterns.docs);
+    code.lines(&patterns.derives);
+    open!(code, "pub enum ", patterns.name, " {");
+    for pattern in &patterns.patterns {
         code.doc(&pattern.docs);
         line!(code, pattern.name, ",");
     }
     code.close("}");
 }
 
-fn states(code: &mut Code, own: &PatternsModel) {
-    patterns(code, own);
-    open!(code, "impl ", own.name, " {");
+fn states(code: &mut Code, patterns: &PatternsModel) {
+    self::patterns(code, patterns);
+    open!(code, "impl ", patterns.name, " {");
     code.doc("The state that these bits tell; `None` where they tell none.");
-    open!(code, "pub const fn from_raw(raw: ", own.native, ") -> Option<Self> {");
-    for pattern in &own.patterns {
+    open!(code, "pub const fn from_raw(raw: ", patterns.native, ") -> Option<Self> {");
+    for pattern in &patterns.patterns {
         let masked = if pattern.is_whole { seq![] } else { seq![" & ", pattern.mask] };
         open!(code, "if raw", masked, " == ", pattern.value, " {");
         line!(code, "return Some(Self::", pattern.name, ");");
@@ -127,38 +129,38 @@ fn states(code: &mut Code, own: &PatternsModel) {
     line!(code, "None");
     code.close("}");
     code.close("}");
-    if let Some((bits, method)) = &own.bits {
+    if let Some((bits, method)) = &patterns.bits {
         open!(code, "impl ", bits, " {");
         code.doc("The state; `None` where the bits tell none.");
-        open!(code, call!(seq!["pub const fn ", method], "self"), " -> Option<", own.name, "> {");
-        line!(code, own.name, "::from_raw(self.0)");
+        open!(code, call!(seq!["pub const fn ", method], "self"), " -> Option<", patterns.name, "> {");
+        line!(code, patterns.name, "::from_raw(self.0)");
         code.close("}");
         code.close("}");
     }
 }
 
-fn commands(code: &mut Code, own: &PatternsModel) {
-    patterns(code, own);
+fn commands(code: &mut Code, patterns: &PatternsModel) {
+    self::patterns(code, patterns);
     let arms = |code: &mut Code, function: &str, value: &dyn Fn(usize) -> String| {
-        open!(code, "pub const fn ", function, "(self) -> ", own.native, " {");
+        open!(code, "pub const fn ", function, "(self) -> ", patterns.native, " {");
         open!(code, "match self {");
-        for (at, pattern) in own.patterns.iter().enumerate() {
+        for (at, pattern) in patterns.patterns.iter().enumerate() {
             line!(code, "Self::", pattern.name, " => ", value(at), ",");
         }
         code.close("}");
         code.close("}");
     };
-    open!(code, "impl ", own.name, " {");
+    open!(code, "impl ", patterns.name, " {");
     code.doc("The bits that the command is made of.");
-    arms(code, "mask", &|at| own.patterns[at].mask.clone());
+    arms(code, "mask", &|at| patterns.patterns[at].mask.clone());
     code.doc("Those of them that are 1.");
-    arms(code, "value", &|at| own.patterns[at].value.clone());
+    arms(code, "value", &|at| patterns.patterns[at].value.clone());
     code.close("}");
-    if let Some((bits, method)) = &own.bits {
+    if let Some((bits, method)) = &patterns.bits {
         open!(code, "impl ", bits, " {");
         code.doc("The same with the bits of a command.");
         line!(code, "#[must_use]");
-        let command = seq!["command: ", own.name];
+        let command = seq!["command: ", patterns.name];
         open!(code, call!(seq!["pub const fn ", method], "self", command), " -> Self {");
         line!(code, "Self((self.0 & !command.mask()) | command.value())");
         code.close("}");

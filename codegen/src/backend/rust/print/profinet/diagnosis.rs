@@ -21,27 +21,27 @@ pub(super) fn write(code: &mut Code, file: &FileModel<'_>) {
         line!(code, "rt::profinet::ChannelError::find(&CHANNEL_ERRORS, api, error_type)");
         code.close("}");
     }
-    file.units.iter().for_each(|own| unit(code, own));
+    file.units.iter().for_each(|unit| self::unit(code, unit));
 }
 
-fn unit(code: &mut Code, own: &UnitModel) {
-    code.docs(&own.docs);
-    code.lines(&own.derives);
-    open!(code, "pub struct ", own.name, " {");
-    fields(code, &own.fields);
+fn unit(code: &mut Code, unit: &UnitModel) {
+    code.docs(&unit.docs);
+    code.lines(&unit.derives);
+    open!(code, "pub struct ", unit.name, " {");
+    fields(code, &unit.fields);
     code.close("}");
-    open!(code, "impl ", own.name, " {");
+    open!(code, "impl ", unit.name, " {");
     code.doc("The application process (API) that it belongs to.");
-    line!(code, "pub const API: u32 = ", hexadecimal(own.api, 4), ";");
+    line!(code, "pub const API: u32 = ", hexadecimal(unit.api, 4), ";");
     code.doc("The identifier that stands before it (UserStructureIdentifier).");
-    line!(code, "pub const IDENTIFIER: u16 = ", hexadecimal(own.identifier, 4), ";");
+    line!(code, "pub const IDENTIFIER: u16 = ", hexadecimal(unit.identifier, 4), ";");
     code.doc("Length in bytes up to the end of its last field.");
-    line!(code, "pub const LEN: usize = ", own.length, ";");
+    line!(code, "pub const LEN: usize = ", unit.length, ";");
     let first = "The fields of a structure. Bytes behind these are not looked at.";
     code.docs_with_error(first, "When `data` has fewer bytes than the structure.");
     open!(code, "pub fn decode(data: &[u8]) -> Result<Self, rt::LengthError> {");
-    line!(code, "let data = rt::profinet::be::chunk::<", own.length, ">(data)?;");
-    let values = own.fields.iter().map(|field| (field.name.as_str(), field.read.clone()));
+    line!(code, "let data = rt::profinet::be::chunk::<", unit.length, ">(data)?;");
+    let values = unit.fields.iter().map(|field| (field.name.as_str(), field.read.clone()));
     line!(code, "Ok(", literal(values.collect()), ")");
     code.close("}");
     code.close("}");

@@ -6,54 +6,54 @@ use crate::backend::rust::profinet::ImageModel;
 
 const ERROR: &str = "When `data` has fewer bytes than the user data.";
 
-pub(super) fn write(code: &mut Code, own: &ImageModel) {
-    let name = own.name;
-    code.docs(&own.docs);
-    code.lines(&own.derives);
+pub(super) fn write(code: &mut Code, image: &ImageModel) {
+    let name = image.name;
+    code.docs(&image.docs);
+    code.lines(&image.derives);
     open!(code, "pub struct ", name, " {");
-    fields(code, &own.fields);
+    fields(code, &image.fields);
     code.close("}");
     open!(code, "impl ", name, " {");
     code.doc("Length of the user data in bytes.");
-    line!(code, "pub const LEN: usize = ", own.length, ";");
-    pack(code, own);
+    line!(code, "pub const LEN: usize = ", image.length, ";");
+    pack(code, image);
     code.docs_with_error("The fields of the user data. Bytes behind these are not looked at.", ERROR);
     line!(code, "#[inline]");
     open!(code, "pub fn unpack(data: &[u8]) -> Result<Self, rt::LengthError> {");
     line!(code, "let view = ", name, "View::new(data)?;");
-    let values = own.fields.iter().map(|field| (field.name.as_str(), seq!["view", Break, ".", field.name, "()"]));
+    let values = image.fields.iter().map(|field| (field.name.as_str(), seq!["view", Break, ".", field.name, "()"]));
     line!(code, "Ok(", literal(values.collect()), ")");
     code.close("}");
     code.close("}");
-    io_data(code, own);
-    view(code, own);
-    if own.is_output {
-        view_mut(code, own);
+    io_data(code, image);
+    view(code, image);
+    if image.is_output {
+        view_mut(code, image);
     }
 }
 
-fn pack(code: &mut Code, own: &ImageModel) {
+fn pack(code: &mut Code, image: &ImageModel) {
     code.doc("The user data; what no field covers is 0.");
     line!(code, "#[inline]");
-    open!(code, "pub fn pack(&self) -> [u8; ", own.length, "] {");
-    line!(code, "let mut data = [0; ", own.length, "];");
-    if own.is_output {
-        line!(code, "let mut view = ", own.name, "Mut(&mut data);");
-        for field in &own.fields {
+    open!(code, "pub fn pack(&self) -> [u8; ", image.length, "] {");
+    line!(code, "let mut data = [0; ", image.length, "];");
+    if image.is_output {
+        line!(code, "let mut view = ", image.name, "Mut(&mut data);");
+        for field in &image.fields {
             line!(code, call!(seq!["view.", field.setter()], seq!["self.", field.name]), ";");
         }
     } else {
-        code.lines(own.fields.iter().map(|field| &field.pack));
+        code.lines(image.fields.iter().map(|field| &field.pack));
     }
     line!(code, "data");
     code.close("}");
 }
 
-fn io_data(code: &mut Code, own: &ImageModel) {
-    open!(code, "impl rt::profinet::IoData for ", own.name, " {");
+fn io_data(code: &mut Code, image: &ImageModel) {
+    open!(code, "impl rt::profinet::IoData for ", image.name, " {");
     line!(code, "const LEN: usize = Self::LEN;");
-    line!(code, "const TRAILER_LEN: usize = ", own.trailer, ";");
-    line!(code, "const STATUS_LEN: usize = ", own.status, ";");
+    line!(code, "const TRAILER_LEN: usize = ", image.trailer, ";");
+    line!(code, "const STATUS_LEN: usize = ", image.status, ";");
     open!(code, "fn unpack(data: &[u8]) -> Result<Self, rt::LengthError> {");
     line!(code, "Self::unpack(data)");
     code.close("}");
@@ -64,12 +64,12 @@ fn io_data(code: &mut Code, own: &ImageModel) {
     code.close("}");
 }
 
-fn view(code: &mut Code, own: &ImageModel) {
-    let name = own.name;
+fn view(code: &mut Code, image: &ImageModel) {
+    let name = image.name;
     code.doc(&format!("{name} in place: fields are read from the bytes without a copy of these."));
     line!(code, "#[derive(Clone, Copy)]");
-    line!(code, "pub struct ", name, "View<'a>(&'a [u8; ", own.length, "]);");
-    code.lines(own.allow);
+    line!(code, "pub struct ", name, "View<'a>(&'a [u8; ", image.length, "]);");
+    code.lines(image.allow);
     open!(code, "impl<'a> ", name, "View<'a> {");
     code.docs_with_error("The user data at the start of `data`.", ERROR);
     line!(code, "#[inline]");
@@ -79,17 +79,17 @@ fn view(code: &mut Code, own: &ImageModel) {
     line!(code, "Err(error) => Err(error),");
     code.close("}");
     code.close("}");
-    for field in &own.fields {
+    for field in &image.fields {
         let function = call!(seq!["pub ", field.constant, "fn ", field.name], "&self");
         method(code, &field.heading, seq![function, " -> ", field.ty], &field.get);
     }
     code.close("}");
 }
 
-fn view_mut(code: &mut Code, own: &ImageModel) {
-    let name = own.name;
+fn view_mut(code: &mut Code, image: &ImageModel) {
+    let name = image.name;
     code.doc(&format!("{name} in place: fields are written to the bytes without a copy of these."));
-    line!(code, "pub struct ", name, "Mut<'a>(&'a mut [u8; ", own.length, "]);");
+    line!(code, "pub struct ", name, "Mut<'a>(&'a mut [u8; ", image.length, "]);");
     open!(code, "impl<'a> ", name, "Mut<'a> {");
     code.docs_with_error("The user data at the start of `data`.", ERROR);
     line!(code, "#[inline]");
@@ -98,7 +98,7 @@ fn view_mut(code: &mut Code, own: &ImageModel) {
     code.close("}");
     let function = seq!["pub fn view(&self) -> ", name, "View<'_>"];
     method(code, "The same, to be read.", function, &seq![name, "View(self.0)"]);
-    for field in &own.fields {
+    for field in &image.fields {
         let function = call!(seq!["pub fn ", field.setter()], "&mut self", seq!["value: ", field.ty]);
         method(code, &field.heading, function, &field.set);
     }

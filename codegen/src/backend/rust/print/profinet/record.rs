@@ -4,22 +4,22 @@ use super::{fields, hexadecimal, literal};
 use crate::backend::rust::code::{call, line, list, open, Code};
 use crate::backend::rust::profinet::{FRecordModel, RecordModel};
 
-pub(super) fn write(code: &mut Code, own: &RecordModel) {
-    let name = &own.name;
-    code.docs(&own.docs);
-    code.lines(&own.derives);
-    if own.fields.is_empty() {
+pub(super) fn write(code: &mut Code, record: &RecordModel) {
+    let name = &record.name;
+    code.docs(&record.docs);
+    code.lines(&record.derives);
+    if record.fields.is_empty() {
         line!(code, "pub struct ", name, " {}");
     } else {
         open!(code, "pub struct ", name, " {");
-        fields(code, &own.fields);
+        fields(code, &record.fields);
         code.close("}");
     }
     open!(code, "impl ", name, " {");
-    constants(code, own);
-    check(code, own);
-    encode(code, own);
-    decode(code, own);
+    constants(code, record);
+    check(code, record);
+    encode(code, record);
+    decode(code, record);
     code.close("}");
     open!(code, "impl Default for ", name, " {");
     open!(code, "fn default() -> Self {");
@@ -30,65 +30,65 @@ pub(super) fn write(code: &mut Code, own: &RecordModel) {
 }
 
 /// What a function or a constant has in front of it whose numbers may resemble a mathematical constant.
-fn allow_real(code: &mut Code, own: &RecordModel) {
-    if own.has_real {
+fn allow_real(code: &mut Code, record: &RecordModel) {
+    if record.has_real {
         line!(code, "#[allow(clippy::approx_constant)]");
     }
 }
 
-fn constants(code: &mut Code, own: &RecordModel) {
+fn constants(code: &mut Code, record: &RecordModel) {
     code.doc("The record's index.");
-    line!(code, "pub const INDEX: u16 = ", hexadecimal(own.index, 4), ";");
+    line!(code, "pub const INDEX: u16 = ", hexadecimal(record.index, 4), ";");
     code.doc("Its length in bytes.");
-    line!(code, "pub const LEN: usize = ", own.length, ";");
+    line!(code, "pub const LEN: usize = ", record.length, ";");
     code.doc("Its place among the records of the submodule at start-up; 0 = any.");
-    line!(code, "pub const TRANSFER_SEQUENCE: u16 = ", own.transfer_sequence, ";");
+    line!(code, "pub const TRANSFER_SEQUENCE: u16 = ", record.transfer_sequence, ";");
     code.doc("Its bytes by default.");
-    line!(code, "pub const DEFAULT_BYTES: [u8; ", own.length, "] = *", own.default_bytes, ";");
+    line!(code, "pub const DEFAULT_BYTES: [u8; ", record.length, "] = *", record.default_bytes, ";");
     code.doc("Its fields by default.");
-    allow_real(code, own);
-    let values = own.fields.iter().zip(&own.defaults).map(|(field, value)| (field.name.as_str(), value.clone()));
+    allow_real(code, record);
+    let values = record.fields.iter().zip(&record.defaults).map(|(field, value)| (field.name.as_str(), value.clone()));
     line!(code, "pub const DEFAULT: Self = ", literal(values.collect()), ";");
-    for constant in &own.constants {
+    for constant in &record.constants {
         code.docs(&constant.docs);
-        allow_real(code, own);
+        allow_real(code, record);
         line!(code, "pub const ", constant.name, ": ", constant.ty, " = ", constant.value, ";");
     }
 }
 
-fn check(code: &mut Code, own: &RecordModel) {
+fn check(code: &mut Code, record: &RecordModel) {
     let first = "Checks the fields against the values that the device allows.";
     code.docs_with_error(first, "When a field has another value.");
-    allow_real(code, own);
+    allow_real(code, record);
     open!(code, "pub fn check(&self) -> Result<(), rt::profinet::NotAllowed> {");
-    code.lines(&own.checks);
+    code.lines(&record.checks);
     line!(code, "Ok(())");
     code.close("}");
 }
 
-fn encode(code: &mut Code, own: &RecordModel) {
+fn encode(code: &mut Code, record: &RecordModel) {
     let first = "The record's bytes: its constants and fields; what neither covers is 0.";
     code.docs_with_error(first, "When a field has a value that the device doesn't allow.");
     let function = call!("pub fn encode", "&self");
-    open!(code, function, " -> Result<[u8; ", own.length, "], rt::profinet::NotAllowed> {");
+    open!(code, function, " -> Result<[u8; ", record.length, "], rt::profinet::NotAllowed> {");
     line!(code, "self.check()?;");
-    if own.fields.is_empty() {
+    if record.fields.is_empty() {
         line!(code, "Ok(Self::DEFAULT_BYTES)");
     } else {
         line!(code, "let mut data = Self::DEFAULT_BYTES;");
-        code.lines(own.fields.iter().map(|field| &field.pack));
+        code.lines(record.fields.iter().map(|field| &field.pack));
         line!(code, "Ok(data)");
     }
     code.close("}");
 }
 
-fn decode(code: &mut Code, own: &RecordModel) {
+fn decode(code: &mut Code, record: &RecordModel) {
     let first = "The fields of a record that was read from the device. Bytes behind it are not looked at.";
     code.docs_with_error(first, "When `data` has fewer bytes than the record.");
     open!(code, "pub fn decode(data: &[u8]) -> Result<Self, rt::LengthError> {");
-    let data = if own.fields.is_empty() { "" } else { "let data = " };
-    line!(code, data, "rt::profinet::be::chunk::<", own.length, ">(data)?;");
-    let values = own.fields.iter().map(|field| (field.name.as_str(), field.read.clone()));
+    let data = if record.fields.is_empty() { "" } else { "let data = " };
+    line!(code, data, "rt::profinet::be::chunk::<", record.length, ">(data)?;");
+    let values = record.fields.iter().map(|field| (field.name.as_str(), field.read.clone()));
     line!(code, "Ok(", literal(values.collect()), ")");
     code.close("}");
 }
@@ -112,18 +112,18 @@ fn record_data(code: &mut Code, name: &str) {
 }
 
 /// The F-parameters of PROFIsafe.
-pub(super) fn f_parameters(code: &mut Code, own: &FRecordModel) {
-    code.docs(&own.docs);
-    let length = own.length;
+pub(super) fn f_parameters(code: &mut Code, record: &FRecordModel) {
+    code.docs(&record.docs);
+    let length = record.length;
     open!(code, "pub const F_PARAMETERS: rt::profinet::FRecord<", length, "> = rt::profinet::FRecord {");
-    line!(code, "index: ", hexadecimal(own.index, 4), ",");
-    line!(code, "transfer_sequence: ", own.transfer_sequence, ",");
+    line!(code, "index: ", hexadecimal(record.index, 4), ",");
+    line!(code, "transfer_sequence: ", record.transfer_sequence, ",");
     open!(code, "default: rt::profinet::FParameters {");
-    for (name, value) in &own.defaults {
+    for (name, value) in &record.defaults {
         line!(code, name, ": ", value, ",");
     }
     code.close("},");
-    line!(code, "limits: ", list("&[", &own.limits, "]"), ",");
+    line!(code, "limits: ", list("&[", &record.limits, "]"), ",");
     code.close("};");
     line!(code, "static F_PARAMETERS_DEFAULT: [u8; ", length, "] = F_PARAMETERS.default_bytes();");
 }
