@@ -18,15 +18,14 @@ parts=(programs format clippy features outside packages rustdoc build sample bin
 
 # Names of test programs, as arguments of cargo. Each program of the workspace is in one part; `rest` runs what no other part names.
 ui=(ui)
-corpus=(corpus_docs corpus_eds_export corpus_fixes corpus_esi corpus_esi_export corpus_gsdml corpus_gsdml_export corpus_lexer corpus_oracle corpus_values
-    eds_in_canopen eds_in_dcf_tools frozen profinet_corpus rust_format)
+corpus=(corpus_exports corpus_fixes corpus_esi corpus_gsdml corpus_lexer corpus_values frozen profinet_corpus rust_format)
 generated=(generated_code rustdoc table_code)
 packing=(packing)
 differential=(differential)
 arbitrary=(arbitrary)
-mutations=(corpus_mutations hostile_exports)
+mutations=(corpus_mutations exports)
 nested=(compile_fail drive_crate instructions new_front_end no_std_size)
-site=(docs docs_markdown)
+site=(docs)
 pages=(html drives)
 browser=(browser)
 book=(book)

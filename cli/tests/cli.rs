@@ -8,6 +8,8 @@ mod lane;
 
 #[path = "../../tests/support/python.rs"]
 mod python;
+#[path = "../../tests/support/root.rs"]
+mod root;
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};

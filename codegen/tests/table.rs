@@ -6,9 +6,7 @@ use lexibus_codegen::compile::{check, Compilation, Options};
 use lexibus_codegen::diagnostics::{render, Severity};
 use lexibus_codegen::ir::{Access, Binding, Item, RegisterSpace, Scale, Type, Value};
 use lexibus_codegen::source::Source;
-use lexibus_export::json;
 use proptest::prelude::*;
-use proptest::sample::Index;
 use table_support::{examples, whole};
 
 fn read(text: &str) -> Compilation {
@@ -152,10 +150,6 @@ fn the_worked_example() {
     let temperature = item(&compilation, "temperature").quantity.clone().expect("a unit");
     assert_eq!(temperature.scale, Some(Scale::Linear { factor: 0.1, offset: 0.0 }));
     assert_eq!(temperature.sentinels, [(Value::Int(0x7FFF), "no sensor".into())]);
-    let info = json::info(&compilation);
-    let device = &info.devices[0];
-    assert_eq!((info.format, device.name.as_str(), device.registers), (Some("table"), "Pump controller", Some(6)));
-    assert_eq!((device.objects, device.entries), (0, 0));
     assert!(compilation.rust(&Options::default().rust).is_some());
 }
 
@@ -172,108 +166,8 @@ fn the_examples_of_the_documentation_are_tables() {
     }
 }
 
-#[test]
-fn info_counts_objects_and_registers() {
-    let table = rows(
-        "a = { reg = 1, type = \"u16\", access = \"ro\" }\n\
-         \"b{n}\" = { reg = 2, count = 3, type = \"u32\", access = \"ro\" }\n\
-         [chapters.objects]\n0x2000 = { name = \"o\", code = \"record\" }\n\
-         \"0x2000:1\" = { name = \"s\", type = \"u8\", access = \"ro\" }\n",
-    );
-    let compilation = read(&table);
-    let device = &json::info(&compilation).devices[0];
-    assert_eq!((device.registers, device.objects, device.entries), (Some(4), 1, 1), "{:?}", said(&compilation));
-}
-
-/// What tables are made of, to be cut and put together anew.
-fn pieces() -> Vec<String> {
-    let mut lines: Vec<String> =
-        examples().iter().flat_map(|(_, block)| whole(block).lines().map(str::to_owned).collect::<Vec<_>>()).collect();
-    lines.sort();
-    lines.dedup();
-    lines
-}
-
-/// A value of TOML, for any place.
-fn value() -> impl Strategy<Value = String> {
-    const VALUES: [&str; 34] = [
-        "0",
-        "1",
-        "-1",
-        "65536",
-        "0xFFFFFFFFFFFFFFFF",
-        "9223372036854775807",
-        "-9223372036854775808",
-        "1e308",
-        "nan",
-        "-inf",
-        "true",
-        "\"\"",
-        "\"u64\"",
-        "\"u64[4294967295]\"",
-        "\"str(4294967295)\"",
-        "\"0x2000:255\"",
-        "\"0x0000..0xFFFF\"",
-        "\"0..4294967295\"",
-        "\"63-0\"",
-        "\"$NODEID\"",
-        "\"$x\"",
-        "\"{n+99999999999}\"",
-        "\"item\"",
-        "\"pad/4294967295\"",
-        "[]",
-        "[[]]",
-        "[1, \"a\"]",
-        "{}",
-        "{ a = 1 }",
-        "{ name = \"x\" }",
-        "1979-05-27",
-        "\"\\u0000\"",
-        "\"é\"",
-        "4294967295",
-    ];
-    prop::sample::select(&VALUES[..]).prop_map(str::to_owned)
-}
-
 proptest! {
     #![proptest_config(ProptestConfig { cases: 400, ..ProptestConfig::default() })]
-
-    /// Whatever stands in a table, it is read, checked and, where it has no errors, generated without a panic.
-    #[test]
-    fn mutated_tables_do_not_panic(
-        block in 0usize..128,
-        changes in prop::collection::vec((any::<Index>(), 0u8..5, value(), any::<Index>()), 1..8),
-    ) {
-        let examples = examples();
-        let pieces = pieces();
-        let mut lines: Vec<String> = whole(&examples[block % examples.len()].1).lines().map(str::to_owned).collect();
-        for (place, kind, value, other) in changes {
-            if lines.is_empty() {
-                break;
-            }
-            let at = place.index(lines.len());
-            match kind {
-                0 => drop(lines.remove(at)),
-                1 => lines.insert(at, pieces[other.index(pieces.len())].clone()),
-                // Another value in the place of one that follows a `=`.
-                2 | 3 => {
-                    let places: Vec<usize> = lines[at].match_indices(" = ").map(|(at, _)| at + 3).collect();
-                    let Some(&start) = places.get(other.index(places.len().max(1))) else { continue };
-                    let rest = &lines[at][start..];
-                    let end = start + rest.find([',', '}', '#']).unwrap_or(rest.len());
-                    lines[at].replace_range(start..end, &(value + " "));
-                }
-                _ => lines[at] = lines[at].chars().rev().collect(),
-            }
-        }
-        let text = lines.join("\n");
-        let compilation = read(&text);
-        for own in compilation.diagnostics.list().iter().take(20) {
-            render::terminal::render(own, &compilation.sources, false);
-        }
-        json::info(&compilation);
-        let _ = compilation.rust(&Options::default().rust);
-    }
 
     #[test]
     fn any_text_is_read(text in "lexibus = 1\n\\PC*|\\PC*") {

@@ -1,7 +1,7 @@
 //! What `lexibus docs` and `lexibus diff --format html` write, opened from disk in a headless browser: scripts in this folder do
 //! what people do, and look at what they see. See README.md in this folder.
 
-#[path = "../../../codegen/tests/docs_support/hostile.rs"]
+#[path = "../../../codegen/site/tests/docs_support/hostile.rs"]
 mod hostile;
 #[path = "../../../tests/support/lane.rs"]
 mod lane;

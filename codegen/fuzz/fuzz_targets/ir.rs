@@ -5,12 +5,14 @@ use lexibus_codegen::compile::Options;
 use lexibus_codegen::RustOptions;
 
 #[allow(dead_code)]
-#[path = "../../tests/arbitrary_ir/mod.rs"]
+#[path = "../../../tests/support/arbitrary_ir/mod.rs"]
 mod arbitrary_ir;
+#[path = "../../../cli/tests/arbitrary/outputs.rs"]
+mod outputs;
 
 libfuzzer_sys::fuzz_target!(|bytes: &[u8]| {
     let compilation = arbitrary_ir::compilation(bytes, &Options::default());
-    arbitrary_ir::outputs::others(&compilation);
+    outputs::others(&compilation);
     if let Some(text) = compilation.rust(&RustOptions::default()) {
         if let Err(error) = syn::parse_file(&text) {
             panic!("{error}\n{text}");

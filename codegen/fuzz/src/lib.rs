@@ -1,6 +1,6 @@
 //! What every fuzz target does with a file.
 
-#[path = "../../tests/exercise/mod.rs"]
+#[path = "../../../cli/tests/exercise/mod.rs"]
 mod exercise;
 
 use lexibus_codegen::source::Source;

@@ -15,6 +15,8 @@ pub mod number;
 #[path = "../../../tests/support/python.rs"]
 pub mod python;
 pub mod reading;
+#[path = "../../../tests/support/root.rs"]
+pub mod root;
 pub mod round_trip;
 pub mod xsd;
 
@@ -47,7 +49,7 @@ pub fn folder() -> Option<PathBuf> {
 
 /// Where the files of a format are: `eds`, `esi` or `gsdml`.
 pub fn folder_of(format: &str) -> Option<PathBuf> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared/corpus").join(format);
+    let folder = root::root().join("../shared/corpus").join(format);
     if folder.is_dir() {
         return Some(folder);
     }

@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use super::python;
+use super::root::root;
 
 /// Prints a line for every violation: the name of the file, the line, and what is wrong.
 const SCRIPT: &str = "\
@@ -35,8 +36,7 @@ pub struct Schema {
 impl Schema {
     /// The schema at `path` below the folder of schemas; `None`, with a message, where it or the validator is missing.
     pub fn new(path: &str) -> Option<Self> {
-        let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
-        let path = root.join("../shared/schemas").join(path);
+        let path = root().join("../shared/schemas").join(path);
         if !path.is_file() {
             eprintln!("skipped: there is no schema at {}", path.display());
             return None;

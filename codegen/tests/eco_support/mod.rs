@@ -4,8 +4,8 @@
 
 #[path = "../table_support/manual.rs"]
 mod manual_text;
-
-use std::path::Path;
+#[path = "../../../tests/support/root.rs"]
+mod root;
 
 use lexibus_codegen::compile::{self, Compilation, Options};
 use lexibus_codegen::ir::{Binding, Device, Documentation, Item, Shape, Type, TypeDef, TypeId};
@@ -20,7 +20,7 @@ pub fn table() -> Compilation {
 
 /// The table, with these choices of its options.
 pub fn with_choices(choices: &[(&str, &str)]) -> Compilation {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../dictionaries/eco.toml");
+    let path = root::root().join("dictionaries/eco.toml");
     let choices = choices.iter().map(|(name, choice)| ((*name).to_owned(), (*choice).to_owned())).collect();
     compile::check(Source::read(&path).expect("the table"), &Options { choices, ..Options::default() })
 }

@@ -1,7 +1,9 @@
 //! The shipped dictionaries, and the doubts in them.
 
+#[path = "../../../tests/support/root.rs"]
+mod root;
+
 use std::collections::BTreeSet;
-use std::path::Path;
 
 use lexibus_codegen::compile::{check, Options};
 use lexibus_codegen::ir::{Catalog, Doubt};
@@ -10,7 +12,7 @@ use serde_json::Value;
 
 /// A shipped dictionary, by the name of its file.
 pub fn catalog(file: &str) -> Catalog {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../dictionaries").join(file);
+    let path = root::root().join("dictionaries").join(file);
     let bytes = std::fs::read(path).expect("the dictionary");
     check(Source::new(file, bytes), &Options::default()).catalog.expect("a catalog")
 }

@@ -2,11 +2,14 @@
 
 #![allow(dead_code)]
 
-use std::path::{Path, PathBuf};
+#[path = "../../../tests/support/root.rs"]
+mod root;
+
+use std::path::PathBuf;
 
 /// The folder of the dictionaries.
 pub fn dictionaries() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../dictionaries")
+    root::root().join("dictionaries")
 }
 
 /// The blocks of TOML in the format's documentation, each with its line.

@@ -1,0 +1,557 @@
+//! Nothing panics: not on damaged files of the corpus, not on texts made of the words of EDS and XML, not on noise.
+//!
+//! Every input goes through reading, checking, rendering, the summary and the Rust back end. The seed is fixed, so that
+//! every run tests the same inputs; `PROPTEST_RNG_SEED` and `PROPTEST_CASES` try others:
+//!
+//! ```text
+//! PROPTEST_CASES=100000 PROPTEST_RNG_SEED=7 cargo test --release -p lexibus-cli --test corpus_mutations
+//! ```
+
+#[path = "../../../codegen/tests/corpus_support/mod.rs"]
+mod corpus_support;
+#[path = "../exercise/mod.rs"]
+mod exercise;
+mod tables;
+
+use std::cell::Cell;
+use std::fmt::Debug;
+
+use corpus_support::{all_files, lane, whole, File};
+use exercise::exercise;
+use lexibus_codegen::compile::{check, Options};
+use lexibus_codegen::source::Source;
+use proptest::collection::vec;
+use proptest::prelude::*;
+use proptest::sample::{select, subsequence, Index};
+use proptest::test_runner::{RngSeed, TestError, TestRunner};
+
+/// The fewest cases that show how many inputs reach the back end.
+const FEWEST: u32 = 40;
+
+/// So many cases in an optimized build, a sixth of them in a debug build, and a fourth of these in the fast lane.
+fn config(cases: u32) -> ProptestConfig {
+    let mut config = ProptestConfig { failure_persistence: None, max_shrink_iters: 3000, ..ProptestConfig::default() };
+    if std::env::var_os("PROPTEST_CASES").is_none() {
+        let part = if cfg!(debug_assertions) { 6 } else { 1 } * if lane::is_full() { 1 } else { 4 };
+        config.cases = cases.div_ceil(part).max(FEWEST);
+    }
+    if std::env::var_os("PROPTEST_RNG_SEED").is_none() {
+        config.rng_seed = RngSeed::Fixed(0x1018);
+    }
+    config
+}
+
+/// Runs `exercise` on what `make` makes of the values of a strategy; shows the smallest input that fails. Of a hundred
+/// inputs at least `usable` have to reach the back end, or the test would test little.
+fn hold<T: Debug + Clone>(
+    cases: u32,
+    usable: u32,
+    strategy: impl Strategy<Value = T>,
+    make: impl Fn(&T) -> (String, Vec<u8>),
+) {
+    let (all, reached) = (Cell::new(0), Cell::new(0));
+    let outcome = TestRunner::new(config(cases)).run(&strategy, |value| {
+        let (name, bytes) = make(&value);
+        all.set(all.get() + 1);
+        reached.set(reached.get() + u32::from(exercise(&name, &bytes)));
+        Ok(())
+    });
+    if let Err(TestError::Fail(reason, value)) = outcome {
+        let (name, bytes) = make(&value);
+        panic!("{reason}\n{value:?}\n{name}: b\"{}\"", bytes.escape_ascii());
+    }
+    outcome.expect("no input was given up");
+    let (all, reached) = (all.get(), reached.get());
+    eprintln!("{reached} of {all} inputs reach the back end");
+    assert!(reached * 100 >= usable * all, "only {reached} of {all} inputs reach the back end");
+}
+
+/// A change of a file.
+#[derive(Clone, Debug)]
+enum Edit {
+    Flip(Index, u8),
+    Delete(Index, usize),
+    Repeat(Index, usize),
+    Insert(Index, &'static str),
+    /// Gives the next entry or attribute another value.
+    Value(Index, &'static str),
+    /// Gives the next XML element that has one another text.
+    Text(Index, &'static str),
+    DeleteElement(Index),
+    RepeatElement(Index),
+    /// Puts the next XML element in front of another one.
+    MoveElement(Index, Index),
+    DeleteLine(Index),
+    RepeatLine(Index),
+    SwapLines(Index, Index),
+    /// Puts a part of another file there.
+    Splice(Index, Index, Index, usize),
+    Truncate(Index),
+}
+
+fn edit() -> impl Strategy<Value = Edit> {
+    let at = any::<Index>;
+    prop_oneof![
+        2 => (at(), 1..=255u8).prop_map(|(at, mask)| Edit::Flip(at, mask)),
+        1 => (at(), 1..60usize).prop_map(|(at, length)| Edit::Delete(at, length)),
+        1 => (at(), 1..60usize).prop_map(|(at, length)| Edit::Repeat(at, length)),
+        2 => (at(), select(WORDS)).prop_map(|(at, word)| Edit::Insert(at, word)),
+        6 => (at(), select(WORDS)).prop_map(|(at, word)| Edit::Value(at, word)),
+        1 => at().prop_map(Edit::DeleteLine),
+        1 => at().prop_map(Edit::RepeatLine),
+        1 => (at(), at()).prop_map(|(one, other)| Edit::SwapLines(one, other)),
+        1 => (at(), at(), at(), 1..600usize).prop_map(|(at, file, from, length)| Edit::Splice(at, file, from, length)),
+        1 => at().prop_map(Edit::Truncate),
+    ]
+}
+
+/// What values, keys, headers and elements are made of, and what they had better not be made of.
+#[rustfmt::skip]
+const WORDS: &[&str] = &[
+    "", "0", "1", "-1", "7", "8", "9", "254", "255", "256", "65535", "012", "018", "0x", "0x0", "0x7", "0xFFFF",
+    "0x10000", "0xFFFFFFFF", "0x100000000", "-0x80000000", "0x8000000000000000", "18446744073709551615",
+    "-9223372036854775808", "99999999999999999999999999999999999999", "1.5", "1,5", "1e999", "-0.0", "nan",
+    "0x7FC00000", "$NODEID", "$NODEID+0x180", "0x80+$NODEID", "$NODEID+99999999999999999999999999999999999999", "$X",
+    "0x60400010", "0x604100FF", "0x00050008", "0x1A000120", "0xFFFFFFFE", "ro", "rw", "rww", "const", "readWrite",
+    "true", "\"", "\"a\"", "a\\", "\\\"", "*/", "/*", "//!", "///", "{}", "{{", "r#\"", "'", "`", "${x}", "%s", "#",
+    " # x", ";", "; x", " ", "\t", "=", "==", "[", "]", "[]", "[2000]", "\n[2000]\n", "\n[2000sub0]\n",
+    "\n[2000subFF]\n", "\n[1A00sub1]\n", "\n[2000Name]\n1=x\n", "\n[2000Value]\n9=x\n",
+    "\n[M1SubExt2000]\nCount=0;2\n", "\nCompactSubObj=254\n", "\nSubNumber=3\n", "\nObjectType=9\n",
+    "\nCompactPDO=0x17\n", "\nNrOfTXPDO=512\n", "\n../x.dcf\n", "self", "crate", "fn", "async", "_", "Self", "1st",
+    "Gerät µ°", "日本", "\u{202e}", "\u{feff}", "\u{1b}[31m", "\0", "\r", "\n", "\u{1a}", "é", "\u{301}", "ß", "İ", "<",
+    ">", "</", "/>", "<!--", "-->", "<![CDATA[", "]]>", "<?x?>", "&", "&amp;", "&#0;", "&#x10FFFF;", "&lt;!", "&x;",
+    "<!DOCTYPE a [<!ENTITY x \"y\">]>", "UID_1", "FFFF", "1A00", "0001", "2000", "#x0", "#x1600",
+    "#xFFFFFFFF", "#x", "BOOL", "DINT", "BIT3", "BITARR8", "STRING(5)", "STRING(99999999)", "ARRAY [0..254] OF BYTE",
+    "ARRAY [0..99999999] OF ARRAY", "Unsigned16", "Float32", "Bit", "BitArea", "OctetString", "F_MessageTrailer4Byte",
+    "0..4 7", "-5..5", "1..65535", "0..99999999", "0x00,0x01", "DependOnSlot", "TR", "MBoxOut", "Outputs", "PS",
+];
+
+/// The changes of a file, or of a part of it.
+#[derive(Clone, Debug)]
+struct Recipe {
+    file: Index,
+    from: Index,
+    edits: Vec<Edit>,
+}
+
+fn recipe() -> impl Strategy<Value = Recipe> {
+    (any::<Index>(), any::<Index>(), vec(edit(), 1..12)).prop_map(|(file, from, edits)| Recipe { file, from, edits })
+}
+
+/// The start of an EDS, with its header, and some of its objects.
+fn excerpt(bytes: &[u8], from: &Index) -> Vec<u8> {
+    const HEADER: usize = 700;
+    const OBJECTS: usize = 6_000;
+    if bytes.len() <= HEADER + OBJECTS {
+        return bytes.to_vec();
+    }
+    let mut excerpt = bytes[..HEADER].to_vec();
+    let start = HEADER + from.index(bytes.len() - HEADER);
+    let start = start + bytes[start..].windows(2).position(|pair| pair == b"\n[").unwrap_or(0);
+    excerpt.extend_from_slice(&bytes[start..bytes.len().min(start + OBJECTS)]);
+    excerpt
+}
+
+fn apply(bytes: &mut Vec<u8>, edit: &Edit, files: &[File]) {
+    let place = |at: &Index, bytes: &[u8]| at.index(bytes.len() + 1);
+    match edit {
+        Edit::Flip(at, mask) => {
+            let at = at.index(bytes.len().max(1));
+            bytes.iter_mut().skip(at).take(1).for_each(|byte| *byte ^= mask);
+        }
+        Edit::Delete(at, length) => {
+            let start = place(at, bytes);
+            bytes.drain(start..bytes.len().min(start + length));
+        }
+        Edit::Repeat(at, length) => {
+            let start = place(at, bytes);
+            let part = bytes[start..bytes.len().min(start + length)].to_vec();
+            bytes.splice(start..start, part);
+        }
+        Edit::Insert(at, word) => {
+            let start = place(at, bytes);
+            bytes.splice(start..start, word.bytes());
+        }
+        Edit::Value(at, word) => {
+            let start = place(at, bytes);
+            let value = value_behind(bytes, start);
+            bytes.splice(value, word.bytes());
+        }
+        Edit::Text(at, word) => {
+            let start = place(at, bytes);
+            let text = text_behind(bytes, start);
+            if !text.is_empty() {
+                bytes.splice(text, word.bytes());
+            }
+        }
+        Edit::DeleteElement(at) => drop(bytes.drain(element_behind(bytes, place(at, bytes)))),
+        Edit::RepeatElement(at) => {
+            let element = element_behind(bytes, place(at, bytes));
+            let part = bytes[element.clone()].to_vec();
+            bytes.splice(element.start..element.start, part);
+        }
+        Edit::MoveElement(at, to) => {
+            let element = element_behind(bytes, place(at, bytes));
+            let to = element_behind(bytes, place(to, bytes)).start;
+            if to <= element.start || to >= element.end {
+                let part = bytes[element.clone()].to_vec();
+                let to = if to >= element.end { to - part.len() } else { to };
+                bytes.drain(element);
+                bytes.splice(to..to, part);
+            }
+        }
+        Edit::DeleteLine(at) => drop(bytes.drain(line_at(bytes, place(at, bytes)))),
+        Edit::RepeatLine(at) => {
+            let line = line_at(bytes, place(at, bytes));
+            let part = bytes[line.clone()].to_vec();
+            bytes.splice(line.start..line.start, part);
+        }
+        Edit::SwapLines(one, other) => {
+            let [mut one, mut other] = [one, other].map(|at| line_at(bytes, place(at, bytes)));
+            if one.start > other.start {
+                std::mem::swap(&mut one, &mut other);
+            }
+            if one.end <= other.start {
+                bytes[one.start..other.end].rotate_left(other.start - one.start);
+            }
+        }
+        Edit::Splice(at, file, from, length) => {
+            let other = &files[file.index(files.len())].bytes;
+            let start = place(at, bytes);
+            let from = from.index(other.len() + 1);
+            bytes.splice(start..start, other[from..other.len().min(from + length)].iter().copied());
+        }
+        Edit::Truncate(at) => bytes.truncate(place(at, bytes)),
+    }
+}
+
+/// The line at a place, with its end.
+fn line_at(bytes: &[u8], at: usize) -> std::ops::Range<usize> {
+    let start = bytes[..at].iter().rposition(|&byte| byte == b'\n').map_or(0, |end| end + 1);
+    let end = bytes[at..].iter().position(|&byte| byte == b'\n').map_or(bytes.len(), |end| at + end + 1);
+    start..end
+}
+
+/// The value of the next entry, or of the next attribute, behind a place.
+fn value_behind(bytes: &[u8], at: usize) -> std::ops::Range<usize> {
+    let Some(equals) = bytes[at..].iter().position(|&byte| byte == b'=') else { return at..at };
+    let start = at + equals + 1;
+    let (start, ends): (usize, &[u8]) =
+        if bytes.get(start) == Some(&b'"') { (start + 1, b"\"") } else { (start, b"\r\n") };
+    let length = bytes[start..].iter().position(|byte| ends.contains(byte)).unwrap_or(bytes.len() - start);
+    start..start + length
+}
+
+/// The text of the next element behind a place that has one.
+fn text_behind(bytes: &[u8], at: usize) -> std::ops::Range<usize> {
+    let mut start = at;
+    while let Some(end) = bytes[start..].iter().position(|&byte| byte == b'>') {
+        start += end + 1;
+        let length = bytes[start..].iter().position(|&byte| byte == b'<').unwrap_or(0);
+        if bytes[start..start + length].iter().any(|byte| !byte.is_ascii_whitespace()) {
+            return start..start + length;
+        }
+    }
+    at..at
+}
+
+/// The next element behind a place that isn't the document's root, from its first byte to its last.
+fn element_behind(bytes: &[u8], at: usize) -> std::ops::Range<usize> {
+    /// Larger ones are most of a file.
+    const LARGEST: usize = 20_000;
+    let is_tag = |at: usize| bytes[at] == b'<' && bytes.get(at + 1).is_some_and(u8::is_ascii_alphabetic);
+    let is_start = |at: usize| is_tag(at) && !in_comment(bytes, at);
+    let starts = (at..bytes.len()).filter(|&at| is_start(at)).take(20);
+    let mut elements = starts.filter_map(|start| Some(start..end_of_element(&bytes[start..])? + start));
+    elements.find(|element| element.len() < LARGEST).unwrap_or(at..at)
+}
+
+/// Whether a place is within an XML comment.
+fn in_comment(bytes: &[u8], at: usize) -> bool {
+    let last = |mark: &[u8]| bytes[..at].windows(mark.len()).rposition(|part| part == mark);
+    last(b"<!--").is_some_and(|start| last(b"-->").is_none_or(|end| end < start))
+}
+
+/// Where the element ends that starts here.
+fn end_of_element(bytes: &[u8]) -> Option<usize> {
+    let (mut at, mut depth) = (0, 0);
+    loop {
+        at += bytes.get(at..)?.iter().position(|&byte| byte == b'<')?;
+        let mark: &[u8] = if bytes[at..].starts_with(b"<!--") { b"-->" } else { b">" };
+        let end = at + bytes[at..].windows(mark.len()).position(|part| part == mark)? + mark.len();
+        match bytes[at + 1] {
+            b'!' | b'?' => {}
+            b'/' => depth -= 1,
+            _ if bytes[end - 2] == b'/' => {}
+            _ => depth += 1,
+        }
+        at = end;
+        if depth <= 0 {
+            return Some(at);
+        }
+    }
+}
+
+fn of_kind(xml: bool) -> Option<Vec<File>> {
+    const LARGEST_XML: usize = 150_000;
+    let mut files = whole("eds")?;
+    files.retain(|file| file.is_xml() == xml && (!xml || file.bytes.len() <= LARGEST_XML));
+    Some(files)
+}
+
+#[test]
+fn damaged_eds_files() {
+    let Some(files) = of_kind(false) else { return };
+    hold(1500, 90, recipe(), |recipe| {
+        let file = &files[recipe.file.index(files.len())];
+        let mut bytes = excerpt(&file.bytes, &recipe.from);
+        recipe.edits.iter().for_each(|edit| apply(&mut bytes, edit, &files));
+        (file.name.clone(), bytes)
+    });
+}
+
+#[test]
+fn damaged_xml_files() {
+    let Some(files) = of_kind(true) else { return };
+    hold(250, 5, recipe(), |recipe| {
+        let file = &files[recipe.file.index(files.len())];
+        let mut bytes = file.bytes.clone();
+        recipe.edits.iter().for_each(|edit| apply(&mut bytes, edit, &files));
+        (file.name.clone(), bytes)
+    });
+}
+
+/// Other values alone leave XML well formed, so that what stands behind the syntax meets them.
+#[test]
+fn xml_files_with_other_values() {
+    let Some(files) = of_kind(true) else { return };
+    let harmless: Vec<&str> = WORDS.iter().copied().filter(|word| !word.contains(['<', '"', '&', '\0'])).collect();
+    let values = vec((any::<Index>(), select(harmless)), 1..25);
+    hold(250, 70, (any::<Index>(), values), |(file, values)| {
+        let file = &files[file.index(files.len())];
+        let mut bytes = file.bytes.clone();
+        for (at, word) in values {
+            apply(&mut bytes, &Edit::Value(*at, word), &files);
+        }
+        (file.name.clone(), bytes)
+    });
+}
+
+/// What leaves XML well formed: other values, and elements that are missing, doubled, or at another place.
+fn regular_edit() -> impl Strategy<Value = Edit> {
+    let harmless: Vec<&str> = WORDS.iter().copied().filter(|word| !word.contains(['<', '"', '&', '\0'])).collect();
+    let at = any::<Index>;
+    prop_oneof![
+        2 => (at(), select(harmless.clone())).prop_map(|(at, word)| Edit::Value(at, word)),
+        4 => (at(), select(harmless)).prop_map(|(at, word)| Edit::Text(at, word)),
+        1 => at().prop_map(Edit::DeleteElement),
+        1 => at().prop_map(Edit::RepeatElement),
+        2 => (at(), at()).prop_map(|(at, to)| Edit::MoveElement(at, to)),
+    ]
+}
+
+/// The files of a format that aren't too large to be tried a hundred times.
+fn small_files(format: &str) -> Option<Vec<File>> {
+    const LARGEST: usize = 120_000;
+    let mut files = whole(format)?;
+    files.retain(|file| file.bytes.len() <= LARGEST);
+    Some(files)
+}
+
+fn damaged(format: &str) {
+    let Some(files) = small_files(format) else { return };
+    hold(250, 5, recipe(), |recipe| {
+        let file = &files[recipe.file.index(files.len())];
+        let mut bytes = file.bytes.clone();
+        recipe.edits.iter().for_each(|edit| apply(&mut bytes, edit, &files));
+        (file.name.clone(), bytes)
+    });
+}
+
+fn rearranged(format: &str) {
+    let Some(files) = small_files(format) else { return };
+    hold(400, 60, (any::<Index>(), vec(regular_edit(), 1..25)), |(file, edits)| {
+        let file = &files[file.index(files.len())];
+        let mut bytes = file.bytes.clone();
+        edits.iter().for_each(|edit| apply(&mut bytes, edit, &files));
+        (file.name.clone(), bytes)
+    });
+}
+
+#[test]
+fn damaged_esi_files() {
+    damaged("esi");
+}
+
+#[test]
+fn damaged_gsdml_files() {
+    damaged("gsdml");
+}
+
+#[test]
+fn rearranged_esi_files() {
+    rearranged("esi");
+}
+
+#[test]
+fn rearranged_gsdml_files() {
+    rearranged("gsdml");
+}
+
+#[test]
+fn truncated_files() {
+    let Some(files) = whole("eds") else { return };
+    hold(500, 70, (any::<Index>(), any::<Index>()), |(file, at)| {
+        let file = &files[file.index(files.len())];
+        let longest = file.bytes.len().min(30_000);
+        (file.name.clone(), file.bytes[..at.index(longest + 1)].to_vec())
+    });
+}
+
+#[test]
+fn files_that_start_as_one_and_end_as_another() {
+    let Some(files) = whole("eds") else { return };
+    let part = || (any::<Index>(), any::<Index>(), 0..6_000usize);
+    hold(500, 80, vec(part(), 2..4), |parts| {
+        let name = files[parts[0].0.index(files.len())].name.clone();
+        let mut bytes = Vec::new();
+        for (position, (file, from, length)) in parts.iter().enumerate() {
+            let other = &files[file.index(files.len())].bytes;
+            let from = if position == 0 { 0 } else { from.index(other.len() + 1) };
+            bytes.extend_from_slice(&other[from..other.len().min(from + length)]);
+        }
+        (name, bytes)
+    });
+}
+
+/// Any name that decides for a format, and one that doesn't.
+fn name() -> impl Strategy<Value = &'static str> {
+    select(&["x.eds", "x.dcf", "x.xdd", "x.xdc", "", "x"][..])
+}
+
+#[test]
+fn noise() {
+    let noise = prop_oneof![vec(any::<u8>(), 0..600), any::<String>().prop_map(String::into_bytes)];
+    hold(1500, 0, (name(), noise), |(name, bytes)| ((*name).to_owned(), bytes.clone()));
+}
+
+const KEYS: &str = "\
+    ParameterName ObjectType DataType AccessType DefaultValue LowLimit HighLimit PDOMapping SubNumber CompactSubObj \
+    ObjFlags ParameterValue Denotation NrOfEntries 1 2 SupportedObjects NrOfRXPDO NrOfTXPDO CompactPDO Granularity \
+    GroupMessaging Dummy0005 ProductName VendorNumber NodeID Lines Line1 Count ObjExtend NrOfSeg Type1 PPOffset1 \
+    BaudRate_10 EDSVersion Unit";
+
+const SECTIONS: &str = "\
+    FileInfo DeviceInfo DummyUsage Comments MandatoryObjects OptionalObjects ManufacturerObjects DeviceComissioning \
+    SupportedModules ConnectedModules DynamicChannels Tools 1000 1018 1018sub0 1018sub1 1400 1400sub1 1600 1600sub0 \
+    1600sub1 1600sub2 1800 1A00 1A00sub0 1A00sub1 1F80 2000 2000sub0 2000sub1 2000subFF 2000Name 2000Value \
+    2000Denotation 2000ObjectLinks 6040 6041 6060 607A A0 00A0 0005 M1ModuleInfo M1FixedObjects M1Fixed2000 \
+    M1Fixed2000sub1 M1SubExtends M1SubExt2000 M1Comments x";
+
+/// One of the words of a list.
+fn one_of(list: &'static str) -> impl Strategy<Value = &'static str> + Clone {
+    select(list.split(' ').collect::<Vec<_>>())
+}
+
+/// The words of an EDS in any order, a line each or not.
+#[test]
+fn texts_of_the_words_of_an_eds() {
+    let line = prop_oneof![
+        3 => one_of(SECTIONS).prop_map(|name| format!("[{name}]\n")),
+        8 => (one_of(KEYS), select(WORDS)).prop_map(|(key, value)| format!("{key}={value}\n")),
+        1 => select(WORDS).prop_map(str::to_owned),
+        1 => "\\PC{0,20}".prop_map(|text| text + "\n"),
+    ];
+    hold(1500, 80, (name(), vec(line, 0..120)), |(name, lines)| ((*name).to_owned(), lines.concat().into_bytes()));
+}
+
+const ELEMENTS: &str = "\
+    ISO15745ProfileContainer ISO15745Profile ProfileHeader ProfileBody DeviceIdentity vendorName vendorID \
+    DeviceManager DeviceFunction ApplicationProcess dataTypeList struct varDeclaration array subrange enum enumValue \
+    derived BOOL UINT DINT STRING dataTypeIDRef parameterList parameter label description labelRef allowedValues \
+    value range minValue maxValue defaultValue unit property templateList parameterTemplate allowedValuesTemplate \
+    ApplicationLayers CANopenObjectList CANopenObject CANopenSubObject dummyUsage dummy dynamicChannels \
+    dynamicChannel moduleManagement interfaceList TransportLayers PhysicalLayer baudRate supportedBaudRate \
+    NetworkManagement CANopenGeneralFeatures CANopenMasterFeatures deviceCommissioning identity x";
+
+const ATTRIBUTES: &str = "\
+    index subIndex name objectType dataType accessType defaultValue actualValue lowLimit highLimit PDOmapping \
+    objFlags uniqueIDRef uniqueID subNumber value lang access size lowerLimit upperLimit entry nodeID granularity \
+    nrOfRxPDO xsi:type xmlns templateIDRef multiplier denotation";
+
+fn escape(word: &str) -> String {
+    word.replace('&', "&amp;").replace('<', "&lt;").replace('"', "&quot;")
+}
+
+/// An element with attributes, text and children.
+fn element() -> impl Strategy<Value = String> {
+    // An attribute twice is no XML.
+    let attributes = (subsequence(ATTRIBUTES.split(' ').collect::<Vec<_>>(), 0..6), vec(select(WORDS), 6));
+    let open = (one_of(ELEMENTS), attributes).prop_map(|(name, (keys, values))| {
+        let written = keys.iter().zip(&values).map(|(key, value)| format!(" {key}=\"{}\"", escape(value)));
+        (name, written.collect::<String>())
+    });
+    let leaf = (open.clone(), select(WORDS)).prop_map(|((name, attributes), text)| match text {
+        "" => format!("<{name}{attributes}/>"),
+        text => format!("<{name}{attributes}>{}</{name}>", escape(text)),
+    });
+    leaf.prop_recursive(6, 60, 8, move |inner| {
+        (open.clone(), vec(inner, 0..8))
+            .prop_map(|((name, attributes), children)| format!("<{name}{attributes}>{}</{name}>\n", children.concat()))
+    })
+}
+
+#[test]
+fn trees_of_the_elements_of_an_xdd() {
+    const HEAD: &str =
+        "<ISO15745ProfileContainer><ISO15745Profile><ProfileBody xsi:type=\"ProfileBody_Device_CANopen\">";
+    const MIDDLE: &str = "</ProfileBody></ISO15745Profile><ISO15745Profile><ProfileBody \
+                          xsi:type=\"ProfileBody_CommunicationNetwork_CANopen\"><ApplicationLayers><CANopenObjectList>";
+    const TAIL: &str =
+        "</CANopenObjectList></ApplicationLayers></ProfileBody></ISO15745Profile></ISO15745ProfileContainer>";
+    hold(800, 95, (name(), vec(element(), 0..4), vec(element(), 0..4)), |(name, device, network)| {
+        let text = format!("{HEAD}{}{MIDDLE}{}{TAIL}", device.concat(), network.concat());
+        ((*name).to_owned(), text.into_bytes())
+    });
+}
+
+#[test]
+fn texts_of_the_words_of_an_xdd() {
+    let part = prop_oneof![
+        4 => (one_of(ELEMENTS), one_of(ATTRIBUTES), select(WORDS), select(&["/>", ">", "", ">\n", "/>\n"][..]))
+            .prop_map(|(element, attribute, word, end)| format!("<{element} {attribute}=\"{word}\"{end}")),
+        2 => one_of(ELEMENTS).prop_map(|element| format!("</{element}>")),
+        1 => select(WORDS).prop_map(str::to_owned),
+        1 => element(),
+    ];
+    hold(1000, 0, (name(), vec(part, 0..40)), |(name, parts)| {
+        let text = format!("<ISO15745ProfileContainer>{}</ISO15745ProfileContainer>", parts.concat());
+        ((*name).to_owned(), text.into_bytes())
+    });
+}
+
+/// Two runs of one program have other hash seeds and other addresses; the output has neither. Two threads run at once.
+#[test]
+fn two_runs_give_the_same_bytes() {
+    let Some(files) = all_files() else { return };
+    let made = |file: &File| {
+        let options = Options::default();
+        let compilation = check(Source::new(file.name.as_str(), file.bytes.clone()), &options);
+        let found: Vec<String> = compilation.diagnostics.list().iter().map(|one| compilation.one_line(one)).collect();
+        let dump = compilation.catalog.as_ref().map(|catalog| serde_json::to_string(catalog).expect("JSON"));
+        let text = compilation.rust(&options.rust).unwrap_or_default() + &dump.unwrap_or_default();
+        (text, found)
+    };
+    let mut bytes = 0;
+    for file in &files {
+        let [one, other] = std::thread::scope(|scope| {
+            [(); 2].map(|()| scope.spawn(|| made(file))).map(|run| run.join().expect("no panic"))
+        });
+        assert_eq!(one.1, other.1, "{}: other findings", file.name);
+        let differing = one.0.lines().zip(other.0.lines()).zip(1..).find(|((one, other), _)| one != other);
+        assert_eq!(differing, None, "{}: the second output is another one, from this line on", file.name);
+        assert_eq!(one.0.len(), other.0.len(), "{}", file.name);
+        bytes += one.0.len();
+    }
+    assert!(bytes > lane::at_least(10_000_000), "only {bytes} bytes were emitted");
+}

@@ -1,0 +1,223 @@
+//! One case: its folder, its settings, and its expected files.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use lexibus_codegen::compile::{self, Options};
+use lexibus_codegen::diagnostics::{Level, Levels};
+use lexibus_codegen::selection::Selection;
+use lexibus_codegen::source::Source;
+use serde::Deserialize;
+use similar::TextDiff;
+
+/// The file of a case that has its settings.
+const SETTINGS: &str = "case.toml";
+/// The file of a case that has the expected diagnostics; absent if there are none.
+const DIAGNOSTICS: &str = "diagnostics";
+
+/// `case.toml`.
+#[derive(Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Settings {
+    /// The rule that the case shows, in one sentence.
+    pub about: String,
+    /// The files that are compiled, in order, if that is not every file of the folder. With `diff`: the old and the new one.
+    inputs: Vec<String>,
+    strict: bool,
+    allow: Vec<String>,
+    warn: Vec<String>,
+    deny: Vec<String>,
+    node_id_alias: Vec<String>,
+    option: Vec<String>,
+    device: Vec<String>,
+    module: Vec<String>,
+    objects: Vec<String>,
+    overlays: Vec<String>,
+    no_profiles: bool,
+    /// The input is not compiled once more with other line ends, encodings and byte order marks.
+    pub one_form: bool,
+    /// Parts of the outputs; an empty list means the whole output. See `part.rs`.
+    pub rust: Option<Vec<String>>,
+    pub info: Option<Vec<String>>,
+    pub dump: Option<Vec<String>>,
+    pub eds: Option<Vec<String>>,
+    pub dcf: Option<Vec<String>>,
+    pub esi: Option<Vec<String>>,
+    pub gsdml: Option<Vec<String>>,
+    pub markdown: Option<Vec<String>>,
+    /// `lexibus diff` of the two inputs.
+    pub diff: bool,
+    /// Columns of a list of registers: `field=column`, as `--map` takes them.
+    pub map: Vec<String>,
+    /// The register table that an import makes of the input, a CSV file.
+    pub table: Option<Vec<String>>,
+    /// REAL values of an EDS or DCF as the bits of IEEE 754: `--real hex`.
+    pub real_hex: bool,
+    /// Facts that an export is given: `key = "value"`.
+    pub set: BTreeMap<String, String>,
+}
+
+/// A case.
+pub struct Case {
+    folder: PathBuf,
+    pub settings: Settings,
+}
+
+impl Case {
+    /// Reads the settings of the case in `folder`.
+    pub fn open(folder: PathBuf) -> Self {
+        let path = folder.join(SETTINGS);
+        let text = std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
+        let settings: Settings = toml::from_str(&text).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
+        assert!(!settings.about.is_empty(), "{}: `about` is missing", path.display());
+        Case { folder, settings }
+    }
+
+    /// `area/case`.
+    pub fn name(&self) -> String {
+        let parts: Vec<_> =
+            self.folder.components().rev().take(2).map(|part| part.as_os_str().to_string_lossy()).collect();
+        format!("{}/{}", parts[1], parts[0])
+    }
+
+    /// The name of the case's folder.
+    pub fn folder_name(&self) -> String {
+        self.name().split_once('/').expect("an area and a case").1.to_owned()
+    }
+
+    /// The files to compile, in order.
+    pub fn inputs(&self) -> Vec<Source> {
+        let mut names = self.settings.inputs.clone();
+        if names.is_empty() {
+            let is_other =
+                |name: &String| *name == SETTINGS || is_expected(name) || self.settings.overlays.contains(name);
+            names = self.file_names().into_iter().filter(|name| !is_other(name)).collect();
+        }
+        assert!(!names.is_empty(), "{}: no input", self.name());
+        names.iter().map(|name| self.source(name)).collect()
+    }
+
+    fn source(&self, name: &str) -> Source {
+        let bytes =
+            std::fs::read(self.folder.join(name)).unwrap_or_else(|error| panic!("{}/{name}: {error}", self.name()));
+        Source::new(name, bytes).in_folder(&self.folder)
+    }
+
+    /// The same input with other bytes.
+    pub fn source_of(&self, name: &str, bytes: Vec<u8>) -> Source {
+        Source::new(name, bytes).in_folder(&self.folder)
+    }
+
+    /// The options of `case.toml`.
+    pub fn options(&self) -> Options {
+        let own = &self.settings;
+        Options {
+            levels: self.levels(),
+            node_id_aliases: own.node_id_alias.clone(),
+            choices: own.option.iter().map(|text| compile::choice(text).expect("NAME=CHOICE")).collect(),
+            select: self.selection(),
+            overlays: own.overlays.iter().map(|name| self.source(name)).collect(),
+            no_profiles: own.no_profiles,
+            ..Options::default()
+        }
+    }
+
+    /// The levels of `case.toml`.
+    pub fn levels(&self) -> Levels {
+        let own = &self.settings;
+        let mut levels = if own.strict { Levels::strict() } else { Levels::lenient() };
+        for (codes, level) in [(&own.allow, Level::Allow), (&own.warn, Level::Warn), (&own.deny, Level::Deny)] {
+            for code in codes {
+                levels.set(code, level).unwrap_or_else(|error| panic!("{}: {error}", self.name()));
+            }
+        }
+        levels
+    }
+
+    fn selection(&self) -> Selection {
+        let own = &self.settings;
+        Selection {
+            devices: own.device.iter().map(|text| text.parse().expect("a selection")).collect(),
+            modules: own.module.iter().map(|text| text.as_str().into()).collect(),
+            objects: own.objects.iter().map(|text| text.parse().expect("a selection")).collect(),
+        }
+    }
+
+    /// Compares the expected files with what was made.
+    ///
+    /// # Errors
+    ///
+    /// The difference, line by line, and how to accept it.
+    pub fn compare(&self, actual: &Outputs) -> Result<(), String> {
+        let mut message = String::new();
+        for name in self.expected_names().iter().filter(|name| !actual.contains_key(*name)) {
+            message += &format!("{}/{name} is there, but nothing is written to it\n", self.name());
+        }
+        for (name, text) in actual {
+            let expected = std::fs::read_to_string(self.folder.join(name)).unwrap_or_default();
+            if expected != *text {
+                let (expected_name, actual_name) = (format!("{}/{name}", self.name()), "actual".to_owned());
+                let diff = TextDiff::from_lines(&expected, text);
+                message += &diff.unified_diff().header(&expected_name, &actual_name).to_string();
+            }
+        }
+        if message.is_empty() {
+            return Ok(());
+        }
+        let filter = self.folder_name();
+        Err(format!("{message}to accept: LEXIBUS_BLESS=1 cargo test -p lexibus-cli --test ui {filter}"))
+    }
+
+    /// Writes the expected files, and removes those that are not made any more.
+    ///
+    /// # Errors
+    ///
+    /// If a file cannot be written.
+    pub fn write_expected(&self, actual: &Outputs) -> std::io::Result<()> {
+        for name in self.expected_names().iter().filter(|name| !actual.contains_key(*name)) {
+            std::fs::remove_file(self.folder.join(name))?;
+        }
+        for (name, text) in actual {
+            std::fs::write(self.folder.join(name), text)?;
+        }
+        Ok(())
+    }
+
+    /// The names of the expected files that are there.
+    fn expected_names(&self) -> Vec<String> {
+        self.file_names().into_iter().filter(|name| is_expected(name)).collect()
+    }
+
+    fn file_names(&self) -> Vec<String> {
+        let entries = std::fs::read_dir(&self.folder).expect("the folder of a case");
+        let mut names: Vec<String> =
+            entries.map(|entry| entry.expect("a file of a case").file_name().to_string_lossy().into_owned()).collect();
+        names.sort();
+        names
+    }
+
+    /// The expected diagnostics.
+    pub fn expected_diagnostics(&self) -> String {
+        std::fs::read_to_string(self.folder.join(DIAGNOSTICS)).unwrap_or_default()
+    }
+}
+
+/// The files that a case makes: name and text.
+pub type Outputs = BTreeMap<String, String>;
+
+/// Whether a file of a case is written by blessing.
+fn is_expected(name: &str) -> bool {
+    name == DIAGNOSTICS || name.starts_with("output.")
+}
+
+/// Adds the diagnostics, if there are any.
+pub fn put_diagnostics(outputs: &mut Outputs, text: String) {
+    if !text.is_empty() {
+        outputs.insert(DIAGNOSTICS.to_owned(), text);
+    }
+}
+
+/// The ending of a file.
+pub fn ending(name: &str) -> &str {
+    Path::new(name).extension().and_then(|ending| ending.to_str()).unwrap_or_default()
+}

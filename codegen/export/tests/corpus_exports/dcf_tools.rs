@@ -1,0 +1,78 @@
+//! Exported files in a second independent reader: `dcfchk` of lely's `dcf-tools`.
+//!
+//! What it accepts before export it accepts after `export --real hex`. Skipped, with a message, where there is no Python with
+//! this package.
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use crate::corpus_support::{files_of, python};
+use lexibus_codegen::compile::{read, Options};
+use lexibus_codegen::source::Source;
+use lexibus_export::eds::{self, export, Flavour, Reals};
+use serde::Deserialize;
+
+/// Files that it accepts before export and not after, and why.
+const NOT_ACCEPTED: [(&str, &str); 1] = [(
+    "christiansandberg__canopen__sample",
+    "the lists of objects leave the PDO mapping out, which names 0x6040; the file has no such object, and the export lists all",
+)];
+
+/// What the package says of a file: `dcfchk -n 5`, and the same without its list of known keys.
+#[derive(Debug, Deserialize)]
+struct Verdict {
+    strict: bool,
+    lenient: bool,
+    error: String,
+}
+
+fn verdicts(python: &Path, paths: &[PathBuf]) -> Vec<Verdict> {
+    const SCRIPT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/corpus_exports/check.py");
+    let output = Command::new(python).arg(SCRIPT).args(paths).output().expect("Python runs");
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let text = String::from_utf8(output.stdout).expect("UTF-8");
+    let verdicts: Vec<Verdict> = text.lines().map(|line| serde_json::from_str(line).expect("JSON")).collect();
+    assert_eq!(verdicts.len(), paths.len());
+    verdicts
+}
+
+#[test]
+fn what_dcf_tools_accept_they_accept_after_export_too() {
+    let (Some(python), Some(files)) = (python::with(&["dcf.lint"]), files_of("eds")) else { return };
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("eds-in-dcf-tools");
+    std::fs::create_dir_all(&folder).expect("a folder for temporary files");
+    let options = eds::Options { flavour: Flavour::Eds, reals: Reals::Pattern };
+    let (mut names, mut paths) = (Vec::new(), [Vec::new(), Vec::new()]);
+    for (number, file) in files.into_iter().filter(|file| file.name.to_lowercase().ends_with(".eds")).enumerate() {
+        let compilation = read(Source::new(file.name.as_str(), file.bytes.clone()), &Options::default());
+        let Some(catalog) = &compilation.catalog else { continue };
+        let Some(exported) = export(catalog, &catalog.devices[0], options) else { continue };
+        for (list, (when, bytes)) in
+            paths.iter_mut().zip([("before", file.bytes.clone()), ("after", exported.text.into_bytes())])
+        {
+            let path = folder.join(format!("{number}-{when}.eds"));
+            std::fs::write(&path, bytes).expect("a temporary file");
+            list.push(path);
+        }
+        names.push(file.name);
+    }
+    let [before, after] = paths.map(|paths| verdicts(&python, &paths));
+    let count = |list: &[Verdict], of: fn(&Verdict) -> bool| list.iter().filter(|own| of(own)).count();
+    eprintln!(
+        "{} files: {} accepted strictly before and {} after export, {} and {} leniently",
+        names.len(),
+        count(&before, |own| own.strict),
+        count(&after, |own| own.strict),
+        count(&before, |own| own.lenient),
+        count(&after, |own| own.lenient)
+    );
+    assert!(count(&before, |own| own.strict) > 0 && count(&before, |own| own.lenient) > 0);
+    let is_excused = |name: &str| NOT_ACCEPTED.iter().any(|(own, _)| name.starts_with(own));
+    let pairs = names.iter().zip(before.iter().zip(&after));
+    let lost = pairs.filter(|(_, (before, after))| before.strict && !after.strict || before.lenient && !after.lenient);
+    let lost: Vec<String> = lost
+        .filter(|(name, _)| !is_excused(name))
+        .map(|(name, (_, after))| format!("{name}: {}", after.error))
+        .collect();
+    assert!(lost.is_empty(), "not accepted any more:\n{}", lost.join("\n"));
+}

@@ -1,0 +1,190 @@
+//! EDS → IR → EDS → IR is the identity on every file of the corpus.
+//!
+//! The IR of an exported file is that of the original, but for the places where things stand and for what the files say
+//! of the file itself (name, digest). And reading the export finds nothing wrong that wasn't wrong in the original.
+
+use std::collections::BTreeMap;
+
+use crate::corpus_support::round_trip::{content, counts, difference, options, source};
+use crate::corpus_support::{files, files_of, lane, File};
+use lexibus_codegen::compile::{check as compile, read, Compilation};
+use lexibus_codegen::diagnostics::Severity;
+use lexibus_codegen::ir::{self, Catalog, Device, Type};
+use lexibus_codegen::source::Source;
+use lexibus_export::eds::{export, Export, Flavour};
+use serde_json::Value;
+
+/// Codes that an export may have and its original didn't, with the reason.
+const MAY_APPEAR: [(&str, &str); 0] = [];
+
+/// What only a DCF says, taken out.
+fn without_configuration(value: &mut Value) {
+    match value {
+        Value::Object(fields) => {
+            for name in ["commissioning", "configured", "serial_number"] {
+                fields.entry(name).and_modify(|value| *value = Value::Null);
+            }
+            fields.entry("last_eds").and_modify(|value| *value = "".into());
+            fields.values_mut().for_each(without_configuration);
+        }
+        Value::Array(list) => {
+            let key = |value: &Value| value["key"].as_str().unwrap_or_default().to_owned();
+            list.retain(|value| !key(value).starts_with("DeviceComissioning/"));
+            list.retain(|value| !key(value).starts_with("ConnectedModules/"));
+            list.iter_mut().for_each(without_configuration);
+        }
+        _ => {}
+    }
+}
+
+fn exported(compilation: &Compilation, flavour: Flavour) -> Export {
+    let catalog = compilation.catalog.as_ref().expect("a catalogue");
+    export(catalog, &catalog.devices[0], flavour).expect("a CANopen device has an EDS")
+}
+
+/// Checks one file in one flavour; gives what is wrong.
+fn check(file: &File, original: &Compilation, flavour: Flavour) -> Vec<String> {
+    let options = options();
+    let Export { text, .. } = exported(original, flavour);
+    let ending = if flavour == Flavour::Dcf { "dcf" } else { "eds" };
+    let name = format!("export.{ending}");
+    let again = read(Source::new(name.as_str(), text.clone().into()), &options);
+    let mut wrong = Vec::new();
+    let mut say = |message: String| wrong.push(format!("{} as {ending}: {message}", file.name));
+    let Some(catalog) = &again.catalog else {
+        say("the export isn't read".into());
+        return wrong;
+    };
+    let mut before = content(&without_swapped_limits(original.catalog.as_ref().expect("a catalogue")));
+    if flavour == Flavour::Eds {
+        without_configuration(&mut before);
+    }
+    if let Some(difference) = difference(&before, &content(catalog), "") {
+        say(difference);
+    }
+    let known = counts(original);
+    for (code, count) in counts(&again) {
+        let was = known.get(code).copied().unwrap_or(0);
+        if count > was && !MAY_APPEAR.iter().any(|(may, _)| *may == code) {
+            let first = again.diagnostics.list().iter().find(|found| found.code.id == code).expect("a finding");
+            say(format!("{code} {was} times before, {count} times now: {}", again.one_line(first)));
+        }
+    }
+    if exported(&again, flavour).text != text {
+        say("the export of the export is another".into());
+    }
+    for line in text.split_inclusive('\n').filter(|line| !line.ends_with("\r\n")) {
+        say(format!("a line doesn't end as CiA 306 wants it: {line:?}"));
+    }
+    if flavour == Flavour::Dcf {
+        wrong.extend(check_passes(file, &text));
+    }
+    wrong
+}
+
+/// An export leaves out limits that no value satisfies.
+fn without_swapped_limits(catalog: &Catalog) -> Catalog {
+    let mut catalog = catalog.clone();
+    let lists = catalog.devices.iter_mut().map(|device| &mut device.groups);
+    for item in lists.flatten().flat_map(|group| &mut group.items) {
+        if item.limits.are_swapped(item.ty) {
+            (item.limits.low, item.limits.high) = (None, None);
+        }
+    }
+    catalog
+}
+
+/// The passes complete and check what was read: of an export they see the same, and say the same.
+fn check_passes(file: &File, text: &str) -> Vec<String> {
+    let options = options();
+    let (first, second) = (compile(source(file), &options), compile(Source::new("export.dcf", text.into()), &options));
+    let findings = |compilation: &Compilation| -> Vec<String> {
+        // How a number is written is no part of the IR.
+        let is_of_the_text = |id: &str| id.starts_with("EDS") || id == "TAB012";
+        let findings = compilation.diagnostics.list().iter().filter(|found| !is_of_the_text(found.code.id));
+        let mut findings: Vec<String> = findings.map(|found| format!("{} {}", found.code.id, found.message)).collect();
+        findings.sort();
+        findings
+    };
+    let mut wrong = Vec::new();
+    if findings(&first) != findings(&second) {
+        wrong.push(format!("{}: {:?} and {:?}", file.name, findings(&first), findings(&second)));
+    }
+    if exported(&first, Flavour::Dcf).text != exported(&second, Flavour::Dcf).text {
+        wrong.push(format!("{}: the checked device has another export", file.name));
+    }
+    wrong
+}
+
+#[test]
+fn eds_to_ir_to_eds_to_ir_is_the_identity() {
+    let Some(files) = files() else { return };
+    let (mut total, mut identical, mut wrong) = (0, 0, Vec::new());
+    for file in files.iter().filter(|file| !file.is_xml()) {
+        let original = read(source(file), &options());
+        if original.catalog.is_none() {
+            continue;
+        }
+        total += 1;
+        let before = wrong.len();
+        wrong.extend(check(file, &original, Flavour::Dcf));
+        wrong.extend(check(file, &original, Flavour::Eds));
+        identical += usize::from(wrong.len() == before);
+    }
+    eprintln!("{identical} of {total} files are identical after export");
+    assert!(total > lane::at_least(200), "only {total} files");
+    assert!(wrong.is_empty(), "{} wrong:\n{}", wrong.len(), wrong.join("\n"));
+}
+
+/// What an entry of any format is in an EDS, as far as that can say it.
+fn compare_items(device: &Device, again: &Device, wrong: &mut Vec<String>) {
+    for item in device.groups.iter().flat_map(|group| &group.items) {
+        let Some((index, sub)) = item.object() else { continue };
+        let Some(found) = again.entry(index, sub) else {
+            wrong.push(format!("{index:04X}:{sub:02X} is lost"));
+            continue;
+        };
+        let mut hold = |what: &str, holds: bool| {
+            if !holds {
+                wrong.push(format!("{index:04X}:{sub:02X}: {what}: {item:?} became {found:?}"));
+            }
+        };
+        let (access, as_before) = (found.access, item.access);
+        hold("access", access.readable() == as_before.readable() && access.writable() == as_before.writable());
+        hold("mapping", !item.mappable.any() || found.mappable.any() || !as_before.writable());
+        let is_kept = item.ty == found.ty && !matches!(item.ty, Type::Opaque(_) | Type::Domain);
+        hold("default", !is_kept || item.default == found.default);
+        let is_whole = |value: &Option<ir::Value>| !matches!(value, Some(ir::Value::Real(_)));
+        hold("low", !is_kept || !is_whole(&item.limits.low) || item.limits.low == found.limits.low);
+        hold("high", !is_kept || !is_whole(&item.limits.high) || item.limits.high == found.limits.high);
+    }
+}
+
+#[test]
+fn devices_of_other_formats_have_the_same_entries() {
+    let (Some(files), Some(esi)) = (files(), files_of("esi")) else { return };
+    let xml = files.into_iter().filter(File::is_xml).chain(esi);
+    let (mut devices, mut kinds, mut wrong) = (0, BTreeMap::new(), Vec::new());
+    for file in xml {
+        let compilation = compile(source(&file), &options());
+        let Some(catalog) = &compilation.catalog else { continue };
+        // Files with hundreds of devices repeat themselves.
+        for device in catalog.devices.iter().filter(|device| !device.groups.is_empty()).take(3) {
+            let Some(exported) = export(catalog, device, Flavour::Dcf) else { continue };
+            devices += 1;
+            let again = read(Source::new("export.dcf", exported.text.into()), &options());
+            let mut found = Vec::new();
+            if again.diagnostics.has_errors() {
+                let errors = again.diagnostics.list().iter().filter(|found| found.severity == Severity::Error);
+                found.extend(errors.map(|error| again.one_line(error)));
+            }
+            compare_items(device, &again.catalog.as_ref().expect("a device").devices[0], &mut found);
+            wrong.extend(found.into_iter().map(|found| format!("{}: {}: {found}", file.name, device.name)));
+            exported.notes.iter().for_each(|note| *kinds.entry(note.kind.name()).or_default() += note.count);
+        }
+    }
+    let kinds: BTreeMap<&str, usize> = kinds;
+    eprintln!("{devices} devices of other formats; left out or changed: {kinds:?}");
+    assert!(devices > lane::at_least(150), "only {devices} devices");
+    assert!(wrong.is_empty(), "{} wrong:\n{}", wrong.len(), wrong[..wrong.len().min(40)].join("\n"));
+}

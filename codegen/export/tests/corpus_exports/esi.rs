@@ -1,0 +1,252 @@
+//! ESI → IR → ESI → IR is the identity on every file of the corpus, but for what is listed here; and every file that is
+//! written is valid by ETG's schema, even where its original isn't.
+
+use std::collections::BTreeMap;
+use std::sync::OnceLock;
+
+use crate::corpus_support::round_trip::{content, difference, each_object, options, source, take_extensions};
+use crate::corpus_support::xsd::Schema;
+use crate::corpus_support::{files, files_of, lane};
+use lexibus_codegen::compile::read;
+use lexibus_codegen::ir::{Catalog, Device, Item};
+use lexibus_codegen::source::Source;
+use lexibus_export::esi::{export, NoteKind, Options, Refusal};
+use lexibus_export::Export;
+use serde_json::Value;
+
+/// Takes out what isn't compared, each with its reason.
+fn comparable(before: &mut Value, after: &mut Value) {
+    for value in [&mut *before, &mut *after] {
+        each_object(value, &mut |fields| {
+            // How the source spreads the description of an object over it and its data type.
+            fields.remove("described");
+            // A REAL has 32 bits in the file; in a text it may have been written with more digits.
+            if let Some(real) = fields.get_mut("real").filter(|real| real.is_f64()) {
+                *real = Value::from(real.as_f64().unwrap_or_default() as f32);
+            }
+        });
+    }
+    // The schema wants every type defined, and types of objects to say what each entry is for: there may be more of them.
+    for list in ["devices", "modules"] {
+        let (Some(before), Some(after)) = (before[list].as_array_mut(), after[list].as_array_mut()) else { continue };
+        for (one, other) in before.iter_mut().zip(after) {
+            let count = one["types"].as_array().map_or(0, Vec::len);
+            if let Some(types) = other["types"].as_array_mut() {
+                types.truncate(count);
+            }
+        }
+    }
+}
+
+fn noted(exported: &Export, kind: NoteKind) -> usize {
+    exported.notes.iter().filter(|note| note.kind == kind).map(|note| note.count).sum()
+}
+
+/// Units for which there is no number are left out, and names of types and sub-items that occur twice got a number, which is
+/// told: takes out both, and gives how many there are of each.
+fn take_told(before: &mut Value, after: &mut Value) -> (usize, usize) {
+    let add = |sum: (usize, usize), more: (usize, usize)| (sum.0 + more.0, sum.1 + more.1);
+    match (before, after) {
+        (Value::Object(one), Value::Object(other)) => {
+            let is_lost = one.get("quantity").is_some_and(|own| !own.is_null())
+                && other.get("quantity").is_some_and(Value::is_null);
+            if is_lost {
+                one.insert("quantity".into(), Value::Null);
+            }
+            let names = [&*one, &*other].map(|fields| fields.get("name").and_then(Value::as_str).map(str::to_owned));
+            let is_numbered = matches!(&names, [Some(own), Some(name)] if name.starts_with(&format!("{own} (")));
+            if is_numbered {
+                other.insert("name".into(), names[0].clone().into());
+            }
+            let inner = one.iter_mut().filter_map(|(key, value)| Some(take_told(value, other.get_mut(key)?)));
+            inner.fold((usize::from(is_lost), usize::from(is_numbered)), add)
+        }
+        (Value::Array(one), Value::Array(other)) => {
+            one.iter_mut().zip(other).map(|(one, other)| take_told(one, other)).fold((0, 0), add)
+        }
+        _ => (0, 0),
+    }
+}
+
+/// A file has one vendor: those of others are told to be left out.
+fn take_other_vendors(before: &mut Value) -> usize {
+    let Some(devices) = before["devices"].as_array_mut() else { return 0 };
+    let vendor = devices.first().map_or(Value::Null, |device| device["identity"]["vendor_id"].clone());
+    let count = devices.len();
+    devices.retain(|device| device["identity"]["vendor_id"] == vendor);
+    count - devices.len()
+}
+
+/// What is wrong with what the export of `catalog` became.
+fn check(catalog: &Catalog, exported: &Export) -> Option<String> {
+    let again = read(Source::new("export.xml", exported.text.clone().into()), &options());
+    let Some(found) = &again.catalog else { return Some("the export isn't read".into()) };
+    let [mut before, mut after] = [catalog, found].map(content);
+    let vendors = take_other_vendors(&mut before);
+    let (own, others) = (take_extensions(&mut before), take_extensions(&mut after));
+    comparable(&mut before, &mut after);
+    let (units, names) = take_told(&mut before, &mut after);
+    let told = [NoteKind::Quantity, NoteKind::Renamed, NoteKind::OtherVendor].map(|kind| noted(exported, kind));
+    if units != told[0] || names > told[1] || vendors != told[2] {
+        return Some(format!("{units} units, {names} names and {vendors} devices are lost, and {told:?} are told"));
+    }
+    if let Some(difference) = difference(&before, &after, "") {
+        return Some(difference);
+    }
+    // Attributes that the IR has no fields for are there again, or it is told that they aren't.
+    let missing: usize =
+        own.iter().map(|(key, count)| count.saturating_sub(others.get(key).copied().unwrap_or(0))).sum();
+    let new = others.iter().find(|(key, count)| own.get(key).is_none_or(|before| before < count));
+    if let Some((key, _)) = new {
+        return Some(format!("{key:?} wasn't there before"));
+    }
+    let told = noted(exported, NoteKind::Extension);
+    if missing != told {
+        return Some(format!("{missing} extension attributes are lost, and {told} are told"));
+    }
+    match export(found, &Options::default()) {
+        Ok(second) if second.text == exported.text => None,
+        _ => Some("the export of the export is another".into()),
+    }
+}
+
+/// Every file that can be exported, with what it becomes.
+fn exports() -> Option<&'static Vec<(String, Catalog, Export)>> {
+    static EXPORTS: OnceLock<Option<Vec<(String, Catalog, Export)>>> = OnceLock::new();
+    EXPORTS.get_or_init(make_exports).as_ref()
+}
+
+fn make_exports() -> Option<Vec<(String, Catalog, Export)>> {
+    let mut exports = Vec::new();
+    for file in files_of("esi")? {
+        let Some(catalog) = read(source(&file), &options()).catalog else { continue };
+        let exported = export(&catalog, &Options::default());
+        exports.push((
+            file.name.clone(),
+            catalog,
+            exported.unwrap_or_else(|refusal| panic!("{}: {refusal}", file.name)),
+        ));
+    }
+    assert!(exports.len() > lane::at_least(130), "only {} files of the corpus are exported", exports.len());
+    Some(exports)
+}
+
+#[test]
+fn esi_to_ir_to_esi_to_ir_is_the_identity() {
+    let Some(exports) = exports() else { return };
+    let mut kinds: BTreeMap<&str, usize> = BTreeMap::new();
+    let mut wrong = Vec::new();
+    for (name, catalog, exported) in exports {
+        exported.notes.iter().for_each(|note| *kinds.entry(note.kind.name()).or_default() += note.count);
+        wrong.extend(check(catalog, exported).map(|message| format!("{name}: {message}")));
+    }
+    eprintln!(
+        "{} of {} files are the same; left out or changed: {kinds:?}",
+        exports.len() - wrong.len(),
+        exports.len()
+    );
+    assert!(wrong.is_empty(), "{} wrong:\n{}", wrong.len(), wrong.join("\n"));
+}
+
+/// What a CANopen device doesn't say of a slave.
+fn of_a_slave() -> Options {
+    let mut options = Options::default();
+    let facts = [
+        ("vendor-id", "0x1"),
+        ("vendor-name", "Example"),
+        ("product-code", "1"),
+        ("revision", "1"),
+        ("order-code", "X"),
+        ("physics", "YY"),
+        ("group", "Devices"),
+        ("mailbox-out", "0x1000:128"),
+        ("mailbox-in", "0x1080:128"),
+        ("outputs", "0x1100"),
+        ("inputs", "0x1180"),
+        ("coe", "sdo-info"),
+    ];
+    facts.iter().for_each(|(key, value)| options.set(key, value).expect("an option"));
+    options
+}
+
+/// Entries of a CANopen device that aren't in its ESI as they were.
+fn lost_entries(before: &Device, after: &Device, kinds: &[NoteKind]) -> Vec<String> {
+    let mut lost = Vec::new();
+    for item in before.groups.iter().flat_map(|group| &group.items) {
+        let Some((index, sub)) = item.object() else { continue };
+        let Some(found) = after.entry(index, sub) else {
+            if after.object(index).is_some() || !kinds.contains(&NoteKind::CanObject) {
+                lost.push(format!("{index:04X}:{sub:02X} is lost"));
+            }
+            continue;
+        };
+        let access = |item: &Item| (item.access.readable(), item.access.writable(), item.mappable);
+        // What has no name goes by that of its type.
+        let is_same = (item.name.is_empty() || found.name == item.name) && access(found) == access(item);
+        let is_whole = matches!(item.default, Some(lexibus_codegen::ir::Value::Int(_))) && found.ty == item.ty;
+        if !is_same || is_whole && found.default != item.default {
+            lost.push(format!("{index:04X}:{sub:02X}: {item:?} became {found:?}"));
+        }
+    }
+    lost
+}
+
+#[test]
+fn canopen_devices_have_valid_dictionaries() {
+    let Some(files) = files() else { return };
+    let (mut texts, mut wrong) = (Vec::new(), Vec::new());
+    for file in files {
+        let Some(catalog) = read(source(&file), &options()).catalog else { continue };
+        let exported = match export(&catalog, &of_a_slave()) {
+            Ok(exported) => exported,
+            Err(Refusal::Nothing) => continue,
+            Err(refusal) => panic!("{}: {refusal}", file.name),
+        };
+        let again = read(Source::new("export.xml", exported.text.clone().into()), &options());
+        let kinds: Vec<NoteKind> = exported.notes.iter().map(|note| note.kind).collect();
+        match again.catalog.as_ref().and_then(|catalog| catalog.devices.first()) {
+            Some(device) => {
+                let lost = lost_entries(&catalog.devices[0], device, &kinds);
+                wrong.extend(lost.into_iter().map(|lost| format!("{}: {lost}", file.name)));
+            }
+            None => wrong.push(format!("{}: the export isn't read", file.name)),
+        }
+        texts.push((file.name, exported.text));
+    }
+    eprintln!("{} CANopen devices have an ESI", texts.len());
+    assert!(
+        texts.len() > lane::at_least(250) && wrong.is_empty(),
+        "{} wrong:\n{}",
+        wrong.len(),
+        wrong[..wrong.len().min(40)].join("\n")
+    );
+    let Some(schema) = Schema::new("esi/EtherCATInfo.xsd") else { return };
+    let named = texts.iter().map(|(name, text)| (name.as_str(), text.as_bytes()));
+    let violations = schema.violations("canopen", named);
+    assert!(
+        violations.is_empty(),
+        "{} violations:\n{}",
+        violations.len(),
+        violations[..violations.len().min(40)].join("\n")
+    );
+}
+
+#[test]
+fn what_is_exported_is_valid() {
+    let Some(exports) = exports() else { return };
+    for (root, schema) in [
+        ("<EtherCATInfo", "esi/EtherCATInfo.xsd"),
+        ("<EtherCATDict", "esi/EtherCATDict.xsd"),
+        ("<EtherCATDiag", "esi/EtherCATDiag.xsd"),
+    ] {
+        let Some(schema) = Schema::new(schema) else { return };
+        let is_own = |text: &str| text.lines().nth(1).is_some_and(|line| line.starts_with(root));
+        let own = exports.iter().filter(|(_, _, exported)| is_own(&exported.text));
+        let own: Vec<(&str, &[u8])> =
+            own.map(|(name, _, exported)| (name.as_str(), exported.text.as_bytes())).collect();
+        assert!(!own.is_empty() || !lane::is_full(), "no export has the root {root}>");
+        let violations = schema.violations(&root[1..], own.iter().copied());
+        eprintln!("{} files with the root {root}>", own.len());
+        assert!(violations.is_empty(), "{} violations:\n{}", violations.len(), violations.join("\n"));
+    }
+}

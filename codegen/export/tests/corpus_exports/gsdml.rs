@@ -1,0 +1,125 @@
+//! GSDML → IR → GSDML → IR is the identity on every file of the corpus, but for what is listed here; and what was valid by PI's
+//! schema is valid again.
+
+use std::collections::BTreeMap;
+
+use crate::corpus_support::round_trip::{content, difference, each_object, options, source, take_extensions};
+use crate::corpus_support::xsd::Schema;
+use crate::corpus_support::{files_of, lane, File};
+use lexibus_codegen::compile::read;
+use lexibus_codegen::ir::Catalog;
+use lexibus_codegen::source::Source;
+use lexibus_export::gsdml::{export, file_name, NoteKind, Options};
+use lexibus_export::Export;
+use serde_json::Value;
+
+/// Takes out what isn't compared, each with its reason.
+fn comparable(value: &mut Value) {
+    // The lists of diagnosis stand in the order of the schema.
+    if let Some(tables) = value["code_tables"].as_array_mut() {
+        tables.sort_by_key(|table| table["name"].to_string());
+    }
+    each_object(value, &mut |fields| {
+        // Attributes have no order, and neither have the elements that they are of.
+        if let Some(Value::Array(list)) = fields.get_mut("attributes") {
+            list.sort_by_key(ToString::to_string);
+        }
+        // A file that doesn't say by which version of the schema it is written says so now.
+        if let Some(version) = fields.get_mut("format_version").filter(|version| version.as_str() == Some("")) {
+            *version = "2.35".into();
+        }
+    });
+}
+
+fn noted(exported: &Export, kind: NoteKind) -> usize {
+    exported.notes.iter().filter(|note| note.kind == kind).map(|note| note.count).sum()
+}
+
+/// What is wrong with what the export of `catalog` became.
+fn check(catalog: &Catalog, exported: &Export) -> Option<String> {
+    let name = file_name(catalog, &Options::default()).unwrap_or_else(|| "export".into()) + ".xml";
+    let again = read(Source::new(name.as_str(), exported.text.clone().into()), &options());
+    let Some(found) = &again.catalog else { return Some("the export isn't read".into()) };
+    let [mut before, mut after] = [catalog, found].map(content);
+    let (own, others) = (take_extensions(&mut before), take_extensions(&mut after));
+    comparable(&mut before);
+    comparable(&mut after);
+    if let Some(difference) = difference(&before, &after, "") {
+        return Some(difference);
+    }
+    let missing: usize =
+        own.iter().map(|(key, count)| count.saturating_sub(others.get(key).copied().unwrap_or(0))).sum();
+    // The schema wants the header, which says the same in every file.
+    let is_header = |key: &str| key.starts_with("ProfileHeader/") || key.starts_with("ISO15745Reference/");
+    let new = others.iter().filter(|(key, _)| !is_header(&key.0));
+    let new = new.into_iter().find(|(key, count)| own.get(key).is_none_or(|before| before < count));
+    if let Some((key, _)) = new {
+        return Some(format!("{key:?} wasn't there before"));
+    }
+    let told = noted(exported, NoteKind::Extension);
+    if missing != told {
+        return Some(format!("{missing} extension attributes are lost, and {told} are told"));
+    }
+    match export(found, &Options::default()) {
+        Ok(second) if second.text == exported.text => None,
+        _ => Some("the export of the export is another".into()),
+    }
+}
+
+/// Every file that can be exported, with what it becomes.
+fn exports() -> Option<Vec<(File, Catalog, Export)>> {
+    let mut exports = Vec::new();
+    for file in files_of("gsdml")? {
+        let Some(catalog) = read(source(&file), &options()).catalog else { continue };
+        // One file of the corpus has no device access point, and nothing else either.
+        if catalog.devices.is_empty() && catalog.modules.is_empty() {
+            continue;
+        }
+        let exported = export(&catalog, &Options::default());
+        let exported = exported.unwrap_or_else(|refusal| panic!("{}: {refusal}", file.name));
+        exports.push((file, catalog, exported));
+    }
+    assert!(exports.len() > lane::at_least(70), "only {} files of the corpus are exported", exports.len());
+    Some(exports)
+}
+
+#[test]
+fn gsdml_to_ir_to_gsdml_to_ir_is_the_identity() {
+    let Some(exports) = exports() else { return };
+    let mut kinds: BTreeMap<&str, usize> = BTreeMap::new();
+    let mut wrong = Vec::new();
+    for (file, catalog, exported) in &exports {
+        exported.notes.iter().for_each(|note| *kinds.entry(note.kind.name()).or_default() += note.count);
+        wrong.extend(check(catalog, exported).map(|message| format!("{}: {message}", file.name)));
+    }
+    eprintln!(
+        "{} of {} files are the same; left out or changed: {kinds:?}",
+        exports.len() - wrong.len(),
+        exports.len()
+    );
+    assert!(wrong.is_empty(), "{} wrong:\n{}", wrong.len(), wrong.join("\n"));
+}
+
+#[test]
+fn what_was_valid_is_valid() {
+    let (Some(exports), Some(schema)) = (exports(), Schema::new("gsdml/GSDML-DeviceProfile-v2.35.xsd")) else { return };
+    let originals: Vec<String> = exports.iter().map(|(file, ..)| without_declaration(&file.text())).collect();
+    let named = exports.iter().zip(&originals).map(|((file, ..), text)| (file.name.as_str(), text.as_bytes()));
+    let violations = schema.violations("originals", named);
+    let is_valid = |name: &str| !violations.iter().any(|line| line.starts_with(&format!("{name}: ")));
+    let valid: Vec<&(File, Catalog, Export)> = exports.iter().filter(|(file, ..)| is_valid(&file.name)).collect();
+    eprintln!("{} of {} files are valid by V2.35", valid.len(), exports.len());
+    assert!(valid.len() > lane::at_least(20), "only {} files are valid", valid.len());
+    let named = valid.iter().map(|(file, _, exported)| (file.name.as_str(), exported.text.as_bytes()));
+    let violations = schema.violations("exports", named);
+    assert!(violations.is_empty(), "{} violations:\n{}", violations.len(), violations.join("\n"));
+}
+
+/// A text that was decoded is UTF-8, whatever its declaration says.
+fn without_declaration(text: &str) -> String {
+    let text = text.trim_start();
+    match text.strip_prefix("<?xml").and_then(|rest| rest.split_once("?>")) {
+        Some((_, rest)) => rest.to_owned(),
+        None => text.to_owned(),
+    }
+}

@@ -1,0 +1,13 @@
+//! Exports: their text, what they are valid by, and what they report as left out or missing.
+
+#[path = "../../../tests/corpus_support/mod.rs"]
+mod corpus_support;
+#[path = "../../../tests/eco_support/mod.rs"]
+mod eco_support;
+
+mod eco;
+mod eds;
+mod esi;
+mod gsdml;
+mod hostile;
+mod info;

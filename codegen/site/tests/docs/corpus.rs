@@ -1,0 +1,47 @@
+//! Documentation of every file of the corpus, in both formats: every link leads somewhere, and nothing is markup that isn't ours.
+
+use crate::corpus_support::{all_files, lane, File};
+use crate::docs_support::{html_links, markdown_links, values};
+use lexibus_codegen::compile::{check, Options};
+use lexibus_codegen::source::Source;
+use lexibus_site::{Format, Site};
+
+/// Threads that share the work.
+const THREADS: usize = 2;
+
+/// Links of the pages of a file, in both formats; `None` where it has errors.
+fn links(file: &File) -> Option<(usize, usize)> {
+    let compilation = check(Source::new(&*file.name, file.bytes.clone()), &Options::default());
+    let pages = |format| {
+        let mut site = Site::new(format);
+        let mut pages = site.add_compilation("file", &compilation);
+        let is_usable = !pages.is_empty();
+        pages.extend(site.finish());
+        is_usable.then_some(pages)
+    };
+    let html = pages(Format::Html)?;
+    for page in html.iter().filter(|page| page.path.ends_with(".html")) {
+        assert_eq!(page.text.matches("<script").count(), 1, "{}: {}", file.name, page.path);
+        assert!(values(&page.text, "href").iter().all(|link| !link.contains("//")), "{}: {}", file.name, page.path);
+    }
+    Some((html_links(&html), markdown_links(&pages(Format::Markdown)?)))
+}
+
+#[test]
+fn every_file_has_pages() {
+    let Some(files) = all_files() else { return };
+    let counts = std::thread::scope(|scope| {
+        let part = |start: usize| {
+            let files = &files;
+            scope.spawn(move || files.iter().skip(start).step_by(THREADS).map(links).collect::<Vec<_>>())
+        };
+        let parts: Vec<_> = (0..THREADS).map(part).collect();
+        parts.into_iter().flat_map(|part| part.join().expect("every link leads somewhere")).collect::<Vec<_>>()
+    });
+    let (html, markdown) =
+        counts.iter().flatten().fold((0, 0), |(html, markdown), own| (html + own.0, markdown + own.1));
+    println!("{} files, {html} links in HTML, {markdown} in Markdown", counts.iter().flatten().count());
+    // Those that are left are rejected by the compiler, with errors that other tests look at.
+    let percent = if lane::is_full() { 95 } else { 75 };
+    assert!(counts.iter().flatten().count() * 100 > files.len() * percent);
+}

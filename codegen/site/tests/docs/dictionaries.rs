@@ -1,0 +1,31 @@
+//! Pages of the four drives that are transcribed from their manuals.
+
+use std::collections::HashSet;
+
+use lexibus_codegen::ir::Doubt;
+use lexibus_site::Site;
+
+use crate::doubts;
+
+/// The dictionaries.
+const DRIVES: [&str; 4] = ["aec-vector-step.toml", "eco.toml", "hsd-sm137-sm140.toml", "kollmorgen-akd.toml"];
+
+#[test]
+fn every_doubt_is_on_the_page_of_assumptions() {
+    for file in DRIVES {
+        let catalog = doubts::catalog(file);
+        let pages = Site::default().add("drive", &catalog);
+        let page = pages.iter().find(|page| page.path.ends_with("assumptions.html")).expect("the page");
+        // A repeated row of the manual has its ambiguity once on the page, with a link to each item.
+        let all = doubts::doubts(&catalog);
+        let fact = |doubt: &Doubt| {
+            (doubt.says.clone(), doubt.chosen.clone(), doubt.cite.clone(), format!("{:?}", doubt.subject))
+        };
+        let distinct: HashSet<_> = all.iter().map(fact).collect();
+        let rows: Vec<_> = page.text.split("<tr><th scope=\"row\">").skip(1).collect();
+        assert_eq!(rows.len(), distinct.len(), "{file}");
+        let links: usize =
+            rows.iter().map(|row| row.split("<td>").next().unwrap_or_default().matches("<a ").count()).sum();
+        assert_eq!(links, all.len(), "{file}");
+    }
+}

@@ -1,0 +1,149 @@
+//! The site of `lexibus docs`: each link leads somewhere, nothing of a description is markup, and it is as small as it should be.
+
+use crate::docs_support::{files, hostile, html_links, html_markup, site, values, ALL};
+use lexibus_codegen::source::Source;
+use lexibus_site::Format;
+
+#[test]
+fn each_link_leads_somewhere() {
+    let count = html_links(&files(Format::Html, &ALL));
+    assert!(count > 5000, "only {count} links");
+}
+
+#[test]
+fn the_search_finds_what_pages_have() {
+    let pages = files(Format::Html, &["dictionaries/hsd-sm137-sm140.toml"]);
+    let index = &pages.iter().find(|page| page.path == "hsd-sm137-sm140/search.js").expect("an index").text;
+    // A parameter, a message by its Italian name, a code.
+    for text in ["KP_VEL\\t", "\\nCmdTraj\\tPosizionamento", "\\noverheated\\tALOVERHEATED\\t"] {
+        assert!(index.contains(text), "{text}");
+    }
+    assert!(index.starts_with("lexibusIndex([[\"index.html\",\"HSD Motor\"],"));
+    assert!(index.contains("\\nparameter 0x0105\\n"));
+}
+
+#[test]
+fn nothing_of_a_description_is_markup() {
+    let pages = site(Format::Html, hostile::descriptions());
+    html_markup(&pages);
+    let shown: usize = pages
+        .iter()
+        .filter(|page| page.path.ends_with(".html"))
+        .map(|page| page.text.matches("alert(1)").count())
+        .sum();
+    assert!(shown > 60, "only {shown} texts are shown");
+}
+
+#[test]
+fn nothing_comes_from_elsewhere() {
+    for page in files(Format::Html, &ALL) {
+        for attribute in ["src", "href"] {
+            assert!(values(&page.text, attribute).iter().all(|link| !link.contains("//")), "{}", page.path);
+        }
+        if page.path.ends_with(".css") || page.path == "site.js" {
+            assert!(!page.text.contains("http") && !page.text.contains("url("), "{}", page.path);
+        }
+    }
+}
+
+#[test]
+fn two_thousand_registers_are_small() {
+    let field = |register: usize, at: usize| {
+        format!("\"{}-{}\" = {{ name = \"field {at} of {register}\", number = true }}", 2 * at + 1, 2 * at)
+    };
+    let row = |register: usize| {
+        let fields: Vec<String> = (0..8).map(|at| field(register, at)).collect();
+        format!(
+            "register_{register} = {{ reg = {register}, type = \"u16\", access = \"rw\", bits = {{ {} }} }}\n",
+            fields.join(", ")
+        )
+    };
+    let rows: String = (0..2000).map(row).collect();
+    let table = format!(
+        "lexibus = 1\n[device]\nname = \"Big\"\nbuses = [\"modbus\"]\n[spaces.register]\nmodbus = {{ table = \"holding\" }}\n\
+         [[chapters]]\ntitle = \"Registers\"\n[chapters.registers]\n{rows}"
+    );
+    let pages = site(Format::Html, vec![("big".to_owned(), Source::new("big.toml", table.into()))]);
+    let size: usize = pages.iter().map(|page| page.text.len()).sum();
+    assert!(size < 3_000_000, "{size} bytes");
+    assert!(pages.len() < 20, "{} files", pages.len());
+}
+
+#[test]
+fn a_page_of_registers() {
+    let table = "lexibus = 1\n[device]\nname = \"Pump\"\nbuses = [\"modbus\"]\n[manual]\nlanguage = \"it\"\ncites = \"page\"\n\
+                 [spaces.register]\nmodbus = { table = \"holding\" }\n[[chapters]]\ntitle = \"Control\"\ndoc = \"What is wanted\"\n[chapters.registers]\n\
+                 speed = { reg = 1, type = \"i16\", access = \"rw\", unit = \"rpm\", scale = 0.1, min = -300, max = 300, default = 0, orig = \"velocità\", cite = 4, save = true }\n\
+                 control = { reg = 2, type = \"u8\", access = \"rw\", bits = { 0 = \"on\", \"3-2\" = { name = \"mode\", values = { 1 = \"slow\" } } }, \
+                 doubt = { says = \"Two tables differ\", chose = \"the first\", why = \"it has more\" } }\n";
+    let pages = site(Format::Html, vec![("pump".to_owned(), Source::new("pump.toml", table.into()))]);
+    let page = pages.iter().find(|page| page.path == "pump/control.html").expect("the chapter");
+    let (_, content) = page.text.split_once("<main").expect("the content");
+    insta::assert_snapshot!(content);
+}
+
+#[test]
+fn repairs_stand_where_they_matter() {
+    let eds = "[DeviceInfo]\nProductName=Pump\n[ManufacturerObjects]\nSupportedObjects=2\n1=0x2000\n2=0x2001\n\
+               [2000]\nParameterName=Gain\nDataType=6\nAccessType=rw\nDefaultValue=012\n\
+               [2001]\nParameterName=Level\nDataType=6\nAccessType=ro\n";
+    for (format, page, all) in [
+        (Format::Html, "pump/manufacturer-objects.html", "pump/findings.html"),
+        (Format::Markdown, "pump/manufacturer-objects.md", "pump/findings.md"),
+    ] {
+        let pages = site(format, vec![("pump".to_owned(), Source::new("pump.eds", eds.into()))]);
+        let text = |path: &str| &pages.iter().find(|page| page.path == path).unwrap_or_else(|| panic!("{path}")).text;
+        let (gain, level) = text(page).split_once("id=\"0x2001\"").expect("two objects");
+        assert!(gain.contains("Repaired") && gain.contains("(pump.eds:11:14, EDS020)"), "{gain}");
+        assert!(!level.contains("Repaired"), "{level}");
+        assert!(text(all).contains("EDS020"), "{}", text(all));
+        let first = pages.iter().find(|page| page.path.starts_with("pump/index") || page.path == "pump/index.md");
+        assert!(first.expect("a first page").text.contains(all.trim_start_matches("pump/")));
+    }
+    // What has none has no page of them.
+    let pages = files(Format::Html, &["dictionaries/demo-drive.eds"]);
+    assert!(pages.iter().all(|page| !page.path.ends_with("findings.html")));
+}
+
+#[test]
+fn languages_of_modules_can_be_chosen() {
+    let path = crate::root::root().join("tests/data/drive.gsdml.xml");
+    let german = "<Language xml:lang=\"de\"><Text TextId=\"T_Tel1\" Value=\"Standardtelegramm 1\"/></Language></ExternalTextList>";
+    let text = std::fs::read_to_string(path).expect("a description").replace("</ExternalTextList>", german);
+    let source = || vec![("drive".to_owned(), Source::new("drive.xml", text.clone().into()))];
+    let pages = site(Format::Html, source());
+    let markdown = site(Format::Markdown, source());
+    let page = markdown.iter().find(|page| page.path == "drive/modules.md").expect("the modules");
+    assert!(page.text.contains(" Standard telegram 1 *Standardtelegramm 1*\n"), "{}", page.text);
+    let text = |path: &str| &pages.iter().find(|page| page.path == path).unwrap_or_else(|| panic!("{path}")).text;
+    for path in ["drive/index.html", "drive/modules.html"] {
+        assert!(text(path).contains("<option>de</option>"), "{path}");
+    }
+    let modules = text("drive/modules.html");
+    assert!(modules.contains("<i lang=\"de\">"), "names");
+    assert!(modules.contains("<p lang=\"de\">"), "descriptions");
+}
+
+#[test]
+fn each_transition_of_cia_402_has_an_arrow() {
+    let pages = files(Format::Html, &["dictionaries/demo-drive.eds"]);
+    let page = pages.iter().find(|page| page.path.ends_with("states-and-procedures.html")).expect("the state machine");
+    let start = page.text.find("<svg class=\"states\"").expect("the diagram");
+    let diagram = &page.text[start..start + page.text[start..].find("</svg>").expect("its end")];
+    // Transition 13 leaves any state.
+    assert!(diagram.contains(">any state<"), "{diagram}");
+    assert_eq!(diagram.matches("marker-end").count(), 16);
+    for number in 1..=16 {
+        assert!(diagram.contains(&format!(">{number}</text>")), "transition {number}");
+    }
+    assert!(page.text.contains("<td>xxxx xxxx x1xx 0000<td>"), "states are bit patterns");
+}
+
+#[test]
+fn the_search_has_printed_and_wire_addresses() {
+    let pages = files(Format::Html, &["tests/ui/tables/printed-and-wire-addresses/input.toml"]);
+    let index = pages.iter().find(|page| page.path == "input/search.js").expect("the index");
+    for number in ["register 40101 (wire 100)", "register 40102–40103 (wire 101–102)", "coil 7 (wire 6)"] {
+        assert!(index.text.contains(number), "{number}: {}", index.text);
+    }
+}

@@ -1,0 +1,188 @@
+//! Sites of documentation that the tests of their formats have in common.
+
+#![allow(dead_code, reason = "each test needs a part of it")]
+
+pub mod hostile;
+#[path = "../../../../tests/support/root.rs"]
+mod root;
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use lexibus_codegen::compile::{check, Options};
+use lexibus_codegen::source::Source;
+use lexibus_site::{Format, Page, Site};
+use pulldown_cmark::{Event, Parser, Tag};
+use root::root;
+
+/// The pages of these sources.
+pub fn site(format: Format, sources: Vec<(String, Source)>) -> Vec<Page> {
+    let (mut site, mut pages) = (Site::new(format), Vec::new());
+    for (name, source) in sources {
+        let own = site.add_compilation(&name, &check(source, &Options::default()));
+        assert!(!own.is_empty(), "{name}");
+        pages.extend(own);
+    }
+    pages.extend(site.finish());
+    pages
+}
+
+/// The pages of these files of the repository.
+pub fn files(format: Format, paths: &[&str]) -> Vec<Page> {
+    let read = |path: &&str| {
+        let name = path.rsplit('/').next().unwrap_or(path).split('.').next().unwrap_or_default().to_owned();
+        (name, Source::read(&root().join(path)).expect("a description"))
+    };
+    site(format, paths.iter().map(read).collect())
+}
+
+/// Descriptions of every format.
+pub const ALL: [&str; 10] = [
+    "dictionaries/aec-vector-step.toml",
+    "dictionaries/demo-drive.eds",
+    "dictionaries/eco.toml",
+    "dictionaries/hsd-sm137-sm140.toml",
+    "dictionaries/kollmorgen-akd.toml",
+    "tests/data/coupler.esi.xml",
+    "tests/data/drive.gsdml.xml",
+    "tests/data/heads.gsdml.xml",
+    "tests/data/hoist.toml",
+    "tests/data/safe.gsdml.xml",
+];
+
+/// The values of an attribute in double quotes.
+pub fn values<'p>(text: &'p str, attribute: &str) -> Vec<&'p str> {
+    let start = format!(" {attribute}=\"");
+    text.split(&start).skip(1).filter_map(|rest| rest.split('"').next()).collect()
+}
+
+/// Follows every link of a site.
+///
+/// # Panics
+///
+/// Where one leads nowhere, or an address is given twice.
+pub fn html_links(pages: &[Page]) -> usize {
+    let mut ids: BTreeMap<&str, BTreeSet<&str>> = BTreeMap::new();
+    for page in pages {
+        let all = values(&page.text, "id");
+        let own: BTreeSet<&str> = all.iter().copied().collect();
+        assert_eq!(own.len(), all.len(), "{}: an id is given twice", page.path);
+        ids.insert(&page.path, own);
+    }
+    let mut count = 0;
+    for page in pages.iter().filter(|page| page.path.ends_with(".html")) {
+        let links = values(&page.text, "href").into_iter().chain(values(&page.text, "src"));
+        count += links.map(|link| follow(page, link, |path, id| ids.get(path).map(|own| own.contains(id)))).count();
+    }
+    count
+}
+
+/// The same for Markdown.
+///
+/// # Panics
+///
+/// As for a site.
+pub fn markdown_links(all: &[Page]) -> usize {
+    let mut ids: BTreeMap<&str, BTreeSet<String>> = BTreeMap::new();
+    let mut links = Vec::new();
+    for (page, seen) in pages(all) {
+        let own: Vec<&str> = seen.html.iter().filter_map(|html| id(html)).collect();
+        let once: BTreeSet<String> = own.iter().map(|own| (*own).to_owned()).collect();
+        assert_eq!(once.len(), own.len(), "{}: an id is given twice", page.path);
+        ids.insert(&page.path, once);
+        links.extend(seen.links.into_iter().map(|link| (page, link)));
+    }
+    for (page, link) in &links {
+        follow(page, link, |path, id| ids.get(path).map(|own| own.contains(id)));
+    }
+    links.len()
+}
+
+/// `has` tells whether a page has an address, and `None` of a page that isn't there.
+fn follow(page: &Page, link: &str, has: impl Fn(&str, &str) -> Option<bool>) {
+    let (file, anchor) = link.split_once('#').unwrap_or((link, ""));
+    let folder = page.path.rsplit_once('/').map_or(String::new(), |(folder, _)| format!("{folder}/"));
+    let path = match file.strip_prefix("../") {
+        Some(path) => path.to_owned(),
+        None if file.is_empty() => page.path.clone(),
+        None => format!("{folder}{}", file.trim_start_matches("./")),
+    };
+    let is_there = has(&path, anchor).unwrap_or_else(|| panic!("{}: there is no {path}", page.path));
+    assert!(anchor.is_empty() || is_there, "{}: {path} has no {anchor}", page.path);
+}
+
+/// What a reader of Markdown sees in a page, read as GitHub and `mdBook` do.
+#[derive(Default)]
+pub struct Seen {
+    pub links: Vec<String>,
+    pub html: Vec<String>,
+    pub text: String,
+    pub images: usize,
+}
+
+pub fn seen(page: &Page) -> Seen {
+    let mut seen = Seen::default();
+    for event in Parser::new_ext(&page.text, pulldown_cmark::Options::ENABLE_TABLES) {
+        match event {
+            Event::Start(Tag::Link { dest_url, .. }) => seen.links.push(dest_url.into_string()),
+            Event::Start(Tag::Image { .. }) => seen.images += 1,
+            Event::Html(own) | Event::InlineHtml(own) => seen.html.push(own.trim().to_owned()),
+            Event::Text(own) | Event::Code(own) => seen.text.push_str(&own),
+            _ => {}
+        }
+    }
+    seen
+}
+
+/// The address that `<a id="…">` gives.
+pub fn id(html: &str) -> Option<&str> {
+    html.strip_prefix("<a id=\"")?.strip_suffix("\">")
+}
+
+/// Each page with what is seen of it.
+pub fn pages(all: &[Page]) -> impl Iterator<Item = (&Page, Seen)> {
+    all.iter().map(|page| (page, seen(page)))
+}
+
+/// Each page is where it belongs, whatever a description calls its devices.
+fn placed(pages: &[Page]) {
+    for Page { path, .. } in pages {
+        assert!(!path.contains("..") && !path.starts_with('/') && !path.contains(['<', '\\', ':']), "{path}");
+    }
+}
+
+/// A description adds no element to the pages of a site.
+///
+/// # Panics
+///
+/// Where one does.
+pub fn html_markup(all: &[Page]) {
+    placed(all);
+    for page in all.iter().filter(|page| page.path.ends_with(".html")) {
+        assert_eq!(page.text.matches("<script").count(), 1, "{}", page.path);
+        assert_eq!(page.text.matches("</title>").count(), 1, "{}", page.path);
+        assert!(!page.text.contains("<img"), "{}", page.path);
+        // A quote would end an attribute, and what is behind it would be another one.
+        for tag in page.text.split('<').skip(1).filter_map(|rest| rest.split('>').next()) {
+            let names = tag.split('"').step_by(2).collect::<String>();
+            assert!(!names.contains("onerror") && !names.contains("onload"), "{}: <{tag}>", page.path);
+        }
+    }
+}
+
+/// The same for pages of Markdown, read as GitHub and `mdBook` do.
+///
+/// # Panics
+///
+/// As for a site.
+pub fn markdown_markup(all: &[Page]) {
+    placed(all);
+    for (page, seen) in pages(all) {
+        for html in &seen.html {
+            let is_ours = html == "</a>" || html == "<br>" || html.starts_with("<!-- Written by lexibus docs");
+            assert!(is_ours || id(html).is_some_and(|id| !id.contains(['"', '<', '>'])), "{}: {html}", page.path);
+        }
+        assert!(seen.links.iter().all(|link| !link.contains("//")), "{}", page.path);
+        assert_eq!(seen.images, 0, "{}", page.path);
+        assert!(!seen.text.contains('|') || page.text.contains("\\|"), "{}", page.path);
+    }
+}
