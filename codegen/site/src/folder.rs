@@ -13,7 +13,7 @@ use super::links::Links;
 use super::machines;
 use super::modules::{self, ModuleModel};
 use super::overview::{self, Contents, Overview};
-use super::pages::{Around, Catalogue, Frameset, List, Listed, Pages, FIRST};
+use super::pages::{Catalogue, Content, Frameset, Listed, Pages, FIRST};
 use super::process::{self, About, Frame};
 use super::protocol::{self, Protocol};
 use super::search::{Entry, Index};
@@ -95,19 +95,22 @@ impl Folder {
         let title = self.listed.devices.first().filter(|_| is_alone).map_or(title, |own| own.title.as_str()).to_owned();
         let own = if is_alone { self.last.clone() } else { Rc::default() };
         let languages = languages(&catalog.devices, &spoken);
-        let set = Frameset { title, own, shared: self.shared.clone(), languages };
-        self.module_pages(&modules, &files, &set);
+        let frame = Frameset { title, own, shared: self.shared.clone(), languages };
+        self.module_pages(&modules, &files, &frame);
         if let Some(file) = &findings {
-            let text = self.format.findings(Around { set: &set, file }, &self.findings.list);
-            self.page(file, text);
+            let text = self.format.page(&frame, file, Content::Findings(&self.findings.list));
+            self.pages.push(Page::new(file, text));
         }
         if !is_alone {
-            self.list(&set);
+            let file = format!("{FIRST}{}", self.format.ending());
+            let list = Content::List { devices: &self.listed.devices, root: "..", index: "" };
+            let text = self.format.page(&frame, &file, list);
+            self.pages.push(Page::new(&file, text));
         }
     }
 
-    fn page(&mut self, file: &str, text: String) {
-        self.pages.push(Page::new(file, text));
+    fn page(&mut self, frame: &Frameset, file: &str, content: Content<'_>) {
+        self.pages.push(Page::new(file, self.format.page(frame, file, content)));
     }
 
     /// The name of a new file for `title`.
@@ -116,10 +119,10 @@ impl Folder {
     }
 
     fn device(&mut self, device: &Device, catalog: &Catalog, is_alone: bool, spoken: &BTreeSet<&str>) {
-        let (format, title) = (self.format, title(device));
-        let own = if is_alone { FIRST.to_owned() } else { self.files.file(&title) };
-        let first = own.clone() + format.ending();
-        let prefix = if is_alone { String::new() } else { format!("{own}-") };
+        let title = title(device);
+        let name = if is_alone { FIRST.to_owned() } else { self.files.file(&title) };
+        let first = name.clone() + self.format.ending();
+        let prefix = if is_alone { String::new() } else { format!("{name}-") };
         let manual = words::manual(device);
         let overview = overview::overview(device, catalog.files.first(), &manual);
         let (parts, mut pages) = self.parts(device, overview, &manual, &prefix);
@@ -130,19 +133,18 @@ impl Folder {
         links.extend(pages.iter().cloned());
         self.last = Rc::new(Links::new(links, 1..1 + parts.areas.len()));
         let languages = languages(std::slice::from_ref(device), spoken);
-        let set = Frameset { title: title.clone(), own: self.last.clone(), shared: self.shared.clone(), languages };
-        let text = format.overview(Around { set: &set, file: &first }, &parts.overview, &contents(device, &parts));
+        let frame = Frameset { title: title.clone(), own: self.last.clone(), shared: self.shared.clone(), languages };
         if let Some(file) = &assumptions {
-            self.page(file, format.assumptions(Around { set: &set, file }, &ranked));
+            self.page(&frame, file, Content::Assumptions(&ranked));
         }
-        self.page(&first, text);
+        self.page(&frame, &first, Content::Overview(&parts.overview, &contents(device, &parts)));
         self.index.page(&first, &title);
-        for own in &parts.areas {
-            self.page(&own.file, format.area(Around { set: &set, file: &own.file }, own));
-            self.index.page(&own.file, &title);
-            index_area(&mut self.index, own);
+        for area in &parts.areas {
+            self.page(&frame, &area.file, Content::Area(area));
+            self.index.page(&area.file, &title);
+            index_area(&mut self.index, area);
         }
-        self.further(device, &parts, &set);
+        self.further(device, &parts, &frame);
         self.listed.devices.push(Listed { title, vendor: device.identity.vendor_name.to_string(), path: first, pages });
     }
 
@@ -188,30 +190,30 @@ impl Folder {
     }
 
     /// The pages behind those of items.
-    fn further(&mut self, device: &Device, parts: &Parts, set: &Frameset) {
-        let format = self.format;
+    fn further(&mut self, device: &Device, parts: &Parts, frame: &Frameset) {
         if let Some(file) = &parts.process {
             let sync_managers = process::sync_managers(&device.process_data);
-            self.page(file, format.process(Around { set, file }, &parts.frames, &sync_managers));
-            self.index.page(file, &set.title);
+            self.page(frame, file, Content::Process(&parts.frames, &sync_managers));
+            self.index.page(file, &frame.title);
             for own in &parts.frames {
                 self.index.entry(&found(&own.anchor, &own.anchor, &own.title));
             }
         }
-        if let Some((file, own)) = &parts.protocol {
-            self.page(file, format.protocol(Around { set, file }, own));
-            self.index.page(file, &set.title);
-            for own in &own.messages {
-                let words = own.facts.first().map_or("", String::as_str);
-                self.index.entry(&Entry { names: &own.names, words, ..found(&own.anchor, "message", &own.name) });
+        if let Some((file, protocol)) = &parts.protocol {
+            self.page(frame, file, Content::Protocol(protocol));
+            self.index.page(file, &frame.title);
+            for message in &protocol.messages {
+                let words = message.facts.first().map_or("", String::as_str);
+                let entry = found(&message.anchor, "message", &message.name);
+                self.index.entry(&Entry { names: &message.names, words, ..entry });
             }
         }
-        if let Some((file, own)) = &parts.behaviour {
-            self.page(file, format.machines(Around { set, file }, &own.machines, &own.sequences));
+        if let Some((file, behaviour)) = &parts.behaviour {
+            self.page(frame, file, Content::Machines(behaviour));
         }
         if let Some((file, tables)) = &parts.codes {
-            self.page(file, format.codes(Around { set, file }, tables));
-            self.index.page(file, &set.title);
+            self.page(frame, file, Content::Codes(tables));
+            self.index.page(file, &frame.title);
             for own in tables.iter().flat_map(|table| &table.rows) {
                 let entry = found(&own.anchor, &own.number, &own.name);
                 let words = format!("{} {}", own.cells.join(" "), own.facts);
@@ -233,10 +235,10 @@ impl Folder {
         (all, files)
     }
 
-    fn module_pages(&mut self, all: &[ModuleModel], files: &[(String, String)], set: &Frameset) {
+    fn module_pages(&mut self, all: &[ModuleModel], files: &[(String, String)], frame: &Frameset) {
         for ((file, _), modules) in files.iter().zip(all.chunks(modules::PAGE)) {
-            self.page(file, self.format.modules(Around { set, file }, modules));
-            self.index.page(file, &set.title);
+            self.page(frame, file, Content::Modules(modules));
+            self.index.page(file, &frame.title);
             for own in modules {
                 let words = own.facts.first().map_or("", String::as_str);
                 self.index.entry(&Entry { names: &own.names, words, ..found(&own.anchor, &own.number, &own.name) });
@@ -245,14 +247,6 @@ impl Folder {
                 }
             }
         }
-    }
-
-    /// The first page of a catalogue of several devices.
-    fn list(&mut self, set: &Frameset) {
-        let file = format!("{FIRST}{}", self.format.ending());
-        let list = List { devices: &self.listed.devices, root: "..", index: "" };
-        let text = self.format.list(Around { set, file: &file }, list);
-        self.page(&file, text);
     }
 }
 

@@ -2,15 +2,15 @@
 
 use askama::Template;
 
-use super::area::Area;
+use super::area::{Area, Section};
 use super::assumptions::Ranked;
 use super::bits::{self, Grids};
 use super::codes::Codes;
 use super::findings::Finding;
-use super::machines::{Machine, Sequence};
+use super::machines::Behaviour;
 use super::modules::ModuleModel;
 use super::overview::{Contents, Overview};
-use super::pages::{Around, Catalogue, Frameset, List, Listed, Pages};
+use super::pages::{Catalogue, Content, Frameset, Listed, Pages};
 use super::process::{Frame, SyncManager};
 use super::protocol::Protocol;
 use super::Page;
@@ -21,92 +21,30 @@ const STYLE: &str = include_str!("../templates/site.css");
 /// Search, theme, language and copying.
 const SCRIPT: &str = include_str!("../templates/site.js");
 
-#[derive(Template)]
-#[template(path = "overview.html")]
-struct OverviewPage<'p> {
-    around: &'p Frameset,
-    file: &'p str,
-    own: &'p Overview,
-    contents: &'p Contents,
+/// A template for each kind of page.
+macro_rules! templates {
+    ($($page:ident = $path:literal { $($field:ident: $ty:ty),+ })+) => { $(
+        #[derive(Template)]
+        #[template(path = $path)]
+        struct $page<'p> {
+            frame: &'p Frameset,
+            file: &'p str,
+            $($field: $ty,)+
+        }
+    )+ };
 }
 
-#[derive(Template)]
-#[template(path = "area.html")]
-struct AreaPage<'p> {
-    around: &'p Frameset,
-    file: &'p str,
-    own: &'p Area,
-    grids: &'p Grids,
-}
-
-#[derive(Template)]
-#[template(path = "process.html")]
-struct ProcessPage<'p> {
-    around: &'p Frameset,
-    file: &'p str,
-    frames: &'p [Frame],
-    sync_managers: &'p [SyncManager],
-}
-
-#[derive(Template)]
-#[template(path = "protocol.html")]
-struct ProtocolPage<'p> {
-    around: &'p Frameset,
-    file: &'p str,
-    own: &'p Protocol,
-    grids: &'p Grids,
-}
-
-#[derive(Template)]
-#[template(path = "codes.html")]
-struct CodesPage<'p> {
-    around: &'p Frameset,
-    file: &'p str,
-    tables: &'p [Codes],
-}
-
-#[derive(Template)]
-#[template(path = "machines.html")]
-struct MachinesPage<'p> {
-    around: &'p Frameset,
-    file: &'p str,
-    machines: &'p [Machine],
-    sequences: &'p [Sequence],
-}
-
-#[derive(Template)]
-#[template(path = "modules.html")]
-struct ModulesPage<'p> {
-    around: &'p Frameset,
-    file: &'p str,
-    modules: &'p [ModuleModel],
-    grids: &'p Grids,
-}
-
-#[derive(Template)]
-#[template(path = "assumptions.html")]
-struct AssumptionsPage<'p> {
-    around: &'p Frameset,
-    file: &'p str,
-    ranked: &'p [Ranked<'p>],
-}
-
-#[derive(Template)]
-#[template(path = "findings.html")]
-struct FindingsPage<'p> {
-    around: &'p Frameset,
-    file: &'p str,
-    findings: &'p [Finding],
-}
-
-#[derive(Template)]
-#[template(path = "list.html")]
-struct ListPage<'p> {
-    around: &'p Frameset,
-    file: &'p str,
-    devices: &'p [Listed],
-    root: &'p str,
-    index: &'p str,
+templates! {
+    OverviewPage = "overview.html" { overview: &'p Overview, contents: &'p Contents }
+    AreaPage = "area.html" { area: &'p Area, grids: &'p Grids }
+    ProcessPage = "process.html" { frames: &'p [Frame], sync_managers: &'p [SyncManager] }
+    ProtocolPage = "protocol.html" { protocol: &'p Protocol, grids: &'p Grids }
+    CodesPage = "codes.html" { tables: &'p [Codes] }
+    MachinesPage = "machines.html" { behaviour: &'p Behaviour }
+    ModulesPage = "modules.html" { modules: &'p [ModuleModel], grids: &'p Grids }
+    AssumptionsPage = "assumptions.html" { ranked: &'p [Ranked<'p>] }
+    FindingsPage = "findings.html" { findings: &'p [Finding] }
+    ListPage = "list.html" { devices: &'p [Listed], root: &'p str, index: &'p str }
 }
 
 /// Templates don't fail on what they are given.
@@ -126,60 +64,31 @@ impl Pages for Html {
         "index"
     }
 
-    fn overview(&self, Around { set: around, file }: Around<'_>, own: &Overview, contents: &Contents) -> String {
-        written(&OverviewPage { around, file, own, contents })
-    }
-
-    fn area(&self, Around { set: around, file }: Around<'_>, own: &Area) -> String {
-        let rows = own.sections.iter().flat_map(|section| &section.rows);
-        let grids = &bits::grids(rows.filter_map(|row| row.bits.as_ref()));
-        written(&AreaPage { around, file, own, grids })
-    }
-
-    fn process(
-        &self,
-        Around { set: around, file }: Around<'_>,
-        frames: &[Frame],
-        sync_managers: &[SyncManager],
-    ) -> String {
-        written(&ProcessPage { around, file, frames, sync_managers })
-    }
-
-    fn protocol(&self, Around { set: around, file }: Around<'_>, own: &Protocol) -> String {
-        let parts = own.messages.iter().flat_map(|own| own.request.iter().chain(&own.reply));
-        let grids = &bits::grids(parts.filter_map(|part| part.bits.as_ref()));
-        written(&ProtocolPage { around, file, own, grids })
-    }
-
-    fn codes(&self, Around { set: around, file }: Around<'_>, tables: &[Codes]) -> String {
-        written(&CodesPage { around, file, tables })
-    }
-
-    fn machines(
-        &self,
-        Around { set: around, file }: Around<'_>,
-        machines: &[Machine],
-        sequences: &[Sequence],
-    ) -> String {
-        written(&MachinesPage { around, file, machines, sequences })
-    }
-
-    fn modules(&self, Around { set: around, file }: Around<'_>, modules: &[ModuleModel]) -> String {
-        let rows = modules.iter().flat_map(|own| &own.sections).flat_map(|(_, section)| &section.rows);
-        let grids = &bits::grids(rows.filter_map(|row| row.bits.as_ref()));
-        written(&ModulesPage { around, file, modules, grids })
-    }
-
-    fn assumptions(&self, Around { set: around, file }: Around<'_>, ranked: &[Ranked<'_>]) -> String {
-        written(&AssumptionsPage { around, file, ranked })
-    }
-
-    fn findings(&self, Around { set: around, file }: Around<'_>, findings: &[Finding]) -> String {
-        written(&FindingsPage { around, file, findings })
-    }
-
-    fn list(&self, Around { set: around, file }: Around<'_>, list: List<'_>) -> String {
-        written(&ListPage { around, file, devices: list.devices, root: list.root, index: list.index })
+    fn page(&self, frame: &Frameset, file: &str, content: Content<'_>) -> String {
+        match content {
+            Content::Overview(overview, contents) => written(&OverviewPage { frame, file, overview, contents }),
+            Content::Area(area) => {
+                let grids = &grids_of_rows(&area.sections);
+                written(&AreaPage { frame, file, area, grids })
+            }
+            Content::Process(frames, sync_managers) => written(&ProcessPage { frame, file, frames, sync_managers }),
+            Content::Protocol(protocol) => {
+                let messages = protocol.messages.iter();
+                let parts = messages.flat_map(|message| message.request.iter().chain(&message.reply));
+                let grids = &bits::grids(parts.filter_map(|part| part.bits.as_ref()));
+                written(&ProtocolPage { frame, file, protocol, grids })
+            }
+            Content::Codes(tables) => written(&CodesPage { frame, file, tables }),
+            Content::Machines(behaviour) => written(&MachinesPage { frame, file, behaviour }),
+            Content::Modules(modules) => {
+                let sections = modules.iter().flat_map(|module| &module.sections);
+                let grids = &grids_of_rows(sections.map(|(_, section)| section));
+                written(&ModulesPage { frame, file, modules, grids })
+            }
+            Content::Assumptions(ranked) => written(&AssumptionsPage { frame, file, ranked }),
+            Content::Findings(findings) => written(&FindingsPage { frame, file, findings }),
+            Content::List { devices, root, index } => written(&ListPage { frame, file, devices, root, index }),
+        }
     }
 
     fn of_catalog(&self, search: &dyn Fn() -> String) -> Vec<Page> {
@@ -191,4 +100,10 @@ impl Pages for Html {
         pages.extend(search.map(|search| Page::new("search.js", search())));
         pages
     }
+}
+
+/// The grids of the bit fields in these sections.
+fn grids_of_rows<'p>(sections: impl IntoIterator<Item = &'p Section>) -> Grids {
+    let rows = sections.into_iter().flat_map(|section| &section.rows);
+    bits::grids(rows.filter_map(|row| row.bits.as_ref()))
 }

@@ -49,7 +49,7 @@ use folder::Folder;
 pub use format::Format;
 use lexibus_codegen::compile::Compilation;
 use lexibus_codegen::ir::Catalog;
-use pages::{Around, Catalogue, Frameset, List, Listed};
+use pages::{Catalogue, Content, Frameset, Listed};
 use search::Index;
 
 /// A file of the site.
@@ -121,7 +121,7 @@ impl Site {
     /// What all pages share: the list of devices, and what their format wants.
     pub fn finish(self) -> Vec<Page> {
         let format = self.format.pages();
-        let set = Frameset { title: "Devices".to_owned(), ..Frameset::default() };
+        let frame = Frameset { title: "Devices".to_owned(), ..Frameset::default() };
         let file = self.format.first_page();
         let devices: Vec<Listed> = self.catalogs.iter().flat_map(Catalogue::in_site).collect();
         // All that a single catalogue has is in its own index.
@@ -129,7 +129,7 @@ impl Site {
             [only] => only.folder.as_str(),
             _ => "",
         };
-        let list = format.list(Around { set: &set, file: &file }, List { devices: &devices, root: ".", index });
+        let list = format.page(&frame, &file, Content::List { devices: &devices, root: ".", index });
         let script = || self.index.script();
         let search: Option<&dyn Fn() -> String> = if index.is_empty() { Some(&script) } else { None };
         let mut pages = vec![Page { path: file, text: list }];

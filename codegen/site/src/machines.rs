@@ -36,7 +36,7 @@ pub(super) struct Machine {
     pub initial: Option<String>,
     pub states: Vec<Named>,
     pub commands: Vec<Named>,
-    pub transitions: Vec<Way>,
+    pub transitions: Vec<TransitionRow>,
     pub matrix: Option<Matrix>,
 }
 
@@ -52,7 +52,7 @@ pub(super) struct Named {
 
 /// A transition.
 #[derive(Debug)]
-pub(super) struct Way {
+pub(super) struct TransitionRow {
     pub number: String,
     /// `None` for any state.
     pub from: Option<String>,
@@ -61,7 +61,7 @@ pub(super) struct Way {
     pub facts: String,
 }
 
-impl Way {
+impl TransitionRow {
     /// The state that it leaves, in words.
     pub fn source(&self) -> &str {
         self.from.as_deref().unwrap_or(ANY_STATE)
@@ -166,8 +166,8 @@ fn number((at, own): (usize, &Transition)) -> String {
     own.number.map_or_else(|| (at + 1).to_string(), |number| number.to_string())
 }
 
-fn way((at, own): (usize, &Transition)) -> Way {
-    Way {
+fn way((at, own): (usize, &Transition)) -> TransitionRow {
+    TransitionRow {
         number: number((at, own)),
         from: own.from.as_ref().map(ToString::to_string),
         to: own.to.to_string(),

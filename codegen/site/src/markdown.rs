@@ -9,10 +9,10 @@ use super::area::Area;
 use super::assumptions::Ranked;
 use super::codes::Codes;
 use super::findings::Finding;
-use super::machines::{Machine, Sequence, ANY_STATE};
+use super::machines::{Behaviour, Machine, ANY_STATE};
 use super::modules::ModuleModel;
 use super::overview::{Contents, Overview};
-use super::pages::{Around, Catalogue, List, Listed, Pages, FIRST};
+use super::pages::{Catalogue, Content, Frameset, Listed, Pages, FIRST};
 use super::process::{Frame, SyncManager};
 use super::protocol::Protocol;
 use super::Page;
@@ -35,77 +35,32 @@ fn is_visible(letter: char) -> bool {
     !letter.is_control() && !is_invisible
 }
 
-#[derive(Template)]
-#[template(path = "markdown/overview.md")]
-struct OverviewPage<'p> {
-    title: &'p str,
-    own: &'p Overview,
-    contents: &'p Contents,
-    links: &'p [&'p (String, String)],
+/// A template for each kind of page.
+macro_rules! templates {
+    ($($page:ident = $path:literal { $($field:ident: $ty:ty),+ })+) => { $(
+        #[derive(Template)]
+        #[template(path = $path)]
+        struct $page<'p> {
+            $($field: $ty,)+
+        }
+    )+ };
 }
 
-#[derive(Template)]
-#[template(path = "markdown/area.md")]
-struct AreaPage<'p> {
-    own: &'p Area,
-}
+/// Files and titles of other pages.
+type PageLinks<'p> = &'p [&'p (String, String)];
 
-#[derive(Template)]
-#[template(path = "markdown/process.md")]
-struct ProcessPage<'p> {
-    frames: &'p [Frame],
-    sync_managers: &'p [SyncManager],
-}
-
-#[derive(Template)]
-#[template(path = "markdown/protocol.md")]
-struct ProtocolPage<'p> {
-    own: &'p Protocol,
-}
-
-#[derive(Template)]
-#[template(path = "markdown/codes.md")]
-struct CodesPage<'p> {
-    tables: &'p [Codes],
-}
-
-#[derive(Template)]
-#[template(path = "markdown/machines.md")]
-struct MachinesPage<'p> {
-    machines: &'p [Machine],
-    sequences: &'p [Sequence],
-}
-
-#[derive(Template)]
-#[template(path = "markdown/modules.md")]
-struct ModulesPage<'p> {
-    modules: &'p [ModuleModel],
-}
-
-#[derive(Template)]
-#[template(path = "markdown/assumptions.md")]
-struct AssumptionsPage<'p> {
-    ranked: &'p [Ranked<'p>],
-}
-
-#[derive(Template)]
-#[template(path = "markdown/findings.md")]
-struct FindingsPage<'p> {
-    findings: &'p [Finding],
-}
-
-#[derive(Template)]
-#[template(path = "markdown/list.md")]
-struct ListPage<'p> {
-    title: &'p str,
-    devices: &'p [Listed],
-    links: &'p [&'p (String, String)],
-}
-
-#[derive(Template)]
-#[template(path = "markdown/summary.md")]
-struct SummaryPage<'p> {
-    catalogs: &'p [Catalogue],
+templates! {
+    OverviewPage = "markdown/overview.md" { title: &'p str, overview: &'p Overview, contents: &'p Contents, links: PageLinks<'p> }
+    AreaPage = "markdown/area.md" { area: &'p Area }
+    ProcessPage = "markdown/process.md" { frames: &'p [Frame], sync_managers: &'p [SyncManager] }
+    ProtocolPage = "markdown/protocol.md" { protocol: &'p Protocol }
+    CodesPage = "markdown/codes.md" { tables: &'p [Codes] }
+    MachinesPage = "markdown/machines.md" { behaviour: &'p Behaviour }
+    ModulesPage = "markdown/modules.md" { modules: &'p [ModuleModel] }
+    AssumptionsPage = "markdown/assumptions.md" { ranked: &'p [Ranked<'p>] }
+    FindingsPage = "markdown/findings.md" { findings: &'p [Finding] }
+    ListPage = "markdown/list.md" { title: &'p str, devices: &'p [Listed], links: PageLinks<'p> }
+    SummaryPage = "markdown/summary.md" { catalogs: &'p [Catalogue] }
 }
 
 /// A page, with one empty line where the template leaves several. Templates don't fail on what they are given.
@@ -139,48 +94,25 @@ impl Pages for Markdown {
         "README"
     }
 
-    fn overview(&self, around: Around<'_>, own: &Overview, contents: &Contents) -> String {
-        // The overview itself is the first of them; areas, process data and slots have lists of their own.
-        let areas: HashSet<&str> = contents.areas.iter().map(|(area, ..)| area.as_str()).collect();
-        let shown = |file: &str| areas.contains(file) || file == around.file;
-        let links: Vec<_> = links(around).into_iter().filter(|(file, _)| !shown(file)).collect();
-        written(&OverviewPage { title: &around.set.title, own, contents, links: &links })
-    }
-
-    fn area(&self, _: Around<'_>, own: &Area) -> String {
-        written(&AreaPage { own })
-    }
-
-    fn process(&self, _: Around<'_>, frames: &[Frame], sync_managers: &[SyncManager]) -> String {
-        written(&ProcessPage { frames, sync_managers })
-    }
-
-    fn protocol(&self, _: Around<'_>, own: &Protocol) -> String {
-        written(&ProtocolPage { own })
-    }
-
-    fn codes(&self, _: Around<'_>, tables: &[Codes]) -> String {
-        written(&CodesPage { tables })
-    }
-
-    fn machines(&self, _: Around<'_>, machines: &[Machine], sequences: &[Sequence]) -> String {
-        written(&MachinesPage { machines, sequences })
-    }
-
-    fn modules(&self, _: Around<'_>, modules: &[ModuleModel]) -> String {
-        written(&ModulesPage { modules })
-    }
-
-    fn assumptions(&self, _: Around<'_>, ranked: &[Ranked<'_>]) -> String {
-        written(&AssumptionsPage { ranked })
-    }
-
-    fn findings(&self, _: Around<'_>, findings: &[Finding]) -> String {
-        written(&FindingsPage { findings })
-    }
-
-    fn list(&self, around: Around<'_>, list: List<'_>) -> String {
-        written(&ListPage { title: &around.set.title, devices: list.devices, links: &links(around) })
+    fn page(&self, frame: &Frameset, file: &str, content: Content<'_>) -> String {
+        let (title, mut links) = (frame.title.as_str(), links(frame, file));
+        match content {
+            Content::Overview(overview, contents) => {
+                // The overview itself is the first of them; areas, process data and slots have lists of their own.
+                let areas: HashSet<&str> = contents.areas.iter().map(|(area, ..)| area.as_str()).collect();
+                links.retain(|(linked, _)| !areas.contains(linked.as_str()) && linked != file);
+                written(&OverviewPage { title, overview, contents, links: &links })
+            }
+            Content::Area(area) => written(&AreaPage { area }),
+            Content::Process(frames, sync_managers) => written(&ProcessPage { frames, sync_managers }),
+            Content::Protocol(protocol) => written(&ProtocolPage { protocol }),
+            Content::Codes(tables) => written(&CodesPage { tables }),
+            Content::Machines(behaviour) => written(&MachinesPage { behaviour }),
+            Content::Modules(modules) => written(&ModulesPage { modules }),
+            Content::Assumptions(ranked) => written(&AssumptionsPage { ranked }),
+            Content::Findings(findings) => written(&FindingsPage { findings }),
+            Content::List { devices, .. } => written(&ListPage { title, devices, links: &links }),
+        }
     }
 
     fn of_catalog(&self, _: &dyn Fn() -> String) -> Vec<Page> {
@@ -193,12 +125,12 @@ impl Pages for Markdown {
 }
 
 /// The pages that one leads to. The first of a folder leads to all of them: most others lead to none.
-fn links<'s>(around: Around<'s>) -> Vec<&'s (String, String)> {
-    let is_first = around.file.strip_suffix(".md") == Some(FIRST);
+fn links<'s>(frame: &'s Frameset, file: &str) -> Vec<&'s (String, String)> {
+    let is_first = file.strip_suffix(".md") == Some(FIRST);
     if is_first {
-        around.set.all()
+        frame.all()
     } else {
-        around.set.near(around.file)
+        frame.near(file)
     }
 }
 
@@ -209,20 +141,20 @@ impl Machine {
             let is_plain = |letter: char| letter.is_alphanumeric() || matches!(letter, ' ' | '-' | '_' | '.' | '/');
             text.chars().map(|letter| if is_plain(letter) { letter } else { ' ' }).collect()
         };
-        let place = |name: &str| self.states.iter().position(|own| own.name == name);
+        let position = |name: &str| self.states.iter().position(|state| state.name == name);
         let mut lines: Vec<String> = Vec::new();
         for (at, state) in self.states.iter().enumerate() {
             lines.push(format!("state \"{}\" as s{at}", label(&state.name)));
         }
-        lines.extend(self.initial.as_deref().and_then(place).map(|at| format!("[*] --> s{at}")));
+        lines.extend(self.initial.as_deref().and_then(position).map(|at| format!("[*] --> s{at}")));
         let any = self.states.len();
-        if self.transitions.iter().any(|way| way.from.is_none()) {
+        if self.transitions.iter().any(|transition| transition.from.is_none()) {
             lines.push(format!("state \"{ANY_STATE}\" as s{any}"));
         }
-        for way in &self.transitions {
-            let from = way.from.as_deref().map_or(Some(any), place);
-            let Some((from, to)) = from.zip(place(&way.to)) else { continue };
-            lines.push(format!("s{from} --> s{to}: {} {}", label(&way.number), label(&way.command)));
+        for transition in &self.transitions {
+            let from = transition.from.as_deref().map_or(Some(any), position);
+            let Some((from, to)) = from.zip(position(&transition.to)) else { continue };
+            lines.push(format!("s{from} --> s{to}: {} {}", label(&transition.number), label(&transition.command)));
         }
         lines
     }
@@ -235,7 +167,6 @@ mod tests {
     use askama::filters::Escaper;
 
     use super::super::links::Links;
-    use super::super::pages::Frameset;
     use super::*;
 
     fn shown(text: &str) -> String {
@@ -247,15 +178,15 @@ mod tests {
     #[test]
     fn the_first_page_leads_to_all_of_very_many() {
         let pages = (0..1000).map(|at| (format!("modules-{at}.md"), format!("Modules {at}"))).collect();
-        let set = Frameset {
+        let frame = Frameset {
             title: "Coupler".to_owned(),
             own: Rc::default(),
             shared: Rc::new(Links::new(pages, 0..1000)),
             languages: Vec::new(),
         };
         let linked = |file: &str| {
-            let list = List { devices: &[], root: "", index: "" };
-            Markdown.list(Around { set: &set, file }, list).matches("](modules-").count()
+            let list = Content::List { devices: &[], root: "", index: "" };
+            Markdown.page(&frame, file, list).matches("](modules-").count()
         };
         assert_eq!(linked("index.md"), 1000);
         assert_eq!(linked("drive.md"), 21);

@@ -7,7 +7,7 @@ use super::assumptions::Ranked;
 use super::codes::Codes;
 use super::findings::Finding;
 use super::links::Links;
-use super::machines::{Machine, Sequence};
+use super::machines::Behaviour;
 use super::modules::ModuleModel;
 use super::overview::{Contents, Overview};
 use super::process::{Frame, SyncManager};
@@ -17,7 +17,7 @@ use super::Page;
 /// The name of the first page of a folder, without ending.
 pub(super) const FIRST: &str = "index";
 
-/// What each page of a catalogue has around it.
+/// The title, links and languages that the pages of a device, or of a catalog, have in common.
 #[derive(Debug, Default)]
 pub(super) struct Frameset {
     /// The catalogue, or the device of it.
@@ -40,14 +40,6 @@ impl Frameset {
     pub fn near(&self, file: &str) -> Vec<&(String, String)> {
         self.own.near(file).chain(self.shared.near(file)).collect()
     }
-}
-
-/// A page in its catalogue.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Around<'p> {
-    pub set: &'p Frameset,
-    /// The name of its file.
-    pub file: &'p str,
 }
 
 /// The pages of a catalogue, as lists of contents have them.
@@ -79,14 +71,26 @@ impl Catalogue {
     }
 }
 
-/// A list of devices.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct List<'p> {
-    pub devices: &'p [Listed],
-    /// The way to the folder of the site.
-    pub root: &'p str,
-    /// The folder of the index, where that isn't the page's.
-    pub index: &'p str,
+/// What a page shows.
+#[derive(Clone, Copy)]
+pub(super) enum Content<'p> {
+    Overview(&'p Overview, &'p Contents),
+    Area(&'p Area),
+    Process(&'p [Frame], &'p [SyncManager]),
+    Protocol(&'p Protocol),
+    Codes(&'p [Codes]),
+    Machines(&'p Behaviour),
+    Modules(&'p [ModuleModel]),
+    Assumptions(&'p [Ranked<'p>]),
+    Findings(&'p [Finding]),
+    /// A list of devices.
+    List {
+        devices: &'p [Listed],
+        /// The way to the folder of the site.
+        root: &'p str,
+        /// The folder of the index, where that isn't the page's.
+        index: &'p str,
+    },
 }
 
 /// Writes pages.
@@ -95,17 +99,8 @@ pub(super) trait Pages {
     fn ending(&self) -> &'static str;
     /// The name of the first page of all, without ending.
     fn front(&self) -> &'static str;
-
-    fn overview(&self, around: Around<'_>, own: &Overview, contents: &Contents) -> String;
-    fn area(&self, around: Around<'_>, own: &Area) -> String;
-    fn process(&self, around: Around<'_>, frames: &[Frame], sync_managers: &[SyncManager]) -> String;
-    fn protocol(&self, around: Around<'_>, own: &Protocol) -> String;
-    fn codes(&self, around: Around<'_>, tables: &[Codes]) -> String;
-    fn machines(&self, around: Around<'_>, machines: &[Machine], sequences: &[Sequence]) -> String;
-    fn modules(&self, around: Around<'_>, modules: &[ModuleModel]) -> String;
-    fn assumptions(&self, around: Around<'_>, ranked: &[Ranked<'_>]) -> String;
-    fn findings(&self, around: Around<'_>, findings: &[Finding]) -> String;
-    fn list(&self, around: Around<'_>, list: List<'_>) -> String;
+    /// The page `file`, whose links and title are those of `frame`.
+    fn page(&self, frame: &Frameset, file: &str, content: Content<'_>) -> String;
 
     /// Further pages that those of one catalogue share.
     fn of_catalog(&self, search: &dyn Fn() -> String) -> Vec<Page>;
