@@ -5,6 +5,7 @@ use std::io::{IsTerminal, Write};
 
 use lexibus_codegen::compile::Compilation;
 use lexibus_codegen::diagnostics::{render, Diagnostic, Severity};
+use lexibus_codegen::facts::number::{hex16, hex32};
 use lexibus_codegen::source::{FileId, Source, Span};
 use lexibus_codegen::text::printable;
 use lexibus_export::diagnostics::{json, sarif};
@@ -164,7 +165,7 @@ pub(super) fn info_text(info: &Info) -> String {
     let mut text = String::new();
     let _ =
         writeln!(text, "{} ({}, {})", printable(&info.file), info.format.unwrap_or("unknown format"), info.encoding);
-    let number = |value: Option<u32>| value.map_or("unknown".to_owned(), |value| format!("{value:#010x}"));
+    let number = |value: Option<u32>| value.map_or("unknown".to_owned(), hex32);
     for device in &info.devices {
         let _ = writeln!(text, "  {}", printable(&device_title(device)));
         let _ = writeln!(
@@ -187,12 +188,12 @@ pub(super) fn info_text(info: &Info) -> String {
         let _ = writeln!(text, "  a dictionary: {} objects, {} entries", dictionary.objects, dictionary.entries);
     }
     for module in info.modules.iter().flatten() {
-        let _ = writeln!(text, "  module {} ({:#010x}): {}", printable(&module.id), module.ident, module_text(module));
+        let _ = writeln!(text, "  module {} ({}): {}", printable(&module.id), hex32(module.ident), module_text(module));
     }
     for submodule in info.submodules.iter().flatten() {
-        let SubmoduleInfo { ident, input_bytes, output_bytes, .. } = submodule;
-        let id = printable(&submodule.id);
-        let _ = writeln!(text, "  submodule {id} ({ident:#010x}): {input_bytes} bytes in, {output_bytes} bytes out");
+        let SubmoduleInfo { input_bytes, output_bytes, .. } = submodule;
+        let (id, ident) = (printable(&submodule.id), hex32(submodule.ident));
+        let _ = writeln!(text, "  submodule {id} ({ident}): {input_bytes} bytes in, {output_bytes} bytes out");
     }
     for (severity, counts) in [("errors", &info.errors), ("warnings", &info.warnings)] {
         let all: Vec<String> = counts.iter().map(|(code, count)| format!("{code} × {count}")).collect();
@@ -227,5 +228,5 @@ fn module_text(module: &ModuleInfo) -> String {
 }
 
 fn pdo_text(pdo: &PdoInfo) -> String {
-    format!("0x{:04X} ({} entries, {} bits)", pdo.index, pdo.entries, pdo.bits)
+    format!("{} ({} entries, {} bits)", hex16(pdo.index), pdo.entries, pdo.bits)
 }

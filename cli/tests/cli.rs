@@ -398,7 +398,7 @@ fn of_many_devices_those_that_are_selected() {
 #[test]
 fn info_lists_devices_and_modules() {
     let text = out(&lexibus(&["info", COUPLER]));
-    assert!(text.contains("SV-1 servo drive\n    vendor 0x00000abc, product 0x00a10002"), "{text}");
+    assert!(text.contains("SV-1 servo drive\n    vendor 0x00000ABC, product 0x00A10002"), "{text}");
     assert!(text.contains("module AI-2 (0x00003001): 1 objects, 2 entries, 1 PDOs"), "{text}");
     let json = out(&lexibus(&["info", "--format", "json", COUPLER]));
     let info: serde_json::Value = serde_json::from_str(&json).expect("one object");

@@ -7,6 +7,7 @@ use super::entry::{self, Doubt, Known, Row, Rows};
 use super::findings::Finding;
 use super::words::{self, PLAIN};
 use lexibus_codegen::facts::address;
+use lexibus_codegen::facts::number::hex16;
 use lexibus_codegen::ir::{Group, GroupKind, Item, TypeDef};
 
 /// So many items are on a page.
@@ -149,7 +150,7 @@ fn section(group: &Group, items: &[Item], rows: &mut Rows<'_>) -> Section {
         let rows = items.iter().map(|item| rows.row(item, number(item), true)).collect();
         return Section::plain(rows);
     };
-    let number = format!("0x{index:04X}");
+    let number = hex16(index);
     if let ([item], false) = (items, code.has_subs()) {
         let mut row = rows.row(item, number, false);
         if row.name.is_empty() {

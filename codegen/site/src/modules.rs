@@ -6,10 +6,9 @@ use super::entry::{Calls, Known, Rows};
 use super::findings::Findings;
 use super::process::{self, About, Frame};
 use super::words::{self, PLAIN};
-use lexibus_codegen::facts::address;
-use lexibus_codegen::ir::{
-    Catalog, Device, Fit, Group, GroupKind, IoData, Manual, Module, ObjectBuses, Submodule, TypeDef,
-};
+use lexibus_codegen::facts::number::{hex16, hex32};
+use lexibus_codegen::facts::{self, address};
+use lexibus_codegen::ir::{Catalog, Device, Group, GroupKind, IoData, Manual, Module, ObjectBuses, Submodule, TypeDef};
 
 /// So many modules are on a page.
 pub(super) const PAGE: usize = 100;
@@ -74,7 +73,7 @@ fn module(own: &Module, anchor: String, parts: Vec<(String, String)>, findings: 
     let order = &own.identity.order_code;
     facts.extend((!order.is_empty()).then(|| format!("Order code {order}.")));
     ModuleModel {
-        number: format!("0x{:08X}", own.number),
+        number: hex32(own.number),
         name: own.name.to_string(),
         names: words::names(&own.names),
         facts,
@@ -92,13 +91,13 @@ fn module(own: &Module, anchor: String, parts: Vec<(String, String)>, findings: 
 
 fn submodule(catalog: &Catalog, own: &Submodule, anchor: String, findings: &Findings) -> ModuleModel {
     let mut facts = PLAIN.description(own.documentation.as_deref());
-    facts.extend((own.api != 0).then(|| format!("API 0x{:04X}.", own.api)));
+    facts.extend((own.api != 0).then(|| format!("API {}.", hex16(own.api))));
     facts.extend(own.f_parameters.is_some().then(|| "With parameters of functional safety (PROFIsafe).".to_owned()));
     let image = |data: &IoData, title: &str| process::image(&data.image, &catalog.types, "", title);
     let inputs = own.input.as_deref().map(|data| image(data, "Inputs of the controller"));
     let outputs = own.output.as_deref().map(|data| image(data, "Outputs of the controller"));
     ModuleModel {
-        number: format!("0x{:08X}", own.ident),
+        number: hex32(own.ident),
         name: own.name.to_string(),
         names: words::names(&own.names),
         facts,
@@ -112,8 +111,8 @@ fn submodule(catalog: &Catalog, own: &Submodule, anchor: String, findings: &Find
 
 fn section(group: &Group, rows: &mut Rows<'_>) -> (String, Section) {
     let place = match &group.kind {
-        GroupKind::Record(record) => format!("Record 0x{:04X}", record.index),
-        GroupKind::Object { index, .. } => format!("Object 0x{index:04X}"),
+        GroupKind::Record(record) => format!("Record {}", hex16(record.index)),
+        GroupKind::Object { index, .. } => format!("Object {}", hex16(*index)),
         _ => String::new(),
     };
     let parts = [place.as_str(), group.name.as_str()].into_iter().filter(|part| !part.is_empty());
@@ -126,18 +125,13 @@ fn section(group: &Group, rows: &mut Rows<'_>) -> (String, Section) {
 }
 
 pub(super) fn slots(device: &Device) -> Vec<Slot> {
-    let fit = |own: &Fit| match own {
-        Fit::Ident(ident) => format!("module 0x{ident:08X}"),
-        Fit::Class(class) => format!("modules of the class {class}"),
-        Fit::Name(name) => name.to_string(),
-    };
-    let slot = |own: &lexibus_codegen::ir::Slot| {
-        let fits: Vec<String> = own.fits.iter().map(fit).collect();
+    let row = |slot: &lexibus_codegen::ir::Slot| {
+        let fits: Vec<String> = slot.fits.iter().map(facts::device::fit).collect();
         Slot {
-            number: own.number.to_string(),
-            name: own.name.to_string(),
+            number: slot.number.to_string(),
+            name: slot.name.to_string(),
             fits: if fits.is_empty() { "any module".to_owned() } else { fits.join(", ") },
         }
     };
-    device.slots.iter().map(slot).collect()
+    device.slots.iter().map(row).collect()
 }

@@ -3,8 +3,8 @@
 use super::entry::{self, Doubt};
 use super::modules::Slot;
 use super::words::{self, PLAIN};
-use lexibus_codegen::ir::Manual;
-use lexibus_codegen::ir::{Device, DistributedClocks, EtherCatSettings, FileInfo, ProfinetSettings};
+use lexibus_codegen::facts::number::{hex16, hex32};
+use lexibus_codegen::ir::{Device, DistributedClocks, EtherCatSettings, FileInfo, Manual, ProfinetSettings};
 
 /// The first page of a device.
 #[derive(Debug)]
@@ -67,7 +67,7 @@ fn doubts(device: &Device) -> impl Iterator<Item = &lexibus_codegen::ir::Doubt> 
 
 fn identity(device: &Device) -> Vec<(&'static str, String)> {
     let own = &device.identity;
-    let hex = |number: Option<u32>| number.map(|number| format!("0x{number:08X}")).unwrap_or_default();
+    let hex = |number: Option<u32>| number.map(hex32).unwrap_or_default();
     let all = [
         ("Vendor", own.vendor_name.to_string()),
         ("Product", own.product_name.to_string()),
@@ -132,7 +132,7 @@ fn clocks(own: &DistributedClocks) -> String {
 }
 
 fn profinet(own: &ProfinetSettings) -> String {
-    let mut facts = vec![format!("device 0x{:04X}, module 0x{:08X}", own.device_id, own.ident)];
+    let mut facts = vec![format!("device {}, module {}", hex16(own.device_id), hex32(own.ident))];
     if !own.dns_name.is_empty() {
         facts.push(format!("name {}", own.dns_name));
     }

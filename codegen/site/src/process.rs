@@ -4,6 +4,7 @@ use super::anchor::Names;
 use super::cell::Cell;
 use super::words;
 use lexibus_codegen::facts::cob_id::{self, CobId};
+use lexibus_codegen::facts::number::hex16;
 use lexibus_codegen::facts::{address, pdo, types};
 use lexibus_codegen::ir::{
     Direction, Manual, ObjectBuses, Pdo, PdoEntry, PdoEntryKind, ProcessData, ProcessImage, SubjectKind, TypeDef,
@@ -89,7 +90,7 @@ pub(super) fn sync_managers(data: &ProcessData) -> Vec<SyncManager> {
     let one = |own: &lexibus_codegen::ir::SyncManager| SyncManager {
         number: own.number,
         purpose: own.purpose.label().to_owned(),
-        start: format!("0x{:04X}", own.start_address),
+        start: hex16(own.start_address),
         size: own.default_size.map(|size| size.to_string()).unwrap_or_default(),
     };
     data.sync_managers.iter().map(one).collect()
@@ -98,8 +99,8 @@ pub(super) fn sync_managers(data: &ProcessData) -> Vec<SyncManager> {
 fn pdo(own: &Pdo, types: &[TypeDef], about: About<'_>) -> Frame {
     let name = if own.name.is_empty() { String::new() } else { format!(": {}", own.name) };
     let mut facts = words::PLAIN.description(own.documentation.as_deref());
-    let mapping =
-        if own.mapping_index == 0 { String::new() } else { format!(", mapped by 0x{:04X}", own.mapping_index) };
+    let index = hex16(own.mapping_index);
+    let mapping = if own.mapping_index == 0 { String::new() } else { format!(", mapped by {index}") };
     let bytes = own.bytes();
     facts.push(format!("{bytes} {}{mapping}.", if bytes == 1 { "byte" } else { "bytes" }));
     if let Some(communication) = &own.communication {
@@ -113,11 +114,11 @@ fn pdo(own: &Pdo, types: &[TypeDef], about: About<'_>) -> Frame {
     facts.extend(own.mandatory.then(|| "It has to be assigned.".to_owned()));
     facts.extend(own.sync_manager.map(|number| format!("Assigned to sync manager {number} by default.")));
     if !own.excludes.is_empty() {
-        let others: Vec<String> = own.excludes.iter().map(|index| format!("0x{index:04X}")).collect();
+        let others: Vec<String> = own.excludes.iter().map(|index| hex16(*index)).collect();
         facts.push(format!("Can't be assigned together with {}.", others.join(", ")));
     }
     Frame {
-        anchor: format!("0x{:04X}", own.mapping_index),
+        anchor: index,
         title: pdo::title(own, about.buses) + &name,
         facts,
         doubts: super::entry::doubts(&own.doubts, about.manual),

@@ -4,6 +4,7 @@ use super::anchor::Names;
 use super::bits::{self, Bits, Label};
 use super::entry::{self, Doubt};
 use super::words::{self, PLAIN};
+use lexibus_codegen::facts::number::{bytes, hex8};
 use lexibus_codegen::facts::physical::Physical;
 use lexibus_codegen::facts::types;
 use lexibus_codegen::ir::Manual;
@@ -69,15 +70,14 @@ pub(super) fn protocol(device: &Device, manual: &Manual) -> Option<Protocol> {
 }
 
 fn delimited(own: &Framing) -> Vec<(&'static str, String)> {
-    let byte = |byte: u8| format!("0x{byte:02X}");
     let mut facts = Vec::new();
-    facts.extend(own.start.map(|start| ("First byte", byte(start))));
-    facts.extend(own.end.map(|end| ("Last byte", byte(end))));
-    facts.extend(own.escape.map(|escape| ("Escape", byte(escape))));
+    facts.extend(own.start.map(|start| ("First byte", hex8(start))));
+    facts.extend(own.end.map(|end| ("Last byte", hex8(end))));
+    facts.extend(own.escape.map(|escape| ("Escape", hex8(escape))));
     if own.escape.is_some() {
-        let escaped: Vec<String> = own.escaped.iter().copied().map(byte).collect();
+        let escaped: Vec<String> = own.escaped.iter().copied().map(hex8).collect();
         facts.push(("Escaped bytes", escaped.join(", ")));
-        facts.push(("Sent combined with", format!("{} (exclusive or)", byte(own.escape_xor))));
+        facts.push(("Sent combined with", format!("{} (exclusive or)", hex8(own.escape_xor))));
     }
     if !own.check.is_empty() {
         facts.push(("Check", format!("{}, beginning with 0x{:02X}", own.check, own.check_seed)));
@@ -127,16 +127,12 @@ fn message(own: &Message, device: &Device, manual: &Manual, names: &mut Names) -
             .examples
             .iter()
             .map(|own| Example {
-                request: hexadecimal(&own.request),
-                reply: hexadecimal(&own.reply),
+                request: bytes(&own.request),
+                reply: bytes(&own.reply),
                 facts: PLAIN.description(own.documentation.as_deref()).join(" "),
             })
             .collect(),
     }
-}
-
-fn hexadecimal(bytes: &[u8]) -> String {
-    bytes.iter().map(|byte| format!("{byte:02X}")).collect::<Vec<_>>().join(" ")
 }
 
 /// Collects fields, those of repetitions too.
@@ -160,7 +156,7 @@ impl Parts<'_> {
                 labels: Vec::new(),
             };
             let own = match field {
-                MessageField::Constant(bytes) => part(count(bytes.len(), "byte"), hexadecimal(bytes), "c"),
+                MessageField::Constant(constant) => part(count(constant.len(), "byte"), bytes(constant), "c"),
                 MessageField::FixedBits { bits, value } => {
                     part(count((*bits).into(), "bit"), format!("{value:#b}").replacen("0b", "", 1), "c")
                 }

@@ -5,9 +5,10 @@
 //! | `address` | addresses of items on every bus |
 //! | `cob_id` | the identifier of a CAN frame and its flags |
 //! | `code` | codes as their source prints them |
-//! | `device` | what a device is called |
+//! | `device` | what a device is called, and what fits into its slots |
 //! | `item` | default, range and unit of an item |
 //! | `markdown` | texts within Markdown |
+//! | `number` | numbers in hexadecimal notation |
 //! | `pattern` | bits that have to be 0 or 1 |
 //! | `pdo` | names of PDOs on CANopen and EtherCAT |
 //! | `physical` | physical values next to the raw ones |
@@ -22,6 +23,7 @@ pub mod code;
 pub mod device;
 pub mod item;
 pub mod markdown;
+pub mod number;
 pub mod pattern;
 pub mod pdo;
 pub mod physical;

@@ -2,6 +2,7 @@
 
 use std::collections::HashMap;
 
+use super::number::hex16;
 use crate::ir::{Device, Direction, Mappable, ObjectBuses, Pdo, PdoEntryKind};
 
 /// The buses whose objects a device has.
@@ -19,7 +20,7 @@ pub fn title(pdo: &Pdo, buses: ObjectBuses) -> String {
     };
     let by_index = match pdo.mapping_index {
         0 => coe.to_owned(),
-        index => format!("{coe} 0x{index:04X}"),
+        index => format!("{coe} {}", hex16(index)),
     };
     match (buses.canopen, buses.coe) {
         (false, _) => by_index,

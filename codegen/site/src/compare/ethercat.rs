@@ -4,8 +4,9 @@ use super::change::Judgement;
 use super::comparison::{
     compare_fields, fact, fact_as, ignored, list, optional, text, Comparison, Elements, KEY, POSITION,
 };
-use super::show::{bytes, index, Show};
+use super::show::{index, Show};
 use lexibus_codegen::facts::address;
+use lexibus_codegen::facts::number::{bytes, hex16};
 use lexibus_codegen::ir::{
     ClockMode, ClockSyncManager, ClockTime, Coe, CompactString, DistributedClocks, Eeprom, EtherCatSettings, Fmmu,
     InitCommand, Mailbox, ModulePdoGroup, Protocol, SlotRules, SyncUnit,
@@ -23,7 +24,7 @@ pub(super) fn compare(old: &EtherCatSettings, new: &EtherCatSettings, comparison
         clocks: optional("distributed clocks", Judgement::ADDITION, Judgement::API_AND_WIRE, clocks),
         slots: optional("slots", Judgement::ADDITION, Judgement::API_AND_WIRE, slots),
         registers: fact_as("registers of the slave controller", Judgement::WIRE, |list: &Vec<(u16, u32)>| {
-            joined(list, |(address, value)| format!("0x{address:04X} = 0x{value:X}"))
+            joined(list, |(address, value)| format!("{} = 0x{value:X}", hex16(*address)))
         }),
         eeprom: optional("EEPROM", Judgement::BEHAVIOR_COMPATIBLE, Judgement::BEHAVIOR, eeprom),
         timeouts: fact("time limits in ms", Judgement::BEHAVIOR),
@@ -151,7 +152,7 @@ fn clock_time(time: &ClockTime) -> String {
 fn clock_sync_manager(sync_manager: &ClockSyncManager) -> String {
     let ClockSyncManager { number, sync_type, pdos } = sync_manager;
     let sync_type = sync_type.map(|number| format!(" type {number}")).unwrap_or_default();
-    let pdo = |(index, factor): &(u16, Option<u16>)| format!(" 0x{index:04X} × {}", factor.show());
+    let pdo = |(index, factor): &(u16, Option<u16>)| format!(" {} × {}", hex16(*index), factor.show());
     format!("{number}{sync_type}{}", joined(pdos, pdo))
 }
 
@@ -176,7 +177,7 @@ fn slots(old: &SlotRules, new: &SlotRules, comparison: &mut Comparison<'_>) {
 
 fn pdo_group(group: &ModulePdoGroup) -> String {
     let ModulePdoGroup { alignment, rx_pdo, tx_pdo } = group;
-    let pdo = |name: &str, pdo: &Option<u16>| pdo.map(|index| format!(", {name} 0x{index:04X}")).unwrap_or_default();
+    let pdo = |name: &str, pdo: &Option<u16>| pdo.map(|index| format!(", {name} {}", hex16(index))).unwrap_or_default();
     format!("alignment {alignment}{}{}", pdo("RxPDO", rx_pdo), pdo("TxPDO", tx_pdo))
 }
 

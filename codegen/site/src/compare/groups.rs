@@ -7,9 +7,10 @@ use super::comparison::{compare_fields, fact, fact_as, ignored, text, Comparison
 use super::item;
 use super::names::{is_module, Identifiers};
 use super::pairing::{Key, Matching};
-use super::show::{bytes, index};
+use super::show::index;
 use super::texts::{documentation, doubts, extensions};
 use lexibus_codegen::facts::address;
+use lexibus_codegen::facts::number::{bytes, hex16};
 use lexibus_codegen::ir::{CompactString, Group, GroupKind, Item, Record};
 
 /// Compares groups and their items. Items are paired across groups.
@@ -125,9 +126,9 @@ impl Entry<'_> {
 /// By what a group is found.
 fn place(group: &Group) -> String {
     match &group.kind {
-        GroupKind::Object { index, .. } => format!("0x{index:04X}"),
+        GroupKind::Object { index, .. } => hex16(*index),
         GroupKind::Chapter => "chapter".to_owned(),
-        GroupKind::Record(record) => format!("record 0x{:04X}", record.index),
+        GroupKind::Record(record) => format!("record {}", hex16(record.index)),
         GroupKind::Image { .. } => "image".to_owned(),
     }
 }

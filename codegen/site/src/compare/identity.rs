@@ -3,6 +3,7 @@
 use super::change::Judgement;
 use super::comparison::{compare_fields, fact_as, text, Comparison};
 use super::show::ident;
+use lexibus_codegen::facts::number::hex32;
 use lexibus_codegen::ir::{CompactString, Identity};
 
 /// Compares identities. A program may check them; they change no other bytes.
@@ -16,7 +17,7 @@ pub(super) fn identity(old: &Identity, new: &Identity, comparison: &mut Comparis
         order_code: text("order code"),
         serial_number: fact_as("serial number", Judgement::BEHAVIOR, ident),
         others: fact_as("further identity", Judgement::BEHAVIOR, |others: &Vec<(CompactString, u32)>| {
-            others.iter().map(|(name, number)| format!("{name} 0x{number:08X}")).collect::<Vec<_>>().join(", ")
+            others.iter().map(|(name, number)| format!("{name} {}", hex32(*number))).collect::<Vec<_>>().join(", ")
         }),
     });
 }

@@ -7,8 +7,8 @@ use super::comparison::{
 use super::conditions::{availability, conditions, restricted};
 use super::item;
 use super::names::identifier;
-use super::show::bytes;
 use super::texts::{described, documentation, doubts, renamed};
+use lexibus_codegen::facts::number::{bytes, hex8};
 use lexibus_codegen::facts::words::PLAIN;
 use lexibus_codegen::ir::{
     CompactString, Completion, Framing, Message, MessageExample, MessageField, MessageValue, ParameterSpace,
@@ -157,12 +157,12 @@ pub(super) fn spaces() -> impl Fn(&Vec<ParameterSpace>, &Vec<ParameterSpace>, &m
 
 /// Compares how frames are delimited and checked.
 pub(super) fn framing(old: &Framing, new: &Framing, comparison: &mut Comparison<'_>) {
-    let byte = |value: &Option<u8>| value.map(|value| format!("0x{value:02X}")).unwrap_or_default();
+    let byte = |value: &Option<u8>| value.map(hex8).unwrap_or_default();
     compare_fields!(Framing, old, new, comparison, {
         start: fact_as("first byte", Judgement::WIRE, byte),
         end: fact_as("last byte", Judgement::WIRE, byte),
         escape: fact_as("escape byte", Judgement::WIRE, byte),
-        escape_xor: fact_as("escaped bytes are combined with", Judgement::WIRE, |value| format!("0x{value:02X}")),
+        escape_xor: fact_as("escaped bytes are combined with", Judgement::WIRE, |value| hex8(*value)),
         escaped: fact_as("escaped bytes", Judgement::WIRE, |escaped: &Vec<u8>| bytes(escaped)),
         check: fact("check", Judgement::WIRE),
         check_from: fact("check counts from", Judgement::WIRE),

@@ -12,6 +12,7 @@ use super::texts::{documentation, doubts, extensions, renamed};
 use super::types;
 use lexibus_codegen::facts::address;
 use lexibus_codegen::facts::cob_id::{self, CobId};
+use lexibus_codegen::facts::number::hex8;
 use lexibus_codegen::facts::pdo::title;
 use lexibus_codegen::facts::words::PLAIN;
 use lexibus_codegen::ir::{
@@ -266,7 +267,7 @@ fn sync_manager(old: &SyncManager, new: &SyncManager, comparison: &mut Compariso
         start_address: fact_as("start address", Judgement::WIRE, index),
         default_size: fact("length in bytes", Judgement::WIRE),
         size_range: fact("minimum and maximum length", Judgement::BEHAVIOR),
-        control: fact_as("control register", Judgement::WIRE, |control| format!("0x{control:02X}")),
+        control: fact_as("control register", Judgement::WIRE, |control| hex8(*control)),
         enable: fact("enabled", Judgement::WIRE),
         op_only: fact("in Op only", Judgement::BEHAVIOR),
         is_virtual: fact("exists in the description only", Judgement::WIRE),

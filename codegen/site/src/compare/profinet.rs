@@ -10,7 +10,10 @@ use super::show::{index, Show};
 use super::slots::{places, Use};
 use super::texts::{documentation, extensions, renamed};
 use super::{groups, pdos, types};
-use lexibus_codegen::facts;
+use lexibus_codegen::facts::{
+    self,
+    number::{hex16, hex32},
+};
 use lexibus_codegen::ir::{
     Catalog, FParameter, FParameters, Group, IoChannel, IoData, IoItem, IoLengths, Menu, ProfinetSettings, Submodule,
     SubmoduleKind, SubmoduleUse, SubslotName, Type, TypeId, UnitDiagnosis, UnitDiagnosisField, VendorBlock,
@@ -18,7 +21,7 @@ use lexibus_codegen::ir::{
 
 pub(super) fn settings(old: &ProfinetSettings, new: &ProfinetSettings, comparison: &mut Comparison<'_>) {
     compare_fields!(ProfinetSettings, old, new, comparison, {
-        ident: fact_as("ident number", Judgement::WIRE, |ident| format!("0x{ident:08X}")),
+        ident: fact_as("ident number", Judgement::WIRE, |ident| hex32(*ident)),
         device_id: fact_as("device ID", Judgement::WIRE, index),
         family: text("family"),
         pnio_version: text("version of PROFINET"),
@@ -82,7 +85,7 @@ pub(super) fn submodule(old: &Submodule, new: &Submodule, comparison: &mut Compa
         id: ignored(KEY),
         ident: ignored(KEY),
         kind: part("submodule", fact_as("kind", Judgement::WIRE, |kind: &SubmoduleKind| kind_name(*kind).to_owned())),
-        api: part("submodule", fact_as("API", Judgement::WIRE, |api| format!("0x{api:04X}"))),
+        api: part("submodule", fact_as("API", Judgement::WIRE, |api| hex16(*api))),
         name: part("submodule", judged("name", renamed)),
         names: part("submodule", text("name in other languages")),
         documentation: part("submodule", documentation),

@@ -1,5 +1,7 @@
 //! Texts of values in reports.
 
+use lexibus_codegen::facts;
+use lexibus_codegen::facts::number::{hex16, hex32};
 use lexibus_codegen::facts::words::PLAIN;
 use lexibus_codegen::ir::{
     Access, AxisStep, Bus, Buses, Category, CompactString, Condition, Direction, Fit, LocalText, Numbers, ObjectBuses,
@@ -61,11 +63,7 @@ show_as_name! {
     }
     Condition { condition => PLAIN.holds(condition) }
     LocalText { text => format!("{}: {}", text.language, text.text) }
-    Fit {
-        Fit::Ident(ident) => format!("module 0x{ident:08X}"),
-        Fit::Class(class) => format!("class {class}"),
-        Fit::Name(name) => name,
-    }
+    Fit { fit => facts::device::fit(fit) }
     AxisStep {
         AxisStep::Index(step) => format!("index + 0x{step:X}"),
         AxisStep::SubIndex => "sub-index = axis",
@@ -122,17 +120,12 @@ impl<A: Show, B: Show> Show for (A, B) {
     }
 }
 
-/// `0x1A00`.
+/// An index in hexadecimal notation.
 pub(super) fn index(number: &u16) -> String {
-    format!("0x{number:04X}")
+    hex16(*number)
 }
 
-/// `0x00000539`; empty if there is none.
+/// An identity number in hexadecimal notation; empty if there is none.
 pub(super) fn ident(number: &Option<u32>) -> String {
-    number.map(|number| format!("0x{number:08X}")).unwrap_or_default()
-}
-
-/// `02 1B FF`.
-pub(super) fn bytes(bytes: &[u8]) -> String {
-    bytes.iter().map(|byte| format!("{byte:02X}")).collect::<Vec<_>>().join(" ")
+    number.map(hex32).unwrap_or_default()
 }
