@@ -3,7 +3,7 @@
 use std::mem::discriminant;
 
 use super::change::Judgement;
-use super::comparison::{compare_fields, fact, fact_as, ignored, part, text, Comparison, COMPARED};
+use super::comparison::{compare_fields, fact, fact_as, part, text, Comparison, COMPARED};
 use super::show::Show;
 use super::types;
 use lexibus_codegen::facts::address;
@@ -77,8 +77,6 @@ fn register(old: &RegisterBinding, new: &RegisterBinding, comparison: &mut Compa
     // A single register has no order of words.
     let word_order = if old.count.max(new.count) > 1 { Judgement::WIRE } else { Judgement::NONE };
     compare_fields!(RegisterBinding, old, new, comparison, {
-        space: ignored(COMPARED),
-        address: ignored(COMPARED),
         // The number that the source prints moves with the address and length.
         printed: |one: &CompactString, other: &CompactString, comparison: &mut Comparison<'_>| {
             if (old.address, old.count) == (new.address, new.count) {
@@ -93,30 +91,24 @@ fn register(old: &RegisterBinding, new: &RegisterBinding, comparison: &mut Compa
         bytes_swapped: fact_as("byte order", Judgement::WIRE, |swapped| {
             if *swapped { "low byte first" } else { "high byte first" }.to_owned()
         }),
-        bit_offset: ignored(COMPARED),
         words_per_address: fact("registers of one address", Judgement::WIRE),
         extended: fact("extended to the length of the registers", Judgement::WIRE),
-    });
+    }, COMPARED => [space, address, bit_offset]);
 }
 
 fn image(old: &ImageBinding, new: &ImageBinding, comparison: &mut Comparison<'_>) {
     compare_fields!(ImageBinding, old, new, comparison, {
-        image: ignored(COMPARED),
-        bit_offset: ignored(COMPARED),
         bits: fact("length in bits", Judgement::WIRE),
         ty: types::compare_optional("type in the image", Judgement::WIRE),
-    });
+    }, COMPARED => [image, bit_offset]);
 }
 
 fn window(old: &IndirectBinding, new: &IndirectBinding, comparison: &mut Comparison<'_>) {
     compare_fields!(IndirectBinding, old, new, comparison, {
-        space: ignored(COMPARED),
         window: fact("number of the window", Judgement::WIRE),
-        buses: ignored(COMPARED),
-        number: ignored(COMPARED),
         read: part("read through the window", side),
         write: part("written through the window", side),
-    });
+    }, COMPARED => [space, buses, number]);
 }
 
 fn side(old: &Option<WindowSide>, new: &Option<WindowSide>, comparison: &mut Comparison<'_>) {

@@ -1,9 +1,7 @@
 //! Catalogs: devices, modules and submodules with what they share.
 
 use super::change::{Change, Judgement};
-use super::comparison::{
-    compare_fields, fact_as, ignored, list, part, text, Comparison, Elements, COMPARED, KEY, POSITION,
-};
+use super::comparison::{compare_fields, fact_as, list, part, text, Comparison, Elements, COMPARED, KEY, POSITION};
 use super::pairing::pairs;
 use super::show::Show;
 use super::texts::extensions;
@@ -28,11 +26,6 @@ pub fn compare(old: &Catalog, new: &Catalog) -> Vec<Change> {
 /// Compares what devices, modules and submodules share.
 fn shared(old: &Catalog, new: &Catalog, comparison: &mut Comparison<'_>) {
     compare_fields!(Catalog, old, new, comparison, {
-        files: ignored("the files that are compared"),
-        devices: ignored(COMPARED),
-        modules: ignored(COMPARED),
-        submodules: ignored(COMPARED),
-        types: ignored(COMPARED),
         code_tables: codes::tables(),
         unit_diagnoses: profinet::unit_diagnoses(),
         families: list(Elements::titled(|family: &Family| format!("family {}", family.id))
@@ -41,7 +34,7 @@ fn shared(old: &Catalog, new: &Catalog, comparison: &mut Comparison<'_>) {
             list.iter().map(|graphic| format!("{} {}", graphic.id, graphic.file)).collect::<Vec<_>>().join("; ")
         })),
         extensions: part("the catalog", extensions),
-    });
+    }, "the files that are compared" => [files], COMPARED => [devices, modules, submodules, types]);
 }
 
 /// The only devices of two descriptions belong together, others by product code, name and identifier.
@@ -93,10 +86,8 @@ fn owned<'a, T>(
 
 fn family(old: &Family, new: &Family, comparison: &mut Comparison<'_>) {
     compare_fields!(Family, old, new, comparison, {
-        id: ignored(KEY),
         name: text("name"),
-        names: text("name in other languages"),
+        names,
         descriptions: fact_as("description", Judgement::NONE, |list: &Vec<LocalText>| list.show()),
-        origin: ignored(POSITION),
-    });
+    }, KEY => [id], POSITION => [origin]);
 }

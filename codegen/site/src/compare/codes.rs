@@ -1,10 +1,9 @@
 //! Tables of codes, which are enumerations in Rust.
 
 use super::change::Judgement;
-use super::comparison::{compare_fields, fact, ignored, judged, list, text, Comparison, Elements, COMPARED, POSITION};
-use super::conditions::{availability, only_on};
+use super::comparison::{compare_fields, fact, list, text, Comparison, Elements, COMPARED, POSITION};
+use super::conditions::only_on;
 use super::names::identifier;
-use super::texts::{documentation, renamed};
 use lexibus_codegen::facts::code;
 use lexibus_codegen::ir::{CodeRow, CodeTable};
 
@@ -17,13 +16,12 @@ pub(super) fn tables() -> impl Fn(&Vec<CodeTable>, &Vec<CodeTable>, &mut Compari
 
 fn table(old: &CodeTable, new: &CodeTable, comparison: &mut Comparison<'_>) {
     compare_fields!(CodeTable, old, new, comparison, {
-        name: judged("name", renamed),
+        name,
         columns: fact("columns", Judgement::API),
         rows: list(rows(), row),
         buses: only_on,
-        documentation: documentation,
-        origin: ignored(POSITION),
-    });
+        documentation,
+    }, POSITION => [origin]);
 }
 
 /// Code may match all codes.
@@ -48,12 +46,7 @@ fn row(old: &CodeRow, new: &CodeRow, comparison: &mut Comparison<'_>) {
     compare_fields!(CodeRow, old, new, comparison, {
         printed: text("printed code"),
         printed_cells: text("printed cells"),
-        code: ignored(COMPARED),
-        last: ignored(COMPARED),
-        name: judged("name", renamed),
-        names: text("name in other languages"),
-        availability: availability,
-        documentation: documentation,
+        name, names, availability, documentation,
         cells: fact("further columns", Judgement::BEHAVIOR),
-    });
+    }, COMPARED => [code, last]);
 }

@@ -119,20 +119,44 @@ impl<'a> Comparison<'a> {
     }
 }
 
-/// Compares all fields of a type by a rule each. A field without a rule does not compile.
+/// Compares all fields of a type by a rule each. A field without a rule does not compile. Fields that most types have are named
+/// without a rule (see `rule`). Behind the rules, by the reason, are fields that are no facts of the device, or are compared elsewhere.
 macro_rules! compare_fields {
-    ($type:ident, $old:expr, $new:expr, $comparison:expr, { $($field:ident: $rule:expr),* $(,)? }) => {{
+    ($type:ident, $old:expr, $new:expr, $comparison:expr, { $($field:ident $(: $rule:expr)?),* $(,)? }
+        $(, $reason:expr => [$($ignored:ident),+])* $(,)?) => {{
         let (old, new, comparison): (&$type, &$type, &mut Comparison<'_>) = ($old, $new, $comparison);
-        let $type { $($field: _),* } = old;
-        $(($rule)(&old.$field, &new.$field, comparison);)*
+        let $type { $($field: _,)* $($($ignored: _,)+)* } = old;
+        let _reasons: &[&str] = &[$($reason),*];
+        $(($crate::compare::comparison::rule!($field $(, $rule)?))(&old.$field, &new.$field, comparison);)*
     }};
 }
 pub(super) use compare_fields;
 
-/// The field is no fact of the device, for this reason.
-pub(super) fn ignored<T>(_reason: &'static str) -> impl Fn(&T, &T, &mut Comparison<'_>) {
-    |_, _, _| {}
+/// The rule of a field: its own, or that of all fields of this name.
+macro_rules! rule {
+    (name) => {
+        $crate::compare::comparison::judged("name", $crate::compare::texts::renamed)
+    };
+    (names) => {
+        $crate::compare::comparison::text("name in other languages")
+    };
+    (documentation) => {
+        $crate::compare::texts::documentation
+    };
+    (doubts) => {
+        $crate::compare::texts::doubts
+    };
+    (extensions) => {
+        $crate::compare::texts::extensions
+    };
+    (availability) => {
+        $crate::compare::conditions::availability
+    };
+    ($field:ident, $rule:expr) => {
+        $rule
+    };
 }
+pub(super) use rule;
 
 /// A position in the source file.
 pub(super) const POSITION: &str = "a position in the source file";

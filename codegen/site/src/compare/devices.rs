@@ -2,8 +2,8 @@
 
 use super::change::{Effect, Judgement};
 use super::comparison::{
-    compare_fields, fact, fact_as, ignored, judged, list, optional, or_default, part, positioned, slice, text,
-    Comparison, Elements, COMPARED, KEY, POSITION,
+    compare_fields, fact, fact_as, judged, list, optional, or_default, part, positioned, slice, text, Comparison,
+    Elements, COMPARED, KEY, POSITION,
 };
 use super::conditions::restricted;
 use super::identity::identity;
@@ -21,21 +21,12 @@ use lexibus_codegen::ir::{
 pub(super) fn compare(old: &Device, new: &Device, comparison: &mut Comparison<'_>) {
     comparison.within("the device", |comparison| facts_of_device(old, new, comparison));
     compare_fields!(Device, old, new, comparison, {
-        name: ignored(COMPARED),
-        names: ignored(COMPARED),
-        id: ignored(COMPARED),
-        dictionary_only: ignored(COMPARED),
-        identity: ignored(COMPARED),
         header: part("the file", header),
         canopen: optional("CANopen", Judgement::ADDITION, Judgement::API_AND_WIRE, canopen),
         ethercat: optional("EtherCAT", Judgement::ADDITION, Judgement::API_AND_WIRE, ethercat::compare),
         profinet: optional("PROFINET", Judgement::ADDITION, Judgement::API_AND_WIRE, profinet::settings),
         modbus: slice(modbus_tables),
-        modbus_examples: ignored(COMPARED),
-        node_ids: ignored(COMPARED),
-        profiles: ignored(COMPARED),
         commissioning: part("commissioning", or_default(commissioning)),
-        types: ignored(COMPARED),
         groups: |old: &Vec<Group>, new: &Vec<Group>, comparison: &mut Comparison<'_>| {
             groups::compare(&old.iter().collect::<Vec<_>>(), &new.iter().collect::<Vec<_>>(), comparison);
         },
@@ -65,12 +56,12 @@ pub(super) fn compare(old: &Device, new: &Device, comparison: &mut Comparison<'_
             .paired_by(|model| identifier(&model.name))
             .judged(|_| Judgement::API_COMPATIBLE, |_| Judgement::API), model),
         axes: optional("axes", Judgement::API_COMPATIBLE, Judgement::API, axes),
-        documentation: ignored(COMPARED),
         manual: part("the manual", manual),
-        doubts: ignored(COMPARED),
-        extensions: ignored(COMPARED),
-        origin: ignored(POSITION),
-    });
+    },
+    COMPARED => [name, names, id, dictionary_only, identity, modbus_examples, node_ids, profiles, types, documentation,
+        doubts, extensions],
+    POSITION => [origin],
+    );
     types::compare_unused(comparison);
 }
 
@@ -141,8 +132,7 @@ fn canopen(old: &CanOpenSettings, new: &CanOpenSettings, comparison: &mut Compar
         dynamic_channels: fact_as("dynamic channels", Judgement::BEHAVIOR, |list: &Vec<DynamicChannel>| {
             list.iter().map(dynamic_channel).collect::<Vec<_>>().join("; ")
         }),
-        at: ignored(POSITION),
-    });
+    }, POSITION => [at]);
 }
 
 fn dynamic_channel(channel: &DynamicChannel) -> String {
@@ -171,7 +161,6 @@ fn modbus_tables(old: &[ModbusTable], new: &[ModbusTable], comparison: &mut Comp
 
 fn modbus_table(old: &ModbusTable, new: &ModbusTable, comparison: &mut Comparison<'_>) {
     compare_fields!(ModbusTable, old, new, comparison, {
-        space: ignored(KEY),
         // Without a list, all functions are accepted. A driver that uses one that is left speaks another way.
         functions: judged("function codes", |old: &Vec<u8>, new: &Vec<u8>| {
             let is_lost = !new.is_empty() && (old.is_empty() || old.iter().any(|value| !new.contains(value)));
@@ -182,7 +171,7 @@ fn modbus_table(old: &ModbusTable, new: &ModbusTable, comparison: &mut Compariso
         split: judged("longer values in several requests", |old: &bool, _: &bool| {
             if *old { Judgement::WIRE } else { Judgement::WIRE_COMPATIBLE }
         }),
-    });
+    }, KEY => [space]);
 }
 
 /// The effects of another maximum length of requests.
@@ -207,13 +196,11 @@ fn commissioning(old: &Commissioning, new: &Commissioning, comparison: &mut Comp
 
 fn given(old: &GivenNumber, new: &GivenNumber, comparison: &mut Comparison<'_>) {
     compare_fields!(GivenNumber, old, new, comparison, {
-        name: judged("name", renamed),
+        name,
         unit: fact("unit", Judgement::API),
         models: fact_as("numbers of models", Judgement::BEHAVIOR, constants),
-        documentation: documentation,
-        doubts: doubts,
-        origin: ignored(POSITION),
-    });
+        documentation, doubts,
+    }, POSITION => [origin]);
 }
 
 /// `Small 5, Large 10`.
@@ -223,25 +210,22 @@ fn constants(constants: &Vec<(CompactString, Value)>) -> String {
 
 fn composite(old: &Composite, new: &Composite, comparison: &mut Comparison<'_>) {
     compare_fields!(Composite, old, new, comparison, {
-        name: judged("name", renamed),
-        names: text("name in other languages"),
+        name, names,
         parts: fact("parts", Judgement::API_AND_WIRE),
         base: fact("base", Judgement::WIRE),
         sign: fact("sign", Judgement::API_AND_WIRE),
         unit: fact("unit", Judgement::API_AND_BEHAVIOR),
-        documentation: documentation,
-        origin: ignored(POSITION),
-    });
+        documentation,
+    }, POSITION => [origin]);
 }
 
 fn model(old: &Variant, new: &Variant, comparison: &mut Comparison<'_>) {
     compare_fields!(Variant, old, new, comparison, {
-        name: judged("name", renamed),
+        name,
         identity: identity,
         constants: fact_as("constants", Judgement::BEHAVIOR, constants),
-        documentation: documentation,
-        origin: ignored(POSITION),
-    });
+        documentation,
+    }, POSITION => [origin]);
 }
 
 fn axes(old: &AxisRule, new: &AxisRule, comparison: &mut Comparison<'_>) {

@@ -1,9 +1,7 @@
 //! EtherCAT: the settings by which a master sets up a slave.
 
 use super::change::Judgement;
-use super::comparison::{
-    compare_fields, fact, fact_as, ignored, list, optional, text, Comparison, Elements, KEY, POSITION,
-};
+use super::comparison::{compare_fields, fact, fact_as, list, optional, text, Comparison, Elements, KEY, POSITION};
 use super::show::{index, Show};
 use lexibus_codegen::facts::address;
 use lexibus_codegen::facts::number::{bytes, hex16};
@@ -107,8 +105,6 @@ pub(super) fn init_commands() -> impl Fn(&Vec<InitCommand>, &Vec<InitCommand>, &
 fn init_command(old: &InitCommand, new: &InitCommand, comparison: &mut Comparison<'_>) {
     compare_fields!(InitCommand, old, new, comparison, {
         transitions: fact("transitions", Judgement::WIRE),
-        index: ignored(KEY),
-        sub_index: ignored(KEY),
         data: fact_as("data", Judgement::WIRE, |data: &Vec<u8>| bytes(data)),
         depends_on_slot: fact("index grows with the slot", Judgement::WIRE),
         depends_on_slot_group: fact("index grows with the slot group", Judgement::WIRE),
@@ -117,8 +113,7 @@ fn init_command(old: &InitCommand, new: &InitCommand, comparison: &mut Compariso
         adapt: fact("adapted by the master", Judgement::WIRE),
         overwritten_by_module: fact("replaced by that of a module", Judgement::WIRE),
         comment: text("comment"),
-        origin: ignored(POSITION),
-    });
+    }, KEY => [index, sub_index], POSITION => [origin]);
 }
 
 fn clocks(old: &DistributedClocks, new: &DistributedClocks, comparison: &mut Comparison<'_>) {
@@ -130,7 +125,6 @@ fn clocks(old: &DistributedClocks, new: &DistributedClocks, comparison: &mut Com
 
 fn clock_mode(old: &ClockMode, new: &ClockMode, comparison: &mut Comparison<'_>) {
     compare_fields!(ClockMode, old, new, comparison, {
-        name: ignored(KEY),
         description: text("description"),
         assign_activate: fact_as("AssignActivate", Judgement::WIRE, |value| format!("0x{value:X}")),
         cycle_sync0: fact_as("cycle of Sync0", Judgement::WIRE, clock_time),
@@ -140,7 +134,7 @@ fn clock_mode(old: &ClockMode, new: &ClockMode, comparison: &mut Comparison<'_>)
         sync_managers: fact_as("sync managers", Judgement::WIRE, |list: &Vec<ClockSyncManager>| {
             joined(list, clock_sync_manager)
         }),
-    });
+    }, KEY => [name]);
 }
 
 fn clock_time(time: &ClockTime) -> String {

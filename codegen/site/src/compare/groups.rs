@@ -3,12 +3,11 @@
 use std::ops::Range;
 
 use super::change::Judgement;
-use super::comparison::{compare_fields, fact, fact_as, ignored, text, Comparison, COMPARED, POSITION};
+use super::comparison::{compare_fields, fact, fact_as, Comparison, COMPARED, POSITION};
 use super::item;
 use super::names::{is_module, Identifiers};
 use super::pairing::{Key, Matching};
 use super::show::index;
-use super::texts::{documentation, doubts, extensions};
 use lexibus_codegen::facts::address;
 use lexibus_codegen::facts::number::{bytes, hex16};
 use lexibus_codegen::ir::{CompactString, Group, GroupKind, Item, Record};
@@ -167,9 +166,8 @@ fn facts(old: &Group, new: &Group, identifiers: [&str; 2], comparison: &mut Comp
         name: |one: &CompactString, other: &CompactString, comparison: &mut Comparison<'_>| {
             names([one, other], identifiers, comparison);
         },
-        names: text("name in other languages"),
+        names,
         kind: |_: &GroupKind, _: &GroupKind, comparison: &mut Comparison<'_>| kind(old, new, comparison),
-        items: ignored(COMPARED),
         links: fact_as("linked objects", Judgement::NONE, |links: &Vec<u16>| {
             links.iter().map(index).collect::<Vec<_>>().join(", ")
         }),
@@ -177,12 +175,8 @@ fn facts(old: &Group, new: &Group, identifiers: [&str; 2], comparison: &mut Comp
         depends_on_slot: fact("index grows with the slot", Judgement::WIRE),
         depends_on_slot_group: fact("index grows with the slot group", Judgement::WIRE),
         described: fact("number of described entries", Judgement::NONE),
-        documentation: documentation,
-        doubts: doubts,
-        extensions: extensions,
-        origin: ignored(POSITION),
-        name_at: ignored(POSITION),
-    });
+        documentation, doubts, extensions,
+    }, COMPARED => [items], POSITION => [origin, name_at]);
 }
 
 fn kind(old: &Group, new: &Group, comparison: &mut Comparison<'_>) {

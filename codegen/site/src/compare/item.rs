@@ -3,12 +3,11 @@
 use super::bindings;
 use super::change::{Effect, Judgement};
 use super::comparison::{
-    compare_fields, fact, fact_as, ignored, judged, list, or_default, positioned, slice, text, Comparison, Elements,
-    POSITION,
+    compare_fields, fact, fact_as, judged, list, or_default, positioned, slice, text, Comparison, Elements, POSITION,
 };
-use super::conditions::{availability, conditions, restricted};
+use super::conditions::{conditions, restricted};
 use super::show::Show;
-use super::texts::{described, documentation, doubts, extensions, renamed};
+use super::texts::{described, renamed};
 use super::types;
 use lexibus_codegen::facts;
 use lexibus_codegen::facts::words::PLAIN;
@@ -32,7 +31,7 @@ pub(super) fn compare_named(
     let access = new.access;
     compare_fields!(Item, old, new, comparison, {
         name: name,
-        names: text("name in other languages"),
+        names,
         ty: types::compare,
         bindings: slice(bindings::compare),
         is_meaning_absent: fact("names of bits and values are stated to be absent", Judgement::NONE),
@@ -49,18 +48,14 @@ pub(super) fn compare_named(
         configured: or_default(configured),
         quantity: or_default(quantity),
         behaviour: or_default(behaviour),
-        availability: availability,
+        availability,
         related: or_default(related),
         is_reserved: fact("reserved", Judgement::NONE),
         is_optional: fact("exists only at times", Judgement::BEHAVIOR),
         shared_by_axes: fact("shared by all axes", Judgement::API),
         flags: fact_as("flags of the object", Judgement::BEHAVIOR, |flags| format!("0x{flags:X}")),
-        documentation: documentation,
-        doubts: doubts,
-        extensions: extensions,
-        origin: ignored(POSITION),
-        at: ignored(POSITION),
-    });
+        documentation, doubts, extensions,
+    }, POSITION => [origin, at]);
 }
 
 /// Compares the items that an item belongs to.
@@ -187,9 +182,8 @@ fn variant(items: [&Item; 2], old: &ItemVariant, new: &ItemVariant, comparison: 
         scale: fact_as("scale", Judgement::API_AND_BEHAVIOR, |scale: &Option<Scale>| {
             scale.as_ref().map(|scale| PLAIN.scale(scale, "")).unwrap_or_default()
         }),
-        documentation: documentation,
-        at: ignored(POSITION),
-    });
+        documentation,
+    }, POSITION => [at]);
 }
 
 /// The text of a value that may be missing.

@@ -1,17 +1,13 @@
 //! State machines and procedures.
 
 use super::change::Judgement;
-use super::comparison::{
-    compare_fields, fact, fact_as, ignored, judged, list, text, Comparison, Elements, COMPARED, KEY, POSITION,
-};
-use super::conditions::availability;
-use super::texts::{documentation, renamed};
+use super::comparison::{compare_fields, fact, fact_as, list, text, Comparison, Elements, COMPARED, KEY, POSITION};
 use lexibus_codegen::facts::words::PLAIN;
 use lexibus_codegen::ir::{CommandOutcomes, Outcome, Pattern, Procedure, StateMachine, StateOutcome, Step, Transition};
 
 pub(super) fn compare(old: &StateMachine, new: &StateMachine, comparison: &mut Comparison<'_>) {
     compare_fields!(StateMachine, old, new, comparison, {
-        name: judged("name", renamed),
+        name,
         status_item: fact("status", Judgement::API_AND_WIRE),
         control_item: fact("control", Judgement::API_AND_WIRE),
         state_type: fact("enumeration of the states", Judgement::API),
@@ -25,7 +21,7 @@ pub(super) fn compare(old: &StateMachine, new: &StateMachine, comparison: &mut C
                 .judged(|_| Judgement::BEHAVIOR_COMPATIBLE, |_| Judgement::BEHAVIOR),
             command_outcomes,
         ),
-        documentation: documentation,
+        documentation,
     });
 }
 
@@ -45,12 +41,8 @@ fn bits(pattern: &Pattern) -> String {
 fn pattern(old: &Pattern, new: &Pattern, comparison: &mut Comparison<'_>) {
     comparison.texts("bits", bits(old), bits(new), Judgement::WIRE);
     compare_fields!(Pattern, old, new, comparison, {
-        name: judged("name", renamed),
-        mask: ignored(COMPARED),
-        value: ignored(COMPARED),
-        names: text("name in other languages"),
-        documentation: documentation,
-    });
+        name, names, documentation,
+    }, COMPARED => [mask, value]);
 }
 
 fn transitions() -> Elements<Transition> {
@@ -65,25 +57,22 @@ fn transition(old: &Transition, new: &Transition, comparison: &mut Comparison<'_
     compare_fields!(Transition, old, new, comparison, {
         number: text("number"),
         from: fact("from", Judgement::BEHAVIOR),
-        to: ignored(KEY),
         command: fact("command", Judgement::BEHAVIOR),
-        documentation: documentation,
-    });
+        documentation,
+    }, KEY => [to]);
 }
 
 fn command_outcomes(old: &CommandOutcomes, new: &CommandOutcomes, comparison: &mut Comparison<'_>) {
     compare_fields!(CommandOutcomes, old, new, comparison, {
-        name: ignored(KEY),
         commands: fact("commands", Judgement::BEHAVIOR),
-        availability: availability,
+        availability,
         cells: list(
             Elements::titled(|outcome: &StateOutcome| format!("in state {}", outcome.state))
                 .judged(|_| Judgement::BEHAVIOR, |_| Judgement::BEHAVIOR),
             state_outcome,
         ),
-        documentation: documentation,
-        origin: ignored(POSITION),
-    });
+        documentation,
+    }, KEY => [name], POSITION => [origin]);
 }
 
 fn state_outcome(old: &StateOutcome, new: &StateOutcome, comparison: &mut Comparison<'_>) {
@@ -93,27 +82,23 @@ fn state_outcome(old: &StateOutcome, new: &StateOutcome, comparison: &mut Compar
         Outcome::States(states) => states.join(", then "),
     };
     compare_fields!(StateOutcome, old, new, comparison, {
-        state: ignored(KEY),
         outcomes: fact_as("outcome", Judgement::BEHAVIOR, |list: &Vec<Outcome>| {
             list.iter().map(outcome).collect::<Vec<_>>().join(" or ")
         }),
-        documentation: documentation,
-    });
+        documentation,
+    }, KEY => [state]);
 }
 
 /// Compares the writes of a procedure, which are constants in Rust.
 pub(super) fn procedure(old: &Procedure, new: &Procedure, comparison: &mut Comparison<'_>) {
     compare_fields!(Procedure, old, new, comparison, {
-        name: judged("name", renamed),
-        names: text("name in other languages"),
+        name, names,
         arguments: fact("arguments", Judgement::API),
         steps: fact_as("steps", Judgement::BEHAVIOR, |steps: &Vec<Step>| {
             steps.iter().map(step).collect::<Vec<_>>().join(" ")
         }),
-        step_spans: ignored(POSITION),
-        documentation: documentation,
-        origin: ignored(POSITION),
-    });
+        documentation,
+    }, POSITION => [step_spans, origin]);
 }
 
 /// A step, with the difference between a value and an argument that is written.

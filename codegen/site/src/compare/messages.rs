@@ -1,13 +1,11 @@
 //! The command protocol: messages, parameter spaces, framing.
 
 use super::change::{Effect, Judgement};
-use super::comparison::{
-    compare_fields, fact, fact_as, ignored, judged, list, positioned, text, Comparison, Elements, KEY, POSITION,
-};
-use super::conditions::{availability, conditions, restricted};
+use super::comparison::{compare_fields, fact, fact_as, list, positioned, Comparison, Elements, KEY, POSITION};
+use super::conditions::{conditions, restricted};
 use super::item;
 use super::names::identifier;
-use super::texts::{described, documentation, doubts, renamed};
+use super::texts::described;
 use lexibus_codegen::facts::number::{bytes, hex8};
 use lexibus_codegen::facts::words::PLAIN;
 use lexibus_codegen::ir::{
@@ -22,7 +20,7 @@ pub(super) fn compare(old: &[Message], new: &[Message], comparison: &mut Compari
 
 fn message(old: &Message, new: &Message, comparison: &mut Comparison<'_>) {
     compare_fields!(Message, old, new, comparison, {
-        name: judged("name", renamed),
+        name,
         request: |old: &Vec<MessageField>, new: &Vec<MessageField>, comparison: &mut Comparison<'_>| {
             frame("request", old, new, comparison);
         },
@@ -36,14 +34,11 @@ fn message(old: &Message, new: &Message, comparison: &mut Comparison<'_>) {
         error: fact("message that refuses it", Judgement::API_AND_WIRE),
         side_effects: fact_as("side effects", Judgement::BEHAVIOR, |effects: &Vec<CompactString>| effects.join("; ")),
         accepted_when: conditions("accepted while"),
-        names: text("name in other languages"),
-        availability: availability,
+        names, availability,
         accepted_in: restricted("accepted in"),
         examples: positioned("examples", Judgement::NONE, |list: &Vec<MessageExample>| examples(list)),
-        documentation: documentation,
-        doubts: doubts,
-        origin: ignored(POSITION),
-    });
+        documentation, doubts,
+    }, POSITION => [origin]);
 }
 
 /// Frames that a source prints, without their positions.
@@ -140,14 +135,12 @@ fn field(field: &MessageField, with_names: bool) -> String {
 /// Compares the numbers by which the protocol addresses items.
 pub(super) fn space(old: &ParameterSpace, new: &ParameterSpace, comparison: &mut Comparison<'_>) {
     compare_fields!(ParameterSpace, old, new, comparison, {
-        name: ignored(KEY),
         read: fact("read by", Judgement::WIRE),
         write: fact("written by", Judgement::WIRE),
         store: fact("stored by", Judgement::WIRE),
         byte_order: fact("order of the bytes", Judgement::WIRE),
-        documentation: documentation,
-        origin: ignored(POSITION),
-    });
+        documentation,
+    }, KEY => [name], POSITION => [origin]);
 }
 
 /// Spaces belong together by their names.
@@ -170,7 +163,6 @@ pub(super) fn framing(old: &Framing, new: &Framing, comparison: &mut Comparison<
         check_seed: fact_as("start value of the check", Judgement::WIRE, |value| format!("0x{value:X}")),
         max_data: fact("maximum number of data bytes", Judgement::BEHAVIOR),
         address: fact("field of the device's number", Judgement::API_AND_WIRE),
-        documentation: documentation,
-        origin: ignored(POSITION),
-    });
+        documentation,
+    }, POSITION => [origin]);
 }

@@ -2,7 +2,7 @@
 
 use super::change::Judgement;
 use super::comparison::{
-    compare_fields, fact, fact_as, ignored, judged, list, part, slice, text, Comparison, Elements, KEY, POSITION,
+    compare_fields, fact, fact_as, judged, list, part, slice, text, Comparison, Elements, COMPARED, KEY, POSITION,
 };
 use super::conditions::restricted;
 use super::ethercat::init_commands;
@@ -22,10 +22,9 @@ pub(super) fn slots() -> Elements<Slot> {
 
 pub(super) fn slot(old: &Slot, new: &Slot, comparison: &mut Comparison<'_>) {
     compare_fields!(Slot, old, new, comparison, {
-        number: ignored(KEY),
         name: text("name"),
         instances: fact("minimum and maximum number of modules", Judgement::BEHAVIOR),
-        names: text("name in other languages"),
+        names,
         fits: restricted("fitting modules"),
         default: fact("module by default", Judgement::BEHAVIOR),
         group: fact("slot group", Judgement::WIRE),
@@ -33,7 +32,7 @@ pub(super) fn slot(old: &Slot, new: &Slot, comparison: &mut Comparison<'_>) {
         pdo_increment: fact("PDO increment", Judgement::WIRE),
         group_index_increment: fact_as("index increment of the group", Judgement::WIRE, index),
         group_pdo_increment: fact("PDO increment of the group", Judgement::WIRE),
-    });
+    }, KEY => [number]);
 }
 
 /// Modules belong together by number, or ident number, and identifier.
@@ -62,8 +61,6 @@ pub(super) fn compare(old: &Module, new: &Module, comparison: &mut Comparison<'_
     let all =
         |module: &'_ Module| -> Vec<Group> { module.fixed_objects.iter().chain(&module.groups).cloned().collect() };
     compare_fields!(Module, old, new, comparison, {
-        number: ignored(KEY),
-        id: ignored(KEY),
         class: part("module", fact("class", Judgement::BEHAVIOR)),
         name: part("module", judged("name", renamed)),
         names: part("module", text("name in other languages")),
@@ -72,7 +69,6 @@ pub(super) fn compare(old: &Module, new: &Module, comparison: &mut Comparison<'_
         identity: part("module", identity),
         comments: part("module", text("comments")),
         documentation: part("module", documentation),
-        types: ignored(super::comparison::COMPARED),
         fixed_objects: |_: &_, _: &_, comparison: &mut Comparison<'_>| {
             let (old, new) = (all(old), all(new));
             groups::compare(&old.iter().collect::<Vec<_>>(), &new.iter().collect::<Vec<_>>(), comparison);
@@ -81,7 +77,6 @@ pub(super) fn compare(old: &Module, new: &Module, comparison: &mut Comparison<'_
             Elements::titled(|extension: &SubExtension| format!("entries added to {}", index(&extension.index))),
             sub_extension,
         ),
-        groups: ignored(super::comparison::COMPARED),
         process_data: |old: &ProcessData, new: &ProcessData, comparison: &mut Comparison<'_>| {
             pdos::compare(old, new, ObjectBuses::COE, comparison);
         },
@@ -94,17 +89,15 @@ pub(super) fn compare(old: &Module, new: &Module, comparison: &mut Comparison<'_
         })),
         profiles: part("module", fact("profiles", Judgement::BEHAVIOR)),
         extensions: part("module", extensions),
-        origin: ignored(POSITION),
-    });
+    }, KEY => [number, id], COMPARED => [types, groups], POSITION => [origin]);
     types::compare_unused(comparison);
 }
 
 fn sub_extension(old: &SubExtension, new: &SubExtension, comparison: &mut Comparison<'_>) {
     compare_fields!(SubExtension, old, new, comparison, {
-        index: ignored(KEY),
         count: fact("number of entries", Judgement::WIRE),
         per: fact("modules of one entry", Judgement::WIRE),
         extends_object: fact("goes on at the next index", Judgement::WIRE),
         template: item::compare,
-    });
+    }, KEY => [index]);
 }

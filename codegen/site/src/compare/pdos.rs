@@ -2,13 +2,11 @@
 
 use super::change::{Effect, Judgement};
 use super::comparison::{
-    compare_fields, fact, fact_as, ignored, judged, list, or_default, slice, text, Comparison, Elements, COMPARED, KEY,
-    POSITION,
+    compare_fields, fact, fact_as, list, or_default, slice, text, Comparison, Elements, COMPARED, KEY, POSITION,
 };
 use super::names::identifier;
 use super::pairing::{Key, Matching};
 use super::show::index;
-use super::texts::{documentation, doubts, extensions, renamed};
 use super::types;
 use lexibus_codegen::facts::address;
 use lexibus_codegen::facts::cob_id::{self, CobId};
@@ -46,10 +44,8 @@ fn pdos(old: &[Pdo], new: &[Pdo], buses: ObjectBuses, comparison: &mut Compariso
 
 fn pdo(old: &Pdo, new: &Pdo, comparison: &mut Comparison<'_>) {
     compare_fields!(Pdo, old, new, comparison, {
-        direction: ignored(KEY),
         number: fact("number", Judgement::WIRE),
-        name: judged("name", renamed),
-        mapping_index: ignored(KEY),
+        name,
         communication: or_default(|one, other, comparison: &mut Comparison<'_>| {
             communication(one, other, new.direction, comparison);
         }),
@@ -68,15 +64,11 @@ fn pdo(old: &Pdo, new: &Pdo, comparison: &mut Comparison<'_>) {
         is_virtual: fact("carries no data", Judgement::API_AND_WIRE),
         overwritten_by_module: fact("replaced by that of a module", Judgement::WIRE),
         oversampling: fact("oversampling", Judgement::WIRE),
-        names: text("name in other languages"),
+        names,
         max_bytes: fact("maximum length in bytes", Judgement::BEHAVIOR),
-        documentation: documentation,
-        doubts: doubts,
-        extensions: extensions,
-        buses: ignored(KEY),
+        documentation, doubts, extensions,
         implicit: fact("follows from the number of PDOs", Judgement::NONE),
-        origin: ignored(POSITION),
-    });
+    }, KEY => [direction, mapping_index, buses], POSITION => [origin]);
 }
 
 fn excludes(old: &[u16], new: &[u16], comparison: &mut Comparison<'_>) {
@@ -198,12 +190,8 @@ fn entry_title(entry: &PdoEntry) -> String {
 
 fn entry(old: &PdoEntry, new: &PdoEntry, comparison: &mut Comparison<'_>) {
     compare_fields!(PdoEntry, old, new, comparison, {
-        index: ignored(COMPARED),
-        sub_index: ignored(COMPARED),
         // Only those of paddings differ here.
         bit_offset: fact("first bit", Judgement::NONE),
-        bits: ignored(COMPARED),
-        item: ignored("follows from index and sub-index"),
         kind: fact_as("kind", Judgement::API, |kind| kind_name(*kind).to_owned()),
         name: text("name"),
         ty: |one: &Type, other: &Type, comparison: &mut Comparison<'_>| match new.kind {
@@ -218,9 +206,8 @@ fn entry(old: &PdoEntry, new: &PdoEntry, comparison: &mut Comparison<'_>) {
         fixed: fact("part of every mapping", Judgement::BEHAVIOR),
         depends_on_slot: fact("index grows with the slot", Judgement::WIRE),
         depends_on_slot_group: fact("index grows with the slot group", Judgement::WIRE),
-        names: text("name in other languages"),
-        origin: ignored(POSITION),
-    });
+        names,
+    }, COMPARED => [index, sub_index, bits], "follows from index and sub-index" => [item], POSITION => [origin]);
 }
 
 fn kind_name(kind: PdoEntryKind) -> &'static str {
@@ -261,7 +248,6 @@ fn shorten(old: &mut Vec<String>, new: &mut Vec<String>) {
 
 fn sync_manager(old: &SyncManager, new: &SyncManager, comparison: &mut Comparison<'_>) {
     compare_fields!(SyncManager, old, new, comparison, {
-        number: ignored(KEY),
         purpose: fact_as("purpose", Judgement::WIRE, |purpose: &SyncManagerPurpose| purpose.label().to_owned()),
         label: text("name of the purpose"),
         start_address: fact_as("start address", Judgement::WIRE, index),
@@ -271,8 +257,7 @@ fn sync_manager(old: &SyncManager, new: &SyncManager, comparison: &mut Compariso
         enable: fact("enabled", Judgement::WIRE),
         op_only: fact("in Op only", Judgement::BEHAVIOR),
         is_virtual: fact("exists in the description only", Judgement::WIRE),
-        origin: ignored(POSITION),
-    });
+    }, KEY => [number], POSITION => [origin]);
 }
 
 /// Images belong together by direction and name.
@@ -291,7 +276,7 @@ fn image_title(image: &ProcessImage) -> String {
 
 pub(super) fn image(old: &ProcessImage, new: &ProcessImage, comparison: &mut Comparison<'_>) {
     compare_fields!(ProcessImage, old, new, comparison, {
-        name: judged("name", renamed),
+        name,
         direction: fact("direction", Judgement::API_AND_WIRE),
         length: fact("length", Judgement::API_AND_WIRE),
         overhead: fact("further bytes", Judgement::WIRE),

@@ -2,7 +2,7 @@
 
 use super::change::Judgement;
 use super::comparison::{
-    compare_fields, fact, fact_as, ignored, judged, list, optional, part, text, Comparison, Elements, KEY, POSITION,
+    compare_fields, fact, fact_as, judged, list, optional, part, text, Comparison, Elements, KEY, POSITION,
 };
 use super::ethercat::joined;
 use super::identity::identity;
@@ -59,13 +59,11 @@ pub(super) fn subslot_names(subslots: &[SubslotName]) -> String {
 
 fn vendor_block(old: &VendorBlock, new: &VendorBlock, comparison: &mut Comparison<'_>) {
     compare_fields!(VendorBlock, old, new, comparison, {
-        api: ignored(KEY),
-        identifier: ignored(KEY),
         record: |old: &Group, new: &Group, comparison: &mut Comparison<'_>| {
             comparison.in_types_of_catalog(|comparison| groups::compare(&[old], &[new], comparison));
         },
         menus: fact_as("menus", Judgement::NONE, |list: &Vec<Menu>| menus(list)),
-    });
+    }, KEY => [api, identifier]);
 }
 
 fn menus(menus: &[Menu]) -> String {
@@ -82,8 +80,6 @@ pub(super) fn submodule_key(submodule: &Submodule) -> String {
 
 pub(super) fn submodule(old: &Submodule, new: &Submodule, comparison: &mut Comparison<'_>) {
     compare_fields!(Submodule, old, new, comparison, {
-        id: ignored(KEY),
-        ident: ignored(KEY),
         kind: part("submodule", fact_as("kind", Judgement::WIRE, |kind: &SubmoduleKind| kind_name(*kind).to_owned())),
         api: part("submodule", fact_as("API", Judgement::WIRE, |api| hex16(*api))),
         name: part("submodule", judged("name", renamed)),
@@ -101,8 +97,7 @@ pub(super) fn submodule(old: &Submodule, new: &Submodule, comparison: &mut Compa
         graphics: part("submodule", fact("pictures", Judgement::NONE)),
         attributes: part("submodule", fact("attributes", Judgement::BEHAVIOR)),
         extensions: part("submodule", extensions),
-        origin: ignored(POSITION),
-    });
+    }, KEY => [id, ident], POSITION => [origin]);
 }
 
 fn kind_name(kind: SubmoduleKind) -> &'static str {
@@ -148,13 +143,11 @@ fn f_parameters(old: &FParameters, new: &FParameters, comparison: &mut Compariso
         }),
         parameters: list(Elements::titled(|parameter: &FParameter| parameter.name.to_string())
             .judged(|_| Judgement::API_AND_WIRE, |_| Judgement::API_AND_WIRE), f_parameter),
-        origin: ignored(POSITION),
-    });
+    }, POSITION => [origin]);
 }
 
 fn f_parameter(old: &FParameter, new: &FParameter, comparison: &mut Comparison<'_>) {
     compare_fields!(FParameter, old, new, comparison, {
-        name: ignored(KEY),
         default: fact("default", Judgement::BEHAVIOR),
         label: text("name of the default"),
         allowed: fact_as("range", Judgement::BEHAVIOR, |list: &Vec<(i128, i128)>| {
@@ -163,7 +156,7 @@ fn f_parameter(old: &FParameter, new: &FParameter, comparison: &mut Comparison<'
         allowed_labels: fact("names of the range", Judgement::NONE),
         changeable: fact("changeable", Judgement::BEHAVIOR),
         visible: fact("shown by tools", Judgement::NONE),
-    });
+    }, KEY => [name]);
 }
 
 /// Compares the submodules of a device or module, and their subslots.
@@ -196,11 +189,7 @@ pub(super) fn unit_diagnoses() -> impl Fn(&Vec<UnitDiagnosis>, &Vec<UnitDiagnosi
 
 fn diagnosis(old: &UnitDiagnosis, new: &UnitDiagnosis, comparison: &mut Comparison<'_>) {
     compare_fields!(UnitDiagnosis, old, new, comparison, {
-        api: ignored(KEY),
-        identifier: ignored(KEY),
-        name: judged("name", renamed),
-        names: text("name in other languages"),
-        documentation: documentation,
+        name, names, documentation,
         fields: list(Elements {
             title: |field: &UnitDiagnosisField| format!("field {}", field.name),
             name: |field| field.name.to_string(),
@@ -208,15 +197,13 @@ fn diagnosis(old: &UnitDiagnosis, new: &UnitDiagnosis, comparison: &mut Comparis
             added: |_| Judgement::API_AND_WIRE,
             removed: |_| Judgement::API_AND_WIRE,
         }, diagnosis_field),
-        extensions: extensions,
-        origin: ignored(POSITION),
-    });
+        extensions,
+    }, KEY => [api, identifier], POSITION => [origin]);
 }
 
 fn diagnosis_field(old: &UnitDiagnosisField, new: &UnitDiagnosisField, comparison: &mut Comparison<'_>) {
     compare_fields!(UnitDiagnosisField, old, new, comparison, {
-        name: judged("name", renamed),
-        names: text("name in other languages"),
+        name, names,
         bit_offset: fact("first bit", Judgement::WIRE),
         bits: fact("length in bits", Judgement::WIRE),
         ty: types::compare,

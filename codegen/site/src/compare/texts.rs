@@ -1,7 +1,7 @@
 //! What a source says about an element in words, which has no effect.
 
 use super::change::Judgement;
-use super::comparison::{compare_fields, ignored, or_default, positioned, text, Comparison, CITATION};
+use super::comparison::{compare_fields, or_default, positioned, text, Comparison, CITATION};
 use super::names::identifier;
 use super::show::Show;
 use lexibus_codegen::facts::words::PLAIN;
@@ -17,9 +17,8 @@ pub(super) fn documentation(
         compare_fields!(Documentation, old, new, comparison, {
             text: text("description"),
             translations: text("description in other languages"),
-            cite: ignored(CITATION),
             text_from: text("origin of the description"),
-        });
+        }, CITATION => [cite]);
     })(old, new, comparison);
 }
 
@@ -65,12 +64,11 @@ pub(super) fn manual(old: &Option<Box<Manual>>, new: &Option<Box<Manual>>, compa
             title: text("title"),
             edition: text("edition"),
             language: text("language"),
-            counts: ignored(CITATION),
             documentation: text("description"),
             sections: positioned("sections", Judgement::NONE, |sections: &Vec<ManualSection>| {
                 sections.iter().map(|section| section.title.as_str()).collect::<Vec<_>>().join("; ")
             }),
-        });
+        }, CITATION => [counts]);
     })(old, new, comparison);
 }
 

@@ -3,12 +3,10 @@
 use std::collections::HashSet;
 
 use super::change::{Effect, Judgement};
-use super::comparison::{
-    compare_fields, fact, fact_as, ignored, judged, slices, text, Comparison, Elements, COMPARED, POSITION,
-};
+use super::comparison::{compare_fields, fact, fact_as, judged, slices, Comparison, Elements, COMPARED, POSITION};
 use super::pairing::pairs;
 use super::show::Show;
-use super::texts::{documentation, renamed};
+use super::texts::renamed;
 use lexibus_codegen::facts::types::{self, definition};
 use lexibus_codegen::facts::words::PLAIN;
 use lexibus_codegen::ir::owner::Owner;
@@ -137,9 +135,8 @@ fn definitions(old: &TypeDef, new: &TypeDef, is_same_type: bool, comparison: &mu
                 fact("length of the type in bits", Judgement::WIRE)(old, new, comparison);
             }
         },
-        documentation: documentation,
-        origin: ignored(POSITION),
-    });
+        documentation,
+    }, POSITION => [origin]);
 }
 
 fn shapes(old: &Shape, new: &Shape, comparison: &mut Comparison<'_>) {
@@ -198,7 +195,7 @@ fn fields(old: &[Field], new: &[Field], comparison: &mut Comparison<'_>) {
     };
     let compare_field = |old: &Field, new: &Field, comparison: &mut Comparison<'_>| {
         compare_fields!(Field, old, new, comparison, {
-            name: judged("name", renamed),
+            name,
             sub_index: fact("sub-index", Judgement::WIRE),
             ty: compare,
             bits: fact("length in bits", Judgement::WIRE),
@@ -233,18 +230,14 @@ fn bit_fields(old: &[BitFieldEntry], new: &[BitFieldEntry], comparison: &mut Com
 fn bit_field(old: &BitFieldEntry, new: &BitFieldEntry, comparison: &mut Comparison<'_>) {
     comparison.texts("position", place(old), place(new), Judgement::WIRE);
     compare_fields!(BitFieldEntry, old, new, comparison, {
-        name: judged("name", renamed),
-        names: text("name in other languages"),
-        offset: ignored(COMPARED),
-        bits: ignored(COMPARED),
+        name, names,
         meaning: meanings,
         when: fact("applies while", Judgement::API_AND_BEHAVIOR),
         trigger: fact("acts on", Judgement::BEHAVIOR),
         access: fact("access", Judgement::API),
         availability: super::conditions::availability,
-        documentation: documentation,
-        at: ignored(POSITION),
-    });
+        documentation,
+    }, COMPARED => [offset, bits], POSITION => [at]);
 }
 
 /// `bit 4`, `bits 7 to 4`.
@@ -316,14 +309,11 @@ fn value(old: &EnumValue, new: &EnumValue, comparison: &mut Comparison<'_>) {
     let judgement = if old.value == new.value { Judgement::API } else { Judgement::WIRE };
     comparison.texts("number", number(old), number(new), judgement);
     compare_fields!(EnumValue, old, new, comparison, {
-        name: judged("name", renamed),
-        value: ignored(COMPARED),
-        last: ignored(COMPARED),
+        name,
         zone: fact("zone", Judgement::BEHAVIOR),
-        names: text("name in other languages"),
+        names,
         when: fact("applies while", Judgement::BEHAVIOR),
         availability: super::conditions::availability,
-        documentation: documentation,
-        at: ignored(POSITION),
-    });
+        documentation,
+    }, COMPARED => [value, last], POSITION => [at]);
 }
