@@ -5,7 +5,7 @@ mod eco_support;
 use std::collections::{BTreeMap, BTreeSet};
 
 use eco_support::*;
-use lexibus_codegen::ir::{Access, Binding, Direction, ObjectBuses, PdoEntryKind, Step};
+use lexibus_codegen::ir::{Access, Binding, Bus, Direction, ObjectBuses, PdoEntryKind, Step};
 
 /// An object, or one of its sub-entries, as its row says.
 struct Printed {

@@ -181,13 +181,15 @@ kinds! {
 pub(super) struct Notes(BTreeMap<NoteKind, (usize, String)>);
 
 impl Notes {
-    pub(super) fn add(&mut self, kind: NoteKind, place: Place<'_>) {
-        self.add_many(kind, 1, place);
+    pub(super) fn add(&mut self, kind: NoteKind, subject: Subject<'_>) {
+        self.add_many(kind, true, subject);
     }
 
-    pub(super) fn add_many(&mut self, kind: NoteKind, count: usize, place: Place<'_>) {
+    /// Adds as many as there are; a condition is one or none.
+    pub(super) fn add_many(&mut self, kind: NoteKind, count: impl Into<usize>, subject: Subject<'_>) {
+        let count = count.into();
         if count > 0 {
-            self.0.entry(kind).or_insert_with(|| (0, place.to_string())).0 += count;
+            self.0.entry(kind).or_insert_with(|| (0, subject.to_string())).0 += count;
         }
     }
 
@@ -214,34 +216,34 @@ pub(super) fn parts_of_tables(device: &Device) -> usize {
     parts.iter().sum()
 }
 
-/// Where something is in the device.
+/// What a note is about.
 #[derive(Clone, Copy)]
-pub(super) enum Place<'a> {
+pub(super) enum Subject<'a> {
     Device,
     Object(u16),
     Entry(u16, u8),
     Named(&'a str),
 }
 
-impl Place<'_> {
+impl Subject<'_> {
     /// The object that a group is.
     pub(super) fn object(group: &Group) -> Self {
-        group.index().map_or(Place::Device, Place::Object)
+        group.index().map_or(Subject::Device, Subject::Object)
     }
 
-    pub(super) fn item(item: &Item) -> Place<'_> {
-        item.object().map_or(Place::Named(&item.name), |(index, sub)| Place::Entry(index, sub))
+    pub(super) fn item(item: &Item) -> Subject<'_> {
+        item.object().map_or(Subject::Named(&item.name), |(index, sub)| Subject::Entry(index, sub))
     }
 }
 
-impl fmt::Display for Place<'_> {
+impl fmt::Display for Subject<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Place::Device => f.write_str("the device"),
-            Place::Object(index) => write!(f, "0x{index:04X}"),
-            Place::Entry(index, sub) => f.write_str(&lexibus_codegen::facts::address::object(*index, *sub)),
+            Subject::Device => f.write_str("the device"),
+            Subject::Object(index) => write!(f, "0x{index:04X}"),
+            Subject::Entry(index, sub) => f.write_str(&lexibus_codegen::facts::address::object(*index, *sub)),
             // A name may have anything in it, and a note is one line.
-            Place::Named(name) => name.chars().try_for_each(|letter| {
+            Subject::Named(name) => name.chars().try_for_each(|letter| {
                 let letter = if letter.is_control() { ' ' } else { letter };
                 write!(f, "{letter}")
             }),

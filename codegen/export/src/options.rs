@@ -160,7 +160,7 @@ macro_rules! options {
             pub(super) fn note_others(&self, notes: &mut $crate::note::Notes) {
                 let keys = self.keys.borrow();
                 $(if self.options.$field.is_some() && !keys.contains($key) {
-                    notes.add($crate::note::NoteKind::GivenFact, $crate::note::Place::Named($key));
+                    notes.add($crate::note::NoteKind::GivenFact, $crate::note::Subject::Named($key));
                 })+
             }
         }

@@ -74,6 +74,16 @@ impl Xml {
         }
     }
 
+    /// The same where the value isn't the one that a missing attribute stands for.
+    pub(super) fn unless<T: Display + PartialEq>(&mut self, name: &str, value: T, usual: T) {
+        self.optional(name, Some(value).filter(|value| *value != usual));
+    }
+
+    /// The same where the text isn't empty.
+    pub(super) fn text_attribute(&mut self, name: &str, text: &str) {
+        self.unless(name, text, "");
+    }
+
     /// An attribute that is there only where it is true.
     pub(super) fn flag(&mut self, name: &str, value: bool, word: &str) {
         if value {
@@ -111,6 +121,42 @@ impl Xml {
         self.open(name);
         self.content(value);
         self.close();
+    }
+
+    /// The same where there is a value.
+    pub(super) fn optional_leaf(&mut self, name: &'static str, value: Option<impl Display>) {
+        if let Some(value) = value {
+            self.leaf(name, value);
+        }
+    }
+
+    /// The same where the text isn't empty.
+    pub(super) fn text_leaf(&mut self, name: &'static str, text: &str) {
+        if !text.is_empty() {
+            self.leaf(name, text);
+        }
+    }
+
+    /// An element with nothing but an attribute.
+    pub(super) fn reference(&mut self, name: impl Into<Cow<'static, str>>, attribute: &str, value: impl Display) {
+        self.open(name);
+        self.attribute(attribute, value);
+        self.close();
+    }
+
+    /// An element that `write` fills with the elements of a list; nothing if the list is empty.
+    pub(super) fn list<T>(
+        &mut self,
+        name: &'static str,
+        list: impl IntoIterator<Item = T>,
+        mut write: impl FnMut(&mut Self, T),
+    ) {
+        let mut list = list.into_iter().peekable();
+        if list.peek().is_some() {
+            self.open(name);
+            list.for_each(|element| write(self, element));
+            self.close();
+        }
     }
 
     /// Ends the start tag of the element that was opened last, if that isn't done.

@@ -3,7 +3,7 @@
 //! The IR has them as `section/key`, those of the header first, in the order of the source; the file has them in the
 //! section that they name, and the sections of the header in the order in which they are named.
 
-use super::note::{NoteKind, Notes, Place};
+use super::note::{NoteKind, Notes, Subject};
 use super::writer::Writer;
 use super::{Context, Flavour};
 use lexibus_codegen::ir::Extension;
@@ -102,12 +102,12 @@ impl<'a> Extras<'a> {
         let extra = Extra { key, value };
         match HEADERS.into_iter().find(|header| header.name() == section) {
             Some(header) if header.configures() && context.flavour == Flavour::Eds => {
-                notes.add(NoteKind::Configuration, Place::Named(&extension.key));
+                notes.add(NoteKind::Configuration, Subject::Named(&extension.key));
             }
             Some(header) => self.header.push((header, extra)),
             // Elsewhere a slash leads to an element of XML.
             None if context.is_verbatim && !section.contains(['[', ']']) => self.unknown.push((section, extra)),
-            None => notes.add(NoteKind::Extension, Place::Named(&extension.key)),
+            None => notes.add(NoteKind::Extension, Subject::Named(&extension.key)),
         }
     }
 
@@ -137,7 +137,7 @@ impl<'a> Extras<'a> {
             if last.replace(section) != Some(section) {
                 writer.section(section);
             }
-            writer.extension(extra.key, extra.value, Place::Device);
+            writer.extension(extra.key, extra.value, Subject::Device);
         }
     }
 }

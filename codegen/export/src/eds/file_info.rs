@@ -4,7 +4,7 @@
 //! perhaps no version at all: these are made to fit.
 
 use super::extras::Header;
-use super::note::{NoteKind, Place};
+use super::note::{NoteKind, Subject};
 use super::section::Section;
 use super::{Context, Flavour};
 use lexibus_codegen::ir;
@@ -13,7 +13,7 @@ use lexibus_codegen::ir;
 const VERSION: &str = "4.0";
 
 pub(super) fn write(out: &mut Section<'_>, context: &Context<'_>) {
-    let place = Place::Named(Header::FileInfo.name());
+    let subject = Subject::Named(Header::FileInfo.name());
     let given = &context.device.header;
     let made = (!context.is_verbatim).then(|| made(given, context, out));
     let header = made.as_ref().unwrap_or(given);
@@ -32,11 +32,11 @@ pub(super) fn write(out: &mut Section<'_>, context: &Context<'_>) {
     ];
     for (key, text) in entries {
         if !text.is_empty() {
-            out.open().plain(key, text, place);
+            out.open().plain(key, text, subject);
         }
     }
     if context.flavour == Flavour::Dcf && !header.last_eds.is_empty() {
-        out.open().plain("LastEDS", &header.last_eds, place);
+        out.open().plain("LastEDS", &header.last_eds, subject);
     }
 }
 
@@ -68,7 +68,7 @@ fn made(given: &ir::Header, context: &Context<'_>, out: &mut Section<'_>) -> ir:
         *text = time(text).unwrap_or_default().into();
     }
     if is_changed {
-        out.open().notes.add(NoteKind::FileInfo, Place::Named(Header::FileInfo.name()));
+        out.open().notes.add(NoteKind::FileInfo, Subject::Named(Header::FileInfo.name()));
     }
     header
 }

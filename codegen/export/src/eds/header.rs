@@ -1,7 +1,7 @@
 //! The sections about the file and the device as a whole, and the object lists.
 
 use super::extras::{Extra, Header};
-use super::note::{NoteKind, Place};
+use super::note::{NoteKind, Subject};
 use super::object;
 use super::section::{comment_lines, indices, Section, BIT_RATES};
 use super::writer::Writer;
@@ -33,7 +33,7 @@ pub(super) fn write<'e>(
         Header::Mandatory | Header::Optional | Header::Manufacturer => list(out.open(), header, objects),
     }
     for extra in extras {
-        writer.extension(extra.key, extra.value, Place::Named(header.name()));
+        writer.extension(extra.key, extra.value, Subject::Named(header.name()));
     }
     let own = objects.iter().filter(|group| list_of(group) == Some(header));
     object::all(writer, context, own);
@@ -45,13 +45,13 @@ fn device_info(writer: &mut Writer, context: &Context<'_>, objects: &[&Group]) {
     let canopen = device.canopen.as_deref().unwrap_or(&unknown);
     let product =
         if context.is_verbatim || !identity.product_name.is_empty() { &identity.product_name } else { &device.name };
-    writer.name("VendorName", &identity.vendor_name, Place::Device);
+    writer.name("VendorName", &identity.vendor_name, Subject::Device);
     number(writer, "VendorNumber", identity.vendor_id);
-    writer.name("ProductName", product, Place::Device);
+    writer.name("ProductName", product, Subject::Device);
     number(writer, "ProductNumber", identity.product_code);
     number(writer, "RevisionNumber", identity.revision_number);
     if !identity.order_code.is_empty() {
-        writer.name("OrderCode", &identity.order_code, Place::Device);
+        writer.name("OrderCode", &identity.order_code, Subject::Device);
     }
     const KEYS: [&str; 8] = [
         "BaudRate_10",
@@ -134,14 +134,14 @@ fn commissioning(out: &mut Section<'_>, context: &Context<'_>) {
     if let Some(node_id) = own.node_id {
         writer.entry("NodeID", node_id);
     }
-    writer.plain("NodeName", &own.node_name, Place::Device);
+    writer.plain("NodeName", &own.node_name, Subject::Device);
     if let Some(rate) = own.bit_rate {
         writer.entry("Baudrate", rate);
     }
     if let Some(net) = own.net_number {
         writer.entry("NetNumber", net);
     }
-    writer.plain("NetworkName", &own.network_name, Place::Device);
+    writer.plain("NetworkName", &own.network_name, Subject::Device);
     writer.flag("CANopenManager", own.manager);
     if let Some(serial) = own.lss_serial_number {
         writer.entry("LSS_SerialNumber", format_args!("0x{serial:08X}"));
@@ -180,11 +180,11 @@ fn dynamic_channels(out: &mut Section<'_>, context: &Context<'_>) {
 }
 
 fn dynamic_channel(writer: &mut Writer, channel: &DynamicChannel, number: i32) {
-    let place = Place::Named("DynamicChannels");
+    let subject = Subject::Named("DynamicChannels");
     writer.numbered(format_args!("Type{number}"), format_args!("0x{:04X}", channel.data_type));
     for (key, text) in [("Dir", &channel.direction), ("Range", &channel.range)] {
         if !text.is_empty() {
-            let text = writer.one_line(text, place);
+            let text = writer.one_line(text, subject);
             writer.numbered(format_args!("{key}{number}"), text);
         }
     }
@@ -194,7 +194,7 @@ fn dynamic_channel(writer: &mut Writer, channel: &DynamicChannel, number: i32) {
         None => writer.numbered(key, channel.offset),
     }
     if channel.max_number.is_some() {
-        writer.notes.add(NoteKind::Setting, place);
+        writer.notes.add(NoteKind::Setting, subject);
     }
 }
 

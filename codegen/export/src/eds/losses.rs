@@ -1,7 +1,7 @@
 //! Facts that CiA 306 has no place for.
 
 use super::mapping;
-use super::note::{self, NoteKind, Notes, Place};
+use super::note::{self, NoteKind, Notes, Subject};
 use super::registers;
 use super::section::BIT_RATES;
 use super::{is_coe_only, Context, Flavour};
@@ -9,94 +9,94 @@ use lexibus_codegen::ir::{Binding, Catalog, Device, Group, GroupKind, Item, Modu
 
 /// What the device has beside objects.
 pub(super) fn of_device(context: &Context<'_>, catalog: &Catalog, notes: &mut Notes) {
-    let (device, place) = (context.device, Place::Device);
+    let (device, subject) = (context.device, Subject::Device);
     if context.flavour == Flavour::Eds && (device.commissioning.is_some() || !device.header.last_eds.is_empty()) {
-        notes.add(NoteKind::Configuration, place);
+        notes.add(NoteKind::Configuration, subject);
     }
     let other_buses = usize::from(device.ethercat.is_some()) + usize::from(device.profinet.is_some());
-    notes.add_many(NoteKind::OtherBus, other_buses + device.modbus.len(), place);
-    notes.add_many(NoteKind::Slot, device.slots.len(), place);
+    notes.add_many(NoteKind::OtherBus, other_buses + device.modbus.len(), subject);
+    notes.add_many(NoteKind::Slot, device.slots.len(), subject);
     let parts = note::parts_of_tables(device)
         + device.code_tables.len()
         + catalog.code_tables.len()
         + device.submodules.len()
         + device.process_data.images.len();
-    notes.add_many(NoteKind::OtherPart, parts, place);
+    notes.add_many(NoteKind::OtherPart, parts, subject);
     let axes = device.axes.as_ref().map_or(0, |rule| usize::from(rule.axes.saturating_sub(1)));
-    notes.add_many(NoteKind::Axis, axes, place);
-    notes.add_many(NoteKind::Language, device.names.len(), place);
-    notes.add_many(NoteKind::Documentation, usize::from(device.documentation.is_some()), place);
-    notes.add_many(NoteKind::Doubt, device.doubts.len(), place);
-    notes.add_many(NoteKind::Duplicate, registers::duplicates(device, Item::object), place);
+    notes.add_many(NoteKind::Axis, axes, subject);
+    notes.add_many(NoteKind::Language, device.names.len(), subject);
+    notes.add_many(NoteKind::Documentation, device.documentation.is_some(), subject);
+    notes.add_many(NoteKind::Doubt, device.doubts.len(), subject);
+    notes.add_many(NoteKind::Duplicate, registers::duplicates(device, Item::object), subject);
     settings(device, notes);
     pdos(device, notes);
     for group in device.groups.iter().filter(|group| is_coe_only(device, group)) {
-        notes.add(NoteKind::CoeOnly, Place::object(group));
+        notes.add(NoteKind::CoeOnly, Subject::object(group));
     }
     for group in device.groups.iter().filter(|group| group.index().is_none()) {
         let others = group.items.iter().filter(|item| item.object().is_none()).count();
-        notes.add_many(NoteKind::NotAnObject, others, Place::Named(&group.name));
+        notes.add_many(NoteKind::NotAnObject, others, Subject::Named(&group.name));
     }
 }
 
 fn settings(device: &Device, notes: &mut Notes) {
     let Some(canopen) = &device.canopen else { return };
     let other_rates = canopen.bit_rates.iter().filter(|rate| !BIT_RATES.contains(rate)).count();
-    notes.add_many(NoteKind::Setting, other_rates + usize::from(canopen.auto_bit_rate), Place::Device);
+    notes.add_many(NoteKind::Setting, other_rates + usize::from(canopen.auto_bit_rate), Subject::Device);
 }
 
 /// PDOs that don't follow from objects.
 fn pdos(device: &Device, notes: &mut Notes) {
     for pdo in device.process_data.pdos.iter().filter(|pdo| !pdo.implicit) {
-        let place = Place::Object(pdo.mapping_index);
+        let subject = Subject::Object(pdo.mapping_index);
         let is_lost = |index| device.object(index).is_none();
         let is_told = pdo.entries.is_empty() || !is_lost(pdo.mapping_index) || mapping::can_be_told(pdo);
-        notes.add_many(NoteKind::Pdo, usize::from(!is_told), place);
-        let communication = pdo.communication.as_ref().filter(|own| is_lost(own.index));
-        notes.add_many(NoteKind::Pdo, communication.iter().count(), place);
-        notes.add_many(NoteKind::Language, usize::from(!pdo.names.is_empty()), place);
-        notes.add_many(NoteKind::Extension, pdo.extensions.len(), place);
-        notes.add_many(NoteKind::Documentation, usize::from(pdo.documentation.is_some()), place);
-        notes.add_many(NoteKind::Doubt, pdo.doubts.len(), place);
+        notes.add_many(NoteKind::Pdo, !is_told, subject);
+        let communication = pdo.communication.as_ref().filter(|communication| is_lost(communication.index));
+        notes.add_many(NoteKind::Pdo, communication.iter().count(), subject);
+        notes.add_many(NoteKind::Language, !pdo.names.is_empty(), subject);
+        notes.add_many(NoteKind::Extension, pdo.extensions.len(), subject);
+        notes.add_many(NoteKind::Documentation, pdo.documentation.is_some(), subject);
+        notes.add_many(NoteKind::Doubt, pdo.doubts.len(), subject);
     }
 }
 
 /// What a module has beside its objects.
 pub(super) fn of_module(module: &Module, notes: &mut Notes) {
-    let place = Place::Named(&module.name);
-    notes.add_many(NoteKind::Language, module.names.len(), place);
-    notes.add_many(NoteKind::Documentation, usize::from(module.documentation.is_some()), place);
+    let subject = Subject::Named(&module.name);
+    notes.add_many(NoteKind::Language, module.names.len(), subject);
+    notes.add_many(NoteKind::Documentation, module.documentation.is_some(), subject);
 }
 
 /// What an object has beside its entries.
 pub(super) fn of_object(context: &Context<'_>, group: &Group, notes: &mut Notes) {
-    let place = Place::object(group);
-    notes.add_many(NoteKind::Language, group.names.len(), place);
-    notes.add_many(NoteKind::Documentation, usize::from(group.documentation.is_some()), place);
-    notes.add_many(NoteKind::Doubt, group.doubts.len(), place);
+    let subject = Subject::object(group);
+    notes.add_many(NoteKind::Language, group.names.len(), subject);
+    notes.add_many(NoteKind::Documentation, group.documentation.is_some(), subject);
+    notes.add_many(NoteKind::Doubt, group.doubts.len(), subject);
     // That an object is optional or mandatory to CANopen is in the object lists.
     let has_category = matches!(group.kind, GroupKind::Object { category: Some(_), .. });
-    notes.add_many(NoteKind::Category, usize::from(has_category && !context.is_canopen), place);
+    notes.add_many(NoteKind::Category, has_category && !context.is_canopen, subject);
     for item in group.items.iter().filter(|item| item.object().is_none()) {
-        notes.add(NoteKind::NotAnObject, Place::item(item));
+        notes.add(NoteKind::NotAnObject, Subject::item(item));
     }
 }
 
 /// What an entry has beside its value.
 pub(super) fn of_item(item: &Item, notes: &mut Notes) {
-    let place = Place::item(item);
+    let subject = Subject::item(item);
     let is_other = |binding: &Binding| match binding {
         Binding::Object { buses: ObjectBuses { canopen, .. }, .. } => !canopen && item.bindings.len() > 1,
         _ => true,
     };
-    notes.add_many(NoteKind::Binding, item.bindings.iter().filter(|binding| is_other(binding)).count(), place);
-    notes.add_many(NoteKind::Language, item.names.len(), place);
-    notes.add_many(NoteKind::Quantity, usize::from(item.quantity.is_some()), place);
-    notes.add_many(NoteKind::Behaviour, usize::from(item.behaviour.is_some()), place);
+    notes.add_many(NoteKind::Binding, item.bindings.iter().filter(|binding| is_other(binding)).count(), subject);
+    notes.add_many(NoteKind::Language, item.names.len(), subject);
+    notes.add_many(NoteKind::Quantity, item.quantity.is_some(), subject);
+    notes.add_many(NoteKind::Behaviour, item.behaviour.is_some(), subject);
     let variants = item.variants.len();
-    notes.add_many(NoteKind::Availability, usize::from(item.availability.is_some()) + variants, place);
-    notes.add_many(NoteKind::Relation, note::relations(item), place);
-    notes.add_many(NoteKind::Documentation, usize::from(item.documentation.is_some()), place);
-    notes.add_many(NoteKind::Doubt, item.doubts.len(), place);
-    notes.add_many(NoteKind::AllowedValues, usize::from(!item.limits.allowed.is_empty()), place);
+    notes.add_many(NoteKind::Availability, usize::from(item.availability.is_some()) + variants, subject);
+    notes.add_many(NoteKind::Relation, note::relations(item), subject);
+    notes.add_many(NoteKind::Documentation, item.documentation.is_some(), subject);
+    notes.add_many(NoteKind::Doubt, item.doubts.len(), subject);
+    notes.add_many(NoteKind::AllowedValues, !item.limits.allowed.is_empty(), subject);
 }

@@ -33,7 +33,7 @@ pub use super::note::{Export, Note, NoteKind};
 
 use std::collections::HashSet;
 
-use super::note::{self, Place};
+use super::note::{self, Subject};
 use super::registers;
 use extras::Extras;
 use lexibus_codegen::ir::{Binding, Catalog, Device, Format, Group, Item};
@@ -97,7 +97,7 @@ pub fn export(catalog: &Catalog, device: &Device, options: impl Into<Options>) -
     };
     let mut writer = Writer::new(context.is_verbatim);
     losses::of_device(&context, catalog, &mut writer.notes);
-    writer.notes.add_many(NoteKind::Completed, completed, Place::Device);
+    writer.notes.add_many(NoteKind::Completed, completed, Subject::Device);
     let extras = Extras::new(&context, &mut writer.notes);
     for comment in &extras.preamble {
         writer.comment(&comment.value);
@@ -156,7 +156,7 @@ fn objects<'a>(device: &'a Device, made: &'a [Group]) -> Vec<&'a Group> {
 fn first_of_index(group: &Group, seen: &mut HashSet<Option<u16>>, writer: &mut Writer) -> bool {
     let is_first = seen.insert(group.index());
     if !is_first {
-        writer.notes.add(NoteKind::Duplicate, Place::object(group));
+        writer.notes.add(NoteKind::Duplicate, Subject::object(group));
     }
     is_first
 }

@@ -1,7 +1,7 @@
 //! Modules that add to the dictionary (CiA 306, "modular devices").
 
 use super::losses;
-use super::note::{NoteKind, Place};
+use super::note::{NoteKind, Subject};
 use super::object;
 use super::section::{comment_lines, indices};
 use super::writer::Writer;
@@ -13,7 +13,7 @@ pub(super) fn write(writer: &mut Writer, context: &Context<'_>, catalog: &Catalo
     for module in context.device.own_modules(&catalog.modules) {
         let number = module.number;
         if !context.is_canopen {
-            writer.notes.add(NoteKind::Module, Place::Named(&module.name));
+            writer.notes.add(NoteKind::Module, Subject::Named(&module.name));
             continue;
         }
         losses::of_module(module, &mut writer.notes);
@@ -28,9 +28,9 @@ pub(super) fn write(writer: &mut Writer, context: &Context<'_>, catalog: &Catalo
 }
 
 fn info(writer: &mut Writer, module: &Module) {
-    let place = Place::Named(&module.name);
+    let subject = Subject::Named(&module.name);
     writer.section(format_args!("M{}ModuleInfo", module.number));
-    writer.name("ProductName", &module.name, place);
+    writer.name("ProductName", &module.name, subject);
     let others = [
         ("ProductVersion", &module.version),
         ("ProductRevision", &module.revision),
@@ -38,10 +38,10 @@ fn info(writer: &mut Writer, module: &Module) {
     ];
     for (key, text) in others {
         if !text.is_empty() {
-            writer.name(key, text, place);
+            writer.name(key, text, subject);
         }
     }
-    writer.extensions(&module.extensions, place);
+    writer.extensions(&module.extensions, subject);
 }
 
 fn fixed_objects(writer: &mut Writer, context: &Context<'_>, module: &Module) {
@@ -72,13 +72,13 @@ fn sub_extensions(writer: &mut Writer, context: &Context<'_>, module: &Module) {
 }
 
 fn sub_extension(writer: &mut Writer, context: &Context<'_>, extension: &SubExtension, module: &Module) {
-    let (template, place) = (&extension.template, Place::Object(extension.index));
-    writer.name("ParameterName", &template.name, place);
+    let (template, subject) = (&extension.template, Subject::Object(extension.index));
+    writer.name("ParameterName", &template.name, subject);
     object::template(writer, context, extension.index, template, &module.types);
     match extension.per {
         Some(per) => writer.entry("Count", format_args!("{};{per}", extension.count)),
         None => writer.entry("Count", extension.count),
     }
     writer.flag("ObjExtend", extension.extends_object);
-    writer.extensions(&template.extensions, place);
+    writer.extensions(&template.extensions, subject);
 }

@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use super::compact;
 use super::data_type::{data_type, DataType};
 use super::losses;
-use super::note::{NoteKind, Place};
+use super::note::{NoteKind, Subject};
 use super::section::indices;
 use super::value::{self, Form, Role};
 use super::writer::Writer;
@@ -27,7 +27,7 @@ pub(super) fn object(writer: &mut Writer, context: &Context<'_>, group: &Group, 
     let out = Object { context, group, index, code, before, types };
     losses::of_object(context, group, &mut writer.notes);
     writer.section(format_args!("{before}{index:04X}"));
-    writer.name("ParameterName", &group.name, Place::Object(index));
+    writer.name("ParameterName", &group.name, Subject::Object(index));
     writer.entry("ObjectType", format_args!("{:#X}", number(code)).to_string().replace("0X", "0x"));
     let refinements = out.refinements_of_missing();
     let can_be_compact = refinements.is_empty() && before.is_empty();
@@ -77,13 +77,13 @@ impl<'a> Object<'a> {
     }
 
     fn single(&self, writer: &mut Writer, item: &Item) {
-        let place = Place::Object(self.index);
+        let subject = Subject::Object(self.index);
         if item.name != self.group.name {
-            writer.notes.add(NoteKind::Name, place);
+            writer.notes.add(NoteKind::Name, subject);
         }
         self.value(writer, item, item.flags | self.group.flags);
-        writer.extensions(self.own_extensions(), place);
-        writer.extensions(&item.extensions, place);
+        writer.extensions(self.own_extensions(), subject);
+        writer.extensions(&item.extensions, subject);
     }
 
     fn entries(&self, writer: &mut Writer) {
@@ -94,18 +94,18 @@ impl<'a> Object<'a> {
             writer.entry("SubNumber", described);
         }
         flags(writer, self.group.flags);
-        writer.extensions(self.own_extensions(), Place::Object(self.index));
+        writer.extensions(self.own_extensions(), Subject::Object(self.index));
         let mut seen = [false; 256];
         for (sub, item) in items() {
             if std::mem::replace(&mut seen[usize::from(sub)], true) {
-                writer.notes.add(NoteKind::Duplicate, Place::Entry(self.index, sub));
+                writer.notes.add(NoteKind::Duplicate, Subject::Entry(self.index, sub));
                 continue;
             }
             writer.section(format_args!("{}{:04X}sub{sub:X}", self.before, self.index));
-            writer.name("ParameterName", &item.name, Place::Entry(self.index, sub));
+            writer.name("ParameterName", &item.name, Subject::Entry(self.index, sub));
             writer.entry("ObjectType", "0x7");
             self.value(writer, item, item.flags);
-            writer.extensions(&item.extensions, Place::Entry(self.index, sub));
+            writer.extensions(&item.extensions, Subject::Entry(self.index, sub));
         }
     }
 
@@ -140,7 +140,7 @@ impl<'a> Object<'a> {
                 writer.section(section);
                 writer.entry("NrOfEntries", counts.get(section).copied().unwrap_or(0));
             }
-            writer.extension(key, &extension.value, Place::Object(self.index));
+            writer.extension(key, &extension.value, Subject::Object(self.index));
         }
     }
 
@@ -148,7 +148,7 @@ impl<'a> Object<'a> {
         let plain = Item { configured: None, ..elements.template.clone() };
         self.value(writer, &plain, self.group.flags);
         writer.entry("CompactSubObj", elements.count);
-        writer.extensions(self.own_extensions(), Place::Object(self.index));
+        writer.extensions(self.own_extensions(), Subject::Object(self.index));
         let (before, index) = (self.before, self.index);
         let mut list = |name: &str, rows: Vec<(u8, String)>| {
             if rows.is_empty() {
@@ -157,7 +157,7 @@ impl<'a> Object<'a> {
             writer.section(format_args!("{before}{index:04X}{name}"));
             writer.entry("NrOfEntries", rows.len());
             for (sub, text) in rows {
-                let text = writer.one_line(&text, Place::Entry(index, sub));
+                let text = writer.one_line(&text, Subject::Entry(index, sub));
                 writer.numbered(sub, text);
             }
         };
@@ -168,7 +168,7 @@ impl<'a> Object<'a> {
             list("Denotation", elements.denotations());
         } else {
             let count = elements.configured();
-            writer.notes.add_many(NoteKind::Configuration, count, Place::Object(index));
+            writer.notes.add_many(NoteKind::Configuration, count, Subject::Object(index));
         }
     }
 
@@ -183,47 +183,47 @@ impl<'a> Object<'a> {
 
     /// The entries of one value, from its type on.
     pub(super) fn value(&self, writer: &mut Writer, item: &Item, item_flags: u32) {
-        let place = Place::item(item);
+        let subject = Subject::item(item);
         let data_type = self.data_type(item);
         losses::of_item(item, &mut writer.notes);
         if let Some(note) = data_type.note {
-            writer.notes.add(note, place);
+            writer.notes.add(note, subject);
         }
         if let Some(code) = data_type.code {
             writer.entry("DataType", format_args!("0x{code:04X}"));
         }
         let (access, is_mappable, note) = access(item.access_on(Bus::CanOpen), item.mappable);
         if let Some(note) = note {
-            writer.notes.add(note, place);
+            writer.notes.add(note, subject);
         }
         writer.entry("AccessType", access.name());
         let ty = data_type.ty;
-        self.number(writer, "DefaultValue", item.default.as_ref(), ty, Role::Value, place);
+        self.number(writer, "DefaultValue", item.default.as_ref(), ty, Role::Value, subject);
         writer.flag("PDOMapping", is_mappable);
         if item.limits.are_swapped(ty) {
-            writer.notes.add(NoteKind::SwappedLimits, place);
+            writer.notes.add(NoteKind::SwappedLimits, subject);
         } else {
-            self.number(writer, "LowLimit", item.limits.low.as_ref(), ty, Role::Low, place);
-            self.number(writer, "HighLimit", item.limits.high.as_ref(), ty, Role::High, place);
+            self.number(writer, "LowLimit", item.limits.low.as_ref(), ty, Role::Low, subject);
+            self.number(writer, "HighLimit", item.limits.high.as_ref(), ty, Role::High, subject);
         }
         flags(writer, item_flags);
         if let Some(configured) = &item.configured {
-            self.configured(writer, configured, ty, place);
+            self.configured(writer, configured, ty, subject);
         }
     }
 
-    fn configured(&self, writer: &mut Writer, configured: &Configured, ty: Type, place: Place<'_>) {
+    fn configured(&self, writer: &mut Writer, configured: &Configured, ty: Type, subject: Subject<'_>) {
         if self.context.flavour == Flavour::Eds {
-            return writer.notes.add(NoteKind::Configuration, place);
+            return writer.notes.add(NoteKind::Configuration, subject);
         }
-        self.number(writer, "ParameterValue", configured.value.as_ref(), ty, Role::Value, place);
+        self.number(writer, "ParameterValue", configured.value.as_ref(), ty, Role::Value, subject);
         let texts = [
             ("Denotation", &configured.denotation),
             ("UploadFile", &configured.upload_file),
             ("DownloadFile", &configured.download_file),
         ];
         for (key, text) in texts {
-            writer.plain(key, text.as_deref().unwrap_or_default(), place);
+            writer.plain(key, text.as_deref().unwrap_or_default(), subject);
         }
     }
 
@@ -234,15 +234,15 @@ impl<'a> Object<'a> {
         value: Option<&Value>,
         ty: Type,
         role: Role,
-        place: Place<'_>,
+        subject: Subject<'_>,
     ) {
         let Some(value) = value else { return };
         let (text, note) = value::text(value, ty, role, self.form());
         if let Some(note) = note {
-            writer.notes.add(note, place);
+            writer.notes.add(note, subject);
         }
         if let Some(text) = text {
-            let text = writer.one_line(&text, place);
+            let text = writer.one_line(&text, subject);
             writer.entry(key, text);
         }
     }

@@ -1,7 +1,7 @@
 //! Sections of the header and what several of them have: lists of indices, lines of comment.
 
 use super::extras::Header;
-use super::note::Place;
+use super::note::Subject;
 use super::writer::Writer;
 use lexibus_codegen::ir::CompactString;
 
@@ -36,7 +36,7 @@ impl<'w> Section<'w> {
 pub(super) fn comment_lines(writer: &mut Writer, lines: &[CompactString]) {
     writer.entry("Lines", lines.len());
     for (line, number) in lines.iter().zip(1..) {
-        let line = writer.one_line(line, Place::Named("Comments"));
+        let line = writer.one_line(line, Subject::Named("Comments"));
         writer.numbered(format_args!("Line{number}"), line);
     }
 }

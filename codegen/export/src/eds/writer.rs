@@ -4,7 +4,7 @@ use std::borrow::Cow;
 use std::collections::HashSet;
 use std::fmt::{Display, Write as _};
 
-use super::note::{Note, NoteKind, Notes, Place};
+use super::note::{Note, NoteKind, Notes, Subject};
 use lexibus_codegen::ir::Extension;
 
 /// Line end of CiA 306.
@@ -54,54 +54,54 @@ impl Writer {
     }
 
     /// An entry of text that is read as it stands; none where it is empty.
-    pub(super) fn plain(&mut self, key: &'static str, text: &str, place: Place<'_>) {
+    pub(super) fn plain(&mut self, key: &'static str, text: &str, subject: Subject<'_>) {
         if !text.is_empty() {
-            let text = self.one_line(text, place);
+            let text = self.one_line(text, subject);
             self.entry(key, text);
         }
     }
 
     /// A name, which is read without a pair of quotation marks around it.
-    pub(super) fn name(&mut self, key: &'static str, name: &str, place: Place<'_>) {
-        let name = self.one_line(name, place);
+    pub(super) fn name(&mut self, key: &'static str, name: &str, subject: Subject<'_>) {
+        let name = self.one_line(name, subject);
         self.entry(key, quoted(&name));
     }
 
     /// A comment line.
     pub(super) fn comment(&mut self, text: &str) {
-        let text = self.one_line(text, Place::Device);
+        let text = self.one_line(text, Subject::Device);
         let _ = write!(self.text, "; {text}{END}");
     }
 
     /// Extension attributes and comments, in their order.
-    pub(super) fn extensions<'e>(&mut self, list: impl IntoIterator<Item = &'e Extension>, place: Place<'_>) {
+    pub(super) fn extensions<'e>(&mut self, list: impl IntoIterator<Item = &'e Extension>, subject: Subject<'_>) {
         for extension in list {
-            self.extension(&extension.key, &extension.value, place);
+            self.extension(&extension.key, &extension.value, subject);
         }
     }
 
     /// An extension attribute, or a comment.
-    pub(super) fn extension(&mut self, key: &str, value: &str, place: Place<'_>) {
+    pub(super) fn extension(&mut self, key: &str, value: &str, subject: Subject<'_>) {
         if key == ";" {
             return self.comment(value);
         }
         if self.keys.contains(&key.to_ascii_lowercase()) || !is_key(key) || !self.is_verbatim && !is_word(key) {
-            return self.notes.add(NoteKind::Extension, place);
+            return self.notes.add(NoteKind::Extension, subject);
         }
         if !self.is_verbatim {
             self.keys.insert(key.to_ascii_lowercase());
         }
-        let value = self.one_line(value, place);
+        let value = self.one_line(value, subject);
         self.numbered(key, value);
     }
 
     /// `text` without what would end the line, or the file.
-    pub(super) fn one_line<'t>(&mut self, text: &'t str, place: Place<'_>) -> Cow<'t, str> {
+    pub(super) fn one_line<'t>(&mut self, text: &'t str, subject: Subject<'_>) -> Cow<'t, str> {
         const BREAKS: [char; 4] = ['\r', '\n', '\u{1a}', '\0'];
         if !text.contains(BREAKS) {
             return Cow::Borrowed(text);
         }
-        self.notes.add(NoteKind::LineBreak, place);
+        self.notes.add(NoteKind::LineBreak, subject);
         Cow::Owned(text.trim().replace("\r\n", " ").replace(BREAKS, " "))
     }
 
@@ -112,10 +112,10 @@ impl Writer {
                 section = line;
             }
             if !line.is_ascii() {
-                self.notes.add(NoteKind::NotAscii, Place::Named(section));
+                self.notes.add(NoteKind::NotAscii, Subject::Named(section));
             }
             if line.len() > MAX_LINE && line.chars().count() > MAX_LINE {
-                self.notes.add(NoteKind::LongLine, Place::Named(section));
+                self.notes.add(NoteKind::LongLine, Subject::Named(section));
             }
         }
         (self.text, self.notes.finish())

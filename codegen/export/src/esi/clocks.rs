@@ -1,7 +1,7 @@
 //! Distributed clocks.
 
 use super::text::hex;
-use crate::note::{NoteKind, Notes, Place};
+use crate::note::{NoteKind, Notes, Subject};
 use crate::xml::Xml;
 use lexibus_codegen::ir::{ClockMode, ClockSyncManager, ClockTime, DistributedClocks};
 
@@ -15,19 +15,17 @@ pub(super) fn write(xml: &mut Xml, notes: &mut Notes, clocks: &DistributedClocks
     for (name, value) in &clocks.attributes {
         match ATTRIBUTES.contains(&name.as_str()) {
             true => xml.attribute(name, value),
-            false => notes.add(NoteKind::Extension, Place::Named("Dc")),
+            false => notes.add(NoteKind::Extension, Subject::Named("Dc")),
         }
     }
-    clocks.modes.iter().for_each(|own| mode(xml, own));
+    clocks.modes.iter().for_each(|each| mode(xml, each));
     xml.close();
 }
 
 fn mode(xml: &mut Xml, mode: &ClockMode) {
     xml.open("OpMode");
     xml.leaf("Name", &mode.name);
-    if !mode.description.is_empty() {
-        xml.leaf("Desc", &mode.description);
-    }
+    xml.text_leaf("Desc", &mode.description);
     xml.leaf("AssignActivate", hex(mode.assign_activate, 4));
     time(xml, "CycleTimeSync0", mode.cycle_sync0);
     time(xml, "ShiftTimeSync0", mode.shift_sync0);
@@ -52,9 +50,7 @@ fn time(xml: &mut Xml, element: &'static str, time: ClockTime) {
 fn sync_manager(xml: &mut Xml, manager: &ClockSyncManager) {
     xml.open("Sm");
     xml.attribute("No", manager.number);
-    if let Some(kind) = manager.sync_type {
-        xml.leaf("SyncType", kind);
-    }
+    xml.optional_leaf("SyncType", manager.sync_type);
     for (index, factor) in &manager.pdos {
         xml.open("Pdo");
         xml.optional("OSFac", *factor);

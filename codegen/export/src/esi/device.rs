@@ -3,7 +3,7 @@
 use super::text::{documentation, hex, names};
 use super::types::Types;
 use super::{clocks, diagnosis, dictionary, eeprom, extras, losses, mailbox, objects, pdo, slots, sync, Context};
-use crate::note::{NoteKind, Place};
+use crate::note::{NoteKind, Subject};
 use crate::xml::Xml;
 use lexibus_codegen::ir::{CompactString, Device, Direction, EtherCatSettings, Pdo};
 
@@ -11,7 +11,7 @@ use lexibus_codegen::ir::{CompactString, Device, Direction, EtherCatSettings, Pd
 pub(super) fn write(xml: &mut Xml, context: &mut Context<'_>, device: &Device) {
     let unknown = EtherCatSettings::default();
     let settings = device.ethercat.as_deref().unwrap_or(&unknown);
-    let place = Place::Named(&device.name);
+    let subject = Subject::Named(&device.name);
     xml.open("Device");
     xml.flag("Invisible", settings.invisible, "true");
     physics(xml, context, settings);
@@ -22,8 +22,8 @@ pub(super) fn write(xml: &mut Xml, context: &mut Context<'_>, device: &Device) {
         xml.optional("RevisionNo", revision.map(|number| hex(number, 8)));
         xml.close();
     }
-    names(xml, "Name", &device.name, &device.names, &mut context.notes, place);
-    documentation(xml, "Comment", device.documentation.as_deref(), &mut context.notes, place);
+    names(xml, "Name", &device.name, &device.names, &mut context.notes, subject);
+    documentation(xml, "Comment", device.documentation.as_deref(), &mut context.notes, subject);
     extras::urls(xml, device);
     extras::info(xml, context, device, settings);
     let group = Some(settings.group.to_string()).filter(|group| !group.is_empty() || context.is_esi);
@@ -85,9 +85,7 @@ fn profiles(xml: &mut Xml, context: &mut Context<'_>, device: &Device, first: im
         None => (None, [].as_slice()),
     };
     xml.open("Profile");
-    if let Some(number) = number {
-        xml.leaf("ProfileNo", number);
-    }
+    xml.optional_leaf("ProfileNo", number);
     first(xml, context);
     xml.close();
     for number in others {
@@ -103,7 +101,7 @@ fn physics(xml: &mut Xml, context: &mut Context<'_>, settings: &EtherCatSettings
     let own = Some(own).filter(|ports| context.is_esi || !ports.is_empty());
     let ports = context.wanted(context.options.physics(), own, "physics");
     if !is_known(&ports) {
-        context.notes.add(NoteKind::Spelling, Place::Named("Physics"));
+        context.notes.add(NoteKind::Spelling, Subject::Named("Physics"));
         return xml.attribute("Physics", "");
     }
     xml.attribute("Physics", ports);

@@ -1,7 +1,7 @@
 //! Diagnosis messages.
 
 use super::text::{documentation, hex, names};
-use crate::note::{Notes, Place};
+use crate::note::{Notes, Subject};
 use crate::xml::Xml;
 use lexibus_codegen::ir::{CodeRow, CodeTable, Value};
 
@@ -22,11 +22,11 @@ pub(super) fn write(xml: &mut Xml, notes: &mut Notes, tables: &[CodeTable]) {
     xml.open("DiagMessages");
     for name in FLAGS.iter().skip(1) {
         for row in rows(name) {
-            let place = Place::Named(&row.name);
+            let subject = Subject::Named(&row.name);
             xml.open(*name);
-            names(xml, "Text", &row.name, &row.names, notes, place);
+            names(xml, "Text", &row.name, &row.names, notes, subject);
             xml.leaf("Enum", row.code);
-            documentation(xml, "Comment", row.documentation.as_deref(), notes, place);
+            documentation(xml, "Comment", row.documentation.as_deref(), notes, subject);
             xml.close();
         }
     }
@@ -35,14 +35,14 @@ pub(super) fn write(xml: &mut Xml, notes: &mut Notes, tables: &[CodeTable]) {
 }
 
 fn message(xml: &mut Xml, notes: &mut Notes, row: &CodeRow) {
-    let place = Place::Named(&row.name);
+    let subject = Subject::Named(&row.name);
     xml.open("DiagMessage");
     match u32::try_from(row.code) {
         Ok(code) => xml.leaf("TextId", hex(code, 4)),
         Err(_) => xml.leaf("TextId", row.code),
     }
-    names(xml, "MessageText", &row.name, &row.names, notes, place);
-    documentation(xml, "Description", row.documentation.as_deref(), notes, place);
+    names(xml, "MessageText", &row.name, &row.names, notes, subject);
+    documentation(xml, "Description", row.documentation.as_deref(), notes, subject);
     let text = |value: &Value| match value {
         Value::Text(text) if !text.is_empty() => Some(text.clone()),
         _ => None,

@@ -7,7 +7,7 @@ use super::record::{self, FieldFacts, Plan};
 use super::text::{documentation, hex, name, names};
 use super::types::{basic_name, is_self_named, Made, MadeField, Types};
 use super::Context;
-use crate::note::{NoteKind, Notes, Place};
+use crate::note::{NoteKind, Notes, Subject};
 use crate::xml::Xml;
 use lexibus_codegen::etg::type_name::{self, Basic};
 use lexibus_codegen::ir::{Access, EnumValue, Group, Item, Shape, Type, TypeDef};
@@ -22,7 +22,7 @@ pub(super) fn write(xml: &mut Xml, context: &mut Context<'_>, types: &mut Types<
         .filter_map(|group| {
             let items = entries(group, &mut context.notes);
             if items.is_empty() {
-                context.notes.add(NoteKind::EmptyObject, Place::object(group));
+                context.notes.add(NoteKind::EmptyObject, Subject::object(group));
                 return None;
             }
             let plan = record::plan(types, group, &items, &mut context.notes);
@@ -49,8 +49,8 @@ fn entries<'g>(group: &'g Group, notes: &mut Notes) -> Vec<(u8, &'g Item)> {
     for item in &group.items {
         match super::objects::address(item) {
             Some((_, sub)) if !std::mem::replace(&mut seen[usize::from(sub)], true) => items.push((sub, item)),
-            Some((index, sub)) => notes.add(NoteKind::Duplicate, Place::Entry(index, sub)),
-            None => notes.add(NoteKind::NotAnObject, Place::item(item)),
+            Some((index, sub)) => notes.add(NoteKind::Duplicate, Subject::Entry(index, sub)),
+            None => notes.add(NoteKind::NotAnObject, Subject::item(item)),
         }
     }
     items.sort_by_key(|(sub, _)| *sub);
@@ -70,7 +70,7 @@ fn data_types(xml: &mut Xml, types: &mut Types<'_>, notes: &mut Notes) {
 }
 
 fn data_type(xml: &mut Xml, types: &mut Types<'_>, at: u32, def: &TypeDef, notes: &mut Notes) {
-    let (own, place) = (types.name_of(at), Place::Named(&def.name));
+    let (own, subject) = (types.name_of(at), Subject::Named(&def.name));
     let bits = types.bits(Type::Named(lexibus_codegen::ir::TypeId(at))).unwrap_or(0);
     let base = match &def.shape {
         Shape::Alias(_) if is_self_named(def, &own) => None,
@@ -78,25 +78,21 @@ fn data_type(xml: &mut Xml, types: &mut Types<'_>, at: u32, def: &TypeDef, notes
         Shape::Enumeration { base, .. } => Some(*base),
         Shape::BitField { .. } if matches!(type_name::basic(&own), Some((Basic::Bits(_), _))) => None,
         Shape::BitField { base, .. } => {
-            notes.add(NoteKind::BitField, place);
+            notes.add(NoteKind::BitField, subject);
             Some(*base)
         }
         Shape::Scaled { base, .. } => {
-            notes.add(NoteKind::Quantity, place);
+            notes.add(NoteKind::Quantity, subject);
             Some(*base)
         }
         Shape::Record(_) => None,
     };
-    let base = base.map(|ty| types.reference(ty, notes, place).0);
+    let base = base.map(|ty| types.reference(ty, notes, subject).0);
     xml.open("DataType");
-    if let Some(code) = def.code {
-        xml.leaf("Index", hex(code, 4));
-    }
+    xml.optional_leaf("Index", def.code.map(|code| hex(code, 4)));
     xml.leaf("Name", &own);
-    if let Some(base) = base.filter(|base| *base != own) {
-        xml.leaf("BaseType", base);
-    }
-    documentation(xml, "Comment", def.documentation.as_deref(), notes, place);
+    xml.optional_leaf("BaseType", base.filter(|base| *base != own));
+    documentation(xml, "Comment", def.documentation.as_deref(), notes, subject);
     xml.leaf("BitSize", bits);
     match &def.shape {
         Shape::Array { dimensions, .. } => {
@@ -120,16 +116,16 @@ fn array_info(xml: &mut Xml, lower: i64, count: u32) {
 
 /// A named value.
 pub(super) fn enum_info(xml: &mut Xml, element: &'static str, value: &EnumValue, notes: &mut Notes) {
-    let place = Place::Named(&value.name);
+    let subject = Subject::Named(&value.name);
     xml.open(element);
-    names(xml, "Text", &value.name, &value.names, notes, place);
+    names(xml, "Text", &value.name, &value.names, notes, subject);
     xml.leaf("Enum", value.value);
-    documentation(xml, "Comment", value.documentation.as_deref(), notes, place);
+    documentation(xml, "Comment", value.documentation.as_deref(), notes, subject);
     xml.close();
-    notes.add_many(NoteKind::ValueRange, usize::from(value.last.is_some()), place);
+    notes.add_many(NoteKind::ValueRange, value.last.is_some(), subject);
     let is_conditional = value.when.is_some() || value.zone.is_some();
-    notes.add_many(NoteKind::Behaviour, usize::from(is_conditional), place);
-    notes.add_many(NoteKind::Availability, usize::from(value.availability.is_some()), place);
+    notes.add_many(NoteKind::Behaviour, is_conditional, subject);
+    notes.add_many(NoteKind::Availability, value.availability.is_some(), subject);
 }
 
 /// The sub-items of a record of the device.
@@ -138,12 +134,10 @@ fn sub_items(xml: &mut Xml, types: &mut Types<'_>, at: u32, def: &TypeDef, notes
     let unique = record::field_names(types, at);
     let facts = types.uses.get(&at).cloned().unwrap_or_default();
     for (position, (field, own)) in fields.iter().zip(&unique).enumerate() {
-        notes.add_many(NoteKind::Renamed, usize::from(*own != field.name), Place::Named(&def.name));
-        let (ty, _) = types.reference(field.ty, notes, Place::Named(&def.name));
+        notes.add_many(NoteKind::Renamed, *own != field.name, Subject::Named(&def.name));
+        let (ty, _) = types.reference(field.ty, notes, Subject::Named(&def.name));
         xml.open("SubItem");
-        if let Some(sub_index) = field.sub_index {
-            xml.leaf("SubIdx", sub_index);
-        }
+        xml.optional_leaf("SubIdx", field.sub_index);
         sub_item(xml, (own, &ty, field.bits, field.bit_offset), facts.get(position), notes);
         xml.close();
     }
@@ -153,22 +147,22 @@ fn sub_items(xml: &mut Xml, types: &mut Types<'_>, at: u32, def: &TypeDef, notes
 type Placed<'p> = (&'p CompactString, &'p CompactString, u32, u32);
 
 fn sub_item(xml: &mut Xml, (own, ty, bits, offset): Placed<'_>, facts: Option<&FieldFacts>, notes: &mut Notes) {
-    let place = Place::Named(own);
+    let subject = Subject::Named(own);
     xml.leaf("Name", own);
     if let Some(facts) = facts {
         for local in facts.names.iter() {
-            name(xml, "DisplayName", local, notes, place);
+            name(xml, "DisplayName", local, notes, subject);
         }
     }
     xml.leaf("Type", ty);
     if let Some(facts) = facts {
-        documentation(xml, "Comment", facts.documentation.as_deref(), notes, place);
+        documentation(xml, "Comment", facts.documentation.as_deref(), notes, subject);
     }
     xml.leaf("BitSize", bits);
     xml.leaf("BitOffs", offset);
     if let Some(facts) = facts {
         xml.open("Flags");
-        flags(xml, facts, None, notes, place);
+        flags(xml, facts, None, notes, subject);
         xml.leaf("Backup", u8::from(facts.backup));
         xml.leaf("Setting", u8::from(facts.setting));
         xml.close();
@@ -181,10 +175,10 @@ pub(super) fn flags(
     facts: &FieldFacts,
     category: Option<&'static str>,
     notes: &mut Notes,
-    place: Place<'_>,
+    subject: Subject<'_>,
 ) {
-    let read = record::check_states(&facts.read_states, notes, place);
-    let write = record::check_states(&facts.write_states, notes, place);
+    let read = record::check_states(&facts.read_states, notes, subject);
+    let write = record::check_states(&facts.write_states, notes, subject);
     xml.open("Access");
     xml.optional("ReadRestrictions", read);
     xml.optional("WriteRestrictions", write);
@@ -194,10 +188,8 @@ pub(super) fn flags(
         Access::ReadWrite | Access::ReadWriteInput | Access::ReadWriteOutput => "rw",
     });
     xml.close();
-    notes.add_many(NoteKind::Constant, usize::from(facts.access == Access::Constant), place);
-    if let Some(category) = category {
-        xml.leaf("Category", category);
-    }
+    notes.add_many(NoteKind::Constant, facts.access == Access::Constant, subject);
+    xml.optional_leaf("Category", category);
     match (facts.mappable.rpdo, facts.mappable.tpdo) {
         (true, true) => xml.leaf("PdoMapping", "RT"),
         (true, false) => xml.leaf("PdoMapping", "R"),
@@ -207,7 +199,7 @@ pub(super) fn flags(
     if let Some(safety) = &facts.safety {
         match matches!(safety.as_str(), "si" | "so" | "sio" | "sp") {
             true => xml.leaf("SafetyMapping", safety),
-            false => notes.add(NoteKind::Spelling, place),
+            false => notes.add(NoteKind::Spelling, subject),
         }
     }
 }

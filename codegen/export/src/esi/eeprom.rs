@@ -3,7 +3,7 @@
 use super::text::hex;
 use super::value;
 use super::Context;
-use crate::note::{NoteKind, Notes, Place};
+use crate::note::{NoteKind, Notes, Subject};
 use crate::xml::Xml;
 use lexibus_codegen::ir::EtherCatSettings;
 
@@ -24,18 +24,18 @@ pub(super) fn registers(xml: &mut Xml, notes: &mut Notes, settings: &EtherCatSet
         xml.leaf(format!("Reg{address:04X}"), hex(*value, 1));
     }
     xml.close();
-    notes.add_many(NoteKind::Setting, settings.registers.len() - known.len(), Place::Named("ESC"));
+    notes.add_many(NoteKind::Setting, settings.registers.len() - known.len(), Subject::Named("ESC"));
 }
 
 /// Writes Eeprom. It has either the whole content, or a size and the configuration.
 pub(super) fn write(xml: &mut Xml, context: &mut Context<'_>, settings: &EtherCatSettings) {
     let Some(eeprom) = settings.eeprom.as_deref() else { return };
-    let (notes, place) = (&mut context.notes, Place::Named("Eeprom"));
+    let (notes, subject) = (&mut context.notes, Subject::Named("Eeprom"));
     // The whole content has its size.
     let given = if eeprom.data.is_empty() { context.options.eeprom_size() } else { None };
     let size = given.or(eeprom.byte_size);
     if eeprom.data.is_empty() && size.is_none() {
-        return notes.add(NoteKind::Incomplete, place);
+        return notes.add(NoteKind::Incomplete, subject);
     }
     xml.open("Eeprom");
     xml.flag("AssignToPdi", eeprom.assign_to_pdi, "true");
@@ -43,9 +43,7 @@ pub(super) fn write(xml: &mut Xml, context: &mut Context<'_>, settings: &EtherCa
         (true, Some(size)) => {
             xml.leaf("ByteSize", size);
             xml.leaf("ConfigData", value::hex(&eeprom.config_data));
-            if !eeprom.boot_strap.is_empty() {
-                xml.leaf("BootStrap", value::hex(&eeprom.boot_strap));
-            }
+            xml.text_leaf("BootStrap", &value::hex(&eeprom.boot_strap));
             for (number, data) in &eeprom.categories {
                 xml.open("Category");
                 xml.leaf("CatNo", number);
@@ -59,7 +57,7 @@ pub(super) fn write(xml: &mut Xml, context: &mut Context<'_>, settings: &EtherCa
                 + usize::from(!eeprom.config_data.is_empty())
                 + usize::from(!eeprom.boot_strap.is_empty())
                 + eeprom.categories.len();
-            notes.add_many(NoteKind::Setting, others, place);
+            notes.add_many(NoteKind::Setting, others, subject);
         }
     }
     xml.close();

@@ -3,7 +3,7 @@
 use std::collections::HashSet;
 
 use super::Context;
-use crate::note::{NoteKind, Place};
+use crate::note::{NoteKind, Subject};
 use crate::xml::Xml;
 use lexibus_codegen::etg::language;
 use lexibus_codegen::ir::{Device, EtherCatSettings, Extension};
@@ -136,7 +136,7 @@ fn times(context: &mut Context<'_>, settings: &EtherCatSettings, names: &[&'stat
     if found.len() == names.len() {
         return found;
     }
-    context.notes.add_many(NoteKind::Incomplete, found.len(), Place::Named("Timeout"));
+    context.notes.add_many(NoteKind::Incomplete, found.len(), Subject::Named("Timeout"));
     Vec::new()
 }
 
@@ -173,7 +173,7 @@ pub(super) fn vendor_names(xml: &mut Xml, context: &mut Context<'_>) {
                 xml.content(&extension.value);
                 xml.close();
             }
-            None => context.notes.add(NoteKind::Language, Place::Named("Vendor")),
+            None => context.notes.add(NoteKind::Language, Subject::Named("Vendor")),
         }
     }
 }
@@ -184,7 +184,7 @@ pub(super) fn of_vendor(xml: &mut Xml, context: &mut Context<'_>) {
     urls.for_each(|extension| xml.leaf("URL", &extension.value));
     let is_told = |extension: &&Extension| extension.key == VENDOR_URL || extension.key.starts_with(VENDOR_NAME);
     let lost = context.catalog.extensions.iter().filter(|extension| !is_told(extension)).count();
-    context.notes.add_many(NoteKind::Extension, lost, Place::Named("Vendor"));
+    context.notes.add_many(NoteKind::Extension, lost, Subject::Named("Vendor"));
 }
 
 /// The version of a file with nothing but messages.
@@ -193,5 +193,5 @@ pub(super) fn diagnosis_version(xml: &mut Xml, context: &mut Context<'_>) {
     let all = context.catalog.extensions.as_slice();
     xml.optional("Version", find(all, VERSION).map(|extension| &extension.value));
     let lost = all.iter().filter(|extension| extension.key != VERSION).count();
-    context.notes.add_many(NoteKind::Extension, lost, Place::Device);
+    context.notes.add_many(NoteKind::Extension, lost, Subject::Device);
 }

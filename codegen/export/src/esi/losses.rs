@@ -1,7 +1,7 @@
 //! Facts that ETG.2000 has no place for.
 
 use super::{diagnosis, extras, Context};
-use crate::note::{self, NoteKind, Place};
+use crate::note::{self, NoteKind, Subject};
 use lexibus_codegen::ir::{Device, Module};
 
 /// What the catalogue has beside devices and modules.
@@ -11,41 +11,41 @@ pub(super) fn of_catalog(context: &mut Context<'_>) {
     if !context.is_esi {
         parts += catalog.families.len() + catalog.graphics.len();
     }
-    notes.add_many(NoteKind::OtherPart, parts, Place::Device);
+    notes.add_many(NoteKind::OtherPart, parts, Subject::Device);
 }
 
 /// What a device has beside what was written.
 pub(super) fn of_device(context: &mut Context<'_>, device: &Device) {
-    let (notes, place) = (&mut context.notes, Place::Named(&device.name));
+    let (notes, subject) = (&mut context.notes, Subject::Named(&device.name));
     let other_buses = usize::from(device.canopen.is_some() && device.ethercat.is_none())
         + usize::from(device.profinet.is_some())
         + device.modbus.len();
-    notes.add_many(NoteKind::OtherBus, other_buses, place);
-    notes.add_many(NoteKind::Configuration, usize::from(device.commissioning.is_some()), place);
+    notes.add_many(NoteKind::OtherBus, other_buses, subject);
+    notes.add_many(NoteKind::Configuration, device.commissioning.is_some(), subject);
     let parts = note::parts_of_tables(device)
         + device.code_tables.iter().filter(|table| !diagnosis::is_list(table)).count()
         + device.submodules.len()
         + device.process_data.images.len();
-    notes.add_many(NoteKind::OtherPart, parts, place);
+    notes.add_many(NoteKind::OtherPart, parts, subject);
     let axes = device.axes.as_ref().map_or(0, |rule| usize::from(rule.axes.saturating_sub(1)));
-    notes.add_many(NoteKind::Axis, axes, place);
-    notes.add_many(NoteKind::Doubt, device.doubts.len(), place);
-    notes.add_many(NoteKind::Extension, extras::lost(device), place);
+    notes.add_many(NoteKind::Axis, axes, subject);
+    notes.add_many(NoteKind::Doubt, device.doubts.len(), subject);
+    notes.add_many(NoteKind::Extension, extras::lost(device), subject);
     for group in device.groups.iter().filter(|group| group.index().is_none()) {
         let others = group.items.iter().filter(|item| item.object().is_none()).count();
-        notes.add_many(NoteKind::NotAnObject, others, Place::Named(&group.name));
+        notes.add_many(NoteKind::NotAnObject, others, Subject::Named(&group.name));
     }
     if !context.is_esi {
         let header = &device.header;
         let texts = [&header.file_version, &header.file_revision, &header.description, &header.created_by];
         let lost = texts.iter().filter(|text| !text.is_empty()).count() + header.comments.len();
-        notes.add_many(NoteKind::FileInfo, lost, place);
+        notes.add_many(NoteKind::FileInfo, lost, subject);
     }
 }
 
 /// What a module has beside what was written.
 pub(super) fn of_module(context: &mut Context<'_>, module: &Module) {
-    let (notes, place) = (&mut context.notes, Place::Named(&module.name));
-    notes.add_many(NoteKind::Documentation, usize::from(module.documentation.is_some()), place);
-    notes.add_many(NoteKind::Module, module.submodules.len() + module.fixed_objects.len(), place);
+    let (notes, subject) = (&mut context.notes, Subject::Named(&module.name));
+    notes.add_many(NoteKind::Documentation, module.documentation.is_some(), subject);
+    notes.add_many(NoteKind::Module, module.submodules.len() + module.fixed_objects.len(), subject);
 }

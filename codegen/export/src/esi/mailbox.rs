@@ -4,7 +4,7 @@ use super::pdo::slot_index;
 use super::text::hex;
 use super::value;
 use super::Context;
-use crate::note::{NoteKind, Notes, Place};
+use crate::note::{NoteKind, Notes, Subject};
 use crate::xml::Xml;
 use lexibus_codegen::ir::{Coe, CompactString, InitCommand, Mailbox, Protocol};
 
@@ -17,20 +17,20 @@ const ATTRIBUTES: [(&str, &[&str]); 4] = [
 ];
 
 /// Writes the mailbox of the source, or that of the options where the source has none.
-pub(super) fn write(xml: &mut Xml, context: &mut Context<'_>, own: Option<&Mailbox>) {
-    let given = if own.is_none() { context.options.coe() } else { None };
+pub(super) fn write(xml: &mut Xml, context: &mut Context<'_>, declared: Option<&Mailbox>) {
+    let given = if declared.is_none() { context.options.coe() } else { None };
     let given = given.map(|coe| Mailbox { coe: Some(coe), ..Mailbox::default() });
-    let Some(mailbox) = own.or(given.as_ref()) else { return };
+    let Some(mailbox) = declared.or(given.as_ref()) else { return };
     let notes = &mut context.notes;
     xml.open("Mailbox");
     xml.flag("DataLinkLayer", mailbox.data_link_layer, "true");
     xml.flag("RealTimeMode", mailbox.real_time, "true");
     protocol(xml, notes, "AoE", mailbox.aoe.as_ref());
     protocol(xml, notes, "EoE", mailbox.eoe.as_ref());
-    if let Some(own) = &mailbox.coe {
+    if let Some(coe) = &mailbox.coe {
         xml.open("CoE");
-        coe_attributes(xml, notes, own);
-        own.init_commands.iter().for_each(|command| init_command(xml, notes, "CoE", command));
+        coe_attributes(xml, notes, coe);
+        coe.init_commands.iter().for_each(|command| init_command(xml, notes, "CoE", command));
         xml.close();
     }
     protocol(xml, notes, "FoE", mailbox.foe.as_ref());
@@ -55,7 +55,7 @@ fn protocol(xml: &mut Xml, notes: &mut Notes, element: &'static str, protocol: O
     xml.open(element);
     attributes(xml, notes, element, &protocol.attributes);
     match element {
-        "FoE" | "VoE" => notes.add_many(NoteKind::Setting, protocol.init_commands.len(), Place::Named(element)),
+        "FoE" | "VoE" => notes.add_many(NoteKind::Setting, protocol.init_commands.len(), Subject::Named(element)),
         _ => protocol.init_commands.iter().for_each(|command| init_command(xml, notes, element, command)),
     }
     xml.close();
@@ -66,14 +66,14 @@ fn attributes(xml: &mut Xml, notes: &mut Notes, element: &'static str, list: &[(
     for (name, value) in list {
         match known.contains(&name.as_str()) {
             true => xml.attribute(name, value),
-            false => notes.add(NoteKind::Extension, Place::Named(element)),
+            false => notes.add(NoteKind::Extension, Subject::Named(element)),
         }
     }
 }
 
 /// What a master sends on a change of state.
 pub(super) fn init_command(xml: &mut Xml, notes: &mut Notes, protocol: &'static str, command: &InitCommand) {
-    let place = Place::Object(command.index);
+    let subject = Subject::Object(command.index);
     xml.open("InitCmd");
     if protocol == "CoE" {
         xml.flag("Fixed", command.fixed, "true");
@@ -86,7 +86,7 @@ pub(super) fn init_command(xml: &mut Xml, notes: &mut Notes, protocol: &'static 
     for transition in &command.transitions {
         match matches!(transition.as_str(), "IP" | "PS" | "SO" | "SP" | "OP" | "OS") {
             true => xml.leaf("Transition", transition),
-            false => notes.add(NoteKind::Spelling, place),
+            false => notes.add(NoteKind::Spelling, subject),
         }
     }
     match protocol {
@@ -102,8 +102,6 @@ pub(super) fn init_command(xml: &mut Xml, notes: &mut Notes, protocol: &'static 
     xml.flag("AdaptAutomatically", command.adapt && protocol == "CoE", "true");
     xml.content(value::hex(&command.data));
     xml.close();
-    if !command.comment.is_empty() {
-        xml.leaf("Comment", &command.comment);
-    }
+    xml.text_leaf("Comment", &command.comment);
     xml.close();
 }

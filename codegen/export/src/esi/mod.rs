@@ -45,7 +45,7 @@ use std::collections::HashMap;
 
 use compact_str::CompactString;
 
-use super::note::{Notes, Place};
+use super::note::{Notes, Subject};
 use super::options::Wanted;
 use super::xml::Xml;
 use lexibus_codegen::etg::unit;
@@ -78,8 +78,8 @@ pub fn export(catalog: &Catalog, options: &Options) -> Result<Export, Refusal> {
         [] if is_messages => messages_only(&mut xml, &mut context),
         devices => info(&mut xml, &mut context, devices),
     }
-    context.notes.add_many(NoteKind::Control, xml.dropped, Place::Device);
-    context.notes.add_many(NoteKind::Extension, xml.unnamed, Place::Device);
+    context.notes.add_many(NoteKind::Control, xml.dropped, Subject::Device);
+    context.notes.add_many(NoteKind::Extension, xml.unnamed, Subject::Device);
     let Context { mut notes, wanted, .. } = context;
     options.note_others(&mut notes);
     wanted.finish(xml.finish(), notes.finish())
@@ -134,9 +134,7 @@ impl Context<'_> {
 /// A dictionary that belongs to no device.
 fn dictionary_only(xml: &mut Xml, context: &mut Context<'_>, device: &Device) {
     xml.open("EtherCATDict");
-    if !device.header.format_version.is_empty() {
-        xml.attribute("Version", &device.header.format_version);
-    }
+    xml.text_attribute("Version", &device.header.format_version);
     device::dictionary(xml, context, device, |_, _, _| {});
     xml.close();
     losses::of_device(context, device);
@@ -169,7 +167,7 @@ fn info(xml: &mut Xml, context: &mut Context<'_>, devices: &[&Device]) {
     for device in devices {
         match device.identity.vendor_id == identity.vendor_id {
             true => device::write(xml, context, device),
-            false => context.notes.add(NoteKind::OtherVendor, Place::Named(&device.name)),
+            false => context.notes.add(NoteKind::OtherVendor, Subject::Named(&device.name)),
         }
     }
     xml.close();
@@ -178,12 +176,12 @@ fn info(xml: &mut Xml, context: &mut Context<'_>, devices: &[&Device]) {
         for module in &context.catalog.modules {
             match module.identity.vendor_id == identity.vendor_id {
                 true => module::write(xml, context, module),
-                false => context.notes.add(NoteKind::OtherVendor, Place::Named(&module.name)),
+                false => context.notes.add(NoteKind::OtherVendor, Subject::Named(&module.name)),
             }
         }
         xml.close();
     } else {
-        context.notes.add_many(NoteKind::Module, context.catalog.modules.len(), Place::Device);
+        context.notes.add_many(NoteKind::Module, context.catalog.modules.len(), Subject::Device);
     }
     losses::of_catalog(context);
 }
@@ -194,7 +192,7 @@ fn vendor(xml: &mut Xml, context: &mut Context<'_>, device: Option<&&Device>, id
     let version = header.map(|header| &header.file_version).filter(|version| context.is_esi && !version.is_empty());
     match version {
         Some(version) if version.parse::<i32>().is_ok() => xml.attribute("FileVersion", version),
-        Some(_) => context.notes.add(NoteKind::FileInfo, Place::Device),
+        Some(_) => context.notes.add(NoteKind::FileInfo, Subject::Device),
         None => {}
     }
     let id = context.wanted(context.options.vendor_id(), identity.vendor_id, "vendor-id");
@@ -216,12 +214,12 @@ fn groups(xml: &mut Xml, context: &mut Context<'_>, devices: &[&Device]) {
     let catalog = context.catalog;
     let families = if context.is_esi { catalog.families.as_slice() } else { &[] };
     for family in families {
-        let place = Place::Named(&family.name);
+        let subject = Subject::Named(&family.name);
         xml.open("Group");
         xml.leaf("Type", &family.id);
-        names(xml, "Name", &family.name, &family.names, &mut context.notes, place);
+        names(xml, "Name", &family.name, &family.names, &mut context.notes, subject);
         for local in &family.descriptions {
-            text::name(xml, "Comment", local, &mut context.notes, place);
+            text::name(xml, "Comment", local, &mut context.notes, subject);
         }
         xml.close();
     }

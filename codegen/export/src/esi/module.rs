@@ -4,7 +4,7 @@ use super::mailbox::init_command;
 use super::text::{hex, names};
 use super::types::Types;
 use super::{dictionary, extras, losses, objects, pdo, Context};
-use crate::note::{NoteKind, Place};
+use crate::note::{NoteKind, Subject};
 use crate::xml::Xml;
 use lexibus_codegen::ir::{Extension, Module};
 
@@ -26,31 +26,30 @@ const HAS_COE: &str = "Mailbox/CoE";
 
 /// Writes a module.
 pub(super) fn write(xml: &mut Xml, context: &mut Context<'_>, module: &Module) {
-    let place = Place::Named(&module.name);
+    let subject = Subject::Named(&module.name);
     xml.open("Module");
     xml.open("Type");
     xml.attribute("ModuleIdent", hex(module.number, 8));
-    if !module.class.is_empty() {
-        xml.attribute("ModuleClass", &module.class);
-    }
+    xml.text_attribute("ModuleClass", &module.class);
     xml.optional("ModulePdoGroup", module.pdo_group);
     xml.content(&module.id);
     xml.close();
-    names(xml, "Name", &module.name, &module.names, &mut context.notes, place);
+    names(xml, "Name", &module.name, &module.names, &mut context.notes, subject);
     let mut types = Types::new(&module.types, context.is_esi, &mut context.notes);
     for own in &module.process_data.pdos {
         pdo::write(xml, &mut context.notes, &types, own, true);
     }
     mailbox(xml, context, module);
     profile(xml, context, module, &mut types);
-    if let Some(name) = module.extensions.iter().find(|extension| extension.key == "DcOpModeName") {
-        xml.leaf("DcOpModeName", &name.value);
-    }
+    xml.optional_leaf(
+        "DcOpModeName",
+        module.extensions.iter().find(|extension| extension.key == "DcOpModeName").map(|name| &name.value),
+    );
     xml.close();
     let is_told = |extension: &Extension| matches!(extension.key.as_str(), "DcOpModeName" | HAS_COE);
     let is_lost = |extension: &&Extension| !is_told(extension) && !is_coe(extension);
     let lost = module.extensions.iter().filter(is_lost).filter(|extension| !extras::is_of_profile(extension)).count();
-    context.notes.add_many(NoteKind::Extension, lost, place);
+    context.notes.add_many(NoteKind::Extension, lost, subject);
     losses::of_module(context, module);
 }
 
@@ -83,7 +82,7 @@ fn profile(xml: &mut Xml, context: &mut Context<'_>, module: &Module, types: &mu
     xml.open("Profile");
     if let Some((number, others)) = module.profiles.split_first() {
         xml.leaf("ProfileNo", number);
-        context.notes.add_many(NoteKind::Setting, others.len(), Place::Named(&module.name));
+        context.notes.add_many(NoteKind::Setting, others.len(), Subject::Named(&module.name));
     }
     extras::profile(xml, &module.extensions);
     dictionary::write(xml, context, types, &objects);

@@ -7,7 +7,7 @@ use super::record::{self, FieldFacts, Plan};
 use super::text::{documentation, hex, names};
 use super::types::Types;
 use super::{value, Context};
-use crate::note::{self, NoteKind, Place};
+use crate::note::{self, NoteKind, Subject};
 use crate::xml::Xml;
 use lexibus_codegen::ir::{Category, Extension, Group, GroupKind, Item, Storage};
 
@@ -23,21 +23,21 @@ pub(super) fn write(
     items: &[(u8, &Item)],
     plan: &Plan,
 ) {
-    let place = Place::object(group);
+    let subject = Subject::object(group);
     let single = items.first().map(|(_, item)| *item).filter(|_| plan.names.is_none());
     xml.open("Object");
     index(xml, group);
-    names(xml, "Name", &group.name, &group.names, &mut context.notes, place);
+    names(xml, "Name", &group.name, &group.names, &mut context.notes, subject);
     let own = group.documentation.as_deref().or_else(|| single.and_then(|item| item.documentation.as_deref()));
-    documentation(xml, "Comment", own, &mut context.notes, place);
+    documentation(xml, "Comment", own, &mut context.notes, subject);
     xml.leaf("Type", &plan.ty);
     xml.leaf("BitSize", plan.bits);
     let both = group.documentation.is_some() && single.is_some_and(|item| item.documentation.is_some());
-    context.notes.add_many(NoteKind::Documentation, usize::from(both), place);
+    context.notes.add_many(NoteKind::Documentation, both, subject);
     match (single, &plan.names) {
         (Some(item), _) => {
             let has_other_name = item.name != group.name;
-            context.notes.add_many(NoteKind::Name, usize::from(has_other_name), place);
+            context.notes.add_many(NoteKind::Name, has_other_name, subject);
             xml.open("Info");
             info(xml, context, types, item);
             display_name(xml, context, group, item);
@@ -89,9 +89,7 @@ fn sub_items(
         xml.leaf("Name", if item.name.is_empty() { name } else { &item.name });
         xml.open("Info");
         info(xml, context, types, item);
-        if let Some(name) = record::display_name(item) {
-            xml.leaf("DisplayName", name);
-        }
+        xml.optional_leaf("DisplayName", record::display_name(item));
         unit(xml, context, item);
         xml.close();
         xml.close();
@@ -103,8 +101,8 @@ fn sub_items(
 fn info(xml: &mut Xml, context: &mut Context<'_>, types: &Types<'_>, item: &Item) {
     let (elements, notes) = value::elements(item, types.underlying(item.type_on(record::BUS)));
     elements.into_iter().for_each(|(name, text)| xml.leaf(name, text));
-    notes.into_iter().for_each(|note| context.notes.add(note, Place::item(item)));
-    context.notes.add_many(NoteKind::AllowedValues, usize::from(!item.limits.allowed.is_empty()), Place::item(item));
+    notes.into_iter().for_each(|note| context.notes.add(note, Subject::item(item)));
+    context.notes.add_many(NoteKind::AllowedValues, !item.limits.allowed.is_empty(), Subject::item(item));
 }
 
 /// The one further name that a single value can have.
@@ -114,7 +112,7 @@ fn display_name(xml: &mut Xml, context: &mut Context<'_>, group: &Group, item: &
     }
     match record::display_name(item) {
         Some(name) => xml.leaf("DisplayName", name),
-        None => context.notes.add_many(NoteKind::Language, item.names.len(), Place::item(item)),
+        None => context.notes.add_many(NoteKind::Language, item.names.len(), Subject::item(item)),
     }
 }
 
@@ -122,15 +120,13 @@ fn display_name(xml: &mut Xml, context: &mut Context<'_>, group: &Group, item: &
 fn unit(xml: &mut Xml, context: &mut Context<'_>, item: &Item) {
     let Some(quantity) = &item.quantity else { return };
     let number = context.unit(&quantity.unit);
-    if let Some(number) = &number {
-        xml.leaf("Unit", number);
-    }
+    xml.optional_leaf("Unit", number.as_ref());
     let says_more = quantity.scale.is_some()
         || !quantity.sentinels.is_empty()
         || quantity.step.is_some()
         || !quantity.units.is_empty();
     if number.is_none() || says_more {
-        context.notes.add(NoteKind::Quantity, Place::item(item));
+        context.notes.add(NoteKind::Quantity, Subject::item(item));
     }
 }
 
@@ -145,9 +141,9 @@ fn object_flags(xml: &mut Xml, context: &mut Context<'_>, group: &Group, single:
         Some(Category::Conditional) => Some("c"),
         Some(Category::Manufacturer) | None => None,
     };
-    let place = Place::object(group);
+    let subject = Subject::object(group);
     let is_lost = category == Some(Category::Manufacturer);
-    context.notes.add_many(NoteKind::Category, usize::from(is_lost), place);
+    context.notes.add_many(NoteKind::Category, is_lost, subject);
     let others: Vec<(&str, &CompactString)> =
         FLAGS.iter().filter_map(|key| Some((*key, extension(group, key)?))).collect();
     if single.is_none() && letter.is_none() && others.is_empty() {
@@ -156,11 +152,9 @@ fn object_flags(xml: &mut Xml, context: &mut Context<'_>, group: &Group, single:
     xml.open("Flags");
     let facts = single.map(FieldFacts::of);
     match &facts {
-        Some(facts) => flags(xml, facts, letter, &mut context.notes, place),
+        Some(facts) => flags(xml, facts, letter, &mut context.notes, subject),
         None => {
-            if let Some(letter) = letter {
-                xml.leaf("Category", letter);
-            }
+            xml.optional_leaf("Category", letter);
         }
     }
     others.into_iter().for_each(|(key, value)| xml.leaf(key, value));
@@ -196,13 +190,13 @@ fn properties(xml: &mut Xml, group: &Group) {
 /// Facts of an object and its entries that ETG.2000 has no place for.
 fn losses(context: &mut Context<'_>, group: &Group, items: &[(u8, &Item)]) {
     let notes = &mut context.notes;
-    notes.add_many(NoteKind::Doubt, group.doubts.len(), Place::object(group));
-    notes.add_many(NoteKind::Setting, group.links.len(), Place::object(group));
+    notes.add_many(NoteKind::Doubt, group.doubts.len(), Subject::object(group));
+    notes.add_many(NoteKind::Setting, group.links.len(), Subject::object(group));
     for (_, item) in items {
-        let place = Place::item(item);
+        let subject = Subject::item(item);
         // Two indices on two buses are one item.
         let other_buses = item.bindings.len().saturating_sub(1);
-        notes.add_many(NoteKind::Binding, other_buses, place);
+        notes.add_many(NoteKind::Binding, other_buses, subject);
         let more = item.behaviour.as_ref().is_some_and(|behaviour| {
             behaviour.storage != Storage::Unknown
                 || behaviour.effective.is_some()
@@ -213,13 +207,13 @@ fn losses(context: &mut Context<'_>, group: &Group, items: &[(u8, &Item)]) {
                 || behaviour.write_once
                 || behaviour.hidden
         });
-        notes.add_many(NoteKind::Behaviour, usize::from(more), place);
+        notes.add_many(NoteKind::Behaviour, more, subject);
         let availability = usize::from(item.availability.is_some()) + item.variants.len();
-        notes.add_many(NoteKind::Availability, availability, place);
-        notes.add_many(NoteKind::Doubt, item.doubts.len(), place);
-        notes.add_many(NoteKind::Relation, note::relations(item), place);
-        notes.add_many(NoteKind::Extension, item.extensions.len(), place);
-        notes.add_many(NoteKind::Configuration, usize::from(item.configured.is_some()), place);
-        notes.add_many(NoteKind::Setting, usize::from(item.flags != 0), place);
+        notes.add_many(NoteKind::Availability, availability, subject);
+        notes.add_many(NoteKind::Doubt, item.doubts.len(), subject);
+        notes.add_many(NoteKind::Relation, note::relations(item), subject);
+        notes.add_many(NoteKind::Extension, item.extensions.len(), subject);
+        notes.add_many(NoteKind::Configuration, item.configured.is_some(), subject);
+        notes.add_many(NoteKind::Setting, item.flags != 0, subject);
     }
 }

@@ -1,6 +1,6 @@
 //! Which objects a device has on EtherCAT.
 
-use crate::note::{NoteKind, Notes, Place};
+use crate::note::{NoteKind, Notes, Subject};
 use crate::registers;
 use lexibus_codegen::ir::{Binding, Bus, Buses, Device, Group, Item};
 
@@ -16,8 +16,8 @@ pub(super) fn address(item: &Item) -> Option<(u16, u8)> {
 /// The objects that only registers have.
 pub(super) fn of_registers(device: &Device, notes: &mut Notes) -> Vec<Group> {
     let objects = registers::objects(device, |item| address(item).filter(|_| is_on_ethercat(device, item)));
-    notes.add_many(NoteKind::Completed, registers::completed(&objects), Place::Device);
-    notes.add_many(NoteKind::Duplicate, registers::duplicates(device, address), Place::Device);
+    notes.add_many(NoteKind::Completed, registers::completed(&objects), Subject::Device);
+    notes.add_many(NoteKind::Duplicate, registers::duplicates(device, address), Subject::Device);
     objects
 }
 
@@ -36,8 +36,8 @@ pub(super) fn of_device<'g>(device: &'g Device, made: &'g [Group], notes: &mut N
     objects.retain(|group| {
         let is_of_can = is_canopen_only && group.index().is_some_and(is_of_can);
         let is_absent = !group.items.is_empty() && !group.items.iter().any(|item| is_on_ethercat(device, item));
-        let is_left_out = is_of_can || is_absent && !made.iter().any(|own| std::ptr::eq(own, *group));
-        notes.add_many(NoteKind::CanObject, usize::from(is_left_out), Place::object(group));
+        let is_left_out = is_of_can || is_absent && !made.iter().any(|made| std::ptr::eq(made, *group));
+        notes.add_many(NoteKind::CanObject, is_left_out, Subject::object(group));
         !is_left_out
     });
     objects
@@ -49,7 +49,7 @@ pub(super) fn all<'g>(groups: impl Iterator<Item = &'g Group>, notes: &mut Notes
     objects.sort_by_key(|group| group.index());
     objects.dedup_by(|later, earlier| {
         let is_twice = later.index() == earlier.index();
-        notes.add_many(NoteKind::Duplicate, usize::from(is_twice), Place::object(later));
+        notes.add_many(NoteKind::Duplicate, is_twice, Subject::object(later));
         is_twice
     });
     objects

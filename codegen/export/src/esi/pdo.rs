@@ -3,26 +3,26 @@
 use super::dictionary::entry_type;
 use super::text::{hex, names};
 use super::types::Types;
-use crate::note::{NoteKind, Notes, Place};
+use crate::note::{NoteKind, Notes, Subject};
 use crate::xml::Xml;
 use lexibus_codegen::ir::{Direction, Extension, Pdo, PdoEntry, Type};
 
 /// Writes a PDO; `is_slave` tells whether its device is an EtherCAT slave, which has no communication parameters of CAN.
 pub(super) fn write(xml: &mut Xml, notes: &mut Notes, types: &Types<'_>, pdo: &Pdo, is_slave: bool) {
-    let place = Place::Object(pdo.mapping_index);
+    let subject = Subject::Object(pdo.mapping_index);
     xml.open(if pdo.direction == Direction::Receive { "RxPdo" } else { "TxPdo" });
     attributes(xml, pdo);
     slot_index(xml, "Index", pdo.mapping_index, (pdo.depends_on_slot, pdo.depends_on_slot_group));
-    names(xml, "Name", &pdo.name, &pdo.names, notes, place);
+    names(xml, "Name", &pdo.name, &pdo.names, notes, subject);
     pdo.excludes.iter().for_each(|excluded| xml.leaf("Exclude", hex(*excluded, 4)));
     pdo.entries.iter().for_each(|own| entry(xml, notes, types, own));
     pdo.excluded_sync_managers.iter().for_each(|number| xml.leaf("ExcludedSm", number));
     xml.close();
     let is_lost = |extension: &&Extension| !is_attribute(extension);
-    notes.add_many(NoteKind::Extension, pdo.extensions.iter().filter(is_lost).count(), place);
-    notes.add_many(NoteKind::Pdo, usize::from(pdo.communication.is_some() && is_slave), place);
-    notes.add_many(NoteKind::Documentation, usize::from(pdo.documentation.is_some()), place);
-    notes.add_many(NoteKind::Doubt, pdo.doubts.len(), place);
+    notes.add_many(NoteKind::Extension, pdo.extensions.iter().filter(is_lost).count(), subject);
+    notes.add_many(NoteKind::Pdo, pdo.communication.is_some() && is_slave, subject);
+    notes.add_many(NoteKind::Documentation, pdo.documentation.is_some(), subject);
+    notes.add_many(NoteKind::Doubt, pdo.doubts.len(), subject);
 }
 
 fn attributes(xml: &mut Xml, pdo: &Pdo) {
@@ -73,11 +73,9 @@ fn entry(xml: &mut Xml, notes: &mut Notes, types: &Types<'_>, entry: &PdoEntry) 
     }
     xml.leaf("BitLen", entry.bits);
     if !entry.name.is_empty() || !entry.names.is_empty() {
-        names(xml, "Name", &entry.name, &entry.names, notes, Place::Entry(entry.index, entry.sub_index));
+        names(xml, "Name", &entry.name, &entry.names, notes, Subject::Entry(entry.index, entry.sub_index));
     }
-    if let Some(ty) = entry_type(types, data_type(types, entry)) {
-        xml.leaf("DataType", ty);
-    }
+    xml.optional_leaf("DataType", entry_type(types, data_type(types, entry)));
     xml.close();
 }
 

@@ -3,7 +3,7 @@
 use compact_str::{format_compact, CompactString};
 
 use super::types::{unique, Made, MadeField, Types};
-use crate::note::{NoteKind, Notes, Place};
+use crate::note::{NoteKind, Notes, Subject};
 use lexibus_codegen::ir::{Access, Bus, Documentation, Field, Group, Item, Mappable, ObjectCode, Texts, Type};
 use lexibus_codegen::unique::Unique;
 
@@ -107,7 +107,7 @@ fn span(types: &Types<'_>, field: &Field, next: u32, following: Option<u32>) -> 
 /// The type of an object: one of the device that describes just its entries, or a new one.
 pub(super) fn plan(types: &mut Types<'_>, group: &Group, items: &[(u8, &Item)], notes: &mut Notes) -> Plan {
     if let ([(0, item)], false) = (items, group.object_code().is_some_and(ObjectCode::has_subs)) {
-        let (ty, bits) = types.reference(item.type_on(BUS), notes, Place::item(item));
+        let (ty, bits) = types.reference(item.type_on(BUS), notes, Subject::item(item));
         return Plan { ty, bits, names: None };
     }
     let index = group.index().unwrap_or(0);
@@ -130,7 +130,9 @@ fn existing(types: &mut Types<'_>, at: u32, group: &Group, items: &[(u8, &Item)]
     let entries = types.entries(at);
     // An object of equal elements is one whose type says so.
     let is_array = match entries.split_first() {
-        Some((first, rest)) => first.sub_index == 0 && !rest.is_empty() && rest.iter().all(|own| own.element.is_some()),
+        Some((first, rest)) => {
+            first.sub_index == 0 && !rest.is_empty() && rest.iter().all(|rest| rest.element.is_some())
+        }
         None => false,
     };
     if matches!(group.object_code(), Some(code @ (ObjectCode::Array | ObjectCode::Record)) if is_array != (code == ObjectCode::Array))
@@ -211,8 +213,8 @@ fn new_array(types: &mut Types<'_>, usual: &str, items: &[(u8, &Item)], notes: &
         return new_record(types, usual, items, notes);
     };
     let count = u32::try_from(items.len() - 1).unwrap_or(u32::MAX);
-    let (element, element_bits) = types.reference(first.type_on(BUS), notes, Place::item(first));
-    let (count_type, count_bits) = types.reference(count_item.type_on(BUS), notes, Place::item(count_item));
+    let (element, element_bits) = types.reference(first.type_on(BUS), notes, Subject::item(first));
+    let (count_type, count_bits) = types.reference(count_item.type_on(BUS), notes, Subject::item(count_item));
     let bits = element_bits.saturating_mul(count);
     let array = types.unique(&format_compact!("{usual}ARR"));
     types.made.push(Made::Array { name: array.clone(), element, bits, count });
@@ -238,7 +240,7 @@ fn new_record(types: &mut Types<'_>, usual: &str, items: &[(u8, &Item)], notes: 
     let names = unique_names(items.iter().map(|(_, item)| item.name.as_str()));
     let (mut fields, mut next) = (Vec::with_capacity(items.len()), 0u32);
     for ((sub_index, item), name) in items.iter().zip(&names) {
-        let (ty, bits) = types.reference(item.type_on(BUS), notes, Place::item(item));
+        let (ty, bits) = types.reference(item.type_on(BUS), notes, Subject::item(item));
         let offset = if *sub_index > 0 { next.max(FIRST_OFFSET) } else { next };
         next = offset.saturating_add(bits);
         let facts = FieldFacts::of(item);
@@ -255,13 +257,13 @@ fn finish(types: &mut Types<'_>, usual: &str, fields: Vec<MadeField>, names: Vec
 }
 
 /// Notes what of a field's facts has to be left out.
-pub(super) fn check_states(states: &[CompactString], notes: &mut Notes, place: Place<'_>) -> Option<String> {
+pub(super) fn check_states(states: &[CompactString], notes: &mut Notes, subject: Subject<'_>) -> Option<String> {
     const KNOWN: [&str; 7] = ["PreOp", "PreOP", "PreOP_SafeOP", "PreOP_OP", "SafeOP", "SafeOP_OP", "OP"];
     let joined = states.join("_");
     if joined.is_empty() {
         return None;
     }
     let known = KNOWN.contains(&joined.as_str());
-    notes.add_many(NoteKind::Spelling, usize::from(!known), place);
+    notes.add_many(NoteKind::Spelling, !known, subject);
     known.then_some(joined)
 }

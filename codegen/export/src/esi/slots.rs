@@ -2,14 +2,14 @@
 
 use super::text::{hex, names};
 use super::Context;
-use crate::note::{NoteKind, Notes, Place};
+use crate::note::{NoteKind, Notes, Subject};
 use crate::xml::Xml;
 use lexibus_codegen::ir::{Device, EtherCatSettings, Fit, Slot, SlotRules};
 
 /// Writes Slots.
 pub(super) fn write(xml: &mut Xml, context: &mut Context<'_>, device: &Device, settings: &EtherCatSettings) {
     let Some(rules) = settings.slots.as_deref() else {
-        return context.notes.add_many(NoteKind::Slot, device.slots.len(), Place::Named(&device.name));
+        return context.notes.add_many(NoteKind::Slot, device.slots.len(), Subject::Named(&device.name));
     };
     xml.open("Slots");
     attributes(xml, &mut context.notes, rules);
@@ -19,16 +19,12 @@ pub(super) fn write(xml: &mut Xml, context: &mut Context<'_>, device: &Device, s
     for (number, name) in &rules.groups {
         xml.open("SlotGroupData");
         xml.attribute("SlotGroup", number);
-        if !name.is_empty() {
-            xml.leaf("Name", name);
-        }
+        xml.text_leaf("Name", name);
         xml.close();
     }
     for group in &rules.pdo_groups {
         xml.open("ModulePdoGroup");
-        if group.alignment != 0 {
-            xml.attribute("Alignment", group.alignment);
-        }
+        xml.unless("Alignment", group.alignment, 0);
         xml.optional("RxPdo", group.rx_pdo.map(|index| hex(index, 4)));
         xml.optional("TxPdo", group.tx_pdo.map(|index| hex(index, 4)));
         xml.close();
@@ -48,7 +44,7 @@ fn attributes(xml: &mut Xml, notes: &mut Notes, rules: &SlotRules) {
     match rules.download_transition.as_str() {
         "PS" | "" => {}
         transition @ ("IP" | "SO") => xml.attribute("DownloadModuleListTransition", transition),
-        _ => notes.add(NoteKind::Spelling, Place::Named("DownloadModuleListTransition")),
+        _ => notes.add(NoteKind::Spelling, Subject::Named("DownloadModuleListTransition")),
     }
     xml.optional("MaxSlotCount", rules.max_slots);
     xml.optional("MaxSlotGroupCount", rules.max_groups);
@@ -64,7 +60,7 @@ fn attributes(xml: &mut Xml, notes: &mut Notes, rules: &SlotRules) {
 }
 
 fn slot(xml: &mut Xml, notes: &mut Notes, slot: &Slot, rules: &SlotRules) {
-    let place = Place::Named(&slot.name);
+    let subject = Subject::Named(&slot.name);
     xml.open("Slot");
     xml.optional("SlotGroup", slot.group);
     xml.attribute("MinInstances", slot.instances.0);
@@ -84,7 +80,7 @@ fn slot(xml: &mut Xml, notes: &mut Notes, slot: &Slot, rules: &SlotRules) {
         xml.attribute("Default", hex(ident, 8));
     }
     if !slot.name.is_empty() || !slot.names.is_empty() {
-        names(xml, "Name", &slot.name, &slot.names, notes, place);
+        names(xml, "Name", &slot.name, &slot.names, notes, subject);
     }
     fits(xml, notes, slot);
     xml.close();
@@ -101,7 +97,7 @@ fn fits(xml: &mut Xml, notes: &mut Notes, slot: &Slot) {
                 xml.leaf("Class", class);
                 xml.close();
             }
-            Fit::Class(_) | Fit::Name(_) => notes.add(NoteKind::Slot, Place::Named(&slot.name)),
+            Fit::Class(_) | Fit::Name(_) => notes.add(NoteKind::Slot, Subject::Named(&slot.name)),
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use crate::note::{NoteKind, Notes, Place};
+use crate::note::{NoteKind, Notes, Subject};
 use crate::xml::Xml;
 use lexibus_codegen::etg::language;
 use lexibus_codegen::ir::{Documentation, LocalText, Texts};
@@ -16,26 +16,26 @@ pub(super) fn hex(value: impl Into<u32>, digits: usize) -> impl fmt::Display {
 pub(super) fn names(
     xml: &mut Xml,
     element: &'static str,
-    own: &str,
+    text: &str,
     others: &Texts,
     notes: &mut Notes,
-    place: Place<'_>,
+    subject: Subject<'_>,
 ) {
     // One without a number would give way to another in English.
     let is_english = |local: &LocalText| language::lcid(&local.language) == Some(language::ENGLISH);
     xml.open(element);
     xml.optional("LcId", others.iter().any(is_english).then_some(language::ENGLISH));
-    xml.content(own);
+    xml.content(text);
     xml.close();
     for local in others.iter() {
-        name(xml, element, local, notes, place);
+        name(xml, element, local, notes, subject);
     }
 }
 
 /// A text in one language.
-pub(super) fn name(xml: &mut Xml, element: &'static str, local: &LocalText, notes: &mut Notes, place: Place<'_>) {
+pub(super) fn name(xml: &mut Xml, element: &'static str, local: &LocalText, notes: &mut Notes, subject: Subject<'_>) {
     let Some(lcid) = language::lcid(&local.language) else {
-        return notes.add(NoteKind::Language, place);
+        return notes.add(NoteKind::Language, subject);
     };
     xml.open(element);
     xml.attribute("LcId", lcid);
@@ -49,9 +49,9 @@ pub(super) fn documentation(
     element: &'static str,
     documentation: Option<&Documentation>,
     notes: &mut Notes,
-    place: Place<'_>,
+    subject: Subject<'_>,
 ) {
     if let Some(documentation) = documentation.filter(|documentation| !documentation.text.is_empty()) {
-        names(xml, element, &documentation.text, &documentation.translations, notes, place);
+        names(xml, element, &documentation.text, &documentation.translations, notes, subject);
     }
 }

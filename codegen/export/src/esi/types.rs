@@ -8,7 +8,7 @@ use std::collections::HashMap;
 use compact_str::{format_compact, CompactString};
 
 use super::record::{self, Entry, FieldFacts};
-use crate::note::{NoteKind, Notes, Place};
+use crate::note::{NoteKind, Notes, Subject};
 use lexibus_codegen::etg::type_name::{self, Basic, Spelling};
 use lexibus_codegen::ir::{Shape, Type, TypeDef, TypeId};
 use lexibus_codegen::unique::Unique;
@@ -68,7 +68,7 @@ impl<'a> Types<'a> {
         for def in defs {
             let name = types.unique(&def.name);
             if name != def.name {
-                notes.add(NoteKind::Renamed, Place::Named(&def.name));
+                notes.add(NoteKind::Renamed, Subject::Named(&def.name));
             }
             if let Shape::Alias(ty) = def.shape {
                 if is_self_named(def, &name) {
@@ -111,10 +111,10 @@ impl<'a> Types<'a> {
     }
 
     /// The name by which a type is referred to, and its length in bits. A basic type that nobody has defined is added.
-    pub(super) fn reference(&mut self, ty: Type, notes: &mut Notes, place: Place<'_>) -> (CompactString, u32) {
+    pub(super) fn reference(&mut self, ty: Type, notes: &mut Notes, subject: Subject<'_>) -> (CompactString, u32) {
         let bits = self.bits(ty);
         if bits.is_none() && !matches!(ty, Type::Opaque(_) | Type::Domain) {
-            notes.add(NoteKind::UnknownLength, place);
+            notes.add(NoteKind::UnknownLength, subject);
         }
         let bits = bits.unwrap_or(0);
         if let Type::Named(TypeId(at)) = ty {
@@ -131,7 +131,7 @@ impl<'a> Types<'a> {
             known => (known, true),
         };
         if !is_known {
-            notes.add(NoteKind::UnknownType, place);
+            notes.add(NoteKind::UnknownType, subject);
         }
         if let Some(name) = self.basic.get(&written) {
             return (name.clone(), bits);

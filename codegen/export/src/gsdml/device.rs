@@ -1,11 +1,11 @@
 //! Device access points.
 
 use super::elements;
-use super::module::{find, graphics, is_of_info, places, ranges, subslots, Info};
+use super::module::{find, graphics, places, ranges, subslots, Info};
 use super::{record, submodule, Context};
-use crate::note::{NoteKind, Place};
+use crate::note::{NoteKind, Subject};
 use crate::xml::Xml;
-use lexibus_codegen::ir::{CompactString, Device, GroupKind, Menu, ModuleUse, ProfinetSettings, SubmoduleKind};
+use lexibus_codegen::ir::{Device, GroupKind, Menu, ModuleUse, ProfinetSettings, SubmoduleKind};
 
 /// Greatest length of a record where the file doesn't say.
 const RECORD_SIZE: u32 = 4068;
@@ -42,29 +42,19 @@ pub(super) fn write(xml: &mut Xml, context: &mut Context<'_>, device: &Device) {
     elements::SLOT_GROUPS.write(xml, attributes);
     elements::FIELDBUS_SLOTS.write(xml, attributes);
     xml.close();
-    context.notes.add_many(NoteKind::Extension, device.extensions.len(), Place::Named(&device.name));
+    context.notes.add_many(NoteKind::Extension, device.extensions.len(), Subject::Named(&device.name));
 }
 
 fn head(xml: &mut Xml, device: &Device, settings: &ProfinetSettings) {
     xml.attribute("ID", &device.id);
     xml.attribute("ModuleIdentNumber", format_args!("0x{:08X}", settings.ident));
-    for (name, value) in [("PNIO_Version", &settings.pnio_version), ("DNS_CompatibleName", &settings.dns_name)] {
-        if !value.is_empty() {
-            xml.attribute(name, value);
-        }
-    }
-    if !settings.slots.is_empty() {
-        xml.attribute("PhysicalSlots", ranges(&settings.slots));
-    }
+    xml.text_attribute("PNIO_Version", &settings.pnio_version);
+    xml.text_attribute("DNS_CompatibleName", &settings.dns_name);
+    xml.text_attribute("PhysicalSlots", &ranges(&settings.slots));
     xml.optional("MinDeviceInterval", settings.min_device_interval);
     places(xml, &settings.places, "Slots");
-    if settings.max_record_size != RECORD_SIZE {
-        xml.attribute("MaxSupportedRecordSize", settings.max_record_size);
-    }
-    let is_own = |key: &str| !elements::is_of_element(key) && !is_of_info(key);
-    for (key, value) in settings.attributes.iter().filter(|(key, _)| is_own(key)) {
-        xml.attribute(key, value);
-    }
+    xml.unless("MaxSupportedRecordSize", settings.max_record_size, RECORD_SIZE);
+    elements::kept(xml, &settings.attributes);
 }
 
 fn info(xml: &mut Xml, context: &mut Context<'_>, device: &Device, settings: &ProfinetSettings) {
@@ -88,60 +78,39 @@ fn io_config_data(xml: &mut Xml, settings: &ProfinetSettings) {
     xml.optional("MaxInputLength", lengths.input);
     xml.optional("MaxOutputLength", lengths.output);
     xml.optional("MaxDataLength", lengths.data);
-    for (key, value) in &settings.attributes {
-        if let Some(("IOConfigData", name)) = key.split_once('@') {
-            xml.attribute(name, value);
-        }
-    }
+    elements::attributes_of(xml, "IOConfigData", &settings.attributes);
     xml.close();
 }
 
 fn useable_modules(xml: &mut Xml, context: &Context<'_>, uses: &[ModuleUse]) {
-    if uses.is_empty() {
-        return;
-    }
-    xml.open("UseableModules");
-    for own in uses {
-        let Some(module) = context.catalog.modules.get(own.module.0 as usize) else { continue };
+    xml.list("UseableModules", uses, |xml, module_use| {
+        let Some(module) = context.catalog.modules.get(module_use.module.0 as usize) else { return };
         xml.open("ModuleItemRef");
         xml.attribute("ModuleItemTarget", &module.id);
-        places(xml, &own.places, "Slots");
+        places(xml, &module_use.places, "Slots");
         xml.close();
-    }
-    xml.close();
+    });
 }
 
 fn vendor_blocks(xml: &mut Xml, context: &mut Context<'_>, settings: &ProfinetSettings) {
-    if settings.vendor_blocks.is_empty() {
-        return;
-    }
-    xml.open("ARVendorBlock");
-    for block in &settings.vendor_blocks {
-        let GroupKind::Record(own) = &block.record.kind else { continue };
+    xml.list("ARVendorBlock", &settings.vendor_blocks, |xml, block| {
+        let GroupKind::Record(record) = &block.record.kind else { return };
         xml.open("Request");
-        xml.attribute("Length", own.length);
-        if block.api != 0 {
-            xml.attribute("API", block.api);
-        }
+        xml.attribute("Length", record.length);
+        xml.unless("API", block.api, 0);
         xml.attribute("APStructureIdentifier", block.identifier);
         let menus: Vec<&Menu> = block.menus.iter().collect();
-        record::body(xml, context, own, &block.record, &menus);
+        record::body(xml, context, record, &block.record, &menus);
         xml.close();
-    }
-    xml.close();
+    });
 }
 
 fn slot_list(xml: &mut Xml, context: &mut Context<'_>, device: &Device) {
-    if device.slots.is_empty() {
-        return;
-    }
-    xml.open("SlotList");
-    for slot in &device.slots {
-        let text: CompactString = context.texts.id(&slot.name, &slot.names);
+    xml.list("SlotList", &device.slots, |xml, slot| {
+        let text = context.texts.id(&slot.name, &slot.names);
         xml.open("SlotItem");
         xml.attribute("SlotNumber", slot.number);
         xml.attribute("TextId", text);
         xml.close();
-    }
-    xml.close();
+    });
 }

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use super::types;
 use super::Context;
-use crate::note::{NoteKind, Place};
+use crate::note::{NoteKind, Subject};
 use crate::xml::Xml;
 use lexibus_codegen::ir::{Catalog, CodeRow, UnitDiagnosis, UnitDiagnosisField, Value};
 
@@ -59,11 +59,7 @@ pub(super) fn is_list(name: &str) -> bool {
 pub(super) fn write(xml: &mut Xml, context: &mut Context<'_>, catalog: &Catalog) {
     code_list(xml, context, catalog, &CHANNEL_DIAGNOSIS);
     code_list(xml, context, catalog, &PROCESS_ALARMS);
-    if !catalog.unit_diagnoses.is_empty() {
-        xml.open("UnitDiagTypeList");
-        catalog.unit_diagnoses.iter().for_each(|own| unit_diagnosis(xml, context, own));
-        xml.close();
-    }
+    xml.list("UnitDiagTypeList", &catalog.unit_diagnoses, |xml, diagnosis| unit_diagnosis(xml, context, diagnosis));
     log_book(xml, context, catalog);
 }
 
@@ -72,16 +68,15 @@ fn rows<'c>(catalog: &'c Catalog, name: &'static str) -> Vec<&'c CodeRow> {
 }
 
 fn code_list(xml: &mut Xml, context: &mut Context<'_>, catalog: &Catalog, list: &'static List) {
-    let own = rows(catalog, list.table);
-    if own.is_empty() {
+    let rows_of_list = rows(catalog, list.table);
+    if rows_of_list.is_empty() {
         return;
     }
     let mut extended: HashMap<i128, Vec<&CodeRow>> = HashMap::new();
     for row in rows(catalog, list.extended) {
         extended.entry(number(row.cells.first())).or_default().push(row);
     }
-    xml.open(list.list);
-    for row in own {
+    xml.list(list.list, rows_of_list, |xml, row| {
         let api = number(row.cells.get(1));
         let prefix = match (api, row.name.is_empty()) {
             (1.., _) => "Profile",
@@ -95,17 +90,16 @@ fn code_list(xml: &mut Xml, context: &mut Context<'_>, catalog: &Catalog, list: 
         }
         extended_codes(xml, context, list, extended.remove(&row.code).unwrap_or_default());
         xml.close();
-    }
-    xml.close();
-    context.notes.add_many(NoteKind::OtherPart, extended.values().map(Vec::len).sum(), Place::Named(list.extended));
+    });
+    context.notes.add_many(
+        NoteKind::OtherPart,
+        extended.values().map(Vec::len).sum::<usize>(),
+        Subject::Named(list.extended),
+    );
 }
 
 fn extended_codes(xml: &mut Xml, context: &mut Context<'_>, list: &'static List, rows: Vec<&CodeRow>) {
-    if rows.is_empty() {
-        return;
-    }
-    xml.open(list.extended_list);
-    for row in rows {
+    xml.list(list.extended_list, rows, |xml, row| {
         let api = number(row.cells.get(2));
         let prefix = if api > 0 || row.code >= FIRST_OF_PROFILE { "Profile" } else { "" };
         xml.open(format!("{prefix}{}", list.extended_item));
@@ -113,8 +107,7 @@ fn extended_codes(xml: &mut Xml, context: &mut Context<'_>, list: &'static List,
         texts(xml, context, row);
         add_values(xml, list, row.cells.get(3));
         xml.close();
-    }
-    xml.close();
+    });
 }
 
 fn number(value: Option<&Value>) -> i128 {
@@ -122,9 +115,7 @@ fn number(value: Option<&Value>) -> i128 {
 }
 
 fn head(xml: &mut Xml, list: &'static List, row: &CodeRow, state: Option<&Value>, api: i128) {
-    if api > 0 {
-        xml.attribute("API", api);
-    }
+    xml.optional("API", Some(api).filter(|api| *api > 0));
     xml.attribute(list.code, row.code);
     match state {
         Some(Value::Text(state)) if list.has_state && state != "D" => xml.attribute("MaintenanceAlarmState", state),
@@ -134,9 +125,7 @@ fn head(xml: &mut Xml, list: &'static List, row: &CodeRow, state: Option<&Value>
 
 /// Name and help.
 fn texts(xml: &mut Xml, context: &mut Context<'_>, row: &CodeRow) {
-    xml.open("Name");
-    xml.attribute("TextId", context.texts.id(&row.name, &row.names));
-    xml.close();
+    context.texts.text(xml, "Name", &row.name, &row.names);
     if let Some(documentation) = &row.documentation {
         context.texts.documentation(xml, "Help", documentation);
     }
@@ -145,36 +134,27 @@ fn texts(xml: &mut Xml, context: &mut Context<'_>, row: &CodeRow) {
 /// What comes along with a code, written `1 Unsigned16, 2 Float32`.
 fn add_values(xml: &mut Xml, list: &'static List, cell: Option<&Value>) {
     let Some(Value::Text(text)) = cell else { return };
-    let items: Vec<(&str, &str)> = text.split(", ").filter_map(|item| item.split_once(' ')).collect();
-    if items.is_empty() {
-        return;
-    }
-    xml.open(list.add_value);
-    for (id, data_type) in items {
+    let items = text.split(", ").filter_map(|item| item.split_once(' '));
+    xml.list(list.add_value, items, |xml, (id, data_type)| {
         xml.open("DataItem");
         xml.attribute("Id", id);
         xml.attribute("DataType", data_type);
         xml.close();
-    }
-    xml.close();
+    });
 }
 
 fn unit_diagnosis(xml: &mut Xml, context: &mut Context<'_>, diagnosis: &UnitDiagnosis) {
     let prefix = if diagnosis.api > 0 { "Profile" } else { "" };
     xml.open(format!("{prefix}UnitDiagTypeItem"));
-    if diagnosis.api > 0 {
-        xml.attribute("API", diagnosis.api);
-    }
+    xml.unless("API", diagnosis.api, 0);
     xml.attribute("UserStructureIdentifier", diagnosis.identifier);
-    xml.open("Name");
-    xml.attribute("TextId", context.texts.id(&diagnosis.name, &diagnosis.names));
-    xml.close();
+    context.texts.text(xml, "Name", &diagnosis.name, &diagnosis.names);
     if let Some(documentation) = &diagnosis.documentation {
         context.texts.documentation(xml, "Help", documentation);
     }
-    diagnosis.fields.iter().for_each(|own| field(xml, context, own));
+    diagnosis.fields.iter().for_each(|each| field(xml, context, each));
     xml.close();
-    context.notes.add_many(NoteKind::Extension, diagnosis.extensions.len(), Place::Named(&diagnosis.name));
+    context.notes.add_many(NoteKind::Extension, diagnosis.extensions.len(), Subject::Named(&diagnosis.name));
 }
 
 fn field(xml: &mut Xml, context: &mut Context<'_>, field: &UnitDiagnosisField) {

@@ -1,5 +1,6 @@
 //! Elements of which the IR keeps the attributes as they are written: `Element@Attribute` and a value, one behind the other.
 
+use super::module::is_of_info;
 use crate::xml::Xml;
 use lexibus_codegen::ir::CompactString;
 
@@ -78,7 +79,8 @@ impl Element {
         for (key, value) in attributes {
             let (name, attribute) = key.split_once('@').unwrap_or((key, ""));
             let Some(path) = self.path(name) else { continue };
-            let is_new = |own: &Opened<'_>| own.is_full || attribute.is_empty() || own.seen.contains(&attribute);
+            let is_new =
+                |opened: &Opened<'_>| opened.is_full || attribute.is_empty() || opened.seen.contains(&attribute);
             let same = open.iter().zip(&path).take_while(|(own, name)| own.name == **name).count();
             let keep = match open.get(same.wrapping_sub(1)) {
                 Some(own) if same == path.len() && is_new(own) => same - 1,
@@ -103,6 +105,22 @@ impl Element {
             }
         }
         open.iter().for_each(|_| xml.close());
+    }
+}
+
+/// Writes the attributes of `element` that are kept as they are written.
+pub(super) fn attributes_of(xml: &mut Xml, element: &str, attributes: &Attributes) {
+    for (key, value) in attributes {
+        if let Some((_, name)) = key.split_once('@').filter(|(name, _)| *name == element) {
+            xml.attribute(name, value);
+        }
+    }
+}
+
+/// Writes the attributes that are kept as they are written and belong to no element below.
+pub(super) fn kept(xml: &mut Xml, attributes: &Attributes) {
+    for (key, value) in attributes.iter().filter(|(key, _)| !is_of_element(key) && !is_of_info(key)) {
+        xml.attribute(key, value);
     }
 }
 

@@ -5,7 +5,7 @@ use smallvec::smallvec;
 
 use super::options::Asked;
 use super::Options;
-use crate::note::{self, NoteKind, Notes, Place};
+use crate::note::{self, NoteKind, Notes, Subject};
 use crate::options::Wanted;
 use lexibus_codegen::ir::{
     Binding, Catalog, Device, Direction, Header, Identity, IoData, IoItem, IoLengths, Numbers, PdoEntry, PdoEntryKind,
@@ -62,7 +62,11 @@ impl Maker<'_> {
                 ..Identity::default()
             },
             header: Header {
-                description: source.documentation.as_ref().map_or("", |own| own.text.as_str()).into(),
+                description: source
+                    .documentation
+                    .as_ref()
+                    .map_or("", |documentation| documentation.text.as_str())
+                    .into(),
                 ..Header::default()
             },
             ..Device::default()
@@ -160,16 +164,16 @@ impl Maker<'_> {
         let alarms = self.want(self.options.process_alarms(), "process-alarms");
         submodule.attributes.push(("MayIssueProcessAlarm".into(), format_compact!("{alarms}")));
         for image in &source.process_data.images {
-            let place = match image.direction {
+            let subject = match image.direction {
                 Direction::Transmit => &mut submodule.input,
                 Direction::Receive => &mut submodule.output,
             };
-            match place {
-                Some(_) => self.notes.add(NoteKind::OtherPart, Place::Named(&image.name)),
+            match subject {
+                Some(_) => self.notes.add(NoteKind::OtherPart, Subject::Named(&image.name)),
                 None => {
                     let data = io_data(image, &source.types, self.notes);
                     let consistent = self.options.consistent().unwrap_or(false);
-                    *place = Some(Box::new(IoData { consistent, ..data }));
+                    *subject = Some(Box::new(IoData { consistent, ..data }));
                 }
             }
         }
@@ -180,7 +184,7 @@ impl Maker<'_> {
     fn interface(&mut self, device: &mut Device) {
         let options = self.options;
         let Some(ident) = options.interface_ident() else {
-            return self.notes.add(NoteKind::Incomplete, Place::Named("InterfaceSubmoduleItem"));
+            return self.notes.add(NoteKind::Incomplete, Subject::Named("InterfaceSubmoduleItem"));
         };
         let mut attributes = vec![(
             CompactString::const_new("SupportedProtocols"),
@@ -202,7 +206,7 @@ impl Maker<'_> {
         self.add(device, interface, INTERFACE);
         let ports = self.want(options.ports(), "ports");
         if ports > MAX_PORTS {
-            self.notes.add(NoteKind::GivenFact, Place::Named("ports"));
+            self.notes.add(NoteKind::GivenFact, Subject::Named("ports"));
         }
         for number in 0..ports.min(MAX_PORTS) {
             let kind = self.want(options.mau_type(), "mau-type");
@@ -269,7 +273,7 @@ fn filler(fields: &mut Vec<PdoEntry>, from: u32, to: u32) {
 
 /// A field of whole bytes.
 fn whole(field: &PdoEntry, image: &ProcessImage, types: &[TypeDef], notes: &mut Notes) -> PdoEntry {
-    let place = Place::Named(&field.name);
+    let subject = Subject::Named(&field.name);
     let octets = |kind| (Type::OctetString(Some(field.bits / 8)), Some(kind));
     let (below, note) = underlying(field.ty, types);
     let (ty, own) = match below {
@@ -287,7 +291,7 @@ fn whole(field: &PdoEntry, image: &ProcessImage, types: &[TypeDef], notes: &mut 
         Type::Opaque(_) => octets(NoteKind::UnknownType),
         _ => octets(NoteKind::Structure),
     };
-    note.into_iter().chain(own).for_each(|note| notes.add(note, place));
+    note.into_iter().chain(own).for_each(|note| notes.add(note, subject));
     PdoEntry { ty, ..field.clone() }
 }
 
@@ -326,7 +330,7 @@ fn bits(
     let mut at = from;
     for field in run {
         if field.bits != 1 || field.bit_offset < at {
-            notes.add(NoteKind::Layout, Place::Named(&field.name));
+            notes.add(NoteKind::Layout, Subject::Named(&field.name));
             continue;
         }
         if at < field.bit_offset {
@@ -356,36 +360,36 @@ fn bits(
 
 /// What of the device isn't in its process images.
 fn losses(device: &Device, notes: &mut Notes) {
-    let place = Place::Named(&device.name);
+    let subject = Subject::Named(&device.name);
     let others = [device.canopen.is_some(), device.ethercat.is_some()].iter().filter(|is_there| **is_there).count();
-    notes.add_many(NoteKind::OtherBus, others + device.modbus.len(), place);
+    notes.add_many(NoteKind::OtherBus, others + device.modbus.len(), subject);
     let parts = note::parts_of_tables(device) + device.code_tables.len();
-    notes.add_many(NoteKind::OtherPart, parts, place);
-    notes.add_many(NoteKind::Doubt, device.doubts.len(), place);
-    notes.add_many(NoteKind::Pdo, device.process_data.pdos.len(), place);
+    notes.add_many(NoteKind::OtherPart, parts, subject);
+    notes.add_many(NoteKind::Doubt, device.doubts.len(), subject);
+    notes.add_many(NoteKind::Pdo, device.process_data.pdos.len(), subject);
     let axes = device.axes.as_ref().map_or(0, |rule| usize::from(rule.axes.saturating_sub(1)));
-    notes.add_many(NoteKind::Axis, axes, place);
+    notes.add_many(NoteKind::Axis, axes, subject);
     for group in &device.groups {
         for item in &group.items {
             let in_image = item.bindings.iter().any(|binding| matches!(binding, Binding::Image(_)));
             let in_record = item.bindings.iter().any(|binding| matches!(binding, Binding::Record { .. }));
-            let place = Place::Named(&item.name);
+            let subject = Subject::Named(&item.name);
             match (in_image, in_record) {
                 (true, _) => {
-                    notes.add_many(NoteKind::Binding, item.bindings.len() - 1, place);
-                    notes.add_many(NoteKind::Quantity, usize::from(item.quantity.is_some()), place);
+                    notes.add_many(NoteKind::Binding, item.bindings.len() - 1, subject);
+                    notes.add_many(NoteKind::Quantity, item.quantity.is_some(), subject);
                     let limits = usize::from(!item.limits.is_empty()) + usize::from(item.default.is_some());
-                    notes.add_many(NoteKind::Limits, limits, place);
-                    notes.add_many(NoteKind::Behaviour, usize::from(item.behaviour.is_some()), place);
+                    notes.add_many(NoteKind::Limits, limits, subject);
+                    notes.add_many(NoteKind::Behaviour, item.behaviour.is_some(), subject);
                     let available = usize::from(item.availability.is_some()) + item.variants.len();
-                    notes.add_many(NoteKind::Availability, available, place);
-                    notes.add_many(NoteKind::Relation, note::relations(item), place);
-                    notes.add_many(NoteKind::Documentation, usize::from(item.documentation.is_some()), place);
-                    notes.add_many(NoteKind::Doubt, item.doubts.len(), place);
+                    notes.add_many(NoteKind::Availability, available, subject);
+                    notes.add_many(NoteKind::Relation, note::relations(item), subject);
+                    notes.add_many(NoteKind::Documentation, item.documentation.is_some(), subject);
+                    notes.add_many(NoteKind::Doubt, item.doubts.len(), subject);
                 }
                 // What a record says at start-up, its defaults for every byte, no register tells.
-                (false, true) => notes.add(NoteKind::Binding, place),
-                (false, false) => notes.add(NoteKind::NotInData, place),
+                (false, true) => notes.add(NoteKind::Binding, subject),
+                (false, false) => notes.add(NoteKind::NotInData, subject),
             }
         }
     }

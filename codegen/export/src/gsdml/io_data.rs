@@ -1,8 +1,8 @@
 //! Cyclic data of a submodule.
 
 use super::types::{self, Name};
-use super::Context;
-use crate::note::Place;
+use super::{elements, Context};
+use crate::note::Subject;
 use crate::xml::Xml;
 use lexibus_codegen::ir::{IoChannel, IoData, IoItem, PdoEntry, PdoEntryKind, Submodule, Type};
 
@@ -10,16 +10,9 @@ use lexibus_codegen::ir::{IoChannel, IoData, IoItem, PdoEntry, PdoEntryKind, Sub
 pub(super) fn write(xml: &mut Xml, context: &mut Context<'_>, submodule: &Submodule) {
     xml.open("IOData");
     let (provider, consumer) = submodule.status_lengths;
-    for (name, length) in [("IOPS_Length", provider), ("IOCS_Length", consumer)] {
-        if length != 1 {
-            xml.attribute(name, length);
-        }
-    }
-    for (key, value) in &submodule.attributes {
-        if let Some(("IOData", name)) = key.split_once('@') {
-            xml.attribute(name, value);
-        }
-    }
+    xml.unless("IOPS_Length", provider, 1);
+    xml.unless("IOCS_Length", consumer, 1);
+    elements::attributes_of(xml, "IOData", &submodule.attributes);
     for (element, data) in [("Input", &submodule.input), ("Output", &submodule.output)] {
         if let Some(data) = data {
             direction(xml, context, element, data);
@@ -50,7 +43,7 @@ fn simple(xml: &mut Xml, context: &mut Context<'_>, fields: &[PdoEntry]) {
     for field in fields {
         let Name { name, needs_length, note } = types::name(field.ty, field.bits, types);
         if let Some(note) = note {
-            context.notes.add(note, Place::Named(&field.name));
+            context.notes.add(note, Subject::Named(&field.name));
         }
         xml.open("DataItem");
         xml.attribute("DataType", name);

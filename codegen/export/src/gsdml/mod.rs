@@ -37,7 +37,7 @@ pub use options::Options;
 
 use std::collections::HashSet;
 
-use super::note::{Notes, Place};
+use super::note::{Notes, Subject};
 use super::options::Wanted;
 use super::xml::Xml;
 use lexibus_codegen::ir::{Catalog, Documentation, Extension, Format, LocalText, TypeDef};
@@ -73,8 +73,8 @@ pub fn export(catalog: &Catalog, options: &Options) -> Result<Export, Refusal> {
     };
     let mut xml = Xml::new();
     root(&mut xml, &mut context);
-    context.notes.add_many(NoteKind::Control, xml.dropped, Place::Device);
-    context.notes.add_many(NoteKind::Extension, xml.unnamed, Place::Device);
+    context.notes.add_many(NoteKind::Control, xml.dropped, Subject::Device);
+    context.notes.add_many(NoteKind::Extension, xml.unnamed, Subject::Device);
     let Context { mut notes, wanted, .. } = context;
     options.note_others(&mut notes);
     wanted.finish(xml.finish(), notes.finish())
@@ -208,10 +208,8 @@ fn identity(xml: &mut Xml, context: &mut Context<'_>) {
     };
     let translations = catalog.extensions.iter().filter_map(language).collect();
     context.texts.documentation(xml, "InfoText", &Documentation { text, translations, ..Documentation::default() });
-    xml.open("VendorName");
     let name = context.wanted(options.vendor_name(), name, "vendor-name");
-    xml.attribute("Value", name);
-    xml.close();
+    xml.reference("VendorName", "Value", name);
     xml.close();
     xml.open("DeviceFunction");
     xml.open("Family");
@@ -225,31 +223,19 @@ fn identity(xml: &mut Xml, context: &mut Context<'_>) {
 fn process(xml: &mut Xml, context: &mut Context<'_>) {
     let catalog = context.catalog;
     xml.open("DeviceAccessPointList");
-    catalog.devices.iter().for_each(|own| device::write(xml, context, own));
+    catalog.devices.iter().for_each(|device| device::write(xml, context, device));
     xml.close();
-    if !catalog.modules.is_empty() {
-        xml.open("ModuleList");
-        catalog.modules.iter().for_each(|own| module::write(xml, context, own));
-        xml.close();
-    }
+    xml.list("ModuleList", &catalog.modules, |xml, module| module::write(xml, context, module));
     submodule::pluggable(xml, context);
     values::write(xml, context);
     diagnosis::write(xml, context, catalog);
-    if !catalog.graphics.is_empty() {
-        xml.open("GraphicsList");
-        for graphic in &catalog.graphics {
-            xml.open("GraphicItem");
-            xml.attribute("ID", &graphic.id);
-            xml.attribute("GraphicFile", &graphic.file);
-            xml.close();
-        }
+    xml.list("GraphicsList", &catalog.graphics, |xml, graphic| {
+        xml.open("GraphicItem");
+        xml.attribute("ID", &graphic.id);
+        xml.attribute("GraphicFile", &graphic.file);
         xml.close();
-    }
-    if !catalog.families.is_empty() {
-        xml.open("CategoryList");
-        catalog.families.iter().for_each(|family| category(xml, context, family));
-        xml.close();
-    }
+    });
+    xml.list("CategoryList", &catalog.families, |xml, family| category(xml, context, family));
 }
 
 fn category(xml: &mut Xml, context: &mut Context<'_>, family: &lexibus_codegen::ir::Family) {
@@ -279,7 +265,7 @@ fn lost(context: &mut Context<'_>) {
             || matches!(key, "ProfileHeader/ProfileDate" | "ProfileHeader/AdditionalInformation")
     };
     let lost = catalog.extensions.iter().filter(|extension| !is_told(extension)).count();
-    context.notes.add_many(NoteKind::Extension, lost, Place::Device);
+    context.notes.add_many(NoteKind::Extension, lost, Subject::Device);
     let tables = catalog.code_tables.iter().filter(|table| !diagnosis::is_list(&table.name)).count();
-    context.notes.add_many(NoteKind::OtherPart, tables, Place::Device);
+    context.notes.add_many(NoteKind::OtherPart, tables, Subject::Device);
 }

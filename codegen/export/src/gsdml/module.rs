@@ -1,8 +1,10 @@
 //! Modules, and what modules, submodules and device access points have in common.
 
+use std::fmt::Display;
+
 use super::elements::{self, Attributes};
 use super::{submodule, Context};
-use crate::note::{NoteKind, Place};
+use crate::note::{NoteKind, Subject};
 use crate::xml::Xml;
 use lexibus_codegen::ir::{CompactString, Documentation, Extension, Module, Numbers, Places, SubslotName, Texts};
 
@@ -32,26 +34,16 @@ impl Info<'_> {
     pub(super) fn write(&self, xml: &mut Xml, context: &mut Context<'_>) {
         xml.open("ModuleInfo");
         for key in OF_INFO {
-            let value = find(self.attributes, key);
-            if !value.is_empty() {
-                xml.attribute(key, value);
-            }
+            xml.text_attribute(key, find(self.attributes, key));
         }
-        xml.open("Name");
-        xml.attribute("TextId", context.texts.id(self.name, self.names));
-        xml.close();
+        context.texts.text(xml, "Name", self.name, self.names);
         match self.documentation {
             Some(documentation) => context.texts.documentation(xml, "InfoText", documentation),
             None if context.is_gsdml => {}
             // The schema wants a text there.
             None => {
-                let own = Documentation {
-                    text: self.name.into(),
-                    translations: self.names.clone(),
-                    ..Documentation::default()
-                };
-                context.texts.documentation(xml, "InfoText", &own);
-                context.notes.add(NoteKind::MissingText, Place::Named(self.name));
+                context.texts.text(xml, "InfoText", self.name, self.names);
+                context.notes.add(NoteKind::MissingText, Subject::Named(self.name));
             }
         }
         elements::FAMILY.write(xml, self.attributes);
@@ -62,9 +54,7 @@ impl Info<'_> {
             ("SoftwareRelease", self.software),
         ];
         for (name, value) in values.into_iter().filter(|(_, value)| !value.is_empty()) {
-            xml.open(name);
-            xml.attribute("Value", value);
-            xml.close();
+            xml.reference(name, "Value", value);
         }
         xml.close();
     }
@@ -77,11 +67,16 @@ pub(super) fn is_of_info(key: &str) -> bool {
 
 /// Ranges of numbers as GSDML writes them.
 pub(super) fn ranges(numbers: &Numbers) -> String {
-    let range = |&(first, last): &(u16, u16)| match first == last {
-        true => first.to_string(),
-        false => format!("{first}..{last}"),
-    };
-    numbers.0.iter().map(range).collect::<Vec<_>>().join(" ")
+    numbers.0.iter().map(|(first, last)| range(first, last)).collect::<Vec<_>>().join(" ")
+}
+
+/// A range of values as GSDML writes it.
+pub(super) fn range<T: PartialEq + Display>(first: T, last: T) -> String {
+    if first == last {
+        first.to_string()
+    } else {
+        format!("{first}..{last}")
+    }
 }
 
 /// Attributes that list places; `what` is Slots or Subslots.
@@ -94,17 +89,12 @@ pub(super) fn places(xml: &mut Xml, places: &Places, what: &str) {
 
 /// Writes SubslotList.
 pub(super) fn subslots(xml: &mut Xml, context: &mut Context<'_>, names: &[SubslotName]) {
-    if names.is_empty() {
-        return;
-    }
-    xml.open("SubslotList");
-    for own in names {
+    xml.list("SubslotList", names, |xml, subslot| {
         xml.open("SubslotItem");
-        xml.attribute("SubslotNumber", own.number);
-        xml.attribute("TextId", context.texts.id(&own.name, &own.names));
+        xml.attribute("SubslotNumber", subslot.number);
+        xml.attribute("TextId", context.texts.id(&subslot.name, &subslot.names));
         xml.close();
-    }
-    xml.close();
+    });
 }
 
 /// Writes Graphics of references that are kept as `GraphicItemRef@Type`.
@@ -115,18 +105,12 @@ pub(super) fn graphics(xml: &mut Xml, attributes: &Attributes) {
 
 /// Writes Graphics.
 pub(super) fn graphics_of<'g>(xml: &mut Xml, list: impl Iterator<Item = (&'g str, &'g CompactString)>) {
-    let mut list = list.peekable();
-    if list.peek().is_none() {
-        return;
-    }
-    xml.open("Graphics");
-    for (kind, target) in list {
+    xml.list("Graphics", list, |xml, (kind, target)| {
         xml.open("GraphicItemRef");
         xml.attribute("Type", kind);
         xml.attribute("GraphicItemTarget", target);
         xml.close();
-    }
-    xml.close();
+    });
 }
 
 /// Writes a module.
@@ -141,12 +125,8 @@ pub(super) fn write(xml: &mut Xml, context: &mut Context<'_>, module: &Module) {
     xml.open("ModuleItem");
     xml.attribute("ID", &module.id);
     xml.attribute("ModuleIdentNumber", format_args!("0x{:08X}", module.number));
-    if !module.subslots.is_empty() {
-        xml.attribute("PhysicalSubslots", ranges(&module.subslots));
-    }
-    for (key, value) in attributes.iter().filter(|(key, _)| !elements::is_of_element(key) && !is_of_info(key)) {
-        xml.attribute(key, value);
-    }
+    xml.text_attribute("PhysicalSubslots", &ranges(&module.subslots));
+    elements::kept(xml, &attributes);
     let info = Info {
         name: &module.name,
         names: &module.names,
@@ -164,5 +144,5 @@ pub(super) fn write(xml: &mut Xml, context: &mut Context<'_>, module: &Module) {
     graphics(xml, &attributes);
     xml.close();
     let lost = module.extensions.len() - attributes.len();
-    context.notes.add_many(NoteKind::Extension, lost, Place::Named(&module.name));
+    context.notes.add_many(NoteKind::Extension, lost, Subject::Named(&module.name));
 }

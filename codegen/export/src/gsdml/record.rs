@@ -3,9 +3,9 @@
 use std::collections::{BTreeMap, HashMap, HashSet};
 use std::fmt::Write as _;
 
-use super::types;
-use super::Context;
-use crate::note::{NoteKind, Place};
+use super::module::range;
+use super::{elements, types, Context};
+use crate::note::{NoteKind, Subject};
 use crate::xml::Xml;
 use lexibus_codegen::ir::{
     Access, Binding, CompactString, Extension, FParameter, FParameters, Group, GroupKind, Item, Menu, Record,
@@ -24,17 +24,13 @@ pub(super) fn list(xml: &mut Xml, context: &mut Context<'_>, submodule: &Submodu
         xml.open("ParameterRecordDataItem");
         xml.attribute("Index", record.index);
         xml.attribute("Length", record.length);
-        if record.transfer_sequence != 0 {
-            xml.attribute("TransferSequence", record.transfer_sequence);
-        }
+        xml.unless("TransferSequence", record.transfer_sequence, 0);
         xml.optional("ChangeableWithBump", record.changeable_with_bump);
-        xml.open("Name");
-        xml.attribute("TextId", context.texts.id(&group.name, &group.names));
-        xml.close();
+        context.texts.text(xml, "Name", &group.name, &group.names);
         body(xml, context, record, group, &menus.take(group));
         xml.close();
     }
-    context.notes.add_many(NoteKind::OtherPart, menus.others(), Place::Named(&submodule.name));
+    context.notes.add_many(NoteKind::OtherPart, menus.others(), Subject::Named(&submodule.name));
     if let Some(parameters) = &submodule.f_parameters {
         f_record(xml, submodule, parameters);
     }
@@ -83,27 +79,21 @@ impl<'m> Menus<'m> {
 }
 
 fn id(item: &Item) -> Option<&CompactString> {
-    item.extensions.iter().find(|extension| extension.key == "ID").map(|extension| &extension.value)
+    kept(item, "ID")
 }
 
 /// Constants, parameters and menus.
 pub(super) fn body(xml: &mut Xml, context: &mut Context<'_>, record: &Record, group: &Group, menus: &[&Menu]) {
     for (offset, data) in &record.constants {
         xml.open("Const");
-        if *offset != 0 {
-            xml.attribute("ByteOffset", offset);
-        }
+        xml.unless("ByteOffset", *offset, 0);
         xml.attribute("Data", octets(data));
         xml.close();
     }
     group.items.iter().for_each(|item| parameter(xml, context, item));
-    if !menus.is_empty() {
-        xml.open("MenuList");
-        let names: HashSet<&str> = menus.iter().map(|own| own.id.as_str()).collect();
-        menus.iter().for_each(|own| menu(xml, context, own, &names));
-        xml.close();
-    }
-    context.notes.add_many(NoteKind::Extension, group.extensions.len(), Place::Named(&group.name));
+    let names: HashSet<&str> = menus.iter().map(|menu| menu.id.as_str()).collect();
+    xml.list("MenuList", menus, |xml, each| menu(xml, context, each, &names));
+    context.notes.add_many(NoteKind::Extension, group.extensions.len(), Subject::Named(&group.name));
 }
 
 fn octets(data: &[u8]) -> String {
@@ -116,9 +106,9 @@ fn octets(data: &[u8]) -> String {
 }
 
 fn parameter(xml: &mut Xml, context: &mut Context<'_>, item: &Item) {
-    let place = Place::Named(&item.name);
+    let subject = Subject::Named(&item.name);
     let Some(Binding::Record { bit_offset, bits, .. }) = item.bindings.first() else {
-        return context.notes.add(NoteKind::Binding, place);
+        return context.notes.add(NoteKind::Binding, subject);
     };
     let (offset, bits, types) = (*bit_offset, *bits, context.types);
     let values = types::enumeration(item.ty, types);
@@ -131,7 +121,7 @@ fn parameter(xml: &mut Xml, context: &mut Context<'_>, item: &Item) {
         xml.attribute("DefaultValue", default);
     }
     if item.limits.are_swapped(ty) && item.limits.allowed.is_empty() {
-        context.notes.add(NoteKind::SwappedLimits, place);
+        context.notes.add(NoteKind::SwappedLimits, subject);
     }
     xml.optional("AllowedValues", allowed(item));
     if !matches!(item.access, Access::ReadWrite) {
@@ -144,7 +134,7 @@ fn parameter(xml: &mut Xml, context: &mut Context<'_>, item: &Item) {
     xml.close();
     let is_told = |extension: &&Extension| matches!(extension.key.as_str(), "ID" | "ValueItemTarget" | "AllowedValues");
     let lost = item.extensions.iter().filter(|extension| !is_told(extension)).count();
-    context.notes.add_many(NoteKind::Extension, lost, place);
+    context.notes.add_many(NoteKind::Extension, lost, subject);
 }
 
 fn kept<'i>(item: &'i Item, key: &str) -> Option<&'i CompactString> {
@@ -155,16 +145,12 @@ fn value(value: &Value) -> Option<String> {
     Some(match value {
         Value::Bool(value) => u8::from(*value).to_string(),
         Value::Int(value) => value.to_string(),
-        Value::Real(value) => real(*value),
+        // A number with a point, or an exponent, of which no side is empty.
+        Value::Real(value) => format!("{value:?}"),
         Value::Text(text) | Value::Raw(text) => text.to_string(),
         Value::Bytes(bytes) => octets(bytes),
         Value::NodeId(_) | Value::Time { .. } => return None,
     })
-}
-
-/// A number with a point, or an exponent, of which no side is empty.
-fn real(value: f64) -> String {
-    format!("{value:?}")
 }
 
 /// The values that are allowed, as ranges; what was kept as it is stays so.
@@ -175,27 +161,20 @@ fn allowed(item: &Item) -> Option<String> {
     let limits = &item.limits;
     let one = limits.low.clone().zip(limits.high.clone()).filter(|_| !limits.are_swapped(item.ty));
     let ranges = if limits.allowed.is_empty() { one.as_slice() } else { &limits.allowed };
-    let range = |(first, last): &(Value, Value)| match (value(first)?, value(last)?) {
-        (first, last) if first == last => Some(first),
-        (first, last) => Some(format!("{first}..{last}")),
-    };
-    let texts: Vec<String> = ranges.iter().filter_map(range).collect();
+    let texts: Vec<String> =
+        ranges.iter().filter_map(|(first, last)| Some(range(value(first)?, value(last)?))).collect();
     (!texts.is_empty()).then(|| texts.join(" "))
 }
 
 fn menu(xml: &mut Xml, context: &mut Context<'_>, menu: &Menu, all: &HashSet<&str>) {
     xml.open("MenuItem");
     xml.attribute("ID", &menu.id);
-    xml.open("Name");
-    xml.attribute("TextId", context.texts.id(&menu.name, &menu.names));
-    xml.close();
+    context.texts.text(xml, "Name", &menu.name, &menu.names);
     for target in &menu.targets {
         let is_menu = all.contains(target.as_str());
         let (element, attribute) =
             if is_menu { ("MenuRef", "MenuTarget") } else { ("ParameterRef", "ParameterTarget") };
-        xml.open(element);
-        xml.attribute(attribute, target);
-        xml.close();
+        xml.reference(element, attribute, target);
     }
     xml.close();
 }
@@ -203,16 +182,10 @@ fn menu(xml: &mut Xml, context: &mut Context<'_>, menu: &Menu, all: &HashSet<&st
 fn f_record(xml: &mut Xml, submodule: &Submodule, parameters: &FParameters) {
     xml.open("F_ParameterRecordDataItem");
     xml.attribute("Index", parameters.index);
-    if parameters.transfer_sequence != 0 {
-        xml.attribute("TransferSequence", parameters.transfer_sequence);
-    }
+    xml.unless("TransferSequence", parameters.transfer_sequence, 0);
     xml.optional("F_ParamDescCRC", parameters.description_crc);
-    for (key, value) in &submodule.attributes {
-        if let Some(("F_ParameterRecordDataItem", name)) = key.split_once('@') {
-            xml.attribute(name, value);
-        }
-    }
-    parameters.parameters.iter().for_each(|own| f_parameter(xml, own));
+    elements::attributes_of(xml, "F_ParameterRecordDataItem", &submodule.attributes);
+    parameters.parameters.iter().for_each(|parameter| f_parameter(xml, parameter));
     xml.close();
 }
 
@@ -222,16 +195,10 @@ fn f_parameter(xml: &mut Xml, parameter: &FParameter) {
         "" => xml.attribute("DefaultValue", parameter.default),
         label => xml.attribute("DefaultValue", label),
     }
-    let range = |&(first, last): &(i128, i128)| match first == last {
-        true => first.to_string(),
-        false => format!("{first}..{last}"),
-    };
-    let ranges: Vec<String> = parameter.allowed.iter().map(range).collect();
-    if !parameter.allowed_labels.is_empty() {
-        xml.attribute("AllowedValues", parameter.allowed_labels.join(" "));
-    } else if !ranges.is_empty() {
-        xml.attribute("AllowedValues", ranges.join(" "));
-    }
+    let ranges: Vec<String> = parameter.allowed.iter().map(|(first, last)| range(first, last)).collect();
+    let allowed =
+        if parameter.allowed_labels.is_empty() { &ranges.join(" ") } else { &parameter.allowed_labels.join(" ") };
+    xml.text_attribute("AllowedValues", allowed);
     xml.attribute("Changeable", parameter.changeable);
     xml.attribute("Visible", parameter.visible);
     xml.close();

@@ -3,9 +3,9 @@
 use std::collections::HashSet;
 
 use super::elements::{self, Attributes};
-use super::module::{find, graphics_of, is_of_info, places, ranges, Info};
+use super::module::{find, graphics_of, places, ranges, Info};
 use super::{io_data, record, Context};
-use crate::note::{NoteKind, Place};
+use crate::note::{NoteKind, Subject};
 use crate::xml::Xml;
 use lexibus_codegen::ir::{
     Catalog, CompactString, Device, Numbers, ProfinetSettings, Submodule, SubmoduleKind, SubmoduleUse,
@@ -27,7 +27,9 @@ fn is_built_in(context: &Context<'_>, at: u32) -> bool {
 /// Ports of the submodule list: those behind the first submodule that can be plugged, and those that can be anywhere.
 pub(super) fn pluggable_ports(catalog: &Catalog) -> HashSet<u32> {
     let uses = |list: &[SubmoduleUse]| -> Vec<(u32, bool)> {
-        let is_anywhere = |own: &SubmoduleUse| !own.places.allowed.is_empty() || !own.places.used.is_empty();
+        let is_anywhere = |submodule_use: &SubmoduleUse| {
+            !submodule_use.places.allowed.is_empty() || !submodule_use.places.used.is_empty()
+        };
         list.iter().map(|own| (own.submodule.0, is_anywhere(own))).collect()
     };
     let of_devices = catalog.devices.iter().flat_map(|device: &Device| uses(&device.submodules));
@@ -55,74 +57,57 @@ pub(super) fn built_in(
     let catalog = context.catalog;
     let own: Vec<(&Submodule, &SubmoduleUse)> = uses
         .iter()
-        .filter(|own| is_built_in(context, own.submodule.0))
+        .filter(|submodule_use| is_built_in(context, submodule_use.submodule.0))
         .filter_map(|own| Some((catalog.submodules.get(own.submodule.0 as usize)?, own)))
         .collect();
     let (ordinary, system): (Vec<_>, Vec<_>) =
         own.into_iter().partition(|(submodule, _)| submodule.kind == SubmoduleKind::Virtual);
-    if !ordinary.is_empty() {
-        xml.open("VirtualSubmoduleList");
-        for (submodule, own) in ordinary {
-            let fixed = Some(&own.places.fixed).filter(|numbers| **numbers != Numbers::from_iter([1]));
-            write(xml, context, submodule, ("VirtualSubmoduleItem", fixed), None);
-        }
-        xml.close();
-    }
-    if !system.is_empty() {
-        xml.open("SystemDefinedSubmoduleList");
-        let mut settings = settings;
-        for (submodule, own) in system {
-            let element = match submodule.kind {
-                SubmoduleKind::Interface => "InterfaceSubmoduleItem",
-                _ => "PortSubmoduleItem",
-            };
-            // What the device as a whole can is told by the first interface.
-            let settings = settings.take_if(|_| submodule.kind == SubmoduleKind::Interface);
-            write(xml, context, submodule, (element, Some(&own.places.fixed)), settings);
-        }
-        xml.close();
-    }
+    xml.list("VirtualSubmoduleList", ordinary, |xml, (submodule, submodule_use)| {
+        let fixed = Some(&submodule_use.places.fixed).filter(|numbers| **numbers != Numbers::from_iter([1]));
+        write(xml, context, submodule, ("VirtualSubmoduleItem", fixed), None);
+    });
+    let mut settings = settings;
+    xml.list("SystemDefinedSubmoduleList", system, |xml, (submodule, submodule_use)| {
+        let element = match submodule.kind {
+            SubmoduleKind::Interface => "InterfaceSubmoduleItem",
+            _ => "PortSubmoduleItem",
+        };
+        // What the device as a whole can is told by the first interface.
+        let settings = settings.take_if(|_| submodule.kind == SubmoduleKind::Interface);
+        write(xml, context, submodule, (element, Some(&submodule_use.places.fixed)), settings);
+    });
 }
 
 /// References to submodules that can be plugged.
 pub(super) fn useable(xml: &mut Xml, context: &mut Context<'_>, uses: &[SubmoduleUse]) {
     let catalog = context.catalog;
-    let others: Vec<&SubmoduleUse> = uses.iter().filter(|own| !is_built_in(context, own.submodule.0)).collect();
-    if others.is_empty() {
-        return;
-    }
-    xml.open("UseableSubmodules");
-    for own in others {
-        let Some(submodule) = catalog.submodules.get(own.submodule.0 as usize) else { continue };
+    let others: Vec<&SubmoduleUse> =
+        uses.iter().filter(|submodule_use| !is_built_in(context, submodule_use.submodule.0)).collect();
+    xml.list("UseableSubmodules", others, |xml, submodule_use| {
+        let Some(submodule) = catalog.submodules.get(submodule_use.submodule.0 as usize) else { return };
         xml.open("SubmoduleItemRef");
         xml.attribute("SubmoduleItemTarget", &submodule.id);
-        places(xml, &own.places, "Subslots");
+        places(xml, &submodule_use.places, "Subslots");
         xml.close();
-    }
-    xml.close();
+    });
 }
 
 /// Writes SubmoduleList.
 pub(super) fn pluggable(xml: &mut Xml, context: &mut Context<'_>) {
     let catalog = context.catalog;
-    let is_own = |(at, submodule): &(u32, &Submodule)| match submodule.kind {
+    let is_listed = |(at, submodule): &(u32, &Submodule)| match submodule.kind {
         SubmoduleKind::Pluggable => true,
         SubmoduleKind::Port => context.pluggable_ports.contains(at),
         SubmoduleKind::Virtual | SubmoduleKind::Interface => false,
     };
-    let own: Vec<(u32, &Submodule)> = (0u32..).zip(&catalog.submodules).filter(is_own).collect();
-    if own.is_empty() {
-        return;
-    }
-    xml.open("SubmoduleList");
-    for (_, submodule) in own {
+    let listed: Vec<(u32, &Submodule)> = (0u32..).zip(&catalog.submodules).filter(is_listed).collect();
+    xml.list("SubmoduleList", listed, |xml, (_, submodule)| {
         let element = match submodule.kind {
             SubmoduleKind::Port => "PortSubmoduleItem",
             _ => "SubmoduleItem",
         };
         write(xml, context, submodule, (element, None), None);
-    }
-    xml.close();
+    });
 }
 
 fn write(
@@ -142,9 +127,7 @@ fn write(
         Some(numbers) => xml.attribute("FixedInSubslots", ranges(numbers)),
         None => {}
     }
-    for (key, value) in attributes.iter().filter(|(key, _)| !elements::is_of_element(key) && !is_of_info(key)) {
-        xml.attribute(key, value);
-    }
+    elements::kept(xml, attributes);
     match submodule.kind {
         SubmoduleKind::Virtual | SubmoduleKind::Pluggable => io_data::write(xml, context, submodule),
         SubmoduleKind::Interface => elements::GENERAL.write(xml, attributes),
@@ -164,17 +147,13 @@ fn write(
         elements::OF_SUBMODULE.iter().for_each(|own| own.write(xml, attributes));
     }
     xml.close();
-    context.notes.add_many(NoteKind::Extension, submodule.extensions.len(), Place::Named(&submodule.name));
+    context.notes.add_many(NoteKind::Extension, submodule.extensions.len(), Subject::Named(&submodule.name));
 }
 
 fn head(xml: &mut Xml, context: &mut Context<'_>, submodule: &Submodule, has_info: bool) {
-    if !submodule.id.is_empty() {
-        xml.attribute("ID", &submodule.id);
-    }
+    xml.text_attribute("ID", &submodule.id);
     xml.attribute("SubmoduleIdentNumber", format_args!("0x{:08X}", submodule.ident));
-    if submodule.api != 0 {
-        xml.attribute("API", submodule.api);
-    }
+    xml.unless("API", submodule.api, 0);
     if !has_info {
         xml.attribute("TextId", context.texts.id(&submodule.name, &submodule.names));
     }

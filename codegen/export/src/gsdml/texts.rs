@@ -4,7 +4,7 @@ use std::collections::{HashMap, HashSet};
 
 use compact_str::{format_compact, CompactString};
 
-use crate::note::{NoteKind, Notes, Place};
+use crate::note::{NoteKind, Notes, Subject};
 use crate::xml::Xml;
 use lexibus_codegen::ir::{Documentation, Extension, LocalText, Texts};
 
@@ -78,12 +78,14 @@ impl TextList {
         id
     }
 
+    /// An element that refers to a text.
+    pub(super) fn text(&mut self, xml: &mut Xml, element: &'static str, text: &str, names: &Texts) {
+        xml.reference(element, "TextId", self.id(text, names));
+    }
+
     /// An element that refers to a description.
     pub(super) fn documentation(&mut self, xml: &mut Xml, element: &'static str, documentation: &Documentation) {
-        let id = self.id(&documentation.text, &documentation.translations);
-        xml.open(element);
-        xml.attribute("TextId", id);
-        xml.close();
+        self.text(xml, element, &documentation.text, &documentation.translations);
     }
 
     /// The languages in the order in which they occur, each with its texts.
@@ -117,7 +119,7 @@ impl TextList {
         xml.close();
         for (language, own) in self.translations() {
             if !is_tag(language) {
-                notes.add_many(NoteKind::Language, own.len(), Place::Named(language));
+                notes.add_many(NoteKind::Language, own.len(), Subject::Named(language));
                 continue;
             }
             xml.open("Language");

@@ -1,9 +1,9 @@
 //! Names of data types.
 
 use super::Context;
-use crate::note::{NoteKind, Place};
+use crate::note::{NoteKind, Subject};
 use crate::xml::Xml;
-use lexibus_codegen::ir::{Shape, TimeFormat, Type, TypeDef};
+use lexibus_codegen::ir::{Shape, Type, TypeDef};
 
 /// How many names a type may have on the way to what it is.
 const MAX_DEPTH: usize = 8;
@@ -42,7 +42,7 @@ pub(super) fn name(ty: Type, bits: u32, types: &[TypeDef]) -> Name<'_> {
         Type::OctetString(_) => octets(None),
         Type::TimeOfDay => plain("TimeOfDay with date indication"),
         Type::TimeDifference => plain("TimeDifference with date indication"),
-        Type::Time(format) => plain(time(format)),
+        Type::Time(format) => plain(format.name()),
         _ => octets(Some(NoteKind::UnknownType)),
     };
     found.note = found.note.or(note);
@@ -63,7 +63,7 @@ pub(super) fn place(xml: &mut Xml, context: &mut Context<'_>, ty: Type, (offset,
         _ => name(ty, bits, context.types),
     };
     if let Some(note) = note {
-        context.notes.add(note, Place::Named(of));
+        context.notes.add(note, Subject::Named(of));
     }
     xml.attribute("DataType", name);
     xml.attribute("ByteOffset", offset / 8);
@@ -144,8 +144,4 @@ fn is_number(name: &str) -> bool {
         "Unsigned8_S",
     ];
     NAMES.contains(&name)
-}
-
-fn time(format: TimeFormat) -> &'static str {
-    format.name()
 }

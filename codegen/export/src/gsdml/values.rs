@@ -3,7 +3,7 @@
 use std::collections::HashSet;
 
 use super::Context;
-use crate::note::{NoteKind, Place};
+use crate::note::{NoteKind, Subject};
 use crate::xml::Xml;
 use lexibus_codegen::ir::{EnumValue, Shape, TypeDef};
 
@@ -51,7 +51,7 @@ fn assignments(xml: &mut Xml, context: &mut Context<'_>, values: &[EnumValue]) {
         }
         xml.close();
         let is_more = value.documentation.is_some();
-        context.notes.add_many(NoteKind::Documentation, usize::from(is_more), Place::Named(&value.name));
+        context.notes.add_many(NoteKind::Documentation, is_more, Subject::Named(&value.name));
     }
     xml.close();
 }

@@ -275,7 +275,7 @@ fn module(module: &Module, catalog: &Catalog, is_gsdml: bool) -> ModuleInfo {
 }
 
 fn virtual_submodules(uses: &[SubmoduleUse], catalog: &Catalog) -> Vec<SubmoduleInfo> {
-    let all = uses.iter().filter_map(|own| catalog.submodules.get(own.submodule.0 as usize));
+    let all = uses.iter().filter_map(|submodule_use| catalog.submodules.get(submodule_use.submodule.0 as usize));
     all.filter(|one| one.kind == SubmoduleKind::Virtual).map(submodule).collect()
 }
 
