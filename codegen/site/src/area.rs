@@ -27,12 +27,12 @@ pub(super) struct Area {
 impl Area {
     /// How many items it has.
     pub fn count(&self) -> usize {
-        self.sections.iter().map(|own| own.rows.len()).sum()
+        self.sections.iter().map(|section| section.rows.len()).sum()
     }
 }
 
 /// Items that stand together: an object with its entries, or registers.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub(super) struct Section {
     /// The address of an object with several entries; else its only row has one.
     pub anchor: Option<String>,
@@ -177,15 +177,6 @@ fn section(group: &Group, items: &[Item], rows: &mut Rows<'_>) -> Section {
 impl Section {
     /// Rows without a heading.
     pub fn plain(rows: Vec<Row>) -> Self {
-        Section {
-            anchor: None,
-            number: String::new(),
-            name: String::new(),
-            names: Vec::new(),
-            facts: Vec::new(),
-            doubts: Vec::new(),
-            findings: Vec::new(),
-            rows,
-        }
+        Section { rows, ..Section::default() }
     }
 }

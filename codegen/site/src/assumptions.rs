@@ -108,21 +108,24 @@ impl<'d> Places<'d> {
             }
         }
         if let Some((file, own)) = self.behaviour {
-            let of_machines = own.machines.iter().flat_map(|own| &own.doubts);
-            let doubts = of_machines.chain(own.sequences.iter().flat_map(|own| &own.doubts));
+            let of_machines = own.machines.iter().flat_map(|machine| &machine.doubts);
+            let doubts = of_machines.chain(own.sequences.iter().flat_map(|sequence| &sequence.doubts));
             doubts.for_each(|doubt| visitor(file.to_owned(), "", doubt));
         }
         let mut visit_all = |file: &str, anchor: &str, title: &str, doubts: &'d [Doubt]| {
             doubts.iter().for_each(|doubt| visitor(format!("{file}#{anchor}"), title, doubt));
         };
         if let Some((file, frames)) = self.process {
-            frames.iter().for_each(|own| visit_all(file, &own.anchor, &own.title, &own.doubts));
+            frames.iter().for_each(|frame| visit_all(file, &frame.anchor, &frame.title, &frame.doubts));
         }
         if let Some((file, protocol)) = self.protocol {
-            protocol.messages.iter().for_each(|own| visit_all(file, &own.anchor, &own.name, &own.doubts));
+            protocol
+                .messages
+                .iter()
+                .for_each(|message| visit_all(file, &message.anchor, &message.name, &message.doubts));
         }
         if let Some((file, tables)) = self.codes {
-            tables.iter().for_each(|own| visit_all(file, &own.anchor, &own.title, &own.doubts));
+            tables.iter().for_each(|table| visit_all(file, &table.anchor, &table.title, &table.doubts));
         }
         with_subject.into_iter().for_each(|doubt| visitor(first.to_owned(), "Device", doubt));
     }

@@ -71,7 +71,7 @@ pub(super) fn of_type(types: &[TypeDef], ty: Type) -> (Option<Bits>, Vec<Label>)
 
 /// The rows that drawings have: first bit and number of bits of each, for the grid behind it.
 pub(super) fn grids<'b>(drawings: impl Iterator<Item = &'b Bits>) -> Grids {
-    drawings.flat_map(|own| &own.rows).map(|row| (row.first, row.bits)).collect()
+    drawings.flat_map(|drawing| &drawing.rows).map(|row| (row.first, row.bits)).collect()
 }
 
 fn drawing(types: &[TypeDef], fields: &[BitFieldEntry], bits: u32) -> Bits {
@@ -100,54 +100,54 @@ fn cell(field: &BitFieldEntry, first: u32, bits: u32) -> Option<Cell> {
     Some(Cell::new(left, width, &field.name))
 }
 
-fn field(types: &[TypeDef], own: &BitFieldEntry) -> Field {
-    let (first, last) = (u32::from(own.offset), u32::from(own.offset) + u32::from(own.bits).max(1) - 1);
+fn field(types: &[TypeDef], entry: &BitFieldEntry) -> Field {
+    let (first, last) = (u32::from(entry.offset), u32::from(entry.offset) + u32::from(entry.bits).max(1) - 1);
     let mut facts = Vec::new();
     let mut values = Vec::new();
-    match &own.meaning {
+    match &entry.meaning {
         BitMeaning::Flag { inverted: true } => facts.push("Set while 0.".to_owned()),
         BitMeaning::Reserved { write: Some(bit) } => facts.push(format!("Reserved, {}.", u8::from(*bit))),
         BitMeaning::Reserved { write: None } => facts.push("Reserved.".to_owned()),
         BitMeaning::Enumeration(id) => {
-            let own = Owner::of_types(types).enumeration(Type::Named(*id));
-            values = own.map(|(values, _)| labels(values)).unwrap_or_default();
+            let enumeration = Owner::of_types(types).enumeration(Type::Named(*id));
+            values = enumeration.map(|(values, _)| labels(values)).unwrap_or_default();
         }
-        BitMeaning::Number if own.bits > 1 => facts.push("A number.".to_owned()),
+        BitMeaning::Number if entry.bits > 1 => facts.push("A number.".to_owned()),
         _ => {}
     }
-    if let Some(condition) = &own.when {
+    if let Some(condition) = &entry.when {
         facts.push(format!("While {}.", words::PLAIN.holds(condition)));
     }
-    facts.extend(own.trigger.map(|trigger| match trigger {
+    facts.extend(entry.trigger.map(|trigger| match trigger {
         Trigger::Rising => "Acts on the change from 0 to 1.".to_owned(),
         Trigger::Falling => "Acts on the change from 1 to 0.".to_owned(),
         Trigger::Toggle => "Acts on every change.".to_owned(),
         Trigger::SelfClearing => "The device clears it by itself.".to_owned(),
     }));
-    facts.extend(own.access.map(|access| format!("Access: {}.", access.name())));
-    facts.extend(words::PLAIN.description(own.documentation.as_deref()));
-    facts.extend(own.availability.as_ref().map(|own| words::PLAIN.availability(own)));
+    facts.extend(entry.access.map(|access| format!("Access: {}.", access.name())));
+    facts.extend(words::PLAIN.description(entry.documentation.as_deref()));
+    facts.extend(entry.availability.as_ref().map(|availability| words::PLAIN.availability(availability)));
     Field {
         bits: if first == last { first.to_string() } else { format!("{last}–{first}") },
-        name: own.name.to_string(),
-        names: words::names(&own.names),
+        name: entry.name.to_string(),
+        names: words::names(&entry.names),
         facts: facts.join(" "),
         values,
     }
 }
 
 fn labels(values: &[EnumValue]) -> Vec<Label> {
-    let label = |own: &EnumValue| {
+    let label = |value: &EnumValue| {
         let mut facts = Vec::new();
-        if let Some(condition) = &own.when {
+        if let Some(condition) = &value.when {
             facts.push(format!("While {}.", words::PLAIN.holds(condition)));
         }
-        facts.extend(words::PLAIN.description(own.documentation.as_deref()));
-        facts.extend(own.availability.as_ref().map(|own| words::PLAIN.availability(own)));
+        facts.extend(words::PLAIN.description(value.documentation.as_deref()));
+        facts.extend(value.availability.as_ref().map(|availability| words::PLAIN.availability(availability)));
         Label {
-            number: types::numbers(own.value, own.last),
-            name: own.name.to_string(),
-            names: words::names(&own.names),
+            number: types::numbers(value.value, value.last),
+            name: value.name.to_string(),
+            names: words::names(&value.names),
             facts: facts.join(" "),
         }
     };

@@ -44,7 +44,7 @@ fn table(table: &CodeTable, device: &Device, manual: &Manual, names: &mut Names)
     facts.extend(PLAIN.place(manual, "", table.documentation.as_deref(), &[]));
     let rows = table.rows.iter().map(|row| {
         let mut facts = PLAIN.description(row.documentation.as_deref());
-        facts.extend(row.availability.as_ref().map(|own| PLAIN.availability(own)));
+        facts.extend(row.availability.as_ref().map(|availability| PLAIN.availability(availability)));
         facts.extend(PLAIN.place(manual, "", row.documentation.as_deref(), &row.names));
         let number = code::text(row);
         Code {

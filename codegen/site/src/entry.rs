@@ -130,9 +130,9 @@ impl Rows<'_> {
         let definition = types::definition(self.types, item.ty).filter(|_| same_as.is_none());
         let addresses = address::addresses(item, self.known.modbus);
         let lookups: Vec<String> =
-            addresses.iter().map(|own| own.lookup.clone()).filter(|own| !own.is_empty()).collect();
-        let addresses = addresses.into_iter().filter(|own| own.text != number);
-        let elsewhere = addresses.map(|own| format!("{}: {}", own.bus, own.text)).collect();
+            addresses.iter().map(|address| address.lookup.clone()).filter(|own| !own.is_empty()).collect();
+        let addresses = addresses.into_iter().filter(|address| address.text != number);
+        let elsewhere = addresses.map(|address| format!("{}: {}", address.bus, address.text)).collect();
         Row {
             anchor,
             number,
@@ -150,7 +150,7 @@ impl Rows<'_> {
             elsewhere,
             doubts: doubts(&item.doubts, self.known.manual),
             doubts_of_type: definition
-                .map(|own| about(self.known.doubts, SubjectKind::Type, &own.name, self.known.manual))
+                .map(|definition| about(self.known.doubts, SubjectKind::Type, &definition.name, self.known.manual))
                 .unwrap_or_default(),
             findings: self.known.findings.of_item(item),
             rust: self.known.calls.get(&std::ptr::from_ref(item)).cloned().unwrap_or_default(),
@@ -162,23 +162,23 @@ impl Rows<'_> {
 
     fn facts(&self, item: &Item, definition: Option<&TypeDef>) -> Vec<String> {
         let mut facts = PLAIN.description(item.documentation.as_deref());
-        let of_type = PLAIN.description(definition.and_then(|own| own.documentation.as_deref()));
-        facts.extend(of_type.into_iter().filter(|own| !facts.contains(own)).collect::<Vec<_>>());
+        let of_type = PLAIN.description(definition.and_then(|definition| definition.documentation.as_deref()));
+        facts.extend(of_type.into_iter().filter(|fact| !facts.contains(fact)).collect::<Vec<_>>());
         facts.extend(PLAIN.access(item));
         facts.extend(item::mappable(item.mappable).map(|pdos| format!("Mappable into {pdos}.")));
         facts.extend(PLAIN.meaning_from(types::definition(self.types, item.ty)));
         if let Some(quantity) = &item.quantity {
             let scale = quantity.scale.as_ref().map(|_| PLAIN.quantity(quantity));
-            facts.extend(scale.map(|own| sentence(&capital(own.trim_start_matches([',', ' '])))));
+            facts.extend(scale.map(|scale| sentence(&capital(scale.trim_start_matches([',', ' '])))));
             facts.extend(PLAIN.notes(quantity));
         }
         if let Some(behaviour) = &item.behaviour {
             facts.extend(PLAIN.behaviour(behaviour));
         }
         facts.extend(PLAIN.variants(item, self.known.manual));
-        facts.extend(item.availability.as_ref().map(|own| PLAIN.availability(own)));
+        facts.extend(item.availability.as_ref().map(|availability| PLAIN.availability(availability)));
         facts.extend(PLAIN.place(self.known.manual, row_of(item), item.documentation.as_deref(), &item.names));
-        let configured = item.configured.as_ref().and_then(|own| own.value.as_ref());
+        let configured = item.configured.as_ref().and_then(|configured| configured.value.as_ref());
         facts.extend(
             configured
                 .map(|value| format!("Configured to {}.", PLAIN.of_item(item, value, &|value| PLAIN.value(value)))),
@@ -201,15 +201,15 @@ pub(super) fn doubts<'d>(
     doubts: impl IntoIterator<Item = &'d lexibus_codegen::ir::Doubt>,
     manual: &Manual,
 ) -> Vec<Doubt> {
-    let doubt = |own: &lexibus_codegen::ir::Doubt| Doubt {
-        subject: own.subject.as_deref().map(subject).unwrap_or_default(),
-        says: sentence(&own.says),
-        chosen: sentence(&own.chosen),
-        why: if own.why.is_empty() { String::new() } else { sentence(&own.why) },
-        cite: own.cite.as_ref().map(|cite| PLAIN.citation(manual, "", cite)).unwrap_or_default(),
-        severity: own.severity,
+    let doubt = |doubt: &lexibus_codegen::ir::Doubt| Doubt {
+        subject: doubt.subject.as_deref().map(subject).unwrap_or_default(),
+        says: sentence(&doubt.says),
+        chosen: sentence(&doubt.chosen),
+        why: if doubt.why.is_empty() { String::new() } else { sentence(&doubt.why) },
+        cite: doubt.cite.as_ref().map(|cite| PLAIN.citation(manual, "", cite)).unwrap_or_default(),
+        severity: doubt.severity,
     };
     let mut ready: Vec<Doubt> = doubts.into_iter().map(doubt).collect();
-    ready.sort_by_key(|own| own.severity);
+    ready.sort_by_key(|doubt| doubt.severity);
     ready
 }

@@ -91,24 +91,25 @@ impl Findings {
     }
 }
 
-fn finding(compilation: &Compilation, own: &Diagnostic) -> Finding {
-    let place = compilation.sources.get(own.span.file.0 as usize).map(|source| {
+fn finding(compilation: &Compilation, diagnostic: &Diagnostic) -> Finding {
+    let place = compilation.sources.get(diagnostic.span.file.0 as usize).map(|source| {
         let name = source.name().rsplit(['/', '\\']).next().unwrap_or_default();
-        let at = source.position(own.span.start);
-        if own.span.is_empty() {
+        let at = source.position(diagnostic.span.start);
+        if diagnostic.span.is_empty() {
             name.to_owned()
         } else {
             format!("{name}:{}:{}", at.line, at.column)
         }
     });
-    let parts =
-        [own.message.as_str(), &own.label].into_iter().chain(own.notes.iter().map(|note| note.message.as_str()));
-    let parts = parts.chain(own.help.as_deref()).map(one_line).filter(|part| !part.is_empty());
+    let parts = [diagnostic.message.as_str(), &diagnostic.label]
+        .into_iter()
+        .chain(diagnostic.notes.iter().map(|note| note.message.as_str()));
+    let parts = parts.chain(diagnostic.help.as_deref()).map(one_line).filter(|part| !part.is_empty());
     let text: Vec<String> = parts.map(|part| sentence(&part)).collect();
     Finding {
-        is_repair: own.code.class == Class::Repair,
+        is_repair: diagnostic.code.class == Class::Repair,
         place: place.unwrap_or_default(),
-        code: own.code.id,
+        code: diagnostic.code.id,
         text: text.join(" "),
     }
 }

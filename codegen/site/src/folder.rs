@@ -160,10 +160,10 @@ impl Folder {
         let known =
             Known { manual, doubts: &device.doubts, modbus: &device.modbus, calls: &calls, findings: &self.findings };
         let mut areas = area::areas(&device.groups, &device.types, known, &mut self.files, prefix);
-        for own in &mut areas {
-            own.file += self.format.ending();
+        for area in &mut areas {
+            area.file += self.format.ending();
         }
-        let mut pages: Vec<_> = areas.iter().map(|own| (own.file.clone(), own.title.clone())).collect();
+        let mut pages: Vec<_> = areas.iter().map(|area| (area.file.clone(), area.title.clone())).collect();
         let mut further = |has: bool, title: &str| {
             let file = has.then(|| self.file(&format!("{prefix}{title}")));
             pages.extend(file.clone().map(|file| (file, title.to_owned())));
@@ -195,8 +195,8 @@ impl Folder {
             let sync_managers = process::sync_managers(&device.process_data);
             self.page(frame, file, Content::Process(&parts.frames, &sync_managers));
             self.index.page(file, &frame.title);
-            for own in &parts.frames {
-                self.index.entry(&found(&own.anchor, &own.anchor, &own.title));
+            for frame in &parts.frames {
+                self.index.entry(&found(&frame.anchor, &frame.anchor, &frame.title));
             }
         }
         if let Some((file, protocol)) = &parts.protocol {
@@ -214,10 +214,10 @@ impl Folder {
         if let Some((file, tables)) = &parts.codes {
             self.page(frame, file, Content::Codes(tables));
             self.index.page(file, &frame.title);
-            for own in tables.iter().flat_map(|table| &table.rows) {
-                let entry = found(&own.anchor, &own.number, &own.name);
-                let words = format!("{} {}", own.cells.join(" "), own.facts);
-                self.index.entry(&Entry { names: &own.names, words: &words, ..entry });
+            for row in tables.iter().flat_map(|table| &table.rows) {
+                let entry = found(&row.anchor, &row.number, &row.name);
+                let words = format!("{} {}", row.cells.join(" "), row.facts);
+                self.index.entry(&Entry { names: &row.names, words: &words, ..entry });
             }
         }
     }
@@ -239,10 +239,14 @@ impl Folder {
         for ((file, _), modules) in files.iter().zip(all.chunks(modules::PAGE)) {
             self.page(frame, file, Content::Modules(modules));
             self.index.page(file, &frame.title);
-            for own in modules {
-                let words = own.facts.first().map_or("", String::as_str);
-                self.index.entry(&Entry { names: &own.names, words, ..found(&own.anchor, &own.number, &own.name) });
-                for (_, section) in &own.sections {
+            for module in modules {
+                let words = module.facts.first().map_or("", String::as_str);
+                self.index.entry(&Entry {
+                    names: &module.names,
+                    words,
+                    ..found(&module.anchor, &module.number, &module.name)
+                });
+                for (_, section) in &module.sections {
                     index_rows(&mut self.index, &section.rows);
                 }
             }
@@ -266,7 +270,7 @@ fn link_parts(modules: &mut [ModuleModel], files: &[(String, String)]) {
 fn contents(device: &Device, parts: &Parts) -> Contents {
     let of_frame = |(file, own): (&String, &Frame)| (format!("{file}#{}", own.anchor), own.title.clone());
     Contents {
-        areas: parts.areas.iter().map(|own| (own.file.clone(), own.title.clone(), own.count())).collect(),
+        areas: parts.areas.iter().map(|area| (area.file.clone(), area.title.clone(), area.count())).collect(),
         frames: parts
             .process
             .iter()
@@ -281,8 +285,8 @@ fn found<'e>(anchor: &'e str, number: &'e str, name: &'e str) -> Entry<'e> {
     Entry { anchor, number, name, names: &[], unit: "", words: "" }
 }
 
-fn index_area(index: &mut Index, own: &Area) {
-    for section in &own.sections {
+fn index_area(index: &mut Index, area: &Area) {
+    for section in &area.sections {
         if let Some(anchor) = &section.anchor {
             index.entry(&Entry { names: &section.names, ..found(anchor, &section.number, &section.name) });
         }
@@ -312,7 +316,7 @@ fn languages(devices: &[Device], modules: &BTreeSet<&str>) -> Vec<String> {
     let mut all = Languages(modules.clone());
     for device in devices {
         all.add(&device.names, device.documentation.as_deref());
-        device.messages.iter().for_each(|own| all.add(&own.names, own.documentation.as_deref()));
+        device.messages.iter().for_each(|message| all.add(&message.names, message.documentation.as_deref()));
         all.add_groups(&device.groups);
     }
     all.0.into_iter().map(str::to_owned).collect()
@@ -336,7 +340,7 @@ struct Languages<'c>(BTreeSet<&'c str>);
 
 impl<'c> Languages<'c> {
     fn add(&mut self, names: &'c Texts, documentation: Option<&'c Documentation>) {
-        let translations = documentation.into_iter().flat_map(|own| own.translations.iter());
+        let translations = documentation.into_iter().flat_map(|documentation| documentation.translations.iter());
         self.0.extend(names.iter().chain(translations).map(|own| own.language.as_str()));
     }
 

@@ -122,7 +122,7 @@ pub(super) struct Behaviour {
 /// The state machines and procedures of a device, if it has any.
 pub(super) fn behaviour(device: &Device, manual: &Manual) -> Option<Behaviour> {
     let machines: Vec<_> = device.machines.iter().map(|own| machine(own, device, manual)).collect();
-    let sequences: Vec<_> = device.procedures.iter().map(|own| sequence(own, device, manual)).collect();
+    let sequences: Vec<_> = device.procedures.iter().map(|procedure| sequence(procedure, device, manual)).collect();
     (!machines.is_empty() || !sequences.is_empty()).then_some(Behaviour { machines, sequences })
 }
 
@@ -176,13 +176,13 @@ fn way((at, own): (usize, &Transition)) -> TransitionRow {
     }
 }
 
-fn matrix(own: &StateMachine) -> Option<Matrix> {
-    let first = own.outcomes.first()?;
+fn matrix(machine: &StateMachine) -> Option<Matrix> {
+    let first = machine.outcomes.first()?;
     let states: Vec<String> = first.cells.iter().map(|cell| cell.state.to_string()).collect();
     let mut notes: Vec<String> = Vec::new();
     let mut places: HashMap<String, usize> = HashMap::new();
     let mut rows = Vec::new();
-    for row in &own.outcomes {
+    for row in &machine.outcomes {
         let mut cells = Vec::new();
         for cell in &row.cells {
             let outcomes: Vec<String> = cell.outcomes.iter().map(outcome).collect();
@@ -212,14 +212,14 @@ fn outcome(own: &Outcome) -> String {
 }
 
 /// The diagram; `None` without a transition between states.
-fn diagram(own: &StateMachine) -> Option<Diagram> {
-    let place = |name: &str| own.states.iter().position(|state| state.name == name);
+fn diagram(machine: &StateMachine) -> Option<Diagram> {
+    let place = |name: &str| machine.states.iter().position(|state| state.name == name);
     // Transitions from any state leave one more box, after those of the states.
-    let any = own.states.len();
+    let any = machine.states.len();
     let from = |way: &Transition| way.from.as_ref().map_or(Some(any), |name| place(name));
     // Several transitions from one state to another are one arrow.
     let mut ways: Vec<(usize, usize, String)> = Vec::new();
-    for (at, way) in own.transitions.iter().enumerate() {
+    for (at, way) in machine.transitions.iter().enumerate() {
         let (Some(from), Some(to)) = (from(way), place(&way.to)) else { continue };
         let number = number((at, way));
         match ways.iter_mut().find(|known| (known.0, known.1) == (from, to)) {
@@ -231,7 +231,7 @@ fn diagram(own: &StateMachine) -> Option<Diagram> {
     if ways.is_empty() {
         return None;
     }
-    let first = own.initial.as_ref().and_then(|name| place(name)).unwrap_or(ways.first()?.0);
+    let first = machine.initial.as_ref().and_then(|name| place(name)).unwrap_or(ways.first()?.0);
     let mut ranks = ranks(any + 1, first, &ways);
     // That box is above the first state that it leads to.
     if let Some(to) = ways.iter().filter(|(from, ..)| *from == any).map(|(_, to, _)| ranks[*to]).min() {
@@ -262,7 +262,8 @@ fn diagram(own: &StateMachine) -> Option<Diagram> {
     let arrows = arrows.collect();
     let state_box = |(at, place): (usize, &Option<(u32, u32)>)| {
         let (left, top) = (*place)?;
-        let label = own.states.get(at).map_or_else(|| ANY_STATE.to_owned(), |state| words::cut(&state.name, LETTERS));
+        let label =
+            machine.states.get(at).map_or_else(|| ANY_STATE.to_owned(), |state| words::cut(&state.name, LETTERS));
         Some(StateBox {
             left,
             top,
@@ -346,16 +347,16 @@ fn arrow((x, y): (u32, u32), (to_x, to_y): (u32, u32), number: u32, label: &str)
     Arrow { path, x, y, label: label.to_owned() }
 }
 
-fn sequence(own: &Procedure, device: &Device, manual: &Manual) -> Sequence {
-    let mut facts = PLAIN.description(own.documentation.as_deref());
-    if !own.arguments.is_empty() {
-        let arguments: Vec<&str> = own.arguments.iter().map(|own| own.as_str()).collect();
+fn sequence(procedure: &Procedure, device: &Device, manual: &Manual) -> Sequence {
+    let mut facts = PLAIN.description(procedure.documentation.as_deref());
+    if !procedure.arguments.is_empty() {
+        let arguments: Vec<&str> = procedure.arguments.iter().map(|argument| argument.as_str()).collect();
         facts.push(format!("Given: {}.", arguments.join(", ")));
     }
-    facts.extend(PLAIN.place(manual, "", own.documentation.as_deref(), &own.names));
-    let doubts = entry::about(&device.doubts, SubjectKind::Procedure, &own.name, manual);
-    let steps = own.steps.iter().map(|own| PLAIN.step(own)).collect();
-    Sequence { name: own.name.to_string(), facts, doubts, steps }
+    facts.extend(PLAIN.place(manual, "", procedure.documentation.as_deref(), &procedure.names));
+    let doubts = entry::about(&device.doubts, SubjectKind::Procedure, &procedure.name, manual);
+    let steps = procedure.steps.iter().map(|step| PLAIN.step(step)).collect();
+    Sequence { name: procedure.name.to_string(), facts, doubts, steps }
 }
 
 #[cfg(test)]

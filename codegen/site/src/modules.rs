@@ -40,8 +40,11 @@ pub(super) struct Slot {
 /// All modules of a catalogue, and then its submodules.
 pub(super) fn modules(catalog: &Catalog, findings: &Findings) -> Vec<ModuleModel> {
     let mut names = Names::default();
-    let anchors: Vec<String> =
-        catalog.submodules.iter().map(|own| names.anchor(&format!("submodule-{:08X}", own.ident))).collect();
+    let anchors: Vec<String> = catalog
+        .submodules
+        .iter()
+        .map(|submodule| names.anchor(&format!("submodule-{:08X}", submodule.ident)))
+        .collect();
     let mut all: Vec<ModuleModel> = Vec::new();
     for own in &catalog.modules {
         let parts = own.submodules.iter().filter_map(|used| {

@@ -49,10 +49,10 @@ pub(super) fn overview(device: &Device, file: Option<&FileInfo>, manual: &Manual
         let name = file.name.rsplit(['/', '\\']).next().unwrap_or_default();
         identity.push(("Read from", format!("{name} ({}), SHA-256 {}", file.format.name(), file.sha256)));
     }
-    let models = device.variants.iter().map(|own| Model {
-        name: own.name.to_string(),
-        facts: PLAIN.description(own.documentation.as_deref()).join(" "),
-        constants: own.constants.iter().map(|(name, value)| (name.to_string(), PLAIN.value(value))).collect(),
+    let models = device.variants.iter().map(|variant| Model {
+        name: variant.name.to_string(),
+        facts: PLAIN.description(variant.documentation.as_deref()).join(" "),
+        constants: variant.constants.iter().map(|(name, value)| (name.to_string(), PLAIN.value(value))).collect(),
     });
     let translations = words::translations(device.documentation.as_deref());
     Overview { facts, translations, identity, models: models.collect(), doubts: entry::doubts(doubts(device), manual) }
@@ -60,7 +60,7 @@ pub(super) fn overview(device: &Device, file: Option<&FileInfo>, manual: &Manual
 
 /// The ambiguities of a device that no other page shows: its own, those of numbers of the machine, and those of chapters without items.
 fn doubts(device: &Device) -> impl Iterator<Item = &lexibus_codegen::ir::Doubt> {
-    let given = device.given.iter().flat_map(|own| &own.doubts);
+    let given = device.given.iter().flat_map(|given| &given.doubts);
     let empty = device.groups.iter().filter(|group| group.index().is_none() && group.items.is_empty());
     device.doubts.iter().chain(given).chain(empty.flat_map(|group| &group.doubts))
 }
@@ -88,9 +88,9 @@ fn settings(device: &Device) -> Vec<(&'static str, String)> {
     }
     all.extend(device.ethercat.as_deref().map(|own| ("EtherCAT", ethercat(own))));
     all.extend(device.profinet.as_deref().map(|own| ("PROFINET", profinet(own))));
-    for own in &device.modbus {
-        let functions: Vec<String> = own.functions.iter().map(u8::to_string).collect();
-        let most = [("reads", own.max_read), ("writes", own.max_write)];
+    for modbu in &device.modbus {
+        let functions: Vec<String> = modbu.functions.iter().map(u8::to_string).collect();
+        let most = [("reads", modbu.max_read), ("writes", modbu.max_write)];
         let most = most.into_iter().filter_map(|(what, most)| Some(format!("{what} up to {}", most?)));
         let facts: Vec<String> = std::iter::once(format!("functions {}", functions.join(", "))).chain(most).collect();
         all.push(("Modbus", facts.join("; ")));
@@ -101,9 +101,9 @@ fn settings(device: &Device) -> Vec<(&'static str, String)> {
     all
 }
 
-fn ethercat(own: &EtherCatSettings) -> String {
+fn ethercat(settings: &EtherCatSettings) -> String {
     let mut facts = Vec::new();
-    if let Some(mailbox) = &own.mailbox {
+    if let Some(mailbox) = &settings.mailbox {
         let protocols = [
             ("CoE", mailbox.coe.is_some()),
             ("FoE", mailbox.foe.is_some()),
@@ -118,7 +118,7 @@ fn ethercat(own: &EtherCatSettings) -> String {
             false => format!("mailbox with {}", protocols.join(", ")),
         });
     }
-    facts.extend(own.clocks.as_deref().map(clocks));
+    facts.extend(settings.clocks.as_deref().map(clocks));
     if facts.is_empty() {
         "yes".to_owned()
     } else {
@@ -131,10 +131,10 @@ fn clocks(own: &DistributedClocks) -> String {
     format!("distributed clocks ({})", modes.join(", "))
 }
 
-fn profinet(own: &ProfinetSettings) -> String {
-    let mut facts = vec![format!("device {}, module {}", hex16(own.device_id), hex32(own.ident))];
-    if !own.dns_name.is_empty() {
-        facts.push(format!("name {}", own.dns_name));
+fn profinet(settings: &ProfinetSettings) -> String {
+    let mut facts = vec![format!("device {}, module {}", hex16(settings.device_id), hex32(settings.ident))];
+    if !settings.dns_name.is_empty() {
+        facts.push(format!("name {}", settings.dns_name));
     }
     facts.join("; ")
 }

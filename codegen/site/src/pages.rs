@@ -67,7 +67,7 @@ pub(super) struct Listed {
 impl Catalogue {
     /// The devices, their first pages as seen from the folder of the site.
     pub fn in_site(&self) -> impl Iterator<Item = Listed> + '_ {
-        self.devices.iter().map(|own| Listed { path: format!("{}{}", self.folder, own.path), ..own.clone() })
+        self.devices.iter().map(|device| Listed { path: format!("{}{}", self.folder, device.path), ..device.clone() })
     }
 }
 

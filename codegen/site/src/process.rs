@@ -21,7 +21,7 @@ const HEIGHT: u32 = 40;
 const MOST_ROWS: usize = 64;
 
 /// What is exchanged together.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub(super) struct Frame {
     pub anchor: String,
     pub title: String,
@@ -82,16 +82,16 @@ pub(super) fn frames(data: &ProcessData, types: &[TypeDef], about: About<'_>) ->
     });
     // PDOs of two buses may have one index.
     let mut names = Names::default();
-    let once = |own: Frame| Frame { anchor: names.anchor(&own.anchor), ..own };
+    let once = |frame: Frame| Frame { anchor: names.anchor(&frame.anchor), ..frame };
     pdos.chain(images).map(once).collect()
 }
 
 pub(super) fn sync_managers(data: &ProcessData) -> Vec<SyncManager> {
-    let one = |own: &lexibus_codegen::ir::SyncManager| SyncManager {
-        number: own.number,
-        purpose: own.purpose.label().to_owned(),
-        start: hex16(own.start_address),
-        size: own.default_size.map(|size| size.to_string()).unwrap_or_default(),
+    let one = |manager: &lexibus_codegen::ir::SyncManager| SyncManager {
+        number: manager.number,
+        purpose: manager.purpose.label().to_owned(),
+        start: hex16(manager.start_address),
+        size: manager.default_size.map(|size| size.to_string()).unwrap_or_default(),
     };
     data.sync_managers.iter().map(one).collect()
 }
@@ -106,9 +106,11 @@ fn pdo(own: &Pdo, types: &[TypeDef], about: About<'_>) -> Frame {
     if let Some(communication) = &own.communication {
         let cob_id = |id| cob_id::text(id, CobId::of_pdo(own.direction)).unwrap_or_else(|| words::PLAIN.value(id));
         facts.extend(communication.cob_id.as_ref().map(|id| format!("COB-ID {}.", cob_id(id))));
-        facts.extend(communication.transmission_type.map(|own| format!("Transmission type {own}.")));
-        facts.extend(communication.inhibit_time.map(|own| format!("Inhibit time {own} × 100 µs.")));
-        facts.extend(communication.event_timer.map(|own| format!("Event timer {own} ms.")));
+        facts.extend(
+            communication.transmission_type.map(|transmission_type| format!("Transmission type {transmission_type}.")),
+        );
+        facts.extend(communication.inhibit_time.map(|inhibit_time| format!("Inhibit time {inhibit_time} × 100 µs.")));
+        facts.extend(communication.event_timer.map(|event_timer| format!("Event timer {event_timer} ms.")));
     }
     facts.extend(own.fixed.then(|| "Its mapping can't be changed.".to_owned()));
     facts.extend(own.mandatory.then(|| "It has to be assigned.".to_owned()));
@@ -147,7 +149,7 @@ pub(super) fn image(own: &ProcessImage, types: &[TypeDef], anchor: &str, of: &st
 fn drawn(entries: &[PdoEntry], bits: u32, types: &[TypeDef]) -> Frame {
     let bytes = bits.div_ceil(8);
     let rows: Vec<Row> = (0..bytes.div_ceil(ROW)).take(MOST_ROWS).map(|at| row(entries, at)).collect();
-    let list = entries.iter().filter(|own| own.kind != PdoEntryKind::Padding).map(|own| Entry {
+    let list = entries.iter().filter(|entry| entry.kind != PdoEntryKind::Padding).map(|own| Entry {
         place: address::bits_of(own.bit_offset, own.bits),
         object: if own.index == 0 { String::new() } else { address::object(own.index, own.sub_index) },
         name: own.name.to_string(),
@@ -155,27 +157,19 @@ fn drawn(entries: &[PdoEntry], bits: u32, types: &[TypeDef]) -> Frame {
         ty: types::name(types, own.ty),
         bits: own.bits,
     });
-    Frame {
-        anchor: String::new(),
-        title: String::new(),
-        facts: Vec::new(),
-        doubts: Vec::new(),
-        height: rows.len() as u32 * HEIGHT,
-        rows,
-        entries: list.collect(),
-    }
+    Frame { height: rows.len() as u32 * HEIGHT, rows, entries: list.collect(), ..Frame::default() }
 }
 
 fn row(entries: &[PdoEntry], number: u32) -> Row {
     let (first, last) = (number * ROW * 8, (number + 1) * ROW * 8);
-    let cell = |own: &PdoEntry| {
-        let low = own.bit_offset.max(first);
-        let high = own.bit_offset.saturating_add(own.bits).min(last);
+    let cell = |entry: &PdoEntry| {
+        let low = entry.bit_offset.max(first);
+        let high = entry.bit_offset.saturating_add(entry.bits).min(last);
         let bits = high.checked_sub(low).filter(|bits| *bits > 0)?;
         let (left, width) = ((low - first) * CELL / 8, bits * CELL / 8);
-        Some(match own.kind {
+        Some(match entry.kind {
             PdoEntryKind::Padding => Cell::padding(left, width),
-            _ => Cell::new(left, width, &own.name),
+            _ => Cell::new(left, width, &entry.name),
         })
     };
     Row { first: number * ROW, top: number * HEIGHT, cells: entries.iter().filter_map(cell).collect() }

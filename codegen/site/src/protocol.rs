@@ -33,7 +33,7 @@ pub(super) struct MessageModel {
 }
 
 /// A field of a frame.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub(super) struct Part {
     /// How long it is: `2 bytes`, `4 bits`; empty where that isn't known.
     pub length: String,
@@ -64,27 +64,27 @@ pub(super) fn protocol(device: &Device, manual: &Manual) -> Option<Protocol> {
     let framing = device.framing.as_deref();
     Some(Protocol {
         framing: framing.map(delimited).unwrap_or_default(),
-        framing_facts: framing.map(|own| PLAIN.description(own.documentation.as_deref())).unwrap_or_default(),
+        framing_facts: framing.map(|framing| PLAIN.description(framing.documentation.as_deref())).unwrap_or_default(),
         messages: device.messages.iter().map(|own| message(own, device, manual, &mut names)).collect(),
     })
 }
 
-fn delimited(own: &Framing) -> Vec<(&'static str, String)> {
+fn delimited(framing: &Framing) -> Vec<(&'static str, String)> {
     let mut facts = Vec::new();
-    facts.extend(own.start.map(|start| ("First byte", hex8(start))));
-    facts.extend(own.end.map(|end| ("Last byte", hex8(end))));
-    facts.extend(own.escape.map(|escape| ("Escape", hex8(escape))));
-    if own.escape.is_some() {
-        let escaped: Vec<String> = own.escaped.iter().copied().map(hex8).collect();
+    facts.extend(framing.start.map(|start| ("First byte", hex8(start))));
+    facts.extend(framing.end.map(|end| ("Last byte", hex8(end))));
+    facts.extend(framing.escape.map(|escape| ("Escape", hex8(escape))));
+    if framing.escape.is_some() {
+        let escaped: Vec<String> = framing.escaped.iter().copied().map(hex8).collect();
         facts.push(("Escaped bytes", escaped.join(", ")));
-        facts.push(("Sent combined with", format!("{} (exclusive or)", hex8(own.escape_xor))));
+        facts.push(("Sent combined with", format!("{} (exclusive or)", hex8(framing.escape_xor))));
     }
-    if !own.check.is_empty() {
-        facts.push(("Check", format!("{}, beginning with 0x{:02X}", own.check, own.check_seed)));
+    if !framing.check.is_empty() {
+        facts.push(("Check", format!("{}, beginning with 0x{:02X}", framing.check, framing.check_seed)));
     }
-    facts.extend(own.check_from.as_ref().map(|field| ("Checked from", field.to_string())));
-    facts.extend(own.max_data.map(|max| ("Most bytes of data", max.to_string())));
-    facts.extend(own.address.as_ref().map(|field| ("Number of the device", field.to_string())));
+    facts.extend(framing.check_from.as_ref().map(|field| ("Checked from", field.to_string())));
+    facts.extend(framing.max_data.map(|max| ("Most bytes of data", max.to_string())));
+    facts.extend(framing.address.as_ref().map(|field| ("Number of the device", field.to_string())));
     facts
 }
 
@@ -101,14 +101,16 @@ fn message(own: &Message, device: &Device, manual: &Manual, names: &mut Names) -
         let states: Vec<&str> = own.accepted_in.iter().map(|state| state.as_str()).collect();
         facts.push(format!("Accepted in the states: {}.", states.join(", ")));
     }
-    facts.extend(own.accepted_when.iter().map(|own| format!("Accepted only while {}.", PLAIN.holds(own))));
+    facts.extend(
+        own.accepted_when.iter().map(|accepted_when| format!("Accepted only while {}.", PLAIN.holds(accepted_when))),
+    );
     facts.extend(own.side_effects.iter().map(|effect| lexibus_codegen::facts::words::sentence(effect)));
     facts.extend(own.after.as_ref().map(|other| format!("Means this after {other}.")));
     facts.extend(own.by_default.then(|| "So it is after power-on, too.".to_owned()));
     facts.extend(
         own.error.as_ref().map(|other| format!("Where the device refuses, {other} comes instead of the reply.")),
     );
-    facts.extend(own.availability.as_ref().map(|own| PLAIN.availability(own)));
+    facts.extend(own.availability.as_ref().map(|availability| PLAIN.availability(availability)));
     facts.extend(PLAIN.place(manual, "", own.documentation.as_deref(), &own.names));
     facts.retain(|fact| !fact.is_empty());
     let mut parts = Parts { types: &device.types, all: Vec::new(), doubts: own.doubts.to_vec() };
@@ -126,10 +128,10 @@ fn message(own: &Message, device: &Device, manual: &Manual, names: &mut Names) -
         examples: own
             .examples
             .iter()
-            .map(|own| Example {
-                request: bytes(&own.request),
-                reply: bytes(&own.reply),
-                facts: PLAIN.description(own.documentation.as_deref()).join(" "),
+            .map(|example| Example {
+                request: bytes(&example.request),
+                reply: bytes(&example.reply),
+                facts: PLAIN.description(example.documentation.as_deref()).join(" "),
             })
             .collect(),
     }
@@ -146,15 +148,7 @@ struct Parts<'d> {
 impl Parts<'_> {
     fn fields(&mut self, fields: &[MessageField], depth: usize) {
         for field in fields {
-            let part = |length: String, label: String, kind| Part {
-                length,
-                label,
-                facts: String::new(),
-                kind,
-                depth,
-                bits: None,
-                labels: Vec::new(),
-            };
+            let part = |length: String, label: String, kind| Part { length, label, kind, depth, ..Part::default() };
             let own = match field {
                 MessageField::Constant(constant) => part(count(constant.len(), "byte"), bytes(constant), "c"),
                 MessageField::FixedBits { bits, value } => {

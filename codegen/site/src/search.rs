@@ -87,12 +87,15 @@ impl Index {
     pub fn add(&mut self, other: &Index, folder: &str) {
         let numbers: Vec<usize> = other.numbers.all.iter().map(|own| self.numbers.place(own)).collect();
         let texts: Vec<usize> = other.texts.all.iter().map(|own| self.texts.place(own)).collect();
-        let place =
-            |own: &Place| Place { anchor: own.anchor.clone(), number: numbers[own.number], text: texts[own.text] };
-        self.pages.extend(other.pages.iter().map(|own| Page {
-            path: format!("{folder}/{}", own.path),
-            title: own.title.clone(),
-            entries: own.entries.iter().map(place).collect(),
+        let place = |place: &Place| Place {
+            anchor: place.anchor.clone(),
+            number: numbers[place.number],
+            text: texts[place.text],
+        };
+        self.pages.extend(other.pages.iter().map(|page| Page {
+            path: format!("{folder}/{}", page.path),
+            title: page.title.clone(),
+            entries: page.entries.iter().map(place).collect(),
         }));
     }
 
@@ -100,11 +103,11 @@ impl Index {
     pub fn script(&self) -> String {
         let json = |text: &str| serde_json::to_string(text).unwrap_or_default();
         let pages: Vec<String> =
-            self.pages.iter().map(|own| format!("[{},{}]", json(&own.path), json(&own.title))).collect();
+            self.pages.iter().map(|page| format!("[{},{}]", json(&page.path), json(&page.title))).collect();
         let anchors: Vec<&str> =
             self.pages.iter().flat_map(|page| &page.entries).map(|own| own.anchor.as_str()).collect();
         let lists = [&self.numbers.all.join("\n"), &self.texts.all.join("\n"), &anchors.join("\n")];
-        let lists = lists.map(|own| json(own)).join(",\n");
+        let lists = lists.map(|list| json(list)).join(",\n");
         let mut script = format!("lexibusIndex([{}],\n{lists},\n[", pages.join(","));
         for (at, page) in self.pages.iter().enumerate() {
             script.push_str(if at == 0 { "[" } else { ",[" });

@@ -5,12 +5,12 @@ use lexibus_codegen::ir::{Documentation, Texts};
 
 /// A name in other languages.
 pub(super) fn names(names: &Texts) -> Vec<(String, String)> {
-    names.iter().map(|own| (own.language.to_string(), own.text.to_string())).collect()
+    names.iter().map(|name| (name.language.to_string(), name.text.to_string())).collect()
 }
 
 /// A description in other languages.
 pub(super) fn translations(documentation: Option<&Documentation>) -> Vec<(String, String)> {
-    documentation.map(|own| names(&own.translations)).unwrap_or_default()
+    documentation.map(|documentation| names(&documentation.translations)).unwrap_or_default()
 }
 
 /// So many letters of a text, the last one being `…` where there are more.
