@@ -273,14 +273,14 @@ pub struct PdoEntry {
 }
 
 impl PdoEntry {
-    /// An entry of an object that nobody described yet: raw bits.
+    /// An entry of an object that is not described yet, as raw bits; with index 0, padding.
     pub fn new(index: u16, sub_index: u8, bits: u32) -> Self {
         PdoEntry {
             index,
             sub_index,
             bit_offset: 0,
             bits,
-            kind: PdoEntryKind::Unknown,
+            kind: if index == 0 { PdoEntryKind::Padding } else { PdoEntryKind::Unknown },
             item: None,
             name: CompactString::default(),
             ty: Type::Opaque(None),

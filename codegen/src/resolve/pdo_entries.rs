@@ -29,10 +29,8 @@ fn pdos(pdos: &mut [Pdo], dictionary: &Dictionary<'_>, diagnostics: &mut Diagnos
         for entry in &mut pdo.entries {
             entry.bit_offset = offset;
             offset = offset.saturating_add(entry.bits);
-            match entry.kind {
-                PdoEntryKind::Unnumbered => {}
-                _ if entry.index == 0 => entry.kind = PdoEntryKind::Padding,
-                _ => resolve(entry, dictionary, diagnostics),
+            if !matches!(entry.kind, PdoEntryKind::Unnumbered | PdoEntryKind::Padding) {
+                resolve(entry, dictionary, diagnostics);
             }
         }
     }

@@ -267,7 +267,8 @@ fn filler(fields: &mut Vec<PdoEntry>, from: u32, to: u32) {
     if from < to {
         let octets = Type::OctetString(Some((to - from) / 8));
         let name = CompactString::const_new("Reserved");
-        fields.push(PdoEntry { bit_offset: from, name, ty: octets, ..PdoEntry::new(0, 0, to - from) });
+        let kind = PdoEntryKind::Unknown;
+        fields.push(PdoEntry { bit_offset: from, kind, name, ty: octets, ..PdoEntry::new(0, 0, to - from) });
     }
 }
 

@@ -94,22 +94,19 @@ pub(super) fn attributes<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, pdo: &m
 }
 
 fn entry<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, channel: u16) -> Read<(PdoEntry, Given<'a>)> {
-    let mut entry = PdoEntry { origin: reader.origin(parent), ..PdoEntry::new(0, 0, 0) };
+    let origin = reader.origin(parent);
     let [fixed] = reader.attributes(parent, ["Fixed"])?;
-    entry.fixed = reader.flag(&fixed);
-    let (mut names, mut ty) = (Names::default(), Given::default());
+    let fixed = reader.flag(&fixed);
+    let (mut names, mut ty, mut bits) = (Names::default(), Given::default(), 0);
     let (mut index, mut sub_index) = (SlotIndex::default(), SlotIndex::default());
     while let Some(tag) = reader.child(parent)? {
         match tag.name {
-            "Index" => {
-                index = SlotIndex::read(reader, &tag)?;
-                (entry.depends_on_slot, entry.depends_on_slot_group) = (index.slot, index.group);
-            }
+            "Index" => index = SlotIndex::read(reader, &tag)?,
             "SubIndex" => {
                 [sub_index.factor] = reader.attributes(&tag, ["ChnFac"])?;
                 sub_index.given = reader.content()?;
             }
-            "BitLen" => entry.bits = reader.number(&tag, "length in bits")?.unwrap_or(0),
+            "BitLen" => bits = reader.number(&tag, "length in bits")?.unwrap_or(0),
             "Name" => reader.name(&tag, &mut names)?,
             "DataType" => ty = data_type(reader, &tag)?,
             "Comment" => {
@@ -119,14 +116,14 @@ fn entry<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, channel: u16) -> Rea
             _ => reader.unknown(&tag)?,
         }
     }
-    (entry.name, entry.names) = (names.name(), names.others());
     let known = index.of_channel(reader, channel, "index");
-    entry.index = known.unwrap_or(0);
-    entry.sub_index = sub_index.of_channel(reader, channel, "sub-index").unwrap_or(0);
+    let sub_index = sub_index.of_channel(reader, channel, "sub-index").unwrap_or(0);
+    let mut entry = PdoEntry::new(known.unwrap_or(0), sub_index, bits);
+    (entry.depends_on_slot, entry.depends_on_slot_group) = (index.slot, index.group);
+    (entry.fixed, entry.origin) = (fixed, origin);
+    (entry.name, entry.names) = (names.name(), names.others());
     if known.is_none() && !entry.name.is_empty() && !ty.is_empty() {
         entry.kind = PdoEntryKind::Unnumbered;
-    } else if entry.index == 0 {
-        entry.kind = PdoEntryKind::Padding;
     }
     if index.given.is_empty() {
         let read_as = if entry.kind == PdoEntryKind::Unnumbered { "kept without an object" } else { "read as padding" };
