@@ -70,7 +70,7 @@ fn read_list<'a>(reader: &mut Reader<'a, '_>, list: &Tag<'a>, description: &mut 
             })?;
         }
         // PDOs that name a template read it.
-        "Pdos" => reader.cursor.skip(list)?,
+        "Pdos" => reader.skip(list)?,
         _ => reader.unknown(list)?,
     }
     Ok(())

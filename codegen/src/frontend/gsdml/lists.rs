@@ -18,7 +18,7 @@ pub(super) fn graphics<'a>(reader: &mut Reader<'a, '_>, list: &Tag<'a>, catalog:
 
 /// Keeps a drawing as written.
 fn drawing<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>) -> Read<()> {
-    reader.cursor.skip(tag)?;
+    reader.skip(tag)?;
     let range = tag.span.start as usize..reader.cursor.offset() as usize;
     let value = reader.cursor.text().get(range).unwrap_or("").into();
     reader.extensions.push(Extension { key: "GraphicItem/Embedded".into(), value, span: tag.span });

@@ -18,7 +18,7 @@ impl ObjectList {
         while let Some(tag) = reader.child(parent)? {
             match tag.name {
                 "CANopenObject" => {
-                    let given = reader.attribute(&tag, "index")?;
+                    let given = reader.peek(&tag, "index")?;
                     match reader.hex(&given, 0xFFFF, "index") {
                         Some(index) => self.0.push((index as u16, reader.origin(&tag))),
                         None => missing_index(reader, &tag, "this object has no index"),

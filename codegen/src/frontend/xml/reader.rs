@@ -41,6 +41,8 @@ pub struct Reader<'a, 'd, F> {
     pub diagnostics: &'d mut Diagnostics,
     /// What was read and has no field in the IR, as a stack; see the module.
     pub extensions: Extensions,
+    /// The last child, if it has attributes and none of them was read.
+    pub(super) unread: Option<Tag<'a>>,
     /// The state of the format.
     pub format: F,
 }
@@ -48,12 +50,23 @@ pub struct Reader<'a, 'd, F> {
 impl<'a, 'd, F: Format> Reader<'a, 'd, F> {
     /// A reader before the first element that `cursor` finds.
     pub fn new(cursor: Cursor<'a>, diagnostics: &'d mut Diagnostics, format: F) -> Self {
-        Reader { cursor, diagnostics, extensions: Extensions::new(), format }
+        Reader { cursor, diagnostics, extensions: Extensions::new(), unread: None, format }
     }
 
-    /// The next child of `parent`; the unread rest of the previous one is skipped.
+    /// The next child of `parent`; the unread rest of the previous one is skipped. Attributes that nothing has read are unknown.
     pub fn child(&mut self, parent: &Tag<'a>) -> Read<Option<Tag<'a>>> {
-        Ok(self.cursor.child(parent)?)
+        if let Some(tag) = self.unread.take() {
+            self.attributes(&tag, [])?;
+        }
+        let child = self.cursor.child(parent)?;
+        self.unread = child.filter(Tag::has_attributes);
+        Ok(child)
+    }
+
+    /// Skips an element with its attributes.
+    pub fn skip(&mut self, tag: &Tag<'a>) -> Read<()> {
+        self.unread = None;
+        Ok(self.cursor.skip(tag)?)
     }
 
     /// Reads each child called `name` of an element that has no others.
@@ -120,19 +133,28 @@ impl<'a, 'd, F: Format> Reader<'a, 'd, F> {
         given: impl Fn(&mut Self, &Attribute<'a>) -> Given<'a>,
         mut other: impl FnMut(&mut Self, &Attribute<'a>),
     ) -> Read<[Given<'a>; N]> {
+        self.unread = None;
         let mut found = [const { Given::missing() }; N];
+        // Most files have the attributes in this order.
+        let mut next = 0;
         if !tag.has_attributes() {
             return Ok(found);
         }
         for attribute in tag.attributes() {
             let attribute = attribute?;
-            // Attributes with a prefix are those of XML Schema and of XML itself.
-            if !attribute.prefix.is_empty() || attribute.is_namespace() {
+            // Attributes with a prefix are those of XML Schema and of XML itself, such as `xml:lang`.
+            let has_prefix = !attribute.prefix.is_empty();
+            if attribute.is_namespace() || (has_prefix && attribute.prefix != "xml") {
                 continue;
             }
-            let position = names.iter().position(|name| *name == attribute.name);
+            let at = |names: &[&str]| names.iter().position(|name| *name == attribute.name);
+            let position = at(&names[next..]).map(|at| at + next).or_else(|| at(&names[..next]));
             match position.or_else(|| self.in_another_case(&attribute, &names)) {
-                Some(at) => found[at] = given(self, &attribute),
+                Some(at) => {
+                    found[at] = given(self, &attribute);
+                    next = at + 1;
+                }
+                None if has_prefix => {}
                 None => other(self, &attribute),
             }
         }
@@ -150,8 +172,14 @@ impl<'a, 'd, F: Format> Reader<'a, 'd, F> {
         Some(at)
     }
 
-    /// The attribute `name`.
+    /// The attribute `name`; others become extensions.
     pub fn attribute(&mut self, tag: &Tag<'a>, name: &str) -> Read<Given<'a>> {
+        self.attributes(tag, [name]).map(|[given]| given)
+    }
+
+    /// The attribute `name` of an element that is read later.
+    pub fn peek(&mut self, tag: &Tag<'a>, name: &str) -> Read<Given<'a>> {
+        self.unread = None;
         Ok(tag.attribute(name)?.map_or_else(Given::default, |attribute| self.given(&attribute)))
     }
 

@@ -73,6 +73,7 @@ impl<'a, F: Format> Reader<'a, '_, F> {
 
     /// Keeps the attributes of the innermost open element.
     pub fn keep_attributes(&mut self, tag: &Tag<'a>) -> Read<()> {
+        self.unread = None;
         if !tag.has_attributes() {
             return Ok(());
         }
