@@ -7,6 +7,7 @@
 
 use std::cell::{Cell, RefCell};
 
+use super::words;
 use crate::source::{FileId, Span};
 
 /// The sections of a file.
@@ -70,9 +71,6 @@ pub enum Oddity {
 
 /// The greatest number of characters in a line (CiA 306).
 const MAX_LINE: usize = 255;
-
-/// So many bytes are looked at at once: what is sought in a short line is sought in them, and left if it stands behind the line.
-const AT_ONCE: usize = 32;
 
 impl<'a> Document<'a> {
     /// Finds the sections of `text`.
@@ -169,6 +167,12 @@ impl<'a> Document<'a> {
         }
     }
 
+    /// The span of a part of the text.
+    pub fn span_of(&self, part: &str) -> Span {
+        let start = (part.as_ptr() as usize).wrapping_sub(self.text.as_ptr() as usize) as u32;
+        self.span((start, start.wrapping_add(part.len() as u32)))
+    }
+
     /// Whether the entry is a comment: a line of its own, or what stands behind a section header.
     pub fn is_comment(&self, entry: &Entry) -> bool {
         matches!(self.text.as_bytes()[entry.key.0 as usize], b';' | b'#')
@@ -186,6 +190,7 @@ impl<'a> Document<'a> {
     fn headers(&mut self) {
         let bytes = &self.text.as_bytes()[..self.end];
         let (mut from, mut line, mut counted) = (0, 1, 0);
+        let has_returns = memchr::memchr(b'\r', bytes).is_some();
         while let Some(length) = memchr::memchr(b'[', &bytes[from..]) {
             let bracket = from + length;
             let blanks = bytes[from..bracket].iter().rev().take_while(|byte| matches!(byte, b' ' | b'\t')).count();
@@ -194,10 +199,10 @@ impl<'a> Document<'a> {
                 from = bracket + 1;
                 continue;
             }
-            line += line_ends(&bytes[counted..start]);
+            line += line_ends(&bytes[counted..start], has_returns);
             counted = start;
             let mut below = Lines { at: start, end: self.end, line };
-            let Some((_, end, _)) = below.next(bytes) else { break };
+            let Some(Line { end, .. }) = below.next(bytes) else { break };
             if let Some(section) = self.sections.last_mut() {
                 section.body.1 = start as u32;
             }
@@ -274,23 +279,56 @@ struct Lines {
     line: u32,
 }
 
+/// A line without its end.
+struct Line {
+    start: usize,
+    end: usize,
+    /// The first `=`.
+    equals: Option<usize>,
+    number: u32,
+}
+
 impl Lines {
-    /// Where the next line begins and ends, without its end of line, and its number.
     #[inline]
-    fn next(&mut self, bytes: &[u8]) -> Option<(usize, usize, u32)> {
+    fn next(&mut self, bytes: &[u8]) -> Option<Line> {
         if self.at >= self.end {
             return None;
         }
-        let (start, line) = (self.at, self.line);
-        let end = match memchr::memchr2(b'\n', b'\r', &bytes[start..]) {
-            Some(length) if start + length < self.end => start + length,
-            _ => self.end,
-        };
+        let (start, number) = (self.at, self.line);
+        let (end, equals) = scan(&bytes[..self.end], start);
         let crlf = bytes[end..].starts_with(b"\r\n");
         self.at = end + 1 + usize::from(crlf);
         self.line += 1;
-        Some((start, end, line))
+        Some(Line { start, end, equals, number })
     }
+}
+
+/// The end of the line that starts at `start`, and the first `=` in it.
+#[inline]
+fn scan(bytes: &[u8], start: usize) -> (usize, Option<usize>) {
+    let (mut at, mut equals) = (start, None);
+    let mut chunks = bytes[start..].chunks_exact(8);
+    for chunk in chunks.by_ref() {
+        let word = words::word(chunk);
+        let signs = words::equal(word, b'=');
+        if signs != 0 && equals.is_none() {
+            equals = Some(at + words::first(signs));
+        }
+        let ends = words::equal(word, b'\n') | words::equal(word, b'\r');
+        if ends != 0 {
+            let end = at + words::first(ends);
+            return (end, equals.filter(|&equals| equals < end));
+        }
+        at += 8;
+    }
+    for (at, byte) in (at..).zip(chunks.remainder()) {
+        match byte {
+            b'\n' | b'\r' => return (at, equals),
+            b'=' => equals = equals.or(Some(at)),
+            _ => {}
+        }
+    }
+    (bytes.len(), equals)
 }
 
 /// The entries and comments of a section, in the order of the file.
@@ -315,8 +353,8 @@ impl Iterator for Entries<'_> {
                 return Some(comment);
             }
         }
-        while let Some((start, end, line)) = self.lines.next(bytes) {
-            if let Some(entry) = self.line(bytes, (start, end), line) {
+        while let Some(line) = self.lines.next(bytes) {
+            if let Some(entry) = self.line(bytes, &line) {
                 return Some(entry);
             }
         }
@@ -336,7 +374,8 @@ impl Entries<'_> {
     }
 
     #[inline]
-    fn line(&mut self, bytes: &[u8], (start, end): (usize, usize), line: u32) -> Option<Entry> {
+    fn line(&mut self, bytes: &[u8], line: &Line) -> Option<Entry> {
+        let &Line { start, end, equals, number } = line;
         let (first, last) = trim(bytes, start, end);
         if first == last {
             return None;
@@ -345,17 +384,15 @@ impl Entries<'_> {
             self.odd.push((Oddity::LongLine, start, end));
         }
         match bytes[first] {
-            b';' => return comment(bytes, first, last, line),
+            b';' => return comment(bytes, first, last, number),
             b'#' => self.odd.push((Oddity::HashLine, first, last)),
-            _ => {
-                let ahead = bytes.len().min(last.max(first + AT_ONCE));
-                let equals = memchr::memchr(b'=', &bytes[first..ahead]).map(|length| first + length);
-                let key = equals.filter(|&equals| equals < last).map(|equals| (equals, trim(bytes, first, equals)));
-                if let Some((equals, key)) = key.filter(|(_, key)| key.0 < key.1) {
-                    return Some(entry(key, trim(bytes, equals + 1, last), line));
+            _ => match equals.filter(|&equals| equals > first) {
+                Some(equals) => {
+                    let key_end = end_of(bytes, first, equals);
+                    return Some(entry((first, key_end), (start_of(bytes, equals + 1, last), last), number));
                 }
-                self.odd.push((Oddity::Junk, first, last));
-            }
+                None => self.odd.push((Oddity::Junk, first, last)),
+            },
         }
         None
     }
@@ -383,26 +420,38 @@ fn is_long(line: &str) -> bool {
     line.len() > MAX_LINE && line.chars().count() > MAX_LINE
 }
 
-/// How many lines end in `bytes`, with CR LF, LF, or a CR of its own.
-fn line_ends(bytes: &[u8]) -> u32 {
+/// How many lines end in `bytes`, with CR LF, LF, or a CR of its own if the text has any.
+fn line_ends(bytes: &[u8], has_returns: bool) -> u32 {
     let feeds = || memchr::memchr_iter(b'\n', bytes);
-    let both = |returns| match returns {
-        0 => 0,
-        _ => feeds().filter(|&at| bytes[..at].ends_with(b"\r")).count(),
-    };
-    let returns = memchr::memchr_iter(b'\r', bytes).count();
-    (feeds().count() + returns - both(returns)) as u32
+    if !has_returns {
+        return feeds().count() as u32;
+    }
+    let both = feeds().filter(|&at| bytes[..at].ends_with(b"\r")).count();
+    (feeds().count() + memchr::memchr_iter(b'\r', bytes).count() - both) as u32
 }
 
 /// `start..end` without blanks and tabs at either end.
-fn trim(bytes: &[u8], mut start: usize, mut end: usize) -> (usize, usize) {
+fn trim(bytes: &[u8], start: usize, end: usize) -> (usize, usize) {
+    let start = start_of(bytes, start, end);
+    (start, end_of(bytes, start, end))
+}
+
+/// The first byte in `start..end` that is no blank or tab.
+#[inline]
+fn start_of(bytes: &[u8], mut start: usize, end: usize) -> usize {
     while start < end && matches!(bytes[start], b' ' | b'\t') {
         start += 1;
     }
+    start
+}
+
+/// The end of the last byte in `start..end` that is no blank or tab.
+#[inline]
+fn end_of(bytes: &[u8], start: usize, mut end: usize) -> usize {
     while start < end && matches!(bytes[end - 1], b' ' | b'\t') {
         end -= 1;
     }
-    (start, end)
+    end
 }
 
 #[cfg(test)]

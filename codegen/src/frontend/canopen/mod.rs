@@ -1,5 +1,8 @@
-//! What EDS, DCF, XDD and XDC share: the number grammar, the conversion of text to typed values, defined types.
+//! What EDS, DCF, XDD and XDC share: the number grammar, the conversion of text to typed values, what objects and
+//! networks have in common.
 
-pub mod deftype;
+mod deftype;
+pub mod network;
 pub mod number;
+pub mod object;
 pub mod value;

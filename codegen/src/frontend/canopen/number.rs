@@ -68,12 +68,48 @@ impl Number {
 
 /// Reads `text`, which has no blanks around it. `aliases` are further names of `$NODEID`.
 pub fn parse(text: &str, aliases: &[String]) -> Number {
+    if let Some(value) = plain(text).filter(|_| aliases.is_empty()) {
+        return Number { parsed: Parsed::Int { value: value.into(), hex: is_plain_hex(text) }, quirk: None };
+    }
     if !aliases.is_empty() || text.contains('$') {
         if let Some(formula) = parse_formula(text, aliases) {
             return formula;
         }
     }
     parse_number(text)
+}
+
+/// The value of a number in one of the forms that nearly all have, and of which there is nothing to report: decimal digits without a
+/// leading zero, perhaps with a sign, or `0x` and hexadecimal digits, at most 15 of them.
+#[inline]
+pub fn plain(text: &str) -> Option<i64> {
+    let decimal = |digits: &[u8]| {
+        digits.iter().try_fold(0i64, |value, digit| match digit.wrapping_sub(b'0') {
+            digit @ 0..=9 => Some(value * 10 + i64::from(digit)),
+            _ => None,
+        })
+    };
+    let nibble = |digit: &u8| match digit {
+        b'0'..=b'9' => Some(digit - b'0'),
+        _ => Some((digit | 0x20).wrapping_sub(b'a')).filter(|digit| *digit < 6).map(|digit| digit + 10),
+    };
+    match text.as_bytes() {
+        b"0" => Some(0),
+        [b'0', b'x' | b'X', digits @ ..] if (1..=15).contains(&digits.len()) => {
+            digits.iter().try_fold(0i64, |value, digit| Some(value << 4 | i64::from(nibble(digit)?)))
+        }
+        digits @ [b'1'..=b'9', ..] if digits.len() <= 15 => decimal(digits),
+        [b'-', digits @ ..] if digits.len() <= 15 && matches!(digits, [b'1'..=b'9', ..]) => {
+            decimal(digits).map(|value| -value)
+        }
+        _ => None,
+    }
+}
+
+/// Whether a plain number is hexadecimal.
+#[inline]
+pub fn is_plain_hex(text: &str) -> bool {
+    text.len() > 1 && text.starts_with('0')
 }
 
 /// Whether `text` has nothing but octal digits.
@@ -220,6 +256,32 @@ mod tests {
         assert_eq!(int("0xFFFFFFFFFFFFFFF"), Some(0x0FFF_FFFF_FFFF_FFFF));
         assert_eq!(int("0xFFFFFFFFFFFFFFFF"), Some(u64::MAX.into()));
         assert_eq!(int("999999999999999"), Some(999_999_999_999_999));
+    }
+
+    #[test]
+    fn plain_forms_are_numbers_without_a_quirk() {
+        for text in ["0", "7", "-15", "0x1A", "0Xff", "123456789012345", "0x123456789abcdef", "-2147483648"] {
+            let value = plain(text).map(i128::from);
+            assert!(value.is_some() && value == int(text) && quirk(text).is_none(), "{text}");
+        }
+        let others = [
+            "",
+            "-",
+            "00",
+            "012",
+            "+1",
+            "-0",
+            "-0x1",
+            "0x",
+            "0x1G",
+            "1a",
+            "1 ",
+            "1234567890123456",
+            "0x1234567890abcdef",
+        ];
+        for text in others {
+            assert_eq!(plain(text), None, "{text}");
+        }
     }
 
     #[test]

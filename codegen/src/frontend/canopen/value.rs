@@ -45,6 +45,21 @@ impl Converter<'_> {
         })
     }
 
+    /// The value of `text` if it is a plain number that fits the integer type, so that there is nothing to report.
+    #[inline]
+    pub fn plain_integer(&self, text: &str, ty: Type) -> Option<Value> {
+        let (Type::Integer(bits) | Type::Unsigned(bits)) = ty else { return None };
+        let value = number::plain(text).filter(|_| self.aliases.is_empty())?;
+        let (low, high) = match ty {
+            _ if bits > 32 => return None,
+            Type::Integer(_) => (-1i64 << (bits.max(1) - 1), (1i64 << (bits.max(1) - 1)) - 1),
+            _ => (0, (1i64 << bits) - 1),
+        };
+        let fits = (low..=high).contains(&value)
+            && (!number::is_plain_hex(text) || (text.len() - 2) * 4 <= usize::from(bits).next_multiple_of(4));
+        fits.then(|| Value::Int(value.into()))
+    }
+
     /// Reads a number and reports how it departs from the grammar; `None` (and a report) for what is none.
     pub fn number(&mut self, text: &str, span: Span) -> Option<Value> {
         let number = number::parse(text, self.aliases);

@@ -7,7 +7,7 @@ use super::object::in_order_of_file;
 use super::reader::{Fixed, Reader};
 use super::sections::{Kind, List};
 use crate::diagnostics::{codes, Diagnostic};
-use crate::frontend::canopen::number;
+use crate::frontend::canopen::{network, number};
 use crate::ir::{CanOpenSettings, Commissioning, CompactString, Device, DynamicChannel, Extension, Extensions, Header};
 use crate::syntax::ini::{Entry, Section};
 
@@ -299,11 +299,7 @@ fn bit_rate(
 /// Bits, from 1 to 64; not a flag, though some tools write it like one (E82).
 fn granularity(reader: &mut Reader<'_, '_>, entry: &Entry) -> Option<u8> {
     let value = reader.unsigned(entry, 0xFF)?;
-    if value > 64 {
-        let span = reader.doc.value_span(entry);
-        let message = format!("a granularity of {value} bits is more than a PDO has");
-        reader.diagnostics.push(Diagnostic::new(&codes::VALUE_NOT_ALLOWED, span, message).label("expected 0 to 64"));
-    }
+    network::granularity(value as u8, reader.doc.value_span(entry), reader.diagnostics);
     Some(value as u8)
 }
 
@@ -312,7 +308,7 @@ fn dummy_usage(reader: &mut Reader<'_, '_>, sections: &[Section], device: &mut D
     let mut seen = [None; 256];
     let mut usage = [false; 256];
     for ref entry in reader.doc.entries_of(sections) {
-        let Some(code) = dummy_code(reader.doc.key(entry)) else {
+        let Some(code) = network::dummy_code(reader.doc.key(entry)) else {
             reader.extension(entry, &mut device.extensions);
             continue;
         };
@@ -320,13 +316,6 @@ fn dummy_usage(reader: &mut Reader<'_, '_>, sections: &[Section], device: &mut D
         usage[usize::from(code)] = reader.flag(entry);
     }
     canopen.dummies = (0..=u8::MAX).filter(|&code| usage[usize::from(code)]).collect();
-}
-
-/// The data type of `Dummy0007`.
-fn dummy_code(key: &str) -> Option<u8> {
-    let digits = key.get(5..).filter(|_| key[..5].eq_ignore_ascii_case("Dummy"))?;
-    let hexadecimal = digits.len() <= 4 && digits.bytes().all(|byte| byte.is_ascii_hexdigit());
-    hexadecimal.then(|| u8::from_str_radix(digits, 16).ok()).flatten()
 }
 
 /// `LineN`, by number; a missing line is no line.
@@ -390,13 +379,7 @@ fn commissioning(reader: &mut Reader<'_, '_>, sections: &[Section], device: &mut
 
 fn node_id(reader: &mut Reader<'_, '_>, entry: &Entry) -> Option<u8> {
     let value = reader.unsigned(entry, 0xFF)?;
-    if !(1..=127).contains(&value) {
-        let span = reader.doc.value_span(entry);
-        let message = format!("{value} is no node-ID");
-        reader.diagnostics.push(Diagnostic::new(&codes::VALUE_NOT_ALLOWED, span, message).label("expected 1 to 127"));
-        return None;
-    }
-    Some(value as u8)
+    network::node_id(value, reader.doc.value_span(entry), reader.diagnostics)
 }
 
 fn connected_modules(reader: &mut Reader<'_, '_>, sections: &[Section], device: &mut Device) {
@@ -446,6 +429,10 @@ fn dynamic_channel(reader: &mut Reader<'_, '_>, fields: &[Option<Entry>; 4]) -> 
     segment.direction = text(direction).map_or("", |(text, _)| text).into();
     segment.range = text(range).map_or("", |(text, _)| text).into();
     let Some((text, span)) = text(offset).filter(|(text, _)| !text.is_empty()) else { return segment };
+    for part in text.split(',').map(str::trim) {
+        let span = reader.doc.span_of(part);
+        reader.converter().quirk(number::parse(part, &[]), part, span);
+    }
     match offsets(text) {
         Some((offset, difference)) => (segment.offset, segment.difference) = (offset, difference),
         None => {
@@ -479,10 +466,6 @@ mod tests {
             assert!(!is_eds_version(text), "{text}");
         }
         assert!(is_version("1") && !is_version("1.0") && !is_version("-") && !is_version("256"));
-        assert_eq!((dummy_code("dummy0007"), dummy_code("Dummy1B")), (Some(7), Some(0x1B)));
-        for key in ["Dummy", "Dummy+7", "Dummy0100", "Dummy00007", "Dumm\u{e9}07"] {
-            assert_eq!(dummy_code(key), None, "{key}");
-        }
         assert_eq!(offsets("0, 1"), Some((0, Some(1))));
         assert_eq!(offsets("0x10"), Some((16, None)));
     }

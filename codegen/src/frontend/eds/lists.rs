@@ -3,7 +3,7 @@
 use super::reader::Reader;
 use super::sections::List;
 use crate::diagnostics::{codes, Diagnostic};
-use crate::ir::{Device, Extensions};
+use crate::ir::{Device, Extensions, Group};
 use crate::source::Span;
 use crate::syntax::ini::{Entry, Section};
 
@@ -145,36 +145,43 @@ pub(super) fn announced_count(reader: &mut Reader<'_, '_>, entry: &Entry, count:
     true
 }
 
-/// A set of indices.
-struct Indices(Box<[u64; 1024]>);
+/// A set of indices, as bits.
+struct Indices {
+    /// The lowest index, divided by 64.
+    first: u16,
+    words: Vec<u64>,
+}
 
 impl Indices {
-    fn new() -> Self {
-        Indices(Box::new([0; 1024]))
+    /// An empty set with room for `all`.
+    fn new(all: impl Iterator<Item = u16> + Clone) -> Self {
+        let first = all.clone().min().unwrap_or(0) / 64;
+        Indices { first, words: vec![0; usize::from(all.max().unwrap_or(0) / 64 - first) + 1] }
     }
 
     /// Adds `index`; whether it was new.
     fn insert(&mut self, index: u16) -> bool {
-        let (word, bit) = (&mut self.0[usize::from(index / 64)], 1 << (index % 64));
-        let new = *word & bit == 0;
+        let word = (index / 64).checked_sub(self.first).and_then(|word| self.words.get_mut(usize::from(word)));
+        let Some(word) = word else { return false };
+        let (before, bit) = (*word, 1 << (index % 64));
         *word |= bit;
-        new
+        before & bit == 0
     }
 
     fn contains(&self, index: u16) -> bool {
-        self.0[usize::from(index / 64)] >> (index % 64) & 1 == 1
+        let word = (index / 64).checked_sub(self.first).and_then(|word| self.words.get(usize::from(word)));
+        word.is_some_and(|word| word >> (index % 64) & 1 == 1)
     }
 }
 
 /// Holds the lists and the objects of `device` against each other.
 pub(super) fn check(reader: &mut Reader<'_, '_>, lists: &Lists, device: &Device) {
-    let mut described = Indices::new();
-    for group in &device.groups {
-        if let Some(index) = group.index() {
-            described.insert(index);
-        }
+    let indices = device.groups.iter().filter_map(Group::index);
+    let mut described = Indices::new(indices.clone());
+    for index in indices {
+        described.insert(index);
     }
-    let mut listed = Indices::new();
+    let mut listed = Indices::new(lists.listed.iter().map(|&(index, ..)| index));
     for &(index, list, span) in &lists.listed {
         if !listed.insert(index) {
             let message = format!("0x{index:04X} is listed twice");

@@ -23,17 +23,17 @@ mod object;
 mod reader;
 mod sections;
 
-use std::collections::HashSet;
+use std::collections::HashMap;
 
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
-use crate::frontend::canopen::deftype::defined_type;
-use crate::ir::{Catalog, Device, Extensions, Group, ObjectCode, Shape, TypeDef};
+use crate::frontend::canopen::object::define_type;
+use crate::ir::{Catalog, Device, Extensions};
 use crate::limits;
 use crate::source::{Encoding, FileId, Origin, Source, Span};
 use crate::syntax::ini::{Document, Oddity, Section};
 use object::ObjectSections;
 use reader::Reader;
-use sections::{Kind, Refinement};
+use sections::{classify, Kind, Refinement};
 
 /// Reads the device that `source` describes. Everything that had to be repaired goes to `diagnostics`.
 ///
@@ -81,6 +81,9 @@ pub fn read(source: &Source, file: FileId, aliases: &[String], diagnostics: &mut
     Some(Catalog::of_device(device, modules))
 }
 
+/// The rank of sections that refine an object, after those of its sub-indices.
+const REFINEMENT: u16 = 0x200;
+
 /// The sections of a file by what they are about.
 struct Sorted {
     /// In the order of the file.
@@ -101,14 +104,14 @@ impl Sorted {
             Sorted { header: Vec::new(), objects: Vec::with_capacity(count), modules: Vec::new(), unknown: Vec::new() };
         for (section, number) in doc.sections().iter().zip(0..) {
             let name = doc.name(section);
-            let (kind, legal) = sections::classify(name);
+            let (kind, legal) = classify(name);
             if !legal {
                 illegal_name(reader, section, kind);
             }
             match kind {
                 Kind::Object(index) => sorted.objects.push((index, 0, number)),
                 Kind::Sub(index, sub) => sorted.objects.push((index, 1 + u16::from(sub), number)),
-                Kind::Refinement(index, _) | Kind::Links(index) => sorted.objects.push((index, 0x200, number)),
+                Kind::Refinement(index, _) | Kind::Links(index) => sorted.objects.push((index, REFINEMENT, number)),
                 Kind::Module(number, part) => sorted.modules.push((number, part, *section)),
                 Kind::Unknown => sorted.unknown.push(*section),
                 _ => sorted.header.push((kind, *section)),
@@ -128,47 +131,27 @@ impl Sorted {
 
 /// Builds the objects, each from its run of sections.
 fn objects(reader: &mut Reader<'_, '_>, sorted: Vec<(u16, u16, u32)>, device: &mut Device) {
-    let mut own = ObjectSections::default();
+    let mut sections = ObjectSections::default();
     device.groups.reserve_exact(sorted.chunk_by(|one, other| one.0 == other.0).count());
     for run in sorted.chunk_by(|one, other| one.0 == other.0) {
         let index = run[0].0;
-        own.clear();
-        for &(_, _, number) in run {
-            let section = &reader.doc.sections()[number as usize];
-            match sections::classify(reader.doc.name(section)).0 {
-                Kind::Object(_) => own.object.push(*section),
-                Kind::Sub(_, sub) => own.subs.push((sub, *section)),
-                Kind::Refinement(_, refinement) => own.refinements.push((refinement, *section)),
-                _ => own.links.push(*section),
+        sections.clear();
+        for &(_, rank, number) in run {
+            let section = reader.doc.sections()[number as usize];
+            match rank {
+                0 => sections.object.push(section),
+                1..REFINEMENT => sections.subs.push(((rank - 1) as u8, section)),
+                _ => match classify(reader.doc.name(&section)).0 {
+                    Kind::Refinement(_, refinement) => sections.refinements.push((refinement, section)),
+                    _ => sections.links.push(section),
+                },
             }
         }
-        if let Some(group) = reader.object(index, &mut own) {
-            define_type(reader, &group, device);
+        if let Some(group) = reader.object(index, &mut sections) {
+            reader.types.extend(define_type(&group, &mut device.types, reader.diagnostics));
             device.groups.push(group);
         }
     }
-}
-
-/// An object that defines a type: an alias of a basic one, or a number of bits whose meaning nobody tells.
-fn define_type(reader: &mut Reader<'_, '_>, group: &Group, device: &mut Device) {
-    let (Some(index), Some(code)) = (group.index(), group.object_code()) else { return };
-    if !matches!(code, ObjectCode::DefType | ObjectCode::DefStruct) {
-        if index < 0x1000 && index > 0 {
-            let message = format!("0x{index:04X} lies in the area of data types and is a {}", code.name());
-            reader.diagnostics.push(Diagnostic::new(&codes::TYPE_AREA_OBJECT, group.origin.span, message));
-        }
-        return;
-    }
-    let (target, bits) = defined_type(group, index, code);
-    reader.types.push((u32::from(index), target));
-    device.types.push(TypeDef {
-        name: group.name.clone(),
-        code: Some(u32::from(index)),
-        shape: Shape::Alias(target),
-        bits,
-        documentation: None,
-        origin: group.origin,
-    });
 }
 
 fn illegal_name(reader: &mut Reader<'_, '_>, section: &Section, kind: Kind) {
@@ -195,7 +178,7 @@ fn illegal_name(reader: &mut Reader<'_, '_>, section: &Section, kind: Kind) {
 
 /// Keeps what no part of CiA 306 gives a meaning, as `section/key` extensions of the device.
 fn unknown_sections(reader: &mut Reader<'_, '_>, unknown: &[Section], device: &mut Device) {
-    let mut seen: HashSet<String> = HashSet::new();
+    let mut seen: HashMap<String, &Section> = HashMap::new();
     for section in unknown {
         let name = reader.doc.name(section);
         // [Tools] is CiA 306-1's own, and of no interest to anybody but the tools it names.
@@ -209,12 +192,9 @@ fn unknown_sections(reader: &mut Reader<'_, '_>, unknown: &[Section], device: &m
                 .label("kept as extension attributes of the device"),
             );
         }
-        if !seen.insert(name.to_ascii_lowercase()) {
-            reader.diagnostics.push(Diagnostic::new(
-                &codes::DUPLICATE_SECTION,
-                reader.doc.name_span(section),
-                format!("section [{name}] occurs twice"),
-            ));
+        let first = *seen.entry(name.to_ascii_lowercase()).or_insert(section);
+        if first.line != section.line {
+            reader.duplicate_section(first, section, "the entries of both are kept");
         }
     }
     let orphans = std::mem::take(&mut reader.orphan_sections);

@@ -7,6 +7,7 @@ use super::reader::{Fixed, Reader};
 use super::sections::Refinement;
 use crate::diagnostics::{codes, Diagnostic};
 use crate::frontend::canopen::number;
+use crate::frontend::canopen::object::{self, ObjectType, Terms};
 use crate::frontend::canopen::value::Role;
 use crate::ir::{
     Access, Binding, CompactString, Configured, Extension, Extensions, Group, Item, Limits, Mappable, ObjectCode, Type,
@@ -14,6 +15,13 @@ use crate::ir::{
 };
 use crate::source::{Origin, Span};
 use crate::syntax::ini::{Entry, Section};
+
+const TERMS: Terms = Terms {
+    sub_number: "SubNumber",
+    sub_object: "sub-index",
+    elements: "sections",
+    records: "write ObjectType=0x9 for a RECORD, 0x8 for an ARRAY",
+};
 
 /// The sections about one object, collected from all over the file.
 #[derive(Default)]
@@ -179,61 +187,27 @@ impl<'a> Reader<'a, '_> {
         }
     }
 
-    /// What a sub-index is: a VAR, or a DOMAIN.
+    /// ObjectType, if it is given.
+    fn object_type(&mut self, raw: &Raw) -> Option<ObjectType<'a>> {
+        let (text, span) = self.fixed(raw.get(Key::ObjectType)?, Fixed::Number);
+        if text.is_empty() {
+            return None;
+        }
+        let number = number::parse(text, &[]);
+        self.converter().quirk(number, text, span);
+        Some(ObjectType { text, number: number.int(), span })
+    }
+
+    /// What a sub-index is.
     pub(super) fn sub_code(&mut self, raw: &Raw) -> ObjectCode {
-        let Some(entry) = raw.get(Key::ObjectType) else { return ObjectCode::Var };
-        let (text, span) = self.fixed(entry, Fixed::Number);
-        if text.is_empty() {
-            return ObjectCode::Var;
-        }
-        let number = number::parse(text, &[]);
-        self.converter().quirk(number, text, span);
-        match number.int() {
-            Some(2) => ObjectCode::Domain,
-            Some(7) => ObjectCode::Var,
-            _ => {
-                let message = format!("`{text}` is no object type of a sub-index");
-                self.diagnostics.push(Diagnostic::new(&codes::UNKNOWN_OBJECT_TYPE, span, message).label("read as VAR"));
-                ObjectCode::Var
-            }
-        }
+        let given = self.object_type(raw);
+        given.map_or(ObjectCode::Var, |given| given.of_sub_index(&TERMS, self.diagnostics))
     }
 
-    /// ObjectType, or what the sections show where it is missing or can't be.
     fn object_code(&mut self, index: u16, raw: &Raw, has_subs: bool) -> ObjectCode {
-        let Some(entry) = raw.get(Key::ObjectType) else { return self.var_with_subs(index, raw, has_subs) };
-        let (text, span) = self.fixed(entry, Fixed::Number);
-        if text.is_empty() {
-            return self.var_with_subs(index, raw, has_subs);
-        }
-        let number = number::parse(text, &[]);
-        self.converter().quirk(number, text, span);
-        match number.int().and_then(ObjectCode::from_number) {
-            Some(ObjectCode::Var) => self.var_with_subs(index, raw, has_subs),
-            Some(code) => code,
-            None => {
-                let by_content = if has_subs { ObjectCode::Record } else { ObjectCode::Var };
-                let message = format!("`{text}` is no object type");
-                self.diagnostics.push(
-                    Diagnostic::new(&codes::UNKNOWN_OBJECT_TYPE, span, message)
-                        .label(format!("read as {}", by_content.name())),
-                );
-                by_content
-            }
-        }
-    }
-
-    fn var_with_subs(&mut self, index: u16, raw: &Raw, has_subs: bool) -> ObjectCode {
-        if !has_subs {
-            return ObjectCode::Var;
-        }
+        let given = self.object_type(raw);
         let span = raw.get(Key::ObjectType).map_or(raw.origin.span, |entry| self.doc.value_span(entry));
-        self.diagnostics.push(
-            Diagnostic::new(&codes::VAR_WITH_SUBS, span, format!("0x{index:04X} is a VAR and has sub-indices"))
-                .label("treated as a RECORD")
-                .help("write ObjectType=0x9 for a RECORD, 0x8 for an ARRAY"),
-        );
-        ObjectCode::Record
+        object::object_code(index, given.as_ref(), span, has_subs, &TERMS, self.diagnostics)
     }
 
     /// One value: a VAR, a DOMAIN, a sub-index. The name is the caller's.
@@ -287,6 +261,10 @@ impl<'a> Reader<'a, '_> {
     /// The value of an entry; text is taken as a whole, anything else without a comment behind it.
     pub(super) fn typed(&mut self, entry: Option<&Entry>, ty: Type, role: Role) -> Option<Value> {
         let entry = entry?;
+        let text = self.doc.value(entry);
+        if let Some(value) = self.converter().plain_integer(text, ty) {
+            return Some(value);
+        }
         let (text, span) = match ty {
             Type::VisibleString(_) | Type::UnicodeString(_) | Type::Domain | Type::Opaque(_) | Type::Named(_) => {
                 (self.doc.value(entry), self.doc.value_span(entry))
@@ -307,7 +285,8 @@ impl<'a> Reader<'a, '_> {
             return self.no_data_type(code, span);
         }
         // What is no number was reported as that.
-        let number = self.converter().number(text, span)?;
+        let plain = number::plain(text).map(|number| Value::Int(number.into()));
+        let number = plain.or_else(|| self.converter().number(text, span))?;
         match number.as_int().and_then(|number| u32::try_from(number).ok()) {
             Some(number) => Some(self.type_by_code(number, span)),
             None => {
@@ -338,19 +317,8 @@ impl<'a> Reader<'a, '_> {
     }
 
     fn type_by_code(&mut self, code: u32, span: Span) -> Type {
-        if let Some(ty) = Type::from_cia301(code) {
-            return ty;
-        }
-        if let Ok(position) = self.types.binary_search_by_key(&code, |&(known, _)| known) {
-            return self.types[position].1;
-        }
-        let (kind, message) = match code {
-            0x20..=0x23 => (&codes::COMPLEX_DATA_TYPE, format!("{code:#06x} is the type of a record, not of a value")),
-            0x0E | 0x17 | 0x1C..=0x1F => (&codes::COMPLEX_DATA_TYPE, format!("the data type {code:#06x} is reserved")),
-            _ => (&codes::UNKNOWN_DATA_TYPE, format!("{code:#06x} is no data type of CiA 301 or of this file")),
-        };
-        self.diagnostics.push(Diagnostic::new(kind, span, message).label("kept as raw bytes"));
-        Type::Opaque(Some(code))
+        let position = self.types.binary_search_by_key(&code, |&(known, _)| known);
+        object::type_by_code(code, span, position.ok().map(|at| self.types[at].1), self.diagnostics)
     }
 
     fn access(&mut self, raw: &Raw, code: ObjectCode, item: &mut Item) -> Access {
@@ -371,16 +339,7 @@ impl<'a> Reader<'a, '_> {
                 }
             };
         }
-        if let Some(access) = Access::from_cia306(text) {
-            return access;
-        }
-        let access = if text.eq_ignore_ascii_case("w") { Access::WriteOnly } else { Access::ReadOnly };
-        self.diagnostics.push(
-            Diagnostic::new(&codes::UNKNOWN_ACCESS, span, format!("`{text}` is no access type"))
-                .label(format!("read as {}", access.name()))
-                .help("write one of ro, wo, rw, rwr, rww, const"),
-        );
-        access
+        object::access(text, span, self.diagnostics)
     }
 
     fn mappable(&mut self, entry: Option<&Entry>, access: Access, item: &mut Item) -> Mappable {
@@ -415,8 +374,6 @@ impl<'a> Reader<'a, '_> {
     }
 
     fn sub_number(&mut self, group: &Group, raw: &Raw, compact: Option<u8>) {
-        let structure = group.items.iter().filter(|item| item.object().is_some_and(|(_, sub)| sub == 0xFF)).count();
-        let described = group.items.len() - structure;
         let Some(entry) = raw.get(Key::SubNumber) else { return self.no_sub_number(raw, compact) };
         let (text, span) = self.fixed(entry, Fixed::Number);
         if text.is_empty() {
@@ -431,19 +388,8 @@ impl<'a> Reader<'a, '_> {
                         .label("what is described stays, the compact description fills the gaps"),
                 );
             }
-        } else if structure > 0 && announced == group.items.len() as i128 {
-            self.diagnostics.push(
-                Diagnostic::new(&codes::STRUCTURE_ENTRY, span, "SubNumber counts sub-index 0xFF")
-                    .label(format!("{described} without it"))
-                    .fix(described.to_string()),
-            );
-        } else if announced != described as i128 {
-            let message = format!("SubNumber is {announced}, but {described} sub-indices are described");
-            self.diagnostics.push(
-                Diagnostic::new(&codes::SUB_NUMBER, span, message)
-                    .label("the sections that exist are used")
-                    .fix(described.to_string()),
-            );
+        } else {
+            object::sub_number(group, announced, &announced.to_string(), span, &TERMS, self.diagnostics);
         }
     }
 

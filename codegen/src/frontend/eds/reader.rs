@@ -271,13 +271,14 @@ impl<'a, 'd> Reader<'a, 'd> {
 
     pub(super) fn duplicate_sections(&mut self, same: &[Section]) {
         for later in same.iter().skip(1) {
-            let message = format!("section [{}] occurs twice", self.doc.name(later));
-            self.diagnostics.push(
-                Diagnostic::new(&codes::DUPLICATE_SECTION, self.doc.name_span(later), message)
-                    .label("merged with the first")
-                    .note_at(self.doc.name_span(&same[0]), "the first is here"),
-            );
+            self.duplicate_section(&same[0], later, "merged with the first");
         }
+    }
+
+    pub(super) fn duplicate_section(&mut self, first: &Section, later: &Section, label: &str) {
+        let message = format!("section [{}] occurs twice", self.doc.name(later));
+        let found = Diagnostic::new(&codes::DUPLICATE_SECTION, self.doc.name_span(later), message).label(label);
+        self.diagnostics.push(found.note_at(self.doc.name_span(first), "the first is here"));
     }
 
     /// Keeps an entry of a section that has no meaning, as `section/key`.

@@ -7,6 +7,7 @@ use super::objects::{Builder, Key, Raw};
 use super::reader::Texts;
 use super::types::underlying;
 use crate::diagnostics::{codes, Diagnostic};
+use crate::frontend::canopen::object;
 use crate::frontend::canopen::value::Role;
 use crate::frontend::xml::Given;
 use crate::ir::{
@@ -14,7 +15,6 @@ use crate::ir::{
     Quantity, Scale, Shape, Storage, Type, TypeDef, TypeId, Value,
 };
 use crate::source::Span;
-use crate::text::brief;
 
 /// What a sub-object takes from its object: the parameter of the whole, and the type of this component.
 pub(super) type Parent<'v, 'p, 'a> = Option<(&'v View<'p, 'a>, Option<Type>)>;
@@ -76,7 +76,8 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
             let Some(number) = self.reader.hex(given, u32::MAX, "data type") else {
                 return Some(Type::Opaque(None));
             };
-            let ty = self.type_by_code(number, item);
+            let defined = self.codes.get(&number).copied();
+            let ty = object::type_by_code(number, given.span, defined, self.reader.diagnostics);
             // An enumeration of the same integers says more.
             let named = parameter.map(|parameter| self.application.resolve(self.reader, parameter));
             return named.filter(|&named| named != ty && underlying(&self.types, named) == ty).or(Some(ty));
@@ -107,22 +108,6 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
         None
     }
 
-    fn type_by_code(&mut self, code: u32, item: &Item) -> Type {
-        if let Some(ty) = Type::from_cia301(code) {
-            return ty;
-        }
-        if let Some(&ty) = self.codes.get(&code) {
-            return ty;
-        }
-        let (kind, message) = match code {
-            0x20..=0x23 => (&codes::COMPLEX_DATA_TYPE, format!("{code:#06x} is the type of a record, not of a value")),
-            0x0E | 0x17 | 0x1C..=0x1F => (&codes::COMPLEX_DATA_TYPE, format!("the data type {code:#06x} is reserved")),
-            _ => (&codes::UNKNOWN_DATA_TYPE, format!("{code:#06x} is no data type of CiA 301 or of this file")),
-        };
-        self.reader.report(kind, item.at.ty, message, "kept as raw bytes");
-        Type::Opaque(Some(code))
-    }
-
     fn access(
         &mut self,
         raw: &Raw<'a>,
@@ -133,12 +118,7 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
     ) -> Access {
         if let Some(given) = raw.get(Key::AccessType) {
             item.at.access = given.span;
-            if let Some(access) = Access::from_cia306(&given.text) {
-                return access;
-            }
-            let access = if given.text.eq_ignore_ascii_case("w") { Access::WriteOnly } else { Access::ReadOnly };
-            self.unknown_access(given, access, "write one of ro, wo, rw, rwr, rww, const");
-            return access;
+            return object::access(&given.text, given.span, self.reader.diagnostics);
         }
         let of_parent = parent.filter(|_| !view.exists()).map(|(parent, _)| parent);
         let given = view.find(|parameter| parameter.access.non_empty());
@@ -178,18 +158,11 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
             }
             _ => {
                 let help = "write one of read, write, readWrite, readWriteInput, readWriteOutput, const, noAccess";
-                self.unknown_access(given, Access::ReadOnly, help);
+                let Given { text, span } = given;
+                object::unknown_access(text, *span, Access::ReadOnly, help, self.reader.diagnostics);
                 Access::ReadOnly
             }
         }
-    }
-
-    fn unknown_access(&mut self, given: &Given<'a>, access: Access, help: &str) {
-        self.reader.diagnostics.push(
-            Diagnostic::new(&codes::UNKNOWN_ACCESS, given.span, format!("`{}` is no access type", brief(&given.text)))
-                .label(format!("read as {}", access.name()))
-                .help(help),
-        );
     }
 
     fn mappable(&mut self, raw: &Raw<'a>, access: Access, item: &mut Item) -> Mappable {

@@ -5,7 +5,7 @@ use compact_str::format_compact;
 use super::identity;
 use super::object_list::ObjectList;
 use super::reader::Reader;
-use crate::diagnostics::codes;
+use crate::frontend::canopen::network;
 use crate::frontend::xml::{Given, Read};
 use crate::ir::{CanOpenSettings, CanOpenSpans, CompactString, Device, DynamicChannel};
 use crate::syntax::xml::Tag;
@@ -56,10 +56,7 @@ fn dummy_usage<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, canopen: &mut 
 
 fn dummy(entry: &str) -> Option<(u8, bool)> {
     let (key, value) = entry.split_once('=')?;
-    let key = key.trim();
-    let digits = key.get(5..).filter(|_| key[..5].eq_ignore_ascii_case("Dummy"))?;
-    let hexadecimal = digits.len() <= 4 && digits.bytes().all(|byte| byte.is_ascii_hexdigit());
-    let code = hexadecimal.then(|| u8::from_str_radix(digits, 16).ok()).flatten()?;
+    let code = network::dummy_code(key.trim())?;
     match value.trim() {
         "0" => Some((code, false)),
         "1" => Some((code, true)),
@@ -179,9 +176,8 @@ fn general_features<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, canopen: &mu
     canopen.group_messaging = reader.flag(messaging);
     canopen.dynamic_channels_supported = reader.unsigned(channels, u32::MAX, "number").unwrap_or(0);
     canopen.granularity = reader.unsigned(granularity, 0xFF, "granularity").map(|bits| bits as u8);
-    if let Some(bits @ 65..) = canopen.granularity {
-        let message = format!("a granularity of {bits} bits is more than a PDO has");
-        reader.report(&codes::VALUE_NOT_ALLOWED, granularity.span, message, "expected 0 to 64");
+    if let Some(bits) = canopen.granularity {
+        network::granularity(bits, granularity.span, reader.diagnostics);
     }
     canopen.rx_pdos = reader.unsigned(rx, 0xFFFF, "number of PDOs").map(|count| count as u16);
     canopen.tx_pdos = reader.unsigned(tx, 0xFFFF, "number of PDOs").map(|count| count as u16);
@@ -221,12 +217,7 @@ fn commissioning<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, device: &mut De
 
 fn node_id_of(reader: &mut Reader<'_, '_>, given: &Given<'_>) -> Option<u8> {
     let value = reader.unsigned(given, 0xFF, "node-ID")?;
-    if !(1..=127).contains(&value) {
-        let message = format!("{value} is no node-ID");
-        reader.report(&codes::VALUE_NOT_ALLOWED, given.span, message, "expected 1 to 127");
-        return None;
-    }
-    Some(value as u8)
+    network::node_id(value, given.span, reader.diagnostics)
 }
 
 #[cfg(test)]

@@ -8,8 +8,8 @@ use super::object_list::{missing_index, ObjectList};
 use super::reader::Reader;
 use super::types::underlying;
 use crate::diagnostics::{codes, Diagnostic};
-use crate::frontend::canopen::deftype::defined_type;
 use crate::frontend::canopen::number;
+use crate::frontend::canopen::object::{self, define_type, ObjectType, Terms};
 use crate::frontend::xml::{Given, Read};
 use crate::ir::{Category, Device, Extensions, Group, GroupKind, ObjectCode, Shape, Type, TypeDef, TypeId};
 use crate::limits;
@@ -43,7 +43,7 @@ pub(super) fn build<'a>(
         builder.reader.cursor = Cursor::resume(builder.reader.cursor.text(), origin);
         let tag = builder.reader.cursor.root()?;
         let group = builder.object(index, &tag)?;
-        builder.define_type(&group);
+        builder.codes.extend(define_type(&group, &mut builder.types, builder.reader.diagnostics));
         device.groups.push(group);
     }
     device.types = builder.types;
@@ -125,14 +125,26 @@ impl<'a> Raw<'a> {
         self.field(key).non_empty()
     }
 
+    fn object_type(&self) -> Option<ObjectType<'_>> {
+        let Given { text, span } = self.get(Key::ObjectType)?;
+        Some(ObjectType { text, number: number::parse(text, &[]).int(), span: *span })
+    }
+
     /// The span of the attribute, or else of the element.
     pub fn span(&self, key: Key) -> Span {
         self.field(key).span.or(self.origin.span)
     }
 }
 
+const TERMS: Terms = Terms {
+    sub_number: "subNumber",
+    sub_object: "sub-object",
+    elements: "sub-objects",
+    records: "write objectType=\"9\" for a RECORD, \"8\" for an ARRAY",
+};
+
 fn is_var(raw: &Raw<'_>) -> bool {
-    raw.get(Key::ObjectType).is_none_or(|given| number::parse(&given.text, &[]).int() == Some(7))
+    raw.object_type().is_none_or(|given| given.number == Some(7))
 }
 
 /// The state of building objects.
@@ -177,7 +189,9 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
         let mut group = Group::object(index, ObjectCode::Record);
         group.origin = raw.origin;
         self.name(&raw, &view, &mut group.name, &mut group.name_at);
-        let code = self.object_code(index, &raw, !subs.is_empty());
+        let (given, span) = (raw.object_type(), raw.span(Key::ObjectType));
+        let has_subs = !subs.is_empty();
+        let code = object::object_code(index, given.as_ref(), span, has_subs, &TERMS, self.reader.diagnostics);
         group.kind = GroupKind::Object { index, code, category: self.category(&view) };
         group.extensions.append(&mut raw.extensions);
         group.extensions.extend(view.extensions().cloned());
@@ -273,18 +287,10 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
         }
     }
 
-    /// What a sub-object is: a VAR, or a DOMAIN.
+    /// What a sub-object is.
     fn sub_code(&mut self, raw: &Raw<'a>) -> ObjectCode {
-        let Some(given) = raw.get(Key::ObjectType) else { return ObjectCode::Var };
-        match number::parse(&given.text, &[]).int() {
-            Some(2) => ObjectCode::Domain,
-            Some(7) => ObjectCode::Var,
-            _ => {
-                let message = format!("`{}` is no object type of a sub-object", given.text);
-                self.reader.report(&codes::UNKNOWN_OBJECT_TYPE, given.span, message, "read as VAR");
-                ObjectCode::Var
-            }
-        }
+        let given = raw.object_type();
+        given.map_or(ObjectCode::Var, |given| given.of_sub_index(&TERMS, self.reader.diagnostics))
     }
 
     /// The parameter of an object, unless such have been copied too often.
@@ -316,35 +322,6 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
             Some(given) => (*name, *at) = (given.text.as_ref().into(), given.span),
             None => *name = view.texts().labels.name(),
         }
-    }
-
-    /// objectType, or what the sub-objects show where it is missing or can't be.
-    fn object_code(&mut self, index: u16, raw: &Raw<'a>, has_subs: bool) -> ObjectCode {
-        let by_content = if has_subs { ObjectCode::Record } else { ObjectCode::Var };
-        let Some(given) = raw.get(Key::ObjectType) else { return self.var_with_subs(index, raw, has_subs) };
-        match number::parse(&given.text, &[]).int().and_then(ObjectCode::from_number) {
-            Some(ObjectCode::Var) => self.var_with_subs(index, raw, has_subs),
-            Some(code) => code,
-            None => {
-                let message = format!("`{}` is no object type", given.text);
-                let label = format!("read as {}", by_content.name());
-                self.reader.report(&codes::UNKNOWN_OBJECT_TYPE, given.span, message, label);
-                by_content
-            }
-        }
-    }
-
-    fn var_with_subs(&mut self, index: u16, raw: &Raw<'a>, has_subs: bool) -> ObjectCode {
-        if !has_subs {
-            return ObjectCode::Var;
-        }
-        let message = format!("0x{index:04X} is a VAR and has sub-indices");
-        self.reader.diagnostics.push(
-            Diagnostic::new(&codes::VAR_WITH_SUBS, raw.span(Key::ObjectType), message)
-                .label("treated as a RECORD")
-                .help("write objectType=\"9\" for a RECORD, \"8\" for an ARRAY"),
-        );
-        ObjectCode::Record
     }
 
     fn category(&mut self, view: &View<'p, 'a>) -> Option<Category> {
@@ -385,26 +362,10 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
         }
     }
 
-    /// subNumber counts the sub-objects including 0, without 0xFF; those that exist are used.
     fn sub_number(&mut self, group: &Group, raw: &Raw<'a>) {
         let Some(given) = raw.get(Key::SubNumber) else { return };
-        let structure = group.items.iter().filter(|item| item.object().is_some_and(|(_, sub)| sub == 0xFF)).count();
-        let described = group.items.len() - structure;
-        let announced = integer(&given.text);
-        if structure > 0 && announced == Some(group.items.len() as i128) {
-            self.reader.diagnostics.push(
-                Diagnostic::new(&codes::STRUCTURE_ENTRY, given.span, "subNumber counts sub-index 0xFF")
-                    .label(format!("{described} without it"))
-                    .fix(described.to_string()),
-            );
-        } else if announced != Some(described as i128) {
-            let message = format!("subNumber is {}, but {described} sub-indices are described", given.text);
-            self.reader.diagnostics.push(
-                Diagnostic::new(&codes::SUB_NUMBER, given.span, message)
-                    .label("the sub-objects that exist are used")
-                    .fix(described.to_string()),
-            );
-        }
+        let announced = integer(&given.text).unwrap_or(-1);
+        object::sub_number(group, announced, &given.text, given.span, &TERMS, self.reader.diagnostics);
     }
 
     fn duplicate(&mut self, later: Span, earlier: Span, what: &str) {
@@ -413,27 +374,5 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
                 .label("this one is used")
                 .note_at(earlier, "and this one is not"),
         );
-    }
-
-    /// An object that defines a type: an alias of a basic one, or a number of bits whose meaning nobody tells.
-    fn define_type(&mut self, group: &Group) {
-        let (Some(index), Some(code)) = (group.index(), group.object_code()) else { return };
-        if !matches!(code, ObjectCode::DefType | ObjectCode::DefStruct) {
-            if index < 0x1000 && index > 0 {
-                let message = format!("0x{index:04X} lies in the area of data types and is a {}", code.name());
-                self.reader.diagnostics.push(Diagnostic::new(&codes::TYPE_AREA_OBJECT, group.origin.span, message));
-            }
-            return;
-        }
-        let (target, bits) = defined_type(group, index, code);
-        self.codes.insert(u32::from(index), target);
-        self.types.push(TypeDef {
-            name: group.name.clone(),
-            code: Some(u32::from(index)),
-            shape: Shape::Alias(target),
-            bits,
-            documentation: None,
-            origin: group.origin,
-        });
     }
 }

@@ -2,6 +2,8 @@
 
 use memchr::{memchr, memmem};
 
+use crate::syntax::words;
+
 /// Length of a name, and of its prefix.
 #[derive(Clone, Copy)]
 pub(super) struct Name {
@@ -67,21 +69,16 @@ impl Value {
     /// The value at the start of `bytes`; `None` if there is no closing quotation mark. Eight bytes are compared at once.
     #[inline]
     pub fn of(quote: u8, bytes: &[u8]) -> Option<Self> {
-        const ONES: u64 = u64::from_le_bytes([1; 8]);
-        const HIGHS: u64 = ONES << 7;
-        // The high bit of each byte that is 0, and perhaps of bytes after the first of these.
-        let zeros = |word: u64| word.wrapping_sub(ONES) & !word & HIGHS;
-        let (quotes, ampersands) = (ONES * u64::from(quote), ONES * u64::from(b'&'));
-        let marks = |word: u64| zeros(word ^ ampersands) | (word.wrapping_sub(ONES * u64::from(b' ')) & !word & HIGHS);
+        let marks = |word: u64| words::equal(word, b'&') | words::less(word, b' ');
         let mut plain = true;
         let mut chunks = bytes.chunks_exact(8);
         for (number, chunk) in chunks.by_ref().enumerate() {
-            let word = u64::from_le_bytes(chunk.try_into().ok()?);
-            let end = zeros(word ^ quotes);
+            let word = words::word(chunk);
+            let end = words::equal(word, quote);
             if end != 0 {
                 let before = (end & end.wrapping_neg()) - 1;
                 plain &= marks(word) & before == 0;
-                return Some(Value { length: number * 8 + end.trailing_zeros() as usize / 8, plain });
+                return Some(Value { length: number * 8 + words::first(end), plain });
             }
             plain &= marks(word) == 0;
         }
