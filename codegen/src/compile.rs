@@ -91,22 +91,11 @@ pub fn choice(text: &str) -> Option<(String, String)> {
 /// What to say of a usable compilation whose [`Compilation::rust`] is `None`.
 pub const NOTHING_TO_GENERATE: &str = "it describes no device and no module, so there is nothing to generate";
 
-/// From so many bytes on, another thread digests a file while it is read.
-const LARGE: usize = 64 * 1024;
-
 /// Reads `source` into the IR, as it stands.
 pub fn read(source: Source, options: &Options) -> Compilation {
     let mut diagnostics = Diagnostics::new(options.levels.clone());
-    let mut read = || frontend::read(&source, &options.node_id_aliases, &options.choices, &mut diagnostics);
-    let frontend::Description { format, catalog, mut others, missing } = if source.text().len() < LARGE {
-        read()
-    } else {
-        std::thread::scope(|scope| {
-            // Where no thread can be had, the digest is taken when it is asked for.
-            let _ = std::thread::Builder::new().spawn_scoped(scope, || source.sha256().len());
-            read()
-        })
-    };
+    let frontend::Description { format, catalog, mut others, missing } =
+        frontend::read(&source, &options.node_id_aliases, &options.choices, &mut diagnostics);
     let mut sources = vec![source];
     sources.append(&mut others);
     let catalog = catalog.zip(format).map(|(mut catalog, format)| {
@@ -117,8 +106,7 @@ pub fn read(source: Source, options: &Options) -> Compilation {
 }
 
 fn file_info(source: &Source, format: Format) -> FileInfo {
-    let (name, sha256) = (source.name().to_owned(), source.sha256().to_owned());
-    FileInfo { name, format, encoding: source.encoding(), sha256 }
+    FileInfo { name: source.name().to_owned(), format, encoding: source.encoding(), sha256: source.digest() }
 }
 
 /// Reads `source` and checks it: the IR that every back end starts from.

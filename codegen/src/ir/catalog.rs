@@ -6,7 +6,7 @@ use super::{
     CodeTable, CompactString, Device, Family, Format, Graphic, Module, ModuleId, ModuleUse, Places, Submodule, Texts,
     TypeDef, UnitDiagnosis,
 };
-use crate::source::{Encoding, Origin, Span};
+use crate::source::{Digest, Encoding, Origin, Span};
 
 /// The devices of one vendor, as one or more files describe them.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -59,7 +59,7 @@ pub struct FileInfo {
     /// How its bytes were decoded.
     pub encoding: Encoding,
     /// SHA-256 of its bytes.
-    pub sha256: String,
+    pub sha256: Digest,
 }
 
 /// A text in one language.

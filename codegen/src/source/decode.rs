@@ -2,10 +2,13 @@
 
 use std::borrow::Cow;
 
-use encoding_rs::{Encoding as Charset, UTF_16BE, UTF_16LE, UTF_8, WINDOWS_1252};
+use encoding_rs::{CoderResult, Encoding as Charset, UTF_16BE, UTF_16LE, UTF_8, WINDOWS_1252};
 
 /// The byte order mark of UTF-8.
 const MARK: &[u8] = b"\xef\xbb\xbf";
+
+/// Bytes that any letter has room in.
+const ROOM: usize = 16;
 
 /// How a file's bytes were turned into text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -42,6 +45,7 @@ impl Encoding {
 }
 
 /// What became of a file's bytes.
+#[derive(Debug)]
 pub(super) struct Decoded {
     pub text: String,
     pub encoding: Encoding,
@@ -49,6 +53,13 @@ pub(super) struct Decoded {
     pub original: Option<Vec<u8>>,
     /// Whether some of them are no letters of the encoding.
     pub has_lost: bool,
+}
+
+impl Decoded {
+    /// The bytes as they were read.
+    pub fn bytes(&self) -> Cow<'_, [u8]> {
+        self.original.as_deref().map_or_else(|| encode(&self.text, self.encoding), Cow::Borrowed)
+    }
 }
 
 /// Reads bytes as text.
@@ -92,7 +103,7 @@ pub(super) fn decode(mut bytes: Vec<u8>) -> Decoded {
 }
 
 /// The bytes of a text in UTF-8, with or without a mark, or in Windows-1252.
-pub(super) fn encode(text: &str, encoding: Encoding) -> Cow<'_, [u8]> {
+fn encode(text: &str, encoding: Encoding) -> Cow<'_, [u8]> {
     match encoding {
         Encoding::Utf8Bom => Cow::Owned([MARK, text.as_bytes()].concat()),
         Encoding::Windows1252 => WINDOWS_1252.encode(text).0,
@@ -120,11 +131,19 @@ pub(super) fn charset(label: &str) -> Option<&'static str> {
 
 /// The text, and whether some bytes are no letters.
 fn with(charset: &'static Charset, bytes: &[u8]) -> (String, bool) {
-    let (text, has_lost) = charset.decode_without_bom_handling(bytes);
-    let mut text = text.into_owned();
-    // Decoding reserves for the longest text that there may be.
-    text.shrink_to_fit();
-    (text, has_lost)
+    let mut decoder = charset.new_decoder_without_bom_handling();
+    // Most letters are as long as in UTF-8. Room for the longest text that there may be is three times the input.
+    let mut text = String::with_capacity(bytes.len() + bytes.len() / 32 + ROOM);
+    let (mut rest, mut has_lost) = (bytes, false);
+    loop {
+        let (result, read, lost) = decoder.decode_to_string(rest, &mut text, true);
+        (rest, has_lost) = (&rest[read..], has_lost || lost);
+        if result == CoderResult::InputEmpty {
+            text.shrink_to_fit();
+            return (text, has_lost);
+        }
+        text.reserve(rest.len() / 4 + ROOM);
+    }
 }
 
 #[cfg(test)]

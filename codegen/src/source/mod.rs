@@ -4,33 +4,30 @@
 //! that a diagnostic, however late it is raised, can quote the line that caused it.
 
 mod decode;
+mod digest;
 mod references;
 mod span;
 
 pub use decode::Encoding;
+pub use digest::Digest;
 pub use references::{References, Refusal, MAX_REFERENCES};
 pub use span::{FileId, Origin, Position, Span};
 
 use std::borrow::Cow;
 use std::io::Read;
 use std::path::{Path, PathBuf};
-use std::sync::OnceLock;
+use std::sync::{Arc, OnceLock};
 
-use sha2::{Digest, Sha256};
+use digest::Content;
 
 /// One input file, decoded to UTF-8 with its byte order mark removed.
 #[derive(Clone, Debug)]
 pub struct Source {
     name: String,
-    text: String,
-    encoding: Encoding,
-    has_lost: bool,
+    content: Arc<Content>,
     /// The folder in which files that it refers to are looked for.
     folder: Option<PathBuf>,
-    /// The bytes as read, kept only if they do not follow from text and encoding.
-    original: Option<Vec<u8>>,
     line_starts: OnceLock<Vec<u32>>,
-    digest: OnceLock<String>,
     /// Number of characters before each multiple of [`STRIDE`] bytes, so that a column in a long line is found at once.
     characters: OnceLock<Vec<u32>>,
 }
@@ -52,16 +49,11 @@ impl Source {
     /// Nothing is ever refused here: a byte sequence that isn't UTF-8 is read as Windows-1252, in which every byte
     /// has a meaning, and [`Source::encoding`] tells so.
     pub fn new(name: impl Into<String>, bytes: Vec<u8>) -> Self {
-        let decode::Decoded { text, encoding, original, has_lost } = decode::decode(bytes);
         Source {
             name: name.into(),
-            text,
-            encoding,
-            has_lost,
+            content: Content::new(decode::decode(bytes)),
             folder: None,
-            original,
             line_starts: OnceLock::new(),
-            digest: OnceLock::new(),
             characters: OnceLock::new(),
         }
     }
@@ -109,7 +101,7 @@ impl Source {
 
     /// The encoding that an XML declaration names, as it spells it.
     pub fn declared_encoding(&self) -> Option<&str> {
-        decode::declared(self.text.as_bytes())
+        decode::declared(self.text().as_bytes())
     }
 
     /// The encoding that the XML declaration names, as the WHATWG Encoding Standard calls it (`UTF-8`, `windows-1252`); `None`
@@ -125,47 +117,42 @@ impl Source {
 
     /// The decoded text.
     pub fn text(&self) -> &str {
-        &self.text
+        &self.content.decoded.text
     }
 
     /// How the bytes were decoded.
     pub fn encoding(&self) -> Encoding {
-        self.encoding
+        self.content.decoded.encoding
     }
 
     /// Whether some bytes were no letters of the encoding: U+FFFD stands for them.
     pub fn has_lost_bytes(&self) -> bool {
-        self.has_lost
+        self.content.decoded.has_lost
     }
 
     /// The bytes as they were read.
     pub fn bytes(&self) -> Cow<'_, [u8]> {
-        match &self.original {
-            Some(bytes) => Cow::Borrowed(bytes),
-            None => decode::encode(&self.text, self.encoding),
-        }
+        self.content.decoded.bytes()
     }
 
     /// Whether the file starts with the byte order mark of UTF-8 and is not UTF-8.
     pub fn has_wrong_mark(&self) -> bool {
-        self.encoding == Encoding::Windows1252 && self.original.is_some()
+        self.encoding() == Encoding::Windows1252 && self.content.decoded.original.is_some()
     }
 
     /// SHA-256 of the bytes as they were read, in lower-case hexadecimal.
     pub fn sha256(&self) -> &str {
-        self.digest.get_or_init(|| {
-            let mut hex = String::with_capacity(64);
-            for byte in Sha256::digest(self.bytes()) {
-                use std::fmt::Write;
-                let _ = write!(hex, "{byte:02x}");
-            }
-            hex
-        })
+        self.content.sha256()
+    }
+
+    /// The same, computed when it is first asked for.
+    pub fn digest(&self) -> Digest {
+        Digest::of(&self.content)
     }
 
     /// The text of `span`, empty where the span lies outside of this source.
     pub fn slice(&self, span: Span) -> &str {
-        self.text.get(span.range()).unwrap_or("")
+        self.text().get(span.range()).unwrap_or("")
     }
 
     /// Line and column of a byte offset into the text.
@@ -174,7 +161,7 @@ impl Source {
     pub fn position(&self, offset: u32) -> Position {
         let line = self.line_at(offset);
         let start = self.line_starts()[line as usize - 1] as usize;
-        let end = (offset as usize).clamp(start, self.text.len());
+        let end = (offset as usize).clamp(start, self.text().len());
         let column = self.characters_before(end) - self.characters_before(start);
         Position { line, column: column + 1 }
     }
@@ -189,7 +176,7 @@ impl Source {
         let begins = |bytes: &[u8]| bytes.iter().filter(|&&byte| byte & 0xC0 != 0x80).count() as u32;
         let counts = self.characters.get_or_init(|| {
             let mut total = 0;
-            let chunks = self.text.as_bytes().chunks(STRIDE);
+            let chunks = self.text().as_bytes().chunks(STRIDE);
             std::iter::once(0)
                 .chain(chunks.map(|chunk| {
                     total += begins(chunk);
@@ -198,7 +185,7 @@ impl Source {
                 .collect()
         });
         let whole = (offset / STRIDE).min(counts.len() - 1);
-        counts[whole] + begins(&self.text.as_bytes()[whole * STRIDE..offset])
+        counts[whole] + begins(&self.text().as_bytes()[whole * STRIDE..offset])
     }
 
     /// The text of line `line` (counted from 1) without its line end.
@@ -206,13 +193,13 @@ impl Source {
         let starts = self.line_starts();
         let index = (line as usize).saturating_sub(1);
         let Some(&start) = starts.get(index) else { return "" };
-        let end = starts.get(index + 1).map_or(self.text.len(), |&next| next as usize);
-        self.text[start as usize..end].trim_end_matches(['\r', '\n'])
+        let end = starts.get(index + 1).map_or(self.text().len(), |&next| next as usize);
+        self.text()[start as usize..end].trim_end_matches(['\r', '\n'])
     }
 
     fn line_starts(&self) -> &[u32] {
         self.line_starts.get_or_init(|| {
-            let bytes = self.text.as_bytes();
+            let bytes = self.text().as_bytes();
             let mut starts = vec![0];
             for at in memchr::memchr2_iter(b'\n', b'\r', bytes) {
                 let crlf = bytes[at] == b'\r' && bytes.get(at + 1) == Some(&b'\n');

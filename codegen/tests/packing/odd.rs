@@ -71,6 +71,7 @@ pub fn catalog() -> Catalog {
     let process_data = ProcessData { pdos: pdos.collect(), ..ProcessData::default() };
     let device =
         Device { name: "odd".into(), types, ethercat: Some(Box::default()), process_data, ..Device::default() };
-    let file = FileInfo { name: "odd".into(), format: Format::Esi, encoding: Encoding::Utf8, sha256: String::new() };
+    let file =
+        FileInfo { name: "odd".into(), format: Format::Esi, encoding: Encoding::Utf8, sha256: String::new().into() };
     Catalog { files: vec![file], devices: vec![device], ..Catalog::default() }
 }

@@ -43,7 +43,7 @@ pub fn catalog(b: &mut Bytes<'_>) -> Catalog {
     };
     let source = Source::new("arbitrary", Vec::new());
     let name = format!("{}.{}", names::name(b), format.name());
-    let (encoding, sha256) = (source.encoding(), source.sha256().to_owned());
+    let (encoding, sha256) = (source.encoding(), source.digest());
     catalog.files.push(FileInfo { name, format, encoding, sha256 });
     catalog
 }
