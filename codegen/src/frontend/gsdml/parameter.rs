@@ -11,23 +11,23 @@ impl<'a> Reader<'a, '_> {
     /// Reads a Ref of the record `index`.
     pub fn parameter(&mut self, tag: &Tag<'a>, index: u16, item: &mut Item) -> Read<()> {
         const NAMES: [&str; 12] = [
+            "ValueItemTarget",
             "DataType",
             "ByteOffset",
-            "DefaultValue",
-            "AllowedValues",
-            "TextId",
-            "Changeable",
-            "Visible",
-            "ValueItemTarget",
             "BitOffset",
             "BitLength",
             "Length",
+            "DefaultValue",
+            "AllowedValues",
+            "Changeable",
+            "Visible",
+            "TextId",
             "ID",
         ];
         let start = self.extensions.len();
         item.origin = self.origin(tag);
         let fields = self.attributes(tag, NAMES)?;
-        let [data_type, byte, default, allowed, text, changeable, visible, values, bit, bits, length, id] = fields;
+        let [values, data_type, byte, bit, bits, length, default, allowed, changeable, visible, text, id] = fields;
         self.note("ID", &id);
         item.at.name = text.span;
         item.name = self.name(tag, text);

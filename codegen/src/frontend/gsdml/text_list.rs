@@ -23,7 +23,8 @@ pub(super) struct TextList<'a> {
     primaries: usize,
     languages: Vec<CompactString>,
     seen: HashMap<CompactString, Span>,
-    /// The entry that the next text most likely belongs to: languages list the same texts in the same order.
+    /// The entry that the next text most likely belongs to: languages list the same texts in the same order, in which they are mostly
+    /// referred to as well.
     next: usize,
 }
 
@@ -168,7 +169,11 @@ impl<'a> TextList<'a> {
 
     /// The text with this identifier, and its translations.
     pub fn find(&mut self, id: &str) -> Option<(CompactString, Texts)> {
-        let at = *self.places.get(id)?;
+        let at = match self.entries.get(self.next) {
+            Some(entry) if entry.id == id => self.next,
+            _ => *self.places.get(id)?,
+        };
+        self.next = at + 1;
         if self.entries.get(at)?.finished.is_none() {
             let finished = self.finish(self.entries.get(at)?);
             self.entries.get_mut(at)?.finished = Some(finished);
