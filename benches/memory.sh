@@ -1,0 +1,46 @@
+#!/usr/bin/env bash
+# The peak memory of `lexibus check` and `lexibus generate`, above that of the smallest file, in times the size of the input.
+#
+#     benches/memory.sh [FILE...]
+#
+# Without files: those of the corpus above 1 MB, and the register tables. `LEXIBUS` names a binary other than target/release/lexibus.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+lexibus=${LEXIBUS:-target/release/lexibus}
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+
+# Kilobytes at most of `lexibus $1 $2`.
+peak() {
+    local out=(--out "$work/out.rs")
+    [[ $1 == check ]] && out=()
+    /usr/bin/time -f %M -o "$work/peak" "$lexibus" "$1" "$2" "${out[@]}" >/dev/null 2>&1 || true
+    tail -1 "$work/peak"
+}
+
+# The format's smallest description: the profiles and all that does not depend on the input.
+empty() {
+    case $1 in
+    *.toml) printf 'lexibus = 1\n[device]\nname = "a"\nvendor = "a"\n[[chapters]]\nname = "a"\nbus = "modbus"\n[chapters.registers]\na = { at = 1, type = "u16" }\n' ;;
+    *.[eE][dD][sS] | *.[dD][cC][fF]) printf '[FileInfo]\nFileName=a.eds\n[1000]\nParameterName=a\nDataType=7\nAccessType=ro\n' ;;
+    *) printf '<EtherCATInfo><Vendor><Id>1</Id></Vendor><Descriptions><Devices><Device Physics="YY"><Type ProductCode="1">a</Type></Device></Devices></Descriptions></EtherCATInfo>' ;;
+    esac >"$work/empty.${1##*.}"
+    echo "$work/empty.${1##*.}"
+}
+
+if [[ $# -eq 0 ]]; then
+    mapfile -d '' files < <(find -L ../shared/corpus -type f -size +976k -print0 | sort -z)
+    set -- "${files[@]}" dictionaries/*.toml
+fi
+printf '%-52s %8s %7s %9s\n' file kB check generate
+for file in "$@"; do
+    small=$(empty "$file")
+    size=$(stat -Lc %s "$file")
+    ratios=()
+    for command in check generate; do
+        ratios+=("$(awk -v a="$(peak $command "$file")" -v b="$(peak $command "$small")" -v size="$size" \
+            'BEGIN { printf "%.1f", (a - b) * 1024 / size }')")
+    done
+    name=$(basename "$file")
+    printf '%-52s %8d %7s %9s\n' "${name:0:52}" $((size / 1000)) "${ratios[@]}"
+done
