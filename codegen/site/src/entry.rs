@@ -172,6 +172,7 @@ impl Rows<'_> {
             facts.extend(scale.map(|scale| sentence(&capital(scale.trim_start_matches([',', ' '])))));
             facts.extend(PLAIN.notes(quantity));
         }
+        facts.extend(PLAIN.origins(item));
         if let Some(behaviour) = &item.behaviour {
             facts.extend(PLAIN.behaviour(behaviour));
         }

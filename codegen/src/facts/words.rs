@@ -4,8 +4,8 @@ use crate::facts::cob_id;
 use crate::facts::physical::{self, depends_on_node, shown_unit, Physical};
 use crate::ir::{
     Availability, Behaviour, Binding, Bus, CiteUnit, CompactString, Condition, Device, Direction, Documentation, Doubt,
-    Item, ItemVariant, Limits, LocalText, Manual, Quantity, Scale, Severity, Shape, Step, Storage, TypeDef, Value,
-    PRINTED_NAME,
+    Fact, FactOrigin, Item, ItemVariant, Limits, LocalText, Manual, Quantity, Rule, Scale, Severity, Shape, Step,
+    Storage, TypeDef, Value,
 };
 
 /// Makes sentences. Every text of a source goes through `escape` on its way into one.
@@ -107,6 +107,46 @@ pub fn bus_name(bus: Bus) -> &'static str {
     }
 }
 
+/// Where a fact comes from: `CiA 402, 17.3.7`, `overlay pump.toml:12`.
+pub fn origin_name(origin: &FactOrigin) -> String {
+    match origin {
+        FactOrigin::Stated => "the description".to_owned(),
+        FactOrigin::Overlay { file, line, .. } => format!("overlay {file}:{line}"),
+        FactOrigin::Standard(clause) => clause.to_string(),
+        FactOrigin::Rule(Rule::UnstatedAccess) => "the rule for access rights that are not stated".to_owned(),
+        FactOrigin::Rule(Rule::ReservedEntry) => "the rule for reserved sub-indices".to_owned(),
+        FactOrigin::Rule(Rule::AnnouncedPdo) => "the rule for PDOs that are only announced".to_owned(),
+        FactOrigin::Rule(Rule::MappedObject) => "the rule for objects that only a PDO describes".to_owned(),
+        FactOrigin::PrintedName => "the printed name".to_owned(),
+    }
+}
+
+/// The name of a fact within a sentence.
+pub fn fact_name(fact: Fact) -> &'static str {
+    match fact {
+        Fact::Name => "name",
+        Fact::Addresses => "addresses",
+        Fact::Type => "type",
+        Fact::Meaning => "bits and values",
+        Fact::Access => "access rights",
+        Fact::Mappable => "PDO mapping",
+        Fact::Default => "default",
+        Fact::Limits => "range",
+        Fact::Unit => "unit",
+        Fact::Behaviour => "storage and effects",
+        Fact::Availability => "availability",
+        Fact::Variants => "differences between models",
+    }
+}
+
+/// `type, access rights and range`.
+fn enumerated(names: &[&str]) -> String {
+    match names {
+        [first @ .., last] if !first.is_empty() => format!("{} and {last}", first.join(", ")),
+        _ => names.concat(),
+    }
+}
+
 /// What a raw value means that is no number.
 fn sentinel<'i>(item: &'i Item, value: &Value) -> Option<&'i str> {
     let quantity = item.quantity.as_deref()?;
@@ -142,7 +182,7 @@ impl Words<'_> {
     /// Whether the access rights are an assumption.
     pub fn access(&self, item: &Item) -> Option<String> {
         let assumed = if item.access.writable() { "read-write" } else { "read-only" };
-        item.is_access_assumed.then(|| format!("The manual states no access rights; {assumed} is assumed."))
+        item.is_access_assumed().then(|| format!("The manual states no access rights; {assumed} is assumed."))
     }
 
     /// What is known of storage, side effects and conditions of writing.
@@ -404,19 +444,20 @@ impl Words<'_> {
     /// `Bits from CiA 402, 10.3.1.`: whose bits or values a type has, where they aren't the description's own.
     pub fn meaning_from(&self, definition: Option<&TypeDef>) -> Option<String> {
         let definition = definition?;
-        let standard = &definition.documentation.as_deref()?.text_from;
+        let origin = definition.documentation.as_deref()?.text_from.as_deref()?;
         let what = if matches!(definition.shape, Shape::BitField { .. }) { "Bits" } else { "Values" };
-        (!standard.is_empty()).then(|| format!("{what} from {}.", self.escaped(standard)))
+        Some(format!("{what} from {}.", self.escaped(&origin_name(origin))))
     }
 
     /// `Description from CiA 402, 17.3.7.`
     fn text_from(&self, documentation: &Documentation) -> Option<String> {
-        match documentation.text_from.as_str() {
-            "" => None,
-            PRINTED_NAME => Some("Description spelled out from the printed name.".to_owned()),
-            standard if documentation.text.is_empty() => Some(format!("From {}.", self.escaped(standard))),
-            standard => Some(format!("Description from {}.", self.escaped(standard))),
-        }
+        let origin = documentation.text_from.as_deref()?;
+        let name = self.escaped(&origin_name(origin));
+        Some(match origin {
+            FactOrigin::PrintedName => format!("Description spelled out from {name}."),
+            _ if documentation.text.is_empty() => format!("From {name}."),
+            _ => format!("Description from {name}."),
+        })
     }
 
     /// `, in 0.01 rev/s`: unit and scale as a part of a sentence.
@@ -465,10 +506,39 @@ impl Words<'_> {
         if let Some(step) = &quantity.step {
             notes.push(format!("The device rounds to {}.", self.step_of(step, Physical::of(Some(quantity)))));
         }
-        if !quantity.standard.is_empty() {
-            notes.push(format!("Unit from {}.", self.escaped(&quantity.standard)));
-        }
         notes
+    }
+
+    /// `Unit from CiA 402, 17.3.7.`: which facts of an item don't come from its description. Other sentences name assumed access rights,
+    /// reserved entries, and bits and values of a standard.
+    pub fn origins(&self, item: &Item) -> Vec<String> {
+        let mut groups: Vec<(&FactOrigin, Vec<&str>)> = Vec::new();
+        for fact in Fact::ALL {
+            let Some(origin) = item.origins.get(fact) else { continue };
+            let is_elsewhere = match origin {
+                FactOrigin::Stated | FactOrigin::Rule(Rule::UnstatedAccess | Rule::ReservedEntry) => true,
+                FactOrigin::Standard(_) => fact == Fact::Meaning,
+                FactOrigin::Overlay { .. } | FactOrigin::Rule(_) | FactOrigin::PrintedName => false,
+            };
+            if is_elsewhere {
+                continue;
+            }
+            match groups.iter_mut().find(|(known, _)| *known == origin) {
+                Some((_, facts)) => facts.push(fact_name(fact)),
+                None => groups.push((origin, vec![fact_name(fact)])),
+            }
+        }
+        let mut sentences = Vec::new();
+        for (origin, facts) in groups {
+            let replaced = matches!(origin, FactOrigin::Overlay { replaces: true, .. });
+            let instead = if replaced { ", replacing the description" } else { "" };
+            sentences.push(format!(
+                "{} from {}{instead}.",
+                capital(&enumerated(&facts)),
+                self.escaped(&origin_name(origin))
+            ));
+        }
+        sentences
     }
 
     /// `steps of 0.5 K (raw 5)`.

@@ -310,9 +310,6 @@ pub struct Quantity {
     /// Numbers that the source converts as examples.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Vec::is_empty"))]
     pub conversions: Vec<Conversion>,
-    /// The standard and its clause that say this, where the description doesn't: `CiA 402, 17.3.7`.
-    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "CompactString::is_empty"))]
-    pub standard: CompactString,
 }
 
 /// A number that a source converts as an example.

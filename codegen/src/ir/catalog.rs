@@ -3,8 +3,8 @@
 use thin_vec::ThinVec;
 
 use super::{
-    CodeTable, CompactString, Device, Family, Format, Graphic, Module, ModuleId, ModuleUse, Places, Submodule, Texts,
-    TypeDef, UnitDiagnosis,
+    CodeTable, CompactString, Device, FactOrigin, Family, Format, Graphic, Module, ModuleId, ModuleUse, Places,
+    Submodule, Texts, TypeDef, UnitDiagnosis,
 };
 use crate::source::{Digest, Encoding, Origin, Span};
 
@@ -227,9 +227,6 @@ impl Manual {
     }
 }
 
-/// [`Documentation::text_from`] of a text that only spells out the name of the element.
-pub const PRINTED_NAME: &str = "name";
-
 /// What a source or a manual says about an element in words.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -240,8 +237,7 @@ pub struct Documentation {
     pub translations: Texts,
     /// Page, line or clause of the manual that the element was taken from.
     pub cite: Option<CompactString>,
-    /// Where the text comes from, unless from the source itself: a standard with its clause (`CiA 402, 17.3.7`), or
-    /// [`PRINTED_NAME`].
-    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "CompactString::is_empty"))]
-    pub text_from: CompactString,
+    /// Where the text comes from, unless from the source itself.
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
+    pub text_from: Option<Box<FactOrigin>>,
 }

@@ -4,8 +4,8 @@ use smallvec::SmallVec;
 use thin_vec::ThinVec;
 
 use super::{
-    Access, Availability, Behaviour, Binding, Bus, CompactString, Documentation, Doubts, Extensions, ItemRef,
-    ItemVariant, Limits, Mappable, Quantity, Texts, Type, Value,
+    Access, Availability, Behaviour, Binding, Bus, CompactString, Documentation, Doubts, Extensions, Fact, FactOrigin,
+    FactOrigins, ItemRef, ItemVariant, Limits, Mappable, Quantity, Rule, Texts, Type, Value,
 };
 use crate::source::{Origin, Span};
 
@@ -21,14 +21,8 @@ pub struct Item {
     pub bindings: SmallVec<[Binding; 1]>,
     /// Its type.
     pub ty: Type,
-    /// Whether the source states that it names no bits and no values, so that no profile adds any.
-    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "std::ops::Not::not"))]
-    pub is_meaning_absent: bool,
     /// Access rights.
     pub access: Access,
-    /// Whether the source says nothing of the access rights, so that `access` is an assumption.
-    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "std::ops::Not::not"))]
-    pub is_access_assumed: bool,
     /// Into which PDOs it may be mapped.
     pub mappable: Mappable,
     /// Its value before anybody wrote it.
@@ -69,6 +63,9 @@ pub struct Item {
     pub origin: Origin,
     /// Where its facts stand.
     pub at: ItemSpans,
+    /// The facts that do not come from the description itself.
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "FactOrigins::is_empty"))]
+    pub origins: FactOrigins,
 }
 
 impl Item {
@@ -79,9 +76,7 @@ impl Item {
             names: Texts::default(),
             bindings: SmallVec::from_buf([binding]),
             ty: Type::Opaque(None),
-            is_meaning_absent: false,
             access: Access::ReadOnly,
-            is_access_assumed: false,
             mappable: Mappable::default(),
             default: None,
             limits: Limits::default(),
@@ -100,6 +95,7 @@ impl Item {
             extensions: Extensions::new(),
             origin: Origin::default(),
             at: ItemSpans::default(),
+            origins: FactOrigins::default(),
         }
     }
 
@@ -111,9 +107,14 @@ impl Item {
         })
     }
 
+    /// Whether the source says nothing of the access rights, so that `access` is an assumption.
+    pub fn is_access_assumed(&self) -> bool {
+        self.origins.get(Fact::Access) == Some(&FactOrigin::Rule(Rule::UnstatedAccess))
+    }
+
     /// The access rights as documentation shows them: `rw?` where they are an assumption.
     pub fn access_name(&self) -> &'static str {
-        match self.is_access_assumed {
+        match self.is_access_assumed() {
             true if self.access == Access::ReadOnly => "ro?",
             true => "rw?",
             false => self.access.name(),

@@ -3,7 +3,9 @@
 //! A device that says "CompactPDO" and NrOfRXPDO = 4, and describes two RPDOs, has two more. Their objects get line 0,
 //! for they stand nowhere in the file.
 
-use crate::ir::{Access, Binding, CompactString, Device, Group, Item, ObjectCode, Type, Value};
+use crate::ir::{
+    Access, Binding, CompactString, Device, Fact, FactOrigins, Group, Item, ObjectCode, Rule, Type, Value,
+};
 use crate::limits;
 
 /// Mapping entries of an implicit PDO: one a byte of a CAN frame.
@@ -46,6 +48,7 @@ fn item(index: u16, sub: u8, name: CompactString, bits: u8, default: Option<Valu
     item.ty = Type::Unsigned(bits);
     item.access = if sub == 0 { Access::ReadOnly } else { Access::ReadWrite };
     item.default = default;
+    item.origins = FactOrigins::by_rule(&[Fact::Type, Fact::Access, Fact::Default], Rule::AnnouncedPdo);
     item
 }
 

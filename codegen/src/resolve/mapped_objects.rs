@@ -5,7 +5,9 @@
 
 use std::collections::BTreeMap;
 
-use crate::ir::{Access, Binding, Device, Direction, Group, Item, Module, ObjectCode, Pdo, PdoEntryKind};
+use crate::ir::{
+    Access, Binding, Device, Direction, Fact, FactOrigins, Group, Item, Module, ObjectCode, Pdo, PdoEntryKind, Rule,
+};
 use crate::source::Origin;
 
 /// Of a device. Entries whose index grows with the slot map objects of a module.
@@ -46,6 +48,7 @@ fn complete(groups: &mut Vec<Group>, pdos: &mut [Pdo], is_module: bool) {
                 let mut item = Item::new(Binding::coe(entry.index, entry.sub_index));
                 (item.name, item.names) = (entry.name.clone(), entry.names.clone());
                 (item.ty, item.origin) = (entry.ty, origin);
+                item.origins = FactOrigins::by_rule(&[Fact::Access], Rule::MappedObject);
                 item
             });
             match pdo.direction {

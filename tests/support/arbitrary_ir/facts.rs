@@ -54,7 +54,6 @@ pub fn quantity(b: &mut Bytes<'_>, given: &[lexibus_codegen::ir::CompactString])
             Box::new(MachineUnit { unit: names::unit(b), times, over })
         }),
         conversions: b.few(8, 2, |b| conversion(b, given)),
-        standard: b.maybe(6, names::text).unwrap_or_default(),
     }
 }
 

@@ -69,6 +69,7 @@ pub fn item(b: &mut Bytes<'_>, around: &Around<'_>, binding: Binding) -> Item {
         documentation: names::documentation(b),
         doubts: names::doubts(b),
         extensions: names::extensions(b),
+        origins: names::origins(b),
         ..Item::new(binding)
     }
 }

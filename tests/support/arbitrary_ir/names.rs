@@ -1,8 +1,8 @@
 //! Names and texts: ordinary ones, and those that clash with Rust, with generated code or with one another.
 
 use lexibus_codegen::ir::{
-    Bus, Buses, CiteUnit, CompactString, Documentation, Doubt, Doubts, Extension, Extensions, LocalText, Manual,
-    ManualSection, Severity, Subject, SubjectKind, Texts,
+    Bus, Buses, CiteUnit, CompactString, Documentation, Doubt, Doubts, Extension, Extensions, Fact, FactOrigin,
+    FactOrigins, LocalText, Manual, ManualSection, Rule, Severity, Subject, SubjectKind, Texts,
 };
 use lexibus_codegen::source::Origin;
 
@@ -249,6 +249,20 @@ pub fn texts(b: &mut Bytes<'_>) -> Texts {
     b.few(6, 2, |b| LocalText { language: b.pick(&LANGUAGES).into(), text: text(b) }).into()
 }
 
+fn fact_origin(b: &mut Bytes<'_>) -> FactOrigin {
+    match b.within(0..=4) {
+        0 => b.pick(&[FactOrigin::Stated, FactOrigin::PrintedName]),
+        1 => FactOrigin::Overlay { file: name(b), line: b.within(0..=9), replaces: b.any() },
+        2 => FactOrigin::Rule(b.pick(&[Rule::UnstatedAccess, Rule::AnnouncedPdo, Rule::MappedObject])),
+        _ => FactOrigin::Standard(text(b).into()),
+    }
+}
+
+/// The facts that don't come from a description.
+pub fn origins(b: &mut Bytes<'_>) -> FactOrigins {
+    FactOrigins(b.few(4, 3, |b| (b.pick(&Fact::ALL), fact_origin(b))).into_iter().collect())
+}
+
 pub fn documentation(b: &mut Bytes<'_>) -> Option<Box<Documentation>> {
     b.maybe(4, |b| {
         let cite = b.maybe(2, text);
@@ -256,7 +270,7 @@ pub fn documentation(b: &mut Bytes<'_>) -> Option<Box<Documentation>> {
             text: text(b).into(),
             translations: texts(b),
             cite,
-            text_from: b.maybe(6, text).unwrap_or_default(),
+            text_from: b.maybe(6, fact_origin).map(Box::new),
         })
     })
 }

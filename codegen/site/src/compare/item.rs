@@ -7,13 +7,13 @@ use super::comparison::{
 };
 use super::conditions::{conditions, restricted};
 use super::show::Show;
-use super::texts::{described, renamed};
+use super::texts::{described, origin, renamed};
 use super::types;
 use lexibus_codegen::facts;
-use lexibus_codegen::facts::words::PLAIN;
+use lexibus_codegen::facts::words::{fact_name, PLAIN};
 use lexibus_codegen::ir::{
-    Access, Behaviour, CompactString, Configured, Conversion, Item, ItemVariant, Limits, MachineUnit, Mappable,
-    Quantity, RelatedItems, Scale, Storage, TypeDef, Value,
+    Access, Behaviour, CompactString, Configured, Conversion, FactOrigins, Item, ItemVariant, Limits, MachineUnit,
+    Mappable, Quantity, RelatedItems, Scale, Storage, TypeDef, Value,
 };
 
 /// Compares all facts of an item.
@@ -34,9 +34,7 @@ pub(super) fn compare_named(
         names,
         ty: types::compare,
         bindings: slice(bindings::compare),
-        is_meaning_absent: fact("names of bits and values are stated to be absent", Judgement::NONE),
         access: judged("access", access_effects),
-        is_access_assumed: fact("access is an assumption", Judgement::NONE),
         mappable: mappable,
         default: |_: &_, _: &_, comparison: &mut Comparison<'_>| default(old, new, comparison),
         limits: |one: &Limits, other: &Limits, comparison: &mut Comparison<'_>| {
@@ -55,6 +53,10 @@ pub(super) fn compare_named(
         shared_by_axes: fact("shared by all axes", Judgement::API),
         flags: fact_as("flags of the object", Judgement::BEHAVIOR, |flags| format!("0x{flags:X}")),
         documentation, doubts, extensions,
+        origins: positioned("origins", Judgement::NONE, |origins: &FactOrigins| {
+            let all = origins.0.iter().map(|(fact, from)| format!("{}: {}", fact_name(*fact), origin(from)));
+            all.collect::<Vec<_>>().join("; ")
+        }),
     }, POSITION => [origin, at]);
 }
 
@@ -215,7 +217,6 @@ fn quantity(old: &Quantity, new: &Quantity, comparison: &mut Comparison<'_>) {
         conversions: positioned("examples of conversions", Judgement::NONE, |examples: &Vec<Conversion>| {
             examples.iter().map(conversion).collect::<Vec<_>>().join("; ")
         }),
-        standard: text("standard of the unit"),
     });
 }
 

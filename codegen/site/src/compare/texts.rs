@@ -4,8 +4,8 @@ use super::change::Judgement;
 use super::comparison::{compare_fields, or_default, positioned, text, Comparison, CITATION};
 use super::names::identifier;
 use super::show::Show;
-use lexibus_codegen::facts::words::PLAIN;
-use lexibus_codegen::ir::{Documentation, Doubt, Doubts, Extensions, Manual, ManualSection};
+use lexibus_codegen::facts::words::{origin_name, PLAIN};
+use lexibus_codegen::ir::{Documentation, Doubt, Doubts, Extensions, FactOrigin, Manual, ManualSection};
 
 /// Descriptions of an element.
 pub(super) fn documentation(
@@ -17,15 +17,28 @@ pub(super) fn documentation(
         compare_fields!(Documentation, old, new, comparison, {
             text: text("description"),
             translations: text("description in other languages"),
-            text_from: text("origin of the description"),
+            text_from: positioned("origin of the description", Judgement::NONE, text_from),
         }, CITATION => [cite]);
     })(old, new, comparison);
+}
+
+/// The origin of a fact without its position in a file.
+pub(super) fn origin(origin: &FactOrigin) -> String {
+    match origin {
+        FactOrigin::Overlay { file, replaces: false, .. } => format!("overlay {file}"),
+        FactOrigin::Overlay { file, replaces: true, .. } => format!("overlay {file}, replacing the description"),
+        other => origin_name(other),
+    }
+}
+
+fn text_from(from: &Option<Box<FactOrigin>>) -> String {
+    from.as_deref().map(origin).unwrap_or_default()
 }
 
 /// The words of a description in one text.
 pub(super) fn described(documentation: Option<&Documentation>) -> String {
     let Some(Documentation { text, translations, text_from, cite: _ }) = documentation else { return String::new() };
-    let parts = [text.clone(), translations.show(), text_from.to_string()];
+    let parts = [text.clone(), translations.show(), self::text_from(text_from)];
     parts.into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join(" ")
 }
 

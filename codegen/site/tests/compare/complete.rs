@@ -26,7 +26,7 @@ use serde_json::Value;
 use crate::root::root;
 
 /// Facts that are not reported, with the reason: the end of the path of a field, in which `*` is any position.
-const UNREPORTED: [(&str, &str); 11] = [
+const UNREPORTED: [(&str, &str); 12] = [
     ("/files", "the files that are compared"),
     ("/origin", "a position in the file"),
     ("/at", "positions in the file"),
@@ -35,6 +35,7 @@ const UNREPORTED: [(&str, &str); 11] = [
     ("/step_spans", "positions in the file"),
     ("/request_at", "a position in the file"),
     ("/reply_at", "a position in the file"),
+    ("/overlay/line", "a position in the file"),
     ("/cite", "a position in the manual"),
     ("/manual/counts", "the unit of positions in the manual"),
     ("/manual/sections/*/start", "a position in the manual"),

@@ -49,6 +49,7 @@ pub(super) fn item(
     if let Some(quantity) = &item.quantity {
         paragraphs.extend(WORDS.notes(quantity));
     }
+    paragraphs.extend(WORDS.origins(item));
     if let Some(behaviour) = &item.behaviour {
         paragraphs.push(words.behaviour(behaviour).join(" "));
     }

@@ -15,8 +15,8 @@ use super::words::{ACCESSES, DIRECTIONS};
 use super::{conditions, given, scale, types, value};
 use crate::diagnostics::{codes, Code, Diagnostic};
 use crate::ir::{
-    Access, Availability, Behaviour, Binding, Bus, Buses, Conversion, Documentation, Item, ItemRef, ModbusTable,
-    Quantity, RegisterSpace, RelatedItems, Shape, Storage, Type, TypeDef, TypeId,
+    Access, Availability, Behaviour, Binding, Bus, Buses, Conversion, Documentation, Fact, FactOrigin, Item, ItemRef,
+    ModbusTable, Quantity, RegisterSpace, RelatedItems, Rule, Shape, Storage, Type, TypeDef, TypeId,
 };
 use crate::source::Span;
 use crate::text::brief;
@@ -211,7 +211,7 @@ impl Rows {
             item.at.ty = row.ty.as_ref().map_or(item.at.ty, |ty| reader.span(ty));
         }
         if row.bits.is_some() || row.values.is_some() {
-            item.is_meaning_absent = states_no_meaning(row);
+            item.origins.set(Fact::Meaning, states_no_meaning(row).then_some(FactOrigin::Stated));
         }
         self.access(reader, item, row);
         self.values(reader, item, named, row);
@@ -245,7 +245,8 @@ impl Rows {
 
     fn access(&mut self, reader: &mut Reader<'_, '_>, item: &mut Item, row: &Row) {
         if let Some(access) = &row.access {
-            item.is_access_assumed = access.value == "?";
+            let rule = (access.value == "?").then_some(FactOrigin::Rule(Rule::UnstatedAccess));
+            item.origins.set(Fact::Access, rule);
             let known = ACCESSES.iter().copied().chain([("?", Access::ReadWrite)]).collect::<Vec<_>>();
             item.access = reader.word(access, "access", &known).unwrap_or(item.access);
             item.at.access = reader.span(access);
@@ -253,14 +254,15 @@ impl Rows {
         // A reserved sub-index has no value to write, whatever access rights its row inherits.
         let is_object = item.object().is_some_and(|(_, sub)| sub > 0);
         if row.reserved == Some(true) && is_object && item.access.readable() && item.access.writable() {
-            (item.access, item.is_access_assumed) = (Access::ReadOnly, false);
+            item.access = Access::ReadOnly;
+            item.origins.set(Fact::Access, Some(FactOrigin::Rule(Rule::ReservedEntry)));
         }
         // Inputs of Modbus have no function that writes.
         let is_input = |binding: &Binding| match binding {
             Binding::Register(own) => matches!(own.space, RegisterSpace::Input | RegisterSpace::DiscreteInput),
             _ => false,
         };
-        if item.is_access_assumed && item.bindings.iter().all(is_input) {
+        if item.is_access_assumed() && item.bindings.iter().all(is_input) {
             item.access = Access::ReadOnly;
         }
         if let Some(pdo) = &row.pdo {
@@ -437,6 +439,9 @@ impl Rows {
     }
 }
 
+/// `doc_from` of a text that only spells out the name of the element.
+const PRINTED_NAME: &str = "name";
+
 /// What a row says of its element in words, and where the words come from.
 pub(super) fn documentation(reader: &mut Reader<'_, '_>, row: &Row) -> Option<Box<Documentation>> {
     if let (Some(from), None) = (&row.doc_from, &row.doc) {
@@ -448,7 +453,11 @@ pub(super) fn documentation(reader: &mut Reader<'_, '_>, row: &Row) -> Option<Bo
     }
     let mut documentation = reader.documentation(row.doc.as_deref(), row.cite.as_ref().map(cited));
     if let (Some(from), Some(documentation)) = (&row.doc_from, &mut documentation) {
-        documentation.text_from = from.value.as_str().into();
+        let origin = match from.value.as_str() {
+            PRINTED_NAME => FactOrigin::PrintedName,
+            standard => FactOrigin::Standard(standard.into()),
+        };
+        documentation.text_from = (!from.value.is_empty()).then(|| Box::new(origin));
     }
     documentation
 }

@@ -13,7 +13,9 @@ use super::format::{DoubtTable, NumberOrText, OptionTable};
 pub(super) use super::read::Node;
 use super::read::{self, MistakeKind, Read};
 use crate::diagnostics::{codes, Code, Diagnostic, Diagnostics};
-use crate::ir::{Documentation, Doubt, Doubts, LocalText, Reference, Severity, Subject, SubjectKind, Texts};
+use crate::ir::{
+    Documentation, Doubt, Doubts, FactOrigin, LocalText, Reference, Severity, Subject, SubjectKind, Texts,
+};
 use crate::limits::MAX_UNKNOWN_KEYS;
 use crate::source::{FileId, Origin, Source, Span};
 use crate::text::{brief, edit_distance, standard_and_clause};
@@ -249,11 +251,11 @@ impl<'a> Reader<'a, '_> {
         }
         let text = doc.unwrap_or_default().to_owned();
         let (cite, text_from) = match self.standard.as_str() {
-            "" => (cite.map(CompactString::from), CompactString::default()),
+            "" => (cite.map(CompactString::from), None),
             // What has no clause of its own is within something that has one.
-            standard => (None, cite.map(|clause| standard_and_clause(standard, &clause).into()).unwrap_or_default()),
+            standard => (None, cite.map(|clause| FactOrigin::Standard(standard_and_clause(standard, &clause).into()))),
         };
-        Some(Box::new(Documentation { text, cite, text_from, ..Documentation::default() }))
+        Some(Box::new(Documentation { text, cite, text_from: text_from.map(Box::new), ..Documentation::default() }))
     }
 
     /// A name in the manual's language.

@@ -12,6 +12,8 @@
         ///
         /// 0x2000:01, UNSIGNED16, ro, mappable into TPDOs.
         /// Accessor: [`Accessors::peak`]. Carried by [`Values`](super::super::pdo::Values).
+        ///
+        /// Access rights from the rule for objects that only a PDO describes.
         pub const PEAK: super::ReadOnly<u16> = super::ReadOnlyU16::flagged_coe_object(
             0x2000,
             0x01,

@@ -65,6 +65,8 @@
                 ///
                 /// 0x6000:01, BOOLEAN, ro, mappable into TPDOs.
                 /// Carried by [`Inputs`](super::super::pdo::Inputs).
+                ///
+                /// Access rights from the rule for objects that only a PDO describes.
                 pub const IN_1: super::ReadOnly<bool> = super::ReadOnlyBool::flagged_coe_object(
                     0x6000,
                     0x01,

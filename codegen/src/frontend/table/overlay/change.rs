@@ -13,7 +13,8 @@ use super::super::words::OBJECT_CODES;
 use super::{in_range, Overlay, PatchRow, Target};
 use crate::diagnostics::codes;
 use crate::ir::{
-    Documentation, Extension, Extensions, Group, GroupKind, Item, ObjectBuses, ObjectCode, Type, TypeDef, TypeId,
+    Documentation, Extension, Extensions, Fact, FactOrigin, Group, GroupKind, Item, ObjectBuses, ObjectCode, Type,
+    TypeDef, TypeId,
 };
 use crate::source::Span;
 use crate::text::brief;
@@ -174,6 +175,7 @@ impl RowPatcher<'_> {
             *item = before;
             return false;
         }
+        record(reader, item, &before, row);
         let (why, span) = (self.why(own).to_owned(), reader.span(&row.key));
         explain("Changed", &why, span, &mut item.documentation, &mut item.extensions);
         true
@@ -337,6 +339,21 @@ impl RowPatcher<'_> {
         set.groups.extend(dictionary.into_values());
         set.groups.sort_by_key(Group::index);
         Outcome::Changed
+    }
+}
+
+/// Records the overlay as the origin of what its row changed. An assumption that the row states stays one.
+fn record(reader: &Reader<'_, '_>, item: &mut Item, before: &Item, row: &PatchRow) {
+    let file = reader.source.name().rsplit(['/', '\\']).next().unwrap_or_default();
+    let line = reader.origin(&row.key).line;
+    for fact in Fact::ALL {
+        let is_type = row.row.value.ty.is_some();
+        let is_other = matches!(fact, Fact::Type if !is_type) || matches!(fact, Fact::Meaning if is_type);
+        if is_other || !fact.differs(item, before) || item.is_access_assumed() && fact == Fact::Access {
+            continue;
+        }
+        let replaces = fact.is_stated(before);
+        item.origins.set(fact, Some(FactOrigin::Overlay { file: file.into(), line, replaces }));
     }
 }
 

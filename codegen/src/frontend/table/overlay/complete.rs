@@ -14,8 +14,8 @@ use super::super::types;
 use super::{at_place, in_range, item_name, name_conditions, Patch, PatchRow, Profile, Target};
 use crate::diagnostics::Diagnostics;
 use crate::ir::{
-    Binding, Buses, CodeTable, CompactString, Device, Direction, Documentation, Group, IoData, Item, Module, Pdo,
-    PdoEntry, PdoEntryKind, Quantity, Shape, StateMachine, Submodule, Type, TypeDef, TypeId, TypeRef,
+    Binding, Buses, CodeTable, CompactString, Device, Direction, Documentation, Fact, FactOrigin, Group, IoData, Item,
+    Module, Pdo, PdoEntry, PdoEntryKind, Shape, StateMachine, Submodule, Type, TypeDef, TypeId, TypeRef,
 };
 use crate::source::{FileId, Origin};
 use crate::text::standard_and_clause;
@@ -168,24 +168,29 @@ impl<'p> Completion<'p> {
         }
         let named = Named { name: &item.name, key: &row.key, number, end: row.row.end };
         let mut complete = Item { ty: own, ..Item::new(item.bindings.first()?.clone()) };
-        let plain = !item.is_meaning_absent && self.is_plain(old);
+        let clause = said.cite.as_ref().map(cited).unwrap_or_default();
+        let standard = FactOrigin::Standard(standard_and_clause(&self.profile.standard(), &clause).into());
+        let admits_meaning = item.origins.admits(Fact::Meaning, !self.is_plain(old), &standard);
         let new = self.with_reader(|reader, rows| {
             rows.fill(reader, &mut complete, named, said, None);
-            plain.then(|| rows.meaning(reader, named, said, own)).flatten()
+            admits_meaning.then(|| rows.meaning(reader, named, said, own)).flatten()
         });
-        item.ty = new.unwrap_or(old);
-        item.quantity = item.quantity.take().or_else(|| self.of_standard(complete.quantity.take(), row));
-        item.behaviour = item.behaviour.take().or(complete.behaviour);
+        if let Some(ty) = new {
+            item.ty = ty;
+            item.origins.set(Fact::Meaning, Some(standard.clone()));
+        }
+        for fact in [Fact::Unit, Fact::Behaviour] {
+            if !fact.is_stated(&complete) || !item.origins.admits(fact, fact.is_stated(item), &standard) {
+                continue;
+            }
+            match fact {
+                Fact::Unit => item.quantity = complete.quantity.take(),
+                _ => item.behaviour = complete.behaviour.take(),
+            }
+            item.origins.set(fact, Some(standard.clone()));
+        }
         describe(&mut item.documentation, complete.documentation);
         (item.ty != old).then_some((old, item.ty))
-    }
-
-    /// A unit, with the clause that says it.
-    fn of_standard(&self, quantity: Option<Box<Quantity>>, row: &PatchRow) -> Option<Box<Quantity>> {
-        let mut quantity = quantity?;
-        let clause = row.row.value.cite.as_ref().map(cited).unwrap_or_default();
-        quantity.standard = standard_and_clause(&self.profile.standard(), &clause).into();
-        Some(quantity)
     }
 
     /// Whether a type says nothing of bits and values.
@@ -312,7 +317,7 @@ fn describe(documentation: &mut Option<Box<Documentation>>, of_profile: Option<B
 
 /// Whether a table of codes is a profile's.
 fn is_from_profile(table: &CodeTable) -> bool {
-    table.documentation.as_deref().is_some_and(|own| !own.text_from.is_empty())
+    table.documentation.as_deref().is_some_and(|documentation| documentation.text_from.is_some())
 }
 
 fn is_signal(row: &PatchRow) -> bool {

@@ -1,0 +1,210 @@
+//! Origins of facts, and which of two origins takes precedence.
+
+use thin_vec::ThinVec;
+
+use super::{CompactString, Item};
+
+/// An attribute of an item that several sources can state.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
+pub enum Fact {
+    /// Its name.
+    Name,
+    /// Its addresses.
+    Addresses,
+    /// Its data type.
+    Type,
+    /// The names of its bits or values.
+    Meaning,
+    /// Access rights.
+    Access,
+    /// Into which PDOs it may be mapped.
+    Mappable,
+    /// Default value.
+    Default,
+    /// Minimum, maximum and list of values.
+    Limits,
+    /// Unit, scale and rounding.
+    Unit,
+    /// Storage, side effects and conditions of writing.
+    Behaviour,
+    /// Models, firmware versions and buses that have it.
+    Availability,
+    /// What differs between models or buses.
+    Variants,
+}
+
+impl Fact {
+    /// All facts, in the order in which outputs show them.
+    pub const ALL: [Fact; 12] = [
+        Fact::Name,
+        Fact::Addresses,
+        Fact::Type,
+        Fact::Meaning,
+        Fact::Access,
+        Fact::Mappable,
+        Fact::Default,
+        Fact::Limits,
+        Fact::Unit,
+        Fact::Behaviour,
+        Fact::Availability,
+        Fact::Variants,
+    ];
+
+    /// Whether two items state this fact differently. A type with other names of bits or values differs in its meaning.
+    pub(crate) fn differs(self, one: &Item, other: &Item) -> bool {
+        match self {
+            Fact::Name => one.name != other.name || one.names != other.names,
+            Fact::Addresses => one.bindings != other.bindings,
+            Fact::Type | Fact::Meaning => one.ty != other.ty,
+            Fact::Access => one.access != other.access,
+            Fact::Mappable => one.mappable != other.mappable,
+            Fact::Default => one.default != other.default,
+            Fact::Limits => one.limits != other.limits,
+            Fact::Unit => one.quantity != other.quantity,
+            Fact::Behaviour => one.behaviour != other.behaviour,
+            Fact::Availability => one.availability != other.availability,
+            Fact::Variants => one.variants != other.variants,
+        }
+    }
+
+    /// Whether the description of an item states this fact.
+    pub(crate) fn is_stated(self, item: &Item) -> bool {
+        match self {
+            Fact::Name => !item.name.is_empty(),
+            Fact::Addresses | Fact::Type | Fact::Access | Fact::Mappable => true,
+            Fact::Meaning => matches!(item.ty, super::Type::Named(_)),
+            Fact::Default => item.default.is_some(),
+            Fact::Limits => !item.limits.is_empty() || !item.limits.allowed.is_empty(),
+            Fact::Unit => item.quantity.is_some(),
+            Fact::Behaviour => item.behaviour.is_some(),
+            Fact::Availability => item.availability.is_some(),
+            Fact::Variants => !item.variants.is_empty(),
+        }
+    }
+}
+
+/// Where a fact comes from.
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
+pub enum FactOrigin {
+    /// The description itself. It is only recorded of a fact that the description states to be absent.
+    Stated,
+    /// The name that the manual prints, which a text spells out.
+    PrintedName,
+    /// An overlay of the user.
+    Overlay {
+        /// The name of its file, without folders.
+        file: CompactString,
+        /// The line of the row.
+        line: u32,
+        /// Whether the description states the fact too.
+        replaces: bool,
+    },
+    /// A standard with its clause: `CiA 402, 17.3.7`.
+    Standard(CompactString),
+    /// A rule of the compiler.
+    Rule(Rule),
+}
+
+/// The rules by which the compiler completes descriptions.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
+pub enum Rule {
+    /// Access rights that a manual doesn't state are read-write, and read-only for inputs of Modbus.
+    UnstatedAccess,
+    /// Reserved sub-indices that inherit read-write access are read-only.
+    ReservedEntry,
+    /// Objects of PDOs that a device announces and does not describe follow CiA 301.
+    AnnouncedPdo,
+    /// An object that only an entry of a PDO describes can be written if the device receives the PDO.
+    MappedObject,
+}
+
+impl FactOrigin {
+    /// Overlay, then description, then standard, then rule.
+    fn rank(&self) -> u8 {
+        match self {
+            FactOrigin::Rule(_) => 0,
+            FactOrigin::Standard(_) => 1,
+            FactOrigin::Stated | FactOrigin::PrintedName => 2,
+            FactOrigin::Overlay { .. } => 3,
+        }
+    }
+
+    /// Whether a fact of this origin is used instead of one that is there. Of two overlays, the later one is used; of two standards, the
+    /// first.
+    pub(crate) fn takes_precedence_over(&self, present: Option<&FactOrigin>) -> bool {
+        let Some(present) = present else { return true };
+        self.rank() > present.rank() || matches!(self, FactOrigin::Overlay { .. })
+    }
+}
+
+/// The facts of an element that do not come from the description itself, with their origins.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct FactOrigins(pub ThinVec<(Fact, FactOrigin)>);
+
+impl FactOrigins {
+    /// Whether all facts come from the description itself.
+    pub fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+
+    /// Returns the recorded origin of a fact.
+    pub fn get(&self, fact: Fact) -> Option<&FactOrigin> {
+        self.0.iter().find(|(recorded, _)| *recorded == fact).map(|(_, origin)| origin)
+    }
+
+    /// Records the origin of a fact; `None` is the description itself.
+    pub(crate) fn set(&mut self, fact: Fact, origin: Option<FactOrigin>) {
+        self.0.retain(|(recorded, _)| *recorded != fact);
+        self.0.extend(origin.map(|origin| (fact, origin)));
+    }
+
+    /// Records a rule as the origin of facts that had no other.
+    pub(crate) fn by_rule(facts: &[Fact], rule: Rule) -> Self {
+        FactOrigins(facts.iter().map(|fact| (*fact, FactOrigin::Rule(rule))).collect())
+    }
+
+    /// Whether a fact of this origin is used. `is_stated` tells whether the element has the fact.
+    pub(crate) fn admits(&self, fact: Fact, is_stated: bool, origin: &FactOrigin) -> bool {
+        origin.takes_precedence_over(self.get(fact).or(is_stated.then_some(&FactOrigin::Stated)))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn overlay() -> FactOrigin {
+        FactOrigin::Overlay { file: "a.toml".into(), line: 3, replaces: true }
+    }
+
+    #[test]
+    fn an_overlay_comes_before_the_description_before_a_standard_before_a_rule() {
+        let standard = FactOrigin::Standard("CiA 402, 17.3.7".into());
+        let order = [FactOrigin::Rule(Rule::UnstatedAccess), standard.clone(), FactOrigin::Stated, overlay()];
+        for (at, lower) in order.iter().enumerate() {
+            assert!(lower.takes_precedence_over(None));
+            assert!(order[at + 1..].iter().all(|higher| higher.takes_precedence_over(Some(lower))));
+            assert!(order[at + 1..].iter().all(|higher| !lower.takes_precedence_over(Some(higher))));
+        }
+        assert!(!standard.takes_precedence_over(Some(&standard)) && overlay().takes_precedence_over(Some(&overlay())));
+    }
+
+    #[test]
+    fn a_fact_has_one_origin() {
+        let mut origins = FactOrigins::default();
+        origins.set(Fact::Unit, Some(FactOrigin::Standard("CiA 402, 1".into())));
+        origins.set(Fact::Unit, Some(overlay()));
+        assert_eq!((origins.0.len(), origins.get(Fact::Unit)), (1, Some(&overlay())));
+        assert!(!origins.admits(Fact::Unit, true, &FactOrigin::Standard("CiA 402, 2".into())));
+        assert!(origins.admits(Fact::Limits, false, &FactOrigin::Rule(Rule::UnstatedAccess)));
+        origins.set(Fact::Unit, None);
+        assert!(origins.is_empty());
+    }
+}

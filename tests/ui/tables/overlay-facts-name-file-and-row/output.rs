@@ -1,0 +1,34 @@
+    /// Torque actual value.
+    ///
+    /// 0x6077:00, INTEGER16, ro, 1 LSB = 0.01 %.
+    /// Accessor: [`torque_actual_value`](super::Axis::torque_actual_value).
+    ///
+    /// Changed by an overlay: the data sheet has other values.
+    ///
+    /// Unit from overlay pump.overlay.toml:10.
+    pub const TORQUE_ACTUAL_VALUE: ReadOnly<rt::Scaled<i16, 1, 100>> = ReadOnlyI16Times1Per100::new(
+        rt::OnCanOpen::canopen(0x6077, 0x00),
+        "Torque actual value",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "%",
+        rt::Flags::NONE,
+    );
+    /// Ramp.
+    ///
+    /// 0x2000:00, UNSIGNED16, rw, default 10, range 1 to 200, in ms.
+    /// Accessor: [`ramp`](super::Axis::ramp).
+    ///
+    /// Changed by an overlay: the data sheet has other values.
+    ///
+    /// Default and range from overlay pump.overlay.toml:9, replacing the description.
+    ///
+    /// Unit from overlay pump.overlay.toml:9.
+    pub const RAMP: ReadWrite<u16> = ReadWriteU16::new(
+        rt::OnCanOpen::canopen(0x2000, 0x00),
+        "Ramp",
+        rt::Range::Between(1, 200),
+        rt::Initial::Value(10),
+        "ms",
+        rt::Flags::NONE,
+    );
