@@ -15,6 +15,7 @@ pub mod number;
 #[path = "../../../tests/support/python.rs"]
 pub mod python;
 pub mod reading;
+#[allow(clippy::duplicate_mod, reason = "a program may load several modules that look for the repository")]
 #[path = "../../../tests/support/root.rs"]
 pub mod root;
 pub mod round_trip;

@@ -4,6 +4,7 @@
 
 #[path = "../table_support/manual.rs"]
 mod manual_text;
+#[allow(clippy::duplicate_mod, reason = "a program may load several modules that look for the repository")]
 #[path = "../../../tests/support/root.rs"]
 mod root;
 

@@ -1,5 +1,6 @@
 //! The manuals that tables were transcribed from.
 
+#[allow(clippy::duplicate_mod, reason = "a program may load several modules that look for the repository")]
 #[path = "../../../tests/support/root.rs"]
 mod root;
 

@@ -254,7 +254,7 @@ fn fact_origin(b: &mut Bytes<'_>) -> FactOrigin {
         0 => b.pick(&[FactOrigin::Stated, FactOrigin::PrintedName]),
         1 => FactOrigin::Overlay { file: name(b), line: b.within(0..=9), replaces: b.any() },
         2 => FactOrigin::Rule(b.pick(&[Rule::UnstatedAccess, Rule::AnnouncedPdo, Rule::MappedObject])),
-        _ => FactOrigin::Standard(text(b).into()),
+        _ => FactOrigin::Standard(text(b)),
     }
 }
 

@@ -2,6 +2,7 @@
 
 mod complete;
 mod leaves;
+#[allow(clippy::duplicate_mod, reason = "a program may load several modules that look for the repository")]
 #[path = "../../../../tests/support/root.rs"]
 mod root;
 

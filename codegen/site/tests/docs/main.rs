@@ -7,6 +7,7 @@ mod docs_support;
 #[allow(dead_code)]
 #[path = "../../../tests/table_support/doubts.rs"]
 mod doubts;
+#[allow(clippy::duplicate_mod, reason = "a program may load several modules that look for the repository")]
 #[path = "../../../../tests/support/root.rs"]
 mod root;
 

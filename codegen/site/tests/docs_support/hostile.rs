@@ -1,5 +1,6 @@
 //! Descriptions that try to be markup.
 
+#[allow(clippy::duplicate_mod, reason = "a program may load several modules that look for the repository")]
 #[path = "../../../../tests/support/root.rs"]
 mod root;
 
