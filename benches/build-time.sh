@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # What a compiler costs as a build dependency: a cold `cargo build` of a crate whose build script uses it, in the dev profile.
 #
-#     benches/build-time.sh                 # Lexibus, with EDS and tables alone, prost-build, svd2rust
+#     benches/build-time.sh                 # Lexibus, with EDS and tables, with EDS alone, prost-build, svd2rust
 #     benches/build-time.sh lexibus         # one of them
 #     COMMIT=main~20 benches/build-time.sh lexibus
 #
@@ -42,12 +42,16 @@ lexibus() {
         "fn main() { lexibus_codegen::Builder::new().compile(\"$root/dictionaries/demo-drive.eds\").unwrap() }"
     measure lexibus
 }
-# EDS and register tables, with profiles and overlays.
-lexibus-eds() {
-    crate lexibus-eds "lexibus-codegen = { path = \"$root/codegen\", default-features = false, features = [\"eds\"] }" \
+# With these features alone.
+lexibus-with() {
+    crate "$1" "lexibus-codegen = { path = \"$root/codegen\", default-features = false, features = [$2] }" \
         "fn main() { lexibus_codegen::Builder::new().compile(\"$root/dictionaries/demo-drive.eds\").unwrap() }"
-    measure lexibus-eds
+    measure "$1"
 }
+# EDS with profiles and overlays.
+lexibus-eds-table() { lexibus-with lexibus-eds-table '"eds", "table"'; }
+# EDS with profiles.
+lexibus-eds() { lexibus-with lexibus-eds '"eds"'; }
 prost-build() {
     crate prost-build 'prost-build = "0.14"' 'fn main() { let _ = prost_build::Config::new(); }'
     measure prost-build
@@ -60,8 +64,8 @@ svd2rust() {
 
 for name in "${@:-}"; do
     case $name in
-        "") lexibus && lexibus-eds && prost-build && svd2rust ;;
-        lexibus | lexibus-eds | prost-build | svd2rust) "$name" ;;
+        "") lexibus && lexibus-eds-table && lexibus-eds && prost-build && svd2rust ;;
+        lexibus | lexibus-eds-table | lexibus-eds | prost-build | svd2rust) "$name" ;;
         *) echo "no measurement is called $name" >&2 && exit 2 ;;
     esac
 done

@@ -1,14 +1,14 @@
 #!/usr/bin/env bash
 # Generates what is checked in: the bindings under generated/src, those whose instructions are counted, the schema of
-# register tables, and the book's catalogue of codes; with --check, compares them instead. `$LEXIBUS` is the compiler where one is there already.
+# register tables, the profiles, and the book's catalogue of codes; with --check, compares them instead. `$LEXIBUS` is the compiler where one is there already.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 lexibus() {
     if [[ -n ${LEXIBUS:-} ]]; then "$LEXIBUS" "$@"; else cargo run --quiet -p lexibus-cli -- "$@"; fi
 }
-# A unit test of the compiler derives the schema and writes the file that the compiler contains.
+# Unit tests of the compiler write the files that it contains: the schema and the profiles.
 if [[ ${1:-} != --check && -z ${LEXIBUS:-} ]]; then
-    LEXIBUS_BLESS=1 cargo test --quiet -p lexibus-codegen --lib frontend::table::schema
+    LEXIBUS_BLESS=1 cargo test --quiet -p lexibus-codegen --lib -- frontend::table::schema profiles::stored
 fi
 lexibus generate dictionaries/demo-drive.eds --table feature=table \
     --out generated/src/demo_drive.rs "$@"

@@ -47,7 +47,7 @@ part_features() {
         cargo check --quiet -p lexibus --no-default-features --features "$features" || failed=1
     done
     # So does each front end of the compiler; a format whose front end is left out is an error.
-    for features in "" eds xdd esi gsdml; do
+    for features in "" eds xdd esi gsdml table messages eds,table; do
         echo "front ends: $features"
         cargo check --quiet -p lexibus-codegen --no-default-features --features "$features" || failed=1
         cargo test --quiet -p lexibus-codegen --no-default-features --features "$features" --test features || failed=1

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use crate::backend::rust::{self, RustOptions};
 use crate::check as lints;
 use crate::diagnostics::{Diagnostic, Diagnostics, Levels};
-use crate::frontend::{self, table};
+use crate::frontend;
 use crate::ir::{Catalog, FileInfo, Format};
 use crate::profiles;
 use crate::resolve;
@@ -121,8 +121,8 @@ pub fn checked(mut compilation: Compilation, options: &Options) -> Compilation {
         options.select.devices_and_modules(catalog, &mut compilation.diagnostics);
         for source in &options.overlays {
             let file = FileId(compilation.sources.len() as u32);
-            table::overlay::apply(source, file, catalog, &mut compilation.diagnostics);
-            catalog.files.push(file_info(source, table::overlay::FORMAT));
+            frontend::apply_overlay(source, file, catalog, &mut compilation.diagnostics);
+            catalog.files.push(file_info(source, Format::Table));
             compilation.sources.push(source.clone());
         }
         resolve::resolve(catalog, &mut compilation.diagnostics);

@@ -22,7 +22,6 @@
 //! | what is wrong with a description | [`diagnostics`], and the catalogue of codes, [`diagnostics::codes`] |
 //! | what an output for people states | [`facts`] |
 //! | Rust | [`backend::rust`] |
-//! | what standards say of a device's objects | [`profiles`] |
 //! | texts within messages | [`text`] |
 //! | files that are complete or untouched | [`output`] |
 //!
@@ -33,8 +32,9 @@
 //!
 //! # Features
 //!
-//! A feature for each format, all on by default: `eds` (EDS and DCF), `xdd` (XDD and XDC), `esi`, and `gsdml` with the code for PROFINET. Register
-//! tables and profiles need none. A build script that reads one format compiles faster with that alone:
+//! A feature for each format, all on by default: `eds` (EDS and DCF), `xdd` (XDD and XDC), `esi`, `gsdml` with the code for PROFINET, and `table`
+//! (register tables and overlays); `messages` is for command protocols in register tables. Profiles need none. A build script that reads one
+//! format compiles faster with that alone:
 //!
 //! ```toml
 //! [build-dependencies]
@@ -74,7 +74,7 @@ pub mod ir;
 pub mod limits;
 pub mod names;
 pub mod output;
-pub mod profiles;
+mod profiles;
 pub mod resolve;
 pub mod selection;
 pub mod source;

@@ -51,6 +51,7 @@ pub(crate) fn more(count: usize, text: impl FnOnce(usize) -> String) -> String {
 }
 
 /// `CiA 402, 17.3.7`.
+#[cfg(feature = "table")]
 pub(crate) fn standard_and_clause(standard: &str, clause: &str) -> String {
     match clause {
         "" => standard.to_owned(),

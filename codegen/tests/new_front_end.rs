@@ -75,7 +75,7 @@ fn copy_of_crate(folder: &Path) -> PathBuf {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let copied = folder.join("codegen");
     let _ = fs::remove_dir_all(&copied);
-    for part in ["src", "profiles", "schema"] {
+    for part in ["src", "schema"] {
         copy(&root.join(part), &copied.join(part));
     }
     fs::copy(root.join("README.md"), copied.join("README.md")).unwrap();

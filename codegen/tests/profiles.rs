@@ -1,10 +1,7 @@
 //! What profiles add to devices, and what they leave alone.
 
-use std::collections::HashMap;
-
 use lexibus_codegen::compile::{check, Options};
-use lexibus_codegen::ir::{BitMeaning, Catalog, Device, Item, Scale, Shape, Type, TypeDef};
-use lexibus_codegen::profiles;
+use lexibus_codegen::ir::{BitMeaning, Catalog, Device, FactOrigin, Item, Scale, Shape, Type, TypeDef};
 use lexibus_codegen::source::Source;
 
 const DEMO: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../dictionaries/demo-drive.eds");
@@ -55,27 +52,6 @@ fn drive(more: &str) -> String {
 }
 
 #[test]
-fn every_profile_is_without_fault() {
-    let mut names: HashMap<String, &str> = HashMap::new();
-    for (name, text) in profiles::FILES {
-        let findings = profiles::check(name, text);
-        let messages: Vec<&String> = findings.iter().map(|finding| &finding.message).collect();
-        assert!(findings.is_empty(), "{name}: {messages:?}");
-        // Definitions of one name in two profiles would be two types of one name in one device.
-        for line in text.lines() {
-            let head = line.strip_prefix("[bits.").or(line.strip_prefix("[enums.")).unwrap_or_default();
-            if let Some(own) = head.strip_suffix(".at]").or(head.strip_suffix(".values]")) {
-                let other = names.insert(own.to_lowercase(), name);
-                assert_eq!(other, None, "`{own}` is defined in {name} and elsewhere");
-            }
-        }
-    }
-    assert!(names.len() > 40, "only {} definitions", names.len());
-    assert!(!profiles::check("x", "lexibus = 1\n[profile]\nnumber = 402\nwhen = \"x\"\n").is_empty());
-    assert!(!profiles::check("x", "lexibus = 1\n[device]\nname = \"x\"\n").is_empty());
-}
-
-#[test]
 fn a_drive_gets_the_names_of_its_bits_and_values() {
     let device = demo(&Options::default());
     assert_eq!(type_name(&device, 0x6040, 0), "Controlword");
@@ -121,10 +97,12 @@ fn nothing_else_changes() {
         assert_eq!((&before.name, &before.kind, before.origin), (&after.name, &after.kind, after.origin));
         assert_eq!(before.items.len(), after.items.len());
         for (before, after) in before.items.iter().zip(&after.items) {
+            assert!(after.origins.0.iter().all(|(_, origin)| matches!(origin, FactOrigin::Standard(_))));
             let after = Item {
                 ty: before.ty,
                 quantity: before.quantity.clone(),
                 documentation: before.documentation.clone(),
+                origins: before.origins.clone(),
                 ..after.clone()
             };
             assert_eq!(*before, after);

@@ -1,14 +1,19 @@
 //! The list of lints, in the order in which they run.
 
 use super::lint::{Lint, Need, Run};
+#[cfg(feature = "messages")]
+use super::message_examples;
+#[cfg(feature = "table")]
 use super::table::{
-    conversions, declared_pdos, item_names, limits as row_limits, mentions, message_shapes, messages, modbus_examples,
-    names as row_names, number_gaps, quantities, window_numbers, window_widths,
+    conversions, declared_pdos, item_names, limits as row_limits, mentions, modbus_examples, names as row_names,
+    number_gaps, quantities, window_numbers, window_widths,
 };
+#[cfg(feature = "messages")]
+use super::table::{message_shapes, messages};
 use super::{
     access, aliases, availability, bit_fields, conditions, enumerations, identity, lengths, limits, mapping_steps,
-    message_examples, modules, named_values, names, objects, pdo_directions, pdo_entries, pdo_mapping, procedures,
-    process_image, records, subslots, titles,
+    modules, named_values, names, objects, pdo_directions, pdo_entries, pdo_mapping, procedures, process_image,
+    records, subslots, titles,
 };
 use crate::diagnostics::codes::*;
 use crate::diagnostics::Code;
@@ -38,6 +43,7 @@ impl Lint {
 
 /// All lints. Diagnostics of one place are in this order.
 pub static LINTS: &[Lint] = &[
+    #[cfg(feature = "table")]
     lint(
         "declared-pdos",
         &[&MAPPED_OBJECT_MISSING, &MAPPED_LENGTH, &NOT_MAPPABLE, &WRONG_DIRECTION, &PDO_TOO_LONG],
@@ -69,13 +75,16 @@ pub static LINTS: &[Lint] = &[
     lint("access-conflicts", &[&ACCESS_CONFLICT], Run::Device(access::conflicts)).of(Format::TABLES).on_request(),
     lint("readings", &[&READING_LIMITS], Run::Device(access::readings)),
     lint("single-limits", &[&ONE_LIMIT], Run::Device(limits::one_given)),
+    #[cfg(feature = "table")]
     lint("empty-limits", &[&EMPTY_LIMIT], Run::Device(row_limits::check)).of(Format::TABLES),
     lint("conditions", &[&UNNAMED_VALUE, &MODE_WITHOUT_BITS], Run::Device(conditions::check)),
+    #[cfg(feature = "table")]
     lint("row-names", &[&NAME_TWICE, &BROKEN_NAME, &EMPTY_NAME], Run::Device(row_names::check)).of(Format::TABLES),
     lint("names", &[&NAME_TWICE], Run::Device(names::check)).of(Format::TABLES).on_request(),
     lint("titles", &[&BROKEN_NAME], Run::Device(titles::check)),
     lint("availability", &[&VERSION_FORM, &FIRMWARE_WINDOW], Run::Device(availability::check)),
     lint("aliases", &[&SAME_VALUE_DIFFERS], Run::Device(aliases::check)),
+    #[cfg(feature = "messages")]
     lint("message-examples", &[&EXAMPLE_DIFFERS], Run::Device(message_examples::check)).needs(Need::Messages),
     lint(
         "procedures",
@@ -91,21 +100,31 @@ pub static LINTS: &[Lint] = &[
         Run::Device(mapping_steps::check),
     )
     .needs(Need::Procedures),
+    #[cfg(feature = "messages")]
     lint("message-shapes", &[&MESSAGE_UNSHAPED, &PARAMETERS_ALIKE], Run::Device(message_shapes::check))
         .of(Format::TABLES)
         .needs(Need::Messages),
+    #[cfg(feature = "messages")]
     lint("messages", MESSAGES, Run::Device(messages::check)).of(Format::TABLES).needs(Need::Messages),
+    #[cfg(feature = "table")]
     lint("quantities", &[&QUANTITIES_DIFFER], Run::Device(quantities::check)).of(Format::TABLES),
+    #[cfg(feature = "table")]
     lint("conversions", &[&CONVERSION_DIFFERS], Run::Device(conversions::check)).of(Format::TABLES),
+    #[cfg(feature = "table")]
     lint("modbus-examples", &[&EXAMPLE_DIFFERS], Run::Device(modbus_examples::check))
         .of(Format::TABLES)
         .needs(Need::ModbusExamples),
+    #[cfg(feature = "table")]
     lint("number-gaps", &[&NUMBER_GAP], Run::Device(number_gaps::check)).of(Format::TABLES),
+    #[cfg(feature = "table")]
     lint("mentioned-objects", &[&MENTIONED_OBJECT], Run::Device(mentions::check)).of(Format::TABLES),
+    #[cfg(feature = "table")]
     lint("names-in-texts", &[&MENTIONED_OBJECT], Run::Device(item_names::check)).of(Format::TABLES),
+    #[cfg(feature = "table")]
     lint("window-widths", &[&NARROW_WINDOW, &WINDOW_ORDER], Run::Device(window_widths::check))
         .of(Format::TABLES)
         .needs(Need::Windows),
+    #[cfg(feature = "table")]
     lint("window-numbers", &[&TABLE_VALUE, &TABLE_PLACE], Run::Device(window_numbers::check))
         .of(Format::TABLES)
         .needs(Need::Windows),
@@ -137,5 +156,6 @@ const PDO_MAPPING: &[&Code] = &[
     &PDO_COUNT_1004,
 ];
 
+#[cfg(feature = "messages")]
 const MESSAGES: &[&Code] =
     &[&MESSAGE_LENGTH, &REPLY_OF_ANOTHER, &ERROR_ALIKE, &MESSAGES_ALIKE, &ODD_REQUEST, &STATES_DIFFER];

@@ -17,6 +17,7 @@ mod lint;
 mod list;
 mod mapped_object;
 mod mapping_steps;
+#[cfg(feature = "messages")]
 mod message_examples;
 mod modules;
 mod named_values;
@@ -30,6 +31,7 @@ mod process_image;
 mod records;
 mod run;
 mod subslots;
+#[cfg(feature = "table")]
 mod table;
 mod titles;
 

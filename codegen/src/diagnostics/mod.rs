@@ -225,6 +225,7 @@ impl Diagnostics {
     }
 
     /// How many diagnostics there are, those that are only counted included.
+    #[cfg(feature = "table")]
     pub(crate) fn total(&self) -> usize {
         self.list.len() + self.beyond.len()
     }

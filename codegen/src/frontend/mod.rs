@@ -11,6 +11,7 @@ pub mod esi;
 #[cfg(feature = "gsdml")]
 pub mod gsdml;
 mod read;
+#[cfg(feature = "table")]
 pub mod table;
 #[cfg(feature = "xdd")]
 pub mod xdd;
@@ -20,4 +21,6 @@ pub mod xdd;
 mod xml;
 
 pub use read::format;
-pub(crate) use read::{read, Description};
+#[cfg(all(feature = "table", not(feature = "messages")))]
+pub(crate) use read::without_feature;
+pub(crate) use read::{apply_overlay, read, Description};

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use super::{detect, table};
+use super::detect;
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
 use crate::ir::{Catalog, Format};
 use crate::source::{FileId, References, Source, Span};
@@ -21,7 +21,7 @@ pub(crate) struct Description {
 
 /// What a front end reads.
 // Each front end uses a part of it.
-#[cfg_attr(not(all(feature = "eds", feature = "esi")), allow(dead_code))]
+#[cfg_attr(not(all(feature = "eds", feature = "esi", feature = "table")), allow(dead_code))]
 struct Input<'s> {
     source: &'s Source,
     file: FileId,
@@ -61,7 +61,9 @@ const FRONT_ENDS: &[FrontEnd] = &[
     FrontEnd {
         recognize: detect::table,
         feature: "table",
-        read: Some(|input, diagnostics| table::read(input.source, input.file, input.choices, diagnostics)),
+        read: with_feature!("table", |input, diagnostics| {
+            super::table::read(input.source, input.file, input.choices, diagnostics)
+        }),
     },
     FrontEnd {
         recognize: detect::gsdml,
@@ -125,7 +127,7 @@ pub(crate) fn read(
     let catalog = match front_end.read {
         Some(read) => read(&mut input, diagnostics),
         None => {
-            diagnostics.push(without_feature(front_end.feature, file));
+            diagnostics.push(without_feature(front_end.feature, "this format", file));
             None
         }
     };
@@ -136,9 +138,20 @@ pub(crate) fn read(
     Description { format: Some(if is_configuration { Format::Dcf } else { format }), catalog, others, missing }
 }
 
-/// The error for a format whose front end was left out of the build.
-fn without_feature(feature: &str, file: FileId) -> Diagnostic {
-    let message = format!("`lexibus-codegen` was built without the feature `{feature}`, which reads this format");
+/// Applies the overlay `source` to the devices or modules of `catalog` that it is for.
+pub(crate) fn apply_overlay(source: &Source, file: FileId, catalog: &mut Catalog, diagnostics: &mut Diagnostics) {
+    #[cfg(feature = "table")]
+    super::table::overlay::apply(source, file, catalog, diagnostics);
+    #[cfg(not(feature = "table"))]
+    {
+        let _ = (source, catalog);
+        diagnostics.push(without_feature("table", "overlays", file));
+    }
+}
+
+/// The error for a file whose front end was left out of the build. `what` is what the feature reads.
+pub(crate) fn without_feature(feature: &str, what: &str, file: FileId) -> Diagnostic {
+    let message = format!("`lexibus-codegen` was built without the feature `{feature}`, which reads {what}");
     let help = format!("add it to the dependency: `lexibus-codegen = {{ …, features = [\"{feature}\"] }}`");
     Diagnostic::new(&codes::UNKNOWN_FORMAT, Span::new(file, 0, 0), message).help(help)
 }

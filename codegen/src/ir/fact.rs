@@ -53,6 +53,7 @@ impl Fact {
     ];
 
     /// Whether two items state this fact differently. A type with other names of bits or values differs in its meaning.
+    #[cfg(feature = "table")]
     pub(crate) fn differs(self, one: &Item, other: &Item) -> bool {
         match self {
             Fact::Name => one.name != other.name || one.names != other.names,

@@ -33,6 +33,7 @@ mod lookup;
 mod machine;
 mod message;
 mod module;
+pub(crate) mod object_names;
 pub mod owner;
 mod process_data;
 mod profinet;
@@ -40,6 +41,7 @@ mod profinet;
 mod real;
 mod reference;
 mod shared;
+#[cfg(feature = "table")]
 pub(crate) mod texts;
 mod types;
 mod value;

@@ -181,7 +181,7 @@ impl<'a> Index<'a> {
 }
 
 /// Index and sub-index of `0x6040`, `0x1018:1`.
-fn object(text: &str) -> Option<(u16, u8)> {
+pub(super) fn object(text: &str) -> Option<(u16, u8)> {
     let (index, sub_index) = text.split_once(':').unwrap_or((text, "0"));
     let number = |text: &str| match text.strip_prefix("0x") {
         Some(digits) => u16::from_str_radix(digits, 16).ok(),

@@ -161,6 +161,15 @@ impl Type {
         }
     }
 
+    /// The name of an integer as a part of another name: `U16`, `I8`.
+    pub(crate) fn integer_suffix(self) -> String {
+        match self {
+            Type::Unsigned(bits) => format!("U{bits}"),
+            Type::Integer(bits) => format!("I{bits}"),
+            _ => String::new(),
+        }
+    }
+
     /// Whether the value is a number with a sign.
     pub fn is_signed(self) -> bool {
         matches!(self, Type::Integer(_))

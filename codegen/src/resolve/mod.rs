@@ -15,6 +15,7 @@ mod conditions;
 mod identity;
 mod implicit_pdos;
 mod mapped_objects;
+#[cfg(feature = "messages")]
 pub(crate) mod messages;
 mod pdo_entries;
 mod pdo_mapping;

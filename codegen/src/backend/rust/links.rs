@@ -29,6 +29,7 @@ impl<'h> Here<'h> {
     pub const TYPES: Here<'static> = Here::new("super::", "types::");
     /// The views of PDOs stand in a module of their own, from which the way is the same.
     pub const PDO: Here<'static> = Here::new("super::", "pdo::");
+    #[cfg(feature = "messages")]
     pub const MESSAGES: Here<'static> = Here::new("super::", "messages::");
     /// Any other module at the device's place, which nothing is linked in.
     pub const BESIDE: Here<'static> = Here::new("super::", "::");
@@ -146,7 +147,10 @@ impl Links {
     pub fn of(scope: &Located<'_>, names: &Names<'_>, options: &RustOptions, device_name: &str) -> Self {
         let mut links = Links::default();
         let has_objects = !names.handles.is_empty() && scope.device.is_some_and(has_object_access);
+        #[cfg(feature = "messages")]
         let requests = links.add_messages(names);
+        #[cfg(not(feature = "messages"))]
+        let requests = 0;
         links.has_methods = options.accessors && (has_objects || requests > 0);
         links.add_handles(scope, names, Some(device_name).filter(|_| links.has_methods));
         if options.pdos {
@@ -159,6 +163,7 @@ impl Links {
     }
 
     /// How many requests there are.
+    #[cfg(feature = "messages")]
     fn add_messages(&mut self, names: &Names<'_>) -> usize {
         let requests = names.messages.paths().filter(|own| own.is_request).count();
         self.messages = names.messages.paths().map(|own| (own.name, own.path)).collect();

@@ -32,6 +32,7 @@ mod literal;
 mod located;
 mod locations;
 mod machine;
+#[cfg(feature = "messages")]
 mod messages;
 mod method_names;
 mod model;

@@ -17,8 +17,11 @@ use super::links::Links;
 use super::literal;
 use super::located::Located;
 use super::locations::Locations;
+#[cfg(feature = "messages")]
 use super::messages::ProtocolModel;
-use super::method_names::{method_allow, BESIDE_MESSAGES, RESERVED};
+use super::method_names::method_allow;
+#[cfg(feature = "messages")]
+use super::method_names::{BESIDE_MESSAGES, RESERVED};
 use super::named::Types;
 use super::naming::Names;
 use super::objects::{self, ObjectModel};
@@ -71,6 +74,7 @@ pub(super) struct Model {
     /// What only whoever builds the machine knows.
     pub given: Option<GivenModel>,
     /// Requests and replies.
+    #[cfg(feature = "messages")]
     pub protocol: Option<ProtocolModel>,
     pub node_id: Option<u8>,
     /// What is known of Modbus and of numbers of nodes.
@@ -104,7 +108,10 @@ impl Model {
         let device_name = device_names::device_name(device, file, options.device_name.as_deref());
         let context = context(Scope::of_device(device), options, &device_name);
         let mut model = Model::of_context(&context, options);
-        model.protocol = model.protocol_of(&context, options);
+        #[cfg(feature = "messages")]
+        {
+            model.protocol = model.protocol_of(&context, options);
+        }
         model.has_accessors = context.links.has_methods;
         model.device_name = device_name;
         model.title = docs::escape(&device_names::title(device));
@@ -162,6 +169,7 @@ impl Model {
     }
 
     /// Requests and replies. Their methods stand beside those of the objects.
+    #[cfg(feature = "messages")]
     fn protocol_of(&self, context: &Context<'_>, options: &RustOptions) -> Option<ProtocolModel> {
         let objects = self.objects.iter().map(|object| object.name.trim_start_matches("r#"));
         let taken: Vec<&str> = objects.chain(RESERVED).chain(BESIDE_MESSAGES).collect();
@@ -170,7 +178,10 @@ impl Model {
 
     /// Whether the type of the device knows which request was sent last.
     pub(super) fn selects(&self) -> bool {
-        self.protocol.as_ref().is_some_and(ProtocolModel::selects)
+        #[cfg(feature = "messages")]
+        return self.protocol.as_ref().is_some_and(ProtocolModel::selects);
+        #[cfg(not(feature = "messages"))]
+        false
     }
 
     pub(super) fn size_hint(&self) -> usize {

@@ -7,6 +7,7 @@ mod device;
 mod given;
 pub(super) mod image;
 mod mapping;
+#[cfg(feature = "messages")]
 mod messages;
 pub(super) mod objects;
 pub(super) mod pdos;
@@ -28,6 +29,7 @@ pub(super) fn model(code: &mut Code, model: &Model) {
     accessors::write(code, model);
     given::models(code, &model.models);
     given::machine(code, model.given.as_ref());
+    #[cfg(feature = "messages")]
     messages::write(code, model);
     types::write(code, model);
     codes::write(code, model);

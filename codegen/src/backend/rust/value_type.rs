@@ -173,6 +173,7 @@ impl ValueType {
     }
 
     /// A `Range` of integers that are fewer than their type in Rust has: whatever the limits, no other is allowed.
+    #[cfg(feature = "messages")]
     pub(super) fn range_within(self, limits: &Limits) -> Option<Doc> {
         if let Some(list) = self.only(limits, &Doc::from) {
             return Some(list);

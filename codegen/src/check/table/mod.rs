@@ -5,7 +5,9 @@ pub(super) mod declared_pdos;
 pub(super) mod item_names;
 pub(super) mod limits;
 pub(super) mod mentions;
+#[cfg(feature = "messages")]
 pub(super) mod message_shapes;
+#[cfg(feature = "messages")]
 pub(super) mod messages;
 pub(super) mod modbus_examples;
 pub(super) mod names;

@@ -60,7 +60,7 @@ impl Definitions {
         }
         // The integer that the definition names has its plain name.
         let suffix = match self.base(reader, kind, &name.value) {
-            Some(own) if own != base => types::word(base),
+            Some(own) if own != base => base.integer_suffix(),
             _ => String::new(),
         };
         let id = match kind {

@@ -276,63 +276,6 @@ tables! {
         pub control: Option<u8>,
     }
 
-    /// A register table, an overlay or a profile.
-    pub struct Document {
-        /// Version of the format: 1.
-        #[cfg_attr(test, schemars(extend("const" = 1)))]
-        pub lexibus: Option<At<u32>>,
-        /// The device that the table describes.
-        pub device: Option<At<DeviceTable>>,
-        /// What the overlay applies to, and why.
-        pub overlay: Option<At<OverlayTable>>,
-        /// What the profile applies to.
-        pub profile: Option<At<ProfileTable>>,
-        /// The manual that it was transcribed from.
-        pub manual: Option<At<ManualTable>>,
-        /// Models of a family that share the table.
-        pub models: Vec<At<ModelTable>>,
-        /// Mailbox and sync managers of an EtherCAT slave.
-        pub ethercat: Option<At<EtherCatTable>>,
-        /// What the manual leaves open.
-        pub options: Entries<OptionTable>,
-        /// What rows have that don't say otherwise.
-        pub defaults: Option<At<Row>>,
-        /// What the number of a register means on each bus.
-        pub spaces: Entries<SpaceTable>,
-        /// Rows, in the order of the manual.
-        pub chapters: Vec<At<ChapterTable>>,
-        /// Units with a scale, by name.
-        pub units: Entries<UnitTable>,
-        /// Numbers that only whoever builds the machine knows, such as the pitch of a screw.
-        pub given: Entries<GivenTable>,
-        /// Named values.
-        pub enums: Entries<EnumTable>,
-        /// Named bits.
-        pub bits: Entries<BitsTable>,
-        /// How the objects of further axes follow from those of the first.
-        pub axes: Option<At<AxesTable>>,
-        /// Process data objects that don't follow from the defaults of mapping objects.
-        pub pdos: Vec<At<PdoTable>>,
-        /// Fixed process images.
-        pub images: Vec<At<ImageTable>>,
-        /// Tables of codes: emergency codes, alarms, abort codes.
-        pub codes: Entries<CodesTable>,
-        /// State machines.
-        pub machines: Entries<MachineTable>,
-        /// Sequences of steps.
-        pub procedures: Entries<ProcedureTable>,
-        /// Numbers that are split over several items.
-        pub composites: Entries<CompositeTable>,
-        /// How frames of a command protocol are delimited and checked.
-        pub framing: Option<At<FramingTable>>,
-        /// Requests and replies of a command protocol.
-        pub messages: Vec<At<MessageTable>>,
-        /// Frames of Modbus that the manual prints.
-        pub frames: Vec<At<FrameTable>>,
-        /// Contradictions that belong to no row.
-        pub doubts: Vec<At<DoubtTable>>,
-    }
-
     /// The device that a table describes.
     pub struct DeviceTable: doc cite doubt {
         /// Name of the device; types of Rust are named after it.
@@ -1140,6 +1083,26 @@ tables! {
         pub allow: Option<Vec<At<String>>>,
     }
 
+    /// A number that the manual converts as an example.
+    pub struct ConversionTable: doc cite {
+        /// The raw number.
+        pub raw: Option<i64>,
+        /// The physical one.
+        pub value: Option<f64>,
+        /// Its unit, where that is the machine's.
+        pub unit: Option<At<String>>,
+        /// Numbers of `[given]`, as the example has them.
+        pub given: Entries<f64>,
+        /// The model whose constants the example uses.
+        pub model: Option<At<String>>,
+        /// The value of the item that the scale depends on.
+        pub by: Option<f64>,
+    }
+}
+
+// Command protocols.
+#[cfg(feature = "messages")]
+tables! {
     /// How frames are delimited and checked.
     pub struct FramingTable: doc cite doubt {
         /// The byte that begins a frame.
@@ -1209,22 +1172,6 @@ tables! {
         pub request: At<Vec<u8>>,
         /// The bytes of the reply.
         pub reply: At<Vec<u8>>,
-    }
-
-    /// A number that the manual converts as an example.
-    pub struct ConversionTable: doc cite {
-        /// The raw number.
-        pub raw: Option<i64>,
-        /// The physical one.
-        pub value: Option<f64>,
-        /// Its unit, where that is the machine's.
-        pub unit: Option<At<String>>,
-        /// Numbers of `[given]`, as the example has them.
-        pub given: Entries<f64>,
-        /// The model whose constants the example uses.
-        pub model: Option<At<String>>,
-        /// The value of the item that the scale depends on.
-        pub by: Option<f64>,
     }
 
     /// When an order is carried out.
@@ -1308,5 +1255,65 @@ tables! {
         pub max: Option<u16>,
         /// The fields.
         pub fields: Vec<At<FieldTable>>,
+    }
+}
+
+#[cfg(test)]
+tables! {
+    /// A register table, an overlay or a profile.
+    pub struct Document {
+        /// Version of the format: 1.
+        #[cfg_attr(test, schemars(extend("const" = 1)))]
+        pub lexibus: Option<At<u32>>,
+        /// The device that the table describes.
+        pub device: Option<At<DeviceTable>>,
+        /// What the overlay applies to, and why.
+        pub overlay: Option<At<OverlayTable>>,
+        /// What the profile applies to.
+        pub profile: Option<At<ProfileTable>>,
+        /// The manual that it was transcribed from.
+        pub manual: Option<At<ManualTable>>,
+        /// Models of a family that share the table.
+        pub models: Vec<At<ModelTable>>,
+        /// Mailbox and sync managers of an EtherCAT slave.
+        pub ethercat: Option<At<EtherCatTable>>,
+        /// What the manual leaves open.
+        pub options: Entries<OptionTable>,
+        /// What rows have that don't say otherwise.
+        pub defaults: Option<At<Row>>,
+        /// What the number of a register means on each bus.
+        pub spaces: Entries<SpaceTable>,
+        /// Rows, in the order of the manual.
+        pub chapters: Vec<At<ChapterTable>>,
+        /// Units with a scale, by name.
+        pub units: Entries<UnitTable>,
+        /// Numbers that only whoever builds the machine knows, such as the pitch of a screw.
+        pub given: Entries<GivenTable>,
+        /// Named values.
+        pub enums: Entries<EnumTable>,
+        /// Named bits.
+        pub bits: Entries<BitsTable>,
+        /// How the objects of further axes follow from those of the first.
+        pub axes: Option<At<AxesTable>>,
+        /// Process data objects that don't follow from the defaults of mapping objects.
+        pub pdos: Vec<At<PdoTable>>,
+        /// Fixed process images.
+        pub images: Vec<At<ImageTable>>,
+        /// Tables of codes: emergency codes, alarms, abort codes.
+        pub codes: Entries<CodesTable>,
+        /// State machines.
+        pub machines: Entries<MachineTable>,
+        /// Sequences of steps.
+        pub procedures: Entries<ProcedureTable>,
+        /// Numbers that are split over several items.
+        pub composites: Entries<CompositeTable>,
+        /// How frames of a command protocol are delimited and checked.
+        pub framing: Option<At<FramingTable>>,
+        /// Requests and replies of a command protocol.
+        pub messages: Vec<At<MessageTable>>,
+        /// Frames of Modbus that the manual prints.
+        pub frames: Vec<At<FrameTable>>,
+        /// Contradictions that belong to no row.
+        pub doubts: Vec<At<DoubtTable>>,
     }
 }

@@ -9,7 +9,7 @@ use super::format::{
 use super::references::{References, ITEM_OR_FIELD};
 use super::rows::{Named, Rows};
 use super::tree::{cited, Reader};
-use super::{conditions, place, types, value};
+use super::{conditions, framing, place, types, value, Table};
 use crate::diagnostics::{codes, Diagnostic};
 use crate::ir::{
     Access, Availability, Binding, CompactString, Completion, Device, Doubts, Item, Message, MessageExample,
@@ -25,8 +25,26 @@ fn text(at: &At<String>) -> CompactString {
     at.value.as_str().into()
 }
 
+/// The messages of a table, how their frames are delimited, and the spaces whose numbers they carry.
+pub(super) fn read<'a>(reader: &mut Reader<'a, '_>, file: &mut Table<'a>, rows: &mut Rows, device: &mut Device) {
+    let mut names = HashSet::new();
+    for table in file.list::<MessageTable>(reader, "messages") {
+        rows.allow_at(reader, (table.start, end(&table)), &table.value.allow);
+        if device.messages.len() >= limits::MAX_MESSAGES {
+            too_many(reader, &table);
+            break;
+        }
+        message(reader, rows, &table, (device, &mut names));
+    }
+    if let Some(table) = file.take(reader, "framing") {
+        framing::read(reader, &table, device);
+    }
+    let tables = file.spaces.iter().map(|(name, table)| (name, table));
+    spaces(reader, tables, device, &mut rows.references);
+}
+
 /// The spaces whose numbers are those of parameters.
-pub(super) fn spaces<'t>(
+fn spaces<'t>(
     reader: &mut Reader<'_, '_>,
     tables: impl Iterator<Item = (&'t At<String>, &'t SpaceTable)>,
     device: &mut Device,
@@ -49,7 +67,7 @@ pub(super) fn spaces<'t>(
 }
 
 /// Where a message ends, with its fields and examples.
-pub(super) fn end(table: &At<MessageTable>) -> u32 {
+fn end(table: &At<MessageTable>) -> u32 {
     let own = &table.value;
     let fields = own.request.iter().chain(&own.reply).map(|field| field.end);
     let frames = own.examples.iter().flat_map(|example| [example.value.request.end, example.value.reply.end]);
@@ -59,7 +77,7 @@ pub(super) fn end(table: &At<MessageTable>) -> u32 {
 /// A request and its reply.
 ///
 /// `names` are those of the messages that were read before.
-pub(super) fn message(
+fn message(
     reader: &mut Reader<'_, '_>,
     rows: &mut Rows,
     table: &At<MessageTable>,
@@ -118,7 +136,7 @@ pub(super) fn message(
 }
 
 /// Reports the first message that isn't read because there are so many.
-pub(super) fn too_many(reader: &mut Reader<'_, '_>, table: &At<MessageTable>) {
+fn too_many(reader: &mut Reader<'_, '_>, table: &At<MessageTable>) {
     let message = format!("there are more than {} messages", limits::MAX_MESSAGES);
     let found = Diagnostic::new(&codes::INPUT_TOO_LARGE, reader.span(table), message);
     reader.diagnostics.push(found.label("this one and those behind it are left out"));

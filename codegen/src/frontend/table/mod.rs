@@ -36,6 +36,7 @@ mod device;
 mod ethercat;
 pub mod format;
 mod frames;
+#[cfg(feature = "messages")]
 mod framing;
 mod given;
 mod images;
@@ -43,6 +44,7 @@ mod limits;
 mod lints;
 mod machine_budget;
 mod machines;
+#[cfg(feature = "messages")]
 mod messages;
 mod misplaced;
 mod numbered;
@@ -70,8 +72,6 @@ mod value;
 mod variants;
 mod windows;
 mod words;
-
-use std::collections::HashSet;
 
 use toml::de::DeValue;
 
@@ -333,25 +333,20 @@ impl<'a> Table<'a> {
             images::image(reader, rows, &image, &mut images, device);
         }
         images.finish(device);
-        let mut names = HashSet::new();
-        for message in self.list::<format::MessageTable>(reader, "messages") {
-            rows.allow_at(reader, (message.start, messages::end(&message)), &message.value.allow);
-            if device.messages.len() >= crate::limits::MAX_MESSAGES {
-                messages::too_many(reader, &message);
-                break;
+        #[cfg(feature = "messages")]
+        messages::read(reader, self, rows, device);
+        #[cfg(not(feature = "messages"))]
+        for key in ["messages", "framing"] {
+            if self.node(key).is_some() {
+                let found = crate::frontend::without_feature("messages", "command protocols", reader.file);
+                reader.diagnostics.push(found);
             }
-            messages::message(reader, rows, &message, (device, &mut names));
-        }
-        if let Some(framing) = self.take(reader, "framing") {
-            framing::read(reader, &framing, device);
         }
         for frame in self.list::<format::FrameTable>(reader, "frames") {
             let end = frame.value.request.end.max(frame.value.reply.end).max(frame.end);
             rows.allow_at(reader, (frame.start, end), &frame.value.allow);
             frames::frame(reader, &frame, device);
         }
-        let spaces = self.spaces.iter().map(|(name, table)| (name, table));
-        messages::spaces(reader, spaces, device, &mut rows.references);
     }
 
     /// What doesn't hold items: axes, PDOs, codes, sequences.

@@ -49,15 +49,6 @@ fn single(text: &str) -> Option<Type> {
     })
 }
 
-/// The name of an integer as a part of another name: `U16`, `I8`.
-pub(super) fn word(ty: Type) -> String {
-    match ty {
-        Type::Unsigned(bits) => format!("U{bits}"),
-        Type::Integer(bits) => format!("I{bits}"),
-        _ => String::new(),
-    }
-}
-
 /// The type that another name means, or that has a similar one.
 pub(super) fn meant(text: &str) -> Option<&'static str> {
     let lower = text.to_lowercase().replace(['_', ' '], "");

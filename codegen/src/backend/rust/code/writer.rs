@@ -51,6 +51,7 @@ impl Code {
     }
 
     /// The line that ends a block and begins the next.
+    #[cfg(feature = "messages")]
     pub fn reopen(&mut self, line: &str) {
         self.close(line);
         self.indent += STEP;

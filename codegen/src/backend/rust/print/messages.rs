@@ -1,9 +1,10 @@
 //! Requests and replies.
 
+use super::accessors::selected;
 use crate::backend::rust::code::{call, generic, line, list, open, seq, Code, Data, Doc, Stop};
 use crate::backend::rust::links;
 use crate::backend::rust::messages::{
-    Arm, DataModel, EntryModel, Field, MessageModel, ParametersModel, ProtocolModel, Statements,
+    Arm, CallModel, DataModel, EntryModel, Field, MessageModel, ParametersModel, ProtocolModel, Statements,
 };
 use crate::backend::rust::model::Model;
 
@@ -318,6 +319,79 @@ fn scales(code: &mut Code, name: &str, lifetime: &str, fields: &[Field]) {
         code.doc(&format!("The scale of `{}`.", field.name));
         let ty = generic!("rt::message::Scale", ty);
         line!(code, "pub const ", constant, ": ", ty, " = ", Stop, "rt::message::Scale::new();");
+    }
+    code.close("}");
+}
+
+/// The methods that send requests.
+pub(super) fn methods(code: &mut Code, model: &Model) {
+    let Some(protocol) = model.protocol.as_ref().filter(|protocol| !protocol.calls.is_empty()) else { return };
+    let (name, state) = (&model.device_name, selected(model));
+    open!(code, "impl<X> ", name, "<rt::Parameters<X, messages::Protocol, { messages::MAX_DATA }>> {");
+    let (about, parameters, own) = match protocol.has_station {
+        true => ("The device with this number, over", "exchange: X, station: u32", "messages::Protocol { station }"),
+        false => ("The device, over", "exchange: X", "messages::Protocol"),
+    };
+    code.doc(&format!("{about} what exchanges the data of messages."));
+    open!(code, "pub const fn on(", parameters, ") -> Self {");
+    line!(code, "Self::new(", call!("rt::Parameters::new", "exchange", own), ")");
+    code.close("}");
+    code.close("}");
+    let calls = |is_own: &dyn Fn(&&CallModel) -> bool, code: &mut Code| {
+        protocol.calls.iter().filter(is_own).for_each(|own| method(code, own));
+    };
+    if protocol.has_free() {
+        open!(code, "impl<C", state, "> ", name, "<C", state, "> {");
+        calls(&|own| own.after.is_none() && !own.is_selector, code);
+        code.close("}");
+    }
+    if model.selects() {
+        code.doc("What decides the meaning of later requests. `select` sends it, and gives the device that has these.");
+        open!(code, "impl<C> ", name, "<C> {");
+        calls(&|own| own.is_selector && own.after.is_none(), code);
+        if let Some(default) = &protocol.by_default {
+            after_power_on(code, name, &default.selector);
+        }
+        code.close("}");
+    }
+    for own in &protocol.calls {
+        if let Some(after) = &own.after {
+            open!(code, "impl<C> ", name, "<C, messages::", after, "> {");
+            method(code, own);
+            code.close("}");
+        }
+    }
+}
+
+fn after_power_on(code: &mut Code, name: &str, selector: &str) {
+    code.doc("The device as it is after power-on. As long as that is in use, no request can be sent that decides what others mean; that");
+    code.doc("none was sent before, only the program knows.");
+    let result = generic!(name, "&mut C", seq!["messages::", selector]);
+    open!(code, call!("pub fn after_power_on", "&mut self"), " -> ", result, " {");
+    open!(code, name, " {");
+    line!(code, "client: &mut self.client,");
+    line!(code, "state: core::marker::PhantomData,");
+    code.close("}");
+    code.close("}");
+}
+
+fn method(code: &mut Code, own: &CallModel) {
+    code.docs(&own.docs);
+    if let Some(note) = &own.deprecated {
+        line!(code, "#[deprecated(note = ", note, ")]");
+    }
+    let (generics, receiver, lifetime) =
+        if own.borrows { ("<'a>", "&'a mut self", "'a") } else { ("", "&mut self", "'_") };
+    let parameters = std::iter::once(Doc::from(receiver)).chain(own.arguments.iter().map(|argument| seq![argument]));
+    let function = list(&format!("pub fn {}{generics}(", own.method), parameters, ")");
+    open!(code, function, " -> ", generic!("rt::message::Call", lifetime, "C", own.ty), " {");
+    if own.arguments.is_empty() {
+        line!(code, call!("rt::message::Call::new", "&mut self.client", own.build));
+    } else {
+        if own.build.text() != "message" {
+            line!(code, "let message = ", own.build, ";");
+        }
+        line!(code, call!("rt::message::Call::new", "&mut self.client", "message"));
     }
     code.close("}");
 }

@@ -8,8 +8,9 @@ use super::super::machine_budget::MachineBudget;
 use super::super::tree::{similar, Reader};
 use super::super::{code_tables, device, machines, resolve};
 use super::change::{ObjectSet, Outcome, RowPatcher};
-use super::{item_name, name_conditions, Overlay, PatchRow, Target};
+use super::{Overlay, PatchRow, Target};
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
+use crate::ir::object_names::{item_name, name_conditions};
 use crate::ir::{
     Bus, Buses, Catalog, CodeTable, CompactString, Device, Doubts, Group, Identity, Item, Module, ModuleId,
     ObjectBuses, Submodule, SubmoduleId, SubmoduleUse, TypeDef,

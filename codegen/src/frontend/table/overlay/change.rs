@@ -10,8 +10,9 @@ use super::super::place::{self, Objects};
 use super::super::rows::{Named, Rows};
 use super::super::tree::{cited, Reader};
 use super::super::words::OBJECT_CODES;
-use super::{in_range, Overlay, PatchRow, Target};
+use super::{Overlay, PatchRow, Target};
 use crate::diagnostics::codes;
+use crate::ir::object_names::in_range;
 use crate::ir::{
     Documentation, Extension, Extensions, Fact, FactOrigin, Group, GroupKind, Item, ObjectBuses, ObjectCode, Type,
     TypeDef, TypeId,
@@ -90,7 +91,7 @@ impl RowPatcher<'_> {
         objects: Objects,
     ) -> Outcome {
         let mut outcome = Outcome::NoMatch;
-        let groups = in_range(groups, objects.indices);
+        let groups = in_range(groups, objects.indices.0, objects.indices.1);
         let is_meant = |item: &&Item| {
             item.object().is_some_and(|(_, sub)| objects.subs.is_none_or(|(first, last)| (first..=last).contains(&sub)))
         };

@@ -1,0 +1,235 @@
+//! Profiles as plain data. The compiler contains the result, so that only tests read the tables.
+
+use std::mem;
+
+use super::super::format::{ImageTable, NumberOrText, ProfileTable};
+use super::super::machine_budget::MachineBudget;
+use super::super::rows::{Named, Rows};
+use super::super::tree::{cited, Reader};
+use super::super::{buses, code_tables, machines, place, process, types, Table};
+use super::{Patch, PatchRow, Target};
+use crate::diagnostics::{codes, Diagnostics};
+use crate::ir::{Binding, Buses, CodeTable, CompactString, Device, Doubts, Item, StateMachine, Type, TypeDef, TypeId};
+use crate::profiles::{Described, Profile, Signal, Telegram};
+use crate::source::{FileId, Origin, Source, Span};
+use crate::text::standard_and_clause;
+
+/// Reads a profile.
+pub(crate) fn read(source: &Source, diagnostics: &mut Diagnostics) -> Option<Profile> {
+    let mut reader = Reader::new(source, FileId(0), diagnostics);
+    let reader = &mut reader;
+    let mut table = Table::new(reader, &[])?;
+    let Some(head) = table.take::<ProfileTable>(reader, "profile") else {
+        let message = "the table has no `[profile]`";
+        reader.report(&codes::TABLE_VALUE, Span::new(reader.file, 0, 0), message);
+        return None;
+    };
+    let head = head.value;
+    let name = CompactString::from(head.name.as_deref().unwrap_or_default());
+    reader.standard.clone_from(&name);
+    let when = head.when.as_ref().and_then(|when| {
+        let index = match &when.value {
+            NumberOrText::Number(number) => u16::try_from(*number).ok(),
+            NumberOrText::Text(text) => place::objects(text).map(|objects| objects.indices.0),
+        };
+        if index.is_none() {
+            reader.report(&codes::TABLE_PLACE, reader.span(when), "`when` is an object such as `0x6040`");
+        }
+        index
+    });
+    let buses = head.buses.as_ref().map_or(Buses::ALL, |list| buses::read(reader, list)).with_objects();
+    let patch = Patch::read(reader, &mut table, &["profile", "images"]);
+    let telegrams = table.list(reader, "images").iter().filter_map(|image| telegram(reader, &image.value)).collect();
+    let mut rows = patch.filler();
+    rows.definitions.make_unused(reader);
+    let mut profile = Profile {
+        name,
+        number: head.number,
+        when,
+        api: head.api,
+        on_canopen: buses.canopen,
+        on_ethercat: buses.coe,
+        axis_index: head.axis_index,
+        telegrams,
+        ..Profile::default()
+    };
+    for row in &patch.rows {
+        let ty = row.row.value.ty.as_ref().and_then(|ty| types::named(&ty.value)).map(|named| named.ty);
+        let meaning = meaning(reader, &mut rows, row, ty);
+        match row.target {
+            Target::Name => {
+                let name = row.key.value.as_str().into();
+                profile.signals.push(Signal { name, ty, meaning });
+            }
+            Target::Objects(objects) => {
+                let described = described(reader, &mut rows, row, ty);
+                profile.objects.push(Described {
+                    indices: objects.indices,
+                    subs: objects.subs,
+                    ty,
+                    meaning,
+                    ..described
+                });
+            }
+        }
+    }
+    profile.types = mem::take(&mut rows.definitions.types);
+    profile.types.iter_mut().for_each(|definition| definition.origin = Origin::default());
+    profile.codes = code_tables(reader, &patch, &profile.types);
+    profile.machines = machines(reader, &patch, &profile.types);
+    Some(profile)
+}
+
+fn named(row: &PatchRow) -> Named<'_> {
+    Named { name: "", key: &row.key, number: 0, end: row.row.end }
+}
+
+/// The bits or values of a row: a definition over the integer that it names.
+fn meaning(reader: &mut Reader<'_, '_>, rows: &mut Rows, row: &PatchRow, ty: Option<Type>) -> Option<TypeId> {
+    let before = rows.definitions.types.len();
+    let meaning = rows.meaning(reader, named(row), &row.row.value, ty?);
+    if rows.definitions.types.len() > before {
+        let message = "a row of a profile has bits or values by their name, and the type that these name as their base";
+        reader.report(&codes::TABLE_VALUE, reader.span(&row.key), message);
+    }
+    match meaning? {
+        Type::Named(id) => Some(id),
+        _ => None,
+    }
+}
+
+/// What a row says of its objects, except where they are and of which type.
+fn described(reader: &mut Reader<'_, '_>, rows: &mut Rows, row: &PatchRow, ty: Option<Type>) -> Described {
+    let mut item = Item { ty: ty.unwrap_or(Type::Opaque(None)), ..Item::new(Binding::canopen(0, 0)) };
+    rows.fill(reader, &mut item, named(row), &row.row.value, None);
+    let clause = row.row.value.cite.as_ref().map(cited).unwrap_or_default();
+    let buses = row.row.value.buses.as_ref().map(|_| rows.buses_of(reader, &row.row.value).with_objects());
+    Described {
+        buses,
+        standard: standard_and_clause(&reader.standard, &clause).into(),
+        quantity: item.quantity,
+        behaviour: item.behaviour,
+        documentation: item.documentation,
+        ..Described::default()
+    }
+}
+
+fn telegram(reader: &mut Reader<'_, '_>, image: &ImageTable) -> Option<Telegram> {
+    let direction = process::direction(reader, image.direction.as_ref())?;
+    let name = image.name.as_deref()?.into();
+    let signals = image.fields.iter().filter_map(|(name, field)| Some((field.value.at?, name.value.as_str().into())));
+    Some(Telegram { name, direction, signals: signals.collect() })
+}
+
+/// Codes with their doubts, as a device has them that has nothing but the definitions. They are in no file of a device.
+fn code_tables(reader: &mut Reader<'_, '_>, patch: &Patch, types: &[TypeDef]) -> Vec<(CodeTable, Doubts)> {
+    let mut device = Device { types: types.to_vec(), ..Device::default() };
+    let mut tables = Vec::new();
+    for (name, table) in &patch.codes {
+        code_tables::table(reader, name, table, &mut device);
+        let doubts = without_origin(&mut device.doubts);
+        tables.extend(
+            device.code_tables.drain(..).map(|own| (CodeTable { origin: Origin::default(), ..own }, doubts.clone())),
+        );
+    }
+    tables
+}
+
+/// State machines with their doubts. Whether their items exist is another matter with each device.
+fn machines(reader: &mut Reader<'_, '_>, patch: &Patch, types: &[TypeDef]) -> Vec<(StateMachine, Doubts)> {
+    let mut device = Device { types: types.to_vec(), ..Device::default() };
+    let mut machines = Vec::new();
+    let mut budget = MachineBudget::new();
+    for (name, table) in &patch.machines {
+        if !machines::machine(reader, (name, table), &mut device, &mut budget, &mut Vec::new()) {
+            break;
+        }
+        let doubts = without_origin(&mut device.doubts);
+        machines.extend(device.machines.drain(..).map(|machine| (machine, doubts.clone())));
+    }
+    machines
+}
+
+fn without_origin(doubts: &mut Doubts) -> Doubts {
+    doubts.iter_mut().for_each(|doubt| doubt.origin = Origin::default());
+    mem::take(doubts)
+}
+
+mod tests {
+    use super::*;
+    use crate::ir::{Group, ObjectCode, Shape};
+    use crate::profiles::Completion;
+
+    const PROFILE: &str = "lexibus = 1\n[profile]\nname = \"P\"\n\
+        [enums.Phase.values]\n0 = \"Off\"\n1 = \"On\"\n\
+        [machines.Main]\nstatus = \"0x2000\"\ncontrol = \"0x2000\"\nstates = \"Phase\"\n\
+        doubt = { says = \"two states\", chose = \"both\", why = \"the figure has them\" }\n\
+        [codes.Faults]\nrows = { 1 = { name = \"Short\", doubt = { says = \"1 and 2\", chose = \"1\", why = \"page 3\" } } }\n";
+
+    fn profile() -> Profile {
+        let mut diagnostics = Diagnostics::default();
+        let profile = read(&Source::new("p.toml", PROFILE.into()), &mut diagnostics).expect("a profile");
+        assert!(diagnostics.list().is_empty(), "{:?}", diagnostics.list());
+        profile
+    }
+
+    fn completed(ty: Type, types: Vec<TypeDef>) -> Device {
+        let mut group = Group::object(0x2000, ObjectCode::Var);
+        let mut item = Item::new(Binding::canopen(0x2000, 0));
+        (item.name, item.ty) = ("Status".into(), ty);
+        group.items.push(item);
+        let mut device = Device { groups: vec![group], types, ..Device::default() };
+        Completion::new(&profile()).device(&mut device, &|_| true);
+        device
+    }
+
+    #[test]
+    fn states_of_a_profile_are_those_of_its_enumeration() {
+        let device = completed(Type::Unsigned(16), Vec::new());
+        let states: Vec<_> = device.machines[0].states.iter().map(|state| (state.name.as_str(), state.value)).collect();
+        assert_eq!(states, [("Off", 0), ("On", 1)]);
+        assert_eq!(device.machines[0].state_type, None, "the device has no such type");
+        let device = completed(Type::Unsigned(16), profile().types);
+        assert_eq!(device.machines[0].state_type.as_ref().map(|own| own.as_str()), Some("Phase"));
+    }
+
+    #[test]
+    fn doubts_of_codes_and_machines_are_kept() {
+        let device = completed(Type::Unsigned(16), Vec::new());
+        let doubts: Vec<&str> = device.doubts.iter().map(|doubt| doubt.says.as_str()).collect();
+        assert_eq!(doubts, ["1 and 2", "two states"]);
+        assert!(device.doubts.iter().all(|doubt| doubt.origin == Origin::default()));
+    }
+
+    /// An object of the other sign has the values that the profile has.
+    #[test]
+    fn values_are_the_same_for_either_sign() {
+        let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../dictionaries/profiles");
+        for file in std::fs::read_dir(folder).expect("profiles") {
+            let text = std::fs::read(file.expect("a file").path()).expect("a profile");
+            let (source, mut diagnostics) = (Source::new("p.toml", text), Diagnostics::default());
+            let mut reader = Reader::new(&source, FileId(0), &mut diagnostics);
+            let mut table = Table::new(&mut reader, &[]).expect("a table");
+            let mut definitions = table.rows(&mut reader, Buses::ALL).definitions;
+            for name in definitions.enums.names().cloned().collect::<Vec<_>>() {
+                let kind = super::super::super::definitions::Kind::Enumeration;
+                let base = definitions.base(&mut reader, kind, &name.value).expect("a base");
+                let other = match base {
+                    Type::Integer(bits) => Type::Unsigned(bits),
+                    Type::Unsigned(bits) => Type::Integer(bits),
+                    other => other,
+                };
+                let values = [base, other].map(|base| {
+                    let Some(Type::Named(TypeId(id))) = definitions.named(&mut reader, kind, &name, base) else {
+                        panic!("{}", name.value);
+                    };
+                    match &definitions.types[id as usize].shape {
+                        Shape::Enumeration { values, .. } => values.clone(),
+                        other => panic!("{other:?}"),
+                    }
+                });
+                assert_eq!(values[0], values[1], "{}", name.value);
+            }
+        }
+    }
+}

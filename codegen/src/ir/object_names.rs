@@ -1,0 +1,40 @@
+//! Items that names spell as objects (`0x6040`, `0x1018:1`): overlays and profiles use them where the name of an item isn't known.
+
+use super::owner::object;
+use super::{Group, Item, ItemRef, Shape, TypeDef};
+
+/// The groups of objects with these indices; groups have to be sorted, as [`Device::object`](super::Device::object) says.
+pub(crate) fn in_range(groups: &mut [Group], first: u16, last: u16) -> &mut [Group] {
+    let start = groups.partition_point(|group| group.index() < Some(first));
+    let end = groups.partition_point(|group| group.index() <= Some(last));
+    groups.get_mut(start..end).unwrap_or_default()
+}
+
+/// The item at the object that a name spells, where it spells one.
+pub(crate) fn item_at<'g>(groups: &'g [Group], name: &str) -> Option<&'g Item> {
+    let (index, sub_index) = object(name)?;
+    let position = groups.binary_search_by_key(&Some(index), Group::index).ok()?;
+    groups.get(position)?.sub(sub_index)
+}
+
+/// The name of the item at the object that `reference` spells, or `reference` itself.
+pub(crate) fn item_name(groups: &[Group], reference: &ItemRef) -> ItemRef {
+    match item_at(groups, reference) {
+        Some(item) if !item.name.is_empty() => ItemRef { name: item.name.clone(), ..reference.clone() },
+        _ => reference.clone(),
+    }
+}
+
+/// Names that conditions of bits and values give as objects become those of the items there.
+pub(crate) fn name_conditions(groups: &[Group], types: &mut [TypeDef]) {
+    for definition in types {
+        let conditions: Vec<_> = match &mut definition.shape {
+            Shape::BitField { fields, .. } => fields.iter_mut().filter_map(|field| field.when.as_mut()).collect(),
+            Shape::Enumeration { values, .. } => values.iter_mut().filter_map(|value| value.when.as_mut()).collect(),
+            _ => continue,
+        };
+        for when in conditions {
+            when.item = item_name(groups, &when.item);
+        }
+    }
+}

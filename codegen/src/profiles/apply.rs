@@ -1,0 +1,71 @@
+//! The profiles, and the devices and modules that follow them.
+
+use std::sync::OnceLock;
+
+use super::complete::Completion;
+use super::profile::Profile;
+use super::stored;
+use crate::ir::{Catalog, Device, Group, Value};
+use crate::source::FileId;
+
+/// The profiles in the order in which they are applied: what one of them says, later ones leave alone.
+pub(super) const STORED: [&str; 4] = [
+    include_str!("stored/cia402.txt"),
+    include_str!("stored/coe.txt"),
+    include_str!("stored/cia301.txt"),
+    include_str!("stored/profidrive.txt"),
+];
+
+/// The number of the profile of modular devices, whose modules follow profiles of their own (ETG.5001).
+const MODULAR: u32 = 5001;
+
+/// All profiles, read once.
+fn all() -> &'static [Profile] {
+    static PROFILES: OnceLock<Vec<Profile>> = OnceLock::new();
+    PROFILES.get_or_init(|| STORED.iter().filter_map(|text| stored::read(text)).collect())
+}
+
+/// Completes all devices and modules of `catalog`.
+pub(crate) fn apply(catalog: &mut Catalog) {
+    let Catalog { files, devices, modules, submodules, types, .. } = catalog;
+    // Overlays are in no list of files.
+    let is_table = |FileId(id): FileId| files.get(id as usize).is_none_or(|file| file.format.is_of_manual());
+    for profile in all() {
+        let mut completion = Completion::new(profile);
+        let follows_on_bus = |device: &&mut Device| is_device_of(device, profile) && is_on(device, profile);
+        for device in devices.iter_mut().filter(follows_on_bus) {
+            completion.device(device, &is_table);
+        }
+        for module in modules.iter_mut().filter(|module| follows(&module.profiles, &module.groups, profile)) {
+            completion.module(module);
+        }
+        let mut submodules = submodules.iter_mut().filter(|submodule| Some(submodule.api) == profile.api).peekable();
+        if submodules.peek().is_some() {
+            completion.submodules(submodules, types);
+        }
+    }
+}
+
+fn is_on(device: &Device, profile: &Profile) -> bool {
+    let has_object = device.groups.iter().any(|group| group.index().is_some());
+    let is_ethercat = device.ethercat.is_some() || device.dictionary_only;
+    let is_on_canopen = profile.on_canopen && !is_ethercat;
+    has_object && (is_on_canopen || (profile.on_ethercat && (is_ethercat || device.canopen.is_none())))
+}
+
+fn is_device_of(device: &Device, profile: &Profile) -> bool {
+    let declared = device.entry(0x1000, 0).and_then(|item| item.default.as_ref()).and_then(Value::as_int);
+    let declared = declared.map(|number| (number & 0xFFFF) as u32).filter(|&number| number != 0 && number != 0xFFFF);
+    let numbers: Vec<u32> = device.profiles.iter().copied().chain(declared).collect();
+    follows(&numbers, &device.groups, profile)
+}
+
+/// Whether something that declares these profiles, and has these objects, follows a profile: it declares it, or has the
+/// object that shows it and declares no other one.
+fn follows(numbers: &[u32], groups: &[Group], profile: &Profile) -> bool {
+    if profile.api.is_some() {
+        return false;
+    }
+    let Some(number) = profile.number else { return profile.is_shown_by(groups) };
+    numbers.contains(&number) || (numbers.iter().all(|&declared| declared == MODULAR) && profile.is_shown_by(groups))
+}

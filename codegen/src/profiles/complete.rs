@@ -1,0 +1,343 @@
+//! A profile adds what a description leaves unsaid.
+//!
+//! What a device says of itself stays: its names, its types of bits and values, its units, its words. Where its object is
+//! of another width than the profile's, or isn't there, the profile has nothing to add, and nobody is told.
+
+use std::collections::HashMap;
+
+use super::profile::{Described, Profile, Signal, Telegram};
+use crate::ir::object_names::{in_range, item_at, item_name, name_conditions};
+use crate::ir::{
+    Binding, BitFieldEntry, BitMeaning, CodeTable, CompactString, Device, Direction, Documentation, Fact, FactOrigin,
+    Group, IoData, Item, Module, ObjectCode, Pdo, PdoEntry, PdoEntryKind, Shape, StateMachine, Submodule, Type,
+    TypeDef, TypeId, TypeRef,
+};
+use crate::source::{FileId, Origin};
+
+/// Indices of which each axis has its own.
+const AXIS: std::ops::RangeInclusive<u16> = 0x6000..=0x67FF;
+
+/// The greatest number of axes (CiA 402: 0x6000 to 0x9FFF).
+const AXES: u16 = 8;
+
+/// A profile while it is applied to one device after another.
+pub(crate) struct Completion<'p> {
+    profile: &'p Profile,
+    /// The types of the device, with those that the profile adds behind them.
+    types: Vec<TypeDef>,
+    /// The types that were added, by that of the profile and the integer.
+    added: HashMap<(TypeId, Type), TypeId>,
+}
+
+/// Types of items that were replaced, by object.
+type Replaced = HashMap<(u16, u8), (Type, Type)>;
+
+impl<'p> Completion<'p> {
+    pub(crate) fn new(profile: &'p Profile) -> Self {
+        Completion { profile, types: Vec::new(), added: HashMap::new() }
+    }
+
+    /// Completes a device; `is_table` tells register tables and overlays from other files.
+    pub(crate) fn device(&mut self, device: &mut Device, is_table: &dyn Fn(FileId) -> bool) {
+        self.objects(&mut device.groups, &mut device.types, &mut device.process_data.pdos);
+        // The codes that a manual lists may contradict those of the profile. Diagnosis texts of an ESI are other codes.
+        let of_manual = |table: &CodeTable| is_table(table.origin.span.file) && !is_from_profile(table);
+        let has_codes = device.code_tables.iter().any(of_manual);
+        for (table, doubts) in self.profile.codes.iter().filter(|_| !has_codes) {
+            device.code_tables.push(table.clone());
+            device.doubts.extend(doubts.iter().cloned());
+        }
+        for (machine, doubts) in &self.profile.machines {
+            let exists = |name: &CompactString| item_at(&device.groups, name).is_some();
+            if !exists(&machine.status_item) || !exists(&machine.control_item) {
+                continue;
+            }
+            let status_item = item_name(&device.groups, &machine.status_item);
+            if !device.machines.iter().any(|other| other.status_item == status_item) {
+                let control_item = item_name(&device.groups, &machine.control_item);
+                let state_type = self.state_type(machine, &device.types);
+                device.machines.push(StateMachine { status_item, control_item, state_type, ..machine.clone() });
+                device.doubts.extend(doubts.iter().cloned());
+            }
+        }
+    }
+
+    /// The enumeration of the device that is the profile's own of the machine's states; without it, the states have a type of
+    /// their own.
+    fn state_type(&self, machine: &StateMachine, types: &[TypeDef]) -> Option<TypeRef> {
+        let name = machine.state_type.as_ref()?;
+        let named = |types: &'_ [TypeDef]| {
+            types.iter().find(|definition| definition.name == *name).map(|own| own.shape.clone())
+        };
+        (named(&self.profile.types)? == named(types)?).then(|| name.clone())
+    }
+
+    /// Completes the objects of a module.
+    pub(crate) fn module(&mut self, module: &mut Module) {
+        self.objects(&mut module.groups, &mut module.types, &mut module.process_data.pdos);
+    }
+
+    fn objects(&mut self, groups: &mut [Group], types: &mut Vec<TypeDef>, pdos: &mut [Pdo]) {
+        let before = types.len();
+        let shifts = self.axes(groups);
+        self.start(types);
+        let mut replaced = Replaced::new();
+        for described in &self.profile.objects {
+            let (first, last) = described.indices;
+            let is_of_axis = AXIS.contains(&first) && AXIS.contains(&last);
+            for shift in shifts.iter().take(if is_of_axis { shifts.len() } else { 1 }) {
+                let (first, last) = (first.saturating_add(*shift), last.saturating_add(*shift));
+                for group in in_range(groups, first, last) {
+                    self.group(group, described, &mut replaced);
+                }
+            }
+        }
+        self.finish(types, before);
+        name_conditions(groups, types.get_mut(before..).unwrap_or_default());
+        let entries = pdos.iter_mut().flat_map(|pdo| &mut pdo.entries);
+        for entry in entries.filter(|entry| entry.kind == PdoEntryKind::Item) {
+            match replaced.get(&(entry.index, entry.sub_index)) {
+                Some((old, new)) if *old == entry.ty => entry.ty = *new,
+                _ => {}
+            }
+        }
+    }
+
+    /// What to add to indices for each axis that there is; 0 is the first.
+    fn axes(&self, groups: &[Group]) -> Vec<u16> {
+        let mut shifts = vec![0];
+        let (Some(step), Some(when)) = (self.profile.axis_index, self.profile.when) else { return shifts };
+        let exists = |index: u16| groups.binary_search_by_key(&Some(index), Group::index).is_ok();
+        let further = (1..AXES).filter_map(|axis| step.checked_mul(axis));
+        shifts.extend(further.filter(|shift| when.checked_add(*shift).is_some_and(exists)));
+        shifts
+    }
+
+    fn group(&mut self, group: &mut Group, described: &Described, replaced: &mut Replaced) {
+        if described.subs.is_none() && group.object_code().is_some_and(ObjectCode::has_subs) {
+            describe(&mut group.documentation, described.documentation.as_deref());
+            return;
+        }
+        let (first, last) = described.subs.unwrap_or((0, 0));
+        for item in &mut group.items {
+            let Some(object) = item.object().filter(|(_, sub)| (first..=last).contains(sub)) else { continue };
+            if let Some(types) = self.item(item, described) {
+                replaced.insert(object, types);
+            }
+        }
+    }
+
+    /// Adds to an item what it doesn't say; gives its old and new type where that is another one.
+    fn item(&mut self, item: &mut Item, described: &Described) -> Option<(Type, Type)> {
+        let (old, base) = (item.ty, self.underlying(item.ty));
+        if !self.profile.is_alike(base, described.ty, described.meaning) || !is_on_bus(item, described) {
+            return None;
+        }
+        let standard = FactOrigin::Standard(described.standard.clone());
+        let admits_meaning = item.origins.admits(Fact::Meaning, !self.is_plain(old), &standard);
+        let meaning = described.meaning.filter(|_| admits_meaning);
+        if let Some(id) = meaning.and_then(|id| self.meaning(id, base)) {
+            item.ty = Type::Named(id);
+            item.origins.set(Fact::Meaning, Some(standard.clone()));
+        }
+        let facts = [(Fact::Unit, described.quantity.is_some()), (Fact::Behaviour, described.behaviour.is_some())];
+        for (fact, _) in facts.into_iter().filter(|(_, is_described)| *is_described) {
+            if !item.origins.admits(fact, fact.is_stated(item), &standard) {
+                continue;
+            }
+            match fact {
+                Fact::Unit => item.quantity.clone_from(&described.quantity),
+                _ => item.behaviour.clone_from(&described.behaviour),
+            }
+            item.origins.set(fact, Some(standard.clone()));
+        }
+        describe(&mut item.documentation, described.documentation.as_deref());
+        (item.ty != old).then_some((old, item.ty))
+    }
+
+    /// A type of the profile over the integer `base`, as one of the device. Over the integer that the profile names, it has its plain
+    /// name.
+    fn meaning(&mut self, id: TypeId, base: Type) -> Option<TypeId> {
+        if let Some(added) = self.added.get(&(id, base)) {
+            return Some(*added);
+        }
+        let mut definition = self.profile.definition(id)?.clone();
+        let base_of_profile = match &mut definition.shape {
+            Shape::BitField { base, fields } => {
+                // Types of fields come first, in the order in which the profile has them.
+                let mut of_fields: Vec<_> = fields.iter_mut().filter_map(named_values).collect();
+                of_fields.sort_by_key(|(id, _)| **id);
+                for (id, base) in of_fields {
+                    *id = self.meaning(*id, base)?;
+                }
+                base
+            }
+            Shape::Enumeration { base, .. } => base,
+            _ => return None,
+        };
+        if std::mem::replace(base_of_profile, base) != base {
+            definition.name.push_str(&base.integer_suffix());
+        }
+        definition.bits = base.bits();
+        let added = TypeId(self.types.len() as u32);
+        self.types.push(definition);
+        self.added.insert((id, base), added);
+        Some(added)
+    }
+
+    /// The basic type below a bit field, an enumeration or an alias.
+    fn underlying(&self, ty: Type) -> Type {
+        let mut ty = ty;
+        // Definitions never lead back: each refers to earlier ones.
+        while let Type::Named(TypeId(id)) = ty {
+            match self.types.get(id as usize).map(|definition| &definition.shape) {
+                Some(Shape::Alias(base) | Shape::BitField { base, .. } | Shape::Enumeration { base, .. }) => ty = *base,
+                Some(Shape::Scaled { base, .. }) => ty = *base,
+                _ => break,
+            }
+        }
+        ty
+    }
+
+    /// Whether a type says nothing of bits and values.
+    fn is_plain(&self, ty: Type) -> bool {
+        let mut ty = ty;
+        loop {
+            let Type::Named(TypeId(id)) = ty else { return true };
+            match self.types.get(id as usize).map(|definition| &definition.shape) {
+                // Later types may refer to earlier ones only, so that this ends.
+                Some(Shape::Alias(Type::Named(TypeId(next)))) if *next >= id => return false,
+                Some(Shape::Alias(other)) => ty = *other,
+                _ => return false,
+            }
+        }
+    }
+
+    /// New types go behind those of the device.
+    fn start(&mut self, types: &mut Vec<TypeDef>) {
+        self.types = std::mem::take(types);
+        self.added.clear();
+    }
+
+    /// Gives the types back. The names of those that are new must not change those of the types that the device has.
+    fn finish(&mut self, types: &mut Vec<TypeDef>, before: usize) {
+        *types = std::mem::take(&mut self.types);
+        let before = before.min(types.len());
+        let (of_device, new) = types.split_at_mut(before);
+        let is_value = |definition: &&TypeDef| {
+            matches!(definition.shape, Shape::Enumeration { .. } | Shape::BitField { .. } | Shape::Alias(_))
+        };
+        let names: Vec<String> =
+            of_device.iter().filter(is_value).map(|definition| letters(&definition.name)).collect();
+        for definition in new {
+            definition.origin = Origin::default();
+            if names.contains(&letters(&definition.name)) {
+                definition.name = format!("{} {}", self.profile.name, definition.name).into();
+            }
+        }
+    }
+
+    /// Completes the data of submodules that follow the profile.
+    pub(crate) fn submodules<'s>(
+        &mut self,
+        submodules: impl Iterator<Item = &'s mut Submodule>,
+        types: &mut Vec<TypeDef>,
+    ) {
+        let before = types.len();
+        self.start(types);
+        submodules.for_each(|submodule| self.submodule(submodule));
+        self.finish(types, before);
+    }
+
+    /// Its fields by their names, and where it is one of the profile's telegrams also by their offsets.
+    fn submodule(&mut self, submodule: &mut Submodule) {
+        let data = [(Direction::Receive, &mut submodule.output), (Direction::Transmit, &mut submodule.input)];
+        for (direction, data) in data {
+            let is_telegram =
+                |own: &&Telegram| own.direction == direction && is_called(&submodule.name, own.name.as_str());
+            let telegram = self.profile.telegrams.iter().find(is_telegram);
+            if let Some(data) = data {
+                self.fields(data, telegram);
+            }
+        }
+    }
+
+    fn fields(&mut self, data: &mut IoData, telegram: Option<&Telegram>) {
+        for field in &mut data.image.fields {
+            let signals = telegram.iter().flat_map(|telegram| &telegram.signals);
+            let by_offset =
+                signals.filter(|(byte, _)| byte.saturating_mul(8) == field.bit_offset).map(|(_, name)| name);
+            let mut names = std::iter::once(&field.name).chain(by_offset.take(1)).map(|name| letters(name));
+            let signals = &self.profile.signals;
+            let signal = names.find_map(|name| signals.iter().find(|signal| letters(&signal.name) == name));
+            if let Some(signal) = signal {
+                self.field(field, signal);
+            }
+        }
+    }
+
+    fn field(&mut self, field: &mut PdoEntry, signal: &Signal) {
+        let base = self.underlying(field.ty);
+        if self.profile.is_alike(base, signal.ty, signal.meaning) && self.is_plain(field.ty) {
+            field.ty = signal.meaning.and_then(|id| self.meaning(id, base)).map_or(field.ty, Type::Named);
+        }
+    }
+}
+
+/// The enumeration of some bits, and the integer that they are.
+fn named_values(field: &mut BitFieldEntry) -> Option<(&mut TypeId, Type)> {
+    match &mut field.meaning {
+        BitMeaning::Enumeration(id) => Some((id, Type::Unsigned(field.bits))),
+        _ => None,
+    }
+}
+
+fn is_on_bus(item: &Item, described: &Described) -> bool {
+    let Some(only) = described.buses else { return true };
+    item.bindings.iter().any(|binding| match binding {
+        Binding::Object { buses, .. } => (buses.canopen && only.canopen) || (buses.coe && only.coe),
+        _ => false,
+    })
+}
+
+/// Adds the words of a profile where a description has none; a citation that it has stays.
+fn describe(documentation: &mut Option<Box<Documentation>>, of_profile: Option<&Documentation>) {
+    match (documentation, of_profile) {
+        (documentation @ None, of_profile) => *documentation = of_profile.cloned().map(Box::new),
+        (Some(documentation), Some(of_profile)) if documentation.text.is_empty() => {
+            documentation.text.clone_from(&of_profile.text);
+            documentation.text_from.clone_from(&of_profile.text_from);
+        }
+        _ => {}
+    }
+}
+
+/// Whether a table of codes is a profile's.
+fn is_from_profile(table: &CodeTable) -> bool {
+    table.documentation.as_deref().is_some_and(|documentation| documentation.text_from.is_some())
+}
+
+/// Letters and digits alone, for names that differ in nothing else are one name in Rust.
+fn letters(name: &str) -> String {
+    name.chars().filter(|letter| letter.is_alphanumeric()).flat_map(char::to_lowercase).collect()
+}
+
+/// Whether a submodule is the telegram of this name: its words, and no digit behind them.
+fn is_called(name: &str, telegram: &str) -> bool {
+    let (name, telegram) = (name.to_lowercase(), telegram.to_lowercase());
+    let mut places = name.match_indices(telegram.as_str());
+    places.any(|(at, _)| !name[at + telegram.len()..].starts_with(|letter: char| letter.is_ascii_digit()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn telegrams_are_told_apart_by_their_number() {
+        assert!(is_called("Standard telegram 1, PZD-2/2", "standard telegram 1"));
+        assert!(!is_called("Standard telegram 102", "standard telegram 1"));
+        assert!(!is_called("Drive", "standard telegram 1"));
+        assert_eq!(letters("ZSW 1_ä"), "zsw1ä");
+    }
+}

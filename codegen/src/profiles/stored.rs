@@ -1,0 +1,317 @@
+//! A profile as text: the fields of each structure in order, each ended by a tab. Elements of lists are on lines of their own.
+//!
+//! A unit test writes the files `stored/*.txt` from `dictionaries/profiles/*.toml`, and holds them to it:
+//! `LEXIBUS_BLESS=1 cargo test -p lexibus-codegen --lib profiles::stored`.
+
+use super::profile::{Described, Profile, Signal, Telegram};
+use crate::ir::{
+    Access, Behaviour, BitFieldEntry, BitMeaning, CodeRow, CodeTable, CompactString, Condition, Direction,
+    Documentation, Doubt, Doubts, EnumValue, FactOrigin, ItemRef, ObjectBuses, Pattern, Quantity, Scale, Severity,
+    Shape, SharedList, StateMachine, Storage, Subject, SubjectKind, Transition, Trigger, Type, TypeDef, TypeId,
+    TypeRef, Value, Zone,
+};
+
+/// The fields of a stored profile that aren't read yet.
+type Fields<'t> = std::str::Split<'t, char>;
+
+/// Reads a stored profile; `None` for any other text.
+pub(super) fn read(text: &str) -> Option<Profile> {
+    Stored::read(&mut text.split('\t'))
+}
+
+/// A part of a stored profile.
+trait Stored: Sized {
+    fn read(fields: &mut Fields<'_>) -> Option<Self>;
+    #[cfg(test)]
+    fn write(&self, text: &mut String);
+}
+
+/// The next field; the line before it ends at an element of a list.
+fn next<'t>(fields: &mut Fields<'t>) -> Option<&'t str> {
+    fields.next().map(|field| field.strip_prefix('\n').unwrap_or(field))
+}
+
+/// Writes one field.
+#[cfg(test)]
+fn write(text: &mut String, field: &str) {
+    assert!(!field.contains(['\t', '\n']), "{field:?} can't be stored");
+    text.push_str(field);
+    text.push('\t');
+}
+
+/// Types that have one field, which they are parsed from.
+macro_rules! parsed {
+    ($($name:ty),*) => {$(
+        impl Stored for $name {
+            fn read(fields: &mut Fields<'_>) -> Option<Self> {
+                next(fields)?.parse().ok()
+            }
+
+            #[cfg(test)]
+            fn write(&self, text: &mut String) {
+                write(text, &self.to_string());
+            }
+        }
+    )*};
+}
+
+parsed!(bool, u8, u16, u32, u64, i128, f64, usize, String, CompactString);
+
+/// Types that are the same as another one.
+macro_rules! wrapped {
+    ($($name:ty: $inner:ty, $read:expr, $write:expr;)*) => {$(
+        impl Stored for $name {
+            fn read(fields: &mut Fields<'_>) -> Option<Self> {
+                <$inner>::read(fields).map($read)
+            }
+
+            #[cfg(test)]
+            fn write(&self, text: &mut String) {
+                let write: fn(&$name) -> &$inner = $write;
+                write(self).write(text);
+            }
+        }
+    )*};
+}
+
+wrapped! {
+    TypeId: u32, TypeId, |id| &id.0;
+    ItemRef: CompactString, ItemRef::from, |reference| &reference.name;
+    TypeRef: CompactString, TypeRef::from, |reference| &reference.name;
+}
+
+/// Structures: the fields that are stored, and behind the bar those that a profile has no use for.
+macro_rules! structures {
+    ($($name:ident { $($field:ident),* $(| $($default:ident),*)? })*) => {$(
+        impl Stored for $name {
+            fn read(fields: &mut Fields<'_>) -> Option<Self> {
+                $(let $field = Stored::read(fields)?;)*
+                Some($name { $($field,)* $($($default: Default::default(),)*)? })
+            }
+
+            #[cfg(test)]
+            fn write(&self, text: &mut String) {
+                let $name { $($field,)* $($($default: _,)*)? } = self;
+                $($field.write(text);)*
+            }
+        }
+    )*};
+}
+
+structures! {
+    Profile { name, number, when, api, on_canopen, on_ethercat, axis_index, objects, signals, telegrams, types, codes, machines }
+    Described { indices, subs, ty, buses, meaning, standard, quantity, behaviour, documentation }
+    Signal { name, ty, meaning }
+    Telegram { name, direction, signals }
+    ObjectBuses { canopen, coe }
+    Documentation { text, cite, text_from | translations }
+    Quantity { unit, scale, sentinels, step | units, machine, conversions }
+    Behaviour {
+        storage, effective, write_when, writable_values, side_effects, self_clearing, write_once, hidden
+        | backup, setting, safety, pdi_access, read_states, write_states
+    }
+    Condition { item, values, mask }
+    TypeDef { name, shape, bits, documentation | code, origin }
+    BitFieldEntry { name, offset, bits, meaning, when, trigger, access, documentation | names, availability, at }
+    EnumValue { name, value, last, zone, when, documentation | names, availability, at }
+    CodeTable { name, columns, rows, documentation | buses, origin }
+    CodeRow { printed, code, last, name, documentation, cells | printed_cells, names, availability }
+    StateMachine { name, status_item, control_item, state_type, states, initial, commands, transitions, documentation | outcomes }
+    Pattern { name, mask, value, documentation | names }
+    Transition { number, from, to, command, documentation }
+    Doubt { says, chosen, why, cite, severity, subject | origin }
+    Subject { kind, name, element }
+}
+
+/// Enumerations: the name of the variant, and its fields.
+macro_rules! enumerations {
+    ($($name:ident { $($variant:ident $(($($item:ident),*))? $({ $($field:ident),* })?),* })*) => {$(
+        impl Stored for $name {
+            fn read(fields: &mut Fields<'_>) -> Option<Self> {
+                match next(fields)? {
+                    $(stringify!($variant) => {
+                        $($(let $item = Stored::read(fields)?;)*)?
+                        $($(let $field = Stored::read(fields)?;)*)?
+                        Some($name::$variant $(($($item),*))? $({ $($field),* })?)
+                    })*
+                    _ => None,
+                }
+            }
+
+            #[cfg(test)]
+            #[allow(unreachable_patterns)]
+            fn write(&self, text: &mut String) {
+                match self {
+                    $($name::$variant $(($($item),*))? $({ $($field),* })? => {
+                        write(text, stringify!($variant));
+                        $($($item.write(text);)*)?
+                        $($($field.write(text);)*)?
+                    })*
+                    other => panic!("{other:?} can't be stored"),
+                }
+            }
+        }
+    )*};
+}
+
+enumerations! {
+    Access { ReadOnly, WriteOnly, ReadWrite, ReadWriteInput, ReadWriteOutput, Constant }
+    BitMeaning { Flag { inverted }, Number, Enumeration(id), Reserved { write } }
+    Direction { Receive, Transmit }
+    FactOrigin { Stated, PrintedName, Standard(clause) }
+    Scale {
+        Linear { factor, offset }, Reciprocal { numerator }, Fraction { bits, base }, Exponent { exponent, base, fraction }, ByItem { item, factor },
+        TimesItem { item, factor }
+    }
+    Severity { Hazard, Value, Print }
+    Shape { BitField { base, fields }, Enumeration { base, values, closed } }
+    Storage { Unknown, Volatile, Immediate, OnCommand(command) }
+    SubjectKind { Type, Codes, Machine, Procedure, Image, Composite, Model, Option }
+    Trigger { Rising, Falling, Toggle, SelfClearing }
+    Type { Boolean, Integer(bits), Unsigned(bits), Real32, Real64 }
+    Value { Bool(value), Int(value), Real(value), Text(value) }
+    Zone { Reserved, Vendor }
+}
+
+impl<A: Stored, B: Stored> Stored for (A, B) {
+    fn read(fields: &mut Fields<'_>) -> Option<Self> {
+        Some((A::read(fields)?, B::read(fields)?))
+    }
+
+    #[cfg(test)]
+    fn write(&self, text: &mut String) {
+        self.0.write(text);
+        self.1.write(text);
+    }
+}
+
+impl<T: Stored> Stored for Box<T> {
+    fn read(fields: &mut Fields<'_>) -> Option<Self> {
+        T::read(fields).map(Box::new)
+    }
+
+    #[cfg(test)]
+    fn write(&self, text: &mut String) {
+        T::write(self, text);
+    }
+}
+
+impl<T: Stored> Stored for Option<T> {
+    fn read(fields: &mut Fields<'_>) -> Option<Self> {
+        match next(fields)? {
+            "" => Some(None),
+            _ => T::read(fields).map(Some),
+        }
+    }
+
+    #[cfg(test)]
+    fn write(&self, text: &mut String) {
+        write(text, if self.is_some() { "+" } else { "" });
+        self.iter().for_each(|value| value.write(text));
+    }
+}
+
+/// Lists: the number of their elements, and each on a line of its own.
+macro_rules! lists {
+    ($($name:ty where $element:ident;)*) => {$(
+        impl<$element: Stored> Stored for $name {
+            fn read(fields: &mut Fields<'_>) -> Option<Self> {
+                let count = usize::read(fields)?;
+                (0..count).map(|_| Stored::read(fields)).collect()
+            }
+
+            #[cfg(test)]
+            fn write(&self, text: &mut String) {
+                self.len().write(text);
+                for element in self {
+                    text.push('\n');
+                    element.write(text);
+                }
+            }
+        }
+    )*};
+}
+
+lists! {
+    Vec<T> where T;
+    SharedList<T> where T;
+}
+
+impl Stored for Doubts {
+    fn read(fields: &mut Fields<'_>) -> Option<Self> {
+        Vec::read(fields).map(Doubts::from)
+    }
+
+    #[cfg(test)]
+    fn write(&self, text: &mut String) {
+        self.to_vec().write(text);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::HashMap;
+    use std::path::Path;
+
+    use super::super::apply::STORED;
+    use super::*;
+    use crate::diagnostics::{Diagnostic, Diagnostics};
+    use crate::frontend::table::overlay::profile;
+    use crate::source::Source;
+
+    const FILES: [&str; 4] = ["cia402", "coe", "cia301", "profidrive"];
+
+    fn source(text: &str) -> Source {
+        Source::new("profile.toml", text.as_bytes().to_vec())
+    }
+
+    fn findings(text: &str) -> Vec<Diagnostic> {
+        let mut diagnostics = Diagnostics::default();
+        profile::read(&source(text), &mut diagnostics);
+        diagnostics.list().to_vec()
+    }
+
+    fn table(name: &str) -> String {
+        let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../dictionaries/profiles");
+        std::fs::read_to_string(Path::new(folder).join(name).with_extension("toml")).expect("a table")
+    }
+
+    #[test]
+    fn stored_profiles_are_those_of_the_tables() {
+        for (name, stored) in FILES.into_iter().zip(STORED) {
+            let profile = profile::read(&source(&table(name)), &mut Diagnostics::default()).expect(name);
+            let mut text = String::new();
+            profile.write(&mut text);
+            assert_eq!(read(&text).as_ref(), Some(&profile), "{name} has facts that can't be stored");
+            if std::env::var_os("LEXIBUS_BLESS").is_some() {
+                let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/src/profiles/stored");
+                std::fs::write(Path::new(folder).join(name).with_extension("txt"), &text).expect("written");
+            } else {
+                assert!(text == stored, "{name}.txt is stale: `tests/bindings.sh` writes it");
+            }
+        }
+        assert_eq!(read("CiA 402\t"), None);
+    }
+
+    #[test]
+    fn every_profile_is_without_fault() {
+        let mut names: HashMap<String, &str> = HashMap::new();
+        for name in FILES {
+            let text = table(name);
+            let findings = findings(&text);
+            let messages: Vec<&String> = findings.iter().map(|finding| &finding.message).collect();
+            assert!(findings.is_empty(), "{name}: {messages:?}");
+            // Definitions of one name in two profiles would be two types of one name in one device.
+            for line in text.lines() {
+                let head = line.strip_prefix("[bits.").or(line.strip_prefix("[enums.")).unwrap_or_default();
+                if let Some(own) = head.strip_suffix(".at]").or(head.strip_suffix(".values]")) {
+                    let other = names.insert(own.to_lowercase(), name);
+                    assert_eq!(other, None, "`{own}` is defined in {name} and elsewhere");
+                }
+            }
+        }
+        assert!(names.len() > 40, "only {} definitions", names.len());
+        assert!(!findings("lexibus = 1\n[profile]\nnumber = 402\nwhen = \"x\"\n").is_empty());
+        assert!(!findings("lexibus = 1\n[device]\nname = \"x\"\n").is_empty());
+    }
+}
