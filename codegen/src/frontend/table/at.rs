@@ -97,21 +97,6 @@ mod schema {
         }
     }
 
-    impl<T: JsonSchema> JsonSchema for Entries<T> {
-        fn inline_schema() -> bool {
-            true
-        }
-
-        fn schema_name() -> Cow<'static, str> {
-            format!("Entries_of_{}", T::schema_name()).into()
-        }
-
-        fn json_schema(generator: &mut SchemaGenerator) -> Schema {
-            let inner = generator.subschema_for::<T>();
-            json_schema!({ "type": "object", "additionalProperties": inner })
-        }
-    }
-
     impl JsonSchema for Literal {
         fn inline_schema() -> bool {
             true
@@ -126,48 +111,30 @@ mod schema {
         }
     }
 
-    impl<T: JsonSchema> JsonSchema for TextOr<T> {
-        fn inline_schema() -> bool {
-            true
-        }
+    /// Schemas without a definition of their own.
+    macro_rules! inline {
+        ($($name:ident $prefix:literal $inner:ident $schema:tt)*) => {$(
+            impl<T: JsonSchema> JsonSchema for $name<T> {
+                fn inline_schema() -> bool {
+                    true
+                }
 
-        fn schema_name() -> Cow<'static, str> {
-            format!("Text_or_{}", T::schema_name()).into()
-        }
+                fn schema_name() -> Cow<'static, str> {
+                    format!(concat!($prefix, "_{}"), T::schema_name()).into()
+                }
 
-        fn json_schema(generator: &mut SchemaGenerator) -> Schema {
-            let table = generator.subschema_for::<T>();
-            json_schema!({ "anyOf": [{ "type": "string" }, table] })
-        }
+                fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+                    let $inner = generator.subschema_for::<T>();
+                    json_schema!($schema)
+                }
+            }
+        )*};
     }
 
-    impl<T: JsonSchema> JsonSchema for FlagOr<T> {
-        fn inline_schema() -> bool {
-            true
-        }
-
-        fn schema_name() -> Cow<'static, str> {
-            format!("Flag_or_{}", T::schema_name()).into()
-        }
-
-        fn json_schema(generator: &mut SchemaGenerator) -> Schema {
-            let table = generator.subschema_for::<T>();
-            json_schema!({ "anyOf": [{ "type": "boolean" }, table] })
-        }
-    }
-
-    impl<T: JsonSchema> JsonSchema for OneOrMany<T> {
-        fn inline_schema() -> bool {
-            true
-        }
-
-        fn schema_name() -> Cow<'static, str> {
-            format!("One_or_many_{}", T::schema_name()).into()
-        }
-
-        fn json_schema(generator: &mut SchemaGenerator) -> Schema {
-            let one = generator.subschema_for::<T>();
-            json_schema!({ "anyOf": [one, { "type": "array", "items": one }] })
-        }
+    inline! {
+        Entries "Entries_of" inner { "type": "object", "additionalProperties": inner }
+        TextOr "Text_or" table { "anyOf": [{ "type": "string" }, table] }
+        FlagOr "Flag_or" table { "anyOf": [{ "type": "boolean" }, table] }
+        OneOrMany "One_or_many" one { "anyOf": [one, { "type": "array", "items": one }] }
     }
 }

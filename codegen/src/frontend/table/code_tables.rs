@@ -4,7 +4,7 @@ use std::collections::hash_map::{Entry, HashMap};
 
 use super::at::{At, Literal, TextOr};
 use super::format::{CodeTableRow, CodesTable};
-use super::tree::{about, cited, Reader};
+use super::tree::Reader;
 use super::{buses, place, value};
 use crate::diagnostics::{codes, Diagnostic};
 use crate::ir::{Availability, CodeRow, CodeTable, CompactString, Device, SubjectKind, Type, Value};
@@ -26,13 +26,8 @@ pub(super) fn table(reader: &mut Reader<'_, '_>, name: &At<String>, table: &Code
             TextOr::Text(name) => (Some(name.as_str()), &plain),
             TextOr::Table(row) => (row.name.as_deref(), &**row),
         };
-        let (origin, cite) = (reader.origin(key), row.cite.as_ref().map(cited));
-        device.doubts.extend(about(
-            reader.doubts([row.doubt.as_ref(), row.doubts.as_ref()], origin, cite.as_deref()),
-            SubjectKind::Codes,
-            owner,
-            &key.value,
-        ));
+        let origin = reader.origin(key);
+        device.doubts.extend(reader.doubts_about(row, origin, SubjectKind::Codes, owner, &key.value));
         let as_before = distinct.as_mut().and_then(|distinct| distinct.before(key, row));
         if let Some(other) = as_before {
             let message = format!("the codes {} and {} have the same cells", brief(&other.value), brief(&key.value));
@@ -49,7 +44,7 @@ pub(super) fn table(reader: &mut Reader<'_, '_>, name: &At<String>, table: &Code
             name: name.unwrap_or_default().into(),
             names: reader.original(row.orig.as_deref()),
             availability: availability(row),
-            documentation: reader.documentation(row.doc.as_deref(), cite),
+            documentation: reader.documentation_of(row),
             cells: row.cells.iter().map(cell).collect(),
         });
     }
@@ -58,7 +53,7 @@ pub(super) fn table(reader: &mut Reader<'_, '_>, name: &At<String>, table: &Code
         columns: table.columns.iter().map(|column| column.as_str().into()).collect(),
         rows: rows.into(),
         buses: table.buses.as_ref().map(|list| buses::read(reader, list)).unwrap_or_default(),
-        documentation: reader.documentation(table.doc.as_deref(), table.cite.as_ref().map(cited)),
+        documentation: reader.documentation_of(table),
         origin: reader.origin(name),
     });
 }

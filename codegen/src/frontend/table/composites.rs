@@ -3,7 +3,7 @@
 use super::at::At;
 use super::format::CompositeTable;
 use super::references::{References, ITEM};
-use super::tree::{about, cited, Reader};
+use super::tree::Reader;
 use crate::diagnostics::codes;
 use crate::ir::{Composite, Device, SubjectKind};
 
@@ -15,13 +15,8 @@ pub(super) fn composite(
     device: &mut Device,
     references: &mut References,
 ) {
-    let (origin, cite) = (reader.origin(name), table.cite.as_ref().map(cited));
-    device.doubts.extend(about(
-        reader.doubts([table.doubt.as_ref(), table.doubts.as_ref()], origin, cite.as_deref()),
-        SubjectKind::Composite,
-        &name.value,
-        "",
-    ));
+    let origin = reader.origin(name);
+    device.doubts.extend(reader.doubts_about(table, origin, SubjectKind::Composite, &name.value, ""));
     references.extend(table.parts.iter().map(|part| (part.clone(), ITEM)));
     references.extend(table.sign.iter().map(|sign| (sign.clone(), ITEM)));
     let message = match (table.parts.len(), table.base, table.sign.is_some(), table.negative.is_some()) {
@@ -43,7 +38,7 @@ pub(super) fn composite(
         base: table.base.unwrap_or_default(),
         sign: sign.map(|(item, value)| (reader.reference(item), value)),
         unit: table.unit.as_deref().unwrap_or_default().into(),
-        documentation: reader.documentation(table.doc.as_deref(), cite),
+        documentation: reader.documentation_of(table),
         origin,
     });
 }

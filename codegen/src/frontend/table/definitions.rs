@@ -4,12 +4,14 @@ use std::collections::HashMap;
 
 use compact_str::{format_compact, CompactString};
 
-use super::at::{At, OneOrMany, TextOr};
+use super::at::{At, TextOr};
 use super::by_name::ByName;
 use super::conditions::{self, Window};
-use super::format::{BitEntries, BitTable, BitsTable, EnumTable, NumberOrText, UnitTable, ValueEntries, ValueTable};
+use super::format::{
+    BitEntries, BitTable, BitsTable, Documented, Doubted, EnumTable, NumberOrText, UnitTable, ValueEntries, ValueTable,
+};
 use super::references::References;
-use super::tree::{cited, Reader};
+use super::tree::Reader;
 use super::words::ACCESSES;
 use super::{lints, place, types, value};
 use crate::diagnostics::{codes, Diagnostic};
@@ -70,7 +72,7 @@ impl Definitions {
                     reader.unresolved("enumeration", &name.value, reader.span(name), known);
                     return None;
                 };
-                let mut about = self.about(reader, &place, (&table.doc, &table.cite), [&table.doubt, &table.doubts]);
+                let mut about = self.about(reader, &place, &table);
                 about.name.push_str(&suffix);
                 self.enumeration(reader, about, base, table.closed, &table.values)
             }
@@ -80,7 +82,7 @@ impl Definitions {
                     reader.unresolved("bit field", &name.value, reader.span(name), known);
                     return None;
                 };
-                let mut about = self.about(reader, &place, (&table.doc, &table.cite), [&table.doubt, &table.doubts]);
+                let mut about = self.about(reader, &place, &table);
                 about.name.push_str(&suffix);
                 self.bit_field(reader, about, base, (&table.at, table.address))
             }
@@ -137,21 +139,15 @@ impl Definitions {
         }
     }
 
-    fn about<'t>(
+    fn about<'t, T: Documented + Doubted>(
         &mut self,
         reader: &mut Reader<'_, '_>,
         place: &At<String>,
-        (doc, cite): (&'t Option<String>, &Option<OneOrMany<NumberOrText>>),
-        doubts: [&Option<OneOrMany<super::format::DoubtTable>>; 2],
+        table: &'t T,
     ) -> About<'t> {
-        let (origin, cite) = (reader.origin(place), cite.as_ref().map(cited));
-        self.doubts.extend(super::tree::about(
-            reader.doubts(doubts.map(Option::as_ref), origin, cite.as_deref()),
-            SubjectKind::Type,
-            &place.value,
-            "",
-        ));
-        About { name: place.value.as_str().into(), doc: doc.as_deref(), cite, origin }
+        let origin = reader.origin(place);
+        self.doubts.extend(reader.doubts_about(table, origin, SubjectKind::Type, &place.value, ""));
+        About { name: place.value.as_str().into(), doc: table.doc(), cite: table.cited(), origin }
     }
 
     /// An enumeration that is written in its row.
@@ -217,14 +213,8 @@ impl Definitions {
             };
             let zones = [("reserved", Zone::Reserved), ("vendor", Zone::Vendor)];
             let zone = more.zone.as_ref().and_then(|zone| reader.word(zone, "zone", &zones));
-            let cite = more.cite.as_ref().map(cited);
             let origin = reader.origin(key);
-            self.doubts.extend(super::tree::about(
-                reader.doubts([more.doubt.as_ref(), more.doubts.as_ref()], origin, cite.as_deref()),
-                SubjectKind::Type,
-                &about.name,
-                &key.value,
-            ));
+            self.doubts.extend(reader.doubts_about(more, origin, SubjectKind::Type, &about.name, &key.value));
             unfilled(reader, key, name);
             let name = name.filter(|name| !nameless(reader, name, key, &about.name, "value"));
             let unnamed = || zone.map_or_else(|| format_compact!("value {first}"), |zone| zone_name(zone).into());
@@ -236,7 +226,7 @@ impl Definitions {
                 names: reader.original(more.orig.as_deref()),
                 when: conditions::condition(reader, &mut self.mentioned, more.when.as_ref()),
                 availability: conditions::availability(reader, &mut self.mentioned, window(more)),
-                documentation: reader.documentation(more.doc.as_deref(), cite),
+                documentation: reader.documentation_of(more),
                 at: Mark(reader.span(key)),
             });
         }
@@ -282,14 +272,9 @@ impl Definitions {
         name: Option<&str>,
         table: &BitTable,
     ) -> BitFieldEntry {
-        let (origin, cite) = (reader.origin(key), table.cite.as_ref().map(cited));
+        let origin = reader.origin(key);
         unfilled(reader, key, name);
-        self.doubts.extend(super::tree::about(
-            reader.doubts([table.doubt.as_ref(), table.doubts.as_ref()], origin, cite.as_deref()),
-            SubjectKind::Type,
-            owner,
-            &key.value,
-        ));
+        self.doubts.extend(reader.doubts_about(table, origin, SubjectKind::Type, owner, &key.value));
         let name = name.filter(|name| table.reserved.is_some() || !nameless(reader, name, key, owner, "bit"));
         let is_named = name.is_some();
         let name = name.map_or_else(|| format_compact!("bit {}", key.value), CompactString::from);
@@ -323,7 +308,7 @@ impl Definitions {
                     buses: None,
                 },
             ),
-            documentation: reader.documentation(table.doc.as_deref(), cite),
+            documentation: reader.documentation_of(table),
             at: Mark(reader.span(key)),
         }
     }

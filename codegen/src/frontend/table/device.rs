@@ -4,7 +4,7 @@ use super::at::At;
 use super::buses;
 use super::format::{AxesTable, DeviceTable, ManualTable, ModelTable, NumberOrText};
 use super::place;
-use super::tree::{about, cited, Reader};
+use super::tree::Reader;
 use super::{lints, value};
 use crate::diagnostics::{codes, Diagnostic};
 use crate::ir::{
@@ -33,9 +33,8 @@ pub(super) fn head(reader: &mut Reader<'_, '_>, table: &At<DeviceTable>, device:
     };
     device.profiles.clone_from(&own.profiles);
     device.node_ids = own.node_ids.as_ref().and_then(|given| node_ids(reader, given));
-    let cite = own.cite.as_ref().map(cited);
-    device.documentation = reader.documentation(own.doc.as_deref(), cite.clone());
-    device.doubts = reader.doubts([own.doubt.as_ref(), own.doubts.as_ref()], device.origin, cite.as_deref());
+    device.documentation = reader.documentation_of(own);
+    device.doubts = reader.doubts_of(own, device.origin);
     let buses = own.buses.as_ref().map_or(Buses::ALL, |list| buses::read(reader, list));
     if buses.contains(Bus::CanOpen) && own.buses.is_some() {
         device.canopen = Some(Box::new(CanOpenSettings {
@@ -112,13 +111,7 @@ pub(super) fn model(reader: &mut Reader<'_, '_>, table: &At<ModelTable>, device:
         return;
     };
     let origin = reader.origin(name);
-    let cite = own.cite.as_ref().map(cited);
-    device.doubts.extend(about(
-        reader.doubts([own.doubt.as_ref(), own.doubts.as_ref()], origin, cite.as_deref()),
-        SubjectKind::Model,
-        &name.value,
-        "",
-    ));
+    device.doubts.extend(reader.doubts_about(own, origin, SubjectKind::Model, &name.value, ""));
     let constant = |literal: &super::at::Literal| value::convert(literal, Type::Opaque(None), false);
     device.variants.push(Variant {
         name: name.value.as_str().into(),
@@ -134,7 +127,7 @@ pub(super) fn model(reader: &mut Reader<'_, '_>, table: &At<ModelTable>, device:
             .iter()
             .filter_map(|(key, literal)| Some((key.value.as_str().into(), constant(&literal.value)?)))
             .collect(),
-        documentation: reader.documentation(own.doc.as_deref(), cite),
+        documentation: reader.documentation_of(own),
         origin,
     });
 }
@@ -143,8 +136,7 @@ pub(super) fn model(reader: &mut Reader<'_, '_>, table: &At<ModelTable>, device:
 pub(super) fn axes(reader: &mut Reader<'_, '_>, table: &At<AxesTable>, device: &mut Device) {
     let own = &table.value;
     let origin = reader.origin(table);
-    let cite = own.cite.as_ref().map(cited);
-    device.doubts.extend(reader.doubts([own.doubt.as_ref(), own.doubts.as_ref()], origin, cite.as_deref()));
+    device.doubts.extend(reader.doubts_of(own, origin));
     let mut rules = Vec::new();
     for rule in &own.rules {
         let objects = rule.value.objects.as_ref().and_then(|objects| match &objects.value {

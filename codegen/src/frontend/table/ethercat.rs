@@ -2,7 +2,7 @@
 
 use super::at::{At, FlagOr};
 use super::format::{CoeTable, EtherCatTable, SyncManagerTable};
-use super::tree::{cited, Reader};
+use super::tree::Reader;
 use crate::diagnostics::{codes, Diagnostic};
 use crate::ir::{Bus, Buses, Coe, Device, Mailbox, Protocol, SyncManager, SyncManagerPurpose};
 
@@ -24,8 +24,8 @@ pub(super) fn settings(reader: &mut Reader<'_, '_>, table: &At<EtherCatTable>, b
     }
     let settings = device.ethercat.get_or_insert_with(Box::default);
     settings.mailbox = mailbox(own).map(Box::new);
-    let (origin, cite) = (reader.origin(table), own.cite.as_ref().map(cited));
-    device.doubts.extend(reader.doubts([own.doubt.as_ref(), own.doubts.as_ref()], origin, cite.as_deref()));
+    let origin = reader.origin(table);
+    device.doubts.extend(reader.doubts_of(own, origin));
     for given in &own.sync_managers {
         if let Some(manager) = sync_manager(reader, given, device) {
             device.process_data.sync_managers.push(manager);
@@ -67,8 +67,8 @@ fn coe(table: &CoeTable) -> Coe {
 
 fn sync_manager(reader: &mut Reader<'_, '_>, given: &At<SyncManagerTable>, device: &mut Device) -> Option<SyncManager> {
     let own = &given.value;
-    let (origin, cite) = (reader.origin(given), own.cite.as_ref().map(cited));
-    device.doubts.extend(reader.doubts([own.doubt.as_ref(), own.doubts.as_ref()], origin, cite.as_deref()));
+    let origin = reader.origin(given);
+    device.doubts.extend(reader.doubts_of(own, origin));
     let purpose = own.purpose.as_ref().and_then(|word| reader.word(word, "purpose", &PURPOSES));
     let (Some(number), Some(start_address), Some(purpose)) = (own.number, own.start, purpose) else {
         let message = "a sync manager has a `number`, a `start` and a `purpose`";

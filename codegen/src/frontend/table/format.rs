@@ -6,6 +6,7 @@ use super::at::{At, Entries, FlagOr, Literal, OneOrMany, TextOr};
 use super::read::{self, Mistake, Node, Read};
 #[cfg(test)]
 use super::schema;
+use super::tree::cited;
 
 /// The key of a field: its name, or the text after `=`.
 macro_rules! key {
@@ -25,11 +26,88 @@ macro_rules! tables {
         pub struct $name:ident $(: $($group:ident)+)? { $($fields:tt)* }
     )*) => {$(
         table! { { $($($group)+)? } [$(#[$attribute])*] $name { $($fields)* } }
+        $($(words! { $name $group })+)?
     )*};
+}
+
+/// Tables with a description.
+pub(super) trait Documented {
+    fn doc(&self) -> Option<&str>;
+}
+
+/// Tables with citations.
+pub(super) trait Cited {
+    /// Pages or lines as one text.
+    fn cited(&self) -> Option<String>;
+}
+
+/// Tables with doubts.
+pub(super) trait Doubted: Cited {
+    fn doubt_tables(&self) -> [Option<&OneOrMany<DoubtTable>>; 2];
+}
+
+/// What a table has in words, by its groups of keys.
+macro_rules! words {
+    ($name:ident doc) => {
+        impl Documented for $name {
+            fn doc(&self) -> Option<&str> {
+                self.doc.as_deref()
+            }
+        }
+    };
+    ($name:ident cite) => {
+        impl Cited for $name {
+            fn cited(&self) -> Option<String> {
+                self.cite.as_ref().map(cited)
+            }
+        }
+    };
+    ($name:ident doubt) => {
+        impl Doubted for $name {
+            fn doubt_tables(&self) -> [Option<&OneOrMany<DoubtTable>>; 2] {
+                [self.doubt.as_ref(), self.doubts.as_ref()]
+            }
+        }
+    };
+    ($name:ident $group:ident) => {};
 }
 
 /// One table: adds the keys that many tables have, one group after the other.
 macro_rules! table {
+    ({ meaning $($group:ident)* } $attributes:tt $name:ident { $($fields:tt)* }) => {
+        table! { { $($group)* } $attributes $name {
+            $($fields)*
+            /// What the bits mean: a name of `[bits]`, or the bits themselves.
+            #[cfg_attr(test, schemars(transform = schema::keys(schema::BITS)))]
+            pub bits: Option<At<TextOr<BitEntries>>>,
+            /// What the values mean: a name of `[enums]`, or the values themselves.
+            #[cfg_attr(test, schemars(transform = schema::keys(schema::VALUES)))]
+            pub values = "enum": Option<At<TextOr<ValueEntries>>>,
+            /// A symbol, or a name of `[units]`.
+            pub unit: Option<At<String>>,
+            /// physical = raw × scale + offset, in units of `unit`; or how the factor is found.
+            pub scale: Option<At<Scaling>>,
+            /// The smallest value, raw.
+            pub min: Option<At<Literal>>,
+            /// The greatest value, raw.
+            pub max: Option<At<Literal>>,
+            /// Raw values that are no numbers, with their meaning.
+            pub na: Option<Entries<String>>,
+            /// Numbers that the manual converts as an example; each is held against the scale.
+            pub conversions: Vec<At<ConversionTable>>,
+        } }
+    };
+    ({ window $($group:ident)* } $attributes:tt $name:ident { $($fields:tt)* }) => {
+        table! { { $($group)* } $attributes $name {
+            $($fields)*
+            /// Models that have it; `*` stands for any letters.
+            pub models: Option<Vec<At<String>>>,
+            /// First firmware that has it.
+            pub since: Option<String>,
+            /// First firmware that doesn't have it any more.
+            pub until: Option<String>,
+        } }
+    };
     ({ orig $($group:ident)* } $attributes:tt $name:ident { $($fields:tt)* }) => {
         table! { { $($group)* } $attributes $name {
             $($fields)*
@@ -277,7 +355,7 @@ tables! {
     }
 
     /// The device that a table describes.
-    pub struct DeviceTable: doc cite doubt {
+    pub struct DeviceTable: orig doc cite doubt {
         /// Name of the device; types of Rust are named after it.
         pub name: Option<At<String>>,
         /// Name of the vendor.
@@ -290,8 +368,6 @@ tables! {
         pub revision: Option<u32>,
         /// Order code.
         pub order_code: Option<String>,
-        /// Its name in the manual's language.
-        pub orig: Option<String>,
         /// `canopen`, `ethercat`, `modbus`, `profinet`, `serial`.
         #[cfg_attr(test, schemars(transform = schema::words(schema::BUSES)))]
         pub buses: Option<Vec<At<String>>>,
@@ -517,7 +593,7 @@ tables! {
     }
 
     /// One item of the device.
-    pub struct Row: doc cite doubt allow {
+    pub struct Row: meaning window orig doc cite doubt allow {
         /// Number of the register, or numbers (`"63-64"`).
         #[cfg_attr(test, schemars(transform = schema::place("#( *[-–] *#)?")))]
         pub reg: Option<At<NumberOrText>>,
@@ -543,38 +619,20 @@ tables! {
         /// `u16`, `i32`, `f32`, `bool`, `str(25)`, `bytes(6)`, `u16[10]`, …; `?` where the manual doesn't say.
         #[cfg_attr(test, schemars(transform = schema::types))]
         pub ty = "type": Option<At<String>>,
-        /// What the bits mean: a name of `[bits]`, or the bits themselves.
-        #[cfg_attr(test, schemars(transform = schema::keys(schema::BITS)))]
-        pub bits: Option<At<TextOr<BitEntries>>>,
-        /// What the values mean: a name of `[enums]`, or the values themselves.
-        #[cfg_attr(test, schemars(transform = schema::keys(schema::VALUES)))]
-        pub values = "enum": Option<At<TextOr<ValueEntries>>>,
         /// `ro`, `rw`, `wo`, `const`, `rwr` or `rww`; `?` if the manual does not state it.
         #[cfg_attr(test, schemars(transform = schema::words(&["ro", "rw", "wo", "const", "rwr", "rww", "?"])))]
         pub access: Option<At<String>>,
         /// `rx`, `tx`, `both` or `no`.
         #[cfg_attr(test, schemars(transform = schema::words(&["rx", "tx", "both", "no"])))]
         pub pdo: Option<At<String>>,
-        /// The smallest value, raw.
-        pub min: Option<At<Literal>>,
-        /// The greatest value, raw.
-        pub max: Option<At<Literal>>,
         /// The value before anybody wrote it; a list where the row stands for several objects.
         pub default: Option<At<OneOrMany<Literal>>>,
         /// The only value.
         pub fixed: Option<At<Literal>>,
         /// The only values, and ranges of them (`"3..7"`).
         pub allowed: Option<At<Vec<Literal>>>,
-        /// A symbol, or a name of `[units]`.
-        pub unit: Option<At<String>>,
-        /// physical = raw × scale + offset, in units of `unit`; or how the factor is found.
-        pub scale: Option<At<Scaling>>,
         /// The physical value of raw 0.
         pub offset: Option<f64>,
-        /// Raw values that are no numbers, with their meaning.
-        pub na: Option<Entries<String>>,
-        /// Numbers that the manual converts as an example; each is held against the scale.
-        pub conversions: Vec<At<ConversionTable>>,
         /// The device rounds to steps of so many counts.
         pub step: Option<At<Literal>>,
         /// What differs between models or buses.
@@ -593,12 +651,6 @@ tables! {
         pub once: Option<bool>,
         /// What else writing does.
         pub effects: Option<Words>,
-        /// Models that have it; `*` stands for any letters.
-        pub models: Option<Vec<At<String>>>,
-        /// First firmware that has it.
-        pub since: Option<String>,
-        /// First firmware that doesn't have it any more.
-        pub until: Option<String>,
         /// What replaces it from then on.
         pub replaced_by: Option<At<String>>,
         /// Options that have to be fitted.
@@ -634,8 +686,6 @@ tables! {
         pub reserved: Option<bool>,
         /// It exists only at times.
         pub optional: Option<bool>,
-        /// Its name in the manual's language.
-        pub orig: Option<String>,
         /// Where `doc` comes from, unless from the manual: `CiA 402, 17.3.7`, or `name` if it spells out the printed name.
         pub doc_from: Option<At<String>>,
         /// What another place of the manual says of it; it is compared.
@@ -754,23 +804,17 @@ tables! {
     }
 
     /// A named value.
-    pub struct ValueTable: orig doc cite doubt {
+    pub struct ValueTable: window orig doc cite doubt {
         /// A short English phrase; the identifier is made of it.
         pub name: Option<String>,
         /// `reserved` or `vendor`.
         #[cfg_attr(test, schemars(transform = schema::words(&["reserved", "vendor"])))]
         pub zone: Option<At<String>>,
-        /// Models that have it; `*` stands for any letters.
-        pub models: Option<Vec<At<String>>>,
         /// The only buses on which it exists.
         #[cfg_attr(test, schemars(transform = schema::words(schema::BUSES)))]
         pub buses: Option<Vec<At<String>>>,
         /// It exists while this item has one of these values.
         pub when: Option<Conditions>,
-        /// First firmware that has it.
-        pub since: Option<String>,
-        /// First firmware that doesn't have it any more.
-        pub until: Option<String>,
         /// What replaces it from then on, in words.
         pub replaced_by: Option<String>,
     }
@@ -788,7 +832,7 @@ tables! {
     }
 
     /// Bits with a meaning.
-    pub struct BitTable: orig doc cite doubt {
+    pub struct BitTable: window orig doc cite doubt {
         /// A short English phrase; the identifier is made of it.
         pub name: Option<String>,
         /// The meaning holds while the bit is 0.
@@ -810,14 +854,8 @@ tables! {
         /// `ro`, `rw` or `wo`, where it isn't as the row says.
         #[cfg_attr(test, schemars(transform = schema::words(&["ro", "rw", "wo", "const", "rwr", "rww"])))]
         pub access: Option<At<String>>,
-        /// First firmware that has it.
-        pub since: Option<String>,
-        /// First firmware that doesn't have it any more.
-        pub until: Option<String>,
         /// What replaces it from then on, in words.
         pub replaced_by: Option<String>,
-        /// Models that have it; `*` stands for any letters.
-        pub models: Option<Vec<At<String>>>,
     }
 
     /// How the objects of further axes follow from those of the first.
@@ -891,7 +929,7 @@ tables! {
     }
 
     /// A field of a process image; its key is the item.
-    pub struct ImageField: doc cite doubt {
+    pub struct ImageField: meaning orig doc cite doubt {
         /// First byte.
         pub at: Option<u32>,
         /// First bit in that byte.
@@ -899,26 +937,6 @@ tables! {
         /// Its type, where it isn't that of the item.
         #[cfg_attr(test, schemars(transform = schema::types))]
         pub ty = "type": Option<At<String>>,
-        /// What the bits mean: a name of `[bits]`, or the bits themselves.
-        #[cfg_attr(test, schemars(transform = schema::keys(schema::BITS)))]
-        pub bits: Option<At<TextOr<BitEntries>>>,
-        /// What the values mean: a name of `[enums]`, or the values themselves.
-        #[cfg_attr(test, schemars(transform = schema::keys(schema::VALUES)))]
-        pub values = "enum": Option<At<TextOr<ValueEntries>>>,
-        /// A symbol, or a name of `[units]`.
-        pub unit: Option<At<String>>,
-        /// physical = raw × scale + offset, in units of `unit`; or how the factor is found.
-        pub scale: Option<At<Scaling>>,
-        /// The smallest value, raw.
-        pub min: Option<At<Literal>>,
-        /// The greatest value, raw.
-        pub max: Option<At<Literal>>,
-        /// Raw values that are no numbers, with their meaning.
-        pub na: Option<Entries<String>>,
-        /// Numbers that the manual converts as an example; each is held against the scale.
-        pub conversions: Vec<At<ConversionTable>>,
-        /// Its name in the manual's language.
-        pub orig: Option<String>,
     }
 
     /// A table of codes.
@@ -940,17 +958,11 @@ tables! {
     }
 
     /// A code.
-    pub struct CodeTableRow: orig doc cite doubt {
+    pub struct CodeTableRow: window orig doc cite doubt {
         /// Its name.
         pub name: Option<String>,
         /// The other columns.
         pub cells: Vec<At<Literal>>,
-        /// Models that have it; `*` stands for any letters.
-        pub models: Option<Vec<At<String>>>,
-        /// First firmware that has it.
-        pub since: Option<String>,
-        /// First firmware that doesn't have it any more.
-        pub until: Option<String>,
     }
 
     /// A state machine.
@@ -1131,7 +1143,7 @@ tables! {
     }
 
     /// A request and its reply.
-    pub struct MessageTable: orig doc cite doubt allow {
+    pub struct MessageTable: window orig doc cite doubt allow {
         /// Its name.
         pub name: Option<At<String>>,
         /// What is sent.
@@ -1156,12 +1168,6 @@ tables! {
         pub error: Option<At<String>>,
         /// What else it does.
         pub effects: Option<Words>,
-        /// Models that have it; `*` stands for any letters.
-        pub models: Option<Vec<At<String>>>,
-        /// First firmware that has it.
-        pub since: Option<String>,
-        /// First firmware that doesn't have it any more.
-        pub until: Option<String>,
         /// What replaces it from then on.
         pub replaced_by: Option<At<String>>,
     }
@@ -1189,7 +1195,7 @@ tables! {
     }
 
     /// A field of a message.
-    pub struct FieldTable: doc cite doubt {
+    pub struct FieldTable: meaning orig doc cite doubt {
         /// The number that the manual gives to its first byte; numbers have to count on from field to field.
         pub at: Option<At<u16>>,
         /// Fixed bytes.
@@ -1203,28 +1209,10 @@ tables! {
         pub ty = "type": Option<At<String>>,
         /// Order of its bytes, the most significant being `A`.
         pub order: Option<At<String>>,
-        /// What the bits mean: a name of `[bits]`, or the bits themselves.
-        #[cfg_attr(test, schemars(transform = schema::keys(schema::BITS)))]
-        pub bits: Option<At<TextOr<BitEntries>>>,
-        /// What the values mean: a name of `[enums]`, or the values themselves.
-        #[cfg_attr(test, schemars(transform = schema::keys(schema::VALUES)))]
-        pub values = "enum": Option<At<TextOr<ValueEntries>>>,
-        /// A symbol, or a name of `[units]`.
-        pub unit: Option<At<String>>,
-        /// physical = raw × scale + offset, in units of `unit`; or how the factor is found.
-        pub scale: Option<At<Scaling>>,
         /// The physical value of raw 0.
         pub offset: Option<f64>,
-        /// The smallest value, raw.
-        pub min: Option<At<Literal>>,
-        /// The greatest value, raw.
-        pub max: Option<At<Literal>>,
         /// It is the number of bytes from this field of the frame to its end.
         pub counts: Option<At<String>>,
-        /// Raw values that are no numbers, with their meaning.
-        pub na: Option<Entries<String>>,
-        /// Numbers that the manual converts as an example; each is held against the scale.
-        pub conversions: Vec<At<ConversionTable>>,
         /// A copy of this field of the request; of some of its bytes with `part`.
         pub echo: Option<At<String>>,
         /// The bytes of the field that come back (`"1..3"`), the first on the wire being 0.
@@ -1243,8 +1231,6 @@ tables! {
         pub repeat: Option<RepeatTable>,
         /// All bytes that follow.
         pub rest: bool,
-        /// Its name in the manual's language.
-        pub orig: Option<String>,
     }
 
     /// Fields that occur several times.

@@ -2,7 +2,7 @@
 
 use super::at::At;
 use super::format::FrameTable;
-use super::tree::{cited, Reader};
+use super::tree::Reader;
 use crate::diagnostics::codes;
 use crate::ir::{Device, MessageExample};
 
@@ -12,12 +12,12 @@ pub(super) fn frame(reader: &mut Reader<'_, '_>, table: &At<FrameTable>, device:
     if own.request.value.is_empty() && own.reply.value.is_empty() {
         reader.report(&codes::TABLE_VALUE, reader.span(table), "a frame has a `request`, a `reply`, or both");
     }
-    let (origin, cite) = (reader.origin(table), own.cite.as_ref().map(cited));
-    device.doubts.extend(reader.doubts([own.doubt.as_ref(), own.doubts.as_ref()], origin, cite.as_deref()));
+    let origin = reader.origin(table);
+    device.doubts.extend(reader.doubts_of(own, origin));
     device.modbus_examples.push(MessageExample {
         request: own.request.value.clone(),
         reply: own.reply.value.clone(),
-        documentation: reader.documentation(own.doc.as_deref(), cite),
+        documentation: reader.documentation_of(own),
         request_at: reader.span(&own.request),
         reply_at: reader.span(&own.reply),
     });

@@ -3,7 +3,7 @@
 use super::at::At;
 use super::format::FramingTable;
 use super::messages::field_names;
-use super::tree::{cited, Reader};
+use super::tree::Reader;
 use crate::diagnostics::codes;
 use crate::ir::{Device, Framing, Message};
 
@@ -15,8 +15,8 @@ const CHECKS: [(&str, &str); 5] =
 pub(super) fn read(reader: &mut Reader<'_, '_>, table: &At<FramingTable>, device: &mut Device) {
     bytes_of_framing(reader, table);
     let own = &table.value;
-    let (origin, cite) = (reader.origin(table), own.cite.as_ref().map(cited));
-    device.doubts.extend(reader.doubts([own.doubt.as_ref(), own.doubts.as_ref()], origin, cite.as_deref()));
+    let origin = reader.origin(table);
+    device.doubts.extend(reader.doubts_of(own, origin));
     device.framing = Some(Box::new(Framing {
         start: own.start,
         end: own.end,
@@ -29,7 +29,7 @@ pub(super) fn read(reader: &mut Reader<'_, '_>, table: &At<FramingTable>, device
         check_seed: own.seed,
         max_data: own.max_data,
         address: own.address.as_ref().map(|field| field.value.as_str().into()),
-        documentation: reader.documentation(own.doc.as_deref(), cite),
+        documentation: reader.documentation_of(own),
         origin,
     }));
     for field in own.check_from.iter().chain(&own.address) {

@@ -3,7 +3,7 @@
 use super::at::At;
 use super::format::{GivenTable, MachineUnitTable};
 use super::references::References;
-use super::tree::{cited, Reader};
+use super::tree::Reader;
 use super::{units, value};
 use crate::diagnostics::{codes, Diagnostic};
 use crate::ir::{GivenNumber, MachineUnit, Type};
@@ -24,13 +24,13 @@ pub(super) fn number(
         references.push((model.clone(), "model"));
         models.push((model.value.as_str().into(), value::value(reader, given, Type::Real64)));
     }
-    let (origin, cite) = (reader.origin(name), table.cite.as_ref().map(cited));
+    let origin = reader.origin(name);
     GivenNumber {
         name: name.value.as_str().into(),
         unit: table.unit.as_ref().map(|unit| unit.value.as_str().into()).unwrap_or_default(),
         models,
-        doubts: reader.doubts([table.doubt.as_ref(), table.doubts.as_ref()], origin, cite.as_deref()),
-        documentation: reader.documentation(table.doc.as_deref(), cite),
+        doubts: reader.doubts_of(table, origin),
+        documentation: reader.documentation_of(table),
         origin,
     }
 }

@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, HashMap};
 use super::at::At;
 use super::format::{field_row, ImageField, ImageTable, Row};
 use super::rows::{Named, Rows};
-use super::tree::{about, cited, Reader};
+use super::tree::Reader;
 use super::{process, types};
 use crate::diagnostics::{codes, Diagnostic};
 use crate::ir::{
@@ -86,19 +86,14 @@ pub(super) fn image(
         reader.report(&codes::TABLE_VALUE, reader.span(table), "an image has a `direction` and a number of `bytes`");
         return;
     };
-    let (origin, cite) = (reader.origin(table), own.cite.as_ref().map(cited));
-    device.doubts.extend(about(
-        reader.doubts([own.doubt.as_ref(), own.doubts.as_ref()], origin, cite.as_deref()),
-        SubjectKind::Image,
-        &name,
-        "",
-    ));
+    let origin = reader.origin(table);
+    device.doubts.extend(reader.doubts_about(own, origin, SubjectKind::Image, &name, ""));
     let order = own.order.as_ref().and_then(|word| reader.word(word, "order", &[("big", true), ("little", false)]));
     let mut group = Group::object(0, ObjectCode::Record);
     group.kind = GroupKind::Image { length };
     group.name = name.clone();
     group.origin = origin;
-    group.documentation = reader.documentation(own.doc.as_deref(), cite);
+    group.documentation = reader.documentation_of(own);
     let mut fields = Fields::default();
     for (key, field) in own.fields.iter() {
         let placed = match images.item(device, &key.value) {

@@ -6,7 +6,7 @@ use super::machine_budget::MachineBudget;
 use super::outcomes::Names;
 use super::references::References;
 use super::states::{patterns, states};
-use super::tree::{about, cited, Reader};
+use super::tree::Reader;
 use super::{lints, outcomes, process, value};
 use crate::diagnostics::codes;
 use crate::ir::{
@@ -30,13 +30,8 @@ pub(super) fn machine(
         return false;
     }
     lints::machine(reader, table);
-    let (origin, cite) = (reader.origin(name), table.cite.as_ref().map(cited));
-    device.doubts.extend(about(
-        reader.doubts([table.doubt.as_ref(), table.doubts.as_ref()], origin, cite.as_deref()),
-        SubjectKind::Machine,
-        &name.value,
-        "",
-    ));
+    let origin = reader.origin(name);
+    device.doubts.extend(reader.doubts_about(table, origin, SubjectKind::Machine, &name.value, ""));
     let (state_type, states) = states(reader, table, device);
     let commands = patterns(reader, &table.commands);
     let names = Names::new(&states, &commands, device);
@@ -65,7 +60,7 @@ pub(super) fn machine(
         commands: commands.into(),
         transitions: transitions.into(),
         outcomes: rows,
-        documentation: reader.documentation(table.doc.as_deref(), cite),
+        documentation: reader.documentation_of(table),
     });
     true
 }
@@ -102,7 +97,7 @@ fn transition(reader: &mut Reader<'_, '_>, given: &At<TransitionTable>, names: &
         from: from.map(|name| name.as_str().into()),
         to: own.to.as_ref().map(text).unwrap_or_default(),
         command: own.command.as_ref().map(text),
-        documentation: reader.documentation(own.doc.as_deref(), own.cite.as_ref().map(cited)),
+        documentation: reader.documentation_of(own),
     };
     match from.is_empty() {
         true => vec![one(None)],
@@ -118,13 +113,8 @@ pub(super) fn procedure(
     device: &mut Device,
     references: &mut References,
 ) {
-    let (origin, cite) = (reader.origin(name), table.cite.as_ref().map(cited));
-    device.doubts.extend(about(
-        reader.doubts([table.doubt.as_ref(), table.doubts.as_ref()], origin, cite.as_deref()),
-        SubjectKind::Procedure,
-        &name.value,
-        "",
-    ));
+    let origin = reader.origin(name);
+    device.doubts.extend(reader.doubts_about(table, origin, SubjectKind::Procedure, &name.value, ""));
     for own in table.steps.iter().filter_map(|step| step.value.argument.as_ref()) {
         if !table.arguments.iter().any(|known| known.value == own.value) {
             let known = table.arguments.iter().map(|known| known.value.as_str());
@@ -145,7 +135,7 @@ pub(super) fn procedure(
         arguments: table.arguments.iter().map(text).collect(),
         steps,
         step_spans,
-        documentation: reader.documentation(table.doc.as_deref(), cite),
+        documentation: reader.documentation_of(table),
         origin,
     });
 }

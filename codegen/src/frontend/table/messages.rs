@@ -8,7 +8,7 @@ use super::format::{
 };
 use super::references::{References, ITEM_OR_FIELD};
 use super::rows::{Named, Rows};
-use super::tree::{cited, Reader};
+use super::tree::Reader;
 use super::{conditions, framing, place, types, value, Table};
 use crate::diagnostics::{codes, Diagnostic};
 use crate::ir::{
@@ -88,7 +88,7 @@ fn message(
         reader.report(&codes::TABLE_VALUE, reader.span(table), "a message has a `name`");
         return;
     };
-    let (origin, cite) = (reader.origin(name), own.cite.as_ref().map(cited));
+    let origin = reader.origin(name);
     if !names.insert(name.value.clone()) {
         let message = format!("there are two messages called `{}`", brief(&name.value));
         reader.report(&codes::TABLE_DUPLICATE, reader.span(name), message);
@@ -104,7 +104,7 @@ fn message(
     let completion = completion(reader, rows, own.completion.as_ref(), &replies);
     references(own, &mut rows.references);
     let availability = availability(own);
-    let mut doubts = reader.doubts([own.doubt.as_ref(), own.doubts.as_ref()], origin, cite.as_deref());
+    let mut doubts = reader.doubts_of(own, origin);
     for (fields, tables) in [(&request, &own.request), (&reply, &own.reply)] {
         counted(reader, fields, tables);
     }
@@ -129,7 +129,7 @@ fn message(
         availability: (availability != Availability::default()).then(|| Box::new(availability)),
         accepted_in: own.accepted_in.iter().map(text).collect(),
         examples,
-        documentation: reader.documentation(own.doc.as_deref(), cite),
+        documentation: reader.documentation_of(own),
         doubts,
         origin,
     });
@@ -159,12 +159,12 @@ fn counted(reader: &mut Reader<'_, '_>, fields: &[MessageField], tables: &[At<Fi
 /// Frames as the manual prints them.
 fn example(reader: &mut Reader<'_, '_>, given: &At<ExampleTable>, doubts: &mut Doubts) -> MessageExample {
     let own = &given.value;
-    let (origin, cite) = (reader.origin(given), own.cite.as_ref().map(cited));
-    doubts.extend(reader.doubts([own.doubt.as_ref(), own.doubts.as_ref()], origin, cite.as_deref()));
+    let origin = reader.origin(given);
+    doubts.extend(reader.doubts_of(own, origin));
     MessageExample {
         request: own.request.value.clone(),
         reply: own.reply.value.clone(),
-        documentation: reader.documentation(own.doc.as_deref(), cite),
+        documentation: reader.documentation_of(own),
         request_at: reader.span(&own.request),
         reply_at: reader.span(&own.reply),
     }

@@ -437,9 +437,8 @@ fn chapter<'a>(
     group.name = own.title.as_deref().unwrap_or_default().into();
     group.names = reader.original(own.orig.as_deref());
     group.origin = reader.origin(&at);
-    let cite = own.cite.as_ref().map(tree::cited);
-    group.documentation = reader.documentation(own.doc.as_deref(), cite.clone());
-    group.doubts = reader.doubts([own.doubt.as_ref(), own.doubts.as_ref()], group.origin, cite.as_deref());
+    group.documentation = reader.documentation_of(&own);
+    group.doubts = reader.doubts_of(&own, group.origin);
     lints::series(reader, &registers, space.and_then(|at| rows.spaces.get(at)));
     lints::unprinted(reader, &registers, space.and_then(|at| rows.spaces.get(at)));
     for (key, row) in registers {

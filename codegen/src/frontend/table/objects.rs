@@ -7,7 +7,7 @@ use super::bindings::Repeat;
 use super::format::Row;
 use super::place::{self, Objects};
 use super::rows::{Named, Rows};
-use super::tree::{cited, Reader};
+use super::tree::Reader;
 use super::words::OBJECT_CODES;
 use crate::diagnostics::{codes, Diagnostic};
 use crate::ir::{Access, Binding, Group, Item, ObjectCode, Type};
@@ -93,11 +93,9 @@ fn head(
         (group.name, group.name_at) = (place::filled(&name.value, number, None).into(), reader.span(name));
     }
     group.names = reader.original(complete.orig.as_deref());
-    let cite = complete.cite.as_ref().map(cited);
     group.documentation = super::rows::documentation(reader, complete);
     if matches!(code, Some(ObjectCode::Array | ObjectCode::Record)) {
-        group.doubts =
-            reader.doubts([complete.doubt.as_ref(), complete.doubts.as_ref()], group.origin, cite.as_deref());
+        group.doubts = reader.doubts_of(complete, group.origin);
         if let Some(of_value) = super::misplaced::of_value(&row.value).filter(|_| number == 0) {
             let key_text = brief(&key.value);
             let message = format!("`{key_text}` has sub-entries, and `{of_value}` is said of a value");

@@ -5,7 +5,7 @@ use std::collections::HashSet;
 use super::at::{At, TextOr};
 use super::format::{MatrixCell, MatrixRow, MatrixTable};
 use super::references::References;
-use super::tree::{about, cited, Reader};
+use super::tree::{cited, Reader};
 use crate::diagnostics::{codes, Diagnostic};
 use crate::ir::{
     Availability, CommandOutcomes, CompactString, Device, Documentation, Doubts, Outcome, Pattern, StateOutcome,
@@ -65,15 +65,10 @@ pub(super) fn read(
 
 /// The doubts of the table and of its rows, which belong to this machine.
 pub(super) fn doubts(reader: &mut Reader<'_, '_>, table: &At<MatrixTable>, machine: &str) -> Doubts {
-    let own = &table.value;
-    let cite = own.cite.as_ref().map(cited);
-    let of_table = reader.doubts([own.doubt.as_ref(), own.doubts.as_ref()], reader.origin(table), cite.as_deref());
-    let mut found = about(of_table, SubjectKind::Machine, machine, "");
-    for (name, row) in own.rows.iter() {
-        let (row, origin) = (&row.value, reader.origin(name));
-        let cite = row.cite.as_ref().map(cited);
-        let of_row = reader.doubts([row.doubt.as_ref(), row.doubts.as_ref()], origin, cite.as_deref());
-        found.extend(about(of_row, SubjectKind::Machine, machine, &name.value));
+    let mut found = reader.doubts_about(&table.value, reader.origin(table), SubjectKind::Machine, machine, "");
+    for (name, row) in table.value.rows.iter() {
+        let origin = reader.origin(name);
+        found.extend(reader.doubts_about(&row.value, origin, SubjectKind::Machine, machine, &name.value));
     }
     found
 }
@@ -118,7 +113,7 @@ fn row(
         commands: commands.iter().map(|command| command.value.as_str().into()).collect(),
         availability: (availability != Availability::default()).then(|| Box::new(availability)),
         cells,
-        documentation: reader.documentation(own.doc.as_deref(), own.cite.as_ref().map(cited)),
+        documentation: reader.documentation_of(own),
         origin: reader.origin(name),
     }
 }

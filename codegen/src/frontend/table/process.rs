@@ -4,7 +4,7 @@ use super::at::At;
 use super::buses;
 use super::format::{NumberOrText, PdoTable};
 use super::place;
-use super::tree::{cited, Reader};
+use super::tree::Reader;
 use super::types;
 use crate::diagnostics::{codes, Diagnostic};
 use crate::ir::{Device, Direction, Entries, Item, ItemNames, ObjectBuses, Pdo, PdoEntry, PdoEntryKind, Type};
@@ -79,10 +79,9 @@ pub(super) fn pdo(reader: &mut Reader<'_, '_>, table: &At<PdoTable>, targets: &T
             reader.report(&codes::TABLE_VALUE, reader.span(table), message);
         }
     }
-    let cite = own.cite.as_ref().map(cited);
-    pdo.documentation = reader.documentation(own.doc.as_deref(), cite.clone());
+    pdo.documentation = reader.documentation_of(own);
     pdo.max_bytes = own.max;
-    pdo.doubts = reader.doubts([own.doubt.as_ref(), own.doubts.as_ref()], pdo.origin, cite.as_deref());
+    pdo.doubts = reader.doubts_of(own, pdo.origin);
     let mut bit_offset = 0u32;
     for text in &own.entries {
         if let Some(entry) = entry(reader, text, targets) {

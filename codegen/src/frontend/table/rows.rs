@@ -336,7 +336,7 @@ impl Rows {
             given: own.given.iter().map(|(name, number)| (name.value.as_str().into(), number.value)).collect(),
             model: own.model.as_ref().map(|model| model.value.as_str().into()),
             by: own.by,
-            documentation: reader.documentation(own.doc.as_deref(), own.cite.as_ref().map(cited)),
+            documentation: reader.documentation_of(own),
             at: reader.span(given),
         }
     }
@@ -451,7 +451,7 @@ pub(super) fn documentation(reader: &mut Reader<'_, '_>, row: &Row) -> Option<Bo
             "`doc_from` tells where `doc` comes from: write `doc` as well",
         );
     }
-    let mut documentation = reader.documentation(row.doc.as_deref(), row.cite.as_ref().map(cited));
+    let mut documentation = reader.documentation_of(row);
     if let (Some(from), Some(documentation)) = (&row.doc_from, &mut documentation) {
         let origin = match from.value.as_str() {
             PRINTED_NAME => FactOrigin::PrintedName,

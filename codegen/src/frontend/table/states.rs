@@ -2,7 +2,7 @@
 
 use super::at::{Entries, TextOr};
 use super::format::{MachineTable, PatternTable};
-use super::tree::{cited, Reader};
+use super::tree::Reader;
 use crate::diagnostics::codes;
 use crate::ir::{Device, EnumValue, Pattern, Shape, Type, TypeRef};
 use crate::text::brief;
@@ -59,7 +59,7 @@ pub(super) fn patterns(reader: &mut Reader<'_, '_>, entries: &Entries<PatternTab
             mask,
             value,
             names: reader.original(own.orig.as_deref()),
-            documentation: reader.documentation(own.doc.as_deref(), own.cite.as_ref().map(cited)),
+            documentation: reader.documentation_of(own),
         });
     }
     patterns

@@ -9,7 +9,7 @@ use serde_spanned::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::at::{At, Literal};
-use super::format::{DoubtTable, NumberOrText, OptionTable};
+use super::format::{Cited, Documented, DoubtTable, Doubted, NumberOrText, OptionTable};
 pub(super) use super::read::Node;
 use super::read::{self, MistakeKind, Read};
 use crate::diagnostics::{codes, Code, Diagnostic, Diagnostics};
@@ -262,6 +262,28 @@ impl<'a> Reader<'a, '_> {
     pub fn original(&self, orig: Option<&str>) -> Texts {
         let language = || if self.language.is_empty() { "und".into() } else { self.language.clone() };
         orig.map(|text| LocalText { language: language(), text: text.into() }).into_iter().collect()
+    }
+
+    /// The same of a table.
+    pub fn documentation_of(&self, table: &(impl Documented + Cited)) -> Option<Box<Documentation>> {
+        self.documentation(table.doc(), table.cited())
+    }
+
+    /// The doubts of a table.
+    pub fn doubts_of(&mut self, table: &impl Doubted, origin: Origin) -> Doubts {
+        self.doubts(table.doubt_tables(), origin, table.cited().as_deref())
+    }
+
+    /// The doubts of a table that stands for an element of the device.
+    pub fn doubts_about(
+        &mut self,
+        table: &impl Doubted,
+        origin: Origin,
+        kind: SubjectKind,
+        name: &str,
+        element: &str,
+    ) -> Doubts {
+        about(self.doubts_of(table, origin), kind, name, element)
     }
 
     pub fn doubts(

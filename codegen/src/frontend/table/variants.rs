@@ -5,7 +5,7 @@ use thin_vec::ThinVec;
 use super::at::At;
 use super::format::{Row, VariantTable};
 use super::rows::Rows;
-use super::tree::{cited, Reader};
+use super::tree::Reader;
 use super::words::ACCESSES;
 use super::{buses, scale, types, value};
 use crate::diagnostics::{codes, Diagnostic};
@@ -54,7 +54,7 @@ impl Rows {
             limits: limits(low, high, allowed.unwrap_or_default()),
             step,
             scale: scale::of_variant(reader, own.scale.as_ref(), &mut self.references),
-            documentation: reader.documentation(own.doc.as_deref(), own.cite.as_ref().map(cited)),
+            documentation: reader.documentation_of(own),
             at: reader.span(given),
         };
         let differs = own.ty.is_some()

@@ -8,7 +8,7 @@ use super::super::format::Row;
 use super::super::objects;
 use super::super::place::{self, Objects};
 use super::super::rows::{Named, Rows};
-use super::super::tree::{cited, Reader};
+use super::super::tree::Reader;
 use super::super::words::OBJECT_CODES;
 use super::{Overlay, PatchRow, Target};
 use crate::diagnostics::codes;
@@ -253,12 +253,11 @@ impl RowPatcher<'_> {
         if own.orig.is_some() {
             group.names = reader.original(own.orig.as_deref());
         }
-        let cite = own.cite.as_ref().map(cited);
         if own.doc.is_some() {
-            group.documentation = reader.documentation(own.doc.as_deref(), cite.clone());
+            group.documentation = reader.documentation_of(own);
         }
         let origin = reader.origin(&row.key);
-        group.doubts.extend(reader.doubts([own.doubt.as_ref(), own.doubts.as_ref()], origin, cite.as_deref()));
+        group.doubts.extend(reader.doubts_of(own, origin));
         changed |= before != (group.names.clone(), group.documentation.clone(), group.doubts.len());
         if changed {
             let (why, span) = (self.why(own).to_owned(), reader.span(&row.key));
