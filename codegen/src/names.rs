@@ -1,5 +1,8 @@
 //! The namer: gives every element a Rust identifier that is unique in its scope, legal, and stable.
 //!
+//! An item has one name in generated code: its constant, its accessor, its entry of `mappable` and the field of a PDO that maps it are called
+//! alike, after the name of the object in the dictionary. What a PDO calls an entry counts only if the dictionary doesn't have the object.
+//!
 //! Identifiers are the source's names in Rust's case. Of elements with equal names each gets its address as a suffix, so
 //! that neither the order of anything nor a further element with that name changes an identifier that had one before.
 
@@ -50,8 +53,30 @@ pub fn unique(wishes: &[Wish<'_>], reserved: &[&str], case: Case) -> Vec<String>
 /// The same, with names cut to `length` characters before they get a suffix.
 pub fn unique_up_to(wishes: &[Wish<'_>], reserved: &[&str], case: Case, length: usize) -> Vec<String> {
     let plain: Vec<String> = wishes.iter().map(|wish| plain(wish, case, length)).collect();
+    distinct(&plain, wishes.iter().map(|wish| wish.suffix.as_str()), reserved, case)
+}
+
+/// The identifier of an element that is alone in its scope.
+pub fn identifier(wish: &Wish<'_>, case: Case) -> String {
+    plain(wish, case, MAX_IDENTIFIER)
+}
+
+/// The identifier of an element outside of its owner: that of the owner in front of its own. A long one is cut at a word.
+pub fn joined(owner: &str, name: &str) -> String {
+    let mut joined = prefixed(&format!("{owner}_"), name);
+    cut(&mut joined, MAX_IDENTIFIER);
+    joined
+}
+
+/// Tells equal identifiers apart by their suffixes; none of the results is in `reserved`.
+pub fn distinct<'s>(
+    plain: &[String],
+    suffixes: impl Iterator<Item = &'s str>,
+    reserved: &[&str],
+    case: Case,
+) -> Vec<String> {
     let mut count: HashMap<&str, usize> = HashMap::with_capacity(plain.len());
-    for name in &plain {
+    for name in plain {
         *count.entry(name).or_default() += 1;
     }
     let is_reserved = |name: &str| reserved.contains(&name);
@@ -61,12 +86,12 @@ pub fn unique_up_to(wishes: &[Wish<'_>], reserved: &[&str], case: Case, length: 
     let mut names = Vec::with_capacity(plain.len());
     // The last number behind a name that two suffixes didn't make unique.
     let mut numbers: HashMap<String, u32> = HashMap::new();
-    for (wish, name) in wishes.iter().zip(&plain) {
+    for (suffix, name) in suffixes.zip(plain) {
         if count[name.as_str()] == 1 && !is_reserved(name) {
             names.push(name.clone());
             continue;
         }
-        let suffix = address(&wish.suffix);
+        let suffix = address(suffix);
         let once = join(name, &suffix, case);
         let mut take = |candidate: &str| !is_reserved(candidate) && taken.insert(candidate.to_owned());
         if take(&once) {
@@ -96,12 +121,16 @@ fn plain(wish: &Wish<'_>, case: Case, length: usize) -> String {
     let parts = wish.fallback.split(' ').filter(|part| !part.is_empty());
     let words = if words.is_empty() { parts.map(|part| address(part).to_ascii_lowercase()).collect() } else { words };
     let mut name = write(&words, case);
-    if name.len() > length {
-        // Whole words where one ends in the second half, so that the rest still reads as a name.
-        let cut = name[..length].rfind('_').filter(|&cut| cut > length / 2).unwrap_or(length);
-        name.truncate(cut);
-    }
+    cut(&mut name, length);
     name
+}
+
+/// Cuts a long name, at a word where one ends in the second half, so that the rest still reads as a name.
+fn cut(name: &mut String, length: usize) {
+    if name.len() > length {
+        let end = name[..length].rfind('_').filter(|&end| end > length / 2).unwrap_or(length);
+        name.truncate(end);
+    }
 }
 
 /// An address as a part of an identifier: as it is, or where it names something else its words. It is never empty.

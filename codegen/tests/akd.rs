@@ -256,7 +256,7 @@ fn at_line(patterns: &[Pattern], line: usize) -> &Pattern {
 }
 
 fn numbers(machine: &StateMachine, command: &str) -> BTreeSet<u16> {
-    let own = machine.transitions.iter().filter(|own| own.command.as_deref() == Some(command));
+    let own = machine.transitions.iter().filter(|own| own.command.as_ref().is_some_and(|name| *name == *command));
     own.filter_map(|own| own.number).collect()
 }
 

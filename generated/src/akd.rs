@@ -6743,7 +6743,7 @@ pub mod pdo {
     /// | 6–7 | [`latch_control_word`](Self::latch_control_word) | [0x20A4:00](super::objects::LATCH_CONTROL_WORD) | [`LatchControl`](super::types::LatchControl) |
     /// | 8–9 | [`torque_feed_forward`](Self::torque_feed_forward) | [0x60B2:00](super::objects::TORQUE_FEED_FORWARD) | `i16` |
     /// | 10–11 | [`physical_outputs`](Self::physical_outputs) | [0x60FE:01](super::objects::digital_outputs::PHYSICAL_OUTPUTS) | `u16` |
-    /// | 12–13 | [`reset_of_changed_input`](Self::reset_of_changed_input) |  | `u16` |
+    /// | 12–13 | [`reset_of_changed_input_information`](Self::reset_of_changed_input_information) |  | `u16` |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct RxPdo1723 {
         /// Control word: [0x6040:00](super::objects::CONTROL_WORD), 16 bits from bit 0.
@@ -6757,7 +6757,7 @@ pub mod pdo {
         /// Physical outputs: [0x60FE:01](super::objects::digital_outputs::PHYSICAL_OUTPUTS), 16 bits from bit 80.
         pub physical_outputs: u16,
         /// reset of changed input information: an object without a known index, 16 bits from bit 96.
-        pub reset_of_changed_input: u16,
+        pub reset_of_changed_input_information: u16,
     }
     impl RxPdo1723 {
         /// Length in bits.
@@ -6778,7 +6778,8 @@ pub mod pdo {
             data = rt::bits::put(data, 64, 16, bits);
             let bits = self.physical_outputs as u64;
             data = rt::bits::put(data, 80, 16, bits);
-            let bits = self.reset_of_changed_input as u64;
+            let value = self.reset_of_changed_input_information;
+            let bits = value as u64;
             data = rt::bits::put(data, 96, 16, bits);
             data
         }
@@ -6802,7 +6803,7 @@ pub mod pdo {
                 ),
                 torque_feed_forward: rt::bits::get(data, 64, 16) as i16,
                 physical_outputs: rt::bits::get(data, 80, 16) as u16,
-                reset_of_changed_input: rt::bits::get(data, 96, 16) as u16,
+                reset_of_changed_input_information: rt::bits::get(data, 96, 16) as u16,
             };
             Ok(pdo)
         }
@@ -6833,13 +6834,13 @@ pub mod pdo {
     ///
     /// | Bytes | Field | Object | Type |
     /// |---|---|---|---|
-    /// | 0–3 | [`target_position_of_cyclic`](Self::target_position_of_cyclic) |  | `i32` |
+    /// | 0–3 | [`target_position_of_cyclic_synchronous_position`](Self::target_position_of_cyclic_synchronous_position) |  | `i32` |
     /// | 4–5 | [`control_word`](Self::control_word) | [0x6040:00](super::objects::CONTROL_WORD) | [`ControlWord`](super::types::ControlWord) |
     /// | 6–7 | [`torque_feed_forward`](Self::torque_feed_forward) | [0x60B2:00](super::objects::TORQUE_FEED_FORWARD) | `i16` |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct RxPdo1724 {
         /// target position of cyclic synchronous position: an object without a known index, 32 bits from bit 0.
-        pub target_position_of_cyclic: i32,
+        pub target_position_of_cyclic_synchronous_position: i32,
         /// Control word: [0x6040:00](super::objects::CONTROL_WORD), 16 bits from bit 32.
         pub control_word: super::types::ControlWord,
         /// Torque feed-forward: [0x60B2:00](super::objects::TORQUE_FEED_FORWARD), 16 bits from bit 48.
@@ -6854,7 +6855,8 @@ pub mod pdo {
         #[inline]
         pub const fn pack(&self) -> [u8; 8] {
             let mut word = 0;
-            let bits = self.target_position_of_cyclic as u32 as u64;
+            let value = self.target_position_of_cyclic_synchronous_position;
+            let bits = value as u32 as u64;
             word |= bits;
             let bits = self.control_word.raw() as u64;
             word |= bits << 32;
@@ -6874,7 +6876,7 @@ pub mod pdo {
             };
             let word = rt::pdo::from_bytes(data);
             let pdo = Self {
-                target_position_of_cyclic: word as i32,
+                target_position_of_cyclic_synchronous_position: word as i32,
                 control_word: super::types::ControlWord::from_raw((word >> 32) as u16),
                 torque_feed_forward: (word >> 48) as i16,
             };
@@ -7381,7 +7383,7 @@ pub mod pdo {
     /// | 8–11 | [`velocity_actual_value`](Self::velocity_actual_value) | [0x606C:00](super::objects::VELOCITY_ACTUAL_VALUE) | `i32` |
     /// | 12–15 | [`digital_inputs`](Self::digital_inputs) | [0x60FD:00](super::objects::DIGITAL_INPUTS) | `u32` |
     /// | 16–19 | [`following_error_actual_value`](Self::following_error_actual_value) | [0x60F4:00](super::objects::FOLLOWING_ERROR_ACTUAL_VALUE) | `i32` |
-    /// | 20–23 | [`latch_position_rising_or`](Self::latch_position_rising_or) |  | `i32` |
+    /// | 20–23 | [`latch_position_rising_or_falling_edge`](Self::latch_position_rising_or_falling_edge) |  | `i32` |
     /// | 24–25 | [`status_word`](Self::status_word) | [0x6041:00](super::objects::STATUS_WORD) | [`StatusWord`](super::types::StatusWord) |
     /// | 26–27 | [`torque_actual_value`](Self::torque_actual_value) | [0x6077:00](super::objects::TORQUE_ACTUAL_VALUE) | `i16` |
     /// | 28–29 | [`latch_status_word`](Self::latch_status_word) | [0x20A5:00](super::objects::LATCH_STATUS_WORD) | [`LatchStatus`](super::types::LatchStatus) |
@@ -7399,7 +7401,7 @@ pub mod pdo {
         /// Following error actual value: [0x60F4:00](super::objects::FOLLOWING_ERROR_ACTUAL_VALUE), 32 bits from bit 128.
         pub following_error_actual_value: i32,
         /// latch position, rising or falling edge: an object without a known index, 32 bits from bit 160.
-        pub latch_position_rising_or: i32,
+        pub latch_position_rising_or_falling_edge: i32,
         /// Status word: [0x6041:00](super::objects::STATUS_WORD), 16 bits from bit 192.
         pub status_word: super::types::StatusWord,
         /// Torque actual value: [0x6077:00](super::objects::TORQUE_ACTUAL_VALUE), 16 bits from bit 208.
@@ -7428,7 +7430,8 @@ pub mod pdo {
             data = rt::bits::put(data, 96, 32, bits);
             let bits = self.following_error_actual_value as u32 as u64;
             data = rt::bits::put(data, 128, 32, bits);
-            let bits = self.latch_position_rising_or as u32 as u64;
+            let value = self.latch_position_rising_or_falling_edge;
+            let bits = value as u32 as u64;
             data = rt::bits::put(data, 160, 32, bits);
             let bits = self.status_word.raw() as u64;
             data = rt::bits::put(data, 192, 16, bits);
@@ -7456,7 +7459,8 @@ pub mod pdo {
                 velocity_actual_value: rt::bits::get(data, 64, 32) as i32,
                 digital_inputs: rt::bits::get(data, 96, 32) as u32,
                 following_error_actual_value: rt::bits::get(data, 128, 32) as i32,
-                latch_position_rising_or: rt::bits::get(data, 160, 32) as i32,
+                latch_position_rising_or_falling_edge: rt::bits::get(data, 160, 32)
+                    as i32,
                 status_word: super::types::StatusWord::from_raw(
                     rt::bits::get(data, 192, 16) as u16,
                 ),
@@ -8143,7 +8147,7 @@ pub mod view {
         }
         /// reset of changed input information: an object without a known index, 16 bits from bit 96.
         #[inline]
-        pub fn reset_of_changed_input(&self) -> u16 {
+        pub fn reset_of_changed_input_information(&self) -> u16 {
             rt::bits::get(self.data.as_ref(), self.bit + 96, 16) as u16
         }
     }
@@ -8175,7 +8179,7 @@ pub mod view {
         }
         /// reset of changed input information: an object without a known index, 16 bits from bit 96.
         #[inline]
-        pub fn set_reset_of_changed_input(&mut self, value: u16) {
+        pub fn set_reset_of_changed_input_information(&mut self, value: u16) {
             rt::bits::set(self.data.as_mut(), self.bit + 96, 16, value as u64);
         }
     }
@@ -8208,7 +8212,7 @@ pub mod view {
         }
         /// target position of cyclic synchronous position: an object without a known index, 32 bits from bit 0.
         #[inline]
-        pub fn target_position_of_cyclic(&self) -> i32 {
+        pub fn target_position_of_cyclic_synchronous_position(&self) -> i32 {
             rt::bits::get(self.data.as_ref(), self.bit, 32) as i32
         }
         /// Control word: [0x6040:00](super::objects::CONTROL_WORD), 16 bits from bit 32.
@@ -8227,7 +8231,10 @@ pub mod view {
     impl<B: AsMut<[u8]>> RxPdo1724<B> {
         /// target position of cyclic synchronous position: an object without a known index, 32 bits from bit 0.
         #[inline]
-        pub fn set_target_position_of_cyclic(&mut self, value: i32) {
+        pub fn set_target_position_of_cyclic_synchronous_position(
+            &mut self,
+            value: i32,
+        ) {
             rt::bits::set(self.data.as_mut(), self.bit, 32, value as u32 as u64);
         }
         /// Control word: [0x6040:00](super::objects::CONTROL_WORD), 16 bits from bit 32.
@@ -8719,7 +8726,7 @@ pub mod view {
         }
         /// latch position, rising or falling edge: an object without a known index, 32 bits from bit 160.
         #[inline]
-        pub fn latch_position_rising_or(&self) -> i32 {
+        pub fn latch_position_rising_or_falling_edge(&self) -> i32 {
             rt::bits::get(self.data.as_ref(), self.bit + 160, 32) as i32
         }
         /// Status word: [0x6041:00](super::objects::STATUS_WORD), 16 bits from bit 192.
@@ -8775,7 +8782,7 @@ pub mod view {
         }
         /// latch position, rising or falling edge: an object without a known index, 32 bits from bit 160.
         #[inline]
-        pub fn set_latch_position_rising_or(&mut self, value: i32) {
+        pub fn set_latch_position_rising_or_falling_edge(&mut self, value: i32) {
             rt::bits::set(self.data.as_mut(), self.bit + 160, 32, value as u32 as u64);
         }
         /// Status word: [0x6041:00](super::objects::STATUS_WORD), 16 bits from bit 192.

@@ -639,17 +639,17 @@ pub mod types {
     /// | 9 | [`remote`](Self::remote) | The drive follows the control word. |
     /// | 10 | [`target_reached`](Self::target_reached) | In the cyclic modes the bit is reserved or toggles in each cycle. |
     /// | 11 | [`internal_limit_active`](Self::internal_limit_active) | A limit prevents the drive from following the set-point. |
-    /// | 12 | [`in_0x6061_1().set_point_acknowledge()`](StatuswordIn0x6061_1::set_point_acknowledge) |  |
-    /// | 12 | [`in_0x6061_3().speed_zero()`](StatuswordIn0x6061_3::speed_zero) |  |
-    /// | 12 | [`in_0x6061_6().homing_attained()`](StatuswordIn0x6061_6::homing_attained) |  |
-    /// | 12 | [`in_0x6061_7().interpolation_active()`](StatuswordIn0x6061_7::interpolation_active) |  |
-    /// | 12 | [`in_0x6061_8().follows_command_value()`](StatuswordIn0x6061_8::follows_command_value) |  |
-    /// | 12 | [`in_0x6061_9().follows_command_value()`](StatuswordIn0x6061_9::follows_command_value) |  |
-    /// | 12 | [`in_0x6061_10().follows_command_value()`](StatuswordIn0x6061_10::follows_command_value) |  |
-    /// | 13 | [`in_0x6061_1().following_error()`](StatuswordIn0x6061_1::following_error) |  |
-    /// | 13 | [`in_0x6061_3().max_slippage_error()`](StatuswordIn0x6061_3::max_slippage_error) |  |
-    /// | 13 | [`in_0x6061_6().homing_error()`](StatuswordIn0x6061_6::homing_error) |  |
-    /// | 13 | [`in_0x6061_8().following_error()`](StatuswordIn0x6061_8::following_error) |  |
+    /// | 12 | [`in_profile_position().set_point_acknowledge()`](StatuswordInProfilePosition::set_point_acknowledge) |  |
+    /// | 12 | [`in_profile_velocity().speed_zero()`](StatuswordInProfileVelocity::speed_zero) |  |
+    /// | 12 | [`in_homing().homing_attained()`](StatuswordInHoming::homing_attained) |  |
+    /// | 12 | [`in_interpolated_position().interpolation_active()`](StatuswordInInterpolatedPosition::interpolation_active) |  |
+    /// | 12 | [`in_cyclic_synchronous_position().follows_command_value()`](StatuswordInCyclicSynchronousPosition::follows_command_value) |  |
+    /// | 12 | [`in_cyclic_synchronous_velocity().follows_command_value()`](StatuswordInCyclicSynchronousVelocity::follows_command_value) |  |
+    /// | 12 | [`in_cyclic_synchronous_torque().follows_command_value()`](StatuswordInCyclicSynchronousTorque::follows_command_value) |  |
+    /// | 13 | [`in_profile_position().following_error()`](StatuswordInProfilePosition::following_error) |  |
+    /// | 13 | [`in_profile_velocity().max_slippage_error()`](StatuswordInProfileVelocity::max_slippage_error) |  |
+    /// | 13 | [`in_homing().homing_error()`](StatuswordInHoming::homing_error) |  |
+    /// | 13 | [`in_cyclic_synchronous_position().following_error()`](StatuswordInCyclicSynchronousPosition::following_error) |  |
     /// | 14–15 | [`manufacturer_specific_14`](Self::manufacturer_specific_14) | manufacturer specific. |
     #[derive(Clone, Copy, PartialEq)]
     pub struct Statusword(u16);
@@ -783,33 +783,39 @@ pub mod types {
         pub const fn with_manufacturer_specific_14(self, value: u8) -> Self {
             Self((self.0 & !0xC000) | (((value as u16) << 14) & 0xC000))
         }
-        /// The bits that have their meaning while 0x6061 is 1.
-        pub const fn in_0x6061_1(self) -> StatuswordIn0x6061_1 {
-            StatuswordIn0x6061_1(self.0)
+        /// The bits that have their meaning while 0x6061 is profile position (1).
+        pub const fn in_profile_position(self) -> StatuswordInProfilePosition {
+            StatuswordInProfilePosition(self.0)
         }
-        /// The bits that have their meaning while 0x6061 is 3.
-        pub const fn in_0x6061_3(self) -> StatuswordIn0x6061_3 {
-            StatuswordIn0x6061_3(self.0)
+        /// The bits that have their meaning while 0x6061 is profile velocity (3).
+        pub const fn in_profile_velocity(self) -> StatuswordInProfileVelocity {
+            StatuswordInProfileVelocity(self.0)
         }
-        /// The bits that have their meaning while 0x6061 is 6.
-        pub const fn in_0x6061_6(self) -> StatuswordIn0x6061_6 {
-            StatuswordIn0x6061_6(self.0)
+        /// The bits that have their meaning while 0x6061 is homing (6).
+        pub const fn in_homing(self) -> StatuswordInHoming {
+            StatuswordInHoming(self.0)
         }
-        /// The bits that have their meaning while 0x6061 is 7.
-        pub const fn in_0x6061_7(self) -> StatuswordIn0x6061_7 {
-            StatuswordIn0x6061_7(self.0)
+        /// The bits that have their meaning while 0x6061 is interpolated position (7).
+        pub const fn in_interpolated_position(self) -> StatuswordInInterpolatedPosition {
+            StatuswordInInterpolatedPosition(self.0)
         }
-        /// The bits that have their meaning while 0x6061 is 8.
-        pub const fn in_0x6061_8(self) -> StatuswordIn0x6061_8 {
-            StatuswordIn0x6061_8(self.0)
+        /// The bits that have their meaning while 0x6061 is cyclic synchronous position (8).
+        pub const fn in_cyclic_synchronous_position(
+            self,
+        ) -> StatuswordInCyclicSynchronousPosition {
+            StatuswordInCyclicSynchronousPosition(self.0)
         }
-        /// The bits that have their meaning while 0x6061 is 9.
-        pub const fn in_0x6061_9(self) -> StatuswordIn0x6061_9 {
-            StatuswordIn0x6061_9(self.0)
+        /// The bits that have their meaning while 0x6061 is cyclic synchronous velocity (9).
+        pub const fn in_cyclic_synchronous_velocity(
+            self,
+        ) -> StatuswordInCyclicSynchronousVelocity {
+            StatuswordInCyclicSynchronousVelocity(self.0)
         }
-        /// The bits that have their meaning while 0x6061 is 10.
-        pub const fn in_0x6061_10(self) -> StatuswordIn0x6061_10 {
-            StatuswordIn0x6061_10(self.0)
+        /// The bits that have their meaning while 0x6061 is cyclic synchronous torque (10).
+        pub const fn in_cyclic_synchronous_torque(
+            self,
+        ) -> StatuswordInCyclicSynchronousTorque {
+            StatuswordInCyclicSynchronousTorque(self.0)
         }
     }
     impl Default for Statusword {
@@ -855,10 +861,10 @@ pub mod types {
             bits.finish()
         }
     }
-    /// [`Statusword`] while 0x6061 is 1.
+    /// [`Statusword`] while 0x6061 is profile position (1).
     #[derive(Clone, Copy)]
-    pub struct StatuswordIn0x6061_1(u16);
-    impl StatuswordIn0x6061_1 {
+    pub struct StatuswordInProfilePosition(u16);
+    impl StatuswordInProfilePosition {
         /// All bits.
         pub const fn statusword(self) -> Statusword {
             Statusword(self.0)
@@ -882,10 +888,10 @@ pub mod types {
             Self((self.0 & !0x2000) | ((value as u16) << 13))
         }
     }
-    /// [`Statusword`] while 0x6061 is 3.
+    /// [`Statusword`] while 0x6061 is profile velocity (3).
     #[derive(Clone, Copy)]
-    pub struct StatuswordIn0x6061_3(u16);
-    impl StatuswordIn0x6061_3 {
+    pub struct StatuswordInProfileVelocity(u16);
+    impl StatuswordInProfileVelocity {
         /// All bits.
         pub const fn statusword(self) -> Statusword {
             Statusword(self.0)
@@ -909,10 +915,10 @@ pub mod types {
             Self((self.0 & !0x2000) | ((value as u16) << 13))
         }
     }
-    /// [`Statusword`] while 0x6061 is 6.
+    /// [`Statusword`] while 0x6061 is homing (6).
     #[derive(Clone, Copy)]
-    pub struct StatuswordIn0x6061_6(u16);
-    impl StatuswordIn0x6061_6 {
+    pub struct StatuswordInHoming(u16);
+    impl StatuswordInHoming {
         /// All bits.
         pub const fn statusword(self) -> Statusword {
             Statusword(self.0)
@@ -936,10 +942,10 @@ pub mod types {
             Self((self.0 & !0x2000) | ((value as u16) << 13))
         }
     }
-    /// [`Statusword`] while 0x6061 is 7.
+    /// [`Statusword`] while 0x6061 is interpolated position (7).
     #[derive(Clone, Copy)]
-    pub struct StatuswordIn0x6061_7(u16);
-    impl StatuswordIn0x6061_7 {
+    pub struct StatuswordInInterpolatedPosition(u16);
+    impl StatuswordInInterpolatedPosition {
         /// All bits.
         pub const fn statusword(self) -> Statusword {
             Statusword(self.0)
@@ -954,10 +960,10 @@ pub mod types {
             Self((self.0 & !0x1000) | ((value as u16) << 12))
         }
     }
-    /// [`Statusword`] while 0x6061 is 8.
+    /// [`Statusword`] while 0x6061 is cyclic synchronous position (8).
     #[derive(Clone, Copy)]
-    pub struct StatuswordIn0x6061_8(u16);
-    impl StatuswordIn0x6061_8 {
+    pub struct StatuswordInCyclicSynchronousPosition(u16);
+    impl StatuswordInCyclicSynchronousPosition {
         /// All bits.
         pub const fn statusword(self) -> Statusword {
             Statusword(self.0)
@@ -981,10 +987,10 @@ pub mod types {
             Self((self.0 & !0x2000) | ((value as u16) << 13))
         }
     }
-    /// [`Statusword`] while 0x6061 is 9.
+    /// [`Statusword`] while 0x6061 is cyclic synchronous velocity (9).
     #[derive(Clone, Copy)]
-    pub struct StatuswordIn0x6061_9(u16);
-    impl StatuswordIn0x6061_9 {
+    pub struct StatuswordInCyclicSynchronousVelocity(u16);
+    impl StatuswordInCyclicSynchronousVelocity {
         /// All bits.
         pub const fn statusword(self) -> Statusword {
             Statusword(self.0)
@@ -999,10 +1005,10 @@ pub mod types {
             Self((self.0 & !0x1000) | ((value as u16) << 12))
         }
     }
-    /// [`Statusword`] while 0x6061 is 10.
+    /// [`Statusword`] while 0x6061 is cyclic synchronous torque (10).
     #[derive(Clone, Copy)]
-    pub struct StatuswordIn0x6061_10(u16);
-    impl StatuswordIn0x6061_10 {
+    pub struct StatuswordInCyclicSynchronousTorque(u16);
+    impl StatuswordInCyclicSynchronousTorque {
         /// All bits.
         pub const fn statusword(self) -> Statusword {
             Statusword(self.0)
@@ -1781,6 +1787,8 @@ pub mod objects {
         ///
         /// 0x2000:01, BOOLEAN, ro, mappable into TPDOs.
         /// Accessor: [`Accessors::ready`]. Carried by [`Encoder`](super::super::pdo::Encoder).
+        ///
+        /// Access rights from the rule for objects that only a PDO describes.
         pub const READY: super::ReadOnly<bool> = super::ReadOnlyBool::flagged_coe_object(
             0x2000,
             0x01,
@@ -1791,6 +1799,8 @@ pub mod objects {
         ///
         /// 0x2000:02, UNSIGNED3, ro, mappable into TPDOs.
         /// Accessor: [`Accessors::mode`]. Values: [`Mode`](super::super::types::Mode). Carried by [`Encoder`](super::super::pdo::Encoder).
+        ///
+        /// Access rights from the rule for objects that only a PDO describes.
         pub const MODE: super::ReadOnly<super::super::types::Mode> = super::ReadOnlyNamedMode::flagged_coe_object(
             0x2000,
             0x02,
@@ -1801,6 +1811,8 @@ pub mod objects {
         ///
         /// 0x2000:03, BOOLEAN, ro, mappable into TPDOs.
         /// Accessor: [`Accessors::referenced`]. Carried by [`Encoder`](super::super::pdo::Encoder).
+        ///
+        /// Access rights from the rule for objects that only a PDO describes.
         pub const REFERENCED: super::ReadOnly<bool> = super::ReadOnlyBool::flagged_coe_object(
             0x2000,
             0x03,
@@ -1811,6 +1823,8 @@ pub mod objects {
         ///
         /// 0x2000:04, INTEGER24, ro, mappable into TPDOs.
         /// Accessor: [`Accessors::position`]. Carried by [`Encoder`](super::super::pdo::Encoder).
+        ///
+        /// Access rights from the rule for objects that only a PDO describes.
         pub const POSITION: super::ReadOnly<rt::Int<24>> = super::ReadOnlyInt24::flagged_coe_object(
             0x2000,
             0x04,
@@ -1821,6 +1835,8 @@ pub mod objects {
         ///
         /// 0x2000:05, BOOLEAN, ro, mappable into TPDOs.
         /// Accessor: [`Accessors::overflow`]. Carried by [`Encoder`](super::super::pdo::Encoder).
+        ///
+        /// Access rights from the rule for objects that only a PDO describes.
         pub const OVERFLOW: super::ReadOnly<bool> = super::ReadOnlyBool::flagged_coe_object(
             0x2000,
             0x05,
@@ -1831,6 +1847,8 @@ pub mod objects {
         ///
         /// 0x2000:06, UNSIGNED2, ro, mappable into TPDOs.
         /// Accessor: [`Accessors::quality`]. Carried by [`Encoder`](super::super::pdo::Encoder).
+        ///
+        /// Access rights from the rule for objects that only a PDO describes.
         pub const QUALITY: super::ReadOnly<rt::Uint<2>> = super::ReadOnlyUint2::flagged_coe_object(
             0x2000,
             0x06,
@@ -1841,6 +1859,8 @@ pub mod objects {
         ///
         /// 0x2000:07, INTEGER16, ro, mappable into TPDOs.
         /// Accessor: [`Accessors::speed`]. Carried by [`Encoder`](super::super::pdo::Encoder).
+        ///
+        /// Access rights from the rule for objects that only a PDO describes.
         pub const SPEED: super::ReadOnly<i16> = super::ReadOnlyI16::flagged_coe_object(
             0x2000,
             0x07,
@@ -1900,6 +1920,8 @@ pub mod objects {
         ///
         /// 0x2001:01, BOOLEAN, ro, mappable into TPDOs.
         /// Accessor: [`Accessors::limit`]. Carried by [`ActualValues`](super::super::pdo::ActualValues).
+        ///
+        /// Access rights from the rule for objects that only a PDO describes.
         pub const LIMIT: super::ReadOnly<bool> = super::ReadOnlyBool::flagged_coe_object(
             0x2001,
             0x01,
@@ -1910,6 +1932,8 @@ pub mod objects {
         ///
         /// 0x2001:02, UNSIGNED3, ro, mappable into TPDOs.
         /// Accessor: [`Accessors::mode`]. Values: [`Mode`](super::super::types::Mode). Carried by [`ActualValues`](super::super::pdo::ActualValues).
+        ///
+        /// Access rights from the rule for objects that only a PDO describes.
         pub const MODE: super::ReadOnly<super::super::types::Mode> = super::ReadOnlyNamedMode::flagged_coe_object(
             0x2001,
             0x02,
@@ -1920,6 +1944,8 @@ pub mod objects {
         ///
         /// 0x2001:03, UNSIGNED12, ro, mappable into TPDOs.
         /// Accessor: [`Accessors::current`]. Carried by [`ActualValues`](super::super::pdo::ActualValues).
+        ///
+        /// Access rights from the rule for objects that only a PDO describes.
         pub const CURRENT: super::ReadOnly<rt::Uint<12>> = super::ReadOnlyUint12::flagged_coe_object(
             0x2001,
             0x03,
@@ -1959,6 +1985,8 @@ pub mod objects {
     ///
     /// Bits from CiA 402, 10.3.1.
     ///
+    /// Access rights from the rule for objects that only a PDO describes.
+    ///
     /// Description from CiA 402, 10.3.1.
     pub const CONTROLWORD: ReadWrite<super::types::Controlword> = ReadWriteNamedControlword::flagged_coe_object(
         0x6040,
@@ -1991,6 +2019,8 @@ pub mod objects {
     ///
     /// Values from CiA 402, 10.3.8.
     ///
+    /// Access rights from the rule for objects that only a PDO describes.
+    ///
     /// Description from CiA 402, 10.3.8.
     pub const MODES_OF_OPERATION: ReadWrite<super::types::ModesOfOperation> = ReadWriteNamedModesOfOperation::flagged_coe_object(
         0x6060,
@@ -2002,6 +2032,8 @@ pub mod objects {
     ///
     /// 0x6064:00, INTEGER32, ro, mappable into TPDOs.
     /// Accessor: [`position`](super::Ax1::position). Carried by [`ActualValues`](super::pdo::ActualValues), [`DriveStatus`](super::pdo::DriveStatus).
+    ///
+    /// Access rights from the rule for objects that only a PDO describes.
     pub const POSITION: ReadOnly<i32> = ReadOnlyI32::flagged_coe_object(
         0x6064,
         0x00,
@@ -2012,6 +2044,8 @@ pub mod objects {
     ///
     /// 0x606C:00, INTEGER32, ro, mappable into TPDOs.
     /// Accessor: [`velocity`](super::Ax1::velocity). Carried by [`ActualValues`](super::pdo::ActualValues).
+    ///
+    /// Access rights from the rule for objects that only a PDO describes.
     pub const VELOCITY: ReadOnly<i32> = ReadOnlyI32::flagged_coe_object(
         0x606C,
         0x00,
@@ -2024,6 +2058,8 @@ pub mod objects {
     /// Accessor: [`torque`](super::Ax1::torque). Carried by [`DriveStatus`](super::pdo::DriveStatus).
     ///
     /// Actual torque, relative to the rated torque.
+    ///
+    /// Access rights from the rule for objects that only a PDO describes.
     ///
     /// Unit from CiA 402, 17.3.7.
     ///
@@ -2040,6 +2076,8 @@ pub mod objects {
     ///
     /// 0x607A:00, INTEGER32, rw, mappable into RPDOs.
     /// Accessor: [`target_position`](super::Ax1::target_position). Carried by [`SetPoints`](super::pdo::SetPoints).
+    ///
+    /// Access rights from the rule for objects that only a PDO describes.
     pub const TARGET_POSITION: ReadWrite<i32> = ReadWriteI32::flagged_coe_object(
         0x607A,
         0x00,
@@ -2052,6 +2090,8 @@ pub mod objects {
     /// Accessor: [`torque_offset`](super::Ax1::torque_offset). Carried by [`SetPoints`](super::pdo::SetPoints).
     ///
     /// Torque offset: added to the target torque, relative to the rated torque.
+    ///
+    /// Access rights from the rule for objects that only a PDO describes.
     ///
     /// Unit from CiA 402, object 60B2h of CiA 402-2.
     ///
@@ -2068,6 +2108,8 @@ pub mod objects {
     ///
     /// 0x60FF:00, INTEGER32, rw, mappable into RPDOs.
     /// Accessor: [`target_velocity`](super::Ax1::target_velocity). Carried by [`SetPoints`](super::pdo::SetPoints).
+    ///
+    /// Access rights from the rule for objects that only a PDO describes.
     pub const TARGET_VELOCITY: ReadWrite<i32> = ReadWriteI32::flagged_coe_object(
         0x60FF,
         0x00,

@@ -8,7 +8,7 @@ use super::findings::Finding;
 use super::words::{self, PLAIN};
 use lexibus_codegen::facts::address;
 use lexibus_codegen::facts::number::hex16;
-use lexibus_codegen::ir::{Group, GroupKind, Item, TypeDef};
+use lexibus_codegen::ir::{Group, GroupKind, Item, ItemId, TypeDef};
 
 /// So many items are on a page.
 const PAGE: usize = 500;
@@ -48,7 +48,8 @@ pub(super) struct Section {
 /// A part of a device whose groups make pages.
 struct Part<'g> {
     title: String,
-    groups: Vec<&'g Group>,
+    /// With their positions.
+    groups: Vec<(u32, &'g Group)>,
 }
 
 /// The pages of these groups. Names of their files begin with `prefix`.
@@ -66,12 +67,12 @@ pub(super) fn areas(
 fn parts(groups: &[Group]) -> Vec<Part<'_>> {
     let mut parts: Vec<Part<'_>> = Vec::new();
     let mut ranges: HashMap<&str, usize> = HashMap::new();
-    for group in groups.iter().filter(|group| !group.items.is_empty() || group.index().is_some()) {
+    for (position, group) in (0..).zip(groups).filter(|(_, group)| !group.items.is_empty() || group.index().is_some()) {
         let title = match &group.kind {
             GroupKind::Object { index, .. } => {
                 let at = *ranges.entry(range_of(*index)).or_insert(parts.len());
                 if let Some(part) = parts.get_mut(at) {
-                    part.groups.push(group);
+                    part.groups.push((position, group));
                     continue;
                 }
                 range_of(*index).to_owned()
@@ -80,7 +81,7 @@ fn parts(groups: &[Group]) -> Vec<Part<'_>> {
             GroupKind::Image { .. } => format!("Image {}", group.name),
             GroupKind::Record(_) => format!("Record {}", group.name),
         };
-        parts.push(Part { title, groups: vec![group] });
+        parts.push(Part { title, groups: vec![(position, group)] });
     }
     parts
 }
@@ -102,11 +103,12 @@ fn pages(part: &Part<'_>, types: &[TypeDef], known: Known<'_>, files: &mut Names
     let mut areas: Vec<Vec<Section>> = Vec::new();
     let mut shown = Vec::new();
     let mut count = 0;
-    for group in &part.groups {
+    for &(position, group) in &part.groups {
+        let items: Vec<(ItemId, &Item)> = group.items_at(position).collect();
         // Registers of a long chapter go on to further pages; an object stays whole.
-        let chunks: Vec<&[Item]> = match group.kind {
-            GroupKind::Object { .. } => vec![group.items.as_slice()],
-            _ => group.items.chunks(PAGE).collect(),
+        let chunks: Vec<&[(ItemId, &Item)]> = match group.kind {
+            GroupKind::Object { .. } => vec![&items],
+            _ => items.chunks(PAGE).collect(),
         };
         for items in chunks {
             if count + items.len() > PAGE && count > 0 {
@@ -121,7 +123,7 @@ fn pages(part: &Part<'_>, types: &[TypeDef], known: Known<'_>, files: &mut Names
     }
     areas.push(sections);
     let several = areas.len();
-    let about = part.groups.first().filter(|group| group.index().is_none());
+    let about = part.groups.first().map(|(_, group)| group).filter(|group| group.index().is_none());
     let page = |(at, sections): (usize, Vec<Section>)| {
         let title = match several {
             1 => part.title.clone(),
@@ -142,17 +144,17 @@ fn pages(part: &Part<'_>, types: &[TypeDef], known: Known<'_>, files: &mut Names
     areas.into_iter().enumerate().map(page).collect()
 }
 
-fn section(group: &Group, items: &[Item], rows: &mut Rows<'_>) -> Section {
+fn section(group: &Group, items: &[(ItemId, &Item)], rows: &mut Rows<'_>) -> Section {
     let GroupKind::Object { index, code, .. } = group.kind else {
         let modbus = rows.known.modbus;
         let number =
             |item: &Item| address::addresses(item, modbus).first().map_or_else(String::new, |own| own.number.clone());
-        let rows = items.iter().map(|item| rows.row(item, number(item), true)).collect();
+        let rows = items.iter().map(|&(id, item)| rows.row(id, item, number(item), true)).collect();
         return Section::plain(rows);
     };
     let number = hex16(index);
-    if let ([item], false) = (items, code.has_subs()) {
-        let mut row = rows.row(item, number, false);
+    if let ([(id, item)], false) = (items, code.has_subs()) {
+        let mut row = rows.row(*id, item, number, false);
         if row.name.is_empty() {
             row.name = group.name.to_string();
         }
@@ -170,7 +172,7 @@ fn section(group: &Group, items: &[Item], rows: &mut Rows<'_>) -> Section {
         facts,
         doubts: entry::doubts(&group.doubts, rows.known.manual),
         findings: rows.known.findings.of_group(group),
-        rows: items.iter().map(|item| rows.row(item, sub(item), false)).collect(),
+        rows: items.iter().map(|&(id, item)| rows.row(id, item, sub(item), false)).collect(),
     }
 }
 

@@ -8,7 +8,7 @@ use super::findings::{Finding, Findings};
 use super::words::{self, PLAIN};
 use lexibus_codegen::facts::words::{capital, row_of, sentence, ALLOWED_SHOWN};
 use lexibus_codegen::facts::{address, item, types};
-use lexibus_codegen::ir::{Item, Manual, ModbusTable, Severity, Subject, SubjectKind, Type, TypeDef};
+use lexibus_codegen::ir::{Item, ItemId, Manual, ModbusTable, Severity, Subject, SubjectKind, Type, TypeDef};
 
 /// An item, ready to be written.
 #[derive(Debug)]
@@ -81,8 +81,8 @@ impl Row {
     }
 }
 
-/// The lines of a program that read and write items, by the address of the item in memory.
-pub(super) type Calls = HashMap<*const Item, Vec<String>>;
+/// The lines of a program that read and write items.
+pub(super) type Calls = HashMap<ItemId, Vec<String>>;
 
 /// What is known of a description beside its items.
 #[derive(Clone, Copy)]
@@ -113,7 +113,7 @@ pub(super) struct Rows<'p> {
 
 impl Rows<'_> {
     /// A row; `number` is by what it is looked up, and its address, where the name isn't.
-    pub fn row(&mut self, item: &Item, number: String, by_name: bool) -> Row {
+    pub fn row(&mut self, id: ItemId, item: &Item, number: String, by_name: bool) -> Row {
         let anchor = self.names.anchor(if by_name && !item.name.is_empty() { &item.name } else { &number });
         let (mut drawn, mut labels, mut same_as) = (None, Vec::new(), None);
         match self.shown.iter().find(|(ty, ..)| *ty == item.ty) {
@@ -153,7 +153,7 @@ impl Rows<'_> {
                 .map(|definition| about(self.known.doubts, SubjectKind::Type, &definition.name, self.known.manual))
                 .unwrap_or_default(),
             findings: self.known.findings.of_item(item),
-            rust: self.known.calls.get(&std::ptr::from_ref(item)).cloned().unwrap_or_default(),
+            rust: self.known.calls.get(&id).cloned().unwrap_or_default(),
             bits: drawn,
             labels,
             same_as,

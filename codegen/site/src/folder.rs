@@ -156,7 +156,7 @@ impl Folder {
         manual: &Manual,
         prefix: &str,
     ) -> (Parts, Vec<(String, String)>) {
-        let calls = rust::calls(device).into_iter().map(|(item, lines)| (std::ptr::from_ref(item), lines)).collect();
+        let calls = rust::calls(device);
         let known =
             Known { manual, doubts: &device.doubts, modbus: &device.modbus, calls: &calls, findings: &self.findings };
         let mut areas = area::areas(&device.groups, &device.types, known, &mut self.files, prefix);

@@ -123,7 +123,7 @@ fn section(group: &Group, rows: &mut Rows<'_>) -> (String, Section) {
     let number = |item: &lexibus_codegen::ir::Item| {
         address::addresses(item, &[]).first().map_or_else(String::new, |own| own.number.clone())
     };
-    let items = group.items.iter().map(|item| rows.row(item, number(item), false)).collect();
+    let items = group.items_at(0).map(|(id, item)| rows.row(id, item, number(item), false)).collect();
     (title, Section::plain(items))
 }
 

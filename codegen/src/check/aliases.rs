@@ -34,7 +34,7 @@ fn place(item: &Item, alias: &ItemRef) -> Span {
 /// An item and its replacement are used alike. What only a default says of either isn't compared.
 fn replacement(device: &Device, item: &Item, diagnostics: &mut Diagnostics) {
     let reference = item.availability.as_ref().and_then(|availability| availability.replaced_by.as_ref());
-    let Some(other) = reference.and_then(|reference| device.referred(reference)) else { return };
+    let Some(other) = reference.and_then(|reference| device.item(reference.id?.item()?)) else { return };
     let is_stated = |item: &Item| {
         let (row, access) = (item.origin.span, item.at.access);
         !access.is_empty() && row.start <= access.start && access.end <= row.end

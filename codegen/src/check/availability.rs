@@ -63,7 +63,8 @@ fn window(what: &str, availability: &Availability, span: Span, diagnostics: &mut
 }
 
 fn replacement(device: &Device, item: &Item, availability: &Availability, diagnostics: &mut Diagnostics) {
-    let Some(other) = availability.replaced_by.as_ref().and_then(|other| device.referred(other)) else { return };
+    let replaced_by = availability.replaced_by.as_ref();
+    let Some(other) = replaced_by.and_then(|other| device.item(other.id?.item()?)) else { return };
     let span = item.origin.span;
     let name = brief(&item.name);
     if std::ptr::eq(other, item) {

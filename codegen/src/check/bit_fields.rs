@@ -165,7 +165,9 @@ mod tests {
 
     #[test]
     fn a_condition_tells_two_meanings_apart() {
-        let when = |mode| Some(Condition { item: "mode".into(), values: vec![Value::Int(mode)], mask: None });
+        let when = |mode| {
+            Some(Condition { item: "mode".into(), values: vec![Value::Int(mode)], names: Vec::new(), mask: None })
+        };
         let one = BitFieldEntry { when: when(1), ..field("all", 0, 8) };
         assert_eq!(found(vec![one.clone(), BitFieldEntry { when: when(2), ..field("part", 0, 1) }]), [""; 0]);
         assert_eq!(found(vec![one.clone(), field("part", 0, 1)]), [""; 0]);

@@ -77,7 +77,8 @@ impl<'d> Referrers<'d> {
             self.add_all(items_of(&behaviour.write_when), Referrer::WritableWhen(item));
         }
         let availability = item.availability.as_ref();
-        self.add_all(availability.and_then(|availability| availability.replaced_by.as_ref()), Referrer::Replaced(item));
+        let other = availability.and_then(|availability| availability.replaced_by.as_ref()?.id?.item());
+        self.add(other, Referrer::Replaced(item));
         self.add_all(item.related.iter().flat_map(|related| related.all()), Referrer::Related(item));
     }
 

@@ -4,8 +4,8 @@ use crate::facts::cob_id;
 use crate::facts::physical::{self, depends_on_node, shown_unit, Physical};
 use crate::ir::{
     Availability, Behaviour, Binding, Bus, CiteUnit, CompactString, Condition, Device, Direction, Documentation, Doubt,
-    Fact, FactOrigin, Item, ItemVariant, Limits, LocalText, Manual, Quantity, Rule, Scale, Severity, Shape, Step,
-    Storage, TypeDef, Value,
+    ElementId, Fact, FactOrigin, Item, ItemVariant, Limits, LocalText, Manual, Quantity, Reference, Rule, Scale,
+    Severity, Shape, Step, Storage, TypeDef, Value,
 };
 
 /// Makes sentences. Every text of a source goes through `escape` on its way into one.
@@ -13,12 +13,12 @@ use crate::ir::{
 pub struct Words<'w> {
     /// The text as the output shows it literally, on one line.
     pub escape: fn(&str) -> String,
-    /// A link to the element of this name that shows the name; `None` where the output has no such element.
-    pub link: &'w dyn Fn(&str) -> Option<String>,
+    /// A link to an element that shows this name; `None` where the output has no such element.
+    pub link: &'w dyn Fn(ElementId, &str) -> Option<String>,
 }
 
 /// For an output without links.
-pub const NO_LINK: &dyn Fn(&str) -> Option<String> = &|_| None;
+pub const NO_LINK: &dyn Fn(ElementId, &str) -> Option<String> = &|_, _| None;
 
 /// Sentences as they are.
 pub const PLAIN: Words<'static> = Words { escape: one_line, link: NO_LINK };
@@ -165,8 +165,9 @@ impl Words<'_> {
     }
 
     /// The name of another element.
-    fn name(&self, name: &str) -> String {
-        (self.link)(name).unwrap_or_else(|| self.escaped(name))
+    fn name<Id: Copy + Into<ElementId>>(&self, reference: &Reference<Id>) -> String {
+        let link = reference.id.and_then(|id| (self.link)(id.into(), &reference.name));
+        link.unwrap_or_else(|| self.escaped(&reference.name))
     }
 
     fn list(&self, names: &[CompactString]) -> String {

@@ -1,6 +1,9 @@
 //! Access, bindings, units, storage and availability of items.
 
-use super::{Buses, CompactString, Condition, Documentation, Doubts, ItemRef, ProcedureRef, Scale, Texts, Type, Value};
+use super::{
+    Buses, CompactString, Condition, Documentation, Doubts, ElementRef, ItemRef, ProcedureRef, Scale, Texts, Type,
+    Value,
+};
 use crate::source::{Origin, Span};
 
 /// Access rights of an item, seen from the bus (CiA 306; ETG.2000 Flags/Access).
@@ -413,7 +416,7 @@ pub enum Storage {
     /// Kept as soon as it is written.
     Immediate,
     /// Kept once this command was given.
-    OnCommand(CompactString),
+    OnCommand(ElementRef),
 }
 
 /// Models, firmware versions, options and buses that have an item.
@@ -426,8 +429,8 @@ pub struct Availability {
     pub since: Option<CompactString>,
     /// First firmware version that doesn't have it any more.
     pub until: Option<CompactString>,
-    /// What replaces it from then on: an item, or of bits, values and messages another one of these. Only items have an id.
-    pub replaced_by: Option<ItemRef>,
+    /// What replaces it from then on: an item or a message, or of bits and values another one of these, which has no id.
+    pub replaced_by: Option<ElementRef>,
     /// Options that have to be fitted.
     pub options: Vec<CompactString>,
     /// The only buses on which it exists, where its addresses don't tell; empty = all.

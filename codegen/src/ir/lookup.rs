@@ -46,11 +46,9 @@ impl<'a> Entries<'a> {
         self.registers.get_or_init(|| {
             let mut registers = HashMap::new();
             let chapters = (0..).zip(self.groups).take_while(|(_, group)| group.index().is_none());
-            for (group, own) in chapters {
-                for (item, found) in (0..).zip(&own.items) {
-                    if let Some(object) = found.object() {
-                        registers.entry(object).or_insert(ItemId { group, item });
-                    }
+            for (id, item) in chapters.flat_map(|(position, group)| group.items_at(position)) {
+                if let Some(object) = item.object() {
+                    registers.entry(object).or_insert(id);
                 }
             }
             registers
@@ -105,8 +103,7 @@ impl<'a> ItemPaths<'a> {
         for (place, group) in (0..).zip(groups) {
             paths.slashes.insert(group.name.matches('/').count());
             let chapter = paths.chapters.entry(group.name.as_str()).or_default();
-            for (position, item) in (0..).zip(&group.items) {
-                let id = ItemId { group: place, item: position };
+            for (id, item) in group.items_at(place) {
                 chapter.entry(item.name.as_str()).or_insert((id, item));
             }
         }

@@ -103,8 +103,8 @@ pub struct Transition {
     pub from: Option<CompactString>,
     /// The state that it leads to.
     pub to: CompactString,
-    /// The command or the message that causes it; `None` where the device does.
-    pub command: Option<CompactString>,
+    /// The command or the message that causes it; `None` where the device does. Only a message has an id.
+    pub command: Option<MessageRef>,
     /// What the source says about it.
     pub documentation: Option<Box<Documentation>>,
 }

@@ -1,7 +1,8 @@
 //! Command protocols and code tables.
 
 use super::{
-    Availability, Buses, CompactString, Condition, Documentation, Doubts, Item, MessageRef, SharedList, Texts, Value,
+    Availability, Buses, CompactString, Condition, Documentation, Doubts, Item, ItemRef, MessageRef, SharedList, Texts,
+    Value,
 };
 use crate::source::{Origin, Span};
 
@@ -93,8 +94,8 @@ pub enum Completion {
     Reply,
     /// When this item, or field of replies, says so.
     Polled {
-        /// Its name, perhaps with that of a bit behind a dot.
-        item: CompactString,
+        /// Its name, perhaps with that of a bit behind a dot. Only an item has an id.
+        item: ItemRef,
         /// The bits that count; all where the source names none.
         mask: Option<u64>,
         /// The value that tells that the order is carried out; `None` = any but 0.

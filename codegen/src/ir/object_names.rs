@@ -1,7 +1,7 @@
 //! Items that names spell as objects (`0x6040`, `0x1018:1`): overlays and profiles use them where the name of an item isn't known.
 
 use super::owner::object;
-use super::{Group, Item, ItemRef, Shape, TypeDef};
+use super::{CompactString, Condition, Group, Item, ItemRef, Shape, TypeDef};
 
 /// The groups of objects with these indices; groups have to be sorted, as [`Device::object`](super::Device::object) says.
 pub(crate) fn in_range(groups: &mut [Group], first: u16, last: u16) -> &mut [Group] {
@@ -25,8 +25,12 @@ pub(crate) fn item_name(groups: &[Group], reference: &ItemRef) -> ItemRef {
     }
 }
 
-/// Names that conditions of bits and values give as objects become those of the items there.
-pub(crate) fn name_conditions(groups: &[Group], types: &mut [TypeDef]) {
+/// Names that conditions of bits and values give as objects become those of the items there. Their values get names.
+pub(crate) fn name_conditions(
+    groups: &[Group],
+    types: &mut [TypeDef],
+    value_names: &dyn Fn(&Condition) -> Option<Vec<CompactString>>,
+) {
     for definition in types {
         let conditions: Vec<_> = match &mut definition.shape {
             Shape::BitField { fields, .. } => fields.iter_mut().filter_map(|field| field.when.as_mut()).collect(),
@@ -34,6 +38,7 @@ pub(crate) fn name_conditions(groups: &[Group], types: &mut [TypeDef]) {
             _ => continue,
         };
         for when in conditions {
+            when.names = value_names(when).unwrap_or_default();
             when.item = item_name(groups, &when.item);
         }
     }

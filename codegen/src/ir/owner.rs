@@ -146,9 +146,8 @@ impl<'a> Index<'a> {
 
     /// The groups with the ids of their items.
     fn items(&self) -> impl Iterator<Item = (&'a Group, ItemId, &'a Item)> {
-        let ids = |(group, own): (u32, &'a Group)| {
-            (0..).zip(&own.items).map(move |(item, found)| (own, ItemId { group, item }, found))
-        };
+        let ids =
+            |(position, group): (u32, &'a Group)| group.items_at(position).map(move |(id, item)| (group, id, item));
         (0..).zip(self.groups()).flat_map(ids)
     }
 
@@ -181,7 +180,7 @@ impl<'a> Index<'a> {
 }
 
 /// Index and sub-index of `0x6040`, `0x1018:1`.
-pub(super) fn object(text: &str) -> Option<(u16, u8)> {
+pub(crate) fn object(text: &str) -> Option<(u16, u8)> {
     let (index, sub_index) = text.split_once(':').unwrap_or((text, "0"));
     let number = |text: &str| match text.strip_prefix("0x") {
         Some(digits) => u16::from_str_radix(digits, 16).ok(),

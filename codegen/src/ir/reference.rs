@@ -23,6 +23,13 @@ impl ItemId {
     }
 }
 
+impl Group {
+    /// Returns the items with their ids, if the group is at this position.
+    pub fn items_at(&self, position: u32) -> impl Iterator<Item = (ItemId, &Item)> {
+        (0..).zip(&self.items).map(move |(item, found)| (ItemId { group: position, item }, found))
+    }
+}
+
 /// Position of a [`Message`](super::Message) in [`Device::messages`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct MessageId(pub u32);
@@ -30,6 +37,37 @@ pub struct MessageId(pub u32);
 /// Position of a [`Procedure`] in [`Device::procedures`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct ProcedureId(pub u32);
+
+/// What a reference leads to that may name either.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum ElementId {
+    /// An item.
+    Item(ItemId),
+    /// A message.
+    Message(MessageId),
+}
+
+impl ElementId {
+    /// Returns the id of an item, if it is one.
+    pub fn item(self) -> Option<ItemId> {
+        match self {
+            ElementId::Item(id) => Some(id),
+            ElementId::Message(_) => None,
+        }
+    }
+}
+
+impl From<ItemId> for ElementId {
+    fn from(id: ItemId) -> Self {
+        ElementId::Item(id)
+    }
+}
+
+impl From<MessageId> for ElementId {
+    fn from(id: MessageId) -> Self {
+        ElementId::Message(id)
+    }
+}
 
 impl Device {
     /// Returns the item with this id.
@@ -73,6 +111,9 @@ pub type TypeRef = Reference<TypeId>;
 
 /// A reference to a message.
 pub type MessageRef = Reference<MessageId>;
+
+/// A reference to an item, or to a message if there is no such item.
+pub type ElementRef = Reference<ElementId>;
 
 /// A reference to a procedure.
 pub type ProcedureRef = Reference<ProcedureId>;

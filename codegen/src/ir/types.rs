@@ -523,6 +523,9 @@ pub struct Condition {
     pub item: ItemRef,
     /// Its values.
     pub values: Vec<Value>,
+    /// The names of all values, where a profile has the condition and names them; else empty.
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Vec::is_empty"))]
+    pub names: Vec<CompactString>,
     /// The bits of the item that are compared with the values; `None` = all.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub mask: Option<u64>,

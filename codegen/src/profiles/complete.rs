@@ -8,9 +8,9 @@ use std::collections::HashMap;
 use super::profile::{Described, Profile, Signal, Telegram};
 use crate::ir::object_names::{in_range, item_at, item_name, name_conditions};
 use crate::ir::{
-    Binding, BitFieldEntry, BitMeaning, CodeTable, CompactString, Device, Direction, Documentation, Fact, FactOrigin,
-    Group, IoData, Item, Module, ObjectCode, Pdo, PdoEntry, PdoEntryKind, Shape, StateMachine, Submodule, Type,
-    TypeDef, TypeId, TypeRef,
+    Binding, BitFieldEntry, BitMeaning, CodeTable, CompactString, Condition, Device, Direction, Documentation, Fact,
+    FactOrigin, Group, IoData, Item, Module, ObjectCode, Pdo, PdoEntry, PdoEntryKind, Shape, StateMachine, Submodule,
+    Type, TypeDef, TypeId, TypeRef,
 };
 use crate::source::{FileId, Origin};
 
@@ -93,7 +93,8 @@ impl<'p> Completion<'p> {
             }
         }
         self.finish(types, before);
-        name_conditions(groups, types.get_mut(before..).unwrap_or_default());
+        let value_names = |when: &Condition| self.profile.value_names(when);
+        name_conditions(groups, types.get_mut(before..).unwrap_or_default(), &value_names);
         let entries = pdos.iter_mut().flat_map(|pdo| &mut pdo.entries);
         for entry in entries.filter(|entry| entry.kind == PdoEntryKind::Item) {
             match replaced.get(&(entry.index, entry.sub_index)) {

@@ -1,8 +1,9 @@
 //! A profile as plain data.
 
+use crate::ir::owner::object;
 use crate::ir::{
-    Behaviour, CodeTable, CompactString, Direction, Documentation, Doubts, Group, ObjectBuses, ObjectCode, Quantity,
-    Shape, StateMachine, Type, TypeDef, TypeId,
+    Behaviour, CodeTable, CompactString, Condition, Direction, Documentation, Doubts, Group, ObjectBuses, ObjectCode,
+    Quantity, Shape, StateMachine, Type, TypeDef, TypeId, Value,
 };
 
 /// What a standard says of the objects of every device that follows it.
@@ -91,6 +92,21 @@ impl Profile {
     /// A type by its position.
     pub fn definition(&self, id: TypeId) -> Option<&TypeDef> {
         self.types.get(id.0 as usize)
+    }
+
+    /// The names of the values of an object with which a condition compares it, if the profile names all of them.
+    pub fn value_names(&self, when: &Condition) -> Option<Vec<CompactString>> {
+        let (index, sub_index) = object(&when.item)?;
+        let is_described = |own: &&Described| {
+            own.indices == (index, index) && own.subs.is_none_or(|subs| subs == (sub_index, sub_index))
+        };
+        let meaning = self.objects.iter().find(is_described)?.meaning?;
+        let Shape::Enumeration { values, .. } = &self.definition(meaning)?.shape else { return None };
+        let name_of = |value: &Value| {
+            let label = values.iter().find(|label| label.last.is_none() && Some(label.value) == value.as_int())?;
+            Some(label.name.clone())
+        };
+        when.values.iter().map(name_of).collect()
     }
 
     /// Whether values of a type are as long as those that the profile speaks of, and of its kind. Numbers with a sign aren't bits,

@@ -6,9 +6,9 @@
 use super::profile::{Described, Profile, Signal, Telegram};
 use crate::ir::{
     Access, Behaviour, BitFieldEntry, BitMeaning, CodeRow, CodeTable, CompactString, Condition, Direction,
-    Documentation, Doubt, Doubts, EnumValue, FactOrigin, ItemRef, ObjectBuses, Pattern, Quantity, Scale, Severity,
-    Shape, SharedList, StateMachine, Storage, Subject, SubjectKind, Transition, Trigger, Type, TypeDef, TypeId,
-    TypeRef, Value, Zone,
+    Documentation, Doubt, Doubts, ElementRef, EnumValue, FactOrigin, ItemRef, MessageRef, ObjectBuses, Pattern,
+    Quantity, Scale, Severity, Shape, SharedList, StateMachine, Storage, Subject, SubjectKind, Transition, Trigger,
+    Type, TypeDef, TypeId, TypeRef, Value, Zone,
 };
 
 /// The fields of a stored profile that aren't read yet.
@@ -77,6 +77,8 @@ macro_rules! wrapped {
 wrapped! {
     TypeId: u32, TypeId, |id| &id.0;
     ItemRef: CompactString, ItemRef::from, |reference| &reference.name;
+    ElementRef: CompactString, ElementRef::from, |reference| &reference.name;
+    MessageRef: CompactString, MessageRef::from, |reference| &reference.name;
     TypeRef: CompactString, TypeRef::from, |reference| &reference.name;
 }
 
@@ -110,7 +112,7 @@ structures! {
         storage, effective, write_when, writable_values, side_effects, self_clearing, write_once, hidden
         | backup, setting, safety, pdi_access, read_states, write_states
     }
-    Condition { item, values, mask }
+    Condition { item, values, mask | names }
     TypeDef { name, shape, bits, documentation | code, origin }
     BitFieldEntry { name, offset, bits, meaning, when, trigger, access, documentation | names, availability, at }
     EnumValue { name, value, last, zone, when, documentation | names, availability, at }

@@ -4,8 +4,9 @@ use std::collections::HashMap;
 
 use crate::ir::owner::{Index, Owner};
 use crate::ir::{
-    Binding, CompactString, Condition, Device, Entries, Group, Item, ItemId, ItemRef, MessageField, MessageId, Module,
-    Pdo, PdoEntryKind, ProcedureId, Reference, Scale, Shape, Step, TypeDef, TypeId, WindowSide,
+    Binding, CompactString, Completion, Condition, Device, ElementId, ElementRef, Entries, Group, Item, ItemId,
+    ItemRef, MessageField, MessageId, Module, Pdo, PdoEntryKind, ProcedureId, Reference, Scale, Shape, Step, Storage,
+    Transition, TypeDef, TypeId, WindowSide,
 };
 
 /// Resolves the references of a device. Returns whether any is a name.
@@ -15,12 +16,13 @@ pub(super) fn device(device: &mut Device) -> bool {
     procedures(device);
     state_types(device);
     let mut names = HashMap::new();
-    for_each(device, &mut |reference| collect(&mut names, reference));
+    for_each(device, &mut |mention| collect(&mut names, &mention));
     if names.is_empty() {
         return false;
     }
     find(&mut names, &[&device.groups], &device.types);
-    for_each(device, &mut |reference| reference.id = names.get(&reference.name).copied().flatten());
+    let messages = Positions::new(device.messages.iter().map(|message| &message.name));
+    for_each(device, &mut |mention| mention.resolve(&names, &messages));
     true
 }
 
@@ -29,13 +31,14 @@ pub(super) fn module(module: &mut Module) {
     let mut names = HashMap::new();
     let Module { fixed_objects, groups, types, process_data, .. } = module;
     mapped_items(&mut process_data.pdos, groups, fixed_objects.len() as u32);
-    of_items_and_types(fixed_objects.iter_mut().chain(&mut *groups), types, &mut |reference| {
-        collect(&mut names, reference)
+    of_items_and_types(fixed_objects.iter_mut().chain(&mut *groups), types, &mut |mention| {
+        collect(&mut names, &mention);
     });
     if !names.is_empty() {
         find(&mut names, &[fixed_objects, groups], types);
-        let mut resolve = |reference: &mut ItemRef| reference.id = names.get(&reference.name).copied().flatten();
-        of_items_and_types(fixed_objects.iter_mut().chain(groups), types, &mut resolve);
+        let messages = Positions::new([].into_iter());
+        let groups = fixed_objects.iter_mut().chain(groups);
+        of_items_and_types(groups, types, &mut |mention| mention.resolve(&names, &messages));
     }
 }
 
@@ -56,19 +59,71 @@ impl Positions {
     }
 
     fn resolve<Id>(&self, reference: &mut Reference<Id>, id: fn(u32) -> Id) {
-        reference.id = self.0.get(&reference.name).copied().map(id);
+        reference.id = self.find(&reference.name).map(id);
+    }
+
+    fn find(&self, name: &CompactString) -> Option<u32> {
+        self.0.get(name).copied()
     }
 }
+
+/// A reference that may lead to an item.
+enum Mention<'r> {
+    Item(&'r mut ItemRef),
+    Element(&'r mut ElementRef),
+}
+
+impl Mention<'_> {
+    fn name(&self) -> &CompactString {
+        match self {
+            Mention::Item(reference) => &reference.name,
+            Mention::Element(reference) => &reference.name,
+        }
+    }
+
+    fn resolve(self, items: &Found, messages: &Positions) {
+        let item = items.get(self.name()).copied().flatten();
+        match self {
+            Mention::Item(reference) => reference.id = item,
+            Mention::Element(reference) => {
+                let message = || messages.find(&reference.name).map(|at| ElementId::Message(MessageId(at)));
+                reference.id = item.map(ElementId::Item).or_else(message);
+            }
+        }
+    }
+}
+
+impl<'r> From<&'r mut ItemRef> for Mention<'r> {
+    fn from(reference: &'r mut ItemRef) -> Self {
+        Mention::Item(reference)
+    }
+}
+
+type Visit<'v> = &'v mut dyn FnMut(Mention<'_>);
 
 fn messages(device: &mut Device) {
     if device.messages.is_empty() {
         return;
     }
     let positions = Positions::new(device.messages.iter().map(|message| &message.name));
+    let availabilities = device.messages.iter_mut().filter_map(|message| message.availability.as_mut());
+    for other in availabilities.filter_map(|availability| availability.replaced_by.as_mut()) {
+        positions.resolve(other, |at| ElementId::Message(MessageId(at)));
+    }
     let of_messages = device.messages.iter_mut().flat_map(|message| [&mut message.after, &mut message.error]);
     let of_spaces =
         device.parameter_spaces.iter_mut().flat_map(|space| [&mut space.read, &mut space.write, &mut space.store]);
     of_messages.chain(of_spaces).flatten().for_each(|reference| positions.resolve(reference, MessageId));
+    for machine in &mut device.machines {
+        // A list that is shared is only copied if it changes.
+        let is_message = |transition: &Transition| {
+            transition.command.as_ref().is_some_and(|command| positions.find(command).is_some())
+        };
+        if machine.transitions.iter().any(is_message) {
+            let commands = machine.transitions.to_mut().iter_mut().filter_map(|transition| transition.command.as_mut());
+            commands.for_each(|command| positions.resolve(command, MessageId));
+        }
+    }
     for step in device.procedures.iter_mut().flat_map(|procedure| &mut procedure.steps) {
         if let Step::Send(message) = step {
             positions.resolve(message, MessageId);
@@ -118,9 +173,10 @@ fn mapped_items(pdos: &mut [Pdo], groups: &[Group], first: u32) {
 /// The items of names; `None` for a name that leads nowhere.
 type Found = HashMap<CompactString, Option<ItemId>>;
 
-fn collect(names: &mut Found, reference: &ItemRef) {
-    if !reference.name.is_empty() && !names.contains_key(&reference.name) {
-        names.insert(reference.name.clone(), None);
+fn collect(names: &mut Found, mention: &Mention<'_>) {
+    let name = mention.name();
+    if !name.is_empty() && !names.contains_key(name) {
+        names.insert(name.clone(), None);
     }
 }
 
@@ -132,55 +188,58 @@ fn find(names: &mut Found, groups: &[&[Group]], types: &[TypeDef]) {
 }
 
 /// Visits every reference of a device.
-fn for_each(device: &mut Device, visit: &mut dyn FnMut(&mut ItemRef)) {
+fn for_each(device: &mut Device, visit: Visit<'_>) {
     of_items_and_types(device.groups.iter_mut(), &mut device.types, visit);
     for message in &mut device.messages {
-        message.accepted_when.iter_mut().for_each(|condition| visit(&mut condition.item));
+        if let Completion::Polled { item, .. } = &mut message.completion {
+            visit(item.into());
+        }
+        message.accepted_when.iter_mut().for_each(|condition| visit((&mut condition.item).into()));
         of_fields(&mut message.request, visit);
         of_fields(&mut message.reply, visit);
     }
     for machine in &mut device.machines {
-        visit(&mut machine.status_item);
-        visit(&mut machine.control_item);
+        visit((&mut machine.status_item).into());
+        visit((&mut machine.control_item).into());
     }
-    device.procedures.iter_mut().flat_map(|procedure| &mut procedure.steps).filter_map(target).for_each(&mut *visit);
+    let steps = device.procedures.iter_mut().flat_map(|procedure| &mut procedure.steps);
+    steps.filter_map(target).for_each(|item| visit(item.into()));
     for composite in &mut device.composites {
-        composite.parts.iter_mut().for_each(&mut *visit);
-        composite.sign.iter_mut().for_each(|(item, _)| visit(item));
+        composite.parts.iter_mut().for_each(|item| visit(item.into()));
+        composite.sign.iter_mut().for_each(|(item, _)| visit(item.into()));
     }
 }
 
-fn of_items_and_types<'g>(
-    groups: impl Iterator<Item = &'g mut Group>,
-    types: &mut [TypeDef],
-    visit: &mut dyn FnMut(&mut ItemRef),
-) {
+fn of_items_and_types<'g>(groups: impl Iterator<Item = &'g mut Group>, types: &mut [TypeDef], visit: Visit<'_>) {
     for item in groups.flat_map(|group| &mut group.items) {
         of_item(item, visit);
     }
     of_types(types, visit);
 }
 
-fn of_item(item: &mut Item, visit: &mut dyn FnMut(&mut ItemRef)) {
+fn of_item(item: &mut Item, visit: Visit<'_>) {
     if let Some(behaviour) = &mut item.behaviour {
-        behaviour.write_when.iter_mut().for_each(|condition| visit(&mut condition.item));
+        if let Storage::OnCommand(command) = &mut behaviour.storage {
+            visit(Mention::Element(command));
+        }
+        behaviour.write_when.iter_mut().for_each(|condition| visit((&mut condition.item).into()));
     }
     if let Some(availability) = &mut item.availability {
-        availability.replaced_by.iter_mut().for_each(&mut *visit);
+        availability.replaced_by.iter_mut().for_each(|other| visit(Mention::Element(other)));
     }
     if let Some(related) = &mut item.related {
-        related.all_mut().for_each(&mut *visit);
+        related.all_mut().for_each(|item| visit(item.into()));
     }
     if let Some(scale) = item.quantity.as_mut().and_then(|quantity| quantity.scale.as_mut()) {
-        of_scale(scale).into_iter().for_each(&mut *visit);
+        of_scale(scale).into_iter().for_each(|item| visit(item.into()));
     }
     for side in item.bindings.iter_mut().flat_map(window_sides) {
-        visit(&mut side.number);
-        visit(&mut side.value);
+        visit((&mut side.number).into());
+        visit((&mut side.value).into());
     }
 }
 
-fn of_fields(fields: &mut [MessageField], visit: &mut dyn FnMut(&mut ItemRef)) {
+fn of_fields(fields: &mut [MessageField], visit: Visit<'_>) {
     for field in fields {
         match field {
             MessageField::Value(value) => of_item(&mut value.item, visit),
@@ -198,11 +257,11 @@ fn of_scale(scale: &mut Scale) -> Option<&mut ItemRef> {
     }
 }
 
-fn of_types(types: &mut [TypeDef], visit: &mut dyn FnMut(&mut ItemRef)) {
-    for_each_condition(types, &mut |condition| visit(&mut condition.item));
+fn of_types(types: &mut [TypeDef], visit: Visit<'_>) {
+    for_each_condition(types, &mut |condition| visit((&mut condition.item).into()));
     for definition in types {
         if let Shape::Scaled { scale, .. } = &mut definition.shape {
-            of_scale(scale).into_iter().for_each(&mut *visit);
+            of_scale(scale).into_iter().for_each(|item| visit(item.into()));
         }
     }
 }

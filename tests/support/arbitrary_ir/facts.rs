@@ -26,6 +26,7 @@ pub fn condition(b: &mut Bytes<'_>) -> Condition {
     Condition {
         item: names::name(b).into(),
         values: b.list(2, |b| Value::Int(values::number(b))),
+        names: b.few(4, 2, names::name),
         mask: b.maybe(4, |b| b.pick(&[1, 0x0F, 0x8000, u64::MAX])),
     }
 }
@@ -76,7 +77,7 @@ pub fn behaviour(b: &mut Bytes<'_>) -> Behaviour {
             0 => Storage::Unknown,
             1 => Storage::Volatile,
             2 => Storage::Immediate,
-            _ => Storage::OnCommand(names::name(b)),
+            _ => Storage::OnCommand(names::name(b).into()),
         },
         effective: b.maybe(4, names::text),
         write_when: b.few(3, 2, condition),

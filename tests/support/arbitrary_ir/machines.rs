@@ -21,7 +21,7 @@ pub fn machine(b: &mut Bytes<'_>, items: &[CompactString], types: &[CompactStrin
         number: b.maybe(2, |b| b.within(0..=16)),
         from: b.maybe(2, |b| names::of(b, &state_names)),
         to: names::of(b, &state_names),
-        command: b.maybe(2, |b| names::of(b, &command_names)),
+        command: b.maybe(2, |b| names::of(b, &command_names).into()),
         documentation: names::documentation(b),
     });
     StateMachine {

@@ -29,7 +29,7 @@ fn message(b: &mut Bytes<'_>, around: &Around<'_>, known: &[CompactString]) -> M
         0 => Completion::Reply,
         1 => Completion::Delayed(b.any()),
         2 | 3 => Completion::Polled {
-            item: names::of(b, &fields(&reply)),
+            item: names::of(b, &fields(&reply)).into(),
             mask: b.maybe(2, |b| b.pick(&[1, 0x80, u64::MAX])),
             value: b.maybe(2, |b| Value::Int(values::number(b))),
             in_reply: b.any(),

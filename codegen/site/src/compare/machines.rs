@@ -48,7 +48,11 @@ fn pattern(old: &Pattern, new: &Pattern, comparison: &mut Comparison<'_>) {
 fn transitions() -> Elements<Transition> {
     Elements::titled(|transition: &Transition| {
         let from = transition.from.as_deref().unwrap_or("any state");
-        format!("transition from {from} to {} by {}", transition.to, transition.command.as_deref().unwrap_or("itself"))
+        format!(
+            "transition from {from} to {} by {}",
+            transition.to,
+            transition.command.as_ref().map_or("itself", |own| own.as_str())
+        )
     })
     .judged(|_| Judgement::BEHAVIOR, |_| Judgement::BEHAVIOR)
 }

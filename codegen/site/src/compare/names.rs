@@ -2,11 +2,11 @@
 
 use lexibus_codegen::facts::address;
 use lexibus_codegen::ir::{Group, GroupKind, Item, ObjectCode};
-use lexibus_codegen::names::{unique, Case, Wish};
+use lexibus_codegen::names::{self, unique, Case, Wish};
 
 /// The identifier of a name that no other element has.
 pub(super) fn identifier(name: &str) -> String {
-    unique(&[Wish::new(name, "item", "")], &[], Case::Snake).remove(0)
+    names::identifier(&Wish::new(name, "item", ""), Case::Snake)
 }
 
 /// Identifiers of the groups and items of a device or module.

@@ -134,7 +134,7 @@ pub(super) fn model(
     position: u32,
     own: &NamedType,
     views: &[View],
-    machine_methods: &[String],
+    machine_methods: &[&str],
     options: &RustOptions,
 ) -> BitFieldModel {
     let definition = &context.types[position as usize];
@@ -149,7 +149,7 @@ pub(super) fn model(
     let with = Fields { context, native, bits };
 
     let mut taken: Vec<&str> = RESERVED.to_vec();
-    taken.extend(machine_methods.iter().map(String::as_str));
+    taken.extend(machine_methods);
     let methods = view_methods(views, &taken);
     let back = beside(|name| methods.contains(name), snake(name));
     taken.extend(methods.iter().map(String::as_str));

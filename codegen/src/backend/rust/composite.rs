@@ -5,32 +5,36 @@ use super::code::{seq, Data, Doc};
 use super::context::Context;
 use super::docs;
 use super::links::Here;
-use crate::ir::{Composite, Device};
+use crate::ir::{Composite, ItemRef};
 
-pub(super) fn models(context: &Context<'_>, device: &Device) -> Vec<FactModel> {
-    device.composites.iter().zip(&context.names.composites).map(|(own, name)| model(context, own, name)).collect()
+pub(super) fn models(context: &Context<'_>) -> Vec<FactModel> {
+    context.names.composites.iter().map(|named| model(context, named.composite, &named.name)).collect()
 }
 
-fn model(context: &Context<'_>, own: &Composite, name: &str) -> FactModel {
-    let link = |name: &str| context.link(name, Here::TOP).unwrap_or_else(|| docs::escape(name));
-    let parts: Vec<String> = own.parts.iter().map(|part| link(part)).collect();
-    let mut sentences =
-        vec![docs::sentence(&format!("{} in {} to the base {}", docs::escape(&own.name), parts.join(", "), own.base))];
-    if let Some((item, value)) = &own.sign {
+fn model(context: &Context<'_>, composite: &Composite, name: &str) -> FactModel {
+    let link = |item: &ItemRef| context.link(item, Here::TOP).unwrap_or_else(|| docs::escape(item));
+    let parts: Vec<String> = composite.parts.iter().map(link).collect();
+    let mut sentences = vec![docs::sentence(&format!(
+        "{} in {} to the base {}",
+        docs::escape(&composite.name),
+        parts.join(", "),
+        composite.base
+    ))];
+    if let Some((item, value)) = &composite.sign {
         sentences.push(format!("{} is {value} below zero.", link(item)));
     }
-    if !own.unit.is_empty() {
-        sentences.push(format!("In {}.", docs::escape(&own.unit)));
+    if !composite.unit.is_empty() {
+        sentences.push(format!("In {}.", docs::escape(&composite.unit)));
     }
-    let text = own.documentation.as_ref().map_or("", |own| own.text.as_str());
+    let text = composite.documentation.as_ref().map_or("", |documentation| documentation.text.as_str());
     if !text.is_empty() {
         sentences.push(docs::sentence(&docs::escape(text)));
     }
-    let base = Doc::from(own.base.to_string());
-    let value = match &own.sign {
+    let base = Doc::from(composite.base.to_string());
+    let value = match &composite.sign {
         None => Data::call("rt::Composite::new", vec![base]),
         Some((_, negative)) => Data::call("rt::Composite::signed", vec![base, Doc::from(negative.to_string())]),
     };
-    let code = seq!["pub const ", name, ": rt::Composite<", own.parts.len(), "> = ", value, ";"];
+    let code = seq!["pub const ", name, ": rt::Composite<", composite.parts.len(), "> = ", value, ";"];
     FactModel { docs: sentences.join(" "), code }
 }

@@ -46,12 +46,17 @@ impl<'i> Arguments<'i> {
         }
     }
 
-    /// The shortest call that says everything: every argument costs `rustc` a tenth of what the rest of the handle does.
-    pub fn constructor(&self, addresses: &ItemAddresses<'_>, location: impl FnOnce() -> Doc) -> Doc {
-        self.of_object(addresses).or_else(|| self.of_register(addresses)).unwrap_or_else(|| {
+    /// The shortest call that says everything, and whether it needs the runtime's name: every argument costs `rustc` a tenth of what the
+    /// rest of the handle does.
+    pub fn constructor(&self, addresses: &ItemAddresses<'_>, location: impl FnOnce() -> Doc) -> (Doc, bool) {
+        if let Some(call) = self.of_object(addresses) {
+            return (call, self.flags != NO_FLAGS);
+        }
+        let call = self.of_register(addresses).unwrap_or_else(|| {
             let Arguments { name, range, initial, flags, .. } = self;
             call!("new", location(), name, range, initial, literal::string(self.unit), flags)
-        })
+        });
+        (call, true)
     }
 
     /// The arguments in which models of a device differ: range and initial value.

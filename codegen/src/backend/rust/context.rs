@@ -7,7 +7,7 @@ use super::located::Located;
 use super::naming::types::NamedType;
 use super::naming::Names;
 use super::words;
-use crate::ir::Type;
+use crate::ir::{ElementId, Reference, Type};
 
 /// A device or a module with the results of all stages before lowering.
 pub(super) struct Context<'a> {
@@ -31,10 +31,13 @@ impl Context<'_> {
         self.names.types.get(position)
     }
 
-    /// A link from `here` to the item of this name, or to the message of this name if there is no such item.
-    pub fn link(&self, name: &str, here: Here<'_>) -> Option<String> {
-        let item = self.item(name).and_then(|item| self.links.constant(item));
-        let path = item.or_else(|| self.links.message(name))?;
-        Some(here.text(&words::escape(name), path))
+    /// A link from `here` to the element that a reference leads to, if it has a path.
+    pub fn link<Id: Copy + Into<ElementId>>(&self, reference: &Reference<Id>, here: Here<'_>) -> Option<String> {
+        self.link_to(reference.id?.into(), &reference.name, here)
+    }
+
+    /// A link from `here` to an element that shows this name, if it has a path.
+    pub fn link_to(&self, id: ElementId, name: &str, here: Here<'_>) -> Option<String> {
+        Some(here.text(&words::escape(name), self.links.path(id)?))
     }
 }

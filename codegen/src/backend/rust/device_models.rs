@@ -8,9 +8,8 @@ use super::given::{in_unit, wish};
 use super::item_type::ItemType;
 use super::literal;
 use super::objects::ObjectModel;
-use super::reachable::{addressable, is_module};
 use super::variant;
-use crate::ir::{Device, Item, Value, Variant};
+use crate::ir::{Device, Value, Variant};
 use crate::names::{self, Case, Wish};
 
 /// A model of the device that has something of its own.
@@ -43,13 +42,9 @@ pub(super) struct OwnItem {
 
 /// The models that have constants or items of their own. `objects` are the handles of all models.
 pub(super) fn models(context: &Context<'_>, device: &Device, objects: &[ObjectModel]) -> Vec<DeviceModel> {
-    let registers = context.registers.iter().map(|(_, item)| Some(*item));
-    let single = addressable(context).map(|group| group.items.first().filter(|_| !is_module(group)));
-    let items: Vec<Option<&Item>> = registers.chain(single).collect();
     let all = device.variants.iter().map(|own| {
-        let with = items.iter().zip(objects).filter_map(|(item, object)| Some(((*item)?, object)));
-        let items: Vec<OwnItem> =
-            with.filter_map(|(item, object)| self::own(context, item, object, &own.name)).collect();
+        let with = objects.iter().filter(|object| !object.is_module);
+        let items: Vec<OwnItem> = with.filter_map(|object| self::own(context, object, &own.name)).collect();
         (own, constants(device, &own.name, &own.constants), items)
     });
     let with: Vec<_> = all.filter(|(_, constants, items)| !constants.is_empty() || !items.is_empty()).collect();
@@ -68,8 +63,9 @@ fn documentation(context: &Context<'_>, own: &Variant) -> Vec<String> {
     lines
 }
 
-fn own(context: &Context<'_>, item: &Item, object: &ObjectModel, model: &str) -> Option<OwnItem> {
+fn own(context: &Context<'_>, object: &ObjectModel, model: &str) -> Option<OwnItem> {
     let handle = object.items.first()?;
+    let item = context.item(handle.id)?;
     let on_model = variant::on_model(item, model)?;
     let ty = ItemType::of(context, item);
     let arguments = Arguments::of(&on_model, "", &ty, "");

@@ -5,6 +5,7 @@ use std::fmt::Write;
 use super::context::Context;
 use super::item_addresses::ItemAddresses;
 use super::links::Here;
+use super::naming::handles::NamedItem;
 use super::variant;
 pub(super) use super::words::{escape, WORDS};
 use crate::facts::physical::Physical;
@@ -12,25 +13,25 @@ pub(super) use crate::facts::words::sentence;
 use crate::facts::words::Words;
 use crate::facts::words::{capital, row_of};
 use crate::facts::{self};
-use crate::ir::{Binding, Condition, Documentation, Doubt, Item, Manual, SubjectKind, Type, TypeId, Value};
+use crate::ir::{Binding, Condition, Documentation, Doubt, ElementId, Item, Manual, SubjectKind, Type, TypeId, Value};
 
 /// Sentences for doc comments that link to the elements which they name.
-pub(super) fn linked(link: &dyn Fn(&str) -> Option<String>) -> Words<'_> {
+pub(super) fn linked(link: &dyn Fn(ElementId, &str) -> Option<String>) -> Words<'_> {
     Words { escape, link }
 }
 
 /// The lines about an item, for the constant that stands `here`: its name, then its address, type, access and values, then what
 /// belongs to it, and what else is known.
 pub(super) fn item(
-    item: &Item,
+    entry: &NamedItem<'_>,
     name: &str,
     chapter: Option<&str>,
     context: &Context<'_>,
     here: Here<'_>,
 ) -> Vec<String> {
+    let item = entry.item;
     // What replaces an item may be called the same.
-    let is_other = |name: &str| !context.item(name).is_some_and(|own| std::ptr::eq(own, item));
-    let link = |name: &str| is_other(name).then(|| context.link(name, here))?;
+    let link = |id, name: &str| (id != entry.id.into()).then(|| context.link_to(id, name, here))?;
     let words = linked(&link);
     let mut lines = Vec::with_capacity(6);
     if !name.trim().is_empty() {
@@ -38,7 +39,7 @@ pub(super) fn item(
         lines.push(String::new());
     }
     lines.push(facts(item, context, &words));
-    let beside = context.links.beside_constant(item, type_name(context, item), here);
+    let beside = context.links.beside_constant(entry, type_name(context, item), here);
     lines.extend(Some(beside).filter(|line| !line.is_empty()));
     documentation(item, &mut lines);
     let mut paragraphs = Vec::new();
@@ -76,13 +77,13 @@ pub(super) fn item(
 }
 
 /// The lines about an item, for the method that stands `here`: `heading`, what the source says, and what belongs to it.
-pub(super) fn method(item: &Item, heading: &str, context: &Context<'_>, here: Here<'_>) -> Vec<String> {
+pub(super) fn method(entry: &NamedItem<'_>, heading: &str, context: &Context<'_>, here: Here<'_>) -> Vec<String> {
     let mut lines = vec![heading.to_owned()];
-    documentation(item, &mut lines);
+    documentation(entry.item, &mut lines);
     if lines.len() > 1 {
         lines.push(String::new());
     }
-    lines.push(context.links.beside_method(item, type_name(context, item), here));
+    lines.push(context.links.beside_method(entry, type_name(context, entry.item), here));
     lines
 }
 
@@ -104,7 +105,7 @@ fn elsewhere(binding: &Binding) -> Option<String> {
 
 /// `Mode is 1 or 2`, `Status & 0x4 is 0`, with a link from `here` to the item.
 pub(super) fn holds(condition: &Condition, context: &Context<'_>, here: Here<'_>) -> String {
-    linked(&|name| context.link(name, here)).holds(condition)
+    linked(&|id, name| context.link_to(id, name, here)).holds(condition)
 }
 
 /// The words of a description, as sentences.

@@ -8,11 +8,13 @@ use super::item_addresses::ItemAddresses;
 use super::item_type::ItemType;
 use super::links::Here;
 use super::locations::Locations;
-use crate::ir::{Access, Item};
+use super::naming::handles::NamedItem;
+use crate::ir::{Access, ItemId};
 use crate::names;
 
 /// An entry.
 pub(super) struct ItemModel {
+    pub id: ItemId,
     pub constant: String,
     pub method: String,
     pub docs: Vec<String>,
@@ -31,6 +33,8 @@ pub(super) struct ItemModel {
     pub alias: String,
     /// The call that makes the handle, without its type.
     pub constructor: Doc,
+    /// Whether the handle needs the runtime's name.
+    pub names_runtime: bool,
     /// Whether a literal may resemble a mathematical constant.
     pub real: bool,
     /// The object on the bus of the PDOs.
@@ -59,10 +63,9 @@ impl ItemModel {
     }
 }
 
-/// What an item is called: in Rust, in the source, and the title of its chapter.
+/// What the source calls an item, and the title of its chapter.
 #[derive(Clone, Copy)]
 pub(super) struct Title<'n> {
-    pub name: &'n str,
     pub original: &'n str,
     pub chapter: Option<&'n str>,
 }
@@ -71,10 +74,11 @@ pub(super) struct Title<'n> {
 pub(super) fn model(
     context: &Context<'_>,
     locations: &Locations,
-    item: &Item,
-    Title { name, original, chapter }: Title<'_>,
+    entry: &NamedItem<'_>,
+    Title { original, chapter }: Title<'_>,
     (module, outer): (Option<&str>, &str),
 ) -> ItemModel {
+    let NamedItem { id, item, name } = entry;
     let path = module.map(|module| format!("objects::{module}::"));
     let (here, of_method) = match &path {
         Some(path) => (Here::new(outer, path), Here::new(outer, path)),
@@ -86,13 +90,16 @@ pub(super) fn model(
     let location = |outer: &str| locations.argument(addresses.buses(), outer);
     let on = location("").map(|_| addresses.buses().word()).unwrap_or_default();
     let types = |outer: &str| std::iter::once(ty.path(outer)).chain(location(outer).map(Doc::from)).collect();
-    let arguments = Arguments::of(item, original, &ty, outer);
+    let is_location_of_runtime = location(outer).is_some() && addresses.buses().path().is_some();
+    let (constructor, does_call_name_runtime) = Arguments::of(item, original, &ty, outer)
+        .constructor(&addresses, || locations.code(context, &addresses, outer));
     ItemModel {
+        id: *id,
         constant: name.to_ascii_uppercase(),
         method: names::escaped(name),
-        docs: docs::item(item, original, chapter, context, here),
+        docs: docs::item(entry, original, chapter, context, here),
         method_docs: if context.links.has_methods {
-            docs::method(item, &heading, context, of_method)
+            docs::method(entry, &heading, context, of_method)
         } else {
             Vec::new()
         },
@@ -103,7 +110,8 @@ pub(super) fn model(
         arguments_beside: types("super::"),
         type_name: ty.named.map(str::to_owned),
         alias: format!("{}{}{on}", alias(item.access), ty.word()),
-        constructor: arguments.constructor(&addresses, || locations.code(context, &addresses, outer)),
+        names_runtime: ty.names_runtime() || is_location_of_runtime || does_call_name_runtime,
+        constructor,
         real: ty.basic.is_real() && (item.default.is_some() || !item.limits.is_empty()),
         object: addresses.object_on(context.bus),
         mappable: None,

@@ -35,6 +35,11 @@ impl<'s> ItemType<'s> {
         }
     }
 
+    /// Whether its path needs the runtime's name.
+    pub fn names_runtime(&self) -> bool {
+        self.named.is_none() && (self.quantity.is_some() || !matches!(self.basic, ValueType::Native { .. }))
+    }
+
     /// Its name as a part of another one.
     pub fn word(&self) -> String {
         match (self.named, &self.quantity) {

@@ -5,13 +5,13 @@
 use std::collections::HashMap;
 
 use super::located::Located;
-use super::naming::handles::is_cased;
-use super::naming::pdos::is_generated;
+use super::naming::composites::NamedComposite;
+use super::naming::handles::{is_cased, HandleNames, NamedItem};
+use super::naming::pdos::{NamedField, NamedPdo};
 use super::naming::Names;
 use super::options::RustOptions;
-use super::reachable::{addressable, is_module};
 use super::scope::Scope;
-use crate::ir::{Device, Item, PdoEntryKind, Type};
+use crate::ir::{Device, ElementId, ItemId, MessageId, PdoEntryKind, Type};
 
 /// Where a doc comment stands.
 #[derive(Clone, Copy, Debug)]
@@ -127,17 +127,15 @@ const LISTED: usize = 8;
 /// The paths of what is generated for a device or a module, from its place.
 #[derive(Debug, Default)]
 pub(super) struct Links {
-    handles: HashMap<*const Item, Handle>,
-    /// Items by the object that PDOs name.
-    objects: HashMap<(u16, u8), *const Item>,
+    handles: HashMap<ItemId, Handle>,
     /// The names of the structs that carry an object by default.
     carriers: HashMap<(u16, u8), Vec<String>>,
     /// The items of each type, by its position.
-    users: HashMap<u32, Vec<*const Item>>,
-    /// The paths of requests, or of what only the device sends, by the names of the messages.
-    messages: HashMap<String, String>,
+    users: HashMap<u32, Vec<ItemId>>,
+    /// The paths of requests, or of what only the device sends.
+    messages: HashMap<MessageId, String>,
     /// The constants of numbers that items are parts of.
-    wholes: HashMap<*const Item, Vec<String>>,
+    wholes: HashMap<ItemId, Vec<String>>,
     /// Whether the device has a type with methods.
     pub has_methods: bool,
 }
@@ -148,126 +146,107 @@ impl Links {
         let mut links = Links::default();
         let has_objects = !names.handles.is_empty() && scope.device.is_some_and(has_object_access);
         #[cfg(feature = "messages")]
-        let requests = links.add_messages(names);
+        let has_requests = links.add_messages(names);
         #[cfg(not(feature = "messages"))]
-        let requests = 0;
-        links.has_methods = options.accessors && (has_objects || requests > 0);
-        links.add_handles(scope, names, Some(device_name).filter(|_| links.has_methods));
+        let has_requests = false;
+        links.has_methods = options.accessors && (has_objects || has_requests);
+        links.add_handles(scope, &names.handles, Some(device_name).filter(|_| links.has_methods));
         if options.pdos {
-            links.add_pdos(scope, names);
+            names.pdos.iter().for_each(|named| links.add_pdo(named));
         }
-        if let Some(device) = scope.device {
-            links.add_wholes(scope, device, names, device_name);
+        for NamedComposite { composite, name } in &names.composites {
+            let name = if name == device_name { format!("const@{name}") } else { name.clone() };
+            let parts = composite.parts.iter().chain(composite.sign.as_ref().map(|(item, _)| item));
+            for id in parts.filter_map(|part| part.id) {
+                links.wholes.entry(id).or_default().push(name.clone());
+            }
         }
         links
     }
 
-    /// How many requests there are.
+    /// Returns whether there are requests.
     #[cfg(feature = "messages")]
-    fn add_messages(&mut self, names: &Names<'_>) -> usize {
-        let requests = names.messages.paths().filter(|own| own.is_request).count();
-        self.messages = names.messages.paths().map(|own| (own.name, own.path)).collect();
-        requests
+    fn add_messages(&mut self, names: &Names<'_>) -> bool {
+        self.messages = names.messages.paths().map(|message| (message.id, message.path)).collect();
+        names.messages.paths().any(|message| message.is_request)
     }
 
-    fn add_handles(&mut self, scope: &Located<'_>, names: &Names<'_>, device: Option<&str>) {
-        for ((_, item), name) in scope.registers.iter().zip(&names.handles.registers) {
-            self.add_handle(scope, item, name, device);
+    fn add_handles(&mut self, scope: &Scope<'_>, names: &HandleNames<'_>, device: Option<&str>) {
+        for register in &names.registers {
+            self.add_handle(scope, &register.entry, device);
         }
-        for (group, (name, subs)) in addressable(scope).zip(&names.handles.objects) {
-            if !is_module(group) {
-                group.items.iter().for_each(|item| self.add_handle(scope, item, name, device));
-                continue;
-            }
-            for (item, sub) in group.items.iter().zip(subs) {
-                let constant = format!("objects::{name}::{}", sub.to_ascii_uppercase());
-                let method = device.map(|_| format!("objects::{name}::Accessors::{sub}"));
-                self.add(scope, item, Handle { constant, method });
+        for object in &names.objects {
+            for entry in &object.entries {
+                if !object.is_module {
+                    self.add_handle(scope, entry, device);
+                    continue;
+                }
+                let constant = format!("objects::{}::{}", object.name, entry.name.to_ascii_uppercase());
+                let method = device.map(|_| format!("objects::{}::Accessors::{}", object.name, entry.name));
+                self.add(scope, entry, Handle { constant, method });
             }
         }
     }
 
-    fn add_handle(&mut self, scope: &Scope<'_>, item: &Item, name: &str, device: Option<&str>) {
+    fn add_handle(&mut self, scope: &Scope<'_>, entry: &NamedItem<'_>, device: Option<&str>) {
+        let name = &entry.name;
         // A module may be called the same.
         let kind = if is_cased(name) { "" } else { "const@" };
         let constant = format!("{kind}objects::{}", name.to_ascii_uppercase());
-        self.add(scope, item, Handle { constant, method: device.map(|device| format!("{device}::{name}")) });
+        self.add(scope, entry, Handle { constant, method: device.map(|device| format!("{device}::{name}")) });
     }
 
-    fn add(&mut self, scope: &Scope<'_>, item: &Item, handle: Handle) {
-        if let (Type::Named(_), Some((position, _))) = (item.ty, scope.resolve(item.ty).1) {
-            self.users.entry(position).or_default().push(item);
+    fn add(&mut self, scope: &Scope<'_>, entry: &NamedItem<'_>, handle: Handle) {
+        let ty = entry.item.ty;
+        if let (Type::Named(_), Some((position, _))) = (ty, scope.resolve(ty).1) {
+            self.users.entry(position).or_default().push(entry.id);
         }
-        if !scope.pdos.is_empty() {
-            if let Some(object) = item.object() {
-                self.objects.entry(object).or_insert(item);
-            }
-        }
-        self.handles.insert(item, handle);
+        self.handles.insert(entry.id, handle);
     }
 
-    fn add_pdos(&mut self, scope: &Scope<'_>, names: &Names<'_>) {
-        for (own, name) in scope.pdos.iter().zip(&names.pdos).filter(|(own, _)| is_generated(own)) {
-            for entry in own.entries.iter().filter(|entry| entry.kind == PdoEntryKind::Item) {
-                let carriers = self.carriers.entry((entry.index, entry.sub_index)).or_default();
-                if carriers.last() != Some(name) {
-                    carriers.push(name.clone());
-                }
+    fn add_pdo(&mut self, named: &NamedPdo<'_>) {
+        for NamedField { entry, .. } in named.fields.iter().filter(|field| field.entry.kind == PdoEntryKind::Item) {
+            let carriers = self.carriers.entry((entry.index, entry.sub_index)).or_default();
+            if carriers.last() != Some(&named.name) {
+                carriers.push(named.name.clone());
             }
         }
     }
 
-    fn add_wholes(&mut self, scope: &Scope<'_>, device: &Device, names: &Names<'_>, device_name: &str) {
-        for (own, name) in device.composites.iter().zip(&names.composites) {
-            let name = if name == device_name { format!("const@{name}") } else { name.clone() };
-            let parts = own.parts.iter().chain(own.sign.as_ref().map(|(item, _)| item));
-            for item in parts.filter_map(|part| scope.item(part)) {
-                self.wholes.entry(item).or_default().push(name.clone());
-            }
+    /// The path of the constant of an item, or of the type of a message.
+    pub fn path(&self, id: ElementId) -> Option<&str> {
+        match id {
+            ElementId::Item(id) => Some(&self.handles.get(&id)?.constant),
+            ElementId::Message(id) => self.messages.get(&id).map(String::as_str),
         }
-    }
-
-    /// The path of the constant of an item.
-    pub fn constant(&self, item: &Item) -> Option<&str> {
-        Some(&self.handles.get(&std::ptr::from_ref(item))?.constant)
-    }
-
-    /// The path of the constant of what a PDO calls so.
-    pub fn object(&self, object: (u16, u8)) -> Option<&str> {
-        Some(&self.handles.get(self.objects.get(&object)?)?.constant)
-    }
-
-    /// The path of the type of the message called so.
-    pub fn message(&self, name: &str) -> Option<&str> {
-        self.messages.get(name).map(String::as_str)
     }
 
     /// A sentence about the items whose values have the type at this position; empty where none has a handle.
     pub fn users(&self, position: u32, here: Here<'_>) -> String {
         let users = self.users.get(&position).map_or(&[][..], Vec::as_slice);
-        let paths = users.iter().filter_map(|item| Some(self.handles.get(item)?.constant.as_str()));
+        let paths = users.iter().filter_map(|id| Some(self.handles.get(id)?.constant.as_str()));
         sentence("Values of", &paths.collect::<Vec<_>>(), here)
     }
 
     /// What belongs to an item, for the method that reads and writes it: its constant, its type, and the PDOs that carry it.
-    pub fn beside_method(&self, item: &Item, ty: Option<&str>, here: Here<'_>) -> String {
-        let constant = self.constant(item).map(|path| format!("Constant: {}.", here.whole(path)));
-        self.beside(item, [constant, values(ty, here)], here)
+    pub fn beside_method(&self, entry: &NamedItem<'_>, ty: Option<&str>, here: Here<'_>) -> String {
+        let constant = self.path(entry.id.into()).map(|path| format!("Constant: {}.", here.whole(path)));
+        self.beside(entry, [constant, values(ty, here)], here)
     }
 
     /// The same for its constant, with its method.
-    pub fn beside_constant(&self, item: &Item, ty: Option<&str>, here: Here<'_>) -> String {
-        let method = self.handles.get(&std::ptr::from_ref(item)).and_then(|own| own.method.as_ref());
+    pub fn beside_constant(&self, entry: &NamedItem<'_>, ty: Option<&str>, here: Here<'_>) -> String {
+        let method = self.handles.get(&entry.id).and_then(|handle| handle.method.as_ref());
         let link = |path: &String| if here.is_of(path) { here.whole(path) } else { here.code(path) };
         let method = method.map(|path| format!("Accessor: {}.", link(path)));
-        self.beside(item, [method, values(ty, here)], here)
+        self.beside(entry, [method, values(ty, here)], here)
     }
 
-    fn beside(&self, item: &Item, first: [Option<String>; 2], here: Here<'_>) -> String {
-        let carriers = item.object().and_then(|object| self.carriers.get(&object));
+    fn beside(&self, entry: &NamedItem<'_>, first: [Option<String>; 2], here: Here<'_>) -> String {
+        let carriers = entry.item.object().and_then(|object| self.carriers.get(&object));
         let carriers: Vec<String> = carriers.into_iter().flatten().map(|name| format!("pdo::{name}")).collect();
         let carriers: Vec<&str> = carriers.iter().map(String::as_str).collect();
-        let wholes = self.wholes.get(&std::ptr::from_ref(item)).into_iter().flatten();
+        let wholes = self.wholes.get(&entry.id).into_iter().flatten();
         let wholes = sentence("Part of", &wholes.map(String::as_str).collect::<Vec<_>>(), here);
         let behind = [wholes, sentence("Carried by", &carriers, here)];
         first.into_iter().flatten().chain(behind).filter(|one| !one.is_empty()).collect::<Vec<_>>().join(" ")

@@ -6,15 +6,23 @@ use super::item_addresses::ItemAddresses;
 use super::reachable::addressable;
 use super::scope::Scope;
 use super::window::{self, Window};
-use crate::ir::{Group, GroupKind, Item};
+use crate::ir::{Group, GroupKind, Item, ItemId};
 
 /// A device or a module, and where its items are found.
 pub(super) struct Located<'a> {
     scope: Scope<'a>,
     /// The windows through which items are found.
     pub windows: Vec<Window>,
-    /// The items of chapters and images that a client can reach, with the titles of those.
-    pub registers: Vec<(&'a str, &'a Item)>,
+    /// The items of chapters and images that a client can reach.
+    pub registers: Vec<Register<'a>>,
+}
+
+/// An item of a chapter or an image, with the title of that.
+#[derive(Clone, Copy)]
+pub(super) struct Register<'a> {
+    pub chapter: &'a str,
+    pub id: ItemId,
+    pub item: &'a Item,
 }
 
 impl<'a> Located<'a> {
@@ -48,12 +56,15 @@ impl<'a> Deref for Located<'a> {
     }
 }
 
-/// The items of chapters and images that a client can reach, with the titles of those.
-fn registers<'a>(located: &Located<'a>) -> Vec<(&'a str, &'a Item)> {
-    let is_chapter = |group: &&Group| matches!(group.kind, GroupKind::Chapter | GroupKind::Image { .. });
-    let chapters = located.groups.iter().filter(is_chapter);
-    // An image is told with the place of its fields.
-    let title = |group: &'a Group| if group.kind == GroupKind::Chapter { group.name.as_str() } else { "" };
-    let items = chapters.flat_map(|group| group.items.iter().map(move |item| (title(group), item)));
-    items.filter(|(_, item)| !ItemAddresses::of(located, item).buses().is_empty()).collect()
+/// The items of chapters and images that a client can reach.
+fn registers<'a>(located: &Located<'a>) -> Vec<Register<'a>> {
+    let registers = |(position, group): (u32, &'a Group)| {
+        // An image is told with the place of its fields.
+        let chapter = if group.kind == GroupKind::Chapter { group.name.as_str() } else { "" };
+        group.items_at(position).map(move |(id, item)| Register { chapter, id, item })
+    };
+    let is_chapter = |group: &Group| matches!(group.kind, GroupKind::Chapter | GroupKind::Image { .. });
+    let chapters = located.positioned_groups().filter(|(_, group)| is_chapter(group));
+    let reachable = |register: &Register<'_>| !ItemAddresses::of(located, register.item).buses().is_empty();
+    chapters.flat_map(registers).filter(reachable).collect()
 }

@@ -36,8 +36,8 @@ struct Shared {
 
 impl Locations {
     pub fn of(context: &Context<'_>) -> Self {
-        let objects = addressable(context).flat_map(|group| &group.items);
-        let items = objects.chain(context.registers.iter().map(|(_, item)| *item));
+        let objects = addressable(context).flat_map(|(_, group)| &group.items);
+        let items = objects.chain(context.registers.iter().map(|register| register.item));
         let items_addresses: Vec<ItemAddresses<'_>> = items.map(|item| ItemAddresses::of(context, item)).collect();
         let mut each: BTreeMap<Buses, usize> = BTreeMap::new();
         for addresses in &items_addresses {

@@ -9,11 +9,11 @@ use super::doc_table;
 use super::docs;
 use super::enumeration::EnumerationModel;
 use super::links::Here;
-use super::naming::machines;
+use super::naming::machines::NamedMachine;
 use super::options::RustOptions;
 use super::value_type;
 use crate::facts::pattern;
-use crate::ir::{Pattern, Shape, StateMachine, SubjectKind, Transition, Type};
+use crate::ir::{ItemRef, MessageRef, Pattern, Shape, StateMachine, SubjectKind, Transition, Type, TypeId};
 use crate::names::{self, Case};
 
 /// A state machine, ready to be written.
@@ -82,20 +82,17 @@ pub(super) struct PatternModel {
 
 pub(super) fn models(
     context: &Context<'_>,
-    machines: &[StateMachine],
     bit_fields: &[(u32, BitFieldModel)],
     enumerations: &[(u32, EnumerationModel)],
     options: &RustOptions,
 ) -> Vec<MachineModel> {
-    let names = context.names.types.machines.iter().cloned();
-    let model = |((machine, [states, commands]), [state, command]): ((&StateMachine, [String; 2]), [String; 2])| {
-        let patterns =
-            |name, list, item: &str, method| patterns(context, name, list, (item, method), bit_fields, options);
+    let model = |named: &NamedMachine<'_>| {
+        let machine = named.machine;
+        let patterns = |name, list, item, method| patterns(context, name, list, (item, method), bit_fields, options);
         // The values of an enumeration have a type already.
         let own_states = if machine.state_type.is_some() { &[] } else { &*machine.states };
-        let mut states = patterns(states, own_states, &machine.status_item, state);
-        let method = machines::setter(&command);
-        let mut commands = patterns(commands, &machine.commands, &machine.control_item, method);
+        let mut states = patterns(&named.states, own_states, &machine.status_item, &named.getter);
+        let mut commands = patterns(&named.commands, &machine.commands, &machine.control_item, &named.command_setter);
         let transitions = states
             .as_ref()
             .zip(commands.as_ref())
@@ -117,19 +114,19 @@ pub(super) fn models(
         }
         MachineModel { states, commands, transitions }
     };
-    machines.iter().zip(names).zip(machines::methods(machines)).map(model).collect()
+    context.names.types.machines.iter().map(model).collect()
 }
 
 /// The lines about states or commands, and their table.
 fn documentation(
     context: &Context<'_>,
     machine: &StateMachine,
-    (what, item, does): (&str, &str, &str),
+    (what, item, does): (&str, &ItemRef, &str),
     own: &PatternsModel,
 ) -> Vec<String> {
-    let item = match item {
-        "" => String::new(),
-        item => {
+    let item = match item.is_empty() {
+        true => String::new(),
+        false => {
             let item = context.link(item, Here::TYPES).unwrap_or_else(|| docs::escape(item));
             format!(", as {item} {does} them")
         }
@@ -154,12 +151,12 @@ pub(super) fn states_of(
     own: Option<&PatternsModel>,
     enumerations: &[(u32, EnumerationModel)],
 ) -> Option<Variants> {
-    let Some(name) = &machine.state_type else {
+    let Some(state_type) = &machine.state_type else {
         let own = own?;
         return Some((own.name.clone(), own.by_name()));
     };
-    let is_own = |at: &u32| context.types.get(*at as usize).is_some_and(|own| own.name == *name);
-    let (at, own) = enumerations.iter().find(|(at, _)| is_own(at))?;
+    let TypeId(id) = state_type.id?;
+    let (at, own) = enumerations.iter().find(|(at, _)| *at == id)?;
     let Shape::Enumeration { values, .. } = &context.types.get(*at as usize)?.shape else { return None };
     let variant = |number: i128| {
         let number = value_type::number(number, number > 0);
@@ -189,8 +186,8 @@ impl Named<'_, '_> {
     }
 
     /// A command, or the message that is one.
-    fn command(&self, name: &str) -> String {
-        let message = || Some(Here::TYPES.text(&docs::escape(name), self.context.links.message(name)?));
+    fn command(&self, name: &MessageRef) -> String {
+        let message = || self.context.link(name, Here::TYPES);
         Named::variant(self.commands.as_ref(), name).or_else(message).unwrap_or_else(|| docs::escape(name))
     }
 
@@ -245,13 +242,13 @@ fn steps(transitions: &[Transition], states: &PatternsModel, commands: &Patterns
 
 fn patterns(
     context: &Context<'_>,
-    name: String,
+    name: &str,
     list: &[Pattern],
-    (item, method): (&str, String),
+    (item, method): (&ItemRef, &str),
     bit_fields: &[(u32, BitFieldModel)],
     options: &RustOptions,
 ) -> Option<PatternsModel> {
-    let ty = context.item(item).map(|item| item.ty);
+    let ty = context.referred(item).map(|item| item.ty);
     let position = ty.and_then(|ty| context.resolve(ty).1).map(|(position, _)| position);
     let bits = bit_fields.iter().find(|(own, _)| Some(*own) == position).map(|(_, own)| own);
     let native = match (bits, ty.map(|ty| context.base(ty))) {
@@ -292,10 +289,10 @@ fn patterns(
     };
     Some(PatternsModel {
         patterns: list.iter().zip(names).map(pattern).collect(),
-        name,
+        name: name.to_owned(),
         docs: Vec::new(),
         derives: options.derives(true),
         native,
-        bits: bits.map(|own| (own.name.clone(), method)),
+        bits: bits.map(|own| (own.name.clone(), method.to_owned())),
     })
 }

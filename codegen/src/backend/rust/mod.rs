@@ -61,7 +61,9 @@ mod words;
 
 pub use options::{Presence, RustOptions};
 
-use crate::ir::{Catalog, Device, FileInfo, Item, Scale};
+use std::collections::HashMap;
+
+use crate::ir::{Catalog, Device, FileInfo, Item, ItemId, Scale};
 use code::Code;
 use context::Context;
 use ethercat::ModulePaths;
@@ -103,10 +105,9 @@ fn header(file: &FileInfo) -> String {
 }
 
 /// The lines of a program that read and write each item of a device, as in `device.identity().vendor_id().read()?`.
-pub fn calls(device: &Device) -> Vec<(&Item, Vec<String>)> {
+pub fn calls(device: &Device) -> HashMap<ItemId, Vec<String>> {
     let context = model::context(Scope::of_device(device), &RustOptions::default(), "");
-    let lines = |(item, path): (_, String)| (item, calls_of(&context, item, &path));
-    objects::calls(&context).into_iter().map(lines).collect()
+    objects::calls(&context).map(|(entry, path)| (entry.id, calls_of(&context, entry.item, &path))).collect()
 }
 
 /// Reads and writes in the item's unit first, then those of the raw value.

@@ -123,7 +123,7 @@ impl Model {
         model.code_tables = code_table::models(&context, device, options);
         model.axes = axes::model(device);
         model.bus_facts = bus_facts::models(device);
-        model.bus_facts.extend(composite::models(&context, device));
+        model.bus_facts.extend(composite::models(&context));
         model.node_id = device.commissioning.as_ref().and_then(|own| own.node_id);
         model
     }

@@ -4,7 +4,7 @@ use super::bit_field::{self, BitFieldModel};
 use super::context::Context;
 use super::enumeration::{self, EnumerationModel};
 use super::machine::{self, MachineModel};
-use super::naming::machines;
+use super::naming::machines::NamedMachine;
 use super::options::RustOptions;
 
 /// The types of a device or module, ready to be written.
@@ -20,13 +20,10 @@ pub(super) struct Types {
 }
 
 impl Types {
-    pub(super) fn of(context: &Context<'_>, options: &RustOptions) -> Self {
-        let machines = context.device.map_or(&[][..], |device| &device.machines);
-        let mut machine_methods = Vec::new();
-        for [state, command] in machines::methods(machines) {
-            machine_methods.extend([machines::setter(&command), state, command]);
-        }
+    pub(super) fn of<'a>(context: &'a Context<'_>, options: &RustOptions) -> Self {
         let names = &context.names.types;
+        let methods = |own: &'a NamedMachine<'_>| [&own.command_setter, &own.getter, &own.command_getter];
+        let machine_methods: Vec<&str> = names.machines.iter().flat_map(methods).map(String::as_str).collect();
         let enumerations = names.enumerations.iter();
         let enumerations: Vec<_> =
             enumerations.map(|(at, own)| (*at, enumeration::model(context, *at, own, options))).collect();
@@ -34,7 +31,7 @@ impl Types {
             (*at, bit_field::model(context, *at, own, views, &machine_methods, options))
         };
         let bit_fields: Vec<_> = names.bit_fields.iter().map(bit_field).collect();
-        let machines = machine::models(context, machines, &bit_fields, &enumerations, options);
+        let machines = machine::models(context, &bit_fields, &enumerations, options);
         Types { has_bit_fields: !bit_fields.is_empty(), enumerations, bit_fields, machines }
     }
 

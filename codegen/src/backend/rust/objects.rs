@@ -6,10 +6,9 @@ use super::item::{self, ItemModel, Title};
 use super::links::Here;
 use super::locations::Locations;
 use super::method_names::method_allow;
-use super::naming::handles;
-use super::reachable::{addressable, is_module};
-use crate::ir::{Group, Item, ObjectCode};
-use crate::names::{self};
+use super::naming::handles::{self, HandleNames, NamedItem, NamedObject, NamedRegister};
+use crate::ir::ObjectCode;
+use crate::names;
 
 /// An object: one value, or a module of several.
 pub(super) struct ObjectModel {
@@ -33,52 +32,42 @@ impl ObjectModel {
 
     /// Whether its items need the runtime's name.
     pub(super) fn names_runtime(&self) -> bool {
-        self.items
-            .iter()
-            .any(|item| item.arguments.iter().chain([&item.constructor]).any(|own| own.text().contains("rt::")))
+        self.items.iter().any(|item| item.names_runtime)
     }
 }
 
 /// The registers of the chapters, and then the objects.
 pub(super) fn models(context: &Context<'_>, locations: &Locations) -> Vec<ObjectModel> {
-    let registers = context.registers.iter().zip(&context.names.handles.registers);
-    let objects = addressable(context).zip(&context.names.handles.objects);
-    let registers = registers.map(|((chapter, own), name)| register(context, locations, chapter, own, name));
-    registers.chain(objects.map(|(group, (name, subs))| object(context, locations, group, name, subs))).collect()
+    let HandleNames { registers, objects } = &context.names.handles;
+    let registers = registers.iter().map(|named| register(context, locations, named));
+    registers.chain(objects.iter().map(|named| object(context, locations, named))).collect()
 }
 
-fn register(context: &Context<'_>, locations: &Locations, chapter: &str, own: &Item, name: &str) -> ObjectModel {
-    let title = Title { name, original: &own.name, chapter: Some(chapter) };
-    let model = item::model(context, locations, own, title, (None, "super::"));
+fn register(context: &Context<'_>, locations: &Locations, named: &NamedRegister<'_>) -> ObjectModel {
+    let title = Title { original: &named.entry.item.name, chapter: Some(named.chapter) };
+    let model = item::model(context, locations, &named.entry, title, (None, "super::"));
     ObjectModel {
         docs: Vec::new(),
         constants: String::new(),
         heading: model.heading.clone(),
         method_allow: None,
-        name: names::escaped(name),
+        name: names::escaped(&named.entry.name),
         items: vec![model],
         is_module: false,
         is_reexported: false,
     }
 }
 
-fn object(context: &Context<'_>, locations: &Locations, group: &Group, name: &str, subs: &[String]) -> ObjectModel {
-    let index = group.index().unwrap_or(0);
-    let address = format!("0x{index:04X}");
+fn object(context: &Context<'_>, locations: &Locations, named: &NamedObject<'_>) -> ObjectModel {
+    let NamedObject { group, name, is_module, entries, .. } = named;
+    let address = format!("0x{:04X}", group.index().unwrap_or(0));
     let title = if group.name.trim().is_empty() { address.clone() } else { docs::escape(&group.name) };
-    let is_module = is_module(group);
-    let items: Vec<ItemModel> = if is_module {
-        let subs = group.items.iter().zip(subs);
-        let model = |(item, sub): (&Item, &String)| {
-            let title = Title { name: sub, original: &item.name, chapter: None };
-            item::model(context, locations, item, title, (Some(name), "super::super::"))
-        };
-        subs.map(model).collect()
-    } else {
-        let title = Title { name, original: &group.name, chapter: None };
-        let only = group.items.iter().map(|only| item::model(context, locations, only, title, (None, "super::")));
-        only.collect()
+    let (module, outer) = if *is_module { (Some(name.as_str()), "super::super::") } else { (None, "super::") };
+    let model = |entry: &NamedItem<'_>| {
+        let original = if *is_module { &entry.item.name } else { &group.name };
+        item::model(context, locations, entry, Title { original, chapter: None }, (module, outer))
     };
+    let items: Vec<ItemModel> = entries.iter().map(model).collect();
     let code = group.object_code().map_or("", ObjectCode::name);
     ObjectModel {
         docs: vec![docs::sentence(&title), String::new(), format!("{code} {address}.")],
@@ -88,23 +77,19 @@ fn object(context: &Context<'_>, locations: &Locations, group: &Group, name: &st
         method_allow: method_allow(items.iter().map(|item| item.method.as_str())),
         name: names::escaped(name),
         items,
-        is_module,
+        is_module: *is_module,
         is_reexported: false,
     }
 }
 
 /// How a program reaches each item: by the methods of the device's type, as in `identity().vendor_id()`.
-pub(super) fn calls<'a>(context: &Context<'a>) -> Vec<(&'a Item, String)> {
+pub(super) fn calls<'c, 'a>(context: &'c Context<'a>) -> impl Iterator<Item = (&'c NamedItem<'a>, String)> {
     let call = |name: &str| format!("{}()", names::escaped(name));
-    let registers = context.registers.iter().zip(&context.names.handles.registers);
-    let mut calls: Vec<(&'a Item, String)> = registers.map(|((_, item), name)| (*item, call(name))).collect();
-    for (group, (name, subs)) in addressable(context).zip(&context.names.handles.objects) {
-        if is_module(group) {
-            let subs = group.items.iter().zip(subs);
-            calls.extend(subs.map(|(item, sub)| (item, format!("{}.{}", call(name), call(sub)))));
-        } else {
-            calls.extend(group.items.first().map(|item| (item, call(name))));
-        }
-    }
-    calls
+    let HandleNames { registers, objects } = &context.names.handles;
+    let entries = objects.iter().flat_map(|object| object.entries.iter().map(move |entry| (object, entry)));
+    let entries = entries.map(move |(object, entry)| match object.is_module {
+        true => (entry, format!("{}.{}", call(&object.name), call(&entry.name))),
+        false => (entry, call(&entry.name)),
+    });
+    registers.iter().map(move |register| (&register.entry, call(&register.entry.name))).chain(entries)
 }

@@ -10,16 +10,17 @@ use super::docs::WORDS;
 use super::field_type::{field_type, FieldType};
 use super::links::Here;
 use super::method_names::{beside, method_allow};
-use super::naming::pdos::{is_field, is_generated};
+use super::naming;
+use super::naming::pdos::{is_field, is_generated, NamedField, NamedPdo};
 use super::options::RustOptions;
 use super::reachable::addressable;
 use super::scope::ObjectBus;
 use super::slot_dependency::depends_on;
 use crate::ir::{Group, ObjectBuses, Pdo, PdoCommunication, PdoEntry, PdoEntryKind, Value};
-use crate::names::{self, Case, Wish};
+use crate::names;
 use crate::source::Span;
 
-/// The longest name of a field: the lines that pack it have to stay below the margin.
+/// The longest name of a field that is packed where it stands: the line has to stay below the margin.
 const MAX_FIELD_NAME: usize = 30;
 
 /// Bits of a word.
@@ -76,23 +77,19 @@ pub(super) struct FieldModel {
 
 /// Models of all PDOs that have something to carry.
 pub(super) fn models(context: &Context<'_>, options: &RustOptions) -> Vec<PdoModel> {
-    let named = context.pdos.iter().zip(&context.names.pdos);
-    named.filter_map(|(pdo, name)| model(context, pdo, name.clone(), options)).collect()
+    let generated = context.names.pdos.iter().filter(|named| is_generated(named.pdo));
+    generated.map(|named| model(context, named, options)).collect()
 }
 
-fn model(context: &Context<'_>, pdo: &Pdo, struct_name: String, options: &RustOptions) -> Option<PdoModel> {
-    if !is_generated(pdo) {
-        return None;
-    }
-    let mapped: Vec<&PdoEntry> = pdo.entries.iter().filter(|entry| is_field(entry)).collect();
-    let fields = fields(context, &mapped, options);
-    let is_constant =
-        !mapped.iter().any(|entry| matches!(field_type(context, entry.ty, entry.bits), FieldType::Real(_)));
+fn model(context: &Context<'_>, named: &NamedPdo<'_>, options: &RustOptions) -> PdoModel {
+    let pdo = named.pdo;
+    let fields = fields(context, &named.fields, options);
+    let is_constant = !fields.iter().any(|field| matches!(field.kind, FieldType::Real(_)));
     let word = pdo.bits() <= WORD;
-    Some(PdoModel {
+    PdoModel {
         docs: documentation(context, pdo, &fields),
-        view_docs: view_docs(context, pdo, &struct_name),
-        name: struct_name,
+        view_docs: view_docs(context, pdo, &named.name),
+        name: named.name.clone(),
         derives: options.derives(true),
         mapping_index: pdo.mapping_index,
         line: pdo.origin.line,
@@ -100,14 +97,14 @@ fn model(context: &Context<'_>, pdo: &Pdo, struct_name: String, options: &RustOp
         bits: pdo.bits(),
         length: pdo.bytes(),
         constant: if is_constant && word { "const " } else { "" },
-        covered: covered(context, &mapped),
+        covered: covered(&fields),
         fields,
         mapping: pdo.entries.iter().map(mapping_line).collect(),
         word,
         cob_id: cob_id(pdo),
         configuration: configuration(context, pdo),
         has_identifier: has_identifier(pdo),
-    })
+    }
 }
 
 /// The lines about a PDO.
@@ -188,15 +185,15 @@ pub(super) fn title(context: &Context<'_>, pdo: &Pdo) -> String {
 }
 
 /// All bits that come back from unpacking and packing: a time has four reserved bits that don't.
-fn covered(context: &Context<'_>, mapped: &[&PdoEntry]) -> String {
+fn covered(fields: &[FieldModel]) -> String {
     const TIME: u64 = 0xFFFF_0FFF_FFFF;
     let mut covered: u64 = 0;
-    for entry in mapped.iter().filter(|entry| entry.bit_offset + entry.bits <= WORD) {
-        let bits = match field_type(context, entry.ty, entry.bits) {
+    for field in fields.iter().filter(|field| field.offset + field.bits <= WORD) {
+        let bits = match field.kind {
             FieldType::Time(_) => TIME,
-            _ => u64::MAX >> (WORD - entry.bits),
+            _ => u64::MAX >> (WORD - field.bits),
         };
-        covered |= bits << entry.bit_offset;
+        covered |= bits << field.offset;
     }
     format!("{covered:#X}").replace("0X", "0x")
 }
@@ -223,70 +220,31 @@ pub(super) fn mapping_line(entry: &PdoEntry) -> Doc {
     list(&format!("{path}("), arguments, ")")
 }
 
-fn fields(context: &Context<'_>, mapped: &[&PdoEntry], options: &RustOptions) -> Vec<FieldModel> {
-    let texts: Vec<String> = mapped.iter().map(|entry| field_text(context, entry)).collect();
-    let mut seen = HashSet::new();
-    let wishes: Vec<Wish<'_>> = mapped
-        .iter()
-        .zip(&texts)
-        .map(|(entry, text)| {
-            let twice = !seen.insert(address(entry));
-            let place = if twice { format!("_{}", entry.bit_offset) } else { String::new() };
-            Wish {
-                name: text,
-                fallback: format!("object {:04X} {:02X}", entry.index, entry.sub_index),
-                suffix: format!("{:04X}_{}{place}", entry.index, entry.sub_index),
-            }
-        })
-        .collect();
-    let names = names::unique_up_to(&wishes, &["self", "super", "crate"], Case::Snake, MAX_FIELD_NAME);
-    let fields = mapped.iter().zip(&names).zip(&texts);
-    let mut fields: Vec<FieldModel> =
-        fields.map(|((entry, name), text)| field(context, entry, name, text, options)).collect();
+fn fields(context: &Context<'_>, named: &[NamedField<'_>], options: &RustOptions) -> Vec<FieldModel> {
     // Methods called `new` and `at` make the view, others are those of traits that every type may have, and a field may be called as the
     // setter of another.
-    const TAKEN: [&str; 5] = ["new", "at", "clone", "into", "try_into"];
-    let taken: HashSet<&String> = names.iter().collect();
-    for (field, name) in fields.iter_mut().zip(&names) {
-        let is_taken = TAKEN.contains(&name.as_str());
-        field.getter = if is_taken { format!("{name}_") } else { field.name.clone() };
-        // A name that starts with a digit has a line in front of it already.
-        field.setter = beside(|name| taken.contains(name), names::prefixed("set_", name));
-    }
-    fields
-}
-
-fn address(entry: &PdoEntry) -> (u16, u8) {
-    (entry.index, entry.sub_index)
-}
-
-/// The name of the mapped entry: that of its object, and for one of several of an object also its own.
-fn field_text(context: &Context<'_>, entry: &PdoEntry) -> String {
-    // On EtherCAT the description of the PDO names its entries, mostly better than the dictionary does.
-    if context.bus == ObjectBus::CoE && !entry.name.is_empty() {
-        return entry.name.to_string();
-    }
-    let Some(group) = context.object(entry.index) else { return entry.name.to_string() };
-    if group.object_code().is_some_and(|code| code.has_subs()) || group.items.len() != 1 {
-        let own = entry.name.as_str();
-        // Compact objects repeat the object's name in that of each entry.
-        if own.starts_with(group.name.as_str()) {
-            own.to_owned()
-        } else {
-            format!("{} {own}", group.name)
+    const RESERVED: [&str; 5] = ["new", "at", "clone", "into", "try_into"];
+    let names: HashSet<&String> = named.iter().map(|own| &own.name).collect();
+    let field = |NamedField { entry, name }: &NamedField<'_>| {
+        let field = field(context, entry, names::escaped(name), options);
+        let is_reserved = RESERVED.contains(&name.as_str());
+        FieldModel {
+            getter: if is_reserved { format!("{name}_") } else { field.name.clone() },
+            // A name that starts with a digit has a line in front of it already.
+            setter: beside(|name| names.contains(name), names::prefixed("set_", name)),
+            ..field
         }
-    } else {
-        group.name.to_string()
-    }
+    };
+    named.iter().map(field).collect()
 }
 
-fn field(context: &Context<'_>, entry: &PdoEntry, name: &str, text: &str, options: &RustOptions) -> FieldModel {
-    let name = names::escaped(name);
+/// The field of an entry, without its methods.
+fn field(context: &Context<'_>, entry: &PdoEntry, name: String, options: &RustOptions) -> FieldModel {
     let kind = field_type(context, entry.ty, entry.bits);
     let ty = kind.path("super::");
     let cut = kind.cut(entry.bits);
     let address = crate::facts::address::object(entry.index, entry.sub_index);
-    let object = match (entry.kind, context.links.object((entry.index, entry.sub_index))) {
+    let object = match (entry.kind, entry.item.and_then(|id| context.links.path(id.into()))) {
         (PdoEntryKind::Unnumbered, _) => String::new(),
         (PdoEntryKind::Item, Some(path)) => Here::PDO.text(&address, path),
         _ => address,
@@ -297,14 +255,14 @@ fn field(context: &Context<'_>, entry: &PdoEntry, name: &str, text: &str, option
         FieldType::Named(name, _) => Here::PDO.code(&format!("types::{name}")),
         _ => format!("`{}`", ty.trim_start_matches("rt::")),
     };
-    let title = docs::escape(text);
+    let title = docs::escape(&naming::pdos::title(context, entry));
     FieldModel {
         docs: if title.is_empty() {
             vec![facts]
         } else {
             vec![format!("{}: {facts}", title.trim_end_matches(['.', ':']))]
         },
-        getter: name.clone(),
+        getter: String::new(),
         setter: String::new(),
         name,
         object,
@@ -357,26 +315,25 @@ impl PdoModel {
 
     /// The statements that pack more than a word. What takes whole bytes is stored byte by byte, which is what a processor
     /// does best; where something doesn't, words are filled by shifts, and bytes are made of them once.
-    pub(super) fn pack_long(&self) -> Vec<String> {
+    pub(super) fn pack_long(&self) -> Vec<Doc> {
         let is_stored = |field: &&FieldModel| field.long || self.fields.iter().all(FieldModel::is_whole);
         let (stored, shifted): (Vec<_>, Vec<_>) = self.fields.iter().partition(is_stored);
-        let mut lines = Vec::new();
+        let mut lines: Vec<Doc> = Vec::new();
         let mut data = format!("[0; {}]", self.length);
         if !shifted.is_empty() {
-            lines.push(format!("let mut words = [0; {}];", self.bits.div_ceil(WORD)));
+            lines.push(seq!["let mut words = [0; ", self.bits.div_ceil(WORD), "];"]);
             for field in shifted {
-                lines.push(format!("let bits = {};", field.packed()));
-                lines.extend(field.pack_words());
+                lines.extend(field.packed().into_iter().chain(field.pack_words()).map(Doc::from));
             }
             data = "rt::bits::from_words(words)".to_owned();
         }
         if stored.is_empty() {
-            lines.push(data);
+            lines.push(data.into());
             return lines;
         }
-        lines.push(format!("let mut data = {data};"));
+        lines.push(seq!["let mut data = ", data, ";"]);
         lines.extend(stored.iter().flat_map(|field| field.pack_data()));
-        lines.push("data".to_owned());
+        lines.push("data".into());
         lines
     }
 
@@ -388,13 +345,14 @@ impl PdoModel {
 }
 
 impl FieldModel {
-    /// Its bits, none of which is beyond its width.
-    pub(super) fn packed(&self) -> String {
-        let bits = self.kind.encode(&format!("self.{}", self.name), self.bits);
-        match &self.cut {
-            Some(mask) => format!("{bits} & {mask}"),
-            None => bits,
-        }
+    /// The statements that make `bits` of it, none of which is beyond its width.
+    pub(super) fn packed(&self) -> Vec<String> {
+        let field = format!("self.{}", self.name);
+        let is_long = self.name.len() > MAX_FIELD_NAME;
+        let bits = self.kind.encode(if is_long { "value" } else { &field }, self.bits);
+        let cut = self.cut.as_ref().map(|mask| format!(" & {mask}")).unwrap_or_default();
+        let value = is_long.then(|| format!("let value = {field};"));
+        value.into_iter().chain([format!("let bits = {bits}{cut};")]).collect()
     }
 
     /// The statements that put `bits` into the words of a PDO of more than one.
@@ -490,16 +448,15 @@ impl FieldModel {
     }
 
     /// The statements that put the field into `data`, for PDOs of more than a word.
-    fn pack_data(&self) -> Vec<String> {
-        let (offset, bits, name) = (self.offset, self.bits, &self.name);
-        if !self.long {
-            let put = format!("data = rt::bits::put(data, {offset}, {bits}, bits);");
-            return vec![format!("let bits = {};", self.packed()), put];
-        }
-        vec![match self.odd_bits() {
-            Some(bits) => format!("data = rt::bits::put_bits(data, {offset}, {bits}, &self.{name});"),
-            None => format!("data = rt::bits::put_bytes(data, {offset}, &self.{name});"),
-        }]
+    fn pack_data(&self) -> Vec<Doc> {
+        let (offset, bits, field) = (self.offset, self.bits, seq!["&self.", self.name]);
+        let put = match self.odd_bits().filter(|_| self.long) {
+            Some(bits) => call!("rt::bits::put_bits", "data", offset, bits, field),
+            None if self.long => call!("rt::bits::put_bytes", "data", offset, field),
+            None => call!("rt::bits::put", "data", offset, bits, "bits"),
+        };
+        let packed = if self.long { Vec::new() } else { self.packed() };
+        packed.into_iter().map(Doc::from).chain([seq!["data = ", put, ";"]]).collect()
     }
 }
 
@@ -549,7 +506,7 @@ pub(super) fn has_identifier(pdo: &Pdo) -> bool {
 
 fn mapping_writes(context: &Context<'_>, pdo: &Pdo) -> Vec<String> {
     let writable = |group: &Group, sub| group.sub(sub).is_some_and(|item| item.access.writable());
-    let Some(mapping) = addressable(context).find(|group| group.index() == Some(pdo.mapping_index)) else {
+    let Some((_, mapping)) = addressable(context).find(|(_, group)| group.index() == Some(pdo.mapping_index)) else {
         return Vec::new();
     };
     let count = pdo.entries.len();

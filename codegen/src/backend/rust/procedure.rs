@@ -49,7 +49,7 @@ fn documentation(context: &Context<'_>, own: &Procedure) -> Vec<String> {
 fn row(context: &Context<'_>, step: &Step) -> Option<[String; 2]> {
     let Step::Write(name, value) = step else { return None };
     let item = context.link(name, Here::BESIDE).unwrap_or_else(|| docs::escape(name));
-    let ty = context.item(name).map_or(Type::Opaque(None), |item| context.base(item.ty));
+    let ty = context.referred(name).map_or(Type::Opaque(None), |item| context.base(item.ty));
     Some([item, docs::typed(value, ty)])
 }
 
@@ -61,7 +61,7 @@ fn writes(context: &Context<'_>, own: &Procedure) -> Option<Vec<String>> {
 
 fn write(context: &Context<'_>, step: &Step) -> Option<String> {
     let Step::Write(name, Value::Int(value)) = step else { return None };
-    let item = context.item(name)?;
+    let item = context.referred(name)?;
     let (index, sub_index) = object(context, item)?;
     let (Type::Unsigned(bits @ (8 | 16 | 32)) | Type::Integer(bits @ (8 | 16 | 32))) = context.base(item.ty) else {
         return None;

@@ -3,9 +3,9 @@
 use super::scope::Scope;
 use crate::ir::{Group, ObjectCode};
 
-/// Objects that have values to read or write; the definitions of types have none.
-pub(super) fn addressable<'a>(scope: &Scope<'a>) -> impl Iterator<Item = &'a Group> + use<'a> {
-    scope.groups.iter().filter(|group| {
+/// Objects that have values to read or write, with their positions; the definitions of types have none.
+pub(super) fn addressable<'a>(scope: &Scope<'a>) -> impl Iterator<Item = (u32, &'a Group)> + use<'a> {
+    scope.positioned_groups().filter(|(_, group)| {
         let is_type =
             matches!(group.object_code(), Some(ObjectCode::DefType | ObjectCode::DefStruct | ObjectCode::Null));
         group.index().is_some() && !is_type && !group.items.is_empty()

@@ -34,8 +34,7 @@ pub(super) struct RemappableModel {
 /// The PDOs that can be mapped anew; where there are any, items get to know how they are mapped.
 pub(super) fn models(context: &Context<'_>, objects: &mut [ObjectModel]) -> Vec<RemappableModel> {
     let Some(device) = context.device else { return Vec::new() };
-    let named = context.pdos.iter().zip(&context.names.pdos);
-    let models = named.filter_map(|(pdo, name)| model(context, device, pdo, name.clone()));
+    let models = context.names.pdos.iter().filter_map(|named| model(context, device, named.pdo, named.name.clone()));
     let models: Vec<RemappableModel> = models.collect();
     if models.is_empty() || !set_mappable(context, objects) {
         return Vec::new();
@@ -82,7 +81,7 @@ fn model(context: &Context<'_>, device: &Device, pdo: &Pdo, name: String) -> Opt
 
 /// How many entries of the mapping object can be written, where the number of them can, too.
 fn writable_entries(context: &Context<'_>, pdo: &Pdo) -> Option<usize> {
-    let mapping = addressable(context).find(|group| group.index() == Some(pdo.mapping_index))?;
+    let (_, mapping) = addressable(context).find(|(_, group)| group.index() == Some(pdo.mapping_index))?;
     let writable = |sub: &u8| mapping.sub(*sub).is_some_and(|item| item.access.writable());
     let entries = (1..=u8::MAX).take_while(writable).count().min(MAX_PDO_SUBS);
     (writable(&0) && entries > 0).then_some(entries)

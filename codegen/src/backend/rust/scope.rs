@@ -1,11 +1,10 @@
 //! What has objects and PDOs of its own: a device, or a module of a modular one.
 
-use std::cell::OnceCell;
-use std::collections::HashMap;
-
 use super::value_type::ValueType;
 use crate::facts::words;
-use crate::ir::{Device, Group, Item, ItemNames, Manual, Module, ObjectBuses, Pdo, ProcessImage, Shape, Type, TypeDef};
+use crate::ir::{
+    Device, Group, Item, ItemId, ItemRef, Manual, Module, ObjectBuses, Pdo, ProcessImage, Shape, Type, TypeDef,
+};
 
 /// The bus on which objects are addressed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -18,16 +17,14 @@ pub(super) enum ObjectBus {
 pub(super) struct Scope<'a> {
     pub bus: ObjectBus,
     pub groups: &'a [Group],
+    /// The position of the first of them, as ids count them.
+    first_group: u32,
     pub types: &'a [TypeDef],
     pub pdos: &'a [Pdo],
     /// The device; a module has none.
     pub device: Option<&'a Device>,
     /// What is known of the manual that the description was taken from.
     pub manual: Manual,
-    /// Items by what they are called.
-    called: ItemNames<'a>,
-    /// The first values of objects by the names of those.
-    by_object: OnceCell<HashMap<&'a str, &'a Item>>,
 }
 
 impl<'a> Scope<'a> {
@@ -40,20 +37,12 @@ impl<'a> Scope<'a> {
 
     /// A module.
     pub fn of_module(module: &'a Module) -> Self {
-        Scope::new(ObjectBus::CoE, &module.groups, &module.types, &module.process_data.pdos)
+        let scope = Scope::new(ObjectBus::CoE, &module.groups, &module.types, &module.process_data.pdos);
+        Scope { first_group: module.fixed_objects.len() as u32, ..scope }
     }
 
     fn new(bus: ObjectBus, groups: &'a [Group], types: &'a [TypeDef], pdos: &'a [Pdo]) -> Self {
-        Scope {
-            bus,
-            groups,
-            types,
-            pdos,
-            device: None,
-            manual: Manual::default(),
-            called: ItemNames::new(groups),
-            by_object: OnceCell::new(),
-        }
+        Scope { bus, groups, first_group: 0, types, pdos, device: None, manual: Manual::default() }
     }
 
     /// The object with this index.
@@ -109,26 +98,18 @@ impl<'a> Scope<'a> {
         ValueType::of(self.base(ty))
     }
 
-    /// The item that other elements of the description call so: by its name, its object's name, its address, or the names
-    /// of its chapter and its own (`Chapter/Item`).
-    pub fn item(&self, name: &str) -> Option<&'a Item> {
-        let by_object = || self.by_object().get(name).copied();
-        let found = self.called.by_name(name).or_else(by_object).or_else(|| {
-            let (index, sub) = name.split_once(':').unwrap_or((name, "0"));
-            let index = u16::from_str_radix(index.trim().strip_prefix("0x")?, 16).ok()?;
-            self.object(index)?.sub(sub.trim().parse().ok()?)
-        });
-        found.or_else(|| self.called.by_path(name))
+    /// The groups with their positions, as ids count them.
+    pub fn positioned_groups(&self) -> impl Iterator<Item = (u32, &'a Group)> + use<'a> {
+        (self.first_group..).zip(self.groups)
     }
 
-    /// By its name, the first value of an object.
-    fn by_object(&self) -> &HashMap<&'a str, &'a Item> {
-        self.by_object.get_or_init(|| {
-            let mut first: HashMap<&str, Option<&Item>> = HashMap::new();
-            for group in self.groups.iter().filter(|group| group.index().is_some()) {
-                first.entry(group.name.as_str()).or_insert(group.items.first());
-            }
-            first.into_iter().filter_map(|(name, item)| Some((name, item?))).collect()
-        })
+    /// The item with this id.
+    pub fn item(&self, id: ItemId) -> Option<&'a Item> {
+        ItemId { group: id.group.checked_sub(self.first_group)?, ..id }.of(self.groups)
+    }
+
+    /// The item that a reference leads to.
+    pub fn referred(&self, reference: &ItemRef) -> Option<&'a Item> {
+        self.item(reference.id?)
     }
 }

@@ -28,13 +28,13 @@ pub(super) struct EntryModel {
 /// Registers that are no objects, in the order of their addresses, and then the objects, by index and sub-index.
 pub(super) fn models(context: &Context<'_>) -> Vec<EntryModel> {
     let mut rows = Vec::new();
-    for group in addressable(context) {
+    for (_, group) in addressable(context) {
         let by_object = !is_module(group);
         for item in &group.items {
             entries(context, item, if by_object { &group.name } else { &item.name }, &mut rows);
         }
     }
-    for (_, item) in &context.registers {
+    for item in context.registers.iter().map(|register| register.item) {
         entries(context, item, &item.name, &mut rows);
     }
     rows.sort_by_key(|(key, _)| *key);

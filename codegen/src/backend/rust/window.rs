@@ -3,7 +3,7 @@
 use super::item_addresses;
 use super::route::RouteBus;
 use super::scope::Scope;
-use crate::ir::{Binding, Device, IndirectBinding, Item, Procedure, Step, WindowSide};
+use crate::ir::{Binding, Device, IndirectBinding, Item, ItemId, ItemRef, Procedure, Step, WindowSide};
 use crate::names::{self, Case, Wish};
 
 /// How often a number is looked at that the device clears, where nothing says for how many milliseconds.
@@ -85,12 +85,12 @@ fn title(own: &Window) -> String {
 /// The window, where the bus has all of it.
 fn window(scope: &Scope<'_>, device: &Device, side: &WindowSide, key: (String, u8, RouteBus, bool)) -> Option<Window> {
     let (_, _, bus, is_write) = key;
-    let (number, value) = (scope.item(&side.number)?, scope.item(&side.value)?);
+    let (number, value) = (scope.referred(&side.number)?, scope.referred(&side.value)?);
     let addresses =
         [item_addresses::address(scope, number, bus, true)?, item_addresses::address(scope, value, bus, is_write)?];
     let [number_type, value_type] = [number, value].map(|item| scope.base(item.type_on(bus.of_items())));
     let bits = |ty: crate::ir::Type| ty.bits().filter(|bits| (1..=64).contains(bits));
-    let procedure = side.procedure.as_ref().and_then(|name| device.procedures.iter().find(|own| own.name == *name));
+    let procedure = side.procedure.as_ref().and_then(|reference| device.procedure(reference));
     let told = procedure.map(|own| Told::of(own, side)).unwrap_or_default();
     let is_cleared = number.behaviour.as_ref().is_some_and(|own| own.self_clearing);
     let clears = side.clears.unwrap_or(told.clears || is_cleared);
@@ -126,20 +126,20 @@ struct Told {
 impl Told {
     fn of(procedure: &Procedure, side: &WindowSide) -> Self {
         let mut told = Told::default();
-        let writes = |step: &Step, name: &str| match step {
-            Step::Write(item, _) | Step::WriteBits(item, ..) | Step::WriteArgument(item, _) => item == name,
+        let writes = |step: &Step, id: ItemId| match step {
+            Step::Write(item, _) | Step::WriteBits(item, ..) | Step::WriteArgument(item, _) => item.id == Some(id),
             _ => false,
         };
         for step in &procedure.steps {
             match step {
-                Step::WaitFor(item, _, value, timeout) if *item == side.number && value.as_int() == Some(0) => {
+                Step::WaitFor(item, _, value, timeout) if item.id == side.number.id && value.as_int() == Some(0) => {
                     (told.clears, told.timeout) = (true, *timeout);
                 }
                 Step::Delay(time) => told.wait = Some(told.wait.unwrap_or(0).saturating_add(*time)),
                 _ => {}
             }
         }
-        let place = |name: &str| procedure.steps.iter().position(|step| writes(step, name));
+        let place = |item: &ItemRef| item.id.and_then(|id| procedure.steps.iter().position(|step| writes(step, id)));
         told.number_first = place(&side.number).zip(place(&side.value)).map(|(number, value)| number < value);
         told
     }

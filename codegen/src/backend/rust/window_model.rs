@@ -5,6 +5,7 @@ use super::context::Context;
 use super::docs;
 use super::links::Here;
 use super::window::Window;
+use crate::ir::ItemRef;
 
 /// A window, ready to be written.
 pub(super) struct WindowModel {
@@ -33,8 +34,9 @@ fn model(context: &Context<'_>, own: &Window) -> WindowModel {
         facts.push(format!("is_number_first: {}", own.number_first));
     }
     facts.push(format!("handshake: {}", own.handshake));
-    let link = |name: &str| context.link(name, Here::BESIDE).unwrap_or_else(|| format!("\"{}\"", docs::escape(name)));
-    let [number, value] = [&own.side.number, &own.side.value].map(|name| link(name));
+    let link =
+        |item: &ItemRef| context.link(item, Here::BESIDE).unwrap_or_else(|| format!("\"{}\"", docs::escape(item)));
+    let [number, value] = [&own.side.number, &own.side.value].map(link);
     let verb = if is_write { "takes" } else { "gives" };
     let kind = if is_write { "rt::WriteWindow" } else { "rt::ReadWindow" };
     WindowModel {

@@ -9,7 +9,7 @@ use super::references::{References, ITEM};
 use super::tree::Reader;
 use super::value;
 use crate::diagnostics::codes;
-use crate::ir::{Availability, Condition, ItemRef, Type};
+use crate::ir::{Availability, Condition, ElementRef, Type};
 
 /// Who has an element, as a table says it.
 pub(super) struct Window<'t> {
@@ -54,7 +54,7 @@ pub(super) fn conditions(
             let message = "the condition never holds: it has no value, or one with bits outside of its `mask`";
             reader.report(&codes::TABLE_VALUE, span, message);
         }
-        conditions.push(Condition { item: reader.reference(item), values, mask });
+        conditions.push(Condition { item: reader.reference(item), values, names: Vec::new(), mask });
     }
     conditions
 }
@@ -72,7 +72,7 @@ pub(super) fn availability(
         models: models.map(|model| model.value.as_str().into()).collect(),
         since: since.map(CompactString::from),
         until: until.map(CompactString::from),
-        replaced_by: given.replaced_by.map(ItemRef::from),
+        replaced_by: given.replaced_by.map(ElementRef::from),
         buses: given.buses.map(|list| buses::read(reader, list)).unwrap_or_default(),
         ..Availability::default()
     };

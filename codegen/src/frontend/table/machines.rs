@@ -96,7 +96,7 @@ fn transition(reader: &mut Reader<'_, '_>, given: &At<TransitionTable>, names: &
         number: own.number,
         from: from.map(|name| name.as_str().into()),
         to: own.to.as_ref().map(text).unwrap_or_default(),
-        command: own.command.as_ref().map(text),
+        command: own.command.as_ref().map(|command| reader.reference(command)),
         documentation: reader.documentation_of(own),
     };
     match from.is_empty() {

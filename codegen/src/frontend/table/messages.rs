@@ -210,7 +210,12 @@ fn completion(
                     rows.references.push((name, ITEM_OR_FIELD));
                 }
                 let value = table.value.as_ref().and_then(|own| value::convert(own, Type::Opaque(None), false));
-                Some(Completion::Polled { item: text(item), mask: table.mask, value, in_reply: table.in_reply })
+                Some(Completion::Polled {
+                    item: reader.reference(item),
+                    mask: table.mask,
+                    value,
+                    in_reply: table.in_reply,
+                })
             }
             (None, Some(delay)) if table.mask.is_none() && table.value.is_none() && !table.in_reply => {
                 Some(Completion::Delayed(delay))

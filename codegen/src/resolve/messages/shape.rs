@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use super::frame::Frame;
 use super::shaper::{self, Side};
-use crate::ir::{Device, Message};
+use crate::ir::{Device, Message, MessageId};
 
 /// Why there is no code.
 pub(crate) type Problem = &'static str;
@@ -12,16 +12,16 @@ pub(crate) type Problem = &'static str;
 /// A message with the shapes of its data.
 #[derive(Clone, Debug)]
 pub(crate) struct Shaped<'a> {
+    pub id: MessageId,
     pub message: &'a Message,
     pub request: Side<'a>,
     pub reply: Side<'a>,
 }
 
 impl<'a> Shaped<'a> {
-    fn new(device: &'a Device, message: &'a Message) -> Result<Self, Problem> {
-        let request = shaper::request(device, message)?;
-        let reply = shaper::reply(device, message, &request)?;
-        Ok(Shaped { message, request, reply })
+    fn new(device: &'a Device, id: MessageId, message: &'a Message) -> Option<Self> {
+        let (request, reply) = sides(device, message).ok()?;
+        Some(Shaped { id, message, request, reply })
     }
 
     pub(super) fn is_called(&self, name: &str) -> bool {
@@ -34,9 +34,16 @@ impl<'a> Shaped<'a> {
     }
 }
 
+fn sides<'a>(device: &'a Device, message: &'a Message) -> Result<(Side<'a>, Side<'a>), Problem> {
+    let request = shaper::request(device, message)?;
+    let reply = shaper::reply(device, message, &request)?;
+    Ok((request, reply))
+}
+
 /// The messages for which code is generated.
 pub(crate) fn shapes(device: &Device) -> Vec<Shaped<'_>> {
-    let all: Vec<Shaped<'_>> = device.messages.iter().filter_map(|message| Shaped::new(device, message).ok()).collect();
+    let messages = (0..).map(MessageId).zip(&device.messages);
+    let all: Vec<Shaped<'_>> = messages.filter_map(|(id, message)| Shaped::new(device, id, message)).collect();
     let lost = without_selector(&all);
     all.into_iter().zip(lost).filter(|(_, is_lost)| !is_lost).map(|(shaped, _)| shaped).collect()
 }
@@ -83,7 +90,7 @@ pub(crate) fn refusal(shapes: &[Shaped<'_>], message: &Message) -> Option<usize>
 
 /// Returns why a message has no shape.
 pub(crate) fn problem(device: &Device, message: &Message) -> Result<(), Problem> {
-    Shaped::new(device, message).map(drop)
+    sides(device, message).map(drop)
 }
 
 /// Whether a problem is reported elsewhere: a name that leads nowhere, or bytes that aren't whole.

@@ -53,11 +53,11 @@ pub mod pdo {
     ///
     /// | Bytes | Field | Object | Type |
     /// |---|---|---|---|
-    /// | 0.0–8191.6 | [`output`](Self::output) | [0x7000:02](super::objects::object_7000::OUTPUT_2) | `[u8; 8192]` |
+    /// | 0.0–8191.6 | [`output_2`](Self::output_2) | [0x7000:02](super::objects::object_7000::OUTPUT_2) | `[u8; 8192]` |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct P1602 {
         /// Output: [0x7000:02](super::objects::object_7000::OUTPUT_2), 65535 bits from bit 0.
-        pub output: [u8; 8192],
+        pub output_2: [u8; 8192],
     }
     impl P1602 {
         /// Length in bits.
@@ -68,7 +68,7 @@ pub mod pdo {
         #[inline]
         pub fn pack(&self) -> [u8; 8192] {
             let mut data = [0; 8192];
-            data = rt::bits::put_bits(data, 0, 65535, &self.output);
+            data = rt::bits::put_bits(data, 0, 65535, &self.output_2);
             data
         }
         /// The fields of a frame. Bytes behind the mapped ones are not looked at.
@@ -82,7 +82,7 @@ pub mod pdo {
                 return Err(rt::LengthError::new(Self::LEN, data.len()));
             };
             let pdo = Self {
-                output: rt::bits::get_bits(data, 0, 65535),
+                output_2: rt::bits::get_bits(data, 0, 65535),
             };
             Ok(pdo)
         }

@@ -200,7 +200,7 @@ fn constant(field: &str) -> String {
 }
 
 fn documentation(context: &Context<'_>, item: &Item, base: Type) -> Vec<String> {
-    let link = |name: &str| context.link(name, Here::MESSAGES);
+    let link = |id, name: &str| context.link_to(id, name, Here::MESSAGES);
     let words = docs::linked(&link);
     let mut facts = format!("{base}");
     facts.extend(docs::limits(item).map(|limits| format!(", {limits}")));

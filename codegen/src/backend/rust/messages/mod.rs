@@ -269,7 +269,6 @@ impl Maker<'_, '_> {
 
     /// The lines about a message, for a place.
     fn documentation(&self, message: &Message, here: Here<'_>) -> Vec<String> {
-        let message_link = |name: &str| Some(here.text(&docs::escape(name), self.context.links.message(name)?));
         let mut lines = vec![docs::sentence(&docs::escape(&message.name))];
         let mut sentences = Vec::new();
         docs::words(message.documentation.as_deref(), &mut sentences);
@@ -288,13 +287,14 @@ impl Maker<'_, '_> {
         }
         sentences.extend(message.side_effects.iter().map(|effect| docs::sentence(&docs::escape(effect))));
         sentences.extend(message.after.iter().map(|other| {
-            let other = message_link(other).unwrap_or_else(|| docs::escape(other));
+            let other = self.context.link(other, here).unwrap_or_else(|| docs::escape(other));
             format!("Means this after {other}.")
         }));
         if message.by_default {
             sentences.push("So it is after power-on, too.".to_owned());
         }
-        sentences.extend(message.availability.as_ref().map(|own| docs::linked(&message_link).availability(own)));
+        let link = |id, name: &str| self.context.link_to(id, name, here);
+        sentences.extend(message.availability.as_ref().map(|own| docs::linked(&link).availability(own)));
         sentences.extend(WORDS.place(&self.context.manual, "", message.documentation.as_deref(), &message.names));
         sentences.extend(message.doubts.iter().map(|own| WORDS.doubt(&self.context.manual, own)));
         for sentence in sentences.into_iter().filter(|sentence| !sentence.is_empty()) {

@@ -87,7 +87,7 @@ fn documentation(context: &Context<'_>, own: Option<&ParameterSpace>, space: &st
     let mut text = format!("How parameters of the space {} stand in messages.", docs::escape(space));
     let messages = own.map_or([None, None], |own| [own.read.as_ref(), own.write.as_ref()]);
     for (name, by) in messages.into_iter().zip(["Read", "Written"]) {
-        if let Some(path) = name.and_then(|name| context.links.message(name)) {
+        if let Some(path) = name.and_then(|message| context.links.path(message.id?.into())) {
             text += &format!(" {by} by {}.", Here::MESSAGES.code(path));
         }
     }

@@ -1,49 +1,118 @@
 //! The names of handles: those of objects, of their entries, and of registers.
 
+use std::borrow::Cow;
+
 use crate::backend::rust::item_addresses::ItemAddresses;
-use crate::backend::rust::located::Located;
+use crate::backend::rust::located::{Located, Register};
 use crate::backend::rust::method_names::{BESIDE_MESSAGES, RESERVED};
 use crate::backend::rust::reachable::{addressable, is_module};
-use crate::ir::{Group, Item};
+use crate::ir::{Group, Item, ItemId, ObjectCode};
 use crate::names::{self, Case, Wish};
 
 /// Constants of an object have nothing to clash with; its methods would be taken for a constructor, or couldn't be called because
 /// every type has one of that name.
 const RESERVED_IN_OBJECT: [&str; 7] = ["self", "super", "crate", "rt", "new", "into", "try_into"];
 
-/// The names of handles in Rust, as yet without an escape.
-#[derive(Default)]
-pub(in crate::backend::rust) struct HandleNames {
-    /// Those of `Scope::registers`.
-    pub registers: Vec<String>,
-    /// Those of the objects that have values, and those of the values of each that is a module.
-    pub objects: Vec<(String, Vec<String>)>,
+/// An item and the name of its handle, as yet without an escape.
+pub(in crate::backend::rust) struct NamedItem<'a> {
+    pub id: ItemId,
+    pub item: &'a Item,
+    pub name: String,
 }
 
-impl HandleNames {
+/// An item of a chapter or an image, with the title of that.
+pub(in crate::backend::rust) struct NamedRegister<'a> {
+    pub chapter: &'a str,
+    pub entry: NamedItem<'a>,
+}
+
+/// An object that has values, and its name.
+pub(in crate::backend::rust) struct NamedObject<'a> {
+    pub group: &'a Group,
+    position: u32,
+    pub name: String,
+    /// Whether it is a module of several values; else its only value has its name.
+    pub is_module: bool,
+    pub entries: Vec<NamedItem<'a>>,
+}
+
+/// The names of handles in Rust.
+#[derive(Default)]
+pub(in crate::backend::rust) struct HandleNames<'a> {
+    /// By their ids, in ascending order.
+    pub registers: Vec<NamedRegister<'a>>,
+    /// By the positions of their groups, in ascending order.
+    pub objects: Vec<NamedObject<'a>>,
+}
+
+impl<'a> HandleNames<'a> {
+    /// The names of the registers and of the objects.
+    pub(super) fn of(located: &Located<'a>) -> Self {
+        let mut names = unique(located).into_iter();
+        let registers = located.registers.iter().zip(names.by_ref());
+        let registers = registers.map(|(&Register { chapter, id, item }, name)| NamedRegister {
+            chapter,
+            entry: NamedItem { id, item, name },
+        });
+        let registers = registers.collect();
+        let objects = addressable(located).zip(names).map(|((position, group), name)| {
+            let is_module = is_module(group);
+            let entries = if is_module { entry_names(group) } else { vec![name.clone()] };
+            let entries = group.items_at(position).zip(entries).map(|((id, item), name)| NamedItem { id, item, name });
+            NamedObject { group, position, is_module, entries: entries.collect(), name }
+        });
+        HandleNames { registers, objects: objects.collect() }
+    }
+
     /// Whether there is no handle.
     pub(in crate::backend::rust) fn is_empty(&self) -> bool {
         self.registers.is_empty() && self.objects.is_empty()
     }
+
+    /// The name of an item's handle if it tells what the value is; `None` for elements of arrays and entries without a name.
+    pub(super) fn of_entry(&self, id: ItemId) -> Option<&str> {
+        let (object, entry) = self.find(id)?;
+        let is_array = |object: &NamedObject<'_>| object.group.object_code() == Some(ObjectCode::Array);
+        let tells = object.is_none_or(|object| !is_array(object) && !entry.item.name.trim().is_empty());
+        tells.then_some(entry.name.as_str())
+    }
+
+    /// The name of an item in any context: that of its handle, behind that of an object of several values unless it repeats this one.
+    pub(super) fn whole(&self, id: ItemId) -> Option<Cow<'_, str>> {
+        let (object, entry) = self.find(id)?;
+        let (title, name) = (object.map_or("", |object| object.group.name.trim()), entry.item.name.trim());
+        Some(match object {
+            Some(object) if name.is_empty() || !title.is_empty() && !name.starts_with(title) => {
+                names::joined(&object.name, &entry.name).into()
+            }
+            _ => entry.name.as_str().into(),
+        })
+    }
+
+    /// An item, and its object if that has several values.
+    fn find(&self, id: ItemId) -> Option<(Option<&NamedObject<'a>>, &NamedItem<'a>)> {
+        if let Ok(at) = self.registers.binary_search_by_key(&id, |register| register.entry.id) {
+            return Some((None, &self.registers[at].entry));
+        }
+        let at = self.objects.binary_search_by_key(&id.group, |object| object.position).ok()?;
+        let object = &self.objects[at];
+        Some((Some(object).filter(|object| object.is_module), object.entries.get(id.item as usize)?))
+    }
 }
 
-/// The names of the registers and of the objects.
-pub(super) fn names(scope: &Located<'_>) -> HandleNames {
-    let groups: Vec<&Group> = addressable(scope).collect();
-    let register = |(_, item): &(&'_ str, &Item)| ItemAddresses::of(scope, item).suffix();
-    let suffixes: Vec<String> = scope.registers.iter().map(register).collect();
-    let registers = scope.registers.iter().zip(suffixes);
-    let registers = registers.map(|((_, item), suffix)| Wish::new(&item.name, "register", suffix));
-    let objects = groups.iter().copied();
-    let objects = objects.map(|own| Wish::new(&own.name, "object", format!("{:04X}", own.index().unwrap_or(0))));
+/// The names of the registers, and then those of the objects.
+fn unique(located: &Located<'_>) -> Vec<String> {
+    let suffixes: Vec<String> =
+        located.registers.iter().map(|register| ItemAddresses::of(located, register.item).suffix()).collect();
+    let registers = located.registers.iter().zip(suffixes);
+    let registers = registers.map(|(register, suffix)| Wish::new(&register.item.name, "register", suffix));
+    let objects = addressable(located)
+        .map(|(_, group)| Wish::new(&group.name, "object", format!("{:04X}", group.index().unwrap_or(0))));
     let wishes: Vec<Wish<'_>> = registers.chain(objects).collect();
-    let has_messages = scope.device.is_some_and(|device| !device.messages.is_empty());
-    let beside = BESIDE_MESSAGES.into_iter().filter(|_| has_messages);
-    let reserved: Vec<&str> = RESERVED.into_iter().chain(beside).collect();
-    let mut names = names::unique(&wishes, &reserved, Case::Snake).into_iter();
-    let registers = names.by_ref().take(scope.registers.len()).collect();
-    let subs = |group: &Group| if is_module(group) { sub_names(group) } else { Vec::new() };
-    HandleNames { registers, objects: names.zip(groups).map(|(name, group)| (name, subs(group))).collect() }
+    let has_messages = located.device.is_some_and(|device| !device.messages.is_empty());
+    let of_messages = BESIDE_MESSAGES.into_iter().filter(|_| has_messages);
+    let reserved: Vec<&str> = RESERVED.into_iter().chain(of_messages).collect();
+    names::unique(&wishes, &reserved, Case::Snake)
 }
 
 /// Whether a constant is called otherwise than a module or a method.
@@ -51,7 +120,7 @@ pub(in crate::backend::rust) fn is_cased(name: &str) -> bool {
     name.to_ascii_uppercase() != name
 }
 
-fn sub_names(group: &Group) -> Vec<String> {
+fn entry_names(group: &Group) -> Vec<String> {
     let wishes: Vec<Wish<'_>> =
         group.items.iter().map(|item| Wish::new(&item.name, "sub", item.object().map_or(0, |(_, sub)| sub))).collect();
     names::unique(&wishes, &RESERVED_IN_OBJECT, Case::Snake)

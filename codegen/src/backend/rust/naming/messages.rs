@@ -1,6 +1,6 @@
 //! The names of the types of messages.
 
-use crate::ir::{Device, Message};
+use crate::ir::{Device, Message, MessageId};
 use crate::names::{self, Case, Wish};
 use crate::resolve::messages::{self, Shaped};
 
@@ -28,8 +28,7 @@ fn wished(message: &Message) -> MessageNames {
 
 /// The path of a message, from the device's place.
 pub(in crate::backend::rust) struct MessagePath {
-    /// The name of the message.
-    pub name: String,
+    pub id: MessageId,
     /// Whether it is a request; else only the device sends it.
     pub is_request: bool,
     pub path: String,
@@ -39,6 +38,7 @@ pub(in crate::backend::rust) struct MessagePath {
 #[derive(Default)]
 pub(in crate::backend::rust) struct NamedMessages<'a> {
     pub shapes: Vec<Shaped<'a>>,
+    /// By the positions of the shapes.
     pub names: Vec<MessageNames>,
 }
 
@@ -53,7 +53,7 @@ impl<'a> NamedMessages<'a> {
         let path = |(own, [request, reply, ..]): (&Shaped<'_>, &MessageNames)| {
             let is_request = !own.message.request.is_empty();
             let path = format!("messages::{}", if is_request { request } else { reply });
-            MessagePath { name: own.message.name.to_string(), is_request, path }
+            MessagePath { id: own.id, is_request, path }
         };
         let named = self.shapes.iter().zip(&self.names);
         named.filter(|(own, _)| !own.message.request.is_empty() || !own.message.reply.is_empty()).map(path)

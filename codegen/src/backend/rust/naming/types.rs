@@ -3,7 +3,8 @@
 
 use std::collections::{HashMap, HashSet};
 
-use super::machines;
+use super::handles::HandleNames;
+use super::machines::{self, NamedMachine};
 use crate::backend::rust::scope::Scope;
 use crate::backend::rust::value_type::ValueType;
 use crate::ir::{BitFieldEntry, BitMeaning, Condition, Message, Shape, StateMachine, Type, TypeDef, Value};
@@ -46,37 +47,33 @@ pub(in crate::backend::rust) struct View {
 
 /// The names of all types.
 #[derive(Default)]
-pub(in crate::backend::rust) struct TypeNames {
+pub(in crate::backend::rust) struct TypeNames<'a> {
     /// By the positions of their definitions, in ascending order.
     pub enumerations: Vec<(u32, NamedType)>,
     /// The same, with the views of each.
     pub bit_fields: Vec<(u32, NamedType, Vec<View>)>,
     /// The enumerations that fields of bit fields have.
     pub in_fields: HashSet<u32>,
-    /// The types of states and of commands of each machine.
-    pub machines: Vec<[String; 2]>,
+    pub machines: Vec<NamedMachine<'a>>,
 }
 
 /// Names of the prelude that the same module uses, and those of which clippy would take a method for a constructor.
 const RESERVED: [&str; 9] = ["Self", "Option", "Result", "Unknown", "Some", "None", "Default", "New", "FromRaw"];
 
-impl TypeNames {
+impl<'a> TypeNames<'a> {
     /// The types that items and PDO entries have, and those of the fields of bit fields.
-    pub(super) fn of(scope: &Scope<'_>) -> Self {
-        let mut types = used(scope);
+    pub(super) fn of(scope: &Scope<'a>, handles: &HandleNames<'_>) -> Self {
+        let mut types = used(scope, handles);
         let machines = scope.device.map_or(&[][..], |device| &device.machines);
         let mut names = types.unique(scope, machines).into_iter();
-        let mut next = || names.next().unwrap_or_default();
-        for (_, own) in &mut types.enumerations {
-            own.name = next();
-        }
-        for (_, own, _) in &mut types.bit_fields {
-            own.name = next();
+        let enumerations = types.enumerations.iter_mut().map(|(_, named)| named);
+        for named in enumerations.chain(types.bit_fields.iter_mut().map(|(_, named, _)| named)) {
+            named.name = names.next().unwrap_or_default();
         }
         for view in types.bit_fields.iter_mut().flat_map(|(.., views)| views) {
-            view.name = next();
+            view.name = names.next().unwrap_or_default();
         }
-        types.machines = machines.iter().map(|_| [next(), next()]).collect();
+        types.machines = machines::names(machines, &mut names);
         types
     }
 
@@ -125,8 +122,8 @@ impl TypeNames {
         }));
         let others = names::unique(&wishes, &RESERVED, Case::Pascal);
         let plain: HashSet<String> = wishes.iter().map(pascal).collect();
-        let is_taken = |name: &str| plain.contains(name) || others.iter().any(|own| own == name);
-        let machine_names = machines::names(machines, &is_taken);
+        let is_used = |name: &str| plain.contains(name) || others.iter().any(|other| other == name);
+        let machine_names = machines::wished(machines, &is_used);
         let of_machine = |name| Wish { name, fallback: "machine".to_owned(), suffix: "Machine".to_owned() };
         wishes.extend(machine_names.iter().flatten().map(|name| of_machine(name)));
         names::unique(&wishes, &RESERVED, Case::Pascal)
@@ -135,7 +132,7 @@ impl TypeNames {
 
 /// The name that a type would have if there were no others.
 fn pascal(wish: &Wish<'_>) -> String {
-    names::unique(std::slice::from_ref(wish), &[], Case::Pascal).remove(0)
+    names::identifier(wish, Case::Pascal)
 }
 
 /// How many types have a name, and a name and an integer below.
@@ -174,7 +171,7 @@ fn below(scope: &Scope<'_>, own: &TypeDef) -> Type {
 }
 
 /// The types that are used, as yet without names.
-fn used(scope: &Scope<'_>) -> TypeNames {
+fn used<'a>(scope: &Scope<'_>, handles: &HandleNames<'_>) -> TypeNames<'a> {
     let items = scope.groups.iter().flat_map(|group| &group.items).map(|item| item.ty);
     let entries = scope.pdos.iter().flat_map(|pdo| &pdo.entries).map(|entry| entry.ty);
     let fields = scope.device.into_iter().flat_map(|device| device.messages.iter().flat_map(Message::values));
@@ -200,7 +197,8 @@ fn used(scope: &Scope<'_>) -> TypeNames {
     enumerations.sort_unstable();
     bit_fields.sort_unstable();
     let enumerations = enumerations.into_iter().filter_map(|at| Some((at, enumeration(scope, at)?)));
-    let bit_fields = bit_fields.into_iter().filter_map(|at| Some((at, bit_field(scope, at)?, views(scope, at))));
+    let bit_fields =
+        bit_fields.into_iter().filter_map(|at| Some((at, bit_field(scope, at)?, views(scope, handles, at))));
     let (enumerations, bit_fields) = (enumerations.collect(), bit_fields.collect());
     TypeNames { enumerations, bit_fields, in_fields, machines: Vec::new() }
 }
@@ -234,13 +232,13 @@ fn bit_field(scope: &Scope<'_>, position: u32) -> Option<NamedType> {
 }
 
 /// The conditions under which bits of the type at this position have a meaning.
-fn views(scope: &Scope<'_>, position: u32) -> Vec<View> {
+fn views(scope: &Scope<'_>, handles: &HandleNames<'_>, position: u32) -> Vec<View> {
     let Shape::BitField { fields, .. } = &scope.types[position as usize].shape else { return Vec::new() };
     let mut views: Vec<View> = Vec::new();
     for field in fields.iter().filter(|field| !matches!(field.meaning, BitMeaning::Reserved { .. })) {
         let Some(condition) = &field.when else { continue };
         if !views.iter().any(|view| view.condition == *condition) {
-            let (condition, words) = (condition.clone(), words(scope, condition));
+            let (condition, words) = (condition.clone(), words(scope, handles, condition));
             views.push(View { name: String::new(), condition, words });
         }
     }
@@ -249,22 +247,29 @@ fn views(scope: &Scope<'_>, position: u32) -> Vec<View> {
 
 /// The names of the values of a condition; `None` where one has no name, or only some bits count.
 pub(in crate::backend::rust) fn value_names(scope: &Scope<'_>, condition: &Condition) -> Option<Vec<String>> {
-    let item = scope.item(&condition.item);
+    let item = scope.referred(&condition.item);
     let definition = item.and_then(|item| scope.resolve(item.ty).1).map(|(_, definition)| definition);
     let named = |value: &Value| {
         let Shape::Enumeration { values, .. } = &definition?.shape else { return None };
         let number = value.as_int()?;
         values.iter().find(|own| own.value == number && own.last.is_none()).map(|own| own.name.to_string())
     };
-    condition.values.iter().map(named).collect::<Option<_>>().filter(|_| condition.mask.is_none())
+    let of_condition = || {
+        let names: Vec<String> = condition.names.iter().map(ToString::to_string).collect();
+        (!names.is_empty()).then_some(names)
+    };
+    let of_item = condition.values.iter().map(named).collect::<Option<_>>();
+    of_item.or_else(of_condition).filter(|_| condition.mask.is_none())
 }
 
 /// The words of a condition for a name.
-fn words(scope: &Scope<'_>, condition: &Condition) -> String {
+fn words(scope: &Scope<'_>, handles: &HandleNames<'_>, condition: &Condition) -> String {
+    let item = condition.item.id.and_then(|id| handles.whole(id));
+    let item = item.unwrap_or_else(|| condition.item.as_str().into());
     let numbers = condition.values.iter().map(Value::to_string).collect::<Vec<_>>().join(" or ");
     match (value_names(scope, condition), condition.mask) {
         (Some(names), _) => format!("in {}", names.join(" or ")),
-        (None, Some(mask)) => format!("in {} {mask:x} {numbers}", condition.item),
-        (None, None) => format!("in {} {numbers}", condition.item),
+        (None, Some(mask)) => format!("in {item} {mask:x} {numbers}"),
+        (None, None) => format!("in {item} {numbers}"),
     }
 }

@@ -57,7 +57,7 @@ fn pack(code: &mut Code, pdo: &PdoModel) {
     if pdo.word {
         line!(code, "let mut word = 0;");
         for field in &pdo.fields {
-            line!(code, "let bits = ", field.packed(), ";");
+            code.lines(field.packed());
             match field.offset {
                 0 => line!(code, "word |= bits;"),
                 offset => line!(code, "word |= bits << ", offset, ";"),

@@ -284,7 +284,7 @@ impl<'o> Applied<'o> {
         let names = self.patcher.rows.definitions.made.keys().cloned();
         self.used.extend(names);
         *place.types = std::mem::take(&mut self.patcher.rows.definitions.types);
-        name_conditions(place.groups, place.types.get_mut(made..).unwrap_or_default());
+        name_conditions(place.groups, place.types.get_mut(made..).unwrap_or_default(), &|_| None);
         best
     }
 
