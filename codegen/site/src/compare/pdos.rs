@@ -138,15 +138,10 @@ impl Layout<'_> {
         self.fields().map(text).collect()
     }
 
-    /// The effects of another layout. Names and types of fields are those of a struct in Rust; a field of an item has the item's name, whose
-    /// change is reported there.
+    /// The effects of another layout. Names and types of fields are those of a struct in Rust.
     fn effects_of(&self, new: &Layout<'_>) -> Judgement {
-        let name = |entry: &PdoEntry| match entry.item {
-            Some(_) => address::object(entry.index, entry.sub_index),
-            None => identifier(&entry.name),
-        };
         let fields = |layout: &Layout<'_>| -> Vec<(String, String)> {
-            layout.fields().map(|entry| (name(entry), types::name(layout.types, entry.ty))).collect()
+            layout.fields().map(|entry| (identifier(&entry.name), types::name(layout.types, entry.ty))).collect()
         };
         let api = if fields(self) != fields(new) { Effect::Breaking } else { Effect::Unaffected };
         Judgement { api, wire: self.wire_effect_of(new), ..Judgement::NONE }
