@@ -77,6 +77,7 @@ const fn name<const LENGTH: usize>(constant: &str) -> [u8; LENGTH] {
 macro_rules! codes {
     ($($id:ident $constant:ident $class:ident $level:ident $summary:literal $explanation:literal)*) => {
         $(
+            #[allow(rustdoc::broken_intra_doc_links, reason = "names of sections of an EDS have brackets")]
             #[doc = concat!("`", stringify!($id), "`: ", $summary, ".")]
             pub static $constant: Code = Code {
                 id: stringify!($id),
