@@ -2,129 +2,155 @@
 
 use core::fmt;
 
-/// Writes a bit field for `Debug`: the flags that are set, the fields with their values, and in hexadecimal what else is
-/// set. Generated code calls it.
+/// Writes a bit field for `Debug`: the flags that are set, the fields with their values, and all other set bits in
+/// hexadecimal. Generated code calls it.
+///
+/// `layout` is the name of the type and then, after a space each, `name:mask` of every field with the mask in hexadecimal.
+/// A mask of one bit is a flag, of several bits a number. `!name:mask` is a flag that is set if its bit is 0. `?name:mask`
+/// takes its value from `values`, in order.
+///
+/// # Errors
+///
+/// Those of the formatter.
 ///
 /// ```
 /// use core::fmt;
-/// use lexibus::DebugBits;
 ///
 /// struct Status(u16);
 ///
 /// impl fmt::Debug for Status {
 ///     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-///         DebugBits::new(f, "Status", self.0.into())
-///             .plain(&[("running", 0x1), ("level", 0xC)])
-///             .inverted("fault", 0x10)
-///             .field("mode", 0x60, &['a', 'b', 'c', 'd'][usize::from(self.0 >> 5 & 3)])
-///             .finish()
+///         let mode = ['a', 'b', 'c', 'd'][usize::from(self.0 >> 5 & 3)];
+///         lexibus::debug_bits(f, self.0.into(), "Status running:1 level:c !fault:10 ?mode:60", &[&mode])
 ///     }
 /// }
 ///
 /// assert_eq!(format!("{:?}", Status(0x8025)), "Status { running, level: 1, fault, mode: 'b', 0x8000 }");
 /// ```
-pub struct DebugBits<'f, 'a> {
+pub fn debug_bits(f: &mut fmt::Formatter<'_>, raw: u64, layout: &str, values: &[&dyn fmt::Debug]) -> fmt::Result {
+    let (title, fields) = layout.split_once(' ').unwrap_or((layout, ""));
+    f.write_str(title)?;
+    let mut entries = Entries { f, any: false };
+    let (mut named, mut values) = (0, values.iter());
+    for field in fields.split_terminator(' ') {
+        let (name, mask) = field.split_once(':').unwrap_or((field, ""));
+        let mask = u64::from_str_radix(mask, 16).unwrap_or(0);
+        named |= mask;
+        let bits = raw & mask;
+        if let Some(name) = name.strip_prefix('?') {
+            if let Some(value) = values.next() {
+                entries.write(format_args!("{name}: {value:?}"))?;
+            }
+        } else if let Some(name) = name.strip_prefix('!') {
+            entries.flag(name, bits == 0)?;
+        } else if mask.count_ones() < 2 {
+            entries.flag(name, bits != 0)?;
+        } else {
+            entries.write(format_args!("{name}: {}", bits >> mask.trailing_zeros()))?;
+        }
+    }
+    if raw & !named != 0 {
+        entries.write(format_args!("{:#X}", raw & !named))?;
+    }
+    entries.f.write_str(if entries.any { " }" } else { "" })
+}
+
+/// What is between the braces.
+struct Entries<'f, 'a> {
     f: &'f mut fmt::Formatter<'a>,
-    raw: u64,
-    /// The bits that have a name.
-    known: u64,
     any: bool,
-    result: fmt::Result,
 }
 
-impl<'f, 'a> DebugBits<'f, 'a> {
-    /// Starts with the name of the type.
-    pub fn new(f: &'f mut fmt::Formatter<'a>, name: &str, raw: u64) -> Self {
-        let result = f.write_str(name);
-        Self { f, raw, known: 0, any: false, result }
-    }
-
-    /// Flags and plain numbers, by the bits that they have: one bit is a flag, several are a number.
-    ///
-    /// Most fields are such, and the compiler checks one list much faster than a call for each.
-    #[must_use]
-    pub fn plain(mut self, fields: &[(&str, u64)]) -> Self {
-        for &(name, mask) in fields {
-            let bits = self.raw & mask;
-            self = match mask.count_ones() {
-                0 | 1 => self.named(name, mask, bits != 0),
-                _ => self.field(name, mask, &(bits >> mask.trailing_zeros())),
-            };
+impl Entries<'_, '_> {
+    fn flag(&mut self, name: &str, is_set: bool) -> fmt::Result {
+        match is_set {
+            true => self.write(format_args!("{name}")),
+            false => Ok(()),
         }
-        self
     }
 
-    /// A flag that is set while its bit is 0.
-    #[must_use]
-    pub fn inverted(self, name: &str, mask: u64) -> Self {
-        let is_set = self.raw & mask == 0;
-        self.named(name, mask, is_set)
-    }
-
-    /// A field with its value.
-    #[must_use]
-    pub fn field(mut self, name: &str, mask: u64, value: &dyn fmt::Debug) -> Self {
-        self.known |= mask;
-        self.entry(format_args!("{name}: {value:?}"));
-        self
-    }
-
-    /// Ends with the bits that have no name.
-    ///
-    /// # Errors
-    ///
-    /// Those of the formatter.
-    pub fn finish(mut self) -> fmt::Result {
-        let rest = self.raw & !self.known;
-        if rest != 0 {
-            self.entry(format_args!("{rest:#X}"));
-        }
-        self.result?;
-        self.f.write_str(if self.any { " }" } else { "" })
-    }
-
-    fn named(mut self, name: &str, mask: u64, is_set: bool) -> Self {
-        self.known |= mask;
-        if is_set {
-            self.entry(format_args!("{name}"));
-        }
-        self
-    }
-
-    fn entry(&mut self, text: fmt::Arguments<'_>) {
-        if self.result.is_ok() {
-            let start = if self.any { ", " } else { " { " };
-            self.any = true;
-            self.result = self.f.write_str(start).and_then(|()| self.f.write_fmt(text));
-        }
+    fn write(&mut self, text: fmt::Arguments<'_>) -> fmt::Result {
+        self.f.write_str(if self.any { ", " } else { " { " })?;
+        self.any = true;
+        self.f.write_fmt(text)
     }
 }
+
+/// Access to the bits of an integer for generated code: a call of these functions compiles faster than operators do.
+macro_rules! bits {
+    ($($module:ident $native:ident)*) => {
+        $(
+            #[doc(hidden)]
+            pub mod $module {
+                /// Whether a bit of the mask is set.
+                #[inline]
+                pub const fn flag(bits: $native, mask: $native) -> bool {
+                    bits & mask != 0
+                }
+
+                /// The bits, with those of the mask set or cleared.
+                #[inline]
+                #[must_use]
+                pub const fn with_flag(bits: $native, mask: $native, value: bool) -> $native {
+                    if value {
+                        bits | mask
+                    } else {
+                        bits & !mask
+                    }
+                }
+
+                /// The number in the bits of the mask, which are next to each other.
+                #[inline]
+                pub const fn field(bits: $native, mask: $native) -> $native {
+                    (bits & mask) >> (mask.trailing_zeros() & ($native::BITS - 1))
+                }
+
+                /// The bits, with the low bits of a number in those of the mask, which are next to each other.
+                #[inline]
+                #[must_use]
+                pub const fn with_field(bits: $native, mask: $native, value: $native) -> $native {
+                    (bits & !mask) | ((value << (mask.trailing_zeros() & ($native::BITS - 1))) & mask)
+                }
+            }
+        )*
+    };
+}
+
+bits! { bits8 u8 bits16 u16 bits32 u32 bits64 u64 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use std::format;
 
-    struct Bits(u64);
+    struct Bits(&'static str, u64);
 
     impl fmt::Debug for Bits {
         fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-            DebugBits::new(f, "Bits", self.0).plain(&[("a", 1), ("b", 0xF0)]).finish()
-        }
-    }
-
-    struct None(u64);
-
-    impl fmt::Debug for None {
-        fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-            DebugBits::new(f, "None", self.0).plain(&[("a", 1), ("nothing", 0)]).finish()
+            debug_bits(f, self.1, self.0, &[&'v'])
         }
     }
 
     #[test]
     fn names_what_is_set() {
-        assert_eq!(format!("{:?}", Bits(0)), "Bits { b: 0 }");
-        assert_eq!(format!("{:?}", Bits(0x8000_0000_0000_0031)), "Bits { a, b: 3, 0x8000000000000000 }");
-        assert_eq!(format!("{:?} {:?}", None(0), None(2)), "None None { 0x2 }");
+        let layout = "Bits a:1 b:f0";
+        assert_eq!(format!("{:?}", Bits(layout, 0)), "Bits { b: 0 }");
+        let all = Bits(layout, 0x8000_0000_0000_0031);
+        assert_eq!(format!("{all:?}"), "Bits { a, b: 3, 0x8000000000000000 }");
+        assert_eq!(format!("{:?} {:?}", Bits("None a:1", 0), Bits("None a:1", 2)), "None None { 0x2 }");
+        assert_eq!(format!("{:?} {:?}", Bits("Empty", 0), Bits("Empty", 1)), "Empty Empty { 0x1 }");
+        let layout = "Both !off:1 ?mode:6 on:8000000000000000";
+        assert_eq!(format!("{:?}", Bits(layout, 0)), "Both { off, mode: 'v' }");
+        assert_eq!(format!("{:?}", Bits(layout, 0x8000_0000_0000_0007)), "Both { mode: 'v', on }");
+    }
+
+    #[test]
+    fn a_field_keeps_the_other_bits() {
+        assert!(bits8::flag(0x80, 0x80) && !bits64::flag(1, 2));
+        assert_eq!((bits16::with_flag(0x8001, 1, false), bits16::with_flag(0, 0x10, true)), (0x8000, 0x10));
+        assert_eq!((bits8::field(0xFF, 0xFF), bits32::field(0x1234_5678, 0xFF_0000)), (0xFF, 0x34));
+        assert_eq!(bits64::field(u64::MAX, 0xF << 60), 0xF);
+        assert_eq!(bits32::with_field(u32::MAX, 0x70, 0xFD), 0xFFFF_FFDF);
+        assert_eq!(bits16::with_field(0xFF, 0x30, 2), 0xEF);
     }
 }

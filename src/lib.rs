@@ -154,7 +154,9 @@ pub use abort::AbortCode;
 pub use access::{Const, Readable, Ro, Rw, Wo, Writable};
 pub use accessor::Accessor;
 pub use axes::{Axes, Axis, AxisBus, AxisRange, AxisStep};
-pub use bit_field::DebugBits;
+pub use bit_field::debug_bits;
+#[doc(hidden)]
+pub use bit_field::{bits16, bits32, bits64, bits8};
 pub use bus::{Bus, CanOpen, CoE, Esc, EscMemory, Modbus, Object, Parameter, ProcessImage, Profinet, Record, Serial};
 pub use client::{AsyncClient, Client, Timed, Write};
 pub use composite::Composite;

@@ -1,7 +1,7 @@
 //! Sentences about elements of the IR, for documentation of any kind.
 
-use crate::facts::cob_id;
 use crate::facts::physical::{self, depends_on_node, shown_unit, Physical};
+use crate::facts::{address, cob_id};
 use crate::ir::{
     Availability, Behaviour, Binding, Bus, CiteUnit, CompactString, Condition, Device, Direction, Documentation, Doubt,
     ElementId, Fact, FactOrigin, Item, ItemVariant, Limits, LocalText, Manual, Quantity, Reference, Rule, Scale,
@@ -208,6 +208,10 @@ impl Words<'_> {
         if behaviour.write_once {
             sentences.push("Can be written only once.".to_owned());
         }
+        sentences.extend(behaviour.srdo.map(|srdo| match srdo.inverted {
+            Some((index, sub)) => format!("Mappable into SRDOs; inverted data: {}.", address::object(index, sub)),
+            None => "Mappable into SRDOs.".to_owned(),
+        }));
         sentences.extend(behaviour.side_effects.iter().map(|effect| sentence(&self.escaped(effect))));
         sentences
     }

@@ -392,6 +392,9 @@ pub struct Behaviour {
     pub setting: bool,
     /// Its role in functional safety (SafetyMapping of ETG.2000: `si`, `so`, `sio`, `sp`).
     pub safety: Option<CompactString>,
+    /// Mapping into a safety-relevant data object of CANopen, if it is allowed (SRDOMapping of CiA 306-1).
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
+    pub srdo: Option<Srdo>,
     /// Whether a tool doesn't show it (Visible of GSDML).
     pub hidden: bool,
     /// What the slave's own side may do with memory of its slave controller (PDI access in ETG.1000.4).
@@ -401,6 +404,14 @@ pub struct Behaviour {
     pub read_states: Vec<CompactString>,
     /// Communication states in which writing is allowed (ETG.2000 WriteRestrictions); empty = all.
     pub write_states: Vec<CompactString>,
+}
+
+/// How an object is mapped into a safety-relevant data object (EN 50325-5).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Srdo {
+    /// Index and sub-index of the object with the bitwise inverted data (InvertedSRAD of CiA 306-1).
+    pub inverted: Option<(u16, u8)>,
 }
 
 /// Where a value is kept over power-off.

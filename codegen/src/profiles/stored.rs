@@ -110,7 +110,7 @@ structures! {
     Quantity { unit, scale, sentinels, step | units, machine, conversions }
     Behaviour {
         storage, effective, write_when, writable_values, side_effects, self_clearing, write_once, hidden
-        | backup, setting, safety, pdi_access, read_states, write_states
+        | backup, setting, safety, srdo, pdi_access, read_states, write_states
     }
     Condition { item, values, mask | names }
     TypeDef { name, shape, bits, documentation | code, origin }

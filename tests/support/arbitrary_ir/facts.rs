@@ -1,7 +1,8 @@
 //! What items, bits and messages have beside their type: quantities, conditions, availability, behaviour, variants.
 
 use lexibus_codegen::ir::{
-    Access, Availability, Behaviour, Condition, Conversion, ItemVariant, MachineUnit, Quantity, Storage, Type, Value,
+    Access, Availability, Behaviour, Condition, Conversion, ItemVariant, MachineUnit, Quantity, Srdo, Storage, Type,
+    Value,
 };
 use lexibus_codegen::source::Span;
 
@@ -88,6 +89,7 @@ pub fn behaviour(b: &mut Bytes<'_>) -> Behaviour {
         backup: b.any(),
         setting: b.any(),
         safety: b.maybe(6, |b| b.pick(&["si", "so", "sio", "sp"]).into()),
+        srdo: b.maybe(6, |b| Srdo { inverted: b.maybe(2, |b| (b.within(0x2000..=0x9FFF), b.within(0..=0xFE))) }),
         hidden: b.one_in(4),
         pdi_access: b.maybe(6, access),
         read_states: b.few(6, 2, names::name),

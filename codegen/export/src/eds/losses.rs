@@ -5,7 +5,7 @@ use super::note::{self, NoteKind, Notes, Subject};
 use super::registers;
 use super::section::BIT_RATES;
 use super::{is_coe_only, Context, Flavour};
-use lexibus_codegen::ir::{Binding, Catalog, Device, Group, GroupKind, Item, Module, ObjectBuses};
+use lexibus_codegen::ir::{Behaviour, Binding, Catalog, Device, Group, GroupKind, Item, Module, ObjectBuses};
 
 /// What the device has beside objects.
 pub(super) fn of_device(context: &Context<'_>, catalog: &Catalog, notes: &mut Notes) {
@@ -92,7 +92,8 @@ pub(super) fn of_item(item: &Item, notes: &mut Notes) {
     notes.add_many(NoteKind::Binding, item.bindings.iter().filter(|binding| is_other(binding)).count(), subject);
     notes.add_many(NoteKind::Language, item.names.len(), subject);
     notes.add_many(NoteKind::Quantity, item.quantity.is_some(), subject);
-    notes.add_many(NoteKind::Behaviour, item.behaviour.is_some(), subject);
+    let is_lost = |behaviour: &Behaviour| *behaviour != Behaviour { srdo: behaviour.srdo, ..Behaviour::default() };
+    notes.add_many(NoteKind::Behaviour, item.behaviour.as_deref().is_some_and(is_lost), subject);
     let variants = item.variants.len();
     notes.add_many(NoteKind::Availability, usize::from(item.availability.is_some()) + variants, subject);
     notes.add_many(NoteKind::Relation, note::relations(item), subject);

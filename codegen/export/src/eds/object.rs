@@ -200,6 +200,12 @@ impl<'a> Object<'a> {
         let ty = data_type.ty;
         self.number(writer, "DefaultValue", item.default.as_ref(), ty, Role::Value, subject);
         writer.flag("PDOMapping", is_mappable);
+        if let Some(srdo) = item.behaviour.as_ref().and_then(|behaviour| behaviour.srdo) {
+            writer.flag("SRDOMapping", true);
+            if let Some((index, sub)) = srdo.inverted {
+                writer.entry("InvertedSRAD", format_args!("0x{index:04X}{sub:02X}"));
+            }
+        }
         if item.limits.are_swapped(ty) {
             writer.notes.add(NoteKind::SwappedLimits, subject);
         } else {

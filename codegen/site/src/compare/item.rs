@@ -13,7 +13,7 @@ use lexibus_codegen::facts;
 use lexibus_codegen::facts::words::{fact_name, PLAIN};
 use lexibus_codegen::ir::{
     Access, Behaviour, CompactString, Configured, Conversion, FactOrigins, Item, ItemVariant, Limits, MachineUnit,
-    Mappable, Quantity, RelatedItems, Scale, Storage, TypeDef, Value,
+    Mappable, Quantity, RelatedItems, Scale, Srdo, Storage, TypeDef, Value,
 };
 
 /// Compares all facts of an item.
@@ -272,6 +272,9 @@ fn behaviour(old: &Behaviour, new: &Behaviour, comparison: &mut Comparison<'_>) 
         backup: fact("part of a backup", Judgement::BEHAVIOR),
         setting: fact("setting of the application", Judgement::NONE),
         safety: fact("role in functional safety", Judgement::BEHAVIOR),
+        srdo: fact_as("mapping into SRDOs", Judgement::BEHAVIOR, |srdo: &Option<Srdo>| {
+            PLAIN.behaviour(&Behaviour { srdo: *srdo, ..Behaviour::default() }).concat()
+        }),
         hidden: fact("hidden by tools", Judgement::NONE),
         pdi_access: fact("access of the device's own processor", Judgement::BEHAVIOR),
         read_states: restricted("readable in states"),

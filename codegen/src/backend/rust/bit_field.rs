@@ -2,7 +2,7 @@
 
 use std::collections::HashSet;
 
-use super::code::{call, seq, slice, Doc};
+use super::code::{call, seq, Doc};
 use super::context::Context;
 use super::doc_table;
 use super::docs;
@@ -54,9 +54,11 @@ impl BitFieldModel {
 pub(super) struct DebugModel {
     /// The attribute in front of it.
     pub gate: Option<String>,
-    pub title: String,
     pub raw: String,
-    pub calls: Vec<Doc>,
+    /// The name of the type, and names and masks of its fields, for `debug_bits` of the runtime.
+    pub layout: String,
+    /// The values of fields that have types of their own.
+    pub values: Vec<Doc>,
 }
 
 /// A flag or a field of several bits.
@@ -70,9 +72,11 @@ pub(super) struct FieldModel {
     /// Its value, from `self.0`.
     pub get: Doc,
     /// All bits with `value` in its place.
-    pub set: String,
-    /// How `Debug` prints it.
-    debug: FieldDebug,
+    pub set: Doc,
+    /// Its name and mask in the layout for `Debug`.
+    debug: String,
+    /// Whether `Debug` prints the value that the getter returns.
+    prints_value: bool,
     /// Its first bit, and its row in the table of the bit field.
     row: Row,
 }
@@ -283,38 +287,14 @@ fn debug(name: &str, native: &str, fields: &[FieldModel], options: &RustOptions)
         Presence::Always => None,
         Presence::Feature(feature) => Some(format!("#[cfg(feature = {})]", literal::string(feature))),
     };
+    let layout: Vec<&str> = std::iter::once(name).chain(fields.iter().map(|field| field.debug.as_str())).collect();
+    let values = fields.iter().filter(|field| field.prints_value);
     Some(DebugModel {
         gate,
-        title: literal::string(name),
         raw: if native == "u64" { "self.0".into() } else { "self.0 as u64".into() },
-        calls: calls(fields),
+        layout: literal::string(&layout.join(" ")),
+        values: values.map(|field| seq!["&self.", field.getter, "()"]).collect(),
     })
-}
-
-/// One call for all plain fields in a row, and one for each other.
-fn calls(fields: &[FieldModel]) -> Vec<Doc> {
-    let are_plain = |one: &FieldModel, other: &FieldModel| {
-        matches!((&one.debug, &other.debug), (FieldDebug::Plain(_), FieldDebug::Plain(_)))
-    };
-    let call = |run: &[FieldModel]| {
-        let plain = run.iter().filter_map(|field| match &field.debug {
-            FieldDebug::Plain(pair) => Some(pair),
-            FieldDebug::Call(_) => None,
-        });
-        match run.first().map(|field| &field.debug) {
-            Some(FieldDebug::Call(call)) => call.clone(),
-            _ => call!("plain", "bits", slice(plain)),
-        }
-    };
-    fields.chunk_by(are_plain).map(call).collect()
-}
-
-/// How `Debug` shows a field.
-pub(super) enum FieldDebug {
-    /// By its name and its bits.
-    Plain(Doc),
-    /// By a call of its own.
-    Call(Doc),
 }
 
 /// What the code of every field depends on.
@@ -365,18 +345,15 @@ impl Fields<'_, '_> {
     fn field(&self, entry: &BitFieldEntry, name: &str, setter: String, link: String) -> FieldModel {
         let code = self.code(entry);
         let getter = names::escaped(name);
-        let (text, place) = (literal::string(name), hexadecimal(mask(entry.bits.into()) << entry.offset));
-        let plain = || FieldDebug::Plain(call!("", text, place));
-        let debug = match entry.meaning {
-            BitMeaning::Flag { inverted: true } if entry.bits == 1 => {
-                FieldDebug::Call(call!("inverted", "bits", text, place))
-            }
-            BitMeaning::Flag { .. } if entry.bits == 1 => plain(),
-            _ if code.is_named || entry.bits < 2 => {
-                FieldDebug::Call(call!("field", "bits", text, place, seq!["&self.", getter, "()"]))
-            }
-            _ => plain(),
+        let is_inverted = matches!(entry.meaning, BitMeaning::Flag { inverted: true }) && entry.bits == 1;
+        let is_flag = matches!(entry.meaning, BitMeaning::Flag { .. }) && entry.bits == 1;
+        let prints_value = code.is_named || (entry.bits < 2 && !is_flag);
+        let marker = match (is_inverted, prints_value) {
+            (true, _) => "!",
+            (_, true) => "?",
+            _ => "",
         };
+        let debug = format!("{marker}{name}:{:x}", mask(entry.bits.into()) << entry.offset);
         let title = format!("[`{name}`](Self::{name})");
         let (docs, Code { ty, get, set, is_named }) = (self.docs(entry), code);
         let mut meaning = vec![doc_table::meaning(&entry.name, name, entry.documentation.as_deref())];
@@ -384,58 +361,56 @@ impl Fields<'_, '_> {
         meaning.extend(marks(entry));
         meaning.retain(|part| !part.is_empty());
         let row = (entry.offset, [span(entry), link, meaning.join(" ")]);
-        FieldModel { docs, getter, title, setter, ty, get, set, debug, row }
+        FieldModel { docs, getter, title, setter, ty, get, set, debug, prints_value, row }
     }
 
     fn code(&self, entry: &BitFieldEntry) -> Code {
-        let (offset, bits) = (u32::from(entry.offset), u32::from(entry.bits));
+        let bits = u32::from(entry.bits);
+        let place = hexadecimal(mask(bits) << entry.offset);
         if let (BitMeaning::Flag { inverted }, 1) = (&entry.meaning, bits) {
-            let (is, not) = if *inverted { ("==", "!") } else { ("!=", "") };
-            let place = hexadecimal(1 << offset);
+            let not = if *inverted { "!" } else { "" };
             return Code {
                 is_named: false,
                 ty: "bool".to_owned(),
-                get: seq!["self.0 & ", place, " ", is, " 0"],
-                set: self.joined(&place, &shifted_left(&format!("({not}value as {})", self.native), offset)),
+                get: seq![not, self.call("flag", &place, None)],
+                set: call!("Self", self.call("with_flag", &place, Some(&format!("{not}value")))),
             };
         }
         let number = native(false, bits);
         let named = match entry.meaning {
             BitMeaning::Enumeration(id) => {
-                let own = self.context.names.types.enumeration(id.0);
-                own.filter(|own| own.bits == bits && own.native == number)
+                let enumeration = self.context.names.types.enumeration(id.0);
+                enumeration.filter(|named| named.bits == bits && named.native == number)
             }
             _ => None,
         };
         let all = bits == self.bits && bits == self.native_bits();
-        let shifted = if offset == 0 { "self.0".to_owned() } else { format!("(self.0 >> {offset})") };
-        let cut = if all { shifted } else { format!("{shifted} & {}", hexadecimal(mask(bits))) };
-        let cast = match (number == self.native, all) {
-            (true, _) => cut,
-            (false, _) => format!("({cut}) as {number}"),
-        };
         let value = if named.is_some() { "value.raw()" } else { "value" };
-        let widened = if number == self.native { value.to_owned() } else { format!("({value} as {})", self.native) };
-        let set = if all {
-            format!("Self({value})")
+        let (read, set) = if all {
+            (Doc::from("self.0"), call!("Self", value))
+        } else if number == self.native {
+            (self.call("field", &place, None), call!("Self", self.call("with_field", &place, Some(value))))
         } else {
-            let place = hexadecimal(mask(bits) << offset);
-            let moved = shifted_left(&widened, offset);
-            let is_cut = native_bits(number) > bits;
-            self.joined(&place, &if is_cut { format!("({moved} & {place})") } else { moved })
+            let widened = format!("{value} as {}", self.native);
+            let read = seq![self.call("field", &place, None), " as ", number];
+            (read, call!("Self", self.call("with_field", &place, Some(&widened))))
         };
         match named {
             Some(named) => {
-                let get = call!(seq![named.name, "::from_raw"], cast);
+                let get = call!(seq![named.name, "::from_raw"], read);
                 Code { ty: named.name.clone(), get, set, is_named: true }
             }
-            None => Code { ty: number.to_owned(), get: Doc::from(cast), set, is_named: false },
+            None => Code { ty: number.to_owned(), get: read, set, is_named: false },
         }
     }
 
-    /// All bits with others in one place.
-    fn joined(&self, place: &str, bits: &str) -> String {
-        format!("Self((self.0 & !{place}) | {bits})")
+    /// A call of a function of the runtime for integers of this type.
+    fn call(&self, function: &str, mask: &str, value: Option<&str>) -> Doc {
+        let path = seq!["rt::bits", self.native_bits(), "::", function];
+        match value {
+            Some(value) => call!(path, "self.0", mask, value),
+            None => call!(path, "self.0", mask),
+        }
     }
 
     fn docs(&self, entry: &BitFieldEntry) -> String {
@@ -466,15 +441,7 @@ struct Code {
     /// Whether that is an enumeration.
     is_named: bool,
     get: Doc,
-    set: String,
-}
-
-fn shifted_left(value: &str, offset: u32) -> String {
-    if offset == 0 {
-        value.to_owned()
-    } else {
-        format!("({value} << {offset})")
-    }
+    set: Doc,
 }
 
 fn native_bits(native: &str) -> u32 {

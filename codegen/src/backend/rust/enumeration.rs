@@ -43,36 +43,59 @@ const RESERVED: [&str; 2] = ["Self", "Unknown"];
 /// The enumeration at this position.
 ///
 /// One that a bit field has, and that names every number of so many bits, has no variant for others.
-pub(super) fn model(context: &Context<'_>, position: u32, own: &NamedType, options: &RustOptions) -> EnumerationModel {
-    let values = match context.types.get(position as usize).map(|own| &own.shape) {
+pub(super) fn model(
+    context: &Context<'_>,
+    position: u32,
+    named: &NamedType,
+    options: &RustOptions,
+) -> EnumerationModel {
+    let all = match context.types.get(position as usize).map(|definition| &definition.shape) {
         Some(Shape::Enumeration { values, .. }) => values.as_slice(),
         _ => &[],
     };
-    let (low, high) = own.ty.integer_range().unwrap_or_default();
+    let (low, high) = named.ty.integer_range().unwrap_or_default();
     let mut seen = HashSet::new();
-    let values: Vec<&EnumValue> = values
+    let values: Vec<&EnumValue> = all
         .iter()
         .filter(|value| value.last.is_none() && (low..=high).contains(&value.value) && seen.insert(value.value))
         .collect();
     let in_field = context.names.types.in_fields.contains(&position);
-    let complete = in_field && own.bits <= COMPLETE && values.len() == 1 << own.bits;
+    let complete = in_field && named.bits <= COMPLETE && values.len() == 1 << named.bits;
     let variants = variants(&values, context);
     let mut docs = docs::of_type(context, position);
-    let row = |(value, own): (&&EnumValue, &VariantModel)| {
-        let meaning = doc_table::meaning(&value.name, &own.name, value.documentation.as_deref());
-        [own.value.clone(), format!("[`{0}`](Self::{0})", own.name), meaning]
-    };
-    let rows: Vec<[String; 3]> = values.iter().zip(&variants).take(doc_table::MAX_ROWS + 1).map(row).collect();
-    docs.extend(doc_table::table(["Value", "Name", "Meaning"], &rows));
+    docs.extend(table(if complete { &[] } else { all }, &values, &variants));
     EnumerationModel {
         docs,
         derives: options.derives(true),
-        base: own.base,
-        native: own.native,
-        complete: complete.then(|| format!("{:#X}", (1_u32 << own.bits) - 1).replacen("0X", "0x", 1)),
+        base: named.base,
+        native: named.native,
+        complete: complete.then(|| format!("{:#X}", (1_u32 << named.bits) - 1).replacen("0X", "0x", 1)),
         variants,
-        name: own.name.clone(),
+        name: named.name.clone(),
     }
+}
+
+/// The table of all values: variants unless they are too many, and ranges, whose values are `Unknown`.
+fn table(all: &[EnumValue], values: &[&EnumValue], variants: &[VariantModel]) -> Vec<String> {
+    let mut rows: Vec<(i128, [String; 3])> = Vec::new();
+    if variants.len() <= doc_table::MAX_ROWS {
+        rows.extend(values.iter().zip(variants).map(|(value, variant)| {
+            let meaning = doc_table::meaning(&value.name, &variant.name, value.documentation.as_deref());
+            (value.value, [variant.value.clone(), format!("[`{0}`](Self::{0})", variant.name), meaning])
+        }));
+    }
+    let ranges = all.iter().filter(|value| value.last.is_some());
+    rows.extend(ranges.map(|range| {
+        let mut meaning = vec![doc_table::meaning(&range.name, "", range.documentation.as_deref())];
+        meaning.extend(zone(range).map(str::to_owned));
+        meaning.retain(|part| !part.is_empty());
+        (range.value, [range.numbers(), "[`Unknown`](Self::Unknown)".to_owned(), meaning.join(" ")])
+    }));
+    if rows.len() > variants.len() {
+        rows.sort_by_key(|(value, _)| *value);
+    }
+    let rows: Vec<[String; 3]> = rows.into_iter().map(|(_, row)| row).collect();
+    doc_table::whole(["Value", "Name", "Meaning"], &rows)
 }
 
 fn variants(values: &[&EnumValue], context: &Context<'_>) -> Vec<VariantModel> {
@@ -98,11 +121,7 @@ fn variants(values: &[&EnumValue], context: &Context<'_>) -> Vec<VariantModel> {
 /// What else is known of a value.
 fn about(value: &EnumValue, context: &Context<'_>) -> Vec<String> {
     let mut sentences = Vec::new();
-    match value.zone {
-        Some(Zone::Reserved) => sentences.push("Must not be used.".to_owned()),
-        Some(Zone::Vendor) => sentences.push("Left to the vendor.".to_owned()),
-        None => {}
-    }
+    sentences.extend(zone(value).map(str::to_owned));
     docs::words(value.documentation.as_deref(), &mut sentences);
     if let Some(condition) = &value.when {
         sentences.push(format!("Only while {}.", docs::holds(condition, context, Here::TYPES)));
@@ -112,4 +131,11 @@ fn about(value: &EnumValue, context: &Context<'_>) -> Vec<String> {
     }
     sentences.extend(WORDS.place(&context.manual, "", value.documentation.as_deref(), &value.names));
     sentences
+}
+
+fn zone(value: &EnumValue) -> Option<&'static str> {
+    Some(match value.zone? {
+        Zone::Reserved => "Must not be used.",
+        Zone::Vendor => "Left to the vendor.",
+    })
 }

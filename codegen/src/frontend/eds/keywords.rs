@@ -23,10 +23,12 @@ pub(super) enum Key {
     Denotation,
     UploadFile,
     DownloadFile,
+    SrdoMapping,
+    InvertedSrad,
 }
 
 /// Number of keywords.
-const KEYS: usize = 15;
+const KEYS: usize = 17;
 
 /// The keyword that is spelt `key`, in any case. Length and first letter leave one candidate, or two.
 fn keyword(key: &str) -> Option<Key> {
@@ -42,6 +44,8 @@ fn keyword(key: &str) -> Option<Key> {
         (10, b'p') => ("PDOMapping", Key::PdoMapping),
         (10, b'd') => ("Denotation", Key::Denotation),
         (10, b'u') => ("UploadFile", Key::UploadFile),
+        (11, b's') => ("SRDOMapping", Key::SrdoMapping),
+        (12, b'i') => ("InvertedSRAD", Key::InvertedSrad),
         (12, b'd') if bytes[1] | 0x20 == b'e' => ("DefaultValue", Key::DefaultValue),
         (12, b'd') => ("DownloadFile", Key::DownloadFile),
         (13, b'p') => ("ParameterName", Key::ParameterName),
@@ -53,7 +57,7 @@ fn keyword(key: &str) -> Option<Key> {
 }
 
 /// Keywords of one value, which say nothing about an object whose values are its sub-indices.
-pub(super) const OF_A_VALUE: [Key; 10] = [
+pub(super) const OF_A_VALUE: [Key; 12] = [
     Key::DataType,
     Key::AccessType,
     Key::DefaultValue,
@@ -64,6 +68,8 @@ pub(super) const OF_A_VALUE: [Key; 10] = [
     Key::Denotation,
     Key::UploadFile,
     Key::DownloadFile,
+    Key::SrdoMapping,
+    Key::InvertedSrad,
 ];
 
 /// Keywords of an object with sub-indices, which say nothing about one value.
@@ -140,6 +146,8 @@ mod tests {
             ("Denotation", Key::Denotation),
             ("UploadFile", Key::UploadFile),
             ("DownloadFile", Key::DownloadFile),
+            ("SRDOMapping", Key::SrdoMapping),
+            ("InvertedSRAD", Key::InvertedSrad),
         ];
         for (position, (name, key)) in ALL.iter().enumerate() {
             assert_eq!(*key as usize, position);

@@ -10,8 +10,8 @@ use crate::frontend::canopen::number;
 use crate::frontend::canopen::object::{self, ObjectType, Terms};
 use crate::frontend::canopen::value::Role;
 use crate::ir::{
-    Access, Binding, CompactString, Configured, Extension, Extensions, Group, Item, Limits, Mappable, ObjectCode, Type,
-    Value,
+    Access, Behaviour, Binding, CompactString, Configured, Extension, Extensions, Group, Item, Limits, Mappable,
+    ObjectCode, Srdo, Type, Value,
 };
 use crate::source::{Origin, Span};
 use crate::syntax::ini::{Entry, Section};
@@ -116,7 +116,7 @@ impl<'a> Reader<'a, '_> {
             item.at.name = group.name_at;
             // The section is the object's, and so is what stands in it beside the value.
             group.extensions.append(&mut item.extensions);
-            group.items.push(item);
+            group.items = vec![item];
         }
         self.duplicate_refinements(&sections.refinements);
         compact::refine(self, group, index, &sections.refinements);
@@ -232,6 +232,7 @@ impl<'a> Reader<'a, '_> {
         item.at.low = self.span_of(raw.get(Key::LowLimit));
         item.at.high = self.span_of(raw.get(Key::HighLimit));
         item.flags = self.flags(raw);
+        item.behaviour = self.srdo(raw).map(|srdo| Box::new(Behaviour { srdo: Some(srdo), ..Behaviour::default() }));
         self.configured(raw, &mut item);
         self.take_comments(&mut item.extensions);
         item.extensions.shrink_to_fit();
@@ -355,6 +356,12 @@ impl<'a> Reader<'a, '_> {
     fn flags(&mut self, raw: &Raw) -> u32 {
         let Some(entry) = raw.get(Key::ObjFlags) else { return 0 };
         self.u32_of(entry).unwrap_or(0)
+    }
+
+    fn srdo(&mut self, raw: &Raw) -> Option<Srdo> {
+        let is_mappable = raw.get(Key::SrdoMapping).is_some_and(|entry| self.flag(entry));
+        let inverted = raw.get(Key::InvertedSrad).and_then(|entry| self.unsigned(entry, 0xFF_FFFF));
+        is_mappable.then(|| Srdo { inverted: inverted.map(|address| ((address >> 8) as u16, address as u8)) })
     }
 
     /// The number of sub-indices that CompactSubObj stands for.

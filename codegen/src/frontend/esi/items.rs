@@ -76,7 +76,7 @@ impl<'t, 'a> Builder<'_, 't, 'a> {
         let code = match self.types.record_of(ty) {
             Some(record) => self.record(reader, &mut group, &raw, ty, record, subs),
             None if subs.is_empty() => {
-                group.items.push(self.value(reader, &group, index, &raw, ty));
+                group.items = vec![self.value(reader, &group, index, &raw, ty)];
                 ObjectCode::Var
             }
             None => self.untyped(reader, &mut group, &raw, subs),

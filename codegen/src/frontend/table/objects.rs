@@ -107,7 +107,7 @@ fn head(
         let name = group.name.to_string();
         let named = Named { name: &name, key, number, end: row.end };
         let item = item(reader, rows, named, complete, (index, 0), space);
-        group.items.push(item);
+        group.items = vec![item];
     }
     if let Some(first) = dictionary.get(&index) {
         let diagnostic =

@@ -207,7 +207,7 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
             item.at.name = group.name_at;
             item.names = group.names.clone();
             item.documentation = texts.descriptions.documentation();
-            group.items.push(item);
+            group.items = vec![item];
         }
         Ok(group)
     }

@@ -1,7 +1,7 @@
 //! Bit fields and their views.
 
 use crate::backend::rust::bit_field::{BitFieldModel, DebugModel, FieldModel, ViewModel};
-use crate::backend::rust::code::{call, line, open, seq, Code};
+use crate::backend::rust::code::{call, line, open, seq, slice, Code};
 use crate::backend::rust::links;
 
 pub(in crate::backend::rust) fn write(code: &mut Code, bits: &BitFieldModel) {
@@ -82,11 +82,8 @@ fn debug(code: &mut Code, name: &str, debug: &DebugModel) {
     code.lines(&debug.gate);
     open!(code, "impl core::fmt::Debug for ", name, " {");
     open!(code, "fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {");
-    line!(code, "let bits = ", call!("rt::DebugBits::new", "f", debug.title, debug.raw), ";");
-    for call in &debug.calls {
-        line!(code, "let bits = rt::DebugBits::", call, ";");
-    }
-    line!(code, "bits.finish()");
+    let values = slice(&debug.values);
+    line!(code, call!("rt::debug_bits", "f", debug.raw, debug.layout, values));
     code.close("}");
     code.close("}");
 }
