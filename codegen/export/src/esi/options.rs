@@ -6,7 +6,7 @@ use lexibus_codegen::ir::Coe;
 options! {
     /// Facts that count before those of the source, or that it doesn't have.
     pub struct Options, Asked {
-        /// Number of the vendor with the EtherCAT Technology Group.
+        /// Vendor ID assigned by the EtherCAT Technology Group.
         vendor_id: u32 = "vendor-id",
         /// Name of the vendor.
         vendor_name: String = "vendor-name",
@@ -14,21 +14,21 @@ options! {
         product_code: u32 = "product-code",
         /// Revision number, as in object 0x1018.
         revision: u32 = "revision",
-        /// What the device is called in an order (the text of Type).
+        /// Order code (the text of Type).
         order_code: String = "order-code",
-        /// Kind of each port: up to four of Y (MII), K (LVDS), H (enhanced) and blank (none).
+        /// Kind of each port: up to four letters, Y (MII), K (LVDS), H (enhanced) or blank (none).
         physics: String = "physics",
-        /// Key of the group in a list of devices; it is also the group's name where the source has no such group.
+        /// Key of the group in a list of devices; also the name of the group if the source does not have it.
         group: String = "group",
-        /// Start address and length in bytes of the mailbox that the device receives, such as 0x1000:128.
+        /// Start address and length in bytes of the receive mailbox, such as 0x1000:128.
         mailbox_out: Area = "mailbox-out",
-        /// Start address and length in bytes of the mailbox that the device sends, such as 0x1080:128.
+        /// Start address and length in bytes of the send mailbox, such as 0x1080:128.
         mailbox_in: Area = "mailbox-in",
-        /// Start address of the outputs in the memory of the slave controller, perhaps with a length such as 0x1100:8.
+        /// Start address of the outputs in the memory of the slave controller, with an optional length, such as 0x1100:8.
         outputs: Area = "outputs",
-        /// Start address of the inputs in the memory of the slave controller, perhaps with a length such as 0x1180:8.
+        /// Start address of the inputs in the memory of the slave controller, with an optional length, such as 0x1180:8.
         inputs: Area = "inputs",
-        /// What CoE can where the source has no mailbox, such as sdo-info,pdo-assign,pdo-config,complete-access.
+        /// CoE features if the source has no mailbox, such as sdo-info,pdo-assign,pdo-config,complete-access.
         coe: Coe = "coe",
         /// Size of the EEPROM in bytes.
         eeprom_size: u32 = "eeprom-size",

@@ -7,47 +7,47 @@ options! {
     /// Facts that count before those of the source, or that it doesn't have. Those of the device access point, its submodules and
     /// the interface are asked for only where a fixed process image becomes a device access point.
     pub struct Options, Asked {
-        /// Number of the vendor with PROFIBUS & PROFINET International (VendorID).
+        /// Vendor ID assigned by PROFIBUS & PROFINET International (VendorID).
         vendor_id: u16 = "vendor-id",
-        /// Number that tells the devices of the vendor apart (DeviceID).
+        /// Device ID, unique among the devices of the vendor (DeviceID).
         device_id: u16 = "device-id",
         /// Name of the vendor.
         vendor_name: String = "vendor-name",
-        /// What the family of devices is, in a sentence.
+        /// Description of the device family, in one sentence.
         description: String = "description",
         /// Main family, such as Drives.
         main_family: String = "main-family",
-        /// Product family, the vendor's own.
+        /// Product family, as named by the vendor.
         product_family: String = "product-family",
-        /// Date of the file, YYYYMMDD, which is a part of its name.
+        /// Date of the file, YYYYMMDD; part of the file name.
         date: String = "date",
-        /// Name by which a new device answers (DNS_CompatibleName).
+        /// Name of station of a new device (DNS_CompatibleName).
         dns_name: String = "dns-name",
-        /// Version of PROFINET that the device follows, such as V2.35.
+        /// PROFINET version of the device, such as V2.35.
         pnio_version: String = "pnio-version",
         /// Module ident number of the device access point.
         module_ident: u32 = "module-ident",
         /// Ident number of the submodule with the process data.
         submodule_ident: u32 = "submodule-ident",
-        /// Whether all data of one direction are consistent with each other; else only each item is.
+        /// Whether all data of one direction are consistent; otherwise each item is.
         consistent: bool = "consistent",
         /// Subslot of the submodule with the process data.
         subslot: u16 = "subslot",
-        /// Least interval between two frames in units of 31.25 µs (MinDeviceInterval).
+        /// Minimum interval between two frames in units of 31.25 µs (MinDeviceInterval).
         min_device_interval: u16 = "min-device-interval",
-        /// Last part of the device's object UUID (ObjectUUID_LocalIndex).
+        /// Last part of the object UUID (ObjectUUID_LocalIndex).
         object_uuid_index: u16 = "object-uuid-index",
-        /// Greatest length of the controller's inputs in bytes, provider and consumer status included (MaxInputLength).
+        /// Maximum length of the controller's inputs in bytes, with provider and consumer status (MaxInputLength).
         max_input_length: u16 = "max-input-length",
-        /// Greatest length of the controller's outputs in bytes, provider and consumer status included (MaxOutputLength).
+        /// Maximum length of the controller's outputs in bytes, with provider and consumer status (MaxOutputLength).
         max_output_length: u16 = "max-output-length",
-        /// Whether the name of station is lost with the storage medium (NameOfStationNotTransferable).
+        /// Whether the name of station cannot be transferred with a storage medium (NameOfStationNotTransferable).
         name_not_transferable: bool = "name-not-transferable",
-        /// Whether a controller may read and write without an IO relation (DeviceAccessSupported).
+        /// Whether a controller can read and write without an IO relation (DeviceAccessSupported).
         device_access: bool = "device-access",
-        /// Whether a controller may check the device's number (CheckDeviceID_Allowed).
+        /// Whether a controller can check the device ID (CheckDeviceID_Allowed).
         check_device_id: bool = "check-device-id",
-        /// Whether the submodule with the process data may issue process alarms (MayIssueProcessAlarm).
+        /// Whether the submodule with the process data can issue process alarms (MayIssueProcessAlarm).
         process_alarms: bool = "process-alarms",
         /// Order number.
         order_number: String = "order-number",
@@ -55,7 +55,7 @@ options! {
         hardware_release: String = "hardware-release",
         /// Software release.
         software_release: String = "software-release",
-        /// Ident number of the interface submodule; without it, the file has neither interface nor ports.
+        /// Ident number of the interface submodule; without it, the file has no interface and no ports.
         interface_ident: u32 = "interface-ident",
         /// Name of the interface, such as X1.
         interface_name: String = "interface-name",
@@ -71,7 +71,7 @@ options! {
         reduction_ratios: Numbers = "reduction-ratios",
         /// Number of ports.
         ports: u16 = "ports",
-        /// Ident number of the ports' submodules.
+        /// Ident number of the port submodules.
         port_ident: u32 = "port-ident",
         /// MAU type of the ports, such as 16 for 100BASE-TX full duplex.
         mau_type: u16 = "mau-type",
