@@ -467,7 +467,7 @@ fn export_writes_an_eds_and_says_what_it_leaves_out() {
     assert!(err(&many).contains("describes 2 devices: choose one with --device"), "{}", err(&many));
     let one = lexibus(&["export", "--format", "eds", COUPLER, "--device", "SV-1", "-A", "warnings"]);
     assert_eq!(code(&one), 0, "{}", err(&one));
-    let note = "1 × enumeration written as the integer below (first: 0x2000:01)";
+    let note = "1 × enumeration written as its integer type (first: 0x2000:01)";
     assert!(err(&one).lines().any(|line| line.starts_with("note: ") && line.ends_with(note)), "{}", err(&one));
     let objects = |more: &[&str]| {
         let call = ["export", "--format", "eds", COUPLER, "--device", "SV-1", "-A", "warnings"];

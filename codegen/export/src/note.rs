@@ -63,69 +63,69 @@ macro_rules! kinds {
 
 kinds! {
     /// A fact that the caller gave.
-    GivenFact = "given-fact", "fact that was given and has no place in this file left out";
+    GivenFact = "given-fact", "fact given as an option left out: the file has no field for it";
     /// ParameterValue, Denotation and the like in an EDS.
-    Configuration = "configuration", "configuration of one device left out (of all formats, a DCF has it)";
+    Configuration = "configuration", "configuration of one device left out: only a DCF has fields for it";
     /// Unit, scale, sentinels, step.
     Quantity = "unit", "unit or scale left out";
     /// A type with named values.
-    Enumeration = "enumeration", "enumeration written as the integer below";
+    Enumeration = "enumeration", "enumeration written as its integer type";
     /// A type with named bits.
-    BitField = "bit-field", "bit field written as the integer below";
+    BitField = "bit-field", "bit field written as its integer type";
     /// A record or array in one entry.
     Structure = "structure", "array or record in one entry written as raw bytes";
     /// An integer of a width that the format doesn't have.
-    Widened = "widened-type", "integer of a width that the format doesn't have written as the next wider one";
+    Widened = "widened-type", "integer written with the next wider type of the format";
     /// A type that the format doesn't have, or that nobody defines.
-    UnknownType = "unknown-type", "type that the format doesn't have written as raw bytes";
+    UnknownType = "unknown-type", "type that the format does not have written as raw bytes";
     /// The greatest length of a text.
-    Length = "text-length", "greatest length of a string left out";
+    Length = "text-length", "maximum length of a string left out";
     /// Several ranges, or a list of values.
-    AllowedValues = "allowed-values", "list of allowed values left out but for the least and the greatest";
+    AllowedValues = "allowed-values", "list of allowed values reduced to its minimum and maximum";
     /// Default and limits of a value in cyclic data.
     Limits = "limits", "default or limits of a value in cyclic data left out";
     /// A lower limit above the upper one.
-    SwappedLimits = "swapped-limits", "limits left out because the lower one is above the upper one";
+    SwappedLimits = "swapped-limits", "limits left out: the minimum is above the maximum";
     /// A default or limit of another kind than its type.
-    Value = "value", "value that its type can't have left out";
+    Value = "value", "value left out: its type cannot hold it";
     /// A limit between two integers.
-    RoundedLimit = "rounded-limit", "limit of an integer rounded to one";
+    RoundedLimit = "rounded-limit", "limit of an integer rounded to an integer";
     /// `$NODEID` minus something.
-    NegativeFormula = "negative-formula", "formula with a negative number, which CiA 306 doesn't provide for";
+    NegativeFormula = "negative-formula", "formula with a negative number: CiA 306 does not define it";
     /// Directions of PDO mapping that don't follow from the access type.
-    Mapping = "pdo-mapping", "directions of PDO mapping told by the access types rwr or rww";
+    Mapping = "pdo-mapping", "direction of PDO mapping written as access type rwr or rww";
     /// Directions of PDO mapping that no access type tells.
-    LostMapping = "lost-mapping", "direction of PDO mapping that no access type tells left out";
+    LostMapping = "lost-mapping", "direction of PDO mapping left out: no access type expresses it";
     /// A PDO that no objects tell.
-    Pdo = "pdo", "PDO, or its communication parameters, that no object of the file tells";
+    Pdo = "pdo", "PDO, or its communication parameters, left out: no object of the file describes it";
     /// Storage, side effects, conditions.
     Behaviour = "behaviour", "storage, conditions or side effects left out";
     /// Models, versions, options.
-    Availability = "availability", "models, versions or options that have it left out";
+    Availability = "availability", "models, versions or options of an item left out";
     /// Other items that hold the same value or a part of it; that an entry is reserved or optional.
-    Relation = "relation", "relation to other items, or that an entry is reserved or optional, left out";
+    Relation = "relation", "relation to other items, or mark as reserved or optional, left out";
     /// A description.
     Documentation = "documentation", "description left out";
     /// A name or text in another language.
     Language = "language", "text in another language left out";
     /// A name of a value beside that of its object.
-    Name = "name", "name of a value that isn't its object's left out";
+    Name = "name", "name of a value left out: its object has another name";
     /// A doubt.
-    Doubt = "doubt", "doubt left out";
+    Doubt = "doubt", "ambiguity in the manual left out";
     /// A category of an object.
     Category = "category", "category of an object left out";
     /// An address on another bus.
     Binding = "binding", "address on another bus left out";
     /// An object that CANopen doesn't have.
-    CoeOnly = "coe-only", "object that is on EtherCAT only left out";
+    CoeOnly = "coe-only", "object that exists on EtherCAT only left out";
     /// An item that is no entry of an object dictionary.
-    NotAnObject = "not-an-object", "item that is in no object dictionary left out";
+    NotAnObject = "not-an-object", "item outside of the object dictionary left out";
     /// A sub-index 0 that an object of registers has to have.
-    Completed = "completed", "sub-index 0 that no register describes added";
+    Completed = "completed", "sub-index 0 without a register added";
     /// Two objects, or entries, at one address.
-    Duplicate = "duplicate", "further object or entry of an index left out";
+    Duplicate = "duplicate", "repeated object or entry left out";
     /// An extension attribute that no key can carry.
-    Extension = "extension", "extension attribute that the format has no place for left out";
+    Extension = "extension", "extension attribute left out: the format has no field for it";
     /// A module.
     Module = "module", "module of another bus left out";
     /// Slots.
@@ -133,15 +133,15 @@ kinds! {
     /// What the device is on another bus.
     OtherBus = "other-bus", "settings of another bus left out";
     /// A further axis, whose objects follow from those of the first.
-    Axis = "axis", "further axis left out: the file has the objects of the first";
+    Axis = "axis", "further axis left out: the file has the objects of the first axis";
     /// A PROFINET submodule, a message, a code table, a state machine, a procedure, a variant.
     OtherPart = "other-part", "message, code table, state machine, procedure, variant or submodule left out";
     /// A setting of the device or of one of its objects.
-    Setting = "setting", "setting that the format doesn't have left out";
+    Setting = "setting", "setting left out: the format has no field for it";
     /// A date or version of another form.
-    FileInfo = "file-info", "date, time, version or comment of the file that the format has in another form, or not at all, left out or replaced";
+    FileInfo = "file-info", "date, time, version or comment of the file converted or left out";
     /// A text with a line break.
-    LineBreak = "line-break", "line break in a text written as a blank";
+    LineBreak = "line-break", "line break in a text written as a space";
     /// A text that isn't ASCII.
     NotAscii = "not-ascii", "line that isn't ASCII: the file has to be UTF-8";
     /// A line of over 255 characters.
@@ -151,29 +151,29 @@ kinds! {
     /// A named range of values.
     ValueRange = "value-range", "range of values of an enumeration written as its first value";
     /// A name that has to be the only one.
-    Renamed = "renamed", "name that occurs twice made unique";
+    Renamed = "renamed", "repeated name made unique";
     /// A type without a fixed length.
-    UnknownLength = "unknown-length", "type whose length nothing tells written with a length of 0";
+    UnknownLength = "unknown-length", "type of unknown length written with a length of 0";
     /// An object of CAN's own services, or one that the source has on CANopen only.
-    CanObject = "can-object", "object that is on CANopen only, or about CAN itself (identifiers, SYNC, heartbeat), left out";
+    CanObject = "can-object", "object that exists on CANopen only, or describes CAN services (COB-ID, SYNC, heartbeat), left out";
     /// An object without entries.
     EmptyObject = "empty-object", "object without entries left out";
     /// Half of a group of facts.
-    Incomplete = "incomplete", "facts left out because the format wants others beside them that are missing";
+    Incomplete = "incomplete", "facts left out: the format requires others that are missing";
     /// A spelling that the schema doesn't allow.
-    Spelling = "spelling", "word or number of a form that the schema doesn't allow left out";
+    Spelling = "spelling", "word or number left out: the schema does not allow its form";
     /// A device of another vendor.
-    OtherVendor = "other-vendor", "device or module of another vendor left out: a file has one";
+    OtherVendor = "other-vendor", "device or module of another vendor left out: a file has one vendor";
     /// A control character.
-    Control = "control-character", "control character left out of a text";
+    Control = "control-character", "control character removed from a text";
     /// A text in a file that has a text list.
-    MissingText = "missing-text", "element without the text that the format wants for it named by its identifier";
+    MissingText = "missing-text", "missing text of an element replaced by its name";
     /// A field of a process image that overlaps another, or isn't whole bytes.
-    Layout = "layout", "field of cyclic data that doesn't begin or end with a byte written as octets or bits";
+    Layout = "layout", "field of cyclic data that is not byte-aligned written as octets or bits";
     /// An item that is in no process image.
-    NotInData = "not-in-data", "item that is in no cyclic data left out";
+    NotInData = "not-in-data", "item outside of the cyclic data left out";
     /// A number that the least significant byte comes first of.
-    ByteOrder = "byte-order", "number whose least significant byte comes first written as octets: the bus has the most significant first";
+    ByteOrder = "byte-order", "little-endian number written as octets: the bus is big-endian";
 }
 
 /// Collects notes.
