@@ -77,7 +77,7 @@ kinds! {
     /// An integer of a width that the format doesn't have.
     Widened = "widened-type", "integer written with the next wider type of the format";
     /// A type that the format doesn't have, or that nobody defines.
-    UnknownType = "unknown-type", "type that the format does not have written as raw bytes";
+    UnknownType = "unknown-type", "unsupported type written as raw bytes";
     /// The greatest length of a text.
     Length = "text-length", "maximum length of a string left out";
     /// Several ranges, or a list of values.
