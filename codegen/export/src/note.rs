@@ -169,7 +169,7 @@ kinds! {
     /// A text in a file that has a text list.
     MissingText = "missing-text", "missing text of an element replaced by its name";
     /// A field of a process image that overlaps another, or isn't whole bytes.
-    Layout = "layout", "field of cyclic data that is not byte-aligned written as octets or bits";
+    Layout = "layout", "unaligned field of cyclic data written as octets or bits";
     /// An item that is in no process image.
     NotInData = "not-in-data", "item outside of the cyclic data left out";
     /// A number that the least significant byte comes first of.
