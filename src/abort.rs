@@ -3,7 +3,8 @@
 use core::error;
 use core::fmt;
 
-/// Why a device refused an SDO transfer (CiA 301 7.2.4.3.17). Any number is an abort code; those of the standard have texts.
+/// Reason why a device refused an SDO transfer (CiA 301 7.2.4.3.17). Any number is allowed; the codes of the standard
+/// have a text.
 ///
 /// ```
 /// use lexibus::AbortCode;
@@ -18,11 +19,11 @@ macro_rules! codes {
     ($($(#[$attribute:meta])* $name:ident = $code:literal, $text:literal;)*) => {
         impl AbortCode {
             $(
-                #[doc = concat!("The code ", stringify!($code), ": ", $text, ".")]
+                #[doc = concat!("Abort code ", stringify!($code), ": ", $text, ".")]
                 pub const $name: Self = Self($code);
             )*
 
-            /// What the code means, as far as the standard gives it a meaning.
+            /// Returns the text of the code, or `None` if the standard doesn't define the code.
             #[must_use]
             pub const fn text(self) -> Option<&'static str> {
                 match self.0 {

@@ -1,4 +1,4 @@
-//! Access rights as types: what a device refuses does not compile.
+//! Access rights as types: an access that the device doesn't allow doesn't compile.
 
 /// Read-only (`ro`).
 #[derive(Clone, Copy, Debug, Default)]
@@ -12,7 +12,7 @@ pub struct Wo;
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Rw;
 
-/// Read-only, and the value never changes (`const`).
+/// Read-only, with a value that never changes (`const`).
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Const;
 
@@ -24,10 +24,10 @@ mod sealed {
     impl Sealed for super::Const {}
 }
 
-/// Access rights that allow reading: [`Ro`], [`Rw`] and [`Const`]. Sealed.
+/// Access rights that allow reading: [`Ro`], [`Rw`] and [`Const`]. This trait is sealed.
 #[diagnostic::on_unimplemented(
     message = "this item can't be read: its access is `{Self}`",
-    label = "the device doesn't let this item be read"
+    label = "the device doesn't allow reading this item"
 )]
 pub trait Readable: sealed::Sealed {}
 
@@ -35,10 +35,10 @@ impl Readable for Ro {}
 impl Readable for Rw {}
 impl Readable for Const {}
 
-/// Access rights that allow writing: [`Wo`] and [`Rw`]. Sealed.
+/// Access rights that allow writing: [`Wo`] and [`Rw`]. This trait is sealed.
 #[diagnostic::on_unimplemented(
     message = "this item can't be written: its access is `{Self}`",
-    label = "the device doesn't let this item be written"
+    label = "the device doesn't allow writing this item"
 )]
 pub trait Writable: sealed::Sealed {}
 

@@ -1,4 +1,4 @@
-//! An item joined to a client.
+//! Access to an item through a client.
 
 mod fixed;
 mod octets;
@@ -15,21 +15,23 @@ use crate::route::{ReadRoute, WriteRoute};
 use crate::value::Value;
 use crate::value_error::LengthError;
 
-/// Reads and writes one [`Item`] through one client; made by [`Item::at`].
+/// Reads and writes one [`Item`] through one client. [`Item::at`] creates it.
 ///
-/// Which methods compile depends on the access rights `A`, on the location `L` and on the bus of the client `C`; their
-/// arguments depend on the type `V`. Those without a suffix ask for a [`Client`]; those that end in `_async` ask for an
-/// [`AsyncClient`], and do the same without blocking.
+/// The access rights `A`, the location `L` and the bus of the client `C` determine which methods compile. The value
+/// type `V` determines their arguments. Methods without a suffix need a [`Client`]. Methods that end in `_async` need
+/// an [`AsyncClient`] and do the same without blocking.
 ///
-/// Every method fails as the client does (see [`Client::read`]); its own documentation names the other errors. An
-/// answer that doesn't fit is always [`Error::Length`], never a panic.
+/// # Errors
+///
+/// Every method returns the errors of the client (see [`Client::read`]) and those that its own documentation lists. A
+/// reply of the wrong length is always an [`Error::Length`], never a panic.
 pub struct Accessor<'c, C, V: Value, A, L> {
     client: &'c mut C,
     item: Item<V, A, L>,
 }
 
 impl<V: Value, A, L> Item<V, A, L> {
-    /// Joins the item to a client of one device.
+    /// Creates the accessor that reads and writes the item through `client`.
     #[inline]
     pub fn at<C>(self, client: &mut C) -> Accessor<'_, C, V, A, L> {
         Accessor::new(client, self)
@@ -37,21 +39,21 @@ impl<V: Value, A, L> Item<V, A, L> {
 }
 
 impl<'c, C, V: Value, A, L> Accessor<'c, C, V, A, L> {
-    /// Joins `item` to `client`.
+    /// Creates the accessor that reads and writes `item` through `client`.
     #[must_use]
     #[inline]
     pub fn new(client: &'c mut C, item: Item<V, A, L>) -> Self {
         Self { client, item }
     }
 
-    /// The item.
+    /// Returns the item.
     #[must_use]
     pub const fn item(&self) -> &Item<V, A, L> {
         &self.item
     }
 }
 
-/// Transfers of bytes, blocking and not.
+/// Defines the byte transfers, blocking and async.
 macro_rules! transfers {
     ($Client:ident $fetch:ident $read:ident $send:ident $write:ident $($async:ident $await:ident)?) => {
         impl<C: $Client, V: Value, A, L> Accessor<'_, C, V, A, L> {
@@ -87,7 +89,7 @@ where
     }
 }
 
-/// The part of `buffer` that a client says it filled.
+/// Returns the first `length` bytes of `buffer`. A client may report more bytes than the buffer has.
 #[inline]
 fn filled(buffer: &[u8], length: usize) -> Result<&[u8], LengthError> {
     buffer.get(..length).ok_or(LengthError { expected: buffer.len(), actual: length })

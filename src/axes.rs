@@ -6,7 +6,7 @@ use crate::bus::{Bus, CanOpen, CoE, Object};
 use crate::client::{AsyncClient, Client};
 use crate::error::Error;
 
-/// How many axes a device has, and how the objects of further ones follow from those of the first.
+/// Number of axes of a device, and the rules that map an object of the first axis to the other axes.
 ///
 /// ```
 /// use lexibus::{Axes, AxisRange, AxisStep, Object};
@@ -25,40 +25,40 @@ use crate::error::Error;
 pub struct Axes {
     /// The number of axes.
     pub count: u8,
-    /// Rules by range of index; the first that contains an index holds.
+    /// Rules by index range. The first range that contains an index applies.
     pub ranges: &'static [AxisRange],
-    /// Objects within those ranges that the axes share, sorted.
+    /// Objects within these ranges that all axes share, in ascending order.
     pub shared: &'static [Object],
 }
 
-/// A range of indices, and how to get from one axis to the next in it.
+/// A range of indices and its rule for the next axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct AxisRange {
     /// The first index.
     pub first: u16,
     /// The last index.
     pub last: u16,
-    /// How to get to the next axis.
+    /// Rule for the next axis.
     pub step: AxisStep,
 }
 
-/// How to get from an object of one axis to that of the next.
+/// Rule that maps an object of one axis to the next axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum AxisStep {
-    /// So much is added to the index (CiA 402-2: 0x800).
+    /// Adds this number to the index (CiA 402-2: 0x800).
     Index(u16),
-    /// The sub-index is the number of the axis.
+    /// Uses the axis number as the sub-index.
     SubIndex,
-    /// So much is added to the sub-index.
+    /// Adds this number to the sub-index.
     SubIndexStride(u8),
 }
 
 impl Axes {
-    /// Where axis `axis` (from 1) has what the first axis has at `object`. An object that the axes share, or that no range
-    /// has, stays where it is.
+    /// Returns the address at which axis `axis` (from 1) has the first axis' `object`. Shared objects and objects
+    /// outside all ranges keep their address.
     ///
-    /// `None` where there is no such axis, or no such object of it: of [`AxisStep::SubIndex`], sub-index 0 isn't an
-    /// axis's.
+    /// Returns `None` if the axis doesn't exist, or doesn't have the object. With [`AxisStep::SubIndex`], only
+    /// sub-index 1 belongs to an axis.
     #[must_use]
     pub fn object(&self, axis: u8, object: Object) -> Option<Object> {
         if axis == 0 || axis > self.count {
@@ -77,7 +77,7 @@ impl Axes {
                 Some(Object { index, sub_index })
             }
             AxisStep::SubIndex => (sub_index == 1).then_some(Object { index, sub_index: axis }),
-            // Sub-index 0 counts the entries of all axes.
+            // Sub-index 0 is the number of entries of all axes.
             AxisStep::SubIndexStride(_) if sub_index == 0 => Some(object),
             AxisStep::SubIndexStride(step) => {
                 let sub_index = sub_index.checked_add(step.checked_mul(further)?)?;
@@ -87,10 +87,10 @@ impl Axes {
     }
 }
 
-/// One axis of the device that `client` talks to: a client that finds the objects of the first axis at the addresses of
-/// this one. Made by the method `axis` of generated devices.
+/// Client for one axis of a device: replaces the address of each object of the first axis by the address for this axis.
+/// The method `axis` of generated devices creates it.
 ///
-/// Manuals give such rules for object dictionaries only, so an axis is on CANopen and on EtherCAT.
+/// Only CANopen and EtherCAT have axes, because manuals give such rules for object dictionaries only.
 #[derive(Debug)]
 pub struct Axis<C> {
     client: C,
@@ -99,12 +99,13 @@ pub struct Axis<C> {
 }
 
 impl<C> Axis<C> {
-    /// Axis `number`, from 1. Where there is no such axis, every access is an [`Error::NoSuchAxis`].
+    /// Creates the client for axis `number`, from 1. Every access returns [`Error::NoSuchAxis`] if the device doesn't
+    /// have this axis.
     pub const fn new(client: C, axes: &'static Axes, number: u8) -> Self {
         Self { client, axes, number }
     }
 
-    /// The number of the axis, from 1.
+    /// Returns the axis number, from 1.
     #[must_use]
     pub const fn number(&self) -> u8 {
         self.number
@@ -115,11 +116,11 @@ impl<C> Axis<C> {
     }
 }
 
-/// A bus on which the objects of further axes have addresses that a rule gives: CANopen and EtherCAT.
+/// A bus with rules for the addresses of further axes: CANopen and EtherCAT.
 #[diagnostic::on_unimplemented(
-    message = "no rule says where further axes are on {Self}",
+    message = "{Self} has no rule for the addresses of further axes",
     label = "this client's bus has no further axes",
-    note = "rules of axes are about object dictionaries: use a client of CANopen or of CANopen over EtherCAT"
+    note = "axis rules apply to object dictionaries: use a client of CANopen or of CANopen over EtherCAT"
 )]
 pub trait AxisBus: Bus<Address = Object> {}
 

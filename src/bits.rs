@@ -1,15 +1,16 @@
-//! Fields at any bit offset of a byte string, moved by shifts of whole words.
+//! Bit fields at any bit offset of a byte string.
 //!
-//! Bit 0 is the lowest bit of the first byte, bit 8 the lowest of the second: the order of a PDO (CiA 301 7.1.4).
+//! Bit 0 is the lowest bit of the first byte, bit 8 the lowest bit of the second byte. This is the bit order of a PDO
+//! (CiA 301 7.1.4).
 
 use crate::pdo::{from_bytes, mask};
 use crate::value_error::LengthError;
 
-/// Whether `data` has at least `bits` bits.
+/// Checks that `data` has at least `bits` bits.
 ///
 /// # Errors
 ///
-/// [`LengthError`] where it has fewer.
+/// Returns [`LengthError`] if `data` is shorter.
 #[inline]
 pub const fn check_length(data: &[u8], bits: usize) -> Result<(), LengthError> {
     let expected = bits.div_ceil(8);
@@ -19,13 +20,14 @@ pub const fn check_length(data: &[u8], bits: usize) -> Result<(), LengthError> {
     Ok(())
 }
 
-/// The field of `width` bits at `bit`. Bits beyond `data` are 0, and so are those beyond the 64th of the field.
+/// Returns the field of `width` bits at bit offset `bit`. Bits beyond the end of `data`, and beyond the 64th bit of the
+/// field, are 0.
 #[must_use]
 #[inline]
 pub const fn get(data: &[u8], bit: usize, width: u32) -> u64 {
     let rest = skip(data, bit / 8);
     let shift = (bit % 8) as u32;
-    // Where place and width are known to the compiler, one load of as many bytes as it takes.
+    // If offset and width are constants, the compiler reduces this to one load of the bytes of the field.
     match shift.saturating_add(width).div_ceil(8) {
         1 => {
             if let Some(bytes) = rest.first_chunk() {
@@ -49,13 +51,13 @@ pub const fn get(data: &[u8], bit: usize, width: u32) -> u64 {
     (low | high) & mask(width)
 }
 
-/// `buffer` with the low `width` bits of `value` at `bit`. Bits that would fall beyond `buffer`, and those beyond the
-/// 64th of the field, are dropped.
+/// Returns `buffer` with the low `width` bits of `value` at bit offset `bit`. Ignores bits beyond the end of `buffer`
+/// and beyond the 64th bit of the field.
 #[must_use]
 #[inline]
 pub const fn put<const N: usize>(buffer: [u8; N], bit: usize, width: u32, value: u64) -> [u8; N] {
     let (first, shift) = (bit / 8, (bit % 8) as u32);
-    // Where the place is known to the compiler, whole bytes become one store.
+    // If the offset is a constant, the compiler reduces whole bytes to one store.
     if shift == 0 && width % 8 == 0 {
         return put_first(buffer, first, width as usize / 8, value);
     }
@@ -69,7 +71,7 @@ pub const fn put<const N: usize>(buffer: [u8; N], bit: usize, width: u32, value:
     out
 }
 
-/// The bytes of `words`, the first word's lowest first. Bytes beyond the last word are 0.
+/// Returns the bytes of `words`, each word with its lowest byte first. Bytes after the last word are 0.
 #[must_use]
 #[inline]
 pub const fn from_words<const W: usize, const N: usize>(words: [u64; W]) -> [u8; N] {
@@ -82,15 +84,15 @@ pub const fn from_words<const W: usize, const N: usize>(words: [u64; W]) -> [u8;
     out
 }
 
-/// Writes the low `width` bits of `value` at `bit` of `data`. Bits that would fall beyond `data`, and those beyond the
-/// 64th of the field, are dropped.
+/// Writes the low `width` bits of `value` at bit offset `bit` of `data`. Ignores bits beyond the end of `data` and
+/// beyond the 64th bit of the field.
 #[inline]
 pub fn set(data: &mut [u8], bit: usize, width: u32, value: u64) {
     let (first, shift) = (bit / 8, (bit % 8) as u32);
     let field = mask(width);
     let value = value & field;
     let Some(rest) = data.get_mut(first..) else { return };
-    // Where place and width are known to the compiler, only the bytes that it takes are touched.
+    // If offset and width are constants, the compiled code accesses only the bytes of the field.
     match shift.saturating_add(width).div_ceil(8) {
         1 => {
             if let Some(bytes) = rest.first_chunk_mut() {
@@ -127,7 +129,7 @@ pub fn set(data: &mut [u8], bit: usize, width: u32, value: u64) {
     }
 }
 
-/// Writes `bytes` at `bit` of `data`. Bits that would fall beyond `data` are dropped.
+/// Writes `bytes` at bit offset `bit` of `data`. Ignores bits beyond the end of `data`.
 #[inline]
 pub fn set_bytes(data: &mut [u8], bit: usize, bytes: &[u8]) {
     if bit % 8 == 0 {
@@ -138,7 +140,7 @@ pub fn set_bytes(data: &mut [u8], bit: usize, bytes: &[u8]) {
     set_bits(data, bit, 8 * bytes.len(), bytes);
 }
 
-/// Writes the first `width` bits of `bytes` at `bit` of `data`. Bits that would fall beyond `data` are dropped.
+/// Writes the first `width` bits of `bytes` at bit offset `bit` of `data`. Ignores bits beyond the end of `data`.
 #[inline]
 pub fn set_bits(data: &mut [u8], bit: usize, width: usize, bytes: &[u8]) {
     for (chunk, from) in bytes.chunks(8).zip((0..width).step_by(64)) {
@@ -147,7 +149,7 @@ pub fn set_bits(data: &mut [u8], bit: usize, width: usize, bytes: &[u8]) {
     }
 }
 
-/// The `N` bytes at `bit`. Bits beyond `data` are 0.
+/// Returns the `N` bytes at bit offset `bit`. Bits beyond the end of `data` are 0.
 #[must_use]
 #[inline]
 pub const fn get_bytes<const N: usize>(data: &[u8], bit: usize) -> [u8; N] {
@@ -166,7 +168,8 @@ pub const fn get_bytes<const N: usize>(data: &[u8], bit: usize) -> [u8; N] {
     out
 }
 
-/// The first `width` bits of the `N` bytes at `bit`; those behind are 0, and so are bits beyond `data`.
+/// Returns the first `width` bits of the `N` bytes at bit offset `bit`. All other bits, and bits beyond the end of
+/// `data`, are 0.
 #[must_use]
 #[inline]
 pub const fn get_bits<const N: usize>(data: &[u8], bit: usize, width: usize) -> [u8; N] {
@@ -181,14 +184,15 @@ pub const fn get_bits<const N: usize>(data: &[u8], bit: usize, width: usize) -> 
     out
 }
 
-/// `buffer` with `bytes` at `bit`. Bits that would fall beyond `buffer` are dropped.
+/// Returns `buffer` with `bytes` at bit offset `bit`. Ignores bits beyond the end of `buffer`.
 #[must_use]
 #[inline]
 pub const fn put_bytes<const N: usize>(buffer: [u8; N], bit: usize, bytes: &[u8]) -> [u8; N] {
     put_bits(buffer, bit, 8 * bytes.len(), bytes)
 }
 
-/// `buffer` with the first `width` bits of `bytes` at `bit`. Bits that would fall beyond `buffer` are dropped.
+/// Returns `buffer` with the first `width` bits of `bytes` at bit offset `bit`. Ignores bits beyond the end of
+/// `buffer`.
 #[must_use]
 #[inline]
 pub const fn put_bits<const N: usize>(buffer: [u8; N], bit: usize, width: usize, bytes: &[u8]) -> [u8; N] {
@@ -204,14 +208,14 @@ pub const fn put_bits<const N: usize>(buffer: [u8; N], bit: usize, width: usize,
     out
 }
 
-/// How many of the `left` bits that are still to be moved are in the first word of `bytes`.
+/// Returns how many of the `left` bits that remain to be copied are in the first eight bytes of `bytes`.
 #[inline]
 const fn part(bytes: &[u8], left: usize) -> u32 {
     let word = if bytes.len() < 8 { 8 * bytes.len() } else { 64 };
     (if left < word { left } else { word }) as u32
 }
 
-/// `data` without its first `count` bytes.
+/// Returns `data` without its first `count` bytes.
 #[inline]
 const fn skip(data: &[u8], count: usize) -> &[u8] {
     if count < data.len() {
@@ -221,13 +225,14 @@ const fn skip(data: &[u8], count: usize) -> &[u8] {
     }
 }
 
-/// `buffer` with the bytes of `word` from byte `first` on, as far as they fit.
+/// Returns `buffer` with the bytes of `word` from byte `first` on. Ignores bytes beyond the end of `buffer`.
 #[inline]
 const fn put_word<const N: usize>(buffer: [u8; N], first: usize, word: u64) -> [u8; N] {
     put_first(buffer, first, 8, word)
 }
 
-/// `buffer` with the first `count` bytes of `word` from byte `first` on, as far as they fit.
+/// Returns `buffer` with the first `count` bytes of `word` from byte `first` on. Ignores bytes beyond the end of
+/// `buffer`.
 #[inline]
 const fn put_first<const N: usize>(buffer: [u8; N], first: usize, count: usize, word: u64) -> [u8; N] {
     let bytes = word.to_le_bytes();
@@ -240,13 +245,13 @@ const fn put_first<const N: usize>(buffer: [u8; N], first: usize, count: usize, 
     out
 }
 
-/// `byte` put above a word that was shifted down by `shift` bits, 0 to 7.
+/// Returns the bits that `byte` adds above a word that was shifted right by `shift` bits, 0 to 7.
 #[inline]
 const fn above(byte: u64, shift: u32) -> u64 {
     byte << 1 << (63 - shift)
 }
 
-/// What leaves the top of `word` when it is shifted up by `shift` bits, 0 to 7.
+/// Returns the bits that `word` loses when it is shifted left by `shift` bits, 0 to 7.
 #[inline]
 const fn beyond(word: u64, shift: u32) -> u64 {
     word >> 1 >> (63 - shift)
@@ -277,7 +282,7 @@ mod tests {
         buffer
     }
 
-    /// Bytes and words that look random and are the same each time.
+    /// Returns a pseudorandom word, always the same for one seed.
     fn noise(seed: u64) -> u64 {
         let mixed = (seed ^ 0x9E37_79B9_7F4A_7C15).wrapping_mul(0xBF58_476D_1CE4_E5B9);
         (mixed ^ mixed >> 31).wrapping_mul(0x94D0_49BB_1331_11EB)
@@ -330,7 +335,7 @@ mod tests {
             set_bits(&mut changed, bit, width, &data[..10]);
             assert_eq!(changed, expected, "set {bit} {width}");
         }
-        // A width beyond the bytes moves the bytes.
+        // A width beyond the end of `bytes` writes only the bits of `bytes`.
         assert_eq!(put_bits([0xFF; 3], 4, 100, &[0]), [0x0F, 0xF0, 0xFF]);
         let mut changed = [0xFF; 3];
         set_bits(&mut changed, 4, usize::MAX, &[0]);

@@ -1,16 +1,16 @@
-//! The buses, and how each of them addresses a value.
+//! The buses and their address types.
 
 use core::fmt;
 
 use crate::image_field::ImageField;
 use crate::register::Register;
 
-/// A bus, or a protocol that runs over one: which form its addresses have.
+/// A bus, or a protocol on top of a bus, with the type of its addresses.
 pub trait Bus {
-    /// Where a value is found on this bus.
+    /// Address of a value on this bus.
     type Address: Copy + fmt::Debug;
 
-    /// The bus's name, for messages.
+    /// Name of the bus for messages.
     const NAME: &'static str;
 }
 
@@ -36,25 +36,26 @@ buses! {
     Modbus: Register, "Modbus";
     /// PROFINET: acyclic records.
     Profinet: Record, "PROFINET";
-    /// A serial protocol that numbers its parameters.
+    /// A serial protocol with parameter numbers.
     Serial: Parameter, "serial";
-    /// A fixed process image, as PROFINET carries it in each cycle: fields at fixed bits.
+    /// A fixed process image, as in the cyclic data of PROFINET, with fields at fixed bit offsets.
     ProcessImage: ImageField, "process image";
-    /// The memory of an EtherCAT slave controller (ETG.1000.4), which a master reads and writes by addresses, without a mailbox.
+    /// The memory of an EtherCAT slave controller (ETG.1000.4). A master reads and writes it by address, without a
+    /// mailbox.
     Esc: EscMemory, "EtherCAT slave controller";
 }
 
-/// An entry of an object dictionary. `Display` writes it as `0x6040:00`, both parts in hexadecimal.
+/// An entry of an object dictionary. `Display` writes index and sub-index in hexadecimal, for example `0x6040:00`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Object {
-    /// The object's index.
+    /// Index of the object.
     pub index: u16,
-    /// The entry's sub-index; 0 for an object that is one variable.
+    /// Sub-index of the entry; 0 if the object is a single variable.
     pub sub_index: u8,
 }
 
 impl Object {
-    /// The entry at `index` and `sub_index`.
+    /// Creates the address of the entry at `index` and `sub_index`.
     #[must_use]
     pub const fn new(index: u16, sub_index: u8) -> Self {
         Self { index, sub_index }
@@ -67,60 +68,61 @@ impl fmt::Display for Object {
     }
 }
 
-/// A value inside a PROFINET record.
+/// A value in a PROFINET record.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Record {
-    /// The application process identifier.
+    /// Application process identifier (API).
     pub api: u32,
-    /// The slot number.
+    /// Slot number.
     pub slot: u16,
-    /// The subslot number.
+    /// Subslot number.
     pub subslot: u16,
-    /// The record's index.
+    /// Index of the record.
     pub index: u16,
-    /// The value's offset in the record, in bytes.
+    /// Byte offset of the value in the record.
     pub offset: u16,
-    /// Whether the value is a text or other bytes, one after the other; a number has its most significant byte first.
+    /// Whether the value is a text or a byte string. Numbers have their most significant byte first.
     pub is_bytes: bool,
 }
 
 impl Record {
-    /// A number `offset` bytes behind the start of a record of the application process 0.
+    /// Creates the address of a number at byte offset `offset` of a record in API 0.
     #[must_use]
     pub const fn new(slot: u16, subslot: u16, index: u16, offset: u16) -> Self {
         Self { api: 0, slot, subslot, index, offset, is_bytes: false }
     }
 
-    /// The same in another application process (API).
+    /// Returns the same address in another application process (API).
     #[must_use]
     pub const fn of_api(self, api: u32) -> Self {
         Self { api, ..self }
     }
 
-    /// The same place for a text or other bytes.
+    /// Returns the same address for a text or a byte string.
     #[must_use]
     pub const fn bytes(self) -> Self {
         Self { is_bytes: true, ..self }
     }
 }
 
-/// The number of a parameter of a serial protocol.
+/// Parameter number of a serial protocol.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Parameter(pub u32);
 
-/// Some bytes of the memory of an EtherCAT slave controller. Numbers have their least significant byte first (ETG.1000.4).
+/// A byte range in the memory of an EtherCAT slave controller. Numbers have their least significant byte first
+/// (ETG.1000.4).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct EscMemory {
-    /// The address of the first byte.
+    /// Address of the first byte.
     pub address: u16,
-    /// How many bytes.
+    /// Length in bytes.
     pub length: u16,
 }
 
 impl EscMemory {
-    /// `length` bytes from `address` on.
+    /// Creates the range of `length` bytes that starts at `address`.
     #[must_use]
     pub const fn new(address: u16, length: u16) -> Self {
         Self { address, length }

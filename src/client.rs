@@ -1,4 +1,4 @@
-//! What carries an item's bytes: implemented by adapters to bus libraries.
+//! Traits that carry the bytes of items. Adapters to bus libraries implement them.
 
 use core::future::Future;
 use core::time::Duration;
@@ -6,63 +6,64 @@ use core::time::Duration;
 use crate::bus::Bus;
 use crate::error::Error;
 
-/// Reads and writes one device, waiting for each answer.
+/// Reads and writes one device, and blocks until each reply.
 ///
-/// Bytes are in the order of CANopen, the least significant first, on every bus: a client of a bus with another order
-/// turns them around.
+/// Values have their least significant byte first, as in CANopen, on every bus. A client converts them if the bus uses
+/// another byte order.
 pub trait Client {
-    /// The bus that the device is on.
+    /// Bus of the device.
     type Bus: Bus;
 
-    /// What can go wrong on the bus.
+    /// Error type of the bus library.
     type Error;
 
     /// Reads the value at `address` to the start of `buffer` and returns its length in bytes.
     ///
-    /// For a value of a fixed size, `buffer` is exactly as long as the value, so a bus that doesn't send lengths fills
-    /// it. Where the device sends more than `buffer` holds, return the length of what it sent (what is in the buffer
-    /// then doesn't matter) or an error.
+    /// For a value of a fixed size, `buffer` has exactly the length of the value, so a bus that doesn't send lengths
+    /// fills it. If the device sends more than `buffer` holds, return the length that it sent, or an error. The
+    /// contents of the buffer don't matter then.
     ///
     /// # Errors
     ///
-    /// [`Error::Client`] where the bus fails, [`Error::Abort`] where the device refuses, [`Error::UnexpectedReply`] and
-    /// [`Error::Length`] where it answers something else.
+    /// - [`Error::Client`] if the bus fails.
+    /// - [`Error::Abort`] if the device refuses the access.
+    /// - [`Error::UnexpectedReply`] or [`Error::Length`] if the reply doesn't match the request.
     fn read(&mut self, address: <Self::Bus as Bus>::Address, buffer: &mut [u8]) -> Result<usize, Error<Self::Error>>;
 
     /// Writes `data` to the value at `address`.
     ///
     /// # Errors
     ///
-    /// The same as of [`read`](Self::read).
+    /// Those of [`read`](Self::read).
     fn write(&mut self, address: <Self::Bus as Bus>::Address, data: &[u8]) -> Result<(), Error<Self::Error>>;
 
-    /// Writes two values, in this order; at once where the bus can, as in one cycle of a process image. Unless said otherwise,
-    /// one after the other.
+    /// Writes two values in this order, at the same time if the bus can, for example in one cycle of a process image.
+    /// The default implementation writes one after the other.
     ///
     /// # Errors
     ///
-    /// The same as of [`write`](Self::write); the first value may have been written then.
+    /// Those of [`write`](Self::write). The first value may already be written then.
     fn write_both(&mut self, writes: [Write<'_, Self::Bus>; 2]) -> Result<(), Error<Self::Error>> {
         writes.into_iter().try_for_each(|(address, data)| self.write(address, data))
     }
 
-    /// Waits so long, or a little longer.
+    /// Waits at least for `time`.
     ///
-    /// Some devices need time between two transfers of one access: see [`Handshake`](crate::Handshake). Unless said
-    /// otherwise, the thread sleeps (feature `std`), or there is no clock; [`Timed`] gives any client one.
+    /// Some devices need time between two transfers of one access: see [`Handshake`](crate::Handshake). The default
+    /// implementation sleeps with the feature `std`, and fails without it. [`Timed`] adds a clock to any client.
     ///
     /// # Errors
     ///
-    /// [`Error::NoClock`] where the client can't wait; else those of what it has to do meanwhile.
+    /// [`Error::NoClock`] if the client can't wait, and the errors of the work that it does while it waits.
     fn wait(&mut self, time: Duration) -> Result<(), Error<Self::Error>> {
         sleep(time)
     }
 }
 
-/// An address, and the bytes that are written there.
+/// An address and the bytes to write there.
 pub type Write<'d, B> = (<B as Bus>::Address, &'d [u8]);
 
-/// Lets the thread sleep, where there are threads.
+/// Lets the thread sleep, if the feature `std` is on.
 #[inline]
 pub(crate) fn sleep<E>(time: Duration) -> Result<(), Error<E>> {
     #[cfg(feature = "std")]
@@ -75,22 +76,22 @@ pub(crate) fn sleep<E>(time: Duration) -> Result<(), Error<E>> {
     }
 }
 
-/// Reads and writes one device without blocking. The same rules as for [`Client`].
+/// Reads and writes one device without blocking. The rules of [`Client`] apply.
 ///
-/// Nothing is said about whether the futures can move to another thread; that is up to the client.
+/// Whether the futures are `Send` depends on the client.
 #[allow(async_fn_in_trait)]
 pub trait AsyncClient {
-    /// The bus that the device is on.
+    /// Bus of the device.
     type Bus: Bus;
 
-    /// What can go wrong on the bus.
+    /// Error type of the bus library.
     type Error;
 
     /// Reads the value at `address`, as [`Client::read`] does.
     ///
     /// # Errors
     ///
-    /// The same as of [`read`](Self::read).
+    /// Those of [`Client::read`].
     async fn read(
         &mut self,
         address: <Self::Bus as Bus>::Address,
@@ -101,14 +102,14 @@ pub trait AsyncClient {
     ///
     /// # Errors
     ///
-    /// The same as of [`read`](Self::read).
+    /// Those of [`Client::write`].
     async fn write(&mut self, address: <Self::Bus as Bus>::Address, data: &[u8]) -> Result<(), Error<Self::Error>>;
 
     /// Writes two values, as [`Client::write_both`] does.
     ///
     /// # Errors
     ///
-    /// The same as of [`Client::write_both`].
+    /// Those of [`Client::write_both`].
     async fn write_both(&mut self, writes: [Write<'_, Self::Bus>; 2]) -> Result<(), Error<Self::Error>> {
         for (address, data) in writes {
             self.write(address, data).await?;
@@ -116,19 +117,20 @@ pub trait AsyncClient {
         Ok(())
     }
 
-    /// Waits so long, as [`Client::wait`] does. Unless said otherwise, there is no clock: that is up to the executor.
+    /// Waits for `time`, as [`Client::wait`] does. The default implementation fails, because a clock depends on the
+    /// executor.
     ///
     /// # Errors
     ///
-    /// The same as of [`Client::wait`].
+    /// Those of [`Client::wait`].
     async fn wait(&mut self, time: Duration) -> Result<(), Error<Self::Error>> {
         let _ = time;
         Err(Error::NoClock)
     }
 }
 
-/// A client with a clock, for the accesses that have to [wait](Client::wait). `D` waits: a function that takes as long as it is
-/// told, or gives a future that does.
+/// Adds a clock to a client, for accesses that have to [wait](Client::wait). `D` is a function that waits for the given
+/// time, or returns a future that does.
 ///
 /// ```
 /// use core::time::Duration;
@@ -145,7 +147,7 @@ pub trait AsyncClient {
 /// # impl Delay { fn delay_us(&mut self, time: u32) { self.0 += time; } }
 /// # let (line, mut delay) = (Line, Delay(0));
 ///
-/// // `embedded_hal::delay::DelayNs`, say; of an async client, `embassy_time::Timer::after` or `tokio::time::sleep`.
+/// // Or `embedded_hal::delay::DelayNs`. For an async client: `embassy_time::Timer::after` or `tokio::time::sleep`.
 /// let mut client = Timed::new(line, |time: Duration| delay.delay_us(time.as_micros() as u32));
 /// client.wait(Duration::from_millis(3))?;
 /// # drop(client);
@@ -159,17 +161,17 @@ pub struct Timed<C, D> {
 }
 
 impl<C, D> Timed<C, D> {
-    /// `client`, which waits with `delay`.
+    /// Creates a client that uses `client` for transfers and `delay` to wait.
     pub const fn new(client: C, delay: D) -> Self {
         Self { client, delay }
     }
 
-    /// The client.
+    /// Returns the wrapped client.
     pub fn client(&mut self) -> &mut C {
         &mut self.client
     }
 
-    /// Gives the client back.
+    /// Returns the wrapped client and drops the clock.
     pub fn into_client(self) -> C {
         self.client
     }
@@ -179,7 +181,7 @@ impl<C, D> Timed<C, D> {
     }
 }
 
-/// Clients that hand everything, or all but the time, to another one; blocking and not.
+/// Defines the clients that forward all calls, or all except `wait`, to another client; blocking and async.
 macro_rules! forwarding {
     ($Client:ident [$($future:tt)*] $($async:ident $await:ident)?) => {
         impl<C: $Client, D: FnMut(Duration) $($future)*> $Client for Timed<C, D> {

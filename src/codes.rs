@@ -1,32 +1,32 @@
 //! Tables of codes: alarms, emergency codes, abort codes.
 
-/// A row of a table of codes.
+/// A row of a code table.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Code {
-    /// The code; the first of a range.
+    /// The code, or the first code of a range.
     pub first: i64,
-    /// The last code of a range; else the same.
+    /// The last code of a range; equal to `first` for a single code.
     pub last: i64,
-    /// What it is called.
+    /// Name of the code.
     pub name: &'static str,
-    /// Cause and remedy; empty where the source says nothing.
+    /// Cause and remedy; empty if the device description has none.
     pub text: &'static str,
-    /// The table's other columns, in its order.
+    /// Cells of the other columns, in the order of the table.
     pub cells: &'static [Cell],
 }
 
 impl Code {
-    /// A row.
+    /// Creates a row.
     #[must_use]
     pub const fn new(first: i64, last: i64, name: &'static str, text: &'static str, cells: &'static [Cell]) -> Self {
         Self { first, last, name, text, cells }
     }
 }
 
-/// A cell of a further column.
+/// A cell of an additional column.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Cell {
-    /// Nothing.
+    /// An empty cell.
     Empty,
     /// An integer.
     Number(i64),
@@ -36,7 +36,7 @@ pub enum Cell {
     Text(&'static str),
 }
 
-/// A code of a table, as a type: an enumeration that generated code has for each table.
+/// A code of a table as a Rust type. Generated code has an enumeration with this trait for each table.
 ///
 /// ```
 /// use lexibus::codes::{Code, CodeTable};
@@ -79,25 +79,25 @@ pub enum Cell {
 /// assert_eq!(Alarms::from_raw(8).row(), None);
 /// ```
 pub trait CodeTable: Copy {
-    /// The integer of a code.
+    /// Integer type of the codes.
     type Raw: Copy + Into<i64>;
 
-    /// The table.
+    /// Returns the rows of the table.
     fn codes() -> &'static [Code];
 
-    /// The name of a number.
+    /// Returns the variant for a code.
     fn from_raw(code: Self::Raw) -> Self;
 
-    /// The number.
+    /// Returns the code as an integer.
     fn raw(self) -> Self::Raw;
 
-    /// What the table says of it; `None` where it says nothing.
+    /// Returns the row of the code, or `None` if the table doesn't contain it.
     fn row(self) -> Option<&'static Code> {
         find(Self::codes(), self.raw().into())
     }
 }
 
-/// The row of a code: where several ranges have it, that of the narrowest.
+/// Returns the row of a code. If several ranges contain the code, the narrowest range applies.
 ///
 /// ```
 /// use lexibus::codes::{self, Code};

@@ -1,22 +1,23 @@
-//! Numbers that a device keeps in several items.
+//! Numbers that a device stores in several items.
 
 use crate::value_error::OutOfRange;
 
-/// How a device splits one number over `N` items: digits to a base, the most significant one first, and perhaps a sign in an item of
-/// its own.
+/// Encoding of one number in `N` items: digits in a base, the most significant digit first, and optionally a sign in
+/// another item.
 ///
-/// The items are read and written one after the other; between two of them, the number isn't whole.
+/// The items are read and written one after the other. Between two writes, the device has a mix of the old and the new
+/// number.
 ///
 /// ```
 /// use lexibus::Composite;
 ///
-/// // Pulses a turn, hundreds in one parameter and units in the next:
+/// // Pulses per revolution, with the hundreds in one parameter and the units in the next:
 /// const PULSES: Composite<2> = Composite::new(100);
 /// assert_eq!(PULSES.join([40, 96]), Ok(4096));
 /// assert_eq!(PULSES.split(4096), Ok([40, 96]));
 /// assert!(PULSES.split(10_000).is_err());
 ///
-/// // Ten thousands, hundreds and units, beside a sign that is 1 below zero:
+/// // Ten thousands, hundreds and units, and a sign that is 1 for negative numbers:
 /// const OFFSET: Composite<3> = Composite::signed(100, 1);
 /// assert_eq!(OFFSET.join_signed(1, [1, 23, 45]), Ok(-12_345));
 /// assert_eq!(OFFSET.split_signed(-12_345), Ok((1, [1, 23, 45])));
@@ -28,23 +29,24 @@ pub struct Composite<const N: usize> {
 }
 
 impl<const N: usize> Composite<N> {
-    /// Digits to this base, from 0 to one below it. A base below 2 has no digits: every number is out of range.
+    /// Creates an unsigned encoding in this base; digits are 0 to `base` - 1. Every number is out of range if the base
+    /// is below 2.
     #[must_use]
     pub const fn new(base: u16) -> Self {
         Self { base, negative: None }
     }
 
-    /// The same with an item for the sign, which has the value `negative` below zero and 0 otherwise.
+    /// Creates an encoding with a sign item, which has the value `negative` for negative numbers and 0 otherwise.
     #[must_use]
     pub const fn signed(base: u16, negative: u16) -> Self {
         Self { base, negative: Some(negative) }
     }
 
-    /// The number of its digits, the most significant one first.
+    /// Returns the number with these digits, the most significant digit first.
     ///
     /// # Errors
     ///
-    /// [`OutOfRange`] where a digit isn't below the base, or the number has more than 32 bits.
+    /// [`OutOfRange`] if a digit isn't below the base, or the number needs more than 32 bits.
     pub const fn join(&self, digits: [u16; N]) -> Result<u32, OutOfRange> {
         let mut number: u32 = 0;
         let mut at = 0;
@@ -64,11 +66,11 @@ impl<const N: usize> Composite<N> {
         Ok(number)
     }
 
-    /// The digits of a number, the most significant one first.
+    /// Returns the digits of a number, the most significant digit first.
     ///
     /// # Errors
     ///
-    /// [`OutOfRange`] where `N` digits aren't enough.
+    /// [`OutOfRange`] if the number has more than `N` digits.
     pub const fn split(&self, number: u32) -> Result<[u16; N], OutOfRange> {
         let mut digits = [0; N];
         let (mut rest, mut at) = (number, N);
@@ -83,11 +85,12 @@ impl<const N: usize> Composite<N> {
         }
     }
 
-    /// The number of its sign and its digits.
+    /// Returns the number with this sign and these digits.
     ///
     /// # Errors
     ///
-    /// As of [`join`](Self::join); and where the sign is none, or the amount isn't one of an `i32`.
+    /// Those of [`join`](Self::join), and [`OutOfRange`] if the sign is invalid or the absolute value doesn't fit in an
+    /// `i32`.
     pub const fn join_signed(&self, sign: u16, digits: [u16; N]) -> Result<i32, OutOfRange> {
         let amount = match self.join(digits) {
             Ok(amount) if amount <= i32::MAX as u32 => amount as i32,
@@ -100,11 +103,11 @@ impl<const N: usize> Composite<N> {
         }
     }
 
-    /// Sign and digits of a number.
+    /// Returns sign and digits of a number.
     ///
     /// # Errors
     ///
-    /// As of [`split`](Self::split); and where the number is below 0, and nothing has a sign.
+    /// Those of [`split`](Self::split), and [`OutOfRange`] if the number is negative and the encoding has no sign.
     pub const fn split_signed(&self, number: i32) -> Result<(u16, [u16; N]), OutOfRange> {
         let sign = match (number < 0, self.negative) {
             (false, _) => 0,

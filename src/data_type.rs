@@ -46,11 +46,11 @@ pub enum DataType {
     Real32,
     /// An IEEE 754 number of 64 bits.
     Real64,
-    /// ISO 646 text, one byte a character (CiA 301 7.1.6.3).
+    /// ISO 646 text, one byte per character (CiA 301 7.1.6.3).
     VisibleString,
-    /// Bytes (CiA 301 7.1.6.2).
+    /// A byte string (CiA 301 7.1.6.2).
     OctetString,
-    /// UTF-16 text, two bytes a unit (CiA 301 7.1.6.4).
+    /// UTF-16 text, two bytes per code unit (CiA 301 7.1.6.4).
     UnicodeString,
     /// A date with the time of day (CiA 301 7.1.6.5).
     TimeOfDay,
@@ -58,14 +58,14 @@ pub enum DataType {
     TimeDifference,
     /// A block of bytes of any length (CiA 301 7.1.6.7).
     Domain,
-    /// A number of so many bits, 1 to 16, that shares its bytes with others in a PDO (BIT1 … BIT16 of ETG.1000.6).
+    /// An integer of 1 to 16 bits that shares its bytes with other values in a PDO (BIT1 … BIT16 of ETG.1000.6).
     Bits(u8),
-    /// Bytes whose meaning the description of the device doesn't give.
+    /// Bytes whose meaning the device description doesn't give.
     Opaque,
 }
 
 impl DataType {
-    /// The size in bits, or `None` where the value itself determines it.
+    /// Returns the size in bits, or `None` if the size depends on the value.
     #[must_use]
     pub const fn bits(self) -> Option<u32> {
         Some(match self {

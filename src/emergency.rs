@@ -1,8 +1,8 @@
-//! Emergency messages of CANopen, and of CANopen over EtherCAT.
+//! Emergency messages of CANopen and CANopen over EtherCAT.
 
 use crate::codes::CodeTable;
 
-/// What a device tells of an error (CiA 301 7.2.7).
+/// An emergency message: the error that a device reports (CiA 301 7.2.7).
 ///
 /// ```
 /// use lexibus::Emergency;
@@ -14,16 +14,16 @@ use crate::codes::CodeTable;
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Emergency {
-    /// The error code.
+    /// Error code.
     pub code: u16,
-    /// The error register, object 0x1001.
+    /// Error register (object 0x1001).
     pub register: u8,
-    /// What the vendor adds.
+    /// Vendor-specific data.
     pub vendor: [u8; 5],
 }
 
 impl Emergency {
-    /// The message of eight bytes; `None` where there are more or fewer.
+    /// Returns the message in `data`, or `None` if `data` isn't eight bytes long.
     #[must_use]
     pub const fn from_bytes(data: &[u8]) -> Option<Self> {
         match *data {
@@ -34,20 +34,22 @@ impl Emergency {
         }
     }
 
-    /// The eight bytes that travel.
+    /// Returns the eight bytes of the message.
     #[must_use]
     pub const fn to_bytes(&self) -> [u8; 8] {
         let ([low, high], [a, b, c, d, e]) = (self.code.to_le_bytes(), self.vendor);
         [low, high, self.register, a, b, c, d, e]
     }
 
-    /// Whether it says that an error, or all errors, are gone (CiA 301 7.2.7.1: codes 0x0000 to 0x00FF).
+    /// Returns whether the message reports that one error or all errors are gone (codes 0x0000 to 0x00FF, CiA 301
+    /// 7.2.7.1).
     #[must_use]
     pub const fn is_reset(&self) -> bool {
         self.code <= 0xFF
     }
 
-    /// The code by its name in one of the device's tables, such as the type `codes::Emergency` of generated bindings.
+    /// Returns the code as a variant of one of the device's tables, for example of the type `codes::Emergency` of
+    /// generated bindings.
     #[must_use]
     pub fn alarm<T: CodeTable>(&self) -> T
     where

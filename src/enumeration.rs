@@ -1,14 +1,14 @@
-//! Values, or bits, that have names.
+//! Integers whose values or bits have names.
 
 use crate::data_type::DataType;
 use crate::range::Range;
 use crate::value::{Fixed, Value};
 use crate::value_error::{LengthError, OutOfRange};
 
-/// An enumeration of a device: named values of an integer. A bit field, an integer whose bits have names, is one, too.
+/// An enumeration of a device: an integer with named values. Bit fields, whose bits have names, implement it too.
 ///
-/// Generated enumerations have a variant for every other value, so that reading never fails on a device that is newer
-/// than its description. One that implements this trait is the [`Value`] of an item:
+/// Generated enumerations have a variant for all other values, so reading doesn't fail if the device is newer than its
+/// description. A type with this trait is the [`Value`] of an item:
 ///
 /// ```
 /// use lexibus::{Enumeration, Fixed};
@@ -44,16 +44,17 @@ use crate::value_error::{LengthError, OutOfRange};
 /// assert_eq!(Mode::decode(&[9]), Ok(Mode::Unknown(9)));
 /// ```
 pub trait Enumeration: Copy + 'static {
-    /// The integer below.
+    /// Type of the integer.
     type Base: Fixed;
 
-    /// The value of a number.
+    /// Returns the variant for an integer.
     fn from_native(native: <Self::Base as Value>::Native) -> Self;
 
-    /// The number of a value, as it is written to an item: reserved bits of a bit field are as the device wants them.
+    /// Returns the integer that is written to an item. Reserved bits of a bit field have the values that the device
+    /// requires.
     fn native(self) -> <Self::Base as Value>::Native;
 
-    /// The number with all bits as they are, as it goes into a PDO.
+    /// Returns the integer for a PDO, with all bits unchanged.
     fn as_is(self) -> <Self::Base as Value>::Native {
         self.native()
     }
@@ -77,10 +78,10 @@ impl<E: Enumeration> Fixed for E {
         <E::Base as Fixed>::decode(bytes).map(E::from_native)
     }
 
-    /// Limits of an enumeration are those of its numbers.
+    /// Compares the integers of the value and of the limits.
     #[inline]
     fn in_range(value: E, range: &Range<E>) -> bool {
-        // No call of itself: the compiler would not inline that, and could not see through a range that it knows.
+        // Not a recursive call: the compiler wouldn't inline it, and couldn't evaluate a constant range.
         let within = |base: Range<_>| <E::Base as Fixed>::in_range(value.native(), &base);
         match *range {
             Range::Full => true,

@@ -1,4 +1,4 @@
-//! What can go wrong between an accessor and a device.
+//! Errors of an access to a device.
 
 use core::error;
 use core::fmt;
@@ -10,44 +10,44 @@ use crate::profinet::parameter_access::ParameterError;
 use crate::profinet::{NotAllowed, RecordError};
 use crate::value_error::{LengthError, OutOfRange, TextError};
 
-/// Why an access failed. `E` is the client's own error.
+/// Reason why an access failed. `E` is the error type of the client.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Error<E> {
     /// The bus failed.
     Client(E),
-    /// The device refused: an abort of an SDO transfer (CiA 301 7.2.4.3.17), or what a bus has instead.
+    /// The device refused the access, with an SDO abort code (CiA 301 7.2.4.3.17) or the equivalent of another bus.
     Abort(AbortCode),
-    /// The device refused with a message that says no more than that, or more than fits here.
+    /// The device refused the access without a reason, or with a reason that this type can't hold.
     Refused,
-    /// The device answered something that is no answer to what it was asked.
+    /// The reply of the device doesn't match the request.
     UnexpectedReply,
-    /// The protocol has no message that does this to the parameter. Nothing was sent.
+    /// The protocol has no message for this access to the parameter. Nothing was sent.
     NoMessage,
-    /// The device didn't answer in time, or the bus didn't become free.
+    /// The device didn't reply in time, or the bus was busy.
     Timeout,
-    /// The device needs time before it has the value, and the client can't wait ([`Client::wait`](crate::Client::wait)):
-    /// [`Timed`](crate::Timed) gives it a clock.
+    /// The device needs time before it has the value, and the client can't wait
+    /// ([`Client::wait`](crate::Client::wait)). Use [`Timed`](crate::Timed) to add a clock to the client.
     NoClock,
-    /// The device says that its cyclic data aren't valid (the provider status of PROFINET).
+    /// The device marks its cyclic data as invalid (provider status of PROFINET).
     InvalidData,
-    /// The device has no such axis, or that axis doesn't have the object. Nothing was sent.
+    /// The device doesn't have the axis, or the axis doesn't have the object. Nothing was sent.
     NoSuchAxis {
-        /// The number of the axis, from 1.
+        /// Axis number, from 1.
         axis: u8,
-        /// The object, as the first axis has it.
+        /// Object of the first axis.
         object: Object,
     },
-    /// The value is outside the item's declared range, or doesn't fit its type on this bus. Nothing was sent. Of a value that
-    /// was read: it has more bits on this bus than the item's type, and doesn't fit that.
+    /// A value to write is outside the item's declared range, or doesn't fit its type on this bus; nothing was sent. Or
+    /// a value that was read has more bits on this bus and doesn't fit the item's type.
     OutOfRange(OutOfRange),
-    /// The device sent, or the caller gave, a number of bytes that doesn't fit.
+    /// The device sent, or the caller passed, the wrong number of bytes.
     Length(LengthError),
     /// The text isn't valid for the item's type.
     Text(TextError),
-    /// A field of a PROFINET record has a value that isn't allowed. Nothing was sent.
+    /// A field of a PROFINET record has an invalid value. Nothing was sent.
     NotAllowed(NotAllowed),
-    /// An access to a parameter of a PROFIdrive drive was refused, or went wrong.
+    /// An access to a parameter of a PROFIdrive drive was refused or failed.
     ParameterAccess(ParameterError),
 }
 
@@ -58,11 +58,11 @@ impl<E: fmt::Display> fmt::Display for Error<E> {
             Self::Abort(code) => write!(f, "the device refused: {code}"),
             Self::Refused => f.write_str("the device refused"),
             Self::UnexpectedReply => f.write_str("unexpected reply"),
-            Self::NoMessage => f.write_str("the protocol has no message for that"),
+            Self::NoMessage => f.write_str("the protocol has no message for this access"),
             Self::Timeout => f.write_str("no answer in time"),
-            Self::NoClock => f.write_str("the device needs time, and the client can't wait"),
-            Self::InvalidData => f.write_str("the device says that its cyclic data aren't valid"),
-            Self::NoSuchAxis { axis, object } => write!(f, "there is no axis {axis} that has object {object}"),
+            Self::NoClock => f.write_str("the device needs time, but the client has no clock"),
+            Self::InvalidData => f.write_str("the device marks its cyclic data as invalid"),
+            Self::NoSuchAxis { axis, object } => write!(f, "axis {axis} doesn't exist or has no object {object}"),
             Self::OutOfRange(error) => error.fmt(f),
             Self::Length(error) => error.fmt(f),
             Self::Text(error) => error.fmt(f),
@@ -118,7 +118,7 @@ mod tests {
         assert_eq!(length.to_string(), "expected 4 bytes, got 2");
         assert_eq!(Error::Client(TextError).to_string(), "invalid text");
         let missing = Error::<TextError>::NoSuchAxis { axis: 4, object: Object::new(0x6040, 0) };
-        assert_eq!(missing.to_string(), "there is no axis 4 that has object 0x6040:00");
+        assert_eq!(missing.to_string(), "axis 4 doesn't exist or has no object 0x6040:00");
         let refused = Error::<TextError>::from(AbortCode::READ_ONLY);
         assert_eq!(refused.to_string(), "the device refused: 0x06010002: attempt to write a read-only object");
         assert_eq!(Error::<TextError>::from(OutOfRange).to_string(), "value out of range");

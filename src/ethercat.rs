@@ -1,8 +1,8 @@
-//! EtherCAT: what a master has to know of a slave, the PDOs that it assigns, and the process image that follows.
+//! EtherCAT: description of a slave for the master, PDO assignment and process image.
 //!
-//! Generated bindings describe a slave as a constant [`Device`]: sync managers, PDOs, start-up commands, slots. From it,
-//! an [`Assignment`] of PDOs gives the layout of the process image and the commands that set it up; a [`SlotPlan`] does
-//! the same for a modular device with its modules. None of them allocates.
+//! Generated bindings describe a slave as a constant [`Device`] with sync managers, PDOs, start-up commands and slots.
+//! An [`Assignment`] of PDOs computes the layout of the process image and the commands that configure it. A
+//! [`SlotPlan`] does the same for a modular device and its modules. None of these types allocates.
 //!
 //! "Inputs" and "outputs" are those of the master: a TxPDO of the slave is an input.
 
@@ -28,45 +28,46 @@ pub use sync_manager::{Fmmu, FmmuPurpose, SyncManager, SyncManagerPurpose};
 
 use crate::identity::Identity;
 
-/// What a master has to know of a slave.
+/// Description of a slave for the master.
 #[derive(Clone, Copy, Debug)]
 pub struct Device {
-    /// Who made it, and which one it is.
+    /// Identity: vendor, product and revision.
     pub identity: Identity,
-    /// Its sync managers, by number.
+    /// Sync managers in ascending order of their numbers.
     pub sync_managers: &'static [SyncManager],
-    /// Its PDOs, those of the outputs first.
+    /// PDOs, first those of the outputs, then those of the inputs.
     pub pdos: &'static [PdoInfo],
-    /// The PDOs that are assigned by default, in the order of the process image.
+    /// Indices of the PDOs that are assigned by default, in the order of the process image.
     pub default_pdos: &'static [u16],
-    /// Its mailbox.
+    /// Mailbox of the slave.
     pub mailbox: Mailbox,
-    /// What it takes in its slots; `None` for a device that isn't modular.
+    /// Slots and modules; `None` if the device isn't modular.
     pub slots: Option<Slots>,
 }
 
 impl Device {
-    /// The commands of the device itself on a change of state.
+    /// Returns the initialization commands of the device itself for a state transition.
     pub fn init_commands(&self, transition: Transition) -> impl Iterator<Item = StartupCommand> {
         let commands = self.mailbox.coe.map_or(&[][..], |coe| coe.init_commands);
         let due = commands.iter().filter(move |command| command.transitions.contains(transition));
         due.map(move |command| StartupCommand::of_init(command, transition, depends_on::Growth::default()))
     }
 
-    /// The PDO with this mapping object.
+    /// Returns the PDO with this index of its mapping object.
     #[must_use]
     pub fn pdo(&self, index: u16) -> Option<&'static PdoInfo> {
         self.pdos.iter().find(|pdo| pdo.index == index)
     }
 
-    /// The sync manager with this number.
+    /// Returns the sync manager with this number.
     #[must_use]
     pub fn sync_manager(&self, number: u8) -> Option<&'static SyncManager> {
         self.sync_managers.iter().find(|manager| manager.number == number)
     }
 
-    /// The sync manager that a PDO goes to: the one that it names, else the first for data of its direction. Where the description
-    /// has no list of sync managers, it is that of another PDO of its direction.
+    /// Returns the number of the sync manager for a PDO: the one that the PDO names, otherwise the first one for its
+    /// direction. If the description lists no sync managers, this is the one that another PDO of the same direction
+    /// names.
     #[must_use]
     pub fn sync_manager_of(&self, pdo: &PdoInfo) -> Option<u8> {
         let purpose = match pdo.direction {
@@ -84,7 +85,7 @@ impl Device {
 }
 
 impl Device {
-    /// The sync manager that the first PDO of a direction names that names one.
+    /// Returns the first sync manager that a PDO of this direction names.
     fn named_by_others(&self, direction: Direction) -> Option<u8> {
         self.pdos.iter().filter(|pdo| pdo.direction == direction).find_map(|pdo| pdo.sync_manager)
     }

@@ -1,4 +1,4 @@
-//! Messages that are answered: what carries them, and parameters in them.
+//! Request and reply protocols: message exchange and numbered parameters.
 
 use crate::bus::{Parameter, Serial};
 use crate::client::{AsyncClient, Client};
@@ -6,15 +6,15 @@ use crate::error::Error;
 use crate::message::{answer, Answer, AsyncMessageClient, Message, MessageClient, Station, WriteError, Writer};
 use crate::value_error::LengthError;
 
-/// Sends a request to one device and waits for its reply, for protocols of messages.
+/// Sends a request to one device and blocks until the reply. Protocols with requests and replies use it.
 ///
-/// Requests and replies are the data of a message, without what frames them on the line. The feature `serial` has one over
-/// any stream of bytes; here is one for a test:
+/// Requests and replies are the data of a message without the framing on the line. The feature `serial` has an
+/// implementation for any byte stream. An implementation for a test:
 ///
 /// ```
 /// use lexibus::{Error, Exchange, LengthError};
 ///
-/// /// A device that sends back what it gets, behind a status.
+/// /// A device that returns a status byte and then the request.
 /// struct Echo;
 ///
 /// impl Exchange for Echo {
@@ -36,24 +36,24 @@ use crate::value_error::LengthError;
 /// # Ok::<(), Error<core::convert::Infallible>>(())
 /// ```
 pub trait Exchange {
-    /// What can go wrong on the line.
+    /// Error type of the line.
     type Error;
 
-    /// Sends `request`, puts the reply to the start of `reply` and returns its length.
+    /// Sends `request`, writes the reply to the start of `reply` and returns its length.
     ///
     /// # Errors
     ///
-    /// [`Error::Client`] where the line fails, or no reply comes; [`Error::Length`] where `request` is too long for the
-    /// protocol, or the reply for `reply`.
+    /// [`Error::Client`] if the line fails or no reply arrives. [`Error::Length`] if `request` is too long for the
+    /// protocol or the reply is longer than `reply`.
     fn exchange(&mut self, request: &[u8], reply: &mut [u8]) -> Result<usize, Error<Self::Error>>;
 }
 
-/// Sends a request to one device and takes its reply without blocking. The same rules as for [`Exchange`].
+/// Sends a request to one device and receives the reply without blocking. The rules of [`Exchange`] apply.
 ///
 /// ```
 /// use lexibus::{AsyncExchange, Error};
 ///
-/// /// A device that has nothing to say.
+/// /// A device that returns an empty reply.
 /// struct Silent;
 ///
 /// impl AsyncExchange for Silent {
@@ -66,26 +66,27 @@ pub trait Exchange {
 /// ```
 #[allow(async_fn_in_trait)]
 pub trait AsyncExchange {
-    /// What can go wrong on the line.
+    /// Error type of the line.
     type Error;
 
-    /// Sends `request` and takes the reply, as [`Exchange::exchange`] does.
+    /// Sends `request` and receives the reply, as [`Exchange::exchange`] does.
     ///
     /// # Errors
     ///
-    /// The same as of [`Exchange::exchange`].
+    /// Those of [`Exchange::exchange`].
     async fn exchange(&mut self, request: &[u8], reply: &mut [u8]) -> Result<usize, Error<Self::Error>>;
 }
 
-/// The messages of a protocol that read and write numbered parameters.
+/// Messages of a protocol that read and write numbered parameters.
 ///
-/// Values are as in a [`Client`]: the least significant byte first. A protocol with another order turns them around.
+/// Values have their least significant byte first, as in a [`Client`]. Implementations convert them if the protocol
+/// uses another byte order.
 ///
 /// ```
 /// use lexibus::message::WriteError;
 /// use lexibus::{Error, LengthError, Parameter, ParameterMessages};
 ///
-/// /// Number and value, with the device's order of bytes; the reply begins with the number, too.
+/// /// Parameter number and value, big-endian. The reply starts with the parameter number too.
 /// struct Messages;
 ///
 /// impl ParameterMessages for Messages {
@@ -117,20 +118,21 @@ pub trait AsyncExchange {
 /// assert_eq!(request[..3], [7, 1, 2]);
 /// ```
 pub trait ParameterMessages {
-    /// Puts the data of the request that reads a parameter of `length` bytes to the start of `request` and returns their
-    /// number.
+    /// Writes the request that reads a parameter of `length` bytes to the start of `request` and returns the length of
+    /// the request.
     ///
     /// # Errors
     ///
-    /// When the request doesn't fit, or no message reads the parameter.
+    /// If the request doesn't fit, or no message reads the parameter.
     fn read_request(&self, parameter: Parameter, length: usize, request: &mut [u8]) -> Result<usize, WriteError>;
 
-    /// Puts the value in the reply to that request to the start of `value` and returns its length.
+    /// Writes the value in the reply to the start of `value` and returns its length.
     ///
     /// # Errors
     ///
-    /// [`Error::UnexpectedReply`] where it is a reply to something else, [`Error::Refused`] or [`Error::Abort`] where the device
-    /// refuses, [`Error::Length`] where the value has another length.
+    /// - [`Error::UnexpectedReply`] if the reply belongs to another request.
+    /// - [`Error::Refused`] or [`Error::Abort`] if the device refuses.
+    /// - [`Error::Length`] if the value has another length.
     fn read_reply<E>(
         &self,
         parameter: Parameter,
@@ -139,24 +141,26 @@ pub trait ParameterMessages {
         value: &mut [u8],
     ) -> Result<usize, Error<E>>;
 
-    /// Puts the data of the request that writes a parameter to the start of `request` and returns their number.
+    /// Writes the request that writes a parameter to the start of `request` and returns the length of the request.
     ///
     /// # Errors
     ///
-    /// When the request doesn't fit, or no message writes the parameter.
+    /// If the request doesn't fit, or no message writes the parameter.
     fn write_request(&self, parameter: Parameter, value: &[u8], request: &mut [u8]) -> Result<usize, WriteError>;
 
-    /// Whether the reply to that request says that it was done.
+    /// Checks that the reply confirms the write request.
     ///
     /// # Errors
     ///
-    /// As of [`read_reply`](Self::read_reply).
+    /// Those of [`read_reply`](Self::read_reply).
     fn write_reply<E>(&self, parameter: Parameter, request: &[u8], reply: &[u8]) -> Result<(), Error<E>>;
 }
 
-/// A device with a protocol of messages, over `X`, which exchanges their data: its parameters as a [`Client`] of [`Serial`] or
-/// an [`AsyncClient`], where `M` knows the messages that carry them, and its messages as a [`MessageClient`]. `N` is the length
-/// of the longest of them, in bytes.
+/// Client for a device with a request and reply protocol, over the exchange `X`. `N` is the length of the longest
+/// message in bytes.
+///
+/// It is a [`Client`] of [`Serial`], or an [`AsyncClient`], if `M` implements [`ParameterMessages`]. It is a
+/// [`MessageClient`] if `M` is a [`Station`].
 #[derive(Clone, Debug)]
 pub struct Parameters<X, M, const N: usize> {
     exchange: X,
@@ -166,23 +170,23 @@ pub struct Parameters<X, M, const N: usize> {
 }
 
 impl<X, M, const N: usize> Parameters<X, M, N> {
-    /// The device that `exchange` talks to.
+    /// Creates the client that sends `messages` through `exchange`.
     pub const fn new(exchange: X, messages: M) -> Self {
         Self { exchange, messages, request: [0; N], reply: [0; N] }
     }
 
-    /// What exchanges messages.
+    /// Returns the exchange.
     pub fn exchange(&mut self) -> &mut X {
         &mut self.exchange
     }
 
-    /// Gives back what exchanges messages.
+    /// Returns the exchange and drops the client.
     pub fn into_exchange(self) -> X {
         self.exchange
     }
 }
 
-/// The part of `buffer` that was filled.
+/// Returns the first `length` bytes of `buffer`. Implementations of the traits may return more than the buffer has.
 fn filled(buffer: &[u8], length: usize) -> Result<&[u8], LengthError> {
     buffer.get(..length).ok_or(LengthError::new(buffer.len(), length))
 }

@@ -1,29 +1,29 @@
-//! What else is known about an item.
+//! Additional properties of an item.
 
-/// Facts about an item that constants can test.
+/// Set of properties of an item, which can be tested in constants.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct Flags(u8);
 
 impl Flags {
-    /// None.
+    /// The empty set.
     pub const NONE: Self = Self(0);
 
-    /// Can be mapped into an RPDO, which the device receives (CiA 301 7.5.2.36).
+    /// The item can be mapped into an RPDO, which the device receives (CiA 301 7.5.2.36).
     pub const RPDO: Self = Self(1);
 
-    /// Can be mapped into a TPDO, which the device transmits (CiA 301 7.5.2.38).
+    /// The item can be mapped into a TPDO, which the device transmits (CiA 301 7.5.2.38).
     pub const TPDO: Self = Self(1 << 1);
 
-    /// The item can be mapped into both.
+    /// The item can be mapped into RPDOs and TPDOs.
     pub const PDO: Self = Self(1 | 1 << 1);
 
-    /// The flags that are in `self`, in `other` or in both.
+    /// Returns the flags that are in `self`, in `other` or in both.
     #[must_use]
     pub const fn union(self, other: Self) -> Self {
         Self(self.0 | other.0)
     }
 
-    /// Whether all flags of `other` are in `self`.
+    /// Returns whether `self` contains all flags of `other`.
     #[must_use]
     pub const fn contains(self, other: Self) -> bool {
         self.0 & other.0 == other.0

@@ -1,8 +1,8 @@
-//! How messages are put into a stream of bytes, and found in it again.
+//! Framing of messages in a byte stream.
 //!
-//! [`Framing`] is implemented by [`Delimited`], which is data: a constant says where a frame begins and ends, what is escaped, and
-//! how it is checked. Neither allocates, nor knows where the bytes come from; the feature `serial` joins them to a stream of
-//! `embedded-io`.
+//! [`Framing`] is the trait. [`Delimited`] implements it for protocols with start and end bytes, and is a constant with
+//! delimiters, escape bytes and check. None of them allocates or performs I/O; the feature `serial` connects them to a
+//! stream of `embedded-io`.
 //!
 //! ```
 //! use lexibus::framing::{Check, Delimited, Framing};
@@ -35,9 +35,9 @@ use crate::value_error::LengthError;
 pub use check::Check;
 pub use delimited::{Delimited, DelimitedDecoder, Escape};
 
-/// How messages are framed on a stream of bytes.
+/// Framing of messages in a byte stream.
 ///
-/// A protocol of one's own, here a length and then the data, without a check:
+/// A custom protocol, here a length byte and the data, without a check:
 ///
 /// ```
 /// use lexibus::framing::{FrameError, Framing};
@@ -45,7 +45,7 @@ pub use delimited::{Delimited, DelimitedDecoder, Escape};
 ///
 /// struct Counted;
 ///
-/// /// How many bytes are still to come, and how many are there.
+/// /// Number of bytes that are missing, and number of bytes received.
 /// struct Progress(u8, usize);
 ///
 /// impl Framing for Counted {
@@ -84,25 +84,25 @@ pub use delimited::{Delimited, DelimitedDecoder, Escape};
 /// assert_eq!(data[..2], [7, 8]);
 /// ```
 pub trait Framing {
-    /// How far a frame has come.
+    /// State of a partly received frame.
     type Decoder;
 
-    /// Puts the frame of `data` to the start of `frame` and returns its length.
+    /// Writes the frame for `data` to the start of `frame` and returns its length.
     ///
     /// # Errors
     ///
-    /// When the protocol has no frame of so many data, or it doesn't fit into `frame`.
+    /// If `data` is too long for the protocol, or the frame is longer than `frame`.
     fn encode(&self, data: &[u8], frame: &mut [u8]) -> Result<usize, LengthError>;
 
-    /// A decoder that waits for a frame to begin.
+    /// Returns a decoder that waits for the start of a frame.
     fn decoder(&self) -> Self::Decoder;
 
-    /// Takes the next byte of the stream. What belongs to the frame is put into `data`, the same from the frame's first byte to
-    /// its last. Returns how many data the frame has when `byte` is its last one.
+    /// Decodes the next byte of the stream. Writes the data of the frame to `data`, which must be the same buffer for
+    /// all bytes of a frame. Returns the length of the data if `byte` is the last byte of the frame.
     ///
     /// # Errors
     ///
-    /// When the frame is lost. The decoder looks for the next one, which `byte` may have begun.
+    /// If the frame is invalid. The decoder then waits for the next frame, which `byte` may have started.
     fn decode(&self, decoder: &mut Self::Decoder, byte: u8, data: &mut [u8]) -> Result<Option<usize>, FrameError>;
 }
 
@@ -122,30 +122,30 @@ impl<F: Framing + ?Sized> Framing for &F {
     }
 }
 
-/// Why a frame is lost.
+/// Reason why a frame is invalid.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum FrameError {
-    /// Another frame began before the end of this one.
+    /// Another frame started before the end of this one.
     Interrupted,
-    /// More data than a frame has, or than there is room for.
+    /// The data are longer than the protocol or the buffer allows.
     TooLong,
-    /// Less than the check.
+    /// The frame is shorter than its check.
     TooShort,
-    /// A byte that can't stand behind the one that announces an escaped one.
+    /// The byte after the escape byte isn't valid.
     Escape,
-    /// The check doesn't agree with the data.
+    /// The check doesn't match the data.
     Check,
 }
 
 impl fmt::Display for FrameError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
-            Self::Interrupted => "another frame began before the end of this one",
+            Self::Interrupted => "another frame started before the end of this one",
             Self::TooLong => "the frame is too long",
             Self::TooShort => "the frame is too short",
-            Self::Escape => "the frame has a wrong escaped byte",
-            Self::Check => "the check of the frame doesn't agree with its data",
+            Self::Escape => "invalid escape sequence in the frame",
+            Self::Check => "the check of the frame doesn't match its data",
         })
     }
 }

@@ -1,6 +1,6 @@
-//! Conversions of errors.
+//! Error conversions.
 
-/// Implements `From` for each error that is a variant of a wider one.
+/// Implements `From` for each error type that a variant of another error type holds.
 macro_rules! from {
     ($($error:ident => $target:ident::$variant:ident $(<$parameter:ident>)?;)*) => {$(
         impl $(<$parameter>)? From<$error> for $target $(<$parameter>)? {

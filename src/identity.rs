@@ -1,19 +1,19 @@
-//! Who made a device, and which one it is.
+//! Identity of a device: vendor, product and revision.
 
-/// The identity of a device as its description gives it (object 0x1018 holds its numbers).
+/// Identity of a device as its description gives it (object 0x1018 contains the numbers).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Identity {
-    /// The vendor-ID (0x1018:01).
+    /// Vendor-ID (0x1018:01).
     pub vendor_id: Option<u32>,
-    /// The product code (0x1018:02).
+    /// Product code (0x1018:02).
     pub product_code: Option<u32>,
-    /// The revision number (0x1018:03).
+    /// Revision number (0x1018:03).
     pub revision_number: Option<u32>,
-    /// The vendor's name; empty where the description has none.
+    /// Vendor name; empty if the description has none.
     pub vendor_name: &'static str,
-    /// The product's name; empty where the description has none.
+    /// Product name; empty if the description has none.
     pub product_name: &'static str,
-    /// The order code; empty where the description has none.
+    /// Order code; empty if the description has none.
     pub order_code: &'static str,
 }
 

@@ -5,27 +5,27 @@ use crate::profinet::be;
 use crate::value::byte_len;
 use crate::value_error::LengthError;
 
-/// In which order the bytes of a field lie.
+/// Byte order of a field.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum ImageOrder {
-    /// A number, its most significant byte first, as PROFINET has it. A field that is no whole number of bytes is a part of
-    /// such a number.
+    /// A number with its most significant byte first, as in PROFINET. A field that isn't a whole number of bytes is a
+    /// part of such a number.
     #[default]
     BigEndian,
-    /// A number, its least significant byte first, as EtherCAT has it.
+    /// A number with its least significant byte first, as in EtherCAT.
     LittleEndian,
-    /// A text or other bytes, one after the other.
+    /// A text or a byte string.
     Bytes,
 }
 
-/// Some bits of a fixed process image.
+/// A bit field in a fixed process image.
 ///
-/// A [`Client`](crate::Client) deals in bytes, the least significant first; an image has its own order:
+/// A [`Client`](crate::Client) uses the least significant byte first; an image has its own byte order:
 ///
 /// ```
 /// use lexibus::ImageField;
 ///
-/// // Four bytes from byte 3 on, which the device sends.
+/// // Four bytes from byte offset 3 on, an input of the controller.
 /// const POSITION: ImageField = ImageField::input(8 * 3, 32);
 /// let mut image = [0; 32];
 /// POSITION.put(&mut image, &(-2_i32).to_le_bytes())?;
@@ -38,37 +38,38 @@ pub enum ImageOrder {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct ImageField {
-    /// Whether the device gets it (an output of the controller), or sends it (an input).
+    /// Whether the field is an output of the controller, which the device receives. Otherwise, it is an input, which
+    /// the device sends.
     pub is_output: bool,
-    /// The first bit: 8 for each byte before it, and the free bits below it in its last byte; of a little-endian field, in
-    /// its first one.
+    /// Bit offset: eight times the offset of the first byte, plus the number of unused bits below the field. In a
+    /// big-endian field, these are bits of the last byte; in a little-endian field, bits of the first byte.
     pub bit: u32,
-    /// How many bits; of a number 64 at most.
+    /// Length in bits; 64 at most for a number.
     pub bits: u16,
-    /// In which order they lie.
+    /// Byte order.
     pub order: ImageOrder,
 }
 
 impl ImageField {
-    /// A big-endian number that the device sends.
+    /// Creates a big-endian number that the device sends.
     #[must_use]
     pub const fn input(bit: u32, bits: u16) -> Self {
         Self { is_output: false, bit, bits, order: ImageOrder::BigEndian }
     }
 
-    /// A big-endian number that the device gets.
+    /// Creates a big-endian number that the device receives.
     #[must_use]
     pub const fn output(bit: u32, bits: u16) -> Self {
         Self { is_output: true, bit, bits, order: ImageOrder::BigEndian }
     }
 
-    /// The same bits in another order.
+    /// Returns the same field with another byte order.
     #[must_use]
     pub const fn ordered(self, order: ImageOrder) -> Self {
         Self { order, ..self }
     }
 
-    /// How many bytes the value has, outside of the image.
+    /// Returns the length of the value in bytes, outside the image.
     #[must_use]
     pub const fn byte_len(&self) -> usize {
         match self.order {
@@ -81,7 +82,7 @@ impl ImageField {
         (self.bit / 8) as usize
     }
 
-    /// The bits of the field, where its number is no longer than 64.
+    /// Returns the length of the field in bits, 64 at most.
     const fn width(&self) -> u32 {
         if self.bits > 64 {
             64
@@ -90,7 +91,7 @@ impl ImageField {
         }
     }
 
-    /// Whether `image` has all of the field.
+    /// Checks that `image` contains the whole field.
     fn check(&self, image: &[u8]) -> Result<(), LengthError> {
         let end = (u64::from(self.bit) + u64::from(self.bits)).div_ceil(8);
         match usize::try_from(end) {
@@ -99,12 +100,12 @@ impl ImageField {
         }
     }
 
-    /// Puts the value that the field has in `image` to the start of `buffer`, the least significant byte first, and returns
-    /// how many bytes it has.
+    /// Reads the field from `image`, writes the value to the start of `buffer`, the least significant byte first, and
+    /// returns its length in bytes.
     ///
     /// # Errors
     ///
-    /// [`LengthError`] where the image ends before the field does.
+    /// [`LengthError`] if the image ends before the end of the field.
     pub fn get(&self, image: &[u8], buffer: &mut [u8]) -> Result<usize, LengthError> {
         self.check(image)?;
         let (at, shift) = (self.first_byte(), self.bit % 8);
@@ -122,12 +123,12 @@ impl ImageField {
         Ok(self.byte_len())
     }
 
-    /// Puts the value whose bytes `data` has, the least significant first, into the field, and leaves all other bits as they
-    /// are. A text may be shorter than its field, which is filled up with 0.
+    /// Writes the value in `data`, the least significant byte first, to the field and leaves all other bits unchanged.
+    /// A text that is shorter than its field is padded with 0.
     ///
     /// # Errors
     ///
-    /// [`LengthError`] where the image ends before the field does, or `data` has another length.
+    /// [`LengthError`] if the image ends before the end of the field, or `data` has another length.
     pub fn put(&self, image: &mut [u8], data: &[u8]) -> Result<(), LengthError> {
         self.check(image)?;
         let is_short_text = self.order == ImageOrder::Bytes && data.len() < self.byte_len();

@@ -1,23 +1,23 @@
-//! The value that an item has after power-on.
+//! Initial values after power-on.
 
 use crate::enumeration::Enumeration;
 use crate::node_id::NodeId;
 use crate::value::Value;
 
-/// The value after power-on, as the description of the device gives it.
+/// Initial value after power-on, as the device description gives it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Initial<T> {
-    /// The description gives none.
+    /// The description gives no value.
     #[default]
     Unknown,
-    /// This value.
+    /// A fixed value.
     Value(T),
-    /// The device's node-ID plus this value (`$NODEID+0x600` in an EDS; CiA 306).
+    /// The node-ID of the device plus this value (`$NODEID+0x600` in an EDS; CiA 306).
     NodeId(T),
 }
 
 impl Initial<&'static [u8]> {
-    /// These bytes: a byte string literal, whose type has its length, as the slice that it is.
+    /// Creates the initial value of a byte string from a byte string literal. Converts the array reference to a slice.
     #[must_use]
     pub const fn bytes(bytes: &'static [u8]) -> Self {
         Self::Value(bytes)
@@ -25,7 +25,8 @@ impl Initial<&'static [u8]> {
 }
 
 impl<T: AddNodeId> Initial<T> {
-    /// The value on the device with the given node-ID; `None` where it is unknown or doesn't fit its type.
+    /// Returns the value on the device with this node-ID. Returns `None` if the value is unknown or doesn't fit its
+    /// type.
     #[must_use]
     pub fn resolve(&self, node: NodeId) -> Option<T> {
         match *self {
@@ -36,9 +37,9 @@ impl<T: AddNodeId> Initial<T> {
     }
 }
 
-/// Integers to which a node-ID can be added, for [`Initial::resolve`]. A newtype over one may implement it as well.
+/// Integers to which [`Initial::resolve`] can add a node-ID. Newtypes over integers may implement it too.
 pub trait AddNodeId: Copy {
-    /// The sum, or `None` where it doesn't fit.
+    /// Returns the sum, or `None` if it doesn't fit.
     #[must_use]
     fn add_node_id(self, node: NodeId) -> Option<Self>;
 }
@@ -47,7 +48,7 @@ macro_rules! add_node_id {
     ($($integer:ty)*) => {$(
         impl AddNodeId for $integer {
             fn add_node_id(self, node: NodeId) -> Option<Self> {
-                // 127 at most, which every integer type can hold.
+                // A node-ID is 127 at most, so it fits every integer type.
                 self.checked_add(node.get() as $integer)
             }
         }

@@ -1,9 +1,9 @@
-//! The interface between generated code and this crate, as a number.
+//! Version of the interface between generated code and this crate.
 
-/// The version of the interface that generated code relies on.
+/// Version of the interface that this crate provides to generated code.
 pub const VERSION: u32 = 1;
 
-/// Checks that generated code and this crate belong together. Generated code calls it in a constant.
+/// Checks that generated code matches the version of this crate. Generated code calls it in a constant.
 ///
 /// ```
 /// const _: () = lexibus::interface::assert_version(lexibus::interface::VERSION);
@@ -11,7 +11,7 @@ pub const VERSION: u32 = 1;
 ///
 /// # Panics
 ///
-/// When `generated` isn't [`VERSION`]; in a constant, that is a compile error.
+/// If `generated` isn't [`VERSION`]. In a constant, this is a compile error.
 #[track_caller]
 pub const fn assert_version(generated: u32) {
     assert!(

@@ -1,4 +1,4 @@
-//! The handle of one value of a device.
+//! Handle of one value of a device.
 
 use core::fmt;
 use core::marker::PhantomData;
@@ -15,10 +15,11 @@ use crate::register::Register;
 use crate::value::Value;
 use crate::value_error::OutOfRange;
 
-/// One value of a device: an entry of its object dictionary, a register, a parameter.
+/// One value of a device: an entry of its object dictionary, a register or a parameter.
 ///
-/// `V` is the type of the value, `A` the access rights ([`Ro`](crate::Ro), [`Wo`](crate::Wo), [`Rw`](crate::Rw) or
-/// [`Const`](crate::Const)) and `L` the [`Location`](crate::Location), whose type says on which buses the item exists.
+/// `V` is the type of the value. `A` is the access right: [`Ro`](crate::Ro), [`Wo`](crate::Wo), [`Rw`](crate::Rw) or
+/// [`Const`](crate::Const). `L` is the [`Location`](crate::Location), whose type determines the buses on which the item
+/// exists.
 pub struct Item<V: Value, A, L> {
     location: L,
     name: &'static str,
@@ -30,8 +31,8 @@ pub struct Item<V: Value, A, L> {
 }
 
 impl<V: Value, A, L> Item<V, A, L> {
-    /// An item. `name` is the one in the source, `range` the values that a write accepts, and `unit` is empty where
-    /// there is none.
+    /// Creates an item. `name` is the name in the device description, `range` the values that can be written, and
+    /// `unit` is empty if the value has none.
     #[must_use]
     pub const fn new(
         location: L,
@@ -44,43 +45,43 @@ impl<V: Value, A, L> Item<V, A, L> {
         Self { location, name, range, initial, unit, flags, types: PhantomData }
     }
 
-    /// Where the item is found.
+    /// Returns the location: the route on each bus.
     #[must_use]
     pub const fn location(&self) -> &L {
         &self.location
     }
 
-    /// The name in the source.
+    /// Returns the name in the device description.
     #[must_use]
     pub const fn name(&self) -> &'static str {
         self.name
     }
 
-    /// The values that a write accepts, in raw counts.
+    /// Returns the range of raw values that can be written.
     #[must_use]
     pub const fn range(&self) -> &Range<V::Native> {
         &self.range
     }
 
-    /// The value after power-on.
+    /// Returns the initial value after power-on.
     #[must_use]
     pub const fn initial(&self) -> &Initial<V::Native> {
         &self.initial
     }
 
-    /// The unit of the value, of the physical one where it is a [`Quantity`]; empty where there is none.
+    /// Returns the unit of the value, or of the physical value if the type is a [`Quantity`]; empty if there is none.
     #[must_use]
     pub const fn unit(&self) -> &'static str {
         self.unit
     }
 
-    /// What else is known about the item.
+    /// Returns additional properties of the item.
     #[must_use]
     pub const fn flags(&self) -> Flags {
         self.flags
     }
 
-    /// The item with the values that one model of the device accepts, and has after power-on.
+    /// Returns the item with the range and the initial value of one model of the device.
     #[must_use]
     pub const fn of_model(self, range: Range<V::Native>, initial: Initial<V::Native>) -> Self
     where
@@ -101,34 +102,35 @@ impl<V: Quantity, A, L> Item<V, A, L> {
 }
 
 impl<V: Quantity<Other = ()>, A, L> Item<V, A, L> {
-    /// The value in its unit, from a raw number that came in a PDO, say.
+    /// Converts a raw value, for example from a PDO, to the physical value in the item's unit.
     #[must_use]
     pub fn physical(&self, raw: V::Native) -> V::Physical {
         V::physical(raw, ())
     }
 
-    /// The raw number that is nearest to a value in the item's unit.
+    /// Converts a physical value in the item's unit to the nearest raw value.
     ///
     /// # Errors
     ///
-    /// [`OutOfRange`] where it is outside the item's range, doesn't fit its type, or means something else.
+    /// [`OutOfRange`] if the raw value is outside the item's range, doesn't fit its type, or has a special meaning.
     pub fn raw(&self, physical: f64) -> Result<V::Native, OutOfRange> {
         self.checked(V::raw(physical, ())?)
     }
 }
 
 impl<V: Quantity<Other = f64>, A, L> Item<V, A, L> {
-    /// The value in its unit. `other` is the value that its scale depends on.
+    /// Converts a raw value to the physical value in the item's unit. `other` is the value that determines the scale.
     #[must_use]
     pub fn physical_by(&self, raw: V::Native, other: f64) -> V::Physical {
         V::physical(raw, other)
     }
 
-    /// The raw number that is nearest to a value in the item's unit. `other` is the value that its scale depends on.
+    /// Converts a physical value in the item's unit to the nearest raw value. `other` is the value that determines the
+    /// scale.
     ///
     /// # Errors
     ///
-    /// [`OutOfRange`] where it is outside the item's range, doesn't fit its type, or means something else.
+    /// [`OutOfRange`] if the raw value is outside the item's range, doesn't fit its type, or has a special meaning.
     pub fn raw_by(&self, physical: f64, other: f64) -> Result<V::Native, OutOfRange> {
         self.checked(V::raw(physical, other)?)
     }
@@ -139,8 +141,8 @@ where
     Exponential<B, BASE, BITS>: Quantity<Native = B::Native, Other = f64>,
     B: Value,
 {
-    /// Mantissa and exponent of a value: with the least of these exponents for which the mantissa is in range, so that it has
-    /// as many digits as it can. The exponent is another item, and is written beside this one.
+    /// Returns the mantissa and the exponent of a physical value, with the first exponent for which the mantissa is in
+    /// range. The lowest exponent gives the highest resolution. The exponent has to be written to another item.
     ///
     /// ```
     /// use lexibus::{Exponential, Flags, Initial, Item, OnSerial, OutOfRange, Range, Rw};
@@ -154,7 +156,7 @@ where
     ///
     /// # Errors
     ///
-    /// [`OutOfRange`] where the mantissa is in range with none of them.
+    /// [`OutOfRange`] if the mantissa is out of range for all `exponents`.
     pub fn mantissa_and_exponent(
         &self,
         physical: f64,
@@ -170,13 +172,13 @@ where
 macro_rules! objects {
     ($location:ty, $on:ident: $object:ident, $with_default:ident, $flagged:ident, $flagged_with_default:ident) => {
         impl<V: Value, A> Item<V, A, $location> {
-            /// An entry of the object dictionary of which nothing else is known.
+            /// Creates an entry of the object dictionary without further properties.
             #[must_use]
             pub const fn $object(index: u16, sub_index: u8, name: &'static str) -> Self {
                 Self::new(<$location>::$on(index, sub_index), name, Range::Full, Initial::Unknown, "", Flags::NONE)
             }
 
-            /// An entry of the object dictionary that has the value `default` after power-on.
+            /// Creates an entry of the object dictionary with the initial value `default`.
             #[must_use]
             pub const fn $with_default(index: u16, sub_index: u8, name: &'static str, default: V::Native) -> Self {
                 Self::new(
@@ -189,13 +191,13 @@ macro_rules! objects {
                 )
             }
 
-            /// An entry of the object dictionary that `flags` says more about, as into which PDOs it can be mapped.
+            /// Creates an entry of the object dictionary with `flags`, for example for PDO mapping.
             #[must_use]
             pub const fn $flagged(index: u16, sub_index: u8, name: &'static str, flags: Flags) -> Self {
                 Self::new(<$location>::$on(index, sub_index), name, Range::Full, Initial::Unknown, "", flags)
             }
 
-            /// The same, with the value after power-on.
+            /// Creates an entry of the object dictionary with `flags` and the initial value `default`.
             #[must_use]
             pub const fn $flagged_with_default(
                 index: u16,
@@ -223,14 +225,14 @@ objects!(
 macro_rules! registers {
     ($location:ty, $on:ident, ($($argument:ident: $ty:ty),*)) => {
         impl<V: Value, A> Item<V, A, $location> {
-            /// A register of which nothing else is known.
+            /// Creates a register without range and unit.
             #[must_use]
             pub const fn register($($argument: $ty,)* register: Register, name: &'static str, flags: Flags) -> Self {
                 let location = <$location>::$on($($argument,)* register);
                 Self::new(location, name, Range::Full, Initial::Unknown, "", flags)
             }
 
-            /// A register with a range or a unit.
+            /// Creates a register with range and unit.
             #[must_use]
             pub const fn register_within(
                 $($argument: $ty,)*
@@ -253,7 +255,7 @@ registers!(OnCoEAndModbus, register, (index: u16, sub_index: u8));
 registers!(OnCanOpenCoEAndModbus, register, (index: u16, sub_index: u8));
 
 impl<V: Value, A> Item<V, A, OnCoE> {
-    /// The same entry with `offset` added to the index: that of a module in another slot.
+    /// Returns the same entry with `offset` added to the index, for a module in another slot.
     #[must_use]
     pub const fn shifted(self, offset: u16) -> Self {
         let object = self.location.coe;
@@ -262,7 +264,7 @@ impl<V: Value, A> Item<V, A, OnCoE> {
     }
 }
 
-// Derived, these would ask for `V: Copy` and `A: Copy`.
+// Derived implementations would require `V: Copy` and `A: Copy`.
 impl<V: Value, A, L: Copy> Copy for Item<V, A, L> {}
 
 impl<V: Value, A, L: Copy> Clone for Item<V, A, L> {

@@ -1,17 +1,17 @@
 //! Runtime of Lexibus, the object-dictionary compiler.
 //!
-//! Generated bindings describe every value of a fieldbus device as a `const` [`Item`]: its type, its access rights and
-//! where it is found on each [`Bus`]. A [`Client`] (or an [`AsyncClient`]) carries bytes; [`Item::at`] joins the two
-//! into an [`Accessor`], whose `read` and `write` exist only where the device and the bus allow them.
+//! Generated bindings describe every value of a fieldbus device as a `const` [`Item`] with its type, its access rights
+//! and its address on each [`Bus`]. A [`Client`] or an [`AsyncClient`] transfers the bytes. [`Item::at`] combines item
+//! and client into an [`Accessor`], whose methods `read` and `write` exist only if the device and the bus allow them.
 //!
-//! The crate is `no_std`, allocates nothing, contains no `unsafe` code and has no dependency in its default build.
+//! The crate is `no_std`, doesn't allocate, contains no `unsafe` code and has no dependencies in its default build.
 //!
 //! # Example
 //!
 //! ```
 //! use lexibus::{CanOpen, Client, Error, Flags, Initial, Item, Object, OnCanOpen, OutOfRange, Range, Ro, Rw};
 //!
-//! // What the compiler emits for two objects of a drive:
+//! // The compiler generates this for two objects of a drive:
 //! const TARGET_POSITION: Item<i32, Rw, OnCanOpen> = Item::new(
 //!     OnCanOpen::canopen(0x607A, 0x00),
 //!     "Target position",
@@ -23,7 +23,7 @@
 //! const STATUSWORD: Item<u16, Ro, OnCanOpen> =
 //!     Item::new(OnCanOpen::canopen(0x6041, 0x00), "Statusword", Range::Full, Initial::Unknown, "", Flags::TPDO);
 //!
-//! // What a bus library implements, here with a device that remembers its last write:
+//! // A bus library implements this; here, a device that stores its last write:
 //! struct Echo([u8; 4]);
 //!
 //! impl Client for Echo {
@@ -50,46 +50,46 @@
 //! assert_eq!(TARGET_POSITION.at(&mut client).read()?, 100_000);
 //! assert_eq!(STATUSWORD.at(&mut client).read()?, 0x86A0);
 //!
-//! // Outside the declared range, so nothing is sent:
+//! // 300,000 is outside the declared range, so nothing is sent:
 //! let refused = TARGET_POSITION.at(&mut client).write(300_000);
 //! assert_eq!(refused, Err(Error::OutOfRange(OutOfRange)));
 //! # Ok::<(), Error<core::convert::Infallible>>(())
 //! ```
 //!
-//! # Where to find what
+//! # Overview
 //!
-//! | for | see |
+//! | topic | items |
 //! |---|---|
-//! | values, and reading and writing them | [`Item`], [`Accessor`], [`Value`], [`Range`], [`Error`] |
-//! | the buses on which an item exists, and its addresses | [`Location`], [`On`], [`location!`] |
-//! | scales and units | [`Quantity`], [`Scaled`] and its like |
+//! | values, reading and writing | [`Item`], [`Accessor`], [`Value`], [`Range`], [`Error`] |
+//! | buses and addresses of an item | [`Location`], [`On`], [`location!`] |
+//! | scaling and units | [`Quantity`], [`Scaled`] and related types |
 //! | the state machine of a drive | [`Step`] |
 //! | alarms and other codes | [`codes`] |
-//! | a client of one's own | [`Client`], [`AsyncClient`], [`RegisterClient`](modbus::RegisterClient), [`RecordClient`](profinet::RecordClient), [`Exchange`] |
-//! | process data of CANopen, and mappings of one's own | [`pdo`](mod@pdo), [`pdo!`] |
-//! | EtherCAT: assignment of PDOs, slots, start-up lists | [`ethercat`] |
+//! | custom clients | [`Client`], [`AsyncClient`], [`RegisterClient`](modbus::RegisterClient), [`RecordClient`](profinet::RecordClient), [`Exchange`] |
+//! | process data of CANopen, custom PDO mappings | [`pdo`](mod@pdo), [`pdo!`] |
+//! | EtherCAT: PDO assignment, slots, start-up lists | [`ethercat`] |
 //! | PROFINET: plans, records, images, diagnosis | [`profinet`] |
-//! | Modbus: several items in a request | [`modbus`] |
+//! | Modbus: several items in one request | [`modbus`] |
 //! | serial protocols | [`message`], [`framing`] |
 //! | all items of a device as data | [`table`] |
 //!
 //! # Features
 //!
-//! None is on by default.
+//! No feature is on by default.
 //!
-//! | feature | what it adds |
+//! | feature | adds |
 //! |---|---|
-//! | `macros` | the macro `dictionary!`, which compiles a description where it stands |
-//! | `std` | `sim`: simulated devices; [`Client::wait`] that sleeps |
+//! | `macros` | the macro `dictionary!`, which compiles a device description during the build |
+//! | `std` | `sim`: simulated devices; a [`Client::wait`] that sleeps |
 //! | `canopen` | `clients::canopen`: SDO, NMT, heartbeat, emergencies and PDOs over any CAN interface; needs an allocator |
-//! | `socketcan`, `socketcan-tokio` | the same over SocketCAN of Linux, blocking and not |
+//! | `socketcan`, `socketcan-tokio` | `clients::canopen` over SocketCAN on Linux, blocking and async |
 //! | `ethercat` | `clients::ethercat`: objects of SubDevices with `ethercrab`; needs Rust 1.85 |
 //! | `modbus` | `clients::modbus`: RTU and TCP with `tokio-modbus` |
 //! | `serial` | `clients::serial`: messages over any stream of `embedded-io` |
-//! | `serde`, `defmt` | traits of these crates on the values that generated types contain |
+//! | `serde`, `defmt` | traits of these crates for the value types of generated code |
 //!
-//! [The book](https://github.com/lexibus/lexibus/blob/main/docs/src/SUMMARY.md) begins at the beginning, and has a chapter for
-//! each format and each bus.
+//! [The book](https://github.com/lexibus/lexibus/blob/main/docs/src/SUMMARY.md) starts with an introduction and has a
+//! chapter for each format and each bus.
 //!
 //! Clauses such as "CiA 301 7.1.6.5" refer to CiA 301 version 4.2.0.
 

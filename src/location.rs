@@ -1,4 +1,4 @@
-//! Where an item is found: a route on each bus on which it exists.
+//! Locations: the routes of an item on all of its buses.
 
 use crate::bus::{
     Bus, CanOpen, CoE, Esc, EscMemory, Modbus, Object, Parameter, ProcessImage, Profinet, Record, Serial,
@@ -7,36 +7,38 @@ use crate::image_field::ImageField;
 use crate::register::Register;
 use crate::route::Route;
 
-/// Where an item is found: a route on each bus on which it exists. [`location!`](crate::location!) declares such types.
+/// Location of an item: a route on each bus on which it exists. [`location!`](crate::location!) declares location
+/// types.
 ///
-/// The runtime has those of the usual combinations of buses, such as [`OnCanOpenAndCoE`]; generated code declares the others.
+/// The runtime declares those of common combinations of buses, for example [`OnCanOpenAndCoE`]. Generated code declares
+/// the others.
 pub trait Location: Copy {
     /// Calls `visit` with the route on each bus.
     fn for_each_route(&self, visit: &mut dyn FnMut(&dyn Route));
 }
 
-/// Says how an item is reached on bus `B`. A location implements it for each bus on which its items exist.
+/// Route of an item on bus `B`. A location implements this trait for each bus on which its items exist.
 #[diagnostic::on_unimplemented(
     message = "this item doesn't exist on `{B}`",
     label = "the client's bus is `{B}`, on which the device doesn't have this item",
-    note = "`{Self}` says on which buses the item exists"
+    note = "`{Self}` lists the buses on which the item exists"
 )]
 pub trait On<B: Bus> {
     /// A [`ReadRoute`](crate::ReadRoute), a [`WriteRoute`](crate::WriteRoute) or both.
     type Route: Copy;
 
-    /// The item's route on bus `B`.
+    /// Returns the item's route on bus `B`.
     fn route(&self) -> Self::Route;
 }
 
-/// Declares the type of a location: a struct with a field for each bus on which its items exist. Each field names the bus
-/// and the type of the route, as a rule the bus's address itself.
+/// Declares a location type: a struct with one field for each bus on which its items exist. Each field declares the bus
+/// and the type of the route, usually the address type of the bus.
 ///
 /// ```
 /// use lexibus::{CanOpen, Modbus, Object, On, Register, Resized};
 ///
 /// lexibus::location! {
-///     /// An object of another width than the register.
+/// /// An object whose width differs from the register.
 ///     pub struct OnCanOpenResizedAndModbus {
 ///         canopen: CanOpen => Resized<Object>,
 ///         modbus: Modbus => Register,
@@ -50,7 +52,7 @@ pub trait On<B: Bus> {
 /// assert_eq!(On::<Modbus>::route(&TARGET_POSITION).address, 0x8009);
 /// ```
 ///
-/// An access through a client of another bus doesn't compile:
+/// An access through a client for another bus doesn't compile:
 ///
 /// ```compile_fail,E0277
 /// # use lexibus::{Client, Flags, Initial, Item, Modbus, OnCanOpen, Range, Ro};
@@ -75,7 +77,7 @@ macro_rules! location {
         }
 
         impl $name {
-            /// The location with these routes, in the order of its buses.
+            /// Creates the location with these routes, in the order of the fields.
             #[must_use]
             #[allow(dead_code)]
             pub const fn new($($field: $route),*) -> Self {
@@ -104,52 +106,52 @@ macro_rules! location {
 }
 
 location! {
-    /// The location of an item that exists on CANopen only.
+    /// Location of an item that exists only on CANopen.
     pub struct OnCanOpen { canopen: CanOpen => Object }
 }
 location! {
-    /// The location of an item that exists on CANopen over EtherCAT only.
+    /// Location of an item that exists only on CANopen over EtherCAT.
     pub struct OnCoE { coe: CoE => Object }
 }
 location! {
-    /// The location of an item that is an object on CANopen and on CANopen over EtherCAT.
+    /// Location of an item that is an object on CANopen and on CANopen over EtherCAT.
     pub struct OnCanOpenAndCoE { canopen: CanOpen => Object, coe: CoE => Object }
 }
 location! {
-    /// The location of an item that exists on Modbus only.
+    /// Location of an item that exists only on Modbus.
     pub struct OnModbus { modbus: Modbus => Register }
 }
 location! {
-    /// The location of an item that is an object on CANopen and a register on Modbus.
+    /// Location of an item that is an object on CANopen and a register on Modbus.
     pub struct OnCanOpenAndModbus { canopen: CanOpen => Object, modbus: Modbus => Register }
 }
 location! {
-    /// The location of an item that is an object on CANopen over EtherCAT and a register on Modbus.
+    /// Location of an item that is an object on CANopen over EtherCAT and a register on Modbus.
     pub struct OnCoEAndModbus { coe: CoE => Object, modbus: Modbus => Register }
 }
 location! {
-    /// The location of an item that is an object on CANopen and on CANopen over EtherCAT, and a register on Modbus.
+    /// Location of an item that is an object on CANopen and on CANopen over EtherCAT, and a register on Modbus.
     pub struct OnCanOpenCoEAndModbus { canopen: CanOpen => Object, coe: CoE => Object, modbus: Modbus => Register }
 }
 location! {
-    /// The location of an item that exists on PROFINET only, as a part of a record.
+    /// Location of an item that exists only on PROFINET, as a part of a record.
     pub struct OnProfinet { profinet: Profinet => Record }
 }
 location! {
-    /// The location of an item that exists on a serial protocol only.
+    /// Location of an item that exists only on a serial protocol.
     pub struct OnSerial { serial: Serial => Parameter }
 }
 location! {
-    /// The location of an item that exists in a fixed process image only.
+    /// Location of an item that exists only in a fixed process image.
     pub struct OnImage { image: ProcessImage => ImageField }
 }
 location! {
-    /// The location of an item that exists in the memory of an EtherCAT slave controller only.
+    /// Location of an item that exists only in the memory of an EtherCAT slave controller.
     pub struct OnEsc { esc: Esc => EscMemory }
 }
 
 impl OnCanOpen {
-    /// An object of a CANopen device.
+    /// Creates the location of a CANopen object.
     #[must_use]
     pub const fn canopen(index: u16, sub_index: u8) -> Self {
         Self { canopen: Object { index, sub_index } }
@@ -157,7 +159,7 @@ impl OnCanOpen {
 }
 
 impl OnCoE {
-    /// An object of an EtherCAT device.
+    /// Creates the location of an object of an EtherCAT device.
     #[must_use]
     pub const fn coe(index: u16, sub_index: u8) -> Self {
         Self { coe: Object { index, sub_index } }
@@ -165,7 +167,7 @@ impl OnCoE {
 }
 
 impl OnCanOpenAndCoE {
-    /// An object of a device that speaks CANopen and EtherCAT, the same on both.
+    /// Creates the location of an object with the same address on CANopen and EtherCAT.
     #[must_use]
     pub const fn object(index: u16, sub_index: u8) -> Self {
         let object = Object { index, sub_index };
@@ -174,7 +176,7 @@ impl OnCanOpenAndCoE {
 }
 
 impl OnModbus {
-    /// A register of a Modbus device.
+    /// Creates the location of a Modbus register.
     #[must_use]
     pub const fn modbus(register: Register) -> Self {
         Self { modbus: register }
@@ -182,7 +184,7 @@ impl OnModbus {
 }
 
 impl OnCanOpenAndModbus {
-    /// An object that is a register, too.
+    /// Creates the location of a CANopen object that is also a Modbus register.
     #[must_use]
     pub const fn register(index: u16, sub_index: u8, register: Register) -> Self {
         Self { canopen: Object { index, sub_index }, modbus: register }
@@ -190,7 +192,7 @@ impl OnCanOpenAndModbus {
 }
 
 impl OnCoEAndModbus {
-    /// An object that is a register, too.
+    /// Creates the location of an object of an EtherCAT device that is also a Modbus register.
     #[must_use]
     pub const fn register(index: u16, sub_index: u8, register: Register) -> Self {
         Self { coe: Object { index, sub_index }, modbus: register }
@@ -198,7 +200,7 @@ impl OnCoEAndModbus {
 }
 
 impl OnCanOpenCoEAndModbus {
-    /// An object, the same on both buses, that is a register, too.
+    /// Creates the location of an object, the same on CANopen and EtherCAT, that is also a Modbus register.
     #[must_use]
     pub const fn register(index: u16, sub_index: u8, register: Register) -> Self {
         let object = Object { index, sub_index };
@@ -207,7 +209,7 @@ impl OnCanOpenCoEAndModbus {
 }
 
 impl OnProfinet {
-    /// A part of a record of a PROFINET device.
+    /// Creates the location of a part of a PROFINET record.
     #[must_use]
     pub const fn record(part: Record) -> Self {
         Self { profinet: part }
@@ -215,7 +217,7 @@ impl OnProfinet {
 }
 
 impl OnSerial {
-    /// A parameter of a serial protocol.
+    /// Creates the location of a parameter of a serial protocol.
     #[must_use]
     pub const fn serial(number: u32) -> Self {
         Self { serial: Parameter(number) }
@@ -223,7 +225,7 @@ impl OnSerial {
 }
 
 impl OnImage {
-    /// A field of a fixed process image.
+    /// Creates the location of a field in a fixed process image.
     #[must_use]
     pub const fn field(field: ImageField) -> Self {
         Self { image: field }
@@ -231,7 +233,7 @@ impl OnImage {
 }
 
 impl OnEsc {
-    /// Memory of a slave controller.
+    /// Creates the location of `length` bytes in the memory of a slave controller.
     #[must_use]
     pub const fn memory(address: u16, length: u16) -> Self {
         Self { esc: EscMemory::new(address, length) }

@@ -1,6 +1,6 @@
-//! State machines: the path from one state to another.
+//! State machines: the shortest path from one state to another.
 
-/// A change of state of a device's state machine. States go by their numbers.
+/// A transition of a device's state machine. States are numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Transition<C> {
     from: u8,
@@ -9,39 +9,39 @@ pub struct Transition<C> {
 }
 
 impl<C> Transition<C> {
-    /// From a state to another by a command; without one, the device changes by itself.
+    /// Creates a transition by a command, or an automatic transition if `command` is `None`.
     #[must_use]
     pub const fn new(from: u8, to: u8, command: Option<C>) -> Self {
         Self { from, to, command }
     }
 }
 
-/// What takes a device one step towards a state.
+/// Next step of a device toward a state.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Step<C> {
-    /// Nothing: it is there.
+    /// Nothing: the device is in the state.
     Reached,
-    /// This command.
+    /// Send this command.
     Command(C),
-    /// Waiting: the device goes on by itself.
+    /// Wait: the device changes its state automatically.
     Wait,
-    /// No command leads there.
+    /// No sequence of commands reaches the state.
     Unreachable,
 }
 
-/// So many transitions are looked at.
+/// Maximum number of transitions; the others are ignored.
 const MAX_TRANSITIONS: usize = 128;
 
 impl<C: Copy> Step<C> {
-    /// The first step of the shortest path from `state` to `target`. Of paths of one length, one that begins with a command
-    /// counts.
+    /// Returns the first step of the shortest path from `state` to `target`. If several paths have the same length, one
+    /// that starts with a command is preferred.
     #[must_use]
     pub fn toward(transitions: &[Transition<C>], state: u8, target: u8) -> Self {
         if state == target {
             return Step::Reached;
         }
         let transitions = &transitions[..transitions.len().min(MAX_TRANSITIONS)];
-        // The transitions from which the target is reached in so many steps, a bit each.
+        // One bit for each transition from which the target can be reached in at most the current number of steps.
         let mut leads: u128 = 0;
         loop {
             let mut more = leads;
@@ -78,7 +78,8 @@ impl<C: Copy> Step<C> {
 mod tests {
     use super::*;
 
-    /// 0 becomes 1 by itself; `u` and `d` go up and down between 1, 2 and 3; 4 leads back by `r`, and nothing leads there.
+    /// 0 changes to 1 automatically. `u` and `d` change between 1, 2 and 3. `r` changes 4 to 0, and no transition leads
+    /// to 4.
     const TRANSITIONS: &[Transition<char>] = &[
         Transition::new(0, 1, None),
         Transition::new(1, 2, Some('u')),

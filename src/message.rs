@@ -1,14 +1,14 @@
-//! Requests and replies of a command protocol, as types.
+//! Requests and replies of a command protocol as types.
 //!
-//! Generated bindings have a [`Message`] for every request, with its fields, and a type for what is answered. [`Call`] sends
-//! one through anything that is a [`MessageClient`], such as [`Parameters`](crate::Parameters) over an
-//! [`Exchange`](crate::Exchange). Nothing allocates: lists are slices where they are sent, and are read from the reply's bytes
-//! one by one.
+//! Generated bindings have a [`Message`] type for every request, and a type for its reply. [`Call`] sends a message
+//! through a [`MessageClient`], for example [`Parameters`](crate::Parameters) over an [`Exchange`](crate::Exchange).
+//! Nothing allocates: lists in requests are slices, and lists in replies are read from the reply's bytes one element at
+//! a time.
 //!
 //! ```
 //! use lexibus::message::{Completion, Message, Reader, Reply, WriteError, Writer};
 //!
-//! // What the compiler emits for a request `node 0x40 speed` that is answered by `node 0x40 status`:
+//! // The compiler generates this for a request `node 0x40 speed` with the reply `node 0x40 status`:
 //! #[derive(Debug, PartialEq)]
 //! struct Jog {
 //!     speed: i16,
@@ -76,46 +76,48 @@ pub use scale::Scale;
 pub use setting::Setting;
 pub use writer::{check, WriteError, Writer};
 
-/// A request.
+/// A request to a device.
 pub trait Message {
-    /// What the device answers. The bytes as they come, where its description doesn't say.
+    /// Type of the reply: the raw bytes if the device description declares none.
     type Reply<'r>: Reply<'r>;
 
-    /// What the device answers instead where it refuses; [`Infallible`] where it has no such answer.
+    /// Type of the reply if the device refuses the request; [`Infallible`] if it has no such reply.
     type Refusal: for<'r> Reply<'r>;
 
-    /// The name of the request, as the device's description has it.
+    /// Name of the request in the device description.
     const NAME: &'static str;
 
-    /// When the order is carried out.
+    /// When the device has completed the request.
     const COMPLETION: Completion;
 
-    /// Writes the data of the request to the device with this number. A protocol without numbers of devices ignores it.
+    /// Writes the data of the request to the device with this station address. Protocols without station addresses
+    /// ignore `station`.
     ///
     /// # Errors
     ///
-    /// Where a field is outside its limits, or the data don't fit.
+    /// If a field is outside its limits, or the data don't fit.
     fn write(&self, station: u32, to: &mut Writer<'_>) -> Result<(), WriteError>;
 }
 
-/// What is answered to a [`Message`]. A program reads it; a simulated device writes it.
+/// The reply to a [`Message`]. A program reads it; a simulated device writes it.
 pub trait Reply<'r>: Sized {
-    /// Whether any data are such a reply, so that only a refusal can tell itself from it.
+    /// Whether any data match this reply. The data are then checked for a refusal first.
     const IS_ANYTHING: bool = false;
 
-    /// The reply to a request, with all of its data; `None` where the data are something else. What comes back of the request is
-    /// held against what was sent.
+    /// Reads the reply to a request. Returns `None` if the data don't match the reply as a whole. Parts that repeat the
+    /// request are compared with it.
     fn read(request: &[u8], from: &mut Reader<'r>) -> Option<Self>;
 
     /// Writes the data of the reply to a request.
     ///
     /// # Errors
     ///
-    /// Where a field is outside its limits, the data don't fit, or the request is shorter than what comes back of it.
+    /// If a field is outside its limits, the data don't fit, or the request is shorter than the part that the reply
+    /// repeats.
     fn write(&self, request: &[u8], to: &mut Writer<'_>) -> Result<(), WriteError>;
 }
 
-/// Never: what a device answers that can't refuse.
+/// The refusal of a device that never refuses.
 impl Reply<'_> for Infallible {
     fn read(_: &[u8], _: &mut Reader<'_>) -> Option<Self> {
         None
@@ -126,7 +128,7 @@ impl Reply<'_> for Infallible {
     }
 }
 
-/// Any bytes.
+/// A reply of any bytes.
 impl<'r> Reply<'r> for &'r [u8] {
     const IS_ANYTHING: bool = true;
 
@@ -139,49 +141,50 @@ impl<'r> Reply<'r> for &'r [u8] {
     }
 }
 
-/// The device's side of a [`Message`], for simulators and tests: a request that is read.
+/// The device's side of a [`Message`], for simulators and tests: reads a request.
 pub trait Request<'r>: Message + Sized {
-    /// The number of the device that is meant, and the request; `None` where the data are another one. A protocol without
-    /// numbers of devices has 0.
+    /// Reads the station address and the request. Returns `None` if the data are another request. The station address
+    /// is 0 if the protocol has none.
     ///
-    /// Values are taken as they come: limits are checked only where a request is written.
+    /// Values are not checked against their limits. Limits are checked only when a request is written.
     fn parse(from: &mut Reader<'r>) -> Option<(u32, Self)>;
 }
 
-/// The reply to a request, which is `M`.
+/// Reads the reply to the request `M`.
 ///
 /// # Errors
 ///
-/// [`Error::Refused`] where the device refuses, [`Error::UnexpectedReply`] where the data are something else.
+/// [`Error::Refused`] if the device refuses, [`Error::UnexpectedReply`] if the data are another reply.
 pub fn read<'r, M: Message, E>(request: &[u8], reply: &'r [u8]) -> Result<M::Reply<'r>, Error<E>> {
     answer::<E, M>(request, reply).map_err(Failure::into_error)
 }
 
-/// When an order is carried out.
+/// When a device has completed a request.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Completion {
-    /// Before the reply.
+    /// Before it sends the reply.
     Immediate,
-    /// When the reply comes, which may take long.
+    /// When it sends the reply, which may take a long time.
     Reply,
-    /// When a field of replies, or an item, says so. Replies that have the field have a method `is_complete`.
+    /// When a field of a later reply, or an item, reports it. Replies with this field have the method `is_complete`.
     Polled,
-    /// After so many milliseconds.
+    /// After this time in milliseconds.
     Delayed(u32),
 }
 
-/// A request that decides what a later one means. Generated devices have the later ones only once it was sent.
+/// A request that determines the meaning of later requests. Generated devices offer these requests only after the
+/// selector was sent.
 ///
-/// [`Call::select`] sends it and gives the device that has them.
+/// [`Call::select`] sends it and returns the device with these requests.
 pub trait Selector: Message {
-    /// The device, over a client `C`.
+    /// Type of the device with a client `C`.
     type Device<C>;
 
-    /// The device over `client`, which has been sent this request.
+    /// Creates the device over `client`. The device must have received this request.
     fn device<C>(client: C) -> Self::Device<C>;
 }
 
-/// The state of a device that may have been sent any [`Selector`], or none.
+/// State of a device whose last [`Selector`] is unknown, or that has received none.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Unselected;

@@ -1,4 +1,4 @@
-//! The number of a device on a CANopen network.
+//! Node-ID of a device on a CANopen network.
 
 use core::fmt;
 
@@ -7,7 +7,7 @@ use core::fmt;
 pub struct NodeId(u8);
 
 impl NodeId {
-    /// A node-ID, or `None` where `id` isn't 1 to 127.
+    /// Creates a node-ID. Returns `None` if `id` isn't 1 to 127.
     #[must_use]
     pub const fn new(id: u8) -> Option<Self> {
         match id {
@@ -16,7 +16,7 @@ impl NodeId {
         }
     }
 
-    /// The number, 1 to 127.
+    /// Returns the number, 1 to 127.
     #[must_use]
     pub const fn get(self) -> u8 {
         self.0

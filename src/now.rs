@@ -1,4 +1,4 @@
-//! Futures that are ready at once, polled with no runtime, for the tests.
+//! Runs futures that are ready at once, without a runtime. For tests.
 
 use core::future::Future;
 use core::pin::pin;
@@ -6,7 +6,7 @@ use core::task::{Context, Poll};
 use std::sync::Arc;
 use std::task::Wake;
 
-/// What a future gives that never has to wait.
+/// Returns the output of a future that is ready at the first poll.
 pub(crate) fn now<F: Future>(future: F) -> F::Output {
     struct Silent;
     impl Wake for Silent {

@@ -1,4 +1,4 @@
-//! `serde` for byte strings of any length: its own traits end at arrays of 32.
+//! `serde` for byte strings of any length. The traits of `serde` support arrays of at most 32 elements.
 
 use core::fmt;
 
@@ -6,11 +6,11 @@ use serde::de::{Error, SeqAccess, Visitor};
 use serde::ser::SerializeTuple;
 use serde::{Deserializer, Serializer};
 
-/// Serialises `bytes` as a tuple.
+/// Serializes `bytes` as a tuple.
 ///
 /// # Errors
 ///
-/// Those of the serialiser.
+/// Those of the serializer.
 pub fn serialize<S: Serializer, const N: usize>(bytes: &[u8; N], serializer: S) -> Result<S::Ok, S::Error> {
     let mut tuple = serializer.serialize_tuple(N)?;
     for byte in bytes {
@@ -19,11 +19,11 @@ pub fn serialize<S: Serializer, const N: usize>(bytes: &[u8; N], serializer: S) 
     tuple.end()
 }
 
-/// Reads what [`serialize`] writes.
+/// Deserializes the output of [`serialize`].
 ///
 /// # Errors
 ///
-/// Those of the deserialiser, and where there are fewer than `N` bytes.
+/// Those of the deserializer. An error, too, if there are fewer than `N` bytes.
 pub fn deserialize<'de, D: Deserializer<'de>, const N: usize>(deserializer: D) -> Result<[u8; N], D::Error> {
     struct Bytes<const N: usize>;
 

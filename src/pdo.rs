@@ -1,4 +1,4 @@
-//! Process data objects: their identifiers, their mapping and the words that carry them (CiA 301 7.2.2).
+//! Process data objects: COB-IDs, mapping and data (CiA 301 7.2.2).
 
 mod cob_id;
 #[doc(hidden)]

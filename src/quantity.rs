@@ -1,4 +1,4 @@
-//! Numbers that stand for physical ones: raw counts with a unit and a scale.
+//! Scaled values: raw values with a unit and a scale.
 
 use core::marker::PhantomData;
 
@@ -11,18 +11,18 @@ mod sealed {
     pub trait Sealed {}
 }
 
-/// The numbers that Rust has types for. Sealed.
+/// A native integer or floating-point type. This trait is sealed.
 pub trait Number: Copy + sealed::Sealed {
-    /// The number as a real one; integers beyond 2⁵³ lose their lowest bits.
+    /// Converts the number to `f64`; integers above 2⁵³ lose their lowest bits.
     #[must_use]
     fn real(self) -> f64;
 
-    /// The number as an integer; reals lose their fraction.
+    /// Converts the number to an integer; fractions are cut off.
     #[must_use]
     fn integer(self) -> i128;
 
-    /// The nearest number that the type has, halves away from zero; `None` where it is beyond the type's limits or no
-    /// number at all.
+    /// Returns the nearest number of the type, with halves rounded away from zero. Returns `None` if `real` is beyond
+    /// the limits of the type or NaN.
     #[must_use]
     fn nearest(real: f64) -> Option<Self>;
 }
@@ -44,7 +44,8 @@ macro_rules! integers {
 
             #[inline]
             fn nearest(real: f64) -> Option<Self> {
-                // Both limits are powers of two, or one below: the upper one of 64 bits is rounded up to the power.
+                // Both limits are exact as `f64`, except the upper limit of 64-bit types, which is rounded up to a
+                // power of two.
                 let low = Self::MIN as f64;
                 if !((real >= low || real > low - 0.5) && real < Self::MAX as f64 + 0.5) {
                     return None;
@@ -88,30 +89,30 @@ macro_rules! reals {
 
 reals! { f32 f64 }
 
-/// The type of a number that stands for a physical one: what [`Accessor::read_scaled`](crate::Accessor::read_scaled) and
-/// [`Item::physical`](crate::Item::physical) work with.
+/// Type of a number with a physical value. [`Accessor::read_scaled`](crate::Accessor::read_scaled) and
+/// [`Item::physical`](crate::Item::physical) use it.
 ///
-/// [`read`](crate::Accessor::read) and [`write`](crate::Accessor::write) deal in the raw number all the same.
+/// [`read`](crate::Accessor::read) and [`write`](crate::Accessor::write) still use the raw value.
 pub trait Quantity: Fixed {
-    /// The physical number: `f64`, or `Option<f64>` where some raw numbers mean something else.
+    /// Type of the physical value: `f64`, or `Option<f64>` if a raw value has a special meaning.
     type Physical: Copy + Into<Option<f64>>;
 
-    /// What else has to be known: `()`, or `f64` where the scale depends on another value.
+    /// Type of the value that determines the scale: `()` for a constant scale, otherwise `f64`.
     type Other: Copy;
 
-    /// The physical number.
+    /// Converts a raw value to the physical value.
     #[must_use]
     fn physical(raw: Self::Native, other: Self::Other) -> Self::Physical;
 
-    /// The nearest raw number.
+    /// Converts a physical value to the nearest raw value.
     ///
     /// # Errors
     ///
-    /// [`OutOfRange`] where the type has no such number, or where it means something else.
+    /// [`OutOfRange`] if the raw value doesn't fit the type, or has a special meaning.
     fn raw(physical: f64, other: Self::Other) -> Result<Self::Native, OutOfRange>;
 }
 
-/// physical = (raw × `NUM` + `OFFSET`) / `DEN`, rounded once.
+/// Linear scaling: physical = (raw × `NUM` + `OFFSET`) / `DEN`, rounded once.
 ///
 /// ```
 /// use lexibus::{Quantity, Scaled};
@@ -122,16 +123,16 @@ pub trait Quantity: Fixed {
 /// ```
 pub struct Scaled<B, const NUM: i64, const DEN: i64 = 1, const OFFSET: i64 = 0>(PhantomData<B>);
 
-/// physical = `NUM` / `DEN` / raw. Raw 0 is infinite, and can't be written.
+/// Reciprocal scaling: physical = `NUM` / `DEN` / raw. Raw value 0 is read as infinity and can't be written.
 pub struct Reciprocal<B, const NUM: i64, const DEN: i64 = 1>(PhantomData<B>);
 
-/// physical = raw / 2^`BITS` × the base that the other value is.
+/// Fraction of another value: physical = raw / 2^`BITS` × the other value.
 pub struct Fraction<B, const BITS: u32>(PhantomData<B>);
 
-/// physical = raw × `NUM` / `DEN` / the other value.
+/// Scaling by another value: physical = raw × `NUM` / `DEN` / the other value.
 pub struct PerItem<B, const NUM: i64, const DEN: i64 = 1>(PhantomData<B>);
 
-/// physical = raw / 2^`BITS` × `BASE`^(the other value, a whole number): a mantissa whose exponent is elsewhere.
+/// Mantissa with the exponent in another item: physical = raw / 2^`BITS` × `BASE`^exponent. The exponent is an integer.
 ///
 /// ```
 /// use lexibus::{Exponential, Quantity};
@@ -142,10 +143,10 @@ pub struct PerItem<B, const NUM: i64, const DEN: i64 = 1>(PhantomData<B>);
 /// ```
 pub struct Exponential<B, const BASE: u32 = 10, const BITS: u32 = 0>(PhantomData<B>);
 
-/// A quantity whose raw number `RAW` isn't one, as 0xFFFF that means "no sensor".
+/// A quantity whose raw value `RAW` isn't a number, for example 0xFFFF for "no sensor".
 pub struct OrNone<V, const RAW: i128>(PhantomData<V>);
 
-/// The value is that of the type below: it travels in the same way.
+/// Implements `Value` and `Fixed` with the encoding of the base type.
 macro_rules! like_its_base {
     ([$($generics:tt)*] $quantity:ty, $base:ident) => {
         impl<$($generics)*> Value for $quantity {
@@ -180,7 +181,7 @@ fn nearest<N: Number>(real: f64) -> Result<N, OutOfRange> {
     N::nearest(real).ok_or(OutOfRange)
 }
 
-/// A quantity over a number: the physical number of a raw one, and the nearest raw number of a physical one.
+/// Implements a quantity over a number from its two conversions: raw to physical, and physical to raw.
 macro_rules! quantity {
     (
         [$($generics:tt)*] $quantity:ty, $Other:ty:
@@ -282,11 +283,11 @@ where
 }
 
 const fn one_shifted(bits: u32) -> f64 {
-    // 63 bits are more than the mantissa has.
+    // 63 bits are more than the mantissa of an `f64` has.
     (1_u64 << if bits > 63 { 63 } else { bits }) as f64
 }
 
-/// `number` × `base`^`exponent`.
+/// Returns `number` × `base`^`exponent`.
 fn scaled_by_power(number: f64, base: u32, exponent: f64) -> f64 {
     match exponent < 0.0 {
         true => number / power(base, -exponent),
@@ -294,7 +295,7 @@ fn scaled_by_power(number: f64, base: u32, exponent: f64) -> f64 {
     }
 }
 
-/// `base`^`exponent`. Without the standard library there is no `powi`; 2^1100 is beyond all that there is.
+/// Returns `base`^`exponent`. `powi` needs the standard library. 2^1100 is beyond the range of `f64`.
 fn power(base: u32, exponent: f64) -> f64 {
     (0..exponent.min(1100.0) as u32).fold(1.0, |power, _| power * f64::from(base))
 }
@@ -351,7 +352,7 @@ mod tests {
     fn linear() {
         type Celsius = Scaled<i16, 1, 10, -400>;
         assert_eq!((Celsius::physical(655, ()), Celsius::raw(25.5, ())), (25.5, Ok(655)));
-        // 35 × 0.01 isn't 0.35; 35 / 100 is.
+        // In `f64`, 35 × 0.01 isn't 0.35, but 35 / 100 is.
         assert_eq!(Scaled::<u16, 1, 100>::physical(35, ()), 0.35);
         assert_eq!(Scaled::<u16, 20>::raw(1_310_720.0, ()), Err(OutOfRange));
         assert_eq!(Scaled::<u16, 1, 100>::raw(f64::NAN, ()), Err(OutOfRange));

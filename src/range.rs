@@ -1,23 +1,23 @@
-//! The values that an item accepts.
+//! Ranges of values that an item accepts.
 
-/// A range of values; both limits belong to it.
+/// Range of values, including both limits.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Range<T: 'static> {
-    /// Everything that the type can hold.
+    /// All values of the type.
     #[default]
     Full,
-    /// This value and all above it.
+    /// This value and all higher values.
     From(T),
-    /// This value and all below it.
+    /// This value and all lower values.
     To(T),
-    /// From the first value to the second.
+    /// All values from the first to the second one.
     Between(T, T),
-    /// One of several values or ranges: the first and the last value of each.
+    /// Several values or ranges: the first and the last value of each.
     OneOf(&'static [(T, T)]),
 }
 
 impl<T: PartialOrd> Range<T> {
-    /// Whether `value` lies in the range. A NaN lies in [`Range::Full`] only.
+    /// Returns whether the range contains `value`. Only [`Range::Full`] contains NaN.
     #[must_use]
     #[inline]
     pub fn contains(&self, value: T) -> bool {

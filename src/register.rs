@@ -1,4 +1,4 @@
-//! Registers of Modbus, and how a value lies in them.
+//! Modbus registers and the encoding of values in them.
 
 use crate::pdo::mask;
 use crate::value::byte_len;
@@ -18,31 +18,31 @@ pub enum RegisterTable {
     DiscreteInput,
 }
 
-/// Which register of several holds which part of a value.
+/// Order of the registers of a value.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum WordOrder {
-    /// A number, its most significant word at the lowest address.
+    /// A number with its most significant word at the lowest address.
     #[default]
     HighFirst,
-    /// A number, its least significant word at the lowest address.
+    /// A number with its least significant word at the lowest address.
     LowFirst,
-    /// A text or other bytes, one after the other: the first one is the upper half of the register at the lowest address.
+    /// A text or a byte string. The first byte is the upper half of the register at the lowest address.
     Bytes,
 }
 
-/// Some bits of a register.
+/// A bit field in a register.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct RegisterPart {
-    /// The first bit; bit 0 is the least significant one.
+    /// Bit offset; bit 0 is the least significant bit.
     pub first: u8,
-    /// How many bits.
+    /// Length in bits.
     pub bits: u8,
 }
 
-/// One or more consecutive registers, or bits, of a table of Modbus.
+/// One or more consecutive registers or bits of a Modbus table.
 ///
-/// A [`Client`](crate::Client) deals in bytes, the least significant first; what travels are words. [`Register::decode`]
-/// and [`Register::encode`] turn the one into the other:
+/// A [`Client`](crate::Client) uses bytes, the least significant byte first; Modbus transmits words.
+/// [`Register::decode`] and [`Register::encode`] convert between them:
 ///
 /// ```
 /// use lexibus::Register;
@@ -59,28 +59,28 @@ pub struct RegisterPart {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Register {
-    /// The table.
+    /// Table of the register.
     pub table: RegisterTable,
-    /// The first register's address as it is on the wire, counted from 0.
+    /// Wire address of the first register, zero-based.
     pub address: u16,
-    /// How many registers of 16 bits the value takes; of a table of bits, how many bits.
+    /// Number of 16-bit registers of the value; number of bits for coils and discrete inputs.
     pub count: u16,
-    /// Which of them holds what.
+    /// Word order.
     pub order: WordOrder,
     /// Whether the two bytes of each register are swapped.
     pub bytes_swapped: bool,
-    /// The bits of the number that the value is, where it isn't all of it. Who writes it has to read the others first.
+    /// Bit field that forms the value, or `None` if the value is the whole number. A write has to read the other bits
+    /// first.
     pub part: Option<RegisterPart>,
-    /// How many registers of 16 bits one address stands for: 1 on most devices; 2 where a device gives each of its registers
-    /// of 32 bits one address. What follows a value of 32 bits is at `address + 1` there, and its words are two more.
+    /// Number of 16-bit registers per address: 1 on most devices, 2 on devices with one address per 32-bit register. On
+    /// these, the next 32-bit value is at `address + 1`, two words later.
     pub words_per_address: u8,
-    /// Whether a number with fewer bytes than the registers have is written with copies of its sign in front, and not with
-    /// zeros.
+    /// Whether a number with fewer bytes than its registers is sign-extended. Otherwise, it is padded with zeros.
     pub sign_extended: bool,
 }
 
 impl Register {
-    /// `count` registers or bits of a table that hold a number, the most significant word first.
+    /// Creates a number of `count` registers or bits, with the most significant word first.
     #[must_use]
     pub const fn new(table: RegisterTable, address: u16, count: u16) -> Self {
         Self {
@@ -95,50 +95,50 @@ impl Register {
         }
     }
 
-    /// One holding register.
+    /// Creates a value of one holding register.
     #[must_use]
     pub const fn holding(address: u16) -> Self {
         Self::new(RegisterTable::Holding, address, 1)
     }
 
-    /// Holding registers, the most significant word first.
+    /// Creates a number of `count` holding registers, with the most significant word first.
     #[must_use]
     pub const fn high_first(address: u16, count: u16) -> Self {
         Self::new(RegisterTable::Holding, address, count)
     }
 
-    /// Holding registers, the least significant word first.
+    /// Creates a number of `count` holding registers, with the least significant word first.
     #[must_use]
     pub const fn low_first(address: u16, count: u16) -> Self {
         Self { order: WordOrder::LowFirst, ..Self::new(RegisterTable::Holding, address, count) }
     }
 
-    /// The same registers with the words in this order.
+    /// Returns the same registers with this word order.
     #[must_use]
     pub const fn ordered(self, order: WordOrder) -> Self {
         Self { order, ..self }
     }
 
-    /// The same registers with the bytes of each swapped.
+    /// Returns the same registers with the two bytes of each register swapped.
     #[must_use]
     pub const fn swapped(self) -> Self {
         Self { bytes_swapped: true, ..self }
     }
 
-    /// `bits` bits of the number, from bit `first` on.
+    /// Returns the field of `bits` bits of the number, from bit `first` on.
     #[must_use]
     pub const fn part(self, first: u8, bits: u8) -> Self {
         Self { part: Some(RegisterPart { first, bits }), ..self }
     }
 
-    /// The same registers of a device on which one address stands for so many of them.
+    /// Returns the same registers for a device with `words` registers per address.
     #[must_use]
     pub const fn words_per_address(self, words: u8) -> Self {
         Self { words_per_address: words, ..self }
     }
 
-    /// The same registers of a number that has a sign, and fewer bytes than they: writing it fills the upper ones with copies
-    /// of the sign.
+    /// Returns the same registers for a signed number with fewer bytes than the registers. A write fills the upper
+    /// bytes with copies of the sign bit.
     ///
     /// ```
     /// use lexibus::Register;
@@ -153,7 +153,7 @@ impl Register {
         Self { sign_extended: true, ..self }
     }
 
-    /// How many addresses the value takes.
+    /// Returns how many addresses the value occupies.
     ///
     /// ```
     /// use lexibus::Register;
@@ -166,7 +166,7 @@ impl Register {
         self.count.div_ceil(self.step())
     }
 
-    /// How many registers, or bits, the next address is away.
+    /// Returns the number of registers, or bits, per address.
     pub(crate) const fn step(&self) -> u16 {
         match (self.table, self.words_per_address) {
             (RegisterTable::Coil | RegisterTable::DiscreteInput, _) | (_, 0) => 1,
@@ -174,8 +174,8 @@ impl Register {
         }
     }
 
-    /// How many words of its addresses come before those of the value, where it doesn't have all of them: the lower half of
-    /// a register of 32 bits is its second word, if the more significant one comes first.
+    /// Returns the number of words before the value at the first address. The lower half of a 32-bit register, for
+    /// example, is its second word if the most significant word comes first.
     pub(crate) const fn skipped(&self) -> usize {
         match self.order {
             WordOrder::HighFirst => (self.addresses() as usize * self.step() as usize) - self.count as usize,
@@ -183,18 +183,18 @@ impl Register {
         }
     }
 
-    /// Puts the value that is in `words` to the start of `buffer`, the least significant byte first (a text from its first
-    /// byte on), and returns how many bytes it has.
+    /// Decodes the value in `words`, writes it to the start of `buffer` and returns its length in bytes. Numbers have
+    /// their least significant byte first; texts start with their first byte.
     ///
-    /// A number in more bytes than `buffer` has loses the upper ones, as one byte does that has a register for itself. A
-    /// text doesn't: as [`Client::read`](crate::Client::read) asks for, the length is that of all of it.
+    /// A number that is longer than `buffer` loses its upper bytes, for example a one-byte value in a register. A text
+    /// isn't cut off: the returned length is that of the whole text, as [`Client::read`](crate::Client::read) requires.
     ///
-    /// Tables of bits don't need this: Modbus packs bits with the first one lowest, which is the order of the buffer.
+    /// Coils and discrete inputs don't need this method: Modbus packs them with the first bit lowest, as in `buffer`.
     ///
     /// # Errors
     ///
-    /// [`LengthError`], in bytes, where `words` aren't as many as [`count`](Register::count), or where the value is some bits
-    /// of a number of more than four words.
+    /// [`LengthError`], in bytes, if the number of `words` isn't [`count`](Register::count), or if the value is a bit
+    /// field in a number of more than four words.
     pub fn decode(&self, words: &[u16], buffer: &mut [u8]) -> Result<usize, LengthError> {
         self.check(words)?;
         let length = 2 * words.len();
@@ -211,13 +211,14 @@ impl Register {
         Ok(if self.order == WordOrder::Bytes { length } else { length.min(buffer.len()) })
     }
 
-    /// Puts the value that is in `data`, as [`decode`](Register::decode) gives it, into `words`. Bytes that `data` doesn't
-    /// have are 0, or copies of its sign where the register is [`sign_extended`](Register::sign_extended). Of a [`part`](Register::part), only its bits change: `words` are those that the registers hold.
+    /// Encodes the value in `data`, in the format of [`decode`](Register::decode), into `words`. Missing bytes are 0,
+    /// or copies of the sign bit if the register is [`sign_extended`](Register::sign_extended). If the value is a
+    /// [`part`](Register::part), only its bits change, and `words` must contain the current registers.
     ///
     /// # Errors
     ///
-    /// [`LengthError`], in bytes, where `words` aren't as many as [`count`](Register::count), where `data` is longer than they
-    /// are, or where the value is some bits of a number of more than four words.
+    /// [`LengthError`], in bytes, if the number of `words` isn't [`count`](Register::count), if `data` is longer than
+    /// `words`, or if the value is a bit field in a number of more than four words.
     pub fn encode(&self, data: &[u8], words: &mut [u16]) -> Result<(), LengthError> {
         self.check(words)?;
         let count = words.len();
@@ -253,7 +254,8 @@ impl Register {
         }
     }
 
-    /// Where, among `count` words, the one is that is `at`-th in the value.
+    /// Returns the position, among `count` words, of the word with significance `at`. For texts, `at` is the word's
+    /// position in the text.
     const fn position(&self, at: usize, count: usize) -> usize {
         match self.order {
             WordOrder::HighFirst => count - 1 - at,
@@ -261,7 +263,7 @@ impl Register {
         }
     }
 
-    /// The bytes of a word, in the order of the value.
+    /// Returns the bytes of a word in the byte order of the value.
     const fn bytes(&self, word: u16) -> [u8; 2] {
         if self.is_big_endian() {
             word.to_be_bytes()
@@ -278,8 +280,8 @@ impl Register {
         }
     }
 
-    /// Whether the upper half of a word comes first in the value: that of a text does, and that of a number whose bytes
-    /// are swapped.
+    /// Returns whether the upper half of a word comes first in the value. This is so for texts, and for numbers with
+    /// swapped bytes.
     const fn is_big_endian(&self) -> bool {
         matches!(self.order, WordOrder::Bytes) != self.bytes_swapped
     }
@@ -351,7 +353,7 @@ mod tests {
         let mut words = [0xFFFF; 2];
         assert_eq!(text.encode(b"A", &mut words), Ok(()));
         assert_eq!(words, [0x4100, 0]);
-        // What doesn't fit is the caller's to notice.
+        // The caller detects by the length that the text doesn't fit.
         assert_eq!(text.decode(&[0x4142, 0x4344], &mut [0; 3]), Ok(4));
     }
 

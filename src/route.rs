@@ -1,4 +1,4 @@
-//! Routes: how an item's value travels on one bus, directly to its address or otherwise.
+//! Routes: how the value of an item is transferred on one bus, directly at its address or indirectly.
 
 use crate::bus::{Bus, EscMemory, Object, Parameter, Record};
 use crate::client::{AsyncClient, Client};
@@ -10,19 +10,19 @@ pub use limited::Limited;
 pub use resized::Resized;
 pub use window::{Handshake, ReadWindow, Through, WriteWindow};
 
-/// The address that a route leads to, for tools; none if it leads through a window.
+/// Address of a route, for tools. A route through a window has none.
 pub trait Route {
-    /// The entry of an object dictionary, on CANopen or on CANopen over EtherCAT.
+    /// Returns the entry of the object dictionary, on CANopen or on CANopen over EtherCAT.
     fn object(&self) -> Option<Object> {
         None
     }
 
-    /// The register on Modbus.
+    /// Returns the Modbus register.
     fn register(&self) -> Option<Register> {
         None
     }
 
-    /// Whether the value has another width there than its item.
+    /// Returns whether the width of the value on this bus differs from the width of the item.
     fn is_resized(&self) -> bool {
         false
     }
@@ -45,18 +45,18 @@ impl Route for Parameter {}
 impl Route for ImageField {}
 impl Route for EscMemory {}
 
-/// An address of a value's own on bus `B`, with nothing in between.
+/// A route that is a plain address on bus `B`.
 #[diagnostic::on_unimplemented(
-    message = "this item has no address of its own on `{B}`",
-    label = "the client's bus has this item behind a window, or in another width"
+    message = "this item has no direct address on `{B}`",
+    label = "on the client's bus, this item is accessed through a window or has another width"
 )]
 pub trait Direct<B: Bus>: Copy {
-    /// The address.
+    /// Returns the address.
     fn address(self) -> B::Address;
 }
 
-/// A route on which a value can be read. An address is the direct one; [`Split`], [`Resized`], [`Limited`] and [`Through`] are
-/// made of addresses, and of each other.
+/// A route that can read a value. Every address is a direct route. [`Split`], [`Resized`], [`Limited`] and [`Through`]
+/// are built from addresses and from each other.
 #[diagnostic::on_unimplemented(
     message = "this item can't be read on `{B}`",
     label = "the client's bus has no route that reads this item"
@@ -69,7 +69,7 @@ pub trait ReadRoute<B: Bus>: Copy {
     /// Those of the client and of the route.
     fn read<C: Client<Bus = B>>(&self, client: &mut C, buffer: &mut [u8]) -> Result<usize, Error<C::Error>>;
 
-    /// The same without blocking.
+    /// Reads the value without blocking, as [`read`](Self::read) does.
     ///
     /// # Errors
     ///
@@ -82,7 +82,7 @@ pub trait ReadRoute<B: Bus>: Copy {
     ) -> Result<usize, Error<C::Error>>;
 }
 
-/// A route on which a value can be written.
+/// A route that can write a value.
 #[diagnostic::on_unimplemented(
     message = "this item can't be written on `{B}`",
     label = "the client's bus has no route that writes this item"
@@ -95,7 +95,7 @@ pub trait WriteRoute<B: Bus>: Copy {
     /// Those of the client and of the route.
     fn write<C: Client<Bus = B>>(&self, client: &mut C, data: &[u8]) -> Result<(), Error<C::Error>>;
 
-    /// The same without blocking.
+    /// Writes the value without blocking, as [`write`](Self::write) does.
     ///
     /// # Errors
     ///
@@ -104,7 +104,7 @@ pub trait WriteRoute<B: Bus>: Copy {
     async fn write_async<C: AsyncClient<Bus = B>>(&self, client: &mut C, data: &[u8]) -> Result<(), Error<C::Error>>;
 }
 
-/// The methods of a [`ReadRoute`] that reads as `self.$route` does.
+/// Defines the methods of a [`ReadRoute`] that reads through `self.$route`.
 macro_rules! read_by {
     ($route:tt) => {
         #[inline]
@@ -168,18 +168,18 @@ mod limited;
 mod resized;
 mod window;
 
-/// The direction of a [`Split`] that its bus doesn't have.
+/// Direction of a [`Split`] that doesn't exist on its bus.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Closed;
 
-/// Reads on one route, writes on another. A side that is [`Closed`] doesn't compile.
+/// Route that reads on one route and writes on another. An access in a [`Closed`] direction doesn't compile.
 ///
 /// ```
 /// use lexibus::{CanOpen, Closed, Object, ReadRoute, Split, WriteRoute};
 ///
-/// // The mode of operation of CiA 402 is written at one object, and read at another.
+/// // CiA 402 has different objects for writing and for reading the mode of operation.
 /// const MODE: Split<Object, Object> = Split { read: Object::new(0x6061, 0), write: Object::new(0x6060, 0) };
-/// // One that can only be read.
+/// // A value that can only be read.
 /// const STATUS: Split<Object, Closed> = Split::reading(Object::new(0x6041, 0));
 ///
 /// fn both_ways(_: impl ReadRoute<CanOpen> + WriteRoute<CanOpen>) {}
@@ -189,14 +189,14 @@ pub struct Closed;
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Split<R, W> {
-    /// The route on which the value is read.
+    /// Route for reading.
     pub read: R,
-    /// The route on which it is written.
+    /// Route for writing.
     pub write: W,
 }
 
 impl<R, W> Split<R, W> {
-    /// Reads on `read`, writes on `write`.
+    /// Creates a route that reads on `read` and writes on `write`.
     #[must_use]
     pub const fn new(read: R, write: W) -> Self {
         Self { read, write }
@@ -204,7 +204,7 @@ impl<R, W> Split<R, W> {
 }
 
 impl<R> Split<R, Closed> {
-    /// Only reads.
+    /// Creates a route that can only read.
     #[must_use]
     pub const fn reading(read: R) -> Self {
         Self { read, write: Closed }
@@ -212,7 +212,7 @@ impl<R> Split<R, Closed> {
 }
 
 impl<W> Split<Closed, W> {
-    /// Only writes.
+    /// Creates a route that can only write.
     #[must_use]
     pub const fn writing(write: W) -> Self {
         Self { read: Closed, write }

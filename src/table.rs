@@ -1,73 +1,74 @@
-//! All items of a device as data, for programs that list them or look them up at run time, and for simulated devices.
+//! All items of a device as data, for programs that list or search items at run time, and for simulated devices.
 
 use crate::bus::Object;
 use crate::data_type::DataType;
 use crate::flags::Flags;
 use crate::register::Register;
 
-/// One item: an entry of the object dictionary, a register, or both in one.
+/// One item: an entry of the object dictionary, a register, or both.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Entry {
-    /// Where it is in the object dictionary; `None` of a register that is no object.
+    /// Address in the object dictionary; `None` if the item is only a register.
     pub object: Option<Object>,
-    /// Where it is on Modbus; `None` of an object that is no register.
+    /// Register on Modbus; `None` if the item is only an object.
     pub register: Option<Register>,
-    /// The name in the source.
+    /// Name in the device description.
     pub name: &'static str,
-    /// The type of the value.
+    /// Data type of the value.
     pub data_type: DataType,
-    /// What the device allows.
+    /// Access rights.
     pub access: AccessRights,
-    /// What else is known.
+    /// Additional properties.
     pub flags: Flags,
-    /// The value after power-on.
+    /// Initial value after power-on.
     pub initial: RawInitial,
-    /// The lowest value that a write accepts.
+    /// Minimum of the values that can be written.
     pub low: Bound,
-    /// The highest value that a write accepts.
+    /// Maximum of the values that can be written.
     pub high: Bound,
-    /// The unit of the value; empty where there is none.
+    /// Unit of the value; empty if there is none.
     pub unit: &'static str,
 }
 
-/// What a device allows.
+/// Access rights of an item.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum AccessRights {
-    /// Reading (`ro`).
+    /// Read-only (`ro`).
     ReadOnly,
-    /// Writing (`wo`).
+    /// Write-only (`wo`).
     WriteOnly,
-    /// Both (`rw`, `rwr`, `rww`).
+    /// Read and write (`rw`, `rwr`, `rww`).
     ReadWrite,
-    /// Reading, and the value never changes (`const`).
+    /// Read-only, with a value that never changes (`const`).
     Constant,
 }
 
-/// The value after power-on, as the device would send it.
+/// Initial value after power-on, in the encoding of the device.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum RawInitial {
-    /// The description of the device gives none.
+    /// The device description gives no value.
     Unknown,
-    /// These bytes.
+    /// A fixed value.
     Bytes(&'static [u8]),
     /// The node-ID plus this number.
     NodeId(u64),
 }
 
-/// One limit of a range; it belongs to the range.
+/// Inclusive limit of a range.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Bound {
-    /// What the type can hold.
+    /// The limit of the data type.
     Unlimited,
-    /// The limit of a signed integer.
+    /// Limit of a signed integer.
     Signed(i64),
-    /// The limit of an unsigned integer.
+    /// Limit of an unsigned integer.
     Unsigned(u64),
-    /// The limit of a floating-point number.
+    /// Limit of a floating-point number.
     Real(f64),
 }
 
-/// The entry at `index` and `sub_index`. `entries` are in ascending order of their objects, as generated tables are.
+/// Returns the entry at `index` and `sub_index`. `entries` must be in ascending order of their objects, as generated
+/// tables are.
 #[must_use]
 pub fn find(entries: &[Entry], index: u16, sub_index: u8) -> Option<&Entry> {
     let object = Some(Object::new(index, sub_index));

@@ -1,4 +1,4 @@
-//! Text and byte strings, whose length the device determines.
+//! Types of texts and byte strings with a variable length.
 
 use core::char::decode_utf16;
 use core::fmt::{self, Write};
@@ -7,15 +7,15 @@ use crate::data_type::DataType;
 use crate::value::Value;
 use crate::value_error::{LengthError, TextError};
 
-/// ISO 646 text, one byte a character (CiA 301 7.1.6.3).
+/// ISO 646 text, one byte per character (CiA 301 7.1.6.3).
 #[derive(Clone, Copy, Debug, Default)]
 pub struct VisibleString;
 
-/// UTF-16 text, two bytes a unit, the low byte first (CiA 301 7.1.6.4).
+/// UTF-16 text, two bytes per code unit, the low byte first (CiA 301 7.1.6.4).
 #[derive(Clone, Copy, Debug, Default)]
 pub struct UnicodeString;
 
-/// Bytes (CiA 301 7.1.6.2).
+/// A byte string (CiA 301 7.1.6.2).
 #[derive(Clone, Copy, Debug, Default)]
 pub struct OctetString;
 
@@ -23,7 +23,7 @@ pub struct OctetString;
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Domain;
 
-/// Bytes whose meaning the description of the device doesn't give.
+/// Bytes whose meaning the device description doesn't give.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Opaque;
 
@@ -44,13 +44,13 @@ variable! {
     Opaque, &'static [u8];
 }
 
-/// The text in `bytes`, up to the first NUL: devices fill up to a fixed length with them.
+/// Returns the text in `bytes` up to the first NUL. Devices pad texts of a fixed length with NULs.
 pub(crate) fn decode_visible(bytes: &[u8]) -> Result<&str, TextError> {
     let text = bytes.split(|&byte| byte == 0).next().unwrap_or_default();
     core::str::from_utf8(text).map_err(|_| TextError)
 }
 
-/// The bytes of `text`, where all of its characters are in 0x20 to 0x7E.
+/// Returns the bytes of `text` if all characters are in the range 0x20 to 0x7E.
 pub(crate) fn encode_visible(text: &str) -> Result<&[u8], TextError> {
     let bytes = text.as_bytes();
     if bytes.iter().all(|byte| matches!(byte, 0x20..=0x7E)) {
@@ -60,7 +60,7 @@ pub(crate) fn encode_visible(text: &str) -> Result<&[u8], TextError> {
     }
 }
 
-/// Writes `text` as UTF-16 to the start of `scratch`.
+/// Writes `text` as UTF-16 to the start of `scratch` and returns this part.
 pub(crate) fn encode_utf16<'s>(text: &str, scratch: &'s mut [u8]) -> Result<&'s [u8], LengthError> {
     let (expected, actual) = (text.encode_utf16().count() * 2, scratch.len());
     let room = scratch.get_mut(..expected).ok_or(LengthError { expected, actual })?;
@@ -70,7 +70,7 @@ pub(crate) fn encode_utf16<'s>(text: &str, scratch: &'s mut [u8]) -> Result<&'s 
     Ok(room)
 }
 
-/// UTF-16 text as a device sent it, checked. `Display` writes it out.
+/// UTF-16 text from a device, checked for validity. `Display` writes the text.
 ///
 /// ```
 /// use lexibus::Utf16;
@@ -85,11 +85,11 @@ pub struct Utf16<'b> {
 }
 
 impl<'b> Utf16<'b> {
-    /// The text in `bytes`, the low byte of each unit first, up to the first NUL.
+    /// Creates the text in `bytes`, the low byte of each code unit first, up to the first NUL.
     ///
     /// # Errors
     ///
-    /// [`TextError`] where the number of bytes is odd or half of a surrogate pair is missing.
+    /// [`TextError`] if the number of bytes is odd or half of a surrogate pair is missing.
     pub fn new(bytes: &'b [u8]) -> Result<Self, TextError> {
         let length = units(bytes).take_while(|&unit| unit != 0).count() * 2;
         let text = Self { bytes: &bytes[..length] };
@@ -97,9 +97,9 @@ impl<'b> Utf16<'b> {
         whole.then_some(text).ok_or(TextError)
     }
 
-    /// The characters of the text.
+    /// Returns the characters of the text.
     pub fn chars(&self) -> impl Iterator<Item = char> + 'b {
-        // Every unit was checked in `new`; none is dropped here.
+        // `new` checked every code unit, so none is dropped.
         decode_utf16(units(self.bytes)).filter_map(Result::ok)
     }
 }

@@ -1,4 +1,4 @@
-//! Dates and time spans of CANopen.
+//! Dates and durations of CANopen.
 
 use core::cmp::Ordering;
 
@@ -14,41 +14,41 @@ use crate::value_error::{LengthError, OutOfRange};
 pub struct TimeOfDay {
     /// Milliseconds after midnight, 28 bits.
     pub milliseconds: u32,
-    /// Days since 1 January 1984.
+    /// Days since January 1, 1984.
     pub days: u16,
 }
 
-/// A time span (CiA 301 7.1.6.6).
+/// A duration (CiA 301 7.1.6.6).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Default)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct TimeDifference {
-    /// Milliseconds beyond the whole days, 28 bits.
+    /// Milliseconds in addition to the days, 28 bits.
     pub milliseconds: u32,
-    /// Whole days.
+    /// Days.
     pub days: u16,
 }
 
-/// The bits that hold the milliseconds; the four above them are reserved.
+/// Mask of the bits for the milliseconds. The four bits above are reserved.
 const MILLISECONDS: u32 = 0x0FFF_FFFF;
 
 macro_rules! time {
     ($($time:ident)*) => {$(
         impl $time {
-            /// `milliseconds`, of which 28 bits are sent, and `days`.
+            /// Creates a value. Only 28 bits of `milliseconds` are sent.
             #[must_use]
             pub const fn new(milliseconds: u32, days: u16) -> Self {
                 Self { milliseconds, days }
             }
 
-            /// The 48 bits that are sent: 28 bits of milliseconds, 4 reserved bits, 16 bits of days. Bits of
-            /// `milliseconds` beyond the 28 are cut off.
+            /// Returns the 48 bits that are sent: 28 bits of milliseconds, 4 reserved bits, 16 bits of days. Bits of
+            /// `milliseconds` above the 28 are cut off.
             #[must_use]
             pub const fn raw(self) -> u64 {
                 (self.milliseconds & MILLISECONDS) as u64 | (self.days as u64) << 32
             }
 
-            /// The value of 48 bits; reserved bits and those beyond the 48 are ignored.
+            /// Creates a value from its 48 bits. Ignores reserved bits and bits above the 48.
             #[must_use]
             pub const fn from_raw(raw: u64) -> Self {
                 Self { milliseconds: raw as u32 & MILLISECONDS, days: (raw >> 32) as u16 }

@@ -1,4 +1,4 @@
-//! The types of values, and how those of a fixed size travel.
+//! Value types, and the encoding of those with a fixed size.
 
 use crate::data_type::DataType;
 use crate::range::Range;
@@ -6,47 +6,47 @@ use crate::value_error::{LengthError, OutOfRange};
 
 /// The type of an item's value.
 pub trait Value {
-    /// What Rust code works with.
+    /// Type of the value in Rust code.
     type Native: Copy + 'static;
 
-    /// The type in the object dictionary.
+    /// Type in the object dictionary.
     const DATA_TYPE: DataType;
 }
 
-/// A type of at most 64 bits that always takes the same number of bytes, the least significant first
-/// (CiA 301 7.1.4).
+/// A type of at most 64 bits with a fixed length in bytes and the least significant byte first (CiA 301 7.1.4).
 ///
-/// A generated newtype or enumeration implements it by handing over to its integer.
+/// Generated newtypes and enumerations implement it through their integer type.
 pub trait Fixed: Value {
-    /// The size in bits, 1 to 64. The value takes that many bits, rounded up to whole bytes.
+    /// Size in bits, 1 to 64. The encoding is rounded up to whole bytes.
     const BITS: u32;
 
-    /// Writes `native` to the start of `buffer` and returns how many bytes it takes.
+    /// Encodes `native` at the start of `buffer` and returns the length in bytes.
     ///
     /// # Errors
     ///
-    /// [`OutOfRange`] where `native` doesn't fit in [`BITS`](Fixed::BITS) bits.
+    /// [`OutOfRange`] if `native` doesn't fit in [`BITS`](Fixed::BITS) bits.
     fn encode(native: Self::Native, buffer: &mut [u8; 8]) -> Result<usize, OutOfRange>;
 
-    /// Reads a value from exactly the bytes that it takes.
+    /// Decodes a value from exactly as many bytes as its encoding has.
     ///
     /// # Errors
     ///
-    /// [`LengthError`] where there are fewer bytes or more.
+    /// [`LengthError`] if `bytes` has another length.
     fn decode(bytes: &[u8]) -> Result<Self::Native, LengthError>;
 
-    /// Whether `value` lies in `range`.
+    /// Returns whether `range` contains `value`.
     fn in_range(value: Self::Native, range: &Range<Self::Native>) -> bool;
 }
 
-/// Writes the low `bits` bits of `raw`, rounded up to whole bytes, to the start of `buffer`.
+/// Writes the low `bits` bits of `raw`, rounded up to whole bytes, to the start of `buffer` and returns the length in
+/// bytes.
 #[inline]
 pub(crate) fn encode_raw(raw: u64, bits: u32, buffer: &mut [u8; 8]) -> usize {
     *buffer = raw.to_le_bytes();
     byte_len(bits)
 }
 
-/// Reads exactly as many bytes as `bits` bits take.
+/// Reads `bits` bits from a slice with exactly as many bytes as these need.
 #[inline]
 pub(crate) fn decode_raw(bytes: &[u8], bits: u32) -> Result<u64, LengthError> {
     let expected = byte_len(bits);
@@ -56,7 +56,7 @@ pub(crate) fn decode_raw(bytes: &[u8], bits: u32) -> Result<u64, LengthError> {
     Ok(crate::pdo::from_bytes(bytes))
 }
 
-/// The number of bytes that `bits` bits take, 8 at most.
+/// Returns the number of bytes of `bits` bits, 8 at most.
 #[inline]
 pub(crate) const fn byte_len(bits: u32) -> usize {
     match bits {
@@ -70,7 +70,7 @@ impl Value for bool {
     const DATA_TYPE: DataType = DataType::Boolean;
 }
 
-/// One byte, 0 or 1. Any other value than 0 is read as `true`.
+/// One byte, 0 or 1. Every value except 0 is read as `true`.
 impl Fixed for bool {
     const BITS: u32 = 1;
 

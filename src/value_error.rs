@@ -1,4 +1,4 @@
-//! Errors of values and their bytes.
+//! Errors of values and their encodings.
 
 use core::error;
 use core::fmt;
@@ -6,25 +6,25 @@ use core::fmt;
 /// A number of bytes other than the expected one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct LengthError {
-    /// How many bytes the value takes, or how many the buffer holds at most.
+    /// Length of the value, or maximum length of the buffer, in bytes.
     pub expected: usize,
-    /// How many bytes there are.
+    /// Actual length in bytes.
     pub actual: usize,
 }
 
 impl LengthError {
-    /// `actual` bytes where there should be `expected`.
+    /// Creates the error for `actual` bytes instead of `expected`.
     #[must_use]
     pub const fn new(expected: usize, actual: usize) -> Self {
         Self { expected, actual }
     }
 }
 
-/// A value outside the declared range of its item, or outside what its type can hold.
+/// A value outside the declared range of its item, or outside the range of its type.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct OutOfRange;
 
-/// Text with characters that its type doesn't allow, or bytes that aren't text.
+/// Text with characters that its type doesn't allow, or bytes that aren't valid text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct TextError;
 
