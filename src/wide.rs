@@ -1,4 +1,4 @@
-//! Integers of the widths that Rust has no type for.
+//! Integer types for widths that Rust doesn't have.
 
 use crate::data_type::DataType;
 use crate::pdo::{mask, sign_extend};
@@ -30,13 +30,13 @@ const fn checked_width(bits: u32) -> u32 {
 impl<const BITS: u32> Uint<BITS> {
     const WIDTH: u32 = checked_width(BITS);
 
-    /// The smallest value, 0.
+    /// Minimum, 0.
     pub const MIN: Self = Self::from_raw(0);
 
-    /// The largest value.
+    /// Maximum.
     pub const MAX: Self = Self::from_raw(u64::MAX);
 
-    /// The number, or `None` where it doesn't fit in `BITS` bits.
+    /// Creates the integer. Returns `None` if `value` doesn't fit in `BITS` bits.
     #[must_use]
     #[inline]
     pub const fn new(value: u64) -> Option<Self> {
@@ -48,21 +48,21 @@ impl<const BITS: u32> Uint<BITS> {
         }
     }
 
-    /// The number.
+    /// Returns the number.
     #[must_use]
     #[inline]
     pub const fn get(self) -> u64 {
         self.0
     }
 
-    /// The low `BITS` bits of `raw`; the others are ignored.
+    /// Creates the integer from the low `BITS` bits of `raw`. Ignores the other bits.
     #[must_use]
     #[inline]
     pub const fn from_raw(raw: u64) -> Self {
         Self(raw & mask(Self::WIDTH))
     }
 
-    /// The bits of the number, in the low `BITS` bits; the others are 0.
+    /// Returns the bits of the number in the low `BITS` bits; the others are 0.
     #[must_use]
     #[inline]
     pub const fn raw(self) -> u64 {
@@ -73,13 +73,13 @@ impl<const BITS: u32> Uint<BITS> {
 impl<const BITS: u32> Int<BITS> {
     const WIDTH: u32 = checked_width(BITS);
 
-    /// The smallest value.
+    /// Minimum.
     pub const MIN: Self = Self::from_raw(1 << (Self::WIDTH - 1));
 
-    /// The largest value.
+    /// Maximum.
     pub const MAX: Self = Self::from_raw(mask(Self::WIDTH - 1));
 
-    /// The number, or `None` where it doesn't fit in `BITS` bits.
+    /// Creates the integer. Returns `None` if `value` doesn't fit in `BITS` bits.
     #[must_use]
     #[inline]
     pub const fn new(value: i64) -> Option<Self> {
@@ -91,21 +91,21 @@ impl<const BITS: u32> Int<BITS> {
         }
     }
 
-    /// The number.
+    /// Returns the number.
     #[must_use]
     #[inline]
     pub const fn get(self) -> i64 {
         self.0
     }
 
-    /// The low `BITS` bits of `raw`, of which the highest is the sign; the others are ignored.
+    /// Creates the integer from the low `BITS` bits of `raw`; the highest of these is the sign. Ignores the other bits.
     #[must_use]
     #[inline]
     pub const fn from_raw(raw: u64) -> Self {
         Self(sign_extend(raw, Self::WIDTH))
     }
 
-    /// The bits of the number, in the low `BITS` bits; the others are 0.
+    /// Returns the bits of the number in the low `BITS` bits; the others are 0.
     #[must_use]
     #[inline]
     pub const fn raw(self) -> u64 {

@@ -15,7 +15,7 @@ impl<C, V: Fixed, A, L> Accessor<'_, C, V, A, L> {
     ///
     /// # Errors
     ///
-    /// [`Error::Length`] where the device sends another number of bytes than the type takes.
+    /// [`Error::Length`] if the length that the device sends isn't the length of the type.
     #[inline]
     pub fn read(&mut self) -> Result<V::Native, Error<C::Error>>
     where
@@ -33,7 +33,7 @@ impl<C, V: Fixed, A, L> Accessor<'_, C, V, A, L> {
     ///
     /// # Errors
     ///
-    /// [`Error::Length`] where the device sends another number of bytes than the type takes.
+    /// [`Error::Length`] if the length that the device sends isn't the length of the type.
     pub async fn read_async(&mut self) -> Result<V::Native, Error<C::Error>>
     where
         A: Readable,
@@ -50,7 +50,7 @@ impl<C, V: Fixed, A, L> Accessor<'_, C, V, A, L> {
     ///
     /// # Errors
     ///
-    /// [`Error::OutOfRange`] where the value is outside the item's range or doesn't fit its type; nothing is sent then.
+    /// [`Error::OutOfRange`] if the value is outside the item's range or doesn't fit its type. Nothing is sent then.
     #[inline]
     pub fn write(&mut self, value: V::Native) -> Result<(), Error<C::Error>>
     where
@@ -67,7 +67,7 @@ impl<C, V: Fixed, A, L> Accessor<'_, C, V, A, L> {
     ///
     /// # Errors
     ///
-    /// [`Error::OutOfRange`] where the value is outside the item's range or doesn't fit its type; nothing is sent then.
+    /// [`Error::OutOfRange`] if the value is outside the item's range or doesn't fit its type. Nothing is sent then.
     pub async fn write_async(&mut self, value: V::Native) -> Result<(), Error<C::Error>>
     where
         A: Writable,
@@ -80,13 +80,13 @@ impl<C, V: Fixed, A, L> Accessor<'_, C, V, A, L> {
     }
 }
 
-/// As many bytes as a value of type `V` takes.
+/// Returns the part of `buffer` that a value of type `V` needs.
 #[inline]
 fn room<V: Fixed>(buffer: &mut [u8; 8]) -> &mut [u8] {
     &mut buffer[..byte_len(V::BITS)]
 }
 
-/// The value of the bytes in `room`, of which the client says that it filled `length`.
+/// Decodes the value in `room`. `length` is the length that the client reported.
 #[inline]
 fn decode<V: Fixed, E>(room: &[u8], length: usize) -> Result<V::Native, Error<E>> {
     if length != room.len() {
@@ -95,7 +95,7 @@ fn decode<V: Fixed, E>(room: &[u8], length: usize) -> Result<V::Native, Error<E>
     Ok(V::decode(room)?)
 }
 
-/// Writes a value that is in the item's range to `buffer`, and returns how many bytes it takes.
+/// Checks the range, encodes the value into `buffer` and returns the length in bytes.
 #[inline]
 fn encode<V: Fixed, A, L>(item: &Item<V, A, L>, value: V::Native, buffer: &mut [u8; 8]) -> Result<usize, OutOfRange> {
     if !V::in_range(value, item.range()) {

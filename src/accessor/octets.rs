@@ -8,18 +8,18 @@ use crate::location::On;
 use crate::route::{ReadRoute, WriteRoute};
 use crate::text::{Domain, OctetString, Opaque};
 
-/// The methods of byte strings, blocking and not.
+/// Defines the methods for byte strings, blocking and async.
 macro_rules! octets {
     (
         $marker:ident: $Client:ident $fetch:ident $send:ident $read_into:ident $write:ident
         $($async:ident $await:ident)?
     ) => {
         impl<C, A, L> Accessor<'_, C, $marker, A, L> {
-            /// Reads the bytes into `buffer` and returns the part of it that the device filled.
+            /// Reads the bytes into `buffer` and returns the part that the device sent.
             ///
             /// # Errors
             ///
-            /// [`Error::Length`] where the device sends more than `buffer` holds.
+            /// [`Error::Length`] if the device sends more than `buffer` holds.
             pub $($async)? fn $read_into<'b>(&mut self, buffer: &'b mut [u8]) -> Result<&'b [u8], Error<C::Error>>
             where
                 A: Readable,

@@ -1,4 +1,4 @@
-//! Access to values that stand for physical ones.
+//! Access to values with a physical value.
 
 use super::Accessor;
 use crate::access::{Readable, Writable};
@@ -8,14 +8,14 @@ use crate::location::On;
 use crate::quantity::Quantity;
 use crate::route::{ReadRoute, WriteRoute};
 
-/// The methods for physical values, blocking and not.
+/// Defines the methods for physical values, blocking and async.
 macro_rules! scaled {
     (
         $Client:ident $read:ident $write:ident: $read_scaled:ident $write_scaled:ident $read_scaled_by:ident
         $write_scaled_by:ident $($async:ident $await:ident)?
     ) => {
         impl<C, V: Quantity<Other = ()>, A, L> Accessor<'_, C, V, A, L> {
-            /// Reads the value in its unit: an `f64`, or `None` where the raw number means something else.
+            /// Reads the physical value in the item's unit: an `f64`, or `None` if the raw value has a special meaning.
             ///
             /// # Errors
             ///
@@ -29,12 +29,12 @@ macro_rules! scaled {
                 self.$read()$(.$await)?.map(|raw| V::physical(raw, ()))
             }
 
-            /// Writes the value that is nearest to `physical`, which is in the item's unit.
+            /// Writes the raw value that is nearest to `physical`, a value in the item's unit.
             ///
             /// # Errors
             ///
-            /// [`Error::OutOfRange`] where that is outside the item's range, doesn't fit its type, or means something else;
-            /// nothing is sent then.
+            /// [`Error::OutOfRange`] if the raw value is outside the item's range, doesn't fit its type, or has a
+            /// special meaning. Nothing is sent then.
             pub $($async)? fn $write_scaled(&mut self, physical: f64) -> Result<(), Error<C::Error>>
             where
                 A: Writable,
@@ -45,9 +45,10 @@ macro_rules! scaled {
             }
         }
 
-        /// Values whose scale depends on another one, which the caller gives: the documentation of the item says which one.
+        /// Methods for values whose scale depends on another value, which the caller passes. The documentation of the
+        /// item names this other value.
         impl<C, V: Quantity<Other = f64>, A, L> Accessor<'_, C, V, A, L> {
-            /// Reads the value in its unit. `other` is the value that its scale depends on.
+            /// Reads the physical value in the item's unit. `other` is the value that determines the scale.
             ///
             /// # Errors
             ///
@@ -61,7 +62,7 @@ macro_rules! scaled {
                 self.$read()$(.$await)?.map(|raw| V::physical(raw, other))
             }
 
-            /// Writes the value that is nearest to `physical`. `other` is the value that its scale depends on.
+            /// Writes the raw value that is nearest to `physical`. `other` is the value that determines the scale.
             ///
             /// # Errors
             ///

@@ -1,4 +1,4 @@
-//! A device of one value, for the tests of the accessors.
+//! A device with one value, for the tests of the accessors.
 
 use core::convert::Infallible;
 use std::vec::Vec;
@@ -7,7 +7,7 @@ pub(super) use crate::now::now;
 use crate::value::Value;
 use crate::{AsyncClient, CanOpen, Client, Error, Flags, Initial, Item, Object, OnCanOpen, Range};
 
-/// Sends `answer`, keeps what was written, and says it sent `claimed` bytes where that is set.
+/// Sends `answer`, stores the bytes that are written, and reports `claimed` as the length if that is set.
 #[derive(Default)]
 pub(super) struct Device {
     pub(super) answer: Vec<u8>,

@@ -8,15 +8,16 @@ use crate::location::On;
 use crate::route::{ReadRoute, WriteRoute};
 use crate::text::{decode_visible, encode_utf16, encode_visible, UnicodeString, Utf16, VisibleString};
 
-/// The methods of texts, blocking and not.
+/// Defines the methods for texts, blocking and async.
 macro_rules! texts {
     ($Client:ident $fetch:ident $send:ident: $read_into:ident $write:ident $($async:ident $await:ident)?) => {
         impl<C, A, L> Accessor<'_, C, VisibleString, A, L> {
-            /// Reads the text into `buffer`. It ends at the first NUL, with which devices fill up to a fixed length.
+            /// Reads the text into `buffer`. The text ends at the first NUL, because devices pad texts of a fixed
+            /// length with NULs.
             ///
             /// # Errors
             ///
-            /// [`Error::Length`] where the text is longer than `buffer`, [`Error::Text`] where it isn't ASCII or UTF-8.
+            /// [`Error::Length`] if the text is longer than `buffer`, [`Error::Text`] if it isn't ASCII or UTF-8.
             pub $($async)? fn $read_into<'b>(&mut self, buffer: &'b mut [u8]) -> Result<&'b str, Error<C::Error>>
             where
                 A: Readable,
@@ -30,7 +31,7 @@ macro_rules! texts {
             ///
             /// # Errors
             ///
-            /// [`Error::Text`] where a character isn't in 0x20 to 0x7E; nothing is sent then.
+            /// [`Error::Text`] if a character is outside the range 0x20 to 0x7E. Nothing is sent then.
             pub $($async)? fn $write(&mut self, text: &str) -> Result<(), Error<C::Error>>
             where
                 A: Writable,
@@ -42,11 +43,11 @@ macro_rules! texts {
         }
 
         impl<C, A, L> Accessor<'_, C, UnicodeString, A, L> {
-            /// Reads the text into `buffer`, two bytes a unit. It ends at the first NUL.
+            /// Reads the text into `buffer`, two bytes per code unit. The text ends at the first NUL.
             ///
             /// # Errors
             ///
-            /// [`Error::Length`] where the text is longer than `buffer`, [`Error::Text`] where it isn't UTF-16.
+            /// [`Error::Length`] if the text is longer than `buffer`, [`Error::Text`] if it isn't UTF-16.
             pub $($async)? fn $read_into<'b>(&mut self, buffer: &'b mut [u8]) -> Result<Utf16<'b>, Error<C::Error>>
             where
                 A: Readable,
@@ -56,11 +57,11 @@ macro_rules! texts {
                 Ok(Utf16::new(self.$fetch(buffer)$(.$await)??)?)
             }
 
-            /// Writes the text, which is put together in `scratch`: two bytes a unit.
+            /// Writes the text. `scratch` holds the encoded text, two bytes per code unit.
             ///
             /// # Errors
             ///
-            /// [`Error::Length`] where `scratch` is too short; nothing is sent then.
+            /// [`Error::Length`] if `scratch` is too short. Nothing is sent then.
             pub $($async)? fn $write(&mut self, text: &str, scratch: &mut [u8]) -> Result<(), Error<C::Error>>
             where
                 A: Writable,

@@ -1,21 +1,21 @@
-//! Interfaces that forget nothing.
+//! CAN interfaces with a receive buffer.
 
 use core::time::Duration;
 
 use super::frame::CanFrame;
 use super::port::{AsyncCanPort, CanPort};
 
-/// An interface that keeps up to `N` frames which came while others were waited for: an emergency message during an SDO
-/// transfer isn't lost.
+/// CAN interface with a buffer for up to `N` received frames. Frames that arrive while another frame is expected are
+/// kept, for example an emergency message during an SDO transfer.
 ///
-/// Of more than `N`, the oldest are lost, and [counted](Buffered::lost).
+/// If more than `N` frames arrive, the oldest are lost and [counted](Buffered::lost).
 #[derive(Clone, Debug)]
 pub struct Buffered<P, const N: usize> {
     port: P,
     kept: Kept<N>,
 }
 
-/// Frames in the order in which they came: `frames[..count]`.
+/// Frames in the order of arrival; only `frames[..count]` is used.
 #[derive(Clone, Debug)]
 struct Kept<const N: usize> {
     frames: [Option<CanFrame>; N],
@@ -51,7 +51,7 @@ impl<const N: usize> Kept<N> {
         self.remove(at)
     }
 
-    /// Whether `frame` is wanted; it is kept where it isn't.
+    /// Returns whether `frame` is wanted, and stores it if it isn't.
     fn check(&mut self, frame: &CanFrame, wanted: &mut dyn FnMut(&CanFrame) -> bool) -> bool {
         let is_wanted = wanted(frame);
         if !is_wanted {
@@ -62,22 +62,22 @@ impl<const N: usize> Kept<N> {
 }
 
 impl<P, const N: usize> Buffered<P, N> {
-    /// The interface `port`, with no frame kept.
+    /// Creates an interface over `port` with an empty buffer.
     pub const fn new(port: P) -> Self {
         Self { port, kept: Kept::new() }
     }
 
-    /// How many frames were lost because `N` others were kept.
+    /// Returns how many frames were lost because the buffer was full.
     pub const fn lost(&self) -> usize {
         self.kept.lost
     }
 
-    /// Forgets the frames that are kept.
+    /// Removes all frames from the buffer.
     pub fn clear(&mut self) {
         self.kept = Kept { lost: self.kept.lost, ..Kept::new() };
     }
 
-    /// Gives the interface back; what is kept is lost.
+    /// Returns the wrapped interface and drops the buffer.
     pub fn into_inner(self) -> P {
         self.port
     }

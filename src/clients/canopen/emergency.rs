@@ -1,26 +1,27 @@
-//! Emergency messages in frames (CiA 301 7.2.7).
+//! Emergency messages in CAN frames (CiA 301 7.2.7).
 
 use super::frame::CanFrame;
 use crate::emergency::Emergency;
 use crate::node_id::NodeId;
 
-/// The identifier of emergency messages, less the node-ID, where object 0x1014 has its usual value (CiA 301 7.3.5).
+/// Default COB-ID of emergency messages in object 0x1014, without the node-ID (CiA 301 7.3.5).
 const EMERGENCY: u16 = 0x080;
 
 impl Emergency {
-    /// What a frame tells that has the usual identifier of `node`'s emergency messages; `None` for other frames.
+    /// Returns the emergency message in a frame with the default COB-ID of `node`, or `None` for other frames.
     #[must_use]
     pub fn of(frame: &CanFrame, node: NodeId) -> Option<Self> {
         Self::of_id(frame, EMERGENCY + u16::from(node.get()))
     }
 
-    /// The same where object 0x1014 has the identifier `id`.
+    /// Returns the emergency message in a frame with the COB-ID `id`, the value of object 0x1014. Returns `None` for
+    /// other frames.
     #[must_use]
     pub fn of_id(frame: &CanFrame, id: u16) -> Option<Self> {
         Self::from_bytes(frame.data()).filter(|_| frame.id() == id)
     }
 
-    /// The frame by which `node` tells it.
+    /// Returns the frame in which `node` sends this message.
     #[must_use]
     pub fn frame(&self, node: NodeId) -> CanFrame {
         CanFrame::of(EMERGENCY + u16::from(node.get()), self.to_bytes())

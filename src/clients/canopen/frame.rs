@@ -1,8 +1,8 @@
-//! Frames.
+//! CAN frames.
 
 use embedded_can::{Id, StandardId};
 
-/// A data frame with an identifier of 11 bits.
+/// A CAN data frame with an 11-bit identifier.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct CanFrame {
     id: u16,
@@ -11,7 +11,7 @@ pub struct CanFrame {
 }
 
 impl CanFrame {
-    /// A frame; `None` where `id` has more than 11 bits, or there are more than 8 bytes.
+    /// Creates a frame. Returns `None` if `id` has more than 11 bits, or `data` more than 8 bytes.
     #[must_use]
     pub fn new(id: u16, data: &[u8]) -> Option<Self> {
         let mut bytes = [0; 8];
@@ -19,31 +19,31 @@ impl CanFrame {
         (id <= 0x7FF).then_some(Self { id, data: bytes, length: data.len() as u8 })
     }
 
-    /// A frame of a fixed form: an identifier of 11 bits, and up to 8 bytes.
+    /// Creates a frame whose identifier and length are known to be valid: 11 bits and at most 8 bytes.
     pub(super) fn of<const N: usize>(id: u16, data: [u8; N]) -> Self {
         let mut bytes = [0; 8];
         bytes.iter_mut().zip(data).for_each(|(to, from)| *to = from);
         Self { id: id & 0x7FF, data: bytes, length: N.min(8) as u8 }
     }
 
-    /// Eight bytes; those behind the frame's own are 0.
+    /// Returns the data, padded with 0 to eight bytes.
     pub(super) const fn padded(&self) -> [u8; 8] {
         self.data
     }
 
-    /// The identifier (COB-ID).
+    /// Returns the identifier (COB-ID).
     #[must_use]
     pub const fn id(&self) -> u16 {
         self.id
     }
 
-    /// The bytes.
+    /// Returns the data.
     #[must_use]
     pub fn data(&self) -> &[u8] {
         &self.data[..usize::from(self.length)]
     }
 
-    /// A frame of a library; `None` for one without data of its own, or with an identifier of 29 bits.
+    /// Converts a frame of another library. Returns `None` for remote frames and for 29-bit identifiers.
     pub fn from_frame(frame: &impl embedded_can::Frame) -> Option<Self> {
         match frame.id() {
             Id::Standard(id) if frame.is_data_frame() => Self::new(id.as_raw(), frame.data()),
@@ -51,7 +51,7 @@ impl CanFrame {
         }
     }
 
-    /// The same as a frame of a library; `None` where it has none like it.
+    /// Converts the frame to a frame of another library. Returns `None` if that library can't represent it.
     pub fn to_frame<F: embedded_can::Frame>(&self) -> Option<F> {
         F::new(StandardId::new(self.id)?, self.data())
     }

@@ -1,4 +1,4 @@
-//! SocketCAN, the CAN interfaces of Linux.
+//! SocketCAN, the CAN interfaces of Linux, blocking.
 
 use std::io;
 use std::time::{Duration, Instant};
@@ -13,7 +13,7 @@ impl CanPort for CanSocket {
 
     fn send(&mut self, frame: &CanFrame, patience: Duration) -> Result<bool, io::Error> {
         let Some(frame) = frame.to_frame::<socketcan::CanFrame>() else { return Ok(false) };
-        // No time at all would be time without end.
+        // A timeout of zero would mean no timeout.
         self.set_write_timeout(patience.max(Duration::from_micros(1)))?;
         let end = Instant::now().checked_add(patience);
         loop {
@@ -57,15 +57,15 @@ impl CanPort for CanSocket {
     }
 }
 
-/// How long to wait where the queue of the interface is full: about a frame of 125 kbit/s.
+/// Pause before the next attempt if the transmit queue is full: about the duration of one frame at 125 kbit/s.
 pub(super) const PAUSE: Duration = Duration::from_millis(1);
 
-/// Whether the queue of the interface is full, as it soon is where no other node acknowledges frames.
+/// Returns whether the transmit queue is full. It fills up if no other node acknowledges frames.
 pub(super) fn is_full(error: &io::Error) -> bool {
     error.raw_os_error() == Some(libc::ENOBUFS)
 }
 
-/// A frame of the bus; what the interface reports of itself looks like one, with the kind of the error for an identifier.
+/// Converts a data frame. Error frames of the interface aren't bus frames: their identifier is the error class.
 pub(super) fn from_socket(frame: &socketcan::CanFrame) -> Option<CanFrame> {
     match frame {
         socketcan::CanFrame::Data(_) => CanFrame::from_frame(frame),

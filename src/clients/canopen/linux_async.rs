@@ -1,4 +1,4 @@
-//! SocketCAN without blocking.
+//! SocketCAN, the CAN interfaces of Linux, async.
 
 use std::io;
 use std::time::Duration;

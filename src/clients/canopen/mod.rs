@@ -1,5 +1,7 @@
-//! CANopen over any CAN interface: SDO transfers (CiA 301 7.2.4), expedited and segmented, NMT and heartbeat (7.2.8),
-//! emergency messages (7.2.7), SYNC (7.2.5) and PDOs (7.2.2).
+//! CANopen over any CAN interface.
+//!
+//! Supports SDO transfers (CiA 301 7.2.4), expedited and segmented, NMT and heartbeat (7.2.8), emergency messages
+//! (7.2.7), SYNC (7.2.5) and PDOs (7.2.2).
 //!
 //! ```
 //! use std::time::{Duration, Instant};
@@ -8,10 +10,10 @@
 //! use lexibus::NodeId;
 //! use lexibus_drives::demo_drive::{codes::DriveErrors, pdo, DemoDrive};
 //!
-//! /// Any CAN interface, of a microcontroller or of a computer.
+//! /// Works with any CAN interface of a microcontroller or a computer.
 //! fn start<C: embedded_can::nb::Can>(can: C, position: i32) -> Result<(), lexibus::Error<C::Error>> {
 //!     let start = Instant::now();
-//!     // What comes while an answer is waited for is kept, up to sixteen frames.
+//! // Keeps up to sixteen frames that arrive during an SDO transfer.
 //!     let port = Buffered::<_, 16>::new(Polled::new(can, move || start.elapsed()));
 //!     let id = NodeId::new(5).expect("a node-ID");
 //!     let mut drive = DemoDrive::new(Node::new(port, id));
@@ -30,10 +32,11 @@
 //! }
 //! ```
 //!
-//! [`Polled`] makes a [`CanPort`] of an interface of `embedded-can`. The feature `socketcan` has one of SocketCAN, which is
-//! re-exported here; `socketcan-tokio` has an [`AsyncCanPort`]. Any other library takes twenty lines: [`CanPort`] shows them.
+//! [`Polled`] makes a [`CanPort`] from an interface of `embedded-can`. The feature `socketcan` implements it for
+//! SocketCAN, which this module re-exports. The feature `socketcan-tokio` implements [`AsyncCanPort`]. For any other
+//! library, implement [`CanPort`], as its example shows.
 //!
-//! The buffer of an SDO transfer is allocated; all else is on the stack.
+//! Only SDO transfers allocate: each one has a buffer on the heap.
 
 mod buffered;
 mod emergency;

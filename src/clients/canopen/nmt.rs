@@ -1,34 +1,34 @@
-//! Network management (CiA 301 7.2.8): commands to nodes, and the states that they tell.
+//! Network management (CiA 301 7.2.8): commands to nodes, and the states of nodes.
 
 use super::frame::CanFrame;
 use crate::node_id::NodeId;
 
-/// The identifier of NMT commands.
+/// COB-ID of NMT commands.
 const COMMANDS: u16 = 0x000;
 
-/// The identifier of heartbeats, less the node-ID (CiA 301 7.3.5).
+/// COB-ID of heartbeats without the node-ID (CiA 301 7.3.5).
 const ERROR_CONTROL: u16 = 0x700;
 
-/// The identifier of SYNC where object 0x1005 has its usual value (CiA 301 7.3.5).
+/// Default COB-ID of SYNC in object 0x1005 (CiA 301 7.3.5).
 pub const SYNC: u16 = 0x080;
 
-/// A command to one node, or to all (CiA 301 7.2.8.3.1).
+/// NMT command to one node or to all nodes (CiA 301 7.2.8.3.1).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum NmtCommand {
-    /// To the state operational, in which PDOs are exchanged.
+    /// Changes to Operational. PDOs are exchanged in this state.
     Start,
-    /// To the state stopped, in which nothing is exchanged but NMT and heartbeat.
+    /// Changes to Stopped. Only NMT and heartbeat work in this state.
     Stop,
-    /// To the state pre-operational, in which a node is configured.
+    /// Changes to Pre-operational. Nodes are configured in this state.
     EnterPreOperational,
-    /// The node starts again, as after power-on.
+    /// Restarts the node, as after power-on.
     ResetNode,
-    /// The node's communication starts again; objects 0x1000 to 0x1FFF get their values after power-on.
+    /// Restarts the communication of the node. Objects 0x1000 to 0x1FFF are reset to their initial values.
     ResetCommunication,
 }
 
 impl NmtCommand {
-    /// The command specifier.
+    /// Returns the command specifier.
     #[must_use]
     pub const fn specifier(self) -> u8 {
         match self {
@@ -40,13 +40,14 @@ impl NmtCommand {
         }
     }
 
-    /// The frame that tells it to `node`, or to all nodes.
+    /// Returns the frame with this command to `node`, or to all nodes.
     #[must_use]
     pub fn frame(self, node: Option<NodeId>) -> CanFrame {
         CanFrame::of(COMMANDS, [self.specifier(), node.map_or(0, NodeId::get)])
     }
 
-    /// What a frame of an NMT master tells: the command, and the node, or all nodes. `None` for other frames.
+    /// Returns the command in a frame of an NMT master, and the node that it is for, or `None` if it is for all nodes.
+    /// Returns `None` for other frames.
     #[must_use]
     pub fn of(frame: &CanFrame) -> Option<(Self, Option<NodeId>)> {
         let (COMMANDS, &[specifier, node]) = (frame.id(), frame.data()) else { return None };
@@ -60,10 +61,10 @@ impl NmtCommand {
     }
 }
 
-/// The state of a node, as its heartbeat tells it (CiA 301 7.2.8.3.2.2).
+/// NMT state of a node, as its heartbeat reports it (CiA 301 7.2.8.3.2.2).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum NmtState {
-    /// It has just started, and is pre-operational from now on.
+    /// The node has just started, and is Pre-operational from now on.
     BootUp,
     /// Stopped.
     Stopped,
@@ -71,12 +72,12 @@ pub enum NmtState {
     Operational,
     /// Pre-operational.
     PreOperational,
-    /// A number that has no meaning.
+    /// A number without meaning.
     Unknown(u8),
 }
 
 impl NmtState {
-    /// The state of a number. Bit 7, the toggle bit of node guarding, isn't looked at.
+    /// Returns the state for a number. Ignores bit 7, the toggle bit of node guarding.
     #[must_use]
     pub const fn from_raw(raw: u8) -> Self {
         match raw & 0x7F {
@@ -88,7 +89,7 @@ impl NmtState {
         }
     }
 
-    /// The number of the state.
+    /// Returns the number of the state.
     #[must_use]
     pub const fn raw(self) -> u8 {
         match self {
@@ -100,13 +101,13 @@ impl NmtState {
         }
     }
 
-    /// The heartbeat by which `node` tells it.
+    /// Returns the heartbeat with which `node` reports this state.
     #[must_use]
     pub fn heartbeat(self, node: NodeId) -> CanFrame {
         CanFrame::of(ERROR_CONTROL + u16::from(node.get()), [self.raw()])
     }
 
-    /// What a heartbeat or boot-up message tells: which node is in which state. `None` for other frames.
+    /// Returns the node and its state from a heartbeat or boot-up message. Returns `None` for other frames.
     #[must_use]
     pub fn of(frame: &CanFrame) -> Option<(NodeId, Self)> {
         let node = frame.id().checked_sub(ERROR_CONTROL).and_then(|node| NodeId::new(node.try_into().ok()?))?;
@@ -117,7 +118,7 @@ impl NmtState {
     }
 }
 
-/// The SYNC message (CiA 301 7.2.5), at which synchronous PDOs are sent and take effect.
+/// Returns a SYNC message (CiA 301 7.2.5). Nodes send and apply synchronous PDOs when they receive it.
 #[must_use]
 pub fn sync() -> CanFrame {
     CanFrame::of(SYNC, [])

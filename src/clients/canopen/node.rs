@@ -1,4 +1,4 @@
-//! One node of a network.
+//! A node of a CANopen network.
 
 use core::time::Duration;
 
@@ -11,13 +11,13 @@ use crate::node_id::NodeId;
 use crate::pdo::{is_restricted, CobId};
 use crate::value_error::{LengthError, OutOfRange};
 
-/// How long an answer may take where nothing else is said.
+/// Default timeout for each reply.
 pub const TIMEOUT: Duration = Duration::from_millis(500);
 
-/// One node behind a CAN interface. It is a [`Client`](crate::Client) of a [`CanPort`], an
-/// [`AsyncClient`](crate::AsyncClient) of an [`AsyncCanPort`], whose methods end in `_async`.
+/// A node on a CAN interface. With a [`CanPort`], it is a [`Client`](crate::Client). With an [`AsyncCanPort`], it is an
+/// [`AsyncClient`](crate::AsyncClient), and its methods end in `_async`.
 ///
-/// Frames that come while others are waited for are lost, unless the interface is [`Buffered`](super::Buffered).
+/// Frames that arrive while another frame is expected are lost, unless the interface is [`Buffered`](super::Buffered).
 #[derive(Clone, Debug)]
 pub struct Node<P> {
     port: P,
@@ -26,33 +26,33 @@ pub struct Node<P> {
 }
 
 impl<P> Node<P> {
-    /// The node `id` behind `port`. An answer may take [`TIMEOUT`].
+    /// Creates a client for the node `id` on `port`, with the default timeout [`TIMEOUT`].
     pub const fn new(port: P, id: NodeId) -> Self {
         Self { port, id, timeout: TIMEOUT }
     }
 
-    /// The same with another time for each answer, and for the bus to become free.
+    /// Returns the client with another timeout for each reply, and for sending a frame on a busy bus.
     #[must_use]
     pub fn with_timeout(self, timeout: Duration) -> Self {
         Self { timeout, ..self }
     }
 
-    /// The node-ID.
+    /// Returns the node-ID.
     pub const fn id(&self) -> NodeId {
         self.id
     }
 
-    /// How long an answer may take.
+    /// Returns the timeout for each reply.
     pub const fn timeout(&self) -> Duration {
         self.timeout
     }
 
-    /// The interface.
+    /// Returns the CAN interface.
     pub fn port(&mut self) -> &mut P {
         &mut self.port
     }
 
-    /// Gives the interface back.
+    /// Returns the CAN interface and drops the client.
     pub fn into_port(self) -> P {
         self.port
     }
@@ -66,15 +66,18 @@ fn sent<E>(is_sent: bool) -> Result<(), Error<E>> {
     }
 }
 
-/// The state that the frame tells where it is a heartbeat of `id`.
+/// Returns the state in the frame, if it is a heartbeat of `id`.
 fn state_of(frame: &CanFrame, id: NodeId) -> Option<NmtState> {
     NmtState::of(frame).filter(|(node, _)| *node == id).map(|(_, state)| state)
 }
 
-/// The identifier of a PDO of `node`, of 11 bits. A PDO that has none by default says 0, which would be a command of NMT to all
-/// nodes: such identifiers are never a PDO's.
+/// Returns the 11-bit COB-ID of a PDO of `node`.
+///
+/// Some PDOs have the default COB-ID 0, which would be an NMT command to all nodes. Restricted COB-IDs are therefore
+/// rejected.
 fn identifier<E>(cob_id: CobId, node: NodeId) -> Result<u16, Error<E>> {
-    // Bit 31 says that the PDO is off by default, which its configuration changes; bit 30 that no remote request is answered.
+    // Bit 31 marks a PDO that is disabled by default; a configuration can enable it. Bit 30 means that RTR isn't
+    // allowed.
     let id = cob_id.resolve(node) & 0x3FFF_FFFF;
     u16::try_from(id).ok().filter(|_| !is_restricted(id)).ok_or(Error::OutOfRange(OutOfRange))
 }
@@ -84,23 +87,24 @@ fn pdo<E>(cob_id: CobId, node: NodeId, data: &[u8]) -> Result<CanFrame, Error<E>
     CanFrame::new(id, data).ok_or(Error::Length(LengthError::new(8, data.len())))
 }
 
-/// The methods of a node, blocking and not.
+/// Defines the methods of a node, blocking and async.
 macro_rules! methods {
     (
         $Port:ident: $send:ident $nmt:ident $sync:ident $heartbeat:ident $wait_for:ident $emergency:ident $send_pdo:ident
         $receive_pdo:ident $($async:ident $await:ident)?
     ) => {
         impl<P: $Port> Node<P> {
-            /// Sends a frame, whoever it is for.
+            /// Sends a frame to any receiver.
             ///
             /// # Errors
             ///
-            /// [`Error::Client`] where the interface fails, [`Error::Timeout`] where the bus doesn't become free.
+            /// [`Error::Client`] if the interface fails, [`Error::Timeout`] if the bus stays busy.
             pub $($async)? fn $send(&mut self, frame: &CanFrame) -> Result<(), Error<P::Error>> {
                 sent(self.port.send(frame, self.timeout)$(.$await)?.map_err(Error::Client)?)
             }
 
-            /// Tells the node what to do (CiA 301 7.2.8.3.1). No node answers to it; its heartbeat shows the state.
+            /// Sends an NMT command to the node (CiA 301 7.2.8.3.1). Nodes don't reply; the heartbeat shows the new
+            /// state.
             ///
             /// # Errors
             ///
@@ -110,7 +114,7 @@ macro_rules! methods {
                 self.$send(&frame)$(.$await)?
             }
 
-            /// Sends SYNC, at which all nodes of the network send and take over their synchronous PDOs.
+            /// Sends SYNC. All nodes of the network send and apply their synchronous PDOs when they receive it.
             ///
             /// # Errors
             ///
@@ -119,26 +123,30 @@ macro_rules! methods {
                 self.$send(&nmt::sync())$(.$await)?
             }
 
-            /// The state that the node's next heartbeat tells; `None` where none comes within `patience`. Of heartbeats
-            /// that a [`Buffered`](super::Buffered) interface has kept, it is the oldest:
-            /// [`clear`](super::Buffered::clear) forgets them.
+            /// Waits for the node's next heartbeat and returns the state in it. Returns `None` if no heartbeat arrives
+            /// within `patience`.
+            ///
+            /// A [`Buffered`](super::Buffered) interface returns its oldest heartbeat. Call
+            /// [`clear`](super::Buffered::clear) first to ignore old ones.
             ///
             /// # Errors
             ///
-            /// [`Error::Client`] where the interface fails.
+            /// [`Error::Client`] if the interface fails.
             pub $($async)? fn $heartbeat(&mut self, patience: Duration) -> Result<Option<NmtState>, Error<P::Error>> {
                 let id = self.id;
                 let frame = self.port.receive(patience, &mut |frame| state_of(frame, id).is_some())$(.$await)?;
                 Ok(frame.map_err(Error::Client)?.and_then(|frame| state_of(&frame, id)))
             }
 
-            /// Waits for a heartbeat that tells `state`; [`NmtState::BootUp`] is the message of a node that has just
-            /// started. One that a [`Buffered`](super::Buffered) interface has kept counts, too:
-            /// [`clear`](super::Buffered::clear) forgets it.
+            /// Waits for a heartbeat with this state. [`NmtState::BootUp`] is the message of a node that has just
+            /// started.
+            ///
+            /// Heartbeats in a [`Buffered`](super::Buffered) interface count too. Call
+            /// [`clear`](super::Buffered::clear) first to ignore them.
             ///
             /// # Errors
             ///
-            /// [`Error::Client`] where the interface fails, [`Error::Timeout`] where no such heartbeat comes within
+            /// [`Error::Client`] if the interface fails, [`Error::Timeout`] if no such heartbeat arrives within
             /// `patience`.
             pub $($async)? fn $wait_for(&mut self, state: NmtState, patience: Duration) -> Result<(), Error<P::Error>> {
                 let id = self.id;
@@ -146,37 +154,39 @@ macro_rules! methods {
                 sent(frame.map_err(Error::Client)?.is_some())
             }
 
-            /// The node's next emergency message, the oldest that a [`Buffered`](super::Buffered) interface has kept;
-            /// `None` where none comes within `patience`.
+            /// Waits for the node's next emergency message and returns it. Returns `None` if none arrives within
+            /// `patience`. A [`Buffered`](super::Buffered) interface returns its oldest one.
             ///
             /// # Errors
             ///
-            /// [`Error::Client`] where the interface fails.
+            /// [`Error::Client`] if the interface fails.
             pub $($async)? fn $emergency(&mut self, patience: Duration) -> Result<Option<Emergency>, Error<P::Error>> {
                 let id = self.id;
                 let frame = self.port.receive(patience, &mut |frame| Emergency::of(frame, id).is_some())$(.$await)?;
                 Ok(frame.map_err(Error::Client)?.and_then(|frame| Emergency::of(&frame, id)))
             }
 
-            /// Sends a PDO to the node: `data` is what `pack` of a generated struct gives, `cob_id` its `COB_ID`.
+            /// Sends a PDO to the node. `data` is the output of `pack` of a generated struct, `cob_id` its `COB_ID`.
             ///
             /// # Errors
             ///
-            /// Those of [`send`](Self::send); [`Error::OutOfRange`] where `cob_id` names no CAN-ID of 11 bits that a
-            /// PDO may have (CiA 301 7.3.5), [`Error::Length`] where there are more than 8 bytes.
+            /// Those of [`send`](Self::send). [`Error::OutOfRange`] if `cob_id` isn't an 11-bit COB-ID that a PDO may
+            /// have (CiA 301 7.3.5). [`Error::Length`] if `data` has more than 8 bytes.
             pub $($async)? fn $send_pdo(&mut self, cob_id: CobId, data: &[u8]) -> Result<(), Error<P::Error>> {
                 let frame = pdo(cob_id, self.id, data)?;
                 self.$send(&frame)$(.$await)?
             }
 
-            /// The next PDO that the node sends with this identifier, for `unpack` of a generated struct. Of those that
-            /// a [`Buffered`](super::Buffered) interface has kept, it is the oldest: where only the newest counts,
-            /// [`clear`](super::Buffered::clear) forgets them before SYNC.
+            /// Waits for the next PDO with this COB-ID and returns it, for `unpack` of a generated struct.
+            ///
+            /// A [`Buffered`](super::Buffered) interface returns its oldest PDO. If you need the newest one, call
+            /// [`clear`](super::Buffered::clear) before SYNC.
             ///
             /// # Errors
             ///
-            /// [`Error::Client`] where the interface fails, [`Error::Timeout`] where none comes within `patience`,
-            /// [`Error::OutOfRange`] as of [`send_pdo`](Self::send_pdo).
+            /// - [`Error::Client`] if the interface fails.
+            /// - [`Error::Timeout`] if no PDO arrives within `patience`.
+            /// - [`Error::OutOfRange`] as for [`send_pdo`](Self::send_pdo).
             pub $($async)? fn $receive_pdo(
                 &mut self,
                 cob_id: CobId,

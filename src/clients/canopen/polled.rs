@@ -1,11 +1,11 @@
-//! Interfaces that are asked again and again.
+//! Interfaces of `embedded-can`, which are polled.
 
 use core::time::Duration;
 
 use super::frame::CanFrame;
 use super::port::{CanPort, BACKLOG};
 
-/// An interface of `embedded-can` that never waits, and a clock: the time since any moment.
+/// Non-blocking interface of `embedded-can` with a clock: a function that returns the time since any fixed moment.
 #[derive(Clone, Debug)]
 pub struct Polled<C, T> {
     can: C,
@@ -13,12 +13,12 @@ pub struct Polled<C, T> {
 }
 
 impl<C, T: FnMut() -> Duration> Polled<C, T> {
-    /// The interface `can`, with a clock that never goes back.
+    /// Creates a port from the interface `can` and a monotonic clock.
     pub const fn new(can: C, clock: T) -> Self {
         Self { can, clock }
     }
 
-    /// Gives the interface back.
+    /// Returns the interface.
     pub fn into_inner(self) -> C {
         self.can
     }
@@ -33,7 +33,7 @@ impl<C: embedded_can::nb::Can, T: FnMut() -> Duration> CanPort for Polled<C, T> 
         let mut is_sent = false;
         loop {
             match self.can.transmit(&next) {
-                // A frame of lower priority that made room comes back, and is sent after this one.
+                // A frame of lower priority that was displaced from the transmit buffer is sent after this one.
                 Ok(Some(displaced)) => (is_sent, next) = (true, displaced),
                 Ok(None) => return Ok(true),
                 Err(nb::Error::Other(error)) => return Err(error),
@@ -78,7 +78,7 @@ mod tests {
 
     type Transmitted = nb::Result<Option<Raw>, embedded_can::ErrorKind>;
 
-    /// A controller with frames that wait in it, each of an identifier, and what becomes of those that are sent.
+    /// CAN controller with received frames (only identifiers), and a list of results for the next transmissions.
     #[derive(Default)]
     struct Fifo {
         waiting: std::collections::VecDeque<u16>,
@@ -144,7 +144,8 @@ mod tests {
         }
     }
 
-    /// Sends frame 1 for 5 ms while the controller answers so: the result, and the frames that it took.
+    /// Sends frame 1 for 5 ms with these replies of the controller. Returns the result and the frames that the
+    /// controller accepted.
     fn sent(
         answers: impl IntoIterator<Item = Transmitted>,
     ) -> (Result<bool, embedded_can::ErrorKind>, std::vec::Vec<Raw>) {
@@ -164,7 +165,7 @@ mod tests {
         assert_eq!(sent([Ok(None)]), (Ok(true), [raw(1)].into()));
         assert_eq!(sent([busy(), busy(), Ok(None)]), (Ok(true), [raw(1)].into()));
         assert_eq!(sent([]), (Ok(false), [].into()));
-        // One of lower priority makes room, and follows.
+        // A frame of lower priority is displaced and sent afterwards.
         assert_eq!(sent([Ok(Some(raw(7))), busy(), Ok(None)]), (Ok(true), [raw(1), raw(7)].into()));
         assert_eq!(sent([Ok(Some(raw(7)))]), (Ok(true), [raw(1)].into()));
         let alone = embedded_can::ErrorKind::Acknowledge;

@@ -1,16 +1,16 @@
-//! CAN interfaces: what sends frames, and waits for them.
+//! CAN interfaces: traits to send frames and to wait for frames.
 
 use core::time::Duration;
 
 use super::frame::CanFrame;
 
-/// How many frames that wait in an interface are looked at when the time is up: with no patience at all, those that have
-/// come are seen nevertheless, and a bus that is never silent doesn't hold on to its caller.
+/// Maximum number of frames that are read from an interface after the timeout. Frames that have already arrived are
+/// seen even with a timeout of zero, and a busy bus doesn't block the caller forever.
 pub(super) const BACKLOG: usize = 256;
 
-/// A CAN interface that waits for a while.
+/// CAN interface with timeouts.
 ///
-/// An implementation by hand, for a library that has frames and a time limit of its own:
+/// Implement it for a library with its own frame type:
 ///
 /// ```
 /// use std::collections::VecDeque;
@@ -19,7 +19,7 @@ pub(super) const BACKLOG: usize = 256;
 ///
 /// use lexibus::clients::canopen::{CanFrame, CanPort};
 ///
-/// /// What is sent comes back.
+/// /// Receives the frames that it sends.
 /// #[derive(Default)]
 /// struct Loopback(VecDeque<CanFrame>);
 ///
@@ -47,22 +47,23 @@ pub(super) const BACKLOG: usize = 256;
 /// # Ok::<(), Infallible>(())
 /// ```
 pub trait CanPort {
-    /// What can go wrong at the interface.
+    /// Error type of the interface.
     type Error;
 
-    /// Sends a frame. `false` where that couldn't be done within `patience`.
+    /// Sends a frame. Returns `false` if that wasn't possible within `patience`.
     ///
     /// # Errors
     ///
-    /// Whatever the interface reports.
+    /// Those of the interface.
     fn send(&mut self, frame: &CanFrame, patience: Duration) -> Result<bool, Self::Error>;
 
-    /// The next frame that `wanted` takes; it is shown each frame that comes until it takes one, and those are gone. `None`
-    /// where none was taken within `patience`. What has come before is looked at even with no patience.
+    /// Waits for a frame that `wanted` accepts and returns it. Passes each received frame to `wanted`; frames that it
+    /// rejects are lost. Returns `None` if it accepts no frame within `patience`. Frames that have already arrived are
+    /// seen even if `patience` is zero.
     ///
     /// # Errors
     ///
-    /// Whatever the interface reports.
+    /// Those of the interface.
     fn receive(
         &mut self,
         patience: Duration,
@@ -70,24 +71,24 @@ pub trait CanPort {
     ) -> Result<Option<CanFrame>, Self::Error>;
 }
 
-/// A CAN interface that waits without blocking. The same rules as for [`CanPort`].
+/// CAN interface with timeouts, without blocking. The rules of [`CanPort`] apply.
 #[allow(async_fn_in_trait)]
 pub trait AsyncCanPort {
-    /// What can go wrong at the interface.
+    /// Error type of the interface.
     type Error;
 
     /// Sends a frame, as [`CanPort::send`] does.
     ///
     /// # Errors
     ///
-    /// Whatever the interface reports.
+    /// Those of the interface.
     async fn send(&mut self, frame: &CanFrame, patience: Duration) -> Result<bool, Self::Error>;
 
-    /// The next frame that `wanted` takes, as [`CanPort::receive`] gives it.
+    /// Waits for a frame that `wanted` accepts, as [`CanPort::receive`] does.
     ///
     /// # Errors
     ///
-    /// Whatever the interface reports.
+    /// Those of the interface.
     async fn receive(
         &mut self,
         patience: Duration,

@@ -1,4 +1,4 @@
-//! SDO transfers (CiA 301 7.2.4): one node's objects, read and written.
+//! SDO transfers (CiA 301 7.2.4) that read and write the objects of one node.
 
 use core::time::Duration;
 
@@ -14,24 +14,25 @@ use crate::error::Error;
 use crate::node_id::NodeId;
 use crate::value_error::LengthError;
 
-/// A transfer on the default channel: requests on 0x600 + node-ID, answers on 0x580 + node-ID (CiA 301 7.3.5).
+/// An SDO transfer on the default channel: requests with COB-ID 0x600 + node-ID, replies with 0x580 + node-ID (CiA 301
+/// 7.3.5).
 struct Transfer {
     client: SdoClient,
     answers: u16,
     object: Object,
-    /// How many bytes there is room for, and of an upload in segments, how many these have brought.
+    /// Size of the caller's buffer in bytes, and for a segmented upload, the number of bytes received.
     room: usize,
     received: Option<usize>,
-    /// Whether the answer has all of the value and no length.
+    /// Whether the reply contains the whole value but no length.
     is_unsized: bool,
-    /// What the answer asks for.
+    /// Next frame to send in response to the reply.
     next: Option<SdoFrame>,
-    /// How many more frames that have nothing to do with it are passed over.
+    /// How many more replies to other transfers are ignored before the transfer fails.
     strangers: usize,
     outcome: Option<Outcome>,
 }
 
-/// How a transfer ended.
+/// Result of a transfer.
 enum Outcome {
     Done(SdoOutcome),
     Refused(AbortCode),
@@ -42,7 +43,7 @@ enum Outcome {
 
 impl Transfer {
     fn new(node: NodeId, object: Object, room: usize) -> Self {
-        // The times are those of the port.
+        // The port measures the timeout.
         let client = SdoClient::new(SdoConfig { timeout: u64::MAX });
         Self {
             client,
@@ -57,7 +58,7 @@ impl Transfer {
         }
     }
 
-    /// Whether a frame may be an answer: a message of SDO has eight bytes (CiA 301 7.2.4.3).
+    /// Returns a filter for possible replies. An SDO message has eight bytes (CiA 301 7.2.4.3).
     fn is_answer(answers: u16) -> impl FnMut(&CanFrame) -> bool {
         move |frame| frame.id() == answers && frame.data().len() == 8
     }
@@ -71,7 +72,7 @@ impl Transfer {
 
     fn download<E>(node: NodeId, object: Object, data: &[u8]) -> Result<Self, Error<E>> {
         if data.is_empty() {
-            // An SDO has no way to say so.
+            // An SDO transfer can't have the length 0.
             return Err(Error::Length(LengthError::new(1, 0)));
         }
         let mut transfer = Self::new(node, object, data.len());
@@ -80,19 +81,19 @@ impl Transfer {
         Ok(transfer)
     }
 
-    /// The next frame to be sent.
+    /// Returns the next frame to send.
     fn request(&mut self) -> Option<CanFrame> {
         let frame = self.next.take().or_else(|| self.client.poll_transmit())?;
         CanFrame::new(frame.cob_id, &frame.data)
     }
 
-    /// Gives the transfer up, and tells the node why.
+    /// Aborts the transfer and sends the abort code to the node.
     fn give_up(&mut self, code: SdoAbortCode, outcome: Outcome) {
         self.client.abort(code);
         self.outcome = Some(outcome);
     }
 
-    /// Takes an answer, or `None` where none came.
+    /// Processes a reply, or `None` after a timeout.
     fn answer(&mut self, frame: Option<CanFrame>) {
         let Some(frame) = frame else { return self.give_up(SdoAbortCode::ProtocolTimeout, Outcome::Late) };
         let data = frame.padded();
@@ -115,7 +116,7 @@ impl Transfer {
         }
     }
 
-    /// Passes over an answer to somebody else. Each has its own time, so that there must not be too many.
+    /// Ignores a reply to another transfer. Each reply restarts the timeout, so their number is limited.
     fn pass_over(&mut self) {
         self.strangers -= 1;
         if self.strangers == 0 {
@@ -123,17 +124,18 @@ impl Transfer {
         }
     }
 
-    /// Whether this is a segment that brings nothing and isn't the last one: there could be any number.
+    /// Returns whether this is a segment without data that isn't the last one. A node could send these forever.
     const fn is_empty_segment(&self, data: &[u8; 8]) -> bool {
         self.received.is_some() && data[0] & 0xEF == 0x0E
     }
 
-    /// How many bytes an upload has that has more than there is room for: by the length that the device announces, or by its
-    /// segments where it announces none. Memory is for what fits only.
+    /// Returns the length of an upload if it is longer than the caller's buffer. This is the length that the node
+    /// announces, or the length of the segments if it announces none. Memory is allocated only for data that fit.
     fn too_long(&mut self, data: &[u8; 8]) -> Option<usize> {
         let [command, low, high, sub_index, length @ ..] = *data;
         let length = match (command >> 5, self.received) {
-            // The answer to the request of an upload; bit 1 says that all is in it, bit 0 that there is a length.
+            // Reply to the upload request. Bit 1 means that it contains the whole value, bit 0 that it contains a
+            // length.
             (2, None) if command & 2 == 0 && self.object == Object::new(u16::from_le_bytes([low, high]), sub_index) => {
                 self.received = Some(0);
                 if command & 1 == 1 {
@@ -142,7 +144,7 @@ impl Transfer {
                     0
                 }
             }
-            // A segment; bits 1 to 3 say how many of its seven bytes have no data.
+            // A segment. Bits 1 to 3 are the number of its seven bytes without data.
             (0, Some(received)) => {
                 let received = received + 7 - usize::from(command >> 1 & 7);
                 self.received = Some(received);
@@ -153,13 +155,13 @@ impl Transfer {
         Some(length).filter(|length| *length > self.room)
     }
 
-    /// What tells the node that nobody listens any more, because of the interface.
+    /// Returns the abort message to the node after the interface has failed.
     fn broken(&mut self) -> Option<CanFrame> {
         self.client.abort(SdoAbortCode::General);
         self.request()
     }
 
-    /// The end, once it is reached.
+    /// Returns the result if the transfer has ended.
     fn end<E>(&mut self) -> Option<Result<Done, Error<E>>> {
         Some(match self.outcome.take()? {
             Outcome::Done(outcome) => Ok(Done { outcome, is_unsized: self.is_unsized }),
@@ -171,15 +173,15 @@ impl Transfer {
     }
 }
 
-/// A transfer that was done.
+/// A completed transfer.
 struct Done {
     outcome: SdoOutcome,
     is_unsized: bool,
 }
 
 impl Done {
-    /// Puts what was uploaded to the start of `buffer`, and gives its length: where none was sent, there are as many bytes as
-    /// asked for.
+    /// Copies the uploaded value to the start of `buffer` and returns its length. If the node sent no length, the value
+    /// has the requested length.
     fn uploaded<E>(&self, buffer: &mut [u8]) -> Result<usize, Error<E>> {
         let SdoOutcome::UploadCompleted(data) = &self.outcome else { return Err(Error::UnexpectedReply) };
         buffer.iter_mut().zip(data).for_each(|(to, from)| *to = *from);
@@ -192,7 +194,7 @@ macro_rules! transfers {
         impl<P: $Port> Node<P> {
             $($async)? fn $run(&mut self, mut transfer: Transfer) -> Result<Done, Error<P::Error>> {
                 let (mut of_node, timeout) = (Transfer::is_answer(transfer.answers), self.timeout());
-                // Answers to requests that were given up may have come late.
+                // Late replies to earlier requests may still be waiting.
                 let mut old = BACKLOG;
                 while old > 0 {
                     let late = self.port().receive(Duration::ZERO, &mut of_node)$(.$await)?;
@@ -208,7 +210,8 @@ macro_rules! transfers {
                     match self.port().receive(timeout, &mut of_node)$(.$await)? {
                         Ok(answer) => transfer.answer(answer),
                         Err(error) => {
-                            // The node needn't wait for the rest. Whether that reaches it doesn't matter to the caller.
+                            // Abort, so that the node doesn't wait for the rest. The caller gets the first error, even
+                            // if sending the abort fails.
                             if let Some(abort) = transfer.broken() {
                                 let _ = self.$send(&abort)$(.$await)?;
                             }

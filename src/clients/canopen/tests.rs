@@ -19,7 +19,7 @@ const LABEL: Item<VisibleString, Rw, OnCanOpen> =
 const PROGRAM: Item<Domain, Wo, OnCanOpen> =
     Item::new(OnCanOpen::canopen(0x2003, 1), "Program", Range::Full, Initial::Unknown, "", Flags::NONE);
 
-/// Objects of a device: 0x2001 can't be written, and 0x2000 takes no more than 3000.
+/// Objects of a device. 0x2001 is read-only, and the maximum of 0x2000 is 3000.
 struct Objects(HashMap<(u16, u8), Vec<u8>>);
 
 impl ObjectDictionary for Objects {
@@ -43,7 +43,7 @@ impl ObjectDictionary for Objects {
     }
 }
 
-/// A bus with one node, and frames of others between its answers.
+/// A bus with one node, and frames of other nodes between its replies.
 struct Bus {
     server: SdoServer<1024>,
     objects: Objects,
@@ -83,7 +83,7 @@ impl CanPort for Bus {
     }
 }
 
-/// The same bus without blocking.
+/// The same bus, async.
 struct NoWait(Bus);
 
 impl AsyncCanPort for NoWait {
@@ -135,7 +135,7 @@ fn aborts_have_their_codes() {
     node.port().is_silent = true;
     assert_eq!(SPEED.at(&mut node).read(), Err(Error::Timeout));
     node.port().is_silent = false;
-    // What was aborted doesn't disturb the next transfer.
+    // The aborted transfer doesn't affect the next one.
     assert_eq!(SPEED.at(&mut node).write(1), Ok(()));
 }
 
@@ -146,7 +146,7 @@ fn late_answers_are_not_those_of_the_next_transfer() {
     node.port().is_silent = true;
     assert_eq!(SPEED.at(&mut node).read(), Err(Error::Timeout));
     node.port().is_silent = false;
-    // The answer comes after all.
+    // The reply arrives late.
     node.port().answers.extend(CanFrame::new(0x585, &[0x4B, 0x00, 0x20, 0, 9, 9, 0, 0]));
     assert_eq!(SPEED.at(&mut node).read(), Ok(7));
     assert_eq!(SPEED.at(&mut node).read(), Ok(7));
@@ -155,11 +155,11 @@ fn late_answers_are_not_those_of_the_next_transfer() {
 #[test]
 fn nobody_says_how_much_is_allocated() {
     let mut buffer = [0; 8];
-    // Four gigabytes are announced.
+    // The node announces four gigabytes.
     let mut node = scripted([&[&[0x41, 0x02, 0x20, 0, 0xFF, 0xFF, 0xFF, 0xFF]]]);
     let too_long = Err(Error::Length(LengthError::new(8, u32::MAX as usize)));
     assert_eq!(Client::read(&mut node, Object::new(0x2002, 0), &mut buffer), too_long);
-    // No length, and segments without end.
+    // No length, and an endless number of segments.
     let begin = [0x40, 0x02, 0x20, 0, 0, 0, 0, 0];
     let [even, odd] = [0x00, 0x10].map(|toggle| [toggle, 1, 2, 3, 4, 5, 6, 7]);
     let mut node = scripted([&[&begin], &[&even], &[&odd], &[&even], &[&odd]]);
@@ -171,13 +171,13 @@ fn nobody_says_how_much_is_allocated() {
 fn answers_to_nobody_are_passed_over() {
     let mut node = node();
     SPEED.at(&mut node).write(7).unwrap();
-    // A segment, and the answer about another object.
+    // A segment, and the reply about another object.
     node.port().answers.extend(CanFrame::new(0x585, &[0x00, 1, 2, 3, 4, 5, 6, 7]));
     node.port().answers.extend(CanFrame::new(0x585, &[0x4B, 0x01, 0x20, 0, 9, 9, 0, 0]));
     assert_eq!(SPEED.at(&mut node).read(), Ok(7));
 }
 
-/// A node that answers the requests one after the other with these frames, whatever they are.
+/// A node that replies to the requests in order with these frames, whatever the requests are.
 #[derive(Default)]
 struct Script {
     answers: VecDeque<Vec<Vec<u8>>>,
@@ -214,7 +214,7 @@ fn scripted<const N: usize>(answers: [&[&[u8]]; N]) -> Node<Script> {
     Node::new(Script { answers: answers.into(), ..Script::default() }, NodeId::new(NODE).expect("a node-ID"))
 }
 
-/// The answer to an upload of a number of 16 bits.
+/// Returns the reply to an upload of a 16-bit number.
 fn number(index: u16, value: u8) -> [u8; 8] {
     let [low, high] = index.to_le_bytes();
     [0x4B, low, high, 0, value, 0, 0, 0]
@@ -223,7 +223,7 @@ fn number(index: u16, value: u8) -> [u8; 8] {
 #[test]
 fn reads_are_in_step_again_after_a_late_answer() {
     let (one, two, three) = (number(0x2000, 1), number(0x2000, 2), number(0x2000, 3));
-    // The request, the abort for want of an answer, and then both answers at once.
+    // No reply to the request and to the abort; then both replies at once.
     let mut node = scripted([&[], &[], &[&one, &two], &[&three]]);
     assert_eq!(SPEED.at(&mut node).read(), Err(Error::Timeout));
     assert_eq!(SPEED.at(&mut node).read(), Ok(1), "nothing tells it from the answer to this request");
@@ -241,7 +241,7 @@ fn answers_to_others_dont_go_on_for_ever() {
     let mut node = scripted([&many]);
     assert_eq!(SPEED.at(&mut node).read(), Err(Error::Timeout));
     assert_eq!(node.port().sent[1][0], 0x80, "it is aborted");
-    // Segments that bring nothing.
+    // Segments without data.
     let begin = [0x41, 0x02, 0x20, 0, 0, 0, 0, 0];
     let mut node = scripted([&[&begin], &[&[0x0E, 0, 0, 0, 0, 0, 0, 0]], &[&[0x1E, 0, 0, 0, 0, 0, 0, 0]]]);
     assert_eq!(Client::read(&mut node, Object::new(0x2002, 0), &mut [0; 8]), Err(Error::UnexpectedReply));
@@ -285,7 +285,7 @@ fn messages_during_a_transfer_are_kept() {
     assert_eq!(node.wait_for(NmtState::Operational, Duration::ZERO), Ok(()));
     SPEED.at(&mut node).write(8).unwrap();
     assert_eq!(node.wait_for(NmtState::Stopped, Duration::ZERO), Err(Error::Timeout));
-    // Without it, they are gone.
+    // Without the buffer, the heartbeats are lost.
     let mut node = Node::new(Bus::new(), id);
     SPEED.at(&mut node).write(7).unwrap();
     assert_eq!(node.heartbeat(Duration::ZERO), Ok(None));
@@ -342,9 +342,9 @@ fn pdos_have_the_identifiers_of_the_node() {
     assert_eq!(received.data(), [2, 3]);
     assert_eq!(node.receive_pdo(CobId::from_node(0x180), Duration::ZERO), Err(Error::Timeout));
     assert_eq!(node.send_pdo(CobId::from_node(0x200), &[1, 2]), Ok(()));
-    // Off by default, until it is configured.
+    // Disabled by default, until it is configured.
     assert_eq!(node.send_pdo(CobId::from_node(0xC000_0200), &[]), Ok(()));
-    // No identifier, SDOs, heartbeats, and 29 bits.
+    // No COB-ID, SDO, heartbeat, and 29-bit identifiers.
     for wrong in [CobId::fixed(0x8000_0000), CobId::from_node(0x8000_0000), CobId::fixed(0), CobId::fixed(0x605)] {
         assert_eq!(node.send_pdo(wrong, &[0x80, 0]), Err(Error::OutOfRange(OutOfRange)));
         assert_eq!(node.receive_pdo(wrong, Duration::ZERO), Err(Error::OutOfRange(OutOfRange)));
