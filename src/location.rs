@@ -38,7 +38,7 @@ pub trait On<B: Bus> {
 /// use lexibus::{CanOpen, Modbus, Object, On, Register, Resized};
 ///
 /// lexibus::location! {
-/// /// An object whose width differs from the register.
+///     /// An object whose width differs from the register.
 ///     pub struct OnCanOpenResizedAndModbus {
 ///         canopen: CanOpen => Resized<Object>,
 ///         modbus: Modbus => Register,

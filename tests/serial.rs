@@ -259,7 +259,7 @@ fn nothing_behind_the_reply_is_taken() {
 fn streams_that_end_and_requests_that_are_too_long() {
     let mut line: SerialLine<_, _, 8> = SerialLine::new(Line::default(), &FRAMING);
     let closed = line.exchange(&[1], &mut [0; 8]).unwrap_err();
-    assert_eq!((closed, closed.to_string()), (Error::Client(SerialError::Closed), "the serial line ended".into()));
+    assert_eq!((closed, closed.to_string()), (Error::Client(SerialError::Closed), "the serial line was closed".into()));
     assert_eq!(line.exchange(&[2; 3], &mut [0; 8]), Err(Error::Length(LengthError::new(9, 8))));
     assert_eq!(line.exchange(&[0; 21], &mut [0; 8]), Err(Error::Length(LengthError::new(20, 21))));
     assert_eq!(line.stream().received, framed(&[1]), "what is too long isn't sent");

@@ -1,7 +1,7 @@
-//! CANopen over EtherCAT, with `ethercrab` as the master. Needs Rust 1.85, as that library does.
+//! CANopen over EtherCAT, with `ethercrab` as the master. Needs Rust 1.85, as `ethercrab` does.
 //!
-//! [`Sdo`] reads and writes the objects of one SubDevice, from Pre-Operational on. The group of `ethercrab` that the
-//! SubDevice is in may change its state meanwhile: a client outlives it.
+//! [`Sdo`] reads and writes the objects of one SubDevice, in all states from Pre-Operational on. You can keep it while
+//! the group of the SubDevice changes its state in `ethercrab`.
 //!
 //! ```no_run
 //! use ethercrab::{std::ethercat_now, MainDevice};
@@ -9,7 +9,7 @@
 //! use lexibus::ethercat::Assignment;
 //!
 //! lexibus::dictionary! {
-//!     /// The drive.
+//!     /// Bindings of the drive.
 //!     pub mod servo = "examples/support/servo.esi.xml" { strict: true }
 //! }
 //! use servo::{image, pdo};
@@ -17,7 +17,7 @@
 //! async fn drive(maindevice: &MainDevice<'_>) -> Result<(), Box<dyn std::error::Error>> {
 //!     let group = maindevice.init_single_group::<16, 64>(ethercat_now).await?;
 //!
-//!     // Pre-Operational: objects, and the PDOs to be exchanged.
+//!     // In Pre-Operational: write objects and assign PDOs.
 //!     let subdevice = group.subdevice(maindevice, 0)?;
 //!     assert!(is_a(&subdevice, &servo::IDENTITY));
 //!     let mut drive = servo::DemoServo::new(Sdo::new(maindevice, &subdevice));
@@ -25,7 +25,7 @@
 //!     let assignment = Assignment::<8>::by_default(&servo::DEVICE)?;
 //!     drive.client().configure(assignment.startup()).await?;
 //!
-//!     // Operational: process data.
+//!     // In Operational: exchange process data.
 //!     let group = group.into_op(maindevice).await?;
 //!     loop {
 //!         group.tx_rx(maindevice).await?;
@@ -41,21 +41,23 @@
 //!
 //! # Memory of the slave controller
 //!
-//! [`Memory`] reads and writes items that have an address in it: AL status, error counters, whatever a device's manual lists.
+//! [`Memory`] reads and writes items with an address in this memory: AL status, error counters, and what else the
+//! device's manual lists.
 //!
 //! # Process data
 //!
-//! `ethercrab` reads from the device which PDOs are assigned, and gives the inputs and the outputs of a SubDevice as
-//! slices of bytes. Generated `image` types take them as they are, where the PDOs are those that are assigned by default:
-//! `Inputs::unpack`, `Outputs::pack`, and views that read and write one field where it stands. Of another choice,
-//! [`Assignment::find`](crate::ethercat::Assignment::find) tells the bit at which a PDO begins, and the PDO's `view::…::at` takes it. Where a
-//! device has several sync managers of one direction, their data follow each other in the slice, each from a whole byte on.
+//! `ethercrab` reads the PDO assignment from the device, and provides the inputs and outputs of a SubDevice as byte
+//! slices. If the default PDOs are assigned, generated `image` types convert these slices: use `Inputs::unpack`,
+//! `Outputs::pack`, or views that access single fields. For another assignment,
+//! [`Assignment::find`](crate::ethercat::Assignment::find) returns the bit offset of a PDO, and the PDO's `view::…::at`
+//! takes it. If a device has several sync managers of one direction, their data follow each other in the slice. The
+//! data of each start at a whole byte.
 //!
 //! # Why not `sdo_read` and `sdo_write` of `ethercrab`
 //!
-//! In version 0.7.1 they write at most 4 bytes, read no value that comes in segments, and fail, or panic, where an emergency
-//! message of the device comes before its answer. [`Sdo`] exchanges the messages of the mailbox itself, over the datagrams
-//! of `ethercrab`, and needs no buffer of its own.
+//! In version 0.7.1, they write at most 4 bytes and can't read segmented values. They fail or panic if the device sends
+//! an emergency message before its reply. [`Sdo`] exchanges the mailbox messages itself, in datagrams of `ethercrab`,
+//! and needs no buffer.
 
 mod mailbox;
 mod memory;
@@ -76,11 +78,12 @@ use crate::ethercat::StartupCommand;
 use crate::identity::Identity;
 use crate::value_error::LengthError;
 
-/// So many times the state of a mailbox is read until it has changed, where nothing else is said. Each takes a frame there
-/// and back, on most segments 50 to 200 µs.
+/// Default number of times that a mailbox state is polled before a timeout. Each poll is one frame round trip,
+/// typically 50 to 200 µs.
 pub const PATIENCE: u32 = 10_000;
 
-/// Whether a SubDevice is the described one: vendor and product code are the same, as far as the description has them.
+/// Returns whether a SubDevice matches a description: vendor and product code are equal, unless the description omits
+/// them.
 #[must_use]
 pub fn is_a(subdevice: &SubDevice, identity: &Identity) -> bool {
     let actual = subdevice.identity();
@@ -88,40 +91,41 @@ pub fn is_a(subdevice: &SubDevice, identity: &Identity) -> bool {
     fits(identity.vendor_id, actual.vendor_id) && fits(identity.product_code, actual.product_id)
 }
 
-/// The objects of one SubDevice: SDO transfers through its mailbox (ETG.1000.6 5.6.2), expedited, normal and segmented.
+/// SDO client for the objects of one SubDevice: expedited, normal and segmented transfers through its mailbox
+/// (ETG.1000.6 5.6.2).
 ///
-/// Don't let two transfers with one SubDevice run at the same time, with `ethercrab`'s own means neither: it has one
-/// mailbox. A transfer that is dropped half way does no harm; the next one clears the mailbox.
+/// Run only one transfer with a SubDevice at a time, including those of `ethercrab`, because the SubDevice has only one
+/// mailbox. You can drop a transfer before it ends; the next one clears the mailbox.
 #[derive(Debug)]
 pub struct Sdo<'m> {
     mailbox: Mailbox<'m>,
 }
 
 impl<'m> Sdo<'m> {
-    /// The SubDevice `subdevice`.
+    /// Creates the client for `subdevice`.
     pub fn new(maindevice: &'m MainDevice<'m>, subdevice: &SubDevice) -> Self {
         Self { mailbox: Mailbox::new(maindevice, subdevice.configured_address(), PATIENCE) }
     }
 
-    /// The same, with another number of times that the state of a mailbox is read until it has changed.
+    /// Returns the client with another number of polls of a mailbox state before a timeout.
     #[must_use]
     pub fn with_patience(mut self, patience: u32) -> Self {
         self.mailbox.patience = patience;
         self
     }
 
-    /// The last emergency message that came in front of an answer, and takes it out.
+    /// Returns the last emergency message that arrived before a reply, and removes it.
     pub fn take_emergency(&mut self) -> Option<Emergency> {
         self.mailbox.emergency.take()
     }
 
-    /// Sends a start-up list, such as [`Assignment::startup`](crate::ethercat::Assignment::startup), with complete access
-    /// where a command asks for it. To be done while the group is `PreOp` and before it becomes `PreOpPdi` or `SafeOp`,
-    /// because that is when `ethercrab` reads the assignment back.
+    /// Sends a start-up list, for example [`Assignment::startup`](crate::ethercat::Assignment::startup), with complete
+    /// access for the commands that request it. Call it in state `PreOp`, before the group changes to `PreOpPdi` or
+    /// `SafeOp`. `ethercrab` reads the PDO assignment during these transitions.
     ///
     /// # Errors
     ///
-    /// The first one of a command, after which nothing more is sent.
+    /// That of the first command that fails. The remaining commands are not sent.
     pub async fn configure(
         &mut self,
         commands: impl IntoIterator<Item = StartupCommand>,
@@ -132,21 +136,21 @@ impl<'m> Sdo<'m> {
         Ok(())
     }
 
-    /// Reads all entries of an object at once (complete access, ETG.1000.6 5.6.2.1), from `from` on, and returns how many
-    /// bytes there are. Sub-index 0 takes two bytes then.
+    /// Reads all entries of an object at once, from entry `from` on (complete access, ETG.1000.6 5.6.2.1). Returns the
+    /// length in bytes. Sub-index 0 has two bytes in this transfer.
     ///
     /// # Errors
     ///
-    /// The same as of [`AsyncClient::read`].
+    /// Those of [`AsyncClient::read`].
     pub async fn read_complete(&mut self, from: Object, buffer: &mut [u8]) -> Result<usize, Error<BusError>> {
         self.upload(from, true, buffer).await
     }
 
-    /// Writes all entries of an object at once, from `from` on.
+    /// Writes all entries of an object at once, from entry `from` on.
     ///
     /// # Errors
     ///
-    /// The same as of [`AsyncClient::write`].
+    /// Those of [`AsyncClient::write`].
     pub async fn write_complete(&mut self, from: Object, data: &[u8]) -> Result<(), Error<BusError>> {
         self.download(from, true, data).await
     }
@@ -156,16 +160,16 @@ impl<'m> Sdo<'m> {
         let begun = self.mailbox.exchange(&request, &[], |answer| match answer {
             Answer::Upload { object: of, size, data } if of == object => {
                 let filled = fill(buffer, 0, data);
-                // Where no length was sent, there are as many bytes as asked for.
+                // If the reply has no length, the value has the requested length.
                 Sought::Found((size.unwrap_or(data.len().min(buffer.len())), filled))
             }
-            // The next part of a value that nobody waits for any more.
+            // Segment of an earlier transfer that was dropped.
             Answer::UploadSegment { .. } => Sought::Other,
             other => Sought::of(other, object),
         });
         let (size, mut have) = begun.await?;
         if size > buffer.len() {
-            // The rest is of no use; the device forgets it at the next request.
+            // The remaining segments aren't needed. The device drops them at the next request.
             return Err(Error::Length(LengthError::new(buffer.len(), size)));
         }
         let mut toggle = false;
@@ -213,7 +217,7 @@ impl<'m> Sdo<'m> {
     }
 }
 
-/// Copies `data` to `buffer` from `at` on, as far as there is room, and returns how many bytes `data` has.
+/// Copies `data` to `buffer` from `at` on, as far as it fits, and returns the length of `data`.
 fn fill(buffer: &mut [u8], at: usize, data: &[u8]) -> usize {
     let room = buffer.get_mut(at..).unwrap_or_default();
     room.iter_mut().zip(data).for_each(|(to, from)| *to = *from);

@@ -1,12 +1,12 @@
-//! Clients: thin adapters to libraries that carry the bytes, one feature each.
+//! Clients: adapters to bus libraries, with one feature per adapter.
 //!
 //! | feature | module | library |
 //! |---|---|---|
 //! | `canopen` | `canopen` | `canopen-sdo` for the SDO protocol, `embedded-can` for the interface |
-//! | `socketcan` | `canopen` | the same with SocketCAN of Linux |
+//! | `socketcan` | `canopen` | the same, with SocketCAN on Linux |
 //! | `ethercat` | `ethercat` | `ethercrab`; needs Rust 1.85 |
-//! | `modbus` | `modbus` | `tokio-modbus`, RTU and TCP, blocking and not |
-//! | `serial` | `serial` | `embedded-io`, blocking and not |
+//! | `modbus` | `modbus` | `tokio-modbus`, RTU and TCP, blocking and async |
+//! | `serial` | `serial` | `embedded-io`, blocking and async |
 
 #[cfg(feature = "canopen")]
 pub mod canopen;

@@ -10,13 +10,13 @@
 //! type Speed = Item<u32, Rw, OnModbus>;
 //! const SPEED: Speed = Speed::register(Register::high_first(10, 2), "Speed", lexibus::Flags::NONE);
 //!
-//! // Without a time limit, a device that is silent is waited for without end.
+//! // Set a timeout. Without it, a call to a device that doesn't reply never returns.
 //! let patience = Some(Duration::from_secs(1));
 //! let context = sync::tcp::connect_with_timeout("127.0.0.1:502".parse()?, patience)?;
 //! let mut device = ModbusClient::new(context);
 //! SPEED.at(&mut device).write(1500)?;
 //!
-//! // RTU: a serial line of the crate `tokio-serial`, and the number of the device.
+//! // RTU needs a serial line of the crate `tokio-serial` and the address of the device.
 //! let line = tokio_serial::new("/dev/ttyUSB0", 19_200);
 //! let context = sync::rtu::connect_slave_with_timeout(&line, Slave(5), patience)?;
 //! let mut device = ModbusClient::new(context);
@@ -24,25 +24,25 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! Contexts that don't block have no time limit of their own: `tokio::time::timeout` gives a call one.
+//! Async contexts have no timeout. Wrap the calls in `tokio::time::timeout`.
 //!
-//! Modbus on a serial line doesn't say which request an answer is to. After a call that was given up, by a time limit or by dropping
-//! it, the answer may come when the next request waits for its own: a write notices, because its answer repeats it, but a read takes
-//! the value of another register of the same length. Make a new context after that; one of TCP numbers its requests, and fails
-//! until its answers are in step again.
+//! Modbus RTU has no transaction ID, so a reply can't be matched to its request. After a timeout or a dropped call, a
+//! late reply may arrive while the next request waits. A write detects this, because its reply repeats the request. A
+//! read can return the value of another register with the same length. Create a new context in this case. TCP has
+//! transaction IDs: calls fail until the replies match the requests again.
 //!
-//! A [`ModbusClient`] of a context of [`sync`] is a [`Client`] and a [`RegisterClient`]; one of a context of [`tcp`] or
-//! [`rtu`] is an [`AsyncClient`] and an [`AsyncRegisterClient`].
+//! With a context of [`sync`], a [`ModbusClient`] is a [`Client`] and a [`RegisterClient`]. With a context of [`tcp`]
+//! or [`rtu`], it is an [`AsyncClient`] and an [`AsyncRegisterClient`].
 //!
-//! Not every device takes every request. Generated bindings say which ones, in the constant `MODBUS` that
-//! [`with_limits`](ModbusClient::with_limits) takes; what the device doesn't take is refused before anything is sent, or sent as
-//! what it does take:
+//! Some devices don't support all requests. Generated bindings list the supported ones in the constant `MODBUS`, for
+//! [`with_limits`](ModbusClient::with_limits). The client then uses only supported requests. If none fits, it returns
+//! an error and sends nothing:
 //!
 //! ```
 //! use lexibus::clients::modbus::ModbusClient;
 //! use lexibus::modbus::{Limits, TableLimits};
 //!
-//! // Function 6 isn't among them, so one register is written with function 16, too.
+//! // The device doesn't support function 6, so function 16 writes a single register too.
 //! const MODBUS: Limits = Limits {
 //!     holding: TableLimits { functions: &[3, 16], max_write: 2, ..TableLimits::HOLDING },
 //!     ..Limits::STANDARD
@@ -51,8 +51,8 @@
 //! let device = ModbusClient::new(context).with_limits(MODBUS);
 //! ```
 //!
-//! Where a value is a part of a register, the register is read before it is written, and nobody else should write it
-//! meanwhile; where the limits name function 22, the device does both at once.
+//! If a value is a part of a register, the client reads the register and then writes it. No other client should write
+//! the register in between. If the limits contain function 22, the device changes the bits in one step.
 
 use std::error;
 use std::fmt;
@@ -73,7 +73,7 @@ mod request;
 
 use request::{Answer, Echo, Writes};
 
-/// A device behind a context of `tokio-modbus`.
+/// Client for a device, over a context of `tokio-modbus`.
 #[derive(Debug)]
 pub struct ModbusClient<T> {
     context: T,
@@ -82,65 +82,65 @@ pub struct ModbusClient<T> {
 }
 
 impl<T> ModbusClient<T> {
-    /// The device that `context` talks to. One register is written with function 6, several with function 16.
+    /// Creates a client over `context`. It writes one register with function 6 and several with function 16.
     pub const fn new(context: T) -> Self {
         Self { context, limits: Limits::STANDARD, single: true }
     }
 
-    /// The same device, of which it is known which requests it takes.
+    /// Returns the client with the limits of the device: the supported requests.
     #[must_use]
     pub fn with_limits(self, limits: Limits) -> Self {
         Self { limits, ..self }
     }
 
-    /// Whether one register is written with function 6. Some devices know function 16 only. Where the
-    /// [limits](Self::with_limits) don't have function 16, it is 6 all the same.
+    /// Sets whether a single register is written with function 6; some devices support only function 16. Function 6 is
+    /// used anyway if the [limits](Self::with_limits) don't contain function 16.
     #[must_use]
     pub fn with_single_writes(self, single: bool) -> Self {
         Self { single, ..self }
     }
 
-    /// The context.
+    /// Returns the context.
     pub fn context(&mut self) -> &mut T {
         &mut self.context
     }
 
-    /// Gives the context back.
+    /// Returns the context and drops the client.
     pub fn into_context(self) -> T {
         self.context
     }
 }
 
-/// What can go wrong on Modbus.
+/// Error of a Modbus access.
 #[derive(Debug)]
 #[non_exhaustive]
 pub enum ModbusError {
-    /// The device refused.
+    /// The device refused the request.
     Exception(ExceptionCode),
-    /// Inputs and discrete inputs can only be read. Nothing was sent.
+    /// Input registers and discrete inputs are read-only. Nothing was sent.
     ReadOnly,
-    /// The device doesn't take the function that this needs. Nothing was sent.
+    /// The device doesn't support the function for this access. Nothing was sent.
     Function {
-        /// The table.
+        /// Table of the register.
         table: RegisterTable,
-        /// The function.
+        /// Function code.
         function: u8,
     },
-    /// The value is longer than what the device takes in one request. Nothing was sent.
+    /// The value is longer than the maximum of one request. Nothing was sent.
     TooLong {
-        /// How many registers, or bits, the value has.
+        /// Number of registers or bits of the value.
         count: u16,
-        /// How many one request may be about.
+        /// Maximum number of registers or bits in one request.
         max: u16,
     },
-    /// The table doesn't reach so far, or the value has no register at all. Nothing was sent.
+    /// The value ends after the last address of the table, or has no registers. Nothing was sent.
     NoSuchAddress {
-        /// Where the value begins.
+        /// First wire address of the value.
         address: u16,
-        /// How many registers, or bits, it has.
+        /// Number of registers or bits of the value.
         count: u16,
     },
-    /// The transport failed, or the answer is none to the request.
+    /// The transport failed, or the reply doesn't match the request.
     Bus(tokio_modbus::Error),
 }
 
@@ -148,7 +148,7 @@ impl fmt::Display for ModbusError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Exception(code) => write!(f, "the device refused: {code}"),
-            Self::ReadOnly => f.write_str("inputs of Modbus can only be read"),
+            Self::ReadOnly => f.write_str("Modbus inputs are read-only"),
             Self::Function { table, function } => {
                 let table = match table {
                     RegisterTable::Holding => "holding registers",
@@ -156,13 +156,13 @@ impl fmt::Display for ModbusError {
                     RegisterTable::Coil => "coils",
                     RegisterTable::DiscreteInput => "discrete inputs",
                 };
-                write!(f, "this needs function {function}, which the device doesn't take for {table}")
+                write!(f, "the device doesn't support function {function} for {table}")
             }
             Self::TooLong { count, max } => {
-                write!(f, "the value has {count} registers or bits, and a request may be about {max} at most")
+                write!(f, "the value has {count} registers or bits, but the maximum per request is {max}")
             }
             Self::NoSuchAddress { address, count } => {
-                write!(f, "no table has {count} registers or bits from address {address} on")
+                write!(f, "invalid address range: {count} registers or bits from address {address} on")
             }
             Self::Bus(error) => error.fmt(f),
         }

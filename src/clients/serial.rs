@@ -1,4 +1,4 @@
-//! Messages over anything that is a stream of bytes: `embedded-io`, blocking or not.
+//! Messages over a byte stream of `embedded-io`, blocking or async.
 //!
 //! ```
 //! use embedded_io::{Read, Write};
@@ -11,7 +11,7 @@
 //!     .with_check(Check::Xor(0xFF))
 //!     .with_max_data(68);
 //!
-//! /// Asks node 5 for its state, over any serial interface of a microcontroller or of a computer.
+//! /// Requests the state of node 5 over any serial interface of a microcontroller or a computer.
 //! fn state<S: Read + Write>(port: S) -> Result<u8, Error<SerialError<S::Error>>> {
 //!     let mut line: SerialLine<_, _, 140> = SerialLine::new(port, FRAMING);
 //!     let mut reply = [0; 68];
@@ -23,8 +23,8 @@
 //! }
 //! ```
 //!
-//! What is a stream of `std` becomes one of `embedded-io` with the crate `embedded-io-adapters`. How long a reply may take is
-//! up to the stream: when its patience ends, its error is that of the exchange.
+//! The crate `embedded-io-adapters` converts streams of `std` to streams of `embedded-io`. The stream determines the
+//! timeout for a reply, and its timeout error becomes the error of the exchange.
 
 use core::error;
 use core::fmt;
@@ -36,19 +36,19 @@ use crate::framing::{FrameError, Framing};
 pub use embedded_io;
 pub use embedded_io_async;
 
-/// A device behind a stream `S`, with frames `F`. `N` is the length of the longest frame that is sent, in bytes; with
-/// escapes that is twice the data and check, begin and end.
+/// Client for a device on a stream `S` with the framing `F`. `N` is the maximum length of a frame to send, in bytes. If
+/// the framing has escapes, this is twice the length of data and check, plus start and end.
 ///
-/// It is an [`Exchange`] where the stream is one of `embedded_io`, and an [`AsyncExchange`] where it is one of
-/// `embedded_io_async`. Bytes are read one by one, and none behind the last of a reply; a stream for which that is costly is
-/// wrapped into one with a buffer.
+/// It is an [`Exchange`] if the stream implements the traits of `embedded_io`, and an [`AsyncExchange`] if it
+/// implements those of `embedded_io_async`. It reads single bytes, and none after the end of a reply. Use a buffered
+/// stream if this is too slow.
 ///
-/// Noise in front of a reply is passed over. A reply that is lost ends the exchange with an error, unless another frame
-/// begins within it: that is the reply then. Whether a reply belongs to its request, only the protocol can tell.
+/// Bytes before a reply are ignored. An invalid reply ends the exchange with an error, unless another frame starts
+/// within it. That frame is then the reply. Only the protocol can check whether a reply belongs to its request.
 pub struct SerialLine<S, F: Framing, const N: usize> {
     stream: S,
     framing: F,
-    /// What has seen the begin of a reply that was lost, and not its end.
+    /// Decoder state after an invalid reply whose end wasn't received.
     within: Option<F::Decoder>,
 }
 
@@ -71,27 +71,29 @@ impl<S: fmt::Debug, F: Framing + fmt::Debug, const N: usize> fmt::Debug for Seri
 }
 
 impl<S, F: Framing, const N: usize> SerialLine<S, F, N> {
-    /// The device at the other end of `stream`.
+    /// Creates a client for the device at the other end of `stream`.
     pub const fn new(stream: S, framing: F) -> Self {
         Self { stream, framing, within: None }
     }
 
-    /// The stream: to throw away what came late, for example.
+    /// Returns the stream, for example to discard late bytes.
     pub fn stream(&mut self) -> &mut S {
         &mut self.stream
     }
 
-    /// Gives the stream back.
+    /// Returns the stream and drops the client.
     pub fn into_stream(self) -> S {
         self.stream
     }
 
-    /// What takes the next bytes. The rest of a reply that was cut off is none.
+    /// Returns the decoder for the next bytes. It also detects the rest of a reply that was cut off, which isn't a
+    /// reply.
     fn decoder(&mut self) -> F::Decoder {
         self.within.take().unwrap_or_else(|| self.framing.decoder())
     }
 
-    /// Ends an exchange by `error`. Where a reply was given up before its end, the rest of it is still to come.
+    /// Stores the decoder if the reply became invalid before its end, because its remaining bytes still arrive. Returns
+    /// `error`.
     fn failed<E>(&mut self, decoder: F::Decoder, error: Error<SerialError<E>>) -> Error<SerialError<E>> {
         if matches!(error, Error::Client(SerialError::Frame(FrameError::TooLong | FrameError::Escape))) {
             self.within = Some(decoder);
@@ -99,7 +101,7 @@ impl<S, F: Framing, const N: usize> SerialLine<S, F, N> {
         error
     }
 
-    /// Takes a byte of the reply.
+    /// Decodes one byte of the reply.
     fn take<E>(
         &self,
         decoder: &mut F::Decoder,
@@ -113,15 +115,15 @@ impl<S, F: Framing, const N: usize> SerialLine<S, F, N> {
     }
 }
 
-/// What can go wrong on a serial line.
+/// Error of an exchange on a serial line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum SerialError<E> {
-    /// The stream failed, or nothing came within the time that it waits.
+    /// The stream failed, or its timeout expired.
     Stream(E),
-    /// The stream ended.
+    /// The stream was closed.
     Closed,
-    /// The reply was lost.
+    /// The reply is invalid.
     Frame(FrameError),
 }
 
@@ -129,7 +131,7 @@ impl<E: fmt::Display> fmt::Display for SerialError<E> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Stream(error) => error.fmt(f),
-            Self::Closed => f.write_str("the serial line ended"),
+            Self::Closed => f.write_str("the serial line was closed"),
             Self::Frame(error) => error.fmt(f),
         }
     }
@@ -148,7 +150,7 @@ const fn failed<E>(error: E) -> Error<SerialError<E>> {
     Error::Client(SerialError::Stream(error))
 }
 
-/// One byte of those that a stream says it read.
+/// Returns the byte that was read, or an error at the end of the stream.
 fn one<E>(byte: [u8; 1], count: usize) -> Result<u8, Error<SerialError<E>>> {
     match count {
         0 => Err(Error::Client(SerialError::Closed)),

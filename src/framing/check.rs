@@ -1,24 +1,25 @@
-//! Checks at the end of a frame.
+//! Checks: the error detection at the end of a frame.
 
-/// What stands behind the data of a frame to find errors of transmission. Each begins with a value of its own.
+/// Error detection code after the data of a frame. The parameter is its initial value.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Check {
-    /// Nothing.
+    /// No check.
     #[default]
     None,
-    /// One byte: the data combined with exclusive or.
+    /// One byte: XOR of the data.
     Xor(u8),
     /// One byte: the low eight bits of the sum of the data.
     Sum(u8),
-    /// One byte: the low eight bits of the negative sum, so that the sum of data and check is 0 where it begins with 0.
+    /// One byte: the low eight bits of the negative sum. The sum of data and check is 0 if the initial value is 0.
     Lrc(u8),
-    /// Two bytes, the low one first: the CRC of Modbus RTU, with the polynomial 0x8005, which begins with 0xFFFF there.
+    /// Two bytes, the low byte first: a CRC with the polynomial 0x8005. Modbus RTU uses it with the initial value
+    /// 0xFFFF.
     Crc16(u16),
 }
 
 impl Check {
-    /// How many bytes it has.
+    /// Returns the length of the check in bytes.
     #[must_use]
     pub const fn len(self) -> usize {
         match self {
@@ -28,13 +29,13 @@ impl Check {
         }
     }
 
-    /// Whether it has none.
+    /// Returns whether there is no check.
     #[must_use]
     pub const fn is_empty(self) -> bool {
         self.len() == 0
     }
 
-    /// Its bytes for these data, of which [`len`](Self::len) count.
+    /// Computes the check of `data`. Only the first [`len`](Self::len) bytes are used.
     #[must_use]
     pub fn of(self, data: &[u8]) -> [u8; 2] {
         let sum = |seed: u8| data.iter().fold(seed, |sum, byte| sum.wrapping_add(*byte));
@@ -48,7 +49,7 @@ impl Check {
     }
 }
 
-/// The polynomial 0x8005, each byte from its lowest bit on.
+/// Adds a byte to a CRC with the polynomial 0x8005, the lowest bit first.
 fn crc16(crc: u16, byte: u8) -> u16 {
     (0..8).fold(crc ^ u16::from(byte), |crc, _| if crc & 1 == 1 { crc >> 1 ^ 0xA001 } else { crc >> 1 })
 }
@@ -60,7 +61,7 @@ mod tests {
     #[test]
     fn known_checks() {
         let digits = b"123456789";
-        // The check values of the catalogue of CRCs for MODBUS and ARC.
+        // Check values from the CRC catalogue, for MODBUS and ARC.
         assert_eq!(Check::Crc16(0xFFFF).of(digits), 0x4B37_u16.to_le_bytes());
         assert_eq!(Check::Crc16(0).of(digits), 0xBB3D_u16.to_le_bytes());
         // 477 = 0x1DD.

@@ -1,46 +1,46 @@
-//! Frames between two bytes.
+//! Frames with start and end bytes.
 
 use super::{Check, FrameError, Framing};
 use crate::value_error::LengthError;
 
-/// Frames that end in a byte of their own, and mostly begin with one: begin, data, check, end.
+/// Framing with an end byte, and usually a start byte: start, data, check, end.
 ///
-/// Bytes between frames are passed over, where a frame has a first byte. First and last byte may be the same; then one of them
-/// may end a frame and begin the next one, and frames without data are passed over.
+/// If frames have a start byte, bytes between frames are ignored. Start and end byte may be equal. Then one byte can be
+/// the end of a frame and the start of the next one, and frames without data are ignored.
 ///
-/// Where the check isn't escaped, it may look like the end of a frame. A frame ends with the first last byte that agrees with
-/// the check in front of it; nothing can be said of the rare case that this is inside of the frame.
+/// A check without escapes can contain the end byte. The decoder ends a frame at the first end byte with a matching
+/// check before it. In rare cases, this byte is inside the frame, which the decoder can't detect.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Delimited {
-    /// First byte; `None` where a frame begins behind the end of the last one.
+    /// Start byte; `None` if each frame starts after the end of the last one.
     pub start: Option<u8>,
-    /// Last byte.
+    /// End byte.
     pub end: u8,
-    /// How bytes within the frame are told from these; `None` where they don't occur in data.
+    /// Escaping of bytes in a frame that equal one of these; `None` if the data never contain them.
     pub escape: Option<Escape>,
-    /// What stands behind the data.
+    /// Check after the data.
     pub check: Check,
-    /// The first byte of the data that is checked, from 0.
+    /// Offset of the first data byte that the check covers.
     pub check_from: usize,
     /// Whether the check is escaped, as the data are.
     pub is_check_escaped: bool,
-    /// Greatest number of data bytes, without begin, end, escapes and check.
+    /// Maximum number of data bytes, without start, end, escapes and check.
     pub max_data: usize,
 }
 
-/// How some bytes are sent in two: one that announces it, and then the byte combined with a number.
+/// Escape sequence of two bytes: the escape byte, then the original byte combined with a number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Escape {
-    /// The byte that announces an escaped one.
+    /// Escape byte.
     pub byte: u8,
-    /// What an escaped byte is combined with (exclusive or); 0 where it follows as it is.
+    /// Number that is combined with the original byte by XOR; 0 leaves it unchanged.
     pub xor: u8,
-    /// The bytes that are escaped.
+    /// Bytes that are escaped.
     pub escaped: &'static [u8],
 }
 
 impl Delimited {
-    /// Frames of any length between two bytes, without escapes and check.
+    /// Creates a framing for data of any length, without escapes and check.
     #[must_use]
     pub const fn new(start: Option<u8>, end: u8) -> Self {
         Self {
@@ -54,19 +54,20 @@ impl Delimited {
         }
     }
 
-    /// The same with bytes `escaped`: each is sent as `byte`, and then itself combined with `xor`.
+    /// Returns the framing with escapes: each of the bytes in `escaped` is sent as `byte`, followed by the original
+    /// byte XOR `xor`.
     #[must_use]
     pub const fn with_escape(self, byte: u8, xor: u8, escaped: &'static [u8]) -> Self {
         Self { escape: Some(Escape { byte, xor, escaped }), ..self }
     }
 
-    /// The same with a check of all data, which is escaped as they are.
+    /// Returns the framing with a check over all data. The check is escaped, as the data are.
     #[must_use]
     pub const fn with_check(self, check: Check) -> Self {
         Self { check, ..self }
     }
 
-    /// The same with at most so many data.
+    /// Returns the framing with a maximum number of data bytes.
     #[must_use]
     pub const fn with_max_data(self, max_data: usize) -> Self {
         Self { max_data, ..self }
@@ -76,13 +77,13 @@ impl Delimited {
         self.escape.filter(|escape| escape.escaped.contains(&byte))
     }
 
-    /// The check of these data.
+    /// Computes the check of `data`.
     fn check_of(&self, data: &[u8]) -> [u8; 2] {
         self.check.of(data.get(self.check_from..).unwrap_or_default())
     }
 }
 
-/// Writes as long as there is room, and counts on beyond it.
+/// Writes bytes as far as they fit, and counts all of them.
 struct Writer<'f> {
     frame: &'f mut [u8],
     length: usize,
@@ -107,24 +108,24 @@ impl Writer<'_> {
     }
 }
 
-/// How far a frame of [`Delimited`] has come.
+/// State of a partly received frame of [`Delimited`].
 #[derive(Clone, Debug)]
 pub struct DelimitedDecoder {
     state: State,
-    /// How many data there are.
+    /// Number of data bytes so far.
     length: usize,
-    /// The last bytes: they may be the check. Where the check isn't escaped, as they came.
+    /// The last bytes, which may be the check. They are still escaped if the check is sent without escapes.
     held: [u8; 2],
     held_length: usize,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum State {
-    /// Waits for the first byte of a frame, or for the last one where frames have none.
+    /// Waits for the start byte, or for an end byte if frames have no start byte.
     Idle,
-    /// Within a frame.
+    /// In a frame.
     Data,
-    /// Behind the byte that announces an escaped one.
+    /// After an escape byte.
     Escaped,
 }
 
@@ -133,7 +134,7 @@ impl DelimitedDecoder {
         *self = Self { state, length: 0, held: [0; 2], held_length: 0 };
     }
 
-    /// Holds a byte back, and returns the one that can't be a part of the check any more.
+    /// Holds a byte that may be a part of the check, and returns the oldest one if it can't be part of it any more.
     fn hold(&mut self, byte: u8, check: usize) -> Option<u8> {
         if check == 0 {
             return Some(byte);
@@ -153,7 +154,7 @@ impl DelimitedDecoder {
 }
 
 impl Delimited {
-    /// Where a decoder goes on behind the end of a frame.
+    /// Returns the state after the end of a frame.
     const fn behind_end(&self) -> State {
         match self.start {
             Some(start) if start != self.end => State::Idle,
@@ -161,7 +162,7 @@ impl Delimited {
         }
     }
 
-    /// The frame is lost: what a byte that isn't a part of it means for the next one.
+    /// Resets the decoder after an invalid frame. `byte` may start the next frame.
     fn lost(&self, decoder: &mut DelimitedDecoder, byte: u8, error: FrameError) -> Result<Option<usize>, FrameError> {
         decoder.begin(match byte {
             byte if byte == self.end => self.behind_end(),
@@ -171,7 +172,7 @@ impl Delimited {
         Err(error)
     }
 
-    /// Whether what is held is the check of the data.
+    /// Returns whether the held bytes are the check of the data.
     fn agrees(&self, decoder: &DelimitedDecoder, data: &[u8]) -> bool {
         let check = self.check_of(data.get(..decoder.length).unwrap_or_default());
         let count = self.check.len();
@@ -199,7 +200,7 @@ impl Delimited {
         Ok(())
     }
 
-    /// The byte that `byte` stands for; `None` where it announces one.
+    /// Returns the original byte, or `None` if `byte` is the escape byte.
     fn unescape(&self, decoder: &mut DelimitedDecoder, byte: u8) -> Result<Option<u8>, FrameError> {
         let Some(escape) = self.escape else { return Ok(Some(byte)) };
         match decoder.state {
@@ -216,7 +217,8 @@ impl Delimited {
         }
     }
 
-    /// A byte within a frame whose check is escaped: it means the same wherever it stands.
+    /// Decodes a byte in a frame whose check is escaped. Start, end and escape bytes then have the same meaning
+    /// everywhere.
     fn inside(&self, decoder: &mut DelimitedDecoder, byte: u8, data: &mut [u8]) -> Result<Option<usize>, FrameError> {
         let is_escaped = decoder.state == State::Escaped;
         match self.unescape(decoder, byte) {
@@ -240,8 +242,8 @@ impl Delimited {
         Ok(None)
     }
 
-    /// A byte within a frame whose check isn't escaped: what it means is known when it can't be a part of the check any
-    /// more.
+    /// Decodes a byte in a frame whose check isn't escaped. The meaning of a byte is known when it can't be part of the
+    /// check any more.
     fn inside_raw(
         &self,
         decoder: &mut DelimitedDecoder,
@@ -258,7 +260,7 @@ impl Delimited {
                 return self.lost(decoder, byte, FrameError::Check);
             }
             if !is_escaped && Some(released) == self.start {
-                // What is held stands behind it.
+                // The held bytes are in the new frame.
                 decoder.length = 0;
                 return Err(FrameError::Interrupted);
             }
@@ -270,7 +272,7 @@ impl Delimited {
                 return self.lost(decoder, byte, error);
             }
         }
-        // A last byte is the end, or the check itself; of two bytes of check it may be the first.
+        // An end byte may belong to the check, or be the first of its two bytes.
         let is_check = count > 1 || (decoder.state == State::Data && self.agrees(decoder, data));
         match byte == self.end && !is_check {
             true if decoder.length == 0 => self.lost(decoder, byte, FrameError::TooShort),

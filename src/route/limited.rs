@@ -1,4 +1,4 @@
-//! Values of which a bus takes fewer than its item.
+//! Items for which a bus accepts fewer values.
 
 use super::{ReadRoute, Route, WriteRoute};
 use crate::bus::{Bus, Object};
@@ -8,33 +8,33 @@ use crate::pdo::{from_bytes, sign_extend};
 use crate::register::Register;
 use crate::value_error::OutOfRange;
 
-/// An integer of which one bus takes these values only, first and last of each run. What comes isn't checked.
+/// Route of an integer for which one bus accepts only some values. Values that are read aren't checked.
 ///
 /// ```
 /// use lexibus::{Limited, Object};
 ///
-/// // The modes that a drive has on CANopen; on Modbus, -50 saves its parameters.
+/// // The modes that a drive accepts on CANopen. On Modbus, -50 stores its parameters.
 /// const MODES: Limited<Object> = Limited::new(Object::new(0x6060, 0), true, &[(-127, -127), (-2, -1), (1, 1), (6, 7)]);
 /// assert!(MODES.takes(-1) && !MODES.takes(-50));
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Limited<R> {
-    /// The route to the value.
+    /// Route to the value.
     pub at: R,
     /// Whether the value is in two's complement.
     pub is_signed: bool,
-    /// First and last value of each run.
+    /// Accepted ranges: the first and the last value of each.
     pub values: &'static [(i64, i64)],
 }
 
 impl<R> Limited<R> {
-    /// These values only, on the route `at`.
+    /// Creates a route that accepts only `values` and uses the route `at`.
     #[must_use]
     pub const fn new(at: R, is_signed: bool, values: &'static [(i64, i64)]) -> Self {
         Self { at, is_signed, values }
     }
 
-    /// Whether a value can be written.
+    /// Returns whether the route accepts `value`.
     #[must_use]
     pub fn takes(&self, value: i64) -> bool {
         self.values.iter().any(|(first, last)| (*first..=*last).contains(&value))

@@ -1,4 +1,4 @@
-//! Values that have another width on a bus than their item.
+//! Items whose value has another width on a bus.
 
 use super::{ReadRoute, Route, WriteRoute};
 use crate::bus::{Bus, Object};
@@ -9,10 +9,10 @@ use crate::register::Register;
 use crate::value::byte_len;
 use crate::value_error::{LengthError, OutOfRange};
 
-/// An integer that has `bits` bits on the bus, whatever the width of its item.
+/// Route of an integer that has `bits` bits on the bus, independent of the width of its item.
 ///
-/// Where the bus has fewer, a value that doesn't fit isn't sent, and what comes is extended, by its sign where `is_signed`.
-/// Where the bus has more, it is the other way around.
+/// If the bus has fewer bits, a value that doesn't fit isn't sent, and a value that is read is extended, with its sign
+/// if `is_signed`. If the bus has more bits, a value to write is extended, and a value that is read has to fit.
 ///
 /// ```
 /// use lexibus::{CanOpen, Client, Error, Modbus, Object, Register, Resized};
@@ -53,30 +53,30 @@ use crate::value_error::{LengthError, OutOfRange};
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Resized<R> {
-    /// Where the number is.
+    /// Route to the number.
     pub at: R,
-    /// Bits of the number on the bus, 1 to 64. It takes that many, rounded up to whole bytes.
+    /// Width of the number on the bus in bits, 1 to 64. It is transferred in whole bytes.
     pub bits: u8,
-    /// Whether the narrower one of both is in two's complement.
+    /// Whether the narrower of the two numbers is in two's complement.
     pub is_signed: bool,
 }
 
 impl<R> Resized<R> {
-    /// A number of `bits` bits in two's complement.
+    /// Creates a route for a signed number of `bits` bits.
     #[must_use]
     pub const fn signed(at: R, bits: u8) -> Self {
         Self { at, bits, is_signed: true }
     }
 
-    /// A number of `bits` bits without a sign.
+    /// Creates a route for an unsigned number of `bits` bits.
     #[must_use]
     pub const fn unsigned(at: R, bits: u8) -> Self {
         Self { at, bits, is_signed: false }
     }
 }
 
-/// `value` of `from` bits as one of `to` bits; nothing where it doesn't fit. The narrower of both is in two's complement
-/// where `is_signed`.
+/// Converts `value` from `from` bits to `to` bits. Returns `None` if it doesn't fit. The narrower number is in two's
+/// complement if `is_signed`.
 const fn fit(value: u64, from: u32, to: u32, is_signed: bool) -> Option<u64> {
     let narrow = if from < to { from } else { to };
     let low = value & mask(narrow);
@@ -92,7 +92,8 @@ const fn bits_of(bytes: &[u8]) -> u32 {
     8 * bytes.len() as u32
 }
 
-/// Puts the number of `bits` bits that `raw` is into `buffer`, which is as long as the value of the item.
+/// Converts the number of `bits` bits in `raw` to the width of the item, and writes it to `buffer`. `buffer` has the
+/// length of the item's value.
 pub(super) fn read(raw: &[u8], bits: u32, is_signed: bool, buffer: &mut [u8]) -> Result<usize, OutOfRange> {
     let value = fit(from_bytes(raw), bits, bits_of(buffer), is_signed).ok_or(OutOfRange)?;
     let mut bytes = value.to_le_bytes().into_iter();
@@ -100,12 +101,12 @@ pub(super) fn read(raw: &[u8], bits: u32, is_signed: bool, buffer: &mut [u8]) ->
     Ok(buffer.len())
 }
 
-/// The number of `bits` bits that the bytes of an item's value are.
+/// Converts the value of an item to a number of `bits` bits.
 pub(super) fn written(data: &[u8], bits: u32, is_signed: bool) -> Result<[u8; 8], OutOfRange> {
     fit(from_bytes(data), bits_of(data), bits, is_signed).map(u64::to_le_bytes).ok_or(OutOfRange)
 }
 
-/// As many bytes as `bits` bits take.
+/// Returns the first bytes of `bytes`, as many as `bits` bits need.
 pub(super) fn room(bytes: &mut [u8; 8], bits: u32) -> &mut [u8] {
     &mut bytes[..byte_len(bits)]
 }

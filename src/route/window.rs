@@ -1,4 +1,4 @@
-//! Values that are reached through others: their number goes here, they come out there.
+//! Windows: indirect access to values. The number of a value is written to one address; another address has the value.
 
 use core::time::Duration;
 
@@ -8,31 +8,31 @@ use crate::client::{AsyncClient, Client};
 use crate::error::Error;
 use crate::value_error::OutOfRange;
 
-/// How long two looks at a number are apart that the device clears.
+/// Interval between two polls for a number that the device clears.
 const INTERVAL: Duration = Duration::from_millis(1);
 
-/// How a device says that it has done what a window was asked for.
+/// How a device reports that it has completed an access through a window.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct Handshake {
-    /// Where the device sets the number to 0: how often that is looked for, 1 ms apart where the client
-    /// [can wait](Client::wait). 0 where the device doesn't do that.
+    /// Maximum number of polls if the device clears the number to 0. Polls are 1 ms apart if the client [can
+    /// wait](Client::wait). 0 if the device doesn't clear the number.
     pub polls: u16,
-    /// How many milliseconds the device needs, where it sets nothing to 0. A client that can't wait fails with
-    /// [`Error::NoClock`] then.
+    /// Time in milliseconds that the device needs, if it doesn't clear the number. A client that can't wait fails with
+    /// [`Error::NoClock`].
     pub wait: u16,
 }
 
 impl Handshake {
-    /// The device is as quick as its answers.
+    /// The device needs no time after its reply.
     pub const NONE: Self = Self { polls: 0, wait: 0 };
 
-    /// The device sets the number to 0, which is looked for so often.
+    /// Creates the handshake of a device that clears the number to 0. Polls at most `polls` times.
     #[must_use]
     pub const fn cleared(polls: u16) -> Self {
         Self { polls, wait: 0 }
     }
 
-    /// The device needs so many milliseconds.
+    /// Creates the handshake of a device that needs `wait` milliseconds.
     #[must_use]
     pub const fn after(wait: u16) -> Self {
         Self { polls: 0, wait }
@@ -43,47 +43,47 @@ impl Handshake {
     }
 }
 
-/// What takes the number of a value, and what has the value then.
+/// Window for reading: an address for the number of a value, and an address for the value.
 ///
-/// Clears and waits as the [`Handshake`] says; the value of the item is fitted to that of the window as by
+/// A read writes the number, waits according to the [`Handshake`] and reads the value. The width is converted as in
 /// [`Resized`](crate::Resized).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct ReadWindow<A> {
-    /// What takes the number.
+    /// Address of the number.
     pub number: A,
-    /// Bits of the number.
+    /// Width of the number in bits.
     pub number_bits: u8,
-    /// What has the value.
+    /// Address of the value.
     pub value: A,
-    /// Bits of the value.
+    /// Width of the value in bits.
     pub value_bits: u8,
-    /// How the device says that the value is there.
+    /// How the device reports that the value is available.
     pub handshake: Handshake,
 }
 
-/// What takes the number of a value, and the value.
+/// Window for writing: an address for the number of a value, and an address for the value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct WriteWindow<A> {
-    /// What takes the number.
+    /// Address of the number.
     pub number: A,
-    /// Bits of the number.
+    /// Width of the number in bits.
     pub number_bits: u8,
-    /// What takes the value.
+    /// Address of the value.
     pub value: A,
-    /// Bits of the value.
+    /// Width of the value in bits.
     pub value_bits: u8,
-    /// Whether the number is written before the value. In a process image both go out in one cycle.
+    /// Whether the number is written before the value. In a process image, both are sent in one cycle.
     pub is_number_first: bool,
-    /// How the device says that it has taken the value.
+    /// How the device reports that it has accepted the value.
     pub handshake: Handshake,
 }
 
-/// A value behind a [`ReadWindow`] or a [`WriteWindow`].
+/// Route through a [`ReadWindow`] or a [`WriteWindow`].
 ///
 /// ```
 /// use lexibus::{CanOpen, Client, Error, Flags, Handshake, Initial, Item, Object, Range, ReadWindow, Ro, Through};
 ///
-/// // Number to 0x2005:1, which the device clears once the value is in 0x2005:2.
+/// // The number is written to 0x2005:1. The device clears it when the value is in 0x2005:2.
 /// const WINDOW: ReadWindow<Object> = ReadWindow {
 ///     number: Object::new(0x2005, 1),
 ///     number_bits: 16,
@@ -122,7 +122,7 @@ pub struct WriteWindow<A> {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Through<W: 'static> {
-    /// The number of the value.
+    /// Number of the value.
     pub number: u32,
     /// The window.
     pub window: &'static W,
@@ -131,25 +131,25 @@ pub struct Through<W: 'static> {
 }
 
 impl<W> Through<W> {
-    /// A value in two's complement.
+    /// Creates the route to a signed value.
     #[must_use]
     pub const fn signed(number: u32, window: &'static W) -> Self {
         Self { number, window, is_signed: true }
     }
 
-    /// A value without a sign, or bits.
+    /// Creates the route to an unsigned value or a bit field.
     #[must_use]
     pub const fn unsigned(number: u32, window: &'static W) -> Self {
         Self { number, window, is_signed: false }
     }
 
-    /// The bytes of the number, of which those count that `bits` bits take.
+    /// Returns the number in bytes, the least significant byte first.
     fn number(&self) -> [u8; 8] {
         u64::from(self.number).to_le_bytes()
     }
 }
 
-/// Without a clock, the transfers themselves are the time.
+/// Ignores a missing clock: without one, the polls follow each other directly.
 fn unless_no_clock<E>(waited: Result<(), Error<E>>) -> Result<(), Error<E>> {
     match waited {
         Err(Error::NoClock) => Ok(()),
@@ -159,7 +159,7 @@ fn unless_no_clock<E>(waited: Result<(), Error<E>>) -> Result<(), Error<E>> {
 
 macro_rules! settle {
     ($settle:ident $Client:ident $($async:ident $await:ident)?) => {
-        /// Waits until the device has done it.
+        /// Waits until the device has completed the access.
         $($async)? fn $settle<C: $Client>(
             client: &mut C,
             number: <C::Bus as Bus>::Address,
@@ -188,7 +188,7 @@ macro_rules! settle {
 settle! { settle Client }
 settle! { settle_async AsyncClient async await }
 
-/// A window is no address of the value's own.
+/// A value behind a window has no address.
 impl<W> Route for Through<W> {}
 
 impl<B: Bus> ReadRoute<B> for Through<ReadWindow<B::Address>> {
@@ -217,11 +217,11 @@ impl<B: Bus> ReadRoute<B> for Through<ReadWindow<B::Address>> {
     }
 }
 
-/// Address, bytes, and how many bits of them count.
+/// Address, bytes, and number of bits that are used.
 type Transfer<A> = (A, [u8; 8], u32);
 
 impl<A: Copy> Through<WriteWindow<A>> {
-    /// What is written where, in this order.
+    /// Returns the two writes in their order.
     fn writes(&self, data: &[u8]) -> Result<[Transfer<A>; 2], OutOfRange> {
         let window = self.window;
         let value = resized::written(data, window.value_bits.into(), self.is_signed)?;

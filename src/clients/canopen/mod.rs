@@ -13,7 +13,7 @@
 //! /// Works with any CAN interface of a microcontroller or a computer.
 //! fn start<C: embedded_can::nb::Can>(can: C, position: i32) -> Result<(), lexibus::Error<C::Error>> {
 //!     let start = Instant::now();
-//! // Keeps up to sixteen frames that arrive during an SDO transfer.
+//!     // Keeps up to sixteen frames that arrive during an SDO transfer.
 //!     let port = Buffered::<_, 16>::new(Polled::new(can, move || start.elapsed()));
 //!     let id = NodeId::new(5).expect("a node-ID");
 //!     let mut drive = DemoDrive::new(Node::new(port, id));

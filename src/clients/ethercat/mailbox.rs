@@ -1,4 +1,4 @@
-//! The mailbox of a SubDevice: one message out, one message in (ETG.1000.4 6.7, ETG.1000.6 5.3).
+//! Mailbox of a SubDevice: sends one message and receives one message (ETG.1000.4 6.7, ETG.1000.6 5.3).
 
 use core::ops::Deref;
 
@@ -10,20 +10,20 @@ use crate::bus::Object;
 use crate::emergency::Emergency;
 use crate::error::Error;
 
-/// So many sync managers are looked at: mailboxes are the first two of four.
+/// Number of sync managers to search. The mailboxes are usually the first two of four.
 const MANAGERS: u16 = 4;
 
-/// Bytes of the registers of a sync manager.
+/// Length of the registers of a sync manager in bytes.
 const REGISTERS: u16 = 8;
 
-/// Where the state is in them, and the bit that tells that the mailbox is full.
+/// Offset of the status register of a sync manager, and its bit for a full mailbox.
 const STATE: u16 = 5;
 const FULL: u8 = 0x08;
 
-/// A buffer in the memory of the slave controller.
+/// A mailbox buffer in the memory of the slave controller.
 #[derive(Clone, Copy, Debug)]
 struct Buffer {
-    /// The register with its state.
+    /// Address of the status register.
     state: u16,
     address: u16,
     length: u16,
@@ -34,23 +34,24 @@ pub(super) struct Mailbox<'m> {
     maindevice: &'m MainDevice<'m>,
     station: u16,
     pub(super) patience: u32,
-    /// To the device, and from it; read from the registers when first needed.
+    /// Buffers for sending and receiving. They are read from the registers at the first use.
     buffers: Option<(Buffer, Buffer)>,
     pub(super) emergency: Option<Emergency>,
 }
 
-/// What one message is to whoever waits for an answer.
+/// Result of comparing a received message with the expected reply.
 pub(super) enum Sought<T> {
-    /// The answer.
+    /// The message is the reply.
     Found(T),
-    /// Something that has nothing to do with it.
+    /// The message is unrelated.
     Other,
-    /// The device refused, or answered something else.
+    /// The device refused, or the reply doesn't match the request.
     Failed(Error<BusError>),
 }
 
 impl<T> Sought<T> {
-    /// A message that isn't the awaited answer about `object`. One about another object answers a transfer that was given up.
+    /// Classifies a message that isn't the expected reply about `object`. A reply about another object belongs to an
+    /// earlier transfer that was dropped.
     pub(super) fn of(answer: Answer<'_>, object: Object) -> Self {
         match answer {
             Answer::Foreign | Answer::Emergency(_) => Sought::Other,
@@ -70,13 +71,13 @@ impl<'m> Mailbox<'m> {
         Self { maindevice, station, patience, buffers: None, emergency: None }
     }
 
-    /// How many bytes a message to the device may have.
+    /// Returns the maximum length of a message to the device in bytes.
     pub(super) async fn room(&mut self) -> Result<usize, Error<BusError>> {
         Ok(usize::from(self.buffers().await?.0.length))
     }
 
-    /// Sends `request` with `data` behind it, and hands what comes back to `seek` until that has found the answer. Messages
-    /// of other protocols are passed over.
+    /// Sends `request`, followed by `data`, and passes each received message to `seek` until it finds the reply.
+    /// Messages of other protocols are ignored.
     pub(super) async fn exchange<T>(
         &mut self,
         request: &Request,
@@ -105,7 +106,7 @@ impl<'m> Mailbox<'m> {
         Err(Error::Timeout)
     }
 
-    /// Takes out what is left of an earlier transfer.
+    /// Removes messages of earlier transfers from the mailbox.
     async fn clear(&mut self, back: Buffer) -> Result<(), Error<BusError>> {
         for _ in 0..self.patience {
             if !self.is_full(back).await? {
@@ -152,7 +153,7 @@ impl<'m> Mailbox<'m> {
     }
 }
 
-/// The first sync manager that is an enabled mailbox of this direction.
+/// Returns the first sync manager that is an enabled mailbox of this direction.
 fn find(registers: &[u8], first: u16, to_device: bool) -> Option<Buffer> {
     let managers = registers.chunks_exact(usize::from(REGISTERS)).zip((first..).step_by(usize::from(REGISTERS)));
     managers.filter_map(|(registers, at)| Some((registers.first_chunk::<7>()?, at))).find_map(|(registers, at)| {
@@ -164,7 +165,7 @@ fn find(registers: &[u8], first: u16, to_device: bool) -> Option<Buffer> {
     })
 }
 
-/// A message that fills the mailbox to its last byte, with which the device gets it.
+/// A message that is padded to the length of the mailbox. The write of the last byte hands the mailbox to the device.
 struct Message<'d> {
     head: &'d [u8],
     data: &'d [u8],

@@ -1,4 +1,4 @@
-//! The memory of a slave controller, read and written by its addresses.
+//! Access to the memory of a slave controller by address.
 
 use ethercrab::error::Error as BusError;
 use ethercrab::{Command, MainDevice, SubDevice};
@@ -8,10 +8,11 @@ use crate::client::AsyncClient;
 use crate::error::Error;
 use crate::value_error::LengthError;
 
-/// The memory of the slave controller of one SubDevice (ETG.1000.4): the client of items that have an address in it.
+/// Client for the memory of the slave controller of one SubDevice (ETG.1000.4), for items with an address in this
+/// memory.
 ///
-/// It needs no mailbox, and works in every state. `ethercrab` and the device itself use this memory, too: a write to what
-/// belongs to them (states, sync managers, FMMUs) disturbs them.
+/// It needs no mailbox and works in every state. `ethercrab` and the device use this memory too. Don't write to the
+/// registers that they use (states, sync managers, FMMUs).
 #[derive(Clone, Copy, Debug)]
 pub struct Memory<'m> {
     maindevice: &'m MainDevice<'m>,
@@ -19,7 +20,7 @@ pub struct Memory<'m> {
 }
 
 impl<'m> Memory<'m> {
-    /// That of the SubDevice `subdevice`.
+    /// Creates the client for `subdevice`.
     pub fn new(maindevice: &'m MainDevice<'m>, subdevice: &SubDevice) -> Self {
         Self { maindevice, station: subdevice.configured_address() }
     }

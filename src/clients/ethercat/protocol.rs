@@ -1,37 +1,38 @@
-//! The messages of CoE, without the mailbox that they go through (ETG.1000.6 5.6.1, 5.6.2).
+//! CoE messages, without the mailbox transfer (ETG.1000.6 5.6.1, 5.6.2).
 
 use crate::abort::AbortCode;
 use crate::bus::Object;
 use crate::emergency::Emergency;
 
-/// Bytes of the header of a mailbox message (ETG.1000.4 5.6).
+/// Length of the header of a mailbox message in bytes (ETG.1000.4 5.6).
 const MAILBOX_HEADER: usize = 6;
 
-/// Bytes of the header of CoE.
+/// Length of the CoE header in bytes.
 const COE_HEADER: usize = 2;
 
-/// Bytes of a request to begin a transfer: header of CoE, command, index, sub-index, four bytes of data or a length.
+/// Length of a request that starts a transfer, in bytes: CoE header, command, index, sub-index, and four bytes of data
+/// or length.
 const INITIATE: usize = 10;
 
-/// Bytes of the shortest mailbox that takes every request.
+/// Minimum length of a mailbox that fits every request, in bytes.
 pub(super) const SMALLEST: usize = MAILBOX_HEADER + INITIATE;
 
-/// Least bytes of data in a segment.
+/// Minimum length of the data in a segment, in bytes.
 const SEGMENT: usize = 7;
 
-/// The protocol CoE in the header of a mailbox message.
+/// Protocol number of CoE in the header of a mailbox message.
 const COE: u8 = 3;
 
-/// What a request does.
+/// Kind of a request.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Command {
-    /// All that there is to send is in its head.
+    /// The head contains all data.
     Short,
-    /// Bytes of the value follow.
+    /// Bytes of the value follow the head.
     Normal,
 }
 
-/// A message to the device: its head, behind which bytes of a value may follow.
+/// A message to the device: the head, which bytes of a value may follow.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Request {
     head: [u8; SMALLEST],
@@ -40,10 +41,11 @@ pub(super) struct Request {
 }
 
 impl Request {
-    /// `command` and what follows it up to the value; `length` counts the bytes behind the mailbox header.
+    /// Creates a request from the command and the fields before the value. `length` is the length after the mailbox
+    /// header in bytes.
     fn new(rest: &[u8], length: usize, command: Command) -> Self {
-        // No address, lowest priority. The counter stays 0, with which no repetition is recognised: that of `ethercrab`
-        // isn't known here.
+        // Address 0, lowest priority. The counter stays 0, which disables the detection of repeated messages, because
+        // the counter of `ethercrab` is unknown.
         let [low, high] = (length as u16).to_le_bytes();
         let fixed = [low, high, 0, 0, 0, COE, 0, Service::Request as u8 * 0x10];
         let mut head = [0; SMALLEST];
@@ -60,7 +62,7 @@ impl Request {
     }
 }
 
-/// Services of CoE.
+/// CoE service numbers.
 #[derive(Clone, Copy)]
 enum Service {
     Emergency = 1,
@@ -82,7 +84,8 @@ pub(super) fn upload_segment(toggle: bool) -> Request {
     Request::new(&[0x60 | u8::from(toggle) << 4, 0, 0, 0, 0, 0, 0, 0], INITIATE, Command::Short)
 }
 
-/// The request and how many bytes of `data` go with it. `room` is how many bytes a message may have.
+/// Returns the request to download a value, and how many bytes of `data` follow its head. `room` is the maximum length
+/// of a message.
 pub(super) fn download(object: Object, complete: bool, data: &[u8], room: usize) -> (Request, usize) {
     if (1..=4).contains(&data.len()) {
         let mut bytes = [0; 4];
@@ -95,7 +98,7 @@ pub(super) fn download(object: Object, complete: bool, data: &[u8], room: usize)
     (Request::new(&initiate(0x21, object, complete, size), INITIATE + first, Command::Normal), first)
 }
 
-/// The request for the next of `rest` bytes and how many of them go with it.
+/// Returns the request for the next segment, and how many of the `rest` bytes follow its head.
 pub(super) fn download_segment(toggle: bool, rest: usize, room: usize) -> (Request, usize) {
     let most = room.saturating_sub(MAILBOX_HEADER + COE_HEADER + 1).max(SEGMENT);
     let length = rest.min(most);
@@ -104,29 +107,29 @@ pub(super) fn download_segment(toggle: bool, rest: usize, room: usize) -> (Reque
     (Request::new(&[command], COE_HEADER + 1 + length.max(SEGMENT), Command::Normal), length)
 }
 
-/// A message of the device.
+/// A message from the device.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Answer<'d> {
-    /// A value or the first part of it. `size` is that of the whole value where the message tells.
+    /// A value, or the first part of it. `size` is the length of the whole value, if the message contains it.
     Upload { object: Object, size: Option<usize>, data: &'d [u8] },
     /// The next part of a value.
     UploadSegment { toggle: bool, last: bool, data: &'d [u8] },
-    /// A value or the first part of it was taken.
+    /// Confirms a value or the first part of it.
     Download { object: Object },
-    /// The next part of a value was taken.
+    /// Confirms the next part of a value.
     DownloadSegment { toggle: bool },
-    /// The device refused.
+    /// The device aborted the transfer.
     Abort { object: Object, code: AbortCode },
-    /// The device reports an error of its own accord.
+    /// An emergency message.
     Emergency(Emergency),
     /// A message of another protocol or service.
     Foreign,
-    /// No message that means anything.
+    /// An invalid message.
     Malformed,
 }
 
 impl<'d> Answer<'d> {
-    /// What stands in the mailbox.
+    /// Parses the contents of the mailbox.
     pub(super) fn parse(mailbox: &'d [u8]) -> Self {
         Self::read(mailbox).unwrap_or(Answer::Malformed)
     }
@@ -142,7 +145,7 @@ impl<'d> Answer<'d> {
         let (coe, sdo) = body.split_first_chunk::<COE_HEADER>()?;
         match coe[1] >> 4 {
             service if service == Service::Emergency as u8 => emergency(sdo),
-            // An abort is a request, too.
+            // An abort is sent as a request too.
             service if service == Service::Response as u8 || service == Service::Request as u8 => response(sdo),
             _ => Some(Answer::Foreign),
         }
@@ -158,7 +161,8 @@ fn response(sdo: &[u8]) -> Option<Answer<'_>> {
     let toggle = command & 0x10 != 0;
     match command >> 5 {
         0 => {
-            // Seven bytes there always are; fewer of them count where the command says so.
+            // A segment has at least seven bytes. If it has exactly seven, the command contains the number of unused
+            // bytes.
             let unused = if behind.len() == SEGMENT { usize::from(command >> 1 & 7) } else { 0 };
             let data = behind.get(..behind.len() - unused)?;
             Some(Answer::UploadSegment { toggle, last: command & 1 != 0, data })

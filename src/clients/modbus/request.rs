@@ -1,4 +1,4 @@
-//! What is sent for a value, and what becomes of the answers.
+//! Requests for a value, and the evaluation of the replies.
 
 use std::vec;
 use std::vec::Vec;
@@ -12,11 +12,11 @@ use crate::pdo::{from_bytes, mask, sign_extend};
 use crate::register::{Register, RegisterTable};
 use crate::value_error::OutOfRange;
 
-/// Parts of a value that are read or written one after the other; one part, unless the limits say otherwise.
+/// Parts of a value, one per request. There is only one part, unless the limits require more.
 #[derive(Clone, Copy, Debug)]
 struct Pieces {
     register: Register,
-    /// How many registers, or bits, each piece has at most.
+    /// Maximum number of registers or bits of a part.
     size: u16,
 }
 
@@ -27,7 +27,7 @@ impl Pieces {
         if count == 0 || end > 0x1_0000 {
             return Err(ModbusError::NoSuchAddress { address: register.address, count });
         }
-        // An address is never taken apart.
+        // All registers of one address are in the same part.
         let size = if count > max { max - max % register.step() } else { max };
         if count > max && !(split && size > 0) {
             return Err(ModbusError::TooLong { count, max });
@@ -35,14 +35,14 @@ impl Pieces {
         Ok(Self { register, size })
     }
 
-    /// Address and count of the piece that begins with register, or bit, `first` of the value.
+    /// Returns address and count of the part that starts with register or bit `first` of the value.
     fn at(&self, first: u16) -> Option<(u16, u16)> {
         let left = self.register.count.checked_sub(first).filter(|&left| left > 0)?;
         Some((self.register.address.wrapping_add(first / self.register.step()), left.min(self.size)))
     }
 }
 
-/// The function that reads a table.
+/// Returns the function code that reads a table.
 fn read_function(table: RegisterTable) -> u8 {
     match table {
         RegisterTable::Coil => 1,
@@ -63,7 +63,7 @@ fn response(reply: Reply) -> Result<Response, Error<ModbusError>> {
     }
 }
 
-/// A value that is being read.
+/// A read access: its requests and the data received so far.
 pub(super) struct Answer {
     pieces: Pieces,
     words: Vec<u16>,
@@ -80,12 +80,12 @@ impl Answer {
         Ok(Self { pieces, words: Vec::new(), bits: Vec::new() })
     }
 
-    /// What comes next: address and count.
+    /// Returns address and count of the next part, or `None` after the last part.
     fn next(&self) -> Option<(u16, u16)> {
         self.pieces.at(u16::try_from(self.words.len() + self.bits.len()).ok()?)
     }
 
-    /// What asks for it.
+    /// Returns the request for the next part.
     pub(super) fn request(&self) -> Option<Request<'static>> {
         let (address, count) = self.next()?;
         Some(match self.pieces.register.table {
@@ -96,7 +96,7 @@ impl Answer {
         })
     }
 
-    /// Takes the answer to that.
+    /// Adds the reply for the next part.
     pub(super) fn add(&mut self, reply: Reply) -> Result<(), Error<ModbusError>> {
         let count = self.next().map_or(0, |(_, count)| usize::from(count));
         match response(reply)? {
@@ -104,7 +104,7 @@ impl Answer {
                 self.words.extend(words);
             }
             Response::ReadCoils(bits) | Response::ReadDiscreteInputs(bits) => {
-                // What is missing to a whole byte comes along.
+                // The reply is padded to whole bytes.
                 self.bits.extend(bits.get(..count).ok_or(Error::UnexpectedReply)?);
             }
             _ => return Err(Error::UnexpectedReply),
@@ -112,7 +112,7 @@ impl Answer {
         Ok(())
     }
 
-    /// Puts the value to the start of `buffer`.
+    /// Writes the value to the start of `buffer` and returns its length in bytes.
     pub(super) fn value(&self, buffer: &mut [u8]) -> Result<usize, Error<ModbusError>> {
         if matches!(self.pieces.register.table, RegisterTable::Holding | RegisterTable::Input) {
             return Ok(self.pieces.register.decode(&self.words, buffer)?);
@@ -123,18 +123,18 @@ impl Answer {
         Ok(self.bits.len().div_ceil(8))
     }
 
-    /// The registers.
+    /// Returns the registers.
     pub(super) fn into_words(self) -> Vec<u16> {
         self.words
     }
 }
 
-/// How a value is written.
+/// A write access.
 pub(super) struct Writes {
     pieces: Pieces,
-    /// The function for a piece of one register or bit, where it isn't that for several.
+    /// Whether parts of one register or bit use the function for a single one.
     single: bool,
-    /// Whether the device changes some bits of a register by itself.
+    /// Whether function 22 changes only some bits of a register.
     masks: bool,
 }
 
@@ -159,14 +159,14 @@ impl Writes {
         Ok(Self { pieces: Pieces::new(register, max, table_limits.split)?, single, masks })
     }
 
-    /// What has to be read first, because only a part of it changes.
+    /// Returns the read access for the current registers if the write changes only some of their bits.
     pub(super) fn held(&self, limits: &Limits) -> Result<Option<Answer>, ModbusError> {
         let register = self.pieces.register;
         let is_read = register.table == RegisterTable::Holding && register.part.is_some() && !self.masks;
         is_read.then(|| Answer::new(register, limits)).transpose()
     }
 
-    /// The requests that write `data`. `held` is what the registers hold, where that was read.
+    /// Returns the requests that write `data`. `held` are the current registers, if they were read.
     pub(super) fn requests(
         &self,
         held: Option<Vec<u16>>,
@@ -180,7 +180,7 @@ impl Writes {
             return Ok(self.coils(data));
         }
         if self.masks {
-            // What a part leaves alone of ones is the mask, what it makes of zeros are its bits.
+            // Encoding into ones with empty data gives the AND mask; encoding into zeros gives the OR mask.
             let (mut kept, mut bits) = ([u16::MAX], [0]);
             register.encode(&[], &mut kept)?;
             register.encode(data, &mut bits)?;
@@ -203,7 +203,7 @@ impl Writes {
         })
     }
 
-    /// A request for each piece.
+    /// Returns one request per part.
     fn pieces<T>(&self, all: &[T], request: impl Fn(u16, &[T]) -> Request<'static>) -> Vec<Request<'static>> {
         let mut requests = Vec::new();
         let mut first = 0;
@@ -216,8 +216,8 @@ impl Writes {
     }
 }
 
-/// Whether a number in these bytes fits into the [`part`](Register::part) of the register, or into its bits: what is above is
-/// zero, or the sign of what is in it.
+/// Returns whether the number in `data` fits in the [`part`](Register::part) of the register, or in its bits. The upper
+/// bits must be zero or copies of the sign bit.
 fn takes(register: Register, data: &[u8]) -> bool {
     let bits = match (register.part, register.table) {
         (Some(part), _) => u32::from(part.bits),
@@ -231,7 +231,7 @@ fn takes(register: Register, data: &[u8]) -> bool {
     value & !mask(bits) == 0 || sign_extend(value & mask(bits), bits) as u64 & whole == value
 }
 
-/// What the answer to a write repeats of it.
+/// The reply to a write: it repeats a part of the request.
 pub(super) struct Echo(Option<Response>);
 
 impl Echo {
@@ -248,7 +248,7 @@ impl Echo {
         }))
     }
 
-    /// Whether the answer says that the write was done. One of an earlier write, which comes late, says so of another.
+    /// Checks that the reply confirms the write. A late reply to another write doesn't match.
     pub(super) fn check(self, reply: Reply) -> Result<(), Error<ModbusError>> {
         if self.0 == Some(response(reply)?) {
             Ok(())

@@ -26,7 +26,7 @@ const LEVEL: RegisterItem<u16, Ro> =
     RegisterItem::register(Register::new(RegisterTable::Input, 4, 1), "Level", Flags::NONE);
 const MISSING: RegisterItem<u16, Rw> = RegisterItem::register(Register::holding(999), "Missing", Flags::NONE);
 
-/// A device whose answers come one request late, and the first of them when the time is up.
+/// A device that sends each reply one request late. The first request times out.
 #[derive(Debug, Default)]
 struct Late {
     device: Device,
@@ -84,7 +84,7 @@ fn what_bits_dont_hold_isnt_written() {
     assert_eq!((device.context().holding[&13], device.context().coils[&3]), (0xF0, true));
 }
 
-/// A device that answers at once, and keeps the functions that it was asked for.
+/// A device that replies at once, and records the function codes of the requests.
 #[derive(Debug, Default)]
 struct Device {
     holding: HashMap<u16, u16>,
@@ -148,7 +148,7 @@ impl sync::Client for Device {
     }
 }
 
-/// The same for a context that doesn't block.
+/// The same device for an async context.
 type Call<'f, T> = core::pin::Pin<Box<dyn Future<Output = T> + Send + 'f>>;
 
 impl tokio_modbus::client::Client for Device {
@@ -233,20 +233,17 @@ fn what_the_device_takes() {
     let mut device = limited(TableLimits { functions: &[3, 16], ..TableLimits::HOLDING });
     TORQUE.at(&mut device).write(-5).unwrap();
     assert_eq!(device.context().functions, [16]);
-    // Function 6 only: one register, even if the caller would rather have 16.
+    // Only function 6 is supported: it writes one register, although the caller prefers function 16.
     let mut device = limited(TableLimits { functions: &[3, 6], ..TableLimits::HOLDING }).with_single_writes(false);
     TORQUE.at(&mut device).write(-5).unwrap();
     let refused = SPEED.at(&mut device).write(70_000);
     assert!(matches!(refused, Err(Error::Client(ModbusError::Function { function: 16, .. }))));
     assert_eq!(device.context().functions, [6]);
-    // Nothing can be read, so a part can't be written either.
+    // The device can't read the registers, so a part of a register can't be written either.
     let mut device = limited(TableLimits { functions: &[6, 16], ..TableLimits::HOLDING });
     for refused in [TORQUE.at(&mut device).read().map(|_| ()), UPPER.at(&mut device).write(1)] {
         let Err(Error::Client(error)) = refused else { panic!("it isn't readable") };
-        assert_eq!(
-            std::format!("{error}"),
-            "this needs function 3, which the device doesn't take for holding registers"
-        );
+        assert_eq!(std::format!("{error}"), "the device doesn't support function 3 for holding registers");
     }
     assert_eq!(device.context().functions, []);
 }
@@ -259,7 +256,7 @@ fn widths() {
     SPEED.at(&mut device).write(70_000).unwrap();
     assert!(matches!(LONG.at(&mut device).write(1), Err(Error::Client(ModbusError::TooLong { count: 4, max: 3 }))));
     let Err(Error::Client(error)) = LONG.at(&mut device).read() else { panic!("it is too long") };
-    assert_eq!(std::format!("{error}"), "the value has 4 registers or bits, and a request may be about 2 at most");
+    assert_eq!(std::format!("{error}"), "the value has 4 registers or bits, but the maximum per request is 2");
     assert_eq!(device.context().functions, [16]);
 
     let mut device = limited(TableLimits { split: true, ..narrow });

@@ -4,11 +4,11 @@ use super::*;
 
 const TARGET: Object = Object::new(0x607A, 2);
 
-/// A message of the device: CoE service and what follows.
+/// Returns a mailbox message from the device with this CoE service.
 fn message(kind: u8, service: u8, sdo: &[u8]) -> Vec<u8> {
     let mut bytes = Vec::from([sdo.len() as u8 + 2, 0, 0, 0, 0, kind, 0, service << 4]);
     bytes.extend(sdo);
-    // The rest of the mailbox.
+    // Unused part of the mailbox.
     bytes.resize(64, 0xEE);
     bytes
 }
@@ -31,7 +31,7 @@ fn requests_to_write() {
     assert_eq!((expedited.command(), sent), (Command::Short, 3));
     assert_eq!(expedited.head(), [10, 0, 0, 0, 0, 3, 0, 0x20, 0x27, 0x7A, 0x60, 2, 1, 2, 3, 0]);
 
-    // All of it, a part of it, and nothing at all, which has a length nevertheless.
+    // The whole value, a part of it, and an empty value, which has a length too.
     let (normal, sent) = download(TARGET, true, &[0; 20], 128);
     assert_eq!((normal.command(), sent), (Command::Normal, 20));
     assert_eq!(normal.head(), [30, 0, 0, 0, 0, 3, 0, 0x20, 0x31, 0x7A, 0x60, 2, 20, 0, 0, 0]);
@@ -49,7 +49,7 @@ fn segments_to_write() {
     };
     assert_eq!(part(false, 300), (122, 0x00, 119));
     assert_eq!(part(true, 119), (122, 0x11, 119));
-    // Fewer than seven bytes are sent as seven.
+    // Segments with less than seven bytes are padded to seven.
     assert_eq!(part(false, 7), (10, 0x01, 7));
     assert_eq!(part(true, 3), (10, 0x19, 3));
 }
@@ -62,7 +62,7 @@ fn values() {
     assert_eq!(Answer::parse(&bytes), Answer::Upload { object: TARGET, size: None, data: &[7, 8, 9, 10] });
     let bytes = answer(&[0x41, 0x7A, 0x60, 2, 5, 0, 0, 0, 1, 2, 3, 4, 5]);
     assert_eq!(Answer::parse(&bytes), Answer::Upload { object: TARGET, size: Some(5), data: &[1, 2, 3, 4, 5] });
-    // The first part of it.
+    // The first part of a value.
     let bytes = answer(&[0x41, 0x7A, 0x60, 2, 9, 0, 0, 0, 1, 2]);
     assert_eq!(Answer::parse(&bytes), Answer::Upload { object: TARGET, size: Some(9), data: &[1, 2] });
 }
@@ -93,7 +93,7 @@ fn what_comes_unasked() {
     let bytes = message(3, 1, &[0x10, 0x32, 0x05, 1, 2, 3, 4, 5]);
     let emergency = Emergency { code: 0x3210, register: 5, vendor: [1, 2, 3, 4, 5] };
     assert_eq!(Answer::parse(&bytes), Answer::Emergency(emergency));
-    // Ethernet over EtherCAT, and an answer of the SDO information service.
+    // Ethernet over EtherCAT, and a reply of the SDO information service.
     assert_eq!(Answer::parse(&message(2, 3, &[0; 8])), Answer::Foreign);
     assert_eq!(Answer::parse(&message(3, 8, &[0; 8])), Answer::Foreign);
 }
@@ -102,7 +102,7 @@ fn what_comes_unasked() {
 fn what_is_no_message() {
     assert_eq!(Answer::parse(&[]), Answer::Malformed);
     assert_eq!(Answer::parse(&[0; 128]), Answer::Malformed);
-    // An error of the mailbox, a length that isn't there, and messages that end too early.
+    // A mailbox error, a wrong length, and messages that are too short.
     assert_eq!(Answer::parse(&message(0, 3, &[0x4B, 0x7A, 0x60, 2, 7, 8, 0, 0])), Answer::Malformed);
     assert_eq!(Answer::parse(&[255, 255, 0, 0, 0, 3, 0, 0x30, 0x4B]), Answer::Malformed);
     for length in 0..8 {
