@@ -1,4 +1,4 @@
-//! A node on a CAN bus, frame by frame.
+//! Simulated device as a node on a CAN bus.
 
 mod pdo;
 mod sdo;
@@ -15,18 +15,18 @@ use crate::abort::AbortCode;
 use crate::clients::canopen::{AsyncCanPort, CanFrame, CanPort, NmtCommand, NmtState};
 use crate::node_id::NodeId;
 
-/// The commands of network management (CiA 301 7.2.8.3.1), on this identifier.
+/// COB-ID of NMT commands (CiA 301 7.2.8.3.1).
 const NMT: u16 = 0x000;
-/// SDO requests, plus the node-ID.
+/// COB-ID of SDO requests, without the node-ID.
 const SDO_REQUEST: u16 = 0x600;
-/// So many frames wait for somebody to take them; older ones are lost, as on a bus.
+/// Maximum number of sent frames that are kept. Older frames are lost, as on a bus.
 const MOST_FRAMES: usize = 1024;
 
-/// A simulated device as a node on a CAN bus, frame by frame: the SDO server, network management, heartbeat, emergency
-/// messages, and PDOs on SYNC, on change and by their timers.
+/// A simulated device as a node on a CAN bus.
 ///
-/// It is the port that clients of CANopen run on. It has a clock of its own, which only [`advance`](Self::advance) and
-/// waiting for a frame move on: no test waits for real.
+/// It simulates the SDO server, NMT, heartbeat, emergency messages, and PDOs on SYNC, on change and by timer. CANopen
+/// clients use it as their port. Its clock is simulated: only [`advance`](Self::advance) and waiting for a frame move
+/// it forward, so tests never wait in real time.
 ///
 /// ```
 /// use core::time::Duration;
@@ -41,12 +41,12 @@ const MOST_FRAMES: usize = 1024;
 /// let mut drive = DemoDrive::new(Node::new(node, id));
 /// drive.producer_heartbeat_time().write(100)?;
 /// assert_eq!(drive.producer_heartbeat_time().read(), Ok(100));
-/// // The heartbeat of a node that is pre-operational.
+/// // The heartbeat of a node in Pre-operational.
 /// assert_eq!(drive.client().heartbeat(Duration::from_secs(1))?, Some(NmtState::PreOperational));
 /// # Ok::<(), lexibus::Error<core::convert::Infallible>>(())
 /// ```
 ///
-/// Not simulated: SDO block transfers, node guarding and other remote requests, LSS, and identifiers of 29 bits.
+/// Not simulated: SDO block transfer, node guarding and other remote frames, LSS, and 29-bit identifiers.
 #[derive(Debug)]
 pub struct CanNode {
     device: Device,
@@ -60,7 +60,7 @@ pub struct CanNode {
     is_connected: bool,
 }
 
-/// When the next heartbeat is due.
+/// Heartbeat producer.
 #[derive(Clone, Copy, Debug)]
 struct Heartbeat {
     period: Duration,
@@ -68,7 +68,7 @@ struct Heartbeat {
 }
 
 impl CanNode {
-    /// A node after power-on: its boot-up message waits, and it is pre-operational.
+    /// Creates a node after power-on, in Pre-operational. Its boot-up message is the first frame.
     #[must_use]
     pub fn new(device: Device) -> Self {
         let mut node = Self {
@@ -86,41 +86,42 @@ impl CanNode {
         node
     }
 
-    /// The device. What it changes is sent with the next frame that somebody asks for.
+    /// Returns the device. Changes of its values are sent before the next frame is received.
     pub fn device(&mut self) -> &mut Device {
         &mut self.device
     }
 
-    /// Gives the device back.
+    /// Returns the device and drops the node.
     #[must_use]
     pub fn into_device(self) -> Device {
         self.device
     }
 
-    /// The state of network management.
+    /// Returns the NMT state.
     #[must_use]
     pub const fn state(&self) -> NmtState {
         self.state
     }
 
-    /// The time since power-on, by the node's own clock.
+    /// Returns the simulated time since power-on.
     #[must_use]
     pub const fn now(&self) -> Duration {
         self.now
     }
 
-    /// Takes the node off the bus, or puts it back. Off it, it neither receives nor sends, and its clock goes on.
+    /// Disconnects the node from the bus, or connects it. A disconnected node neither receives nor sends frames, but
+    /// its clock continues.
     pub fn set_connected(&mut self, is_connected: bool) {
         self.is_connected = is_connected;
     }
 
-    /// Values that PDOs brought and the device refused, and the mapping objects of these PDOs. A device says nothing of them
-    /// on the bus.
+    /// Returns and removes the abort codes of values in PDOs that the device refused, with the mapping objects of these
+    /// PDOs. A device doesn't report these errors on the bus.
     pub fn take_refused(&mut self) -> Vec<(u16, AbortCode)> {
         core::mem::take(&mut self.refused)
     }
 
-    /// The node receives a frame.
+    /// Processes a frame that the node receives.
     pub fn handle(&mut self, frame: &CanFrame) {
         if !self.is_connected {
             return;
@@ -136,13 +137,13 @@ impl CanNode {
         self.settle();
     }
 
-    /// The next frame that the node has sent; `None` where it has sent nothing.
+    /// Returns the next frame that the node has sent, or `None` if there is none.
     pub fn next_frame(&mut self) -> Option<CanFrame> {
         self.settle();
         self.outgoing.pop_front()
     }
 
-    /// Moves the clock on. Heartbeats and PDOs that are due meanwhile are sent.
+    /// Moves the clock forward. The node sends the heartbeats and PDOs that become due.
     pub fn advance(&mut self, time: Duration) {
         let end = self.now.saturating_add(time);
         self.settle();
@@ -153,7 +154,7 @@ impl CanNode {
         self.now = end;
     }
 
-    /// When the node does something by itself, without anything being received or changed.
+    /// Returns the time of the next timer event.
     fn next_event(&self) -> Option<Duration> {
         let heartbeat = self.heartbeat.map(|heartbeat| heartbeat.due);
         let pdos = if self.state == NmtState::Operational { self.pdos.next_event(&self.device) } else { None };
@@ -161,7 +162,7 @@ impl CanNode {
         events.into_iter().flatten().filter(|event| *event > self.now).min()
     }
 
-    /// Sends what is due by now, and what the device has to tell.
+    /// Sends the frames that are due, and those for changes of the device.
     fn settle(&mut self) {
         self.beat();
         if let Some(frame) = self.channel.timed_out(self.now) {
@@ -186,7 +187,7 @@ impl CanNode {
         }
     }
 
-    /// Sends the heartbeat when it is due (0x1017, CiA 301 7.2.8.3.2.2).
+    /// Sends the heartbeat if it is due (0x1017, CiA 301 7.2.8.3.2.2).
     fn beat(&mut self) {
         let period = Duration::from_millis(self.device.slots.number(0x1017, 0).unwrap_or(0));
         if period.is_zero() {
@@ -202,7 +203,7 @@ impl CanNode {
         self.heartbeat = Some(heartbeat);
     }
 
-    /// Sends the emergency messages of the device, where it may (0x1014, CiA 301 7.5.2.17).
+    /// Sends the emergency messages of the device if they are enabled (0x1014, CiA 301 7.5.2.17).
     fn tell(&mut self) {
         const UNUSED: u64 = 1 << 31;
         let default = 0x80 + u64::from(self.device.node_id().get());
@@ -215,7 +216,7 @@ impl CanNode {
         }
     }
 
-    /// Sends the boot-up message, after which the node is pre-operational (CiA 301 7.2.8.3.3).
+    /// Sends the boot-up message and enters Pre-operational (CiA 301 7.2.8.3.3).
     fn boot(&mut self) {
         self.heartbeat = None;
         self.channel = Channel::new(self.device.node_id());
@@ -234,7 +235,7 @@ impl CanNode {
         self.state = state;
     }
 
-    /// A command of network management to this node, or to all.
+    /// Executes an NMT command to this node or to all nodes.
     fn command(&mut self, frame: &CanFrame) {
         let is_addressed = |node: Option<NodeId>| node.map_or(true, |node| node == self.device.node_id());
         match NmtCommand::of(frame).filter(|(_, node)| is_addressed(*node)).map(|(command, _)| command) {
@@ -263,7 +264,7 @@ impl CanNode {
         }
     }
 
-    /// SYNC, or a PDO.
+    /// Processes a SYNC message or a PDO.
     fn process(&mut self, id: u16, data: &[u8]) {
         let sync = self.device.slots.number(0x1005, 0).unwrap_or(0x80) as u16 & 0x7FF;
         if id == sync {
@@ -277,7 +278,7 @@ impl CanNode {
     }
 }
 
-/// A bus with this node and no other. Waiting for a frame moves its clock on.
+/// A bus with only this node. Waiting for a frame moves its clock forward.
 impl CanPort for CanNode {
     type Error = Infallible;
 
@@ -309,7 +310,7 @@ impl CanPort for CanNode {
     }
 }
 
-/// The same; its futures are ready at once.
+/// The same bus, async. The futures are ready at once.
 impl AsyncCanPort for CanNode {
     type Error = Infallible;
 

@@ -1,4 +1,4 @@
-//! The registers and bits of a simulated device on Modbus, and what items lie in them.
+//! Registers and bits of a simulated Modbus device, and the items in them.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::vec;
@@ -13,20 +13,20 @@ use crate::table::{AccessRights, Entry, RawInitial};
 
 type Address = (RegisterTable, u16);
 
-/// One register, or one bit.
+/// A register or a bit.
 #[derive(Clone, Debug, Default)]
 struct Cell {
     word: u16,
-    /// The items that lie in it, by their positions: one, or several of which each is some of its bits, or the same
-    /// bits under different names.
+    /// Positions of the items in this register. Several items can share a register, as different bit fields or as the
+    /// same bits with different names.
     items: Vec<usize>,
 }
 
-/// All registers and bits. They hold what the items hold: who changes the one changes the other.
+/// All registers and bits. They always have the values of the items: a change of one changes the other.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Cells(BTreeMap<Address, Cell>);
 
-/// The addresses of a register.
+/// Returns the addresses of a register.
 fn addresses(register: Register) -> impl Iterator<Item = Address> {
     (0..register.count).map_while(move |at| Some((register.table, register.address.checked_add(at)?)))
 }
@@ -35,21 +35,21 @@ const fn is_bits(table: RegisterTable) -> bool {
     matches!(table, RegisterTable::Coil | RegisterTable::DiscreteInput)
 }
 
-/// What the registers hold where an item has this value; `held` is what they held before.
+/// Returns the contents of the registers for this value of an item. `held` are the current contents.
 fn encode(register: Register, value: &[u8], held: Vec<u16>) -> Vec<u16> {
     if is_bits(register.table) {
         let bit = |at: usize| value.get(at / 8).map_or(0, |byte| u16::from(byte >> (at % 8) & 1));
         return (0..held.len()).map(bit).collect();
     }
     let mut words = held;
-    // A register that is shorter than the object takes the lower bytes of it.
+    // A register that is shorter than the object has only its lower bytes.
     let length = value.len().min(2 * words.len());
-    // Only some bits of more than four registers fail: nobody can have them.
+    // Only a bit field in more than four registers fails, and no client can access it.
     let _ = register.encode(&value[..length], &mut words);
     words
 }
 
-/// The value of an item whose registers hold these words.
+/// Decodes the value of an item from its registers.
 fn decode(entry: &Entry, register: Register, words: &[u16]) -> Vec<u8> {
     if is_bits(register.table) {
         let bytes = words.chunks(8).map(|bits| bits.iter().rev().fold(0, |byte, bit| byte << 1 | (*bit as u8 & 1)));
@@ -59,14 +59,14 @@ fn decode(entry: &Entry, register: Register, words: &[u16]) -> Vec<u8> {
     let length = register.decode(words, &mut bytes).unwrap_or(0);
     bytes.truncate(length);
     if register.order == WordOrder::Bytes && entry.data_type == DataType::VisibleString {
-        // A text is filled up with them.
+        // Devices pad texts with NULs.
         let end = bytes.iter().rposition(|byte| *byte != 0).map_or(0, |last| last + 1);
         bytes.truncate(end);
     }
     values::widened(entry.data_type, bytes)
 }
 
-/// The bits that an item has of the register at an address.
+/// Returns the mask of the item's bits in the register at `address`.
 fn mask_at(register: Register, address: u16) -> u16 {
     let Some(part) = register.part else { return 0xFFFF };
     let bits = encode(register, &mask(part.bits.into()).to_le_bytes(), vec![0; register.count.into()]);
@@ -83,7 +83,8 @@ pub(super) const fn is_writable(entry: &Entry) -> bool {
 }
 
 impl Cells {
-    /// Gives all registers what the items hold. Where several have the same bits, those of known values count.
+    /// Writes the values of all items to the registers. If items share bits, those with a known initial value take
+    /// precedence.
     pub fn fill(&mut self, slots: &mut Slots) {
         self.0.clear();
         let (unknown, known): (Vec<usize>, Vec<usize>) = (0..slots.len()).partition(|at| {
@@ -102,7 +103,7 @@ impl Cells {
         }
     }
 
-    /// Gives its registers what an item holds, and other items what lies in their registers then.
+    /// Writes the value of an item to its registers, and updates the other items in these registers.
     pub fn spread(&mut self, slots: &mut Slots, at: usize) {
         let Some(register) = slots.get(at).entry.register else { return };
         self.put(register, &slots.get(at).value);
@@ -120,7 +121,8 @@ impl Cells {
         }
     }
 
-    /// Gives an item what its registers hold. It keeps its value where that is the same: a text in fewer bytes, say.
+    /// Updates the value of an item from its registers. Keeps the value if its encoding is equal, for example a text
+    /// with fewer bytes.
     pub fn refresh(&self, slot: &mut Slot) {
         let Some(register) = slot.entry.register else { return };
         let words = self.words(register);
@@ -129,7 +131,7 @@ impl Cells {
         }
     }
 
-    /// What a register holds.
+    /// Returns the contents of a register.
     pub fn words(&self, register: Register) -> Vec<u16> {
         let held = |address| self.word(address).unwrap_or(0);
         let mut words: Vec<u16> = addresses(register).map(held).collect();
@@ -137,7 +139,7 @@ impl Cells {
         words
     }
 
-    /// What a register of one word or bit holds; `None` where there is none.
+    /// Returns the contents of a single register or bit, or `None` if it doesn't exist.
     pub fn word(&self, address: Address) -> Option<u16> {
         self.0.get(&address).map(|cell| cell.word)
     }
@@ -148,12 +150,12 @@ impl Cells {
         }
     }
 
-    /// The items that lie in these addresses.
+    /// Returns the items at these addresses.
     pub fn items(&self, addresses: impl Iterator<Item = Address>) -> BTreeSet<usize> {
         addresses.filter_map(|address| self.0.get(&address)).flat_map(|cell| &cell.items).copied().collect()
     }
 
-    /// The bits at this address that belong to an item that `which` names.
+    /// Returns the mask of the bits at this address that belong to items selected by `which`.
     pub fn mask(&self, slots: &Slots, address: Address, which: impl Fn(&Entry) -> bool) -> u16 {
         let items = self.0.get(&address).map_or(&[][..], |cell| &cell.items);
         let entries = items.iter().map(|at| &slots.get(*at).entry).filter(|entry| which(entry));
@@ -161,7 +163,7 @@ impl Cells {
         masks.fold(0, |all, mask| all | mask)
     }
 
-    /// The value that an item would have.
+    /// Returns the value that the registers contain for an item.
     pub fn value(&self, entry: &Entry) -> Option<Vec<u8>> {
         let register = entry.register?;
         Some(decode(entry, register, &self.words(register)))

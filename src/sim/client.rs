@@ -12,21 +12,21 @@ use crate::client::{AsyncClient, Client};
 use crate::error::Error;
 use crate::register::Register;
 
-/// A client of a simulated device on the bus `B`, blocking and not; made by [`Device::client`]. `D` is the device, or a
-/// reference to it.
+/// Client for a simulated device on the bus `B`, blocking and async. [`Device::client`] creates it. `D` is the device
+/// or a reference to it.
 pub struct Connection<B, D = Device> {
     device: D,
     bus: PhantomData<fn() -> B>,
 }
 
 impl Device {
-    /// A client of this device on the bus `B`: [`CanOpen`](crate::CanOpen), [`CoE`](crate::CoE) or
+    /// Creates a client for this device on the bus `B`: [`CanOpen`](crate::CanOpen), [`CoE`](crate::CoE) or
     /// [`Modbus`](crate::Modbus).
     pub fn client<B>(&mut self) -> Connection<B, &mut Self> {
         Connection::new(self)
     }
 
-    /// The same, with the device inside.
+    /// Creates a client that owns the device.
     #[must_use]
     pub fn into_client<B>(self) -> Connection<B, Self> {
         Connection::new(self)
@@ -38,12 +38,12 @@ impl<B, D: BorrowMut<Device>> Connection<B, D> {
         Self { device, bus: PhantomData }
     }
 
-    /// The device itself.
+    /// Returns the device.
     pub fn device(&mut self) -> &mut Device {
         self.device.borrow_mut()
     }
 
-    /// Gives the device back.
+    /// Returns the device, or the reference to it, and drops the client.
     pub fn into_device(self) -> D {
         self.device
     }

@@ -1,4 +1,4 @@
-//! A device in memory.
+//! Simulated device.
 
 use core::fmt;
 use std::boxed::Box;
@@ -21,35 +21,39 @@ use crate::node_id::NodeId;
 use crate::table::{AccessRights, Entry};
 use crate::value::Fixed;
 
-/// The node-ID of a device that was given none.
+/// Default node-ID.
 const FIRST_NODE: NodeId = match NodeId::new(1) {
     Some(node) => node,
     None => unreachable!(),
 };
 
-/// What reacts to a write.
+/// Function that is called after a write.
 type Reaction = Box<dyn FnMut(&mut Device, usize, &Entry) -> Result<(), AbortCode> + Send>;
 
-/// The items after whose write it is called: one, or all.
+/// A reaction, and the items for which it is called: some, or all if `slots` is `None`.
 struct Hook {
     slots: Option<Vec<usize>>,
     reaction: Reaction,
 }
 
-/// The dictionary that an object is accessed through.
+/// Network over which an object is accessed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Network {
     CanOpen,
     EtherCat,
 }
 
-/// A device in memory, made from the table of its bindings.
+/// A simulated device, created from the table of its bindings.
 ///
-/// Clients read and write it with [`client`](Self::client), under the rules of its description. The test, as the device
-/// itself, may [`get`](Self::get) and [`set`](Self::set) everything, and [reacts](Self::on_write) to what is written.
+/// Clients read and write it through [`client`](Self::client), within the access rights and limits of its description.
+/// Tests play the role of the device: they can [`get`](Self::get) and [`set`](Self::set) all items, and
+/// [react](Self::on_write) to writes.
 ///
-/// Methods of the device's side fail with an [`AbortCode`]: [`NO_OBJECT`](AbortCode::NO_OBJECT) or
-/// [`NO_SUB_INDEX`](AbortCode::NO_SUB_INDEX) where the device has no such item, so that a reaction can hand it on with `?`.
+/// # Errors
+///
+/// The methods of the device's side return an [`AbortCode`]: [`NO_OBJECT`](AbortCode::NO_OBJECT) or
+/// [`NO_SUB_INDEX`](AbortCode::NO_SUB_INDEX) if the device doesn't have the item. A reaction can return these errors
+/// with `?`.
 pub struct Device {
     pub(super) slots: Slots,
     pub(super) cells: Cells,
@@ -62,9 +66,10 @@ pub struct Device {
 }
 
 impl Device {
-    /// A device after power-on. `entries` is the static table of its bindings (`ENTRIES`); its node-ID is 1.
+    /// Creates a device after power-on with node-ID 1. `entries` is the static table of its bindings (`ENTRIES`).
     ///
-    /// Where the description gives no value after power-on, it is empty, 0, or what is nearest to it within the limits.
+    /// An item without an initial value in the description is empty, 0, or the number within its limits that is nearest
+    /// to 0.
     #[must_use]
     pub fn new(entries: &[Entry]) -> Self {
         let mut device = Self {
@@ -81,7 +86,7 @@ impl Device {
         device
     }
 
-    /// The same device with another node-ID, after power-on.
+    /// Returns the device after power-on with another node-ID.
     #[must_use]
     pub fn with_node_id(mut self, node: NodeId) -> Self {
         self.node = node;
@@ -89,7 +94,7 @@ impl Device {
         self
     }
 
-    /// The same device with all of its axes (`AXES` of its bindings), after power-on.
+    /// Returns the device after power-on with all of its axes (`AXES` of its bindings).
     #[must_use]
     pub fn with_axes(mut self, axes: &'static Axes) -> Self {
         self.slots.add_axes(axes);
@@ -98,13 +103,13 @@ impl Device {
         self
     }
 
-    /// Its node-ID.
+    /// Returns the node-ID.
     #[must_use]
     pub const fn node_id(&self) -> NodeId {
         self.node
     }
 
-    /// Switches the device off and on: all values are those of power-on, or those that were stored (0x1010).
+    /// Switches the device off and on. All items get their stored values (0x1010) or their initial values.
     pub fn power_cycle(&mut self) {
         self.reset(|_| true);
         self.emergencies.clear();
@@ -115,28 +120,30 @@ impl Device {
         self.cells.fill(&mut self.slots);
     }
 
-    /// The value of an item, whatever the access rights.
+    /// Returns the value of an item, independent of its access rights.
     ///
     /// # Errors
     ///
-    /// Besides those of every method, [`AbortCode::LENGTH`] where the handle has another type than the table.
+    /// [`AbortCode::LENGTH`] if the length of the handle's type differs from the table, and those of every method.
     pub fn get<V: Fixed, A, L: Location>(&self, item: Item<V, A, L>) -> Result<V::Native, AbortCode> {
         self.axis_value(&item, 1)
     }
 
-    /// Gives an item a value, as the device itself does: whatever the access rights and limits, and with no reaction.
-    /// An item that has another width on Modbus than as an object is two of the table, and both get the value; a client
-    /// writes the one of its bus.
+    /// Sets the value of an item, as the device itself does: independent of access rights and limits, and without
+    /// calling reactions.
+    ///
+    /// If the item has different widths as an object and on Modbus, the table has two entries for it, and both are set.
+    /// A client writes only the entry of its bus.
     ///
     /// # Errors
     ///
-    /// Besides those of every method, [`AbortCode::LENGTH`] where the handle has another type than the table, and
-    /// [`AbortCode::TOO_HIGH`] where the value doesn't fit its type.
+    /// [`AbortCode::LENGTH`] if the length of the handle's type differs from the table, [`AbortCode::TOO_HIGH`] if the
+    /// value doesn't fit its type, and those of every method.
     pub fn set<V: Fixed, A, L: Location>(&mut self, item: Item<V, A, L>, value: V::Native) -> Result<(), AbortCode> {
         self.set_axis_value(&item, 1, value)
     }
 
-    /// The bytes of an item, the least significant first; texts and domains have no other form.
+    /// Returns the bytes of an item, the least significant first. Texts and domains are available only as bytes.
     ///
     /// # Errors
     ///
@@ -145,12 +152,12 @@ impl Device {
         Ok(&self.slots.get(self.slot(&address, 1)?).value)
     }
 
-    /// Gives an item these bytes, as [`set`](Self::set) does.
+    /// Sets the bytes of an item, as [`set`](Self::set) does.
     ///
     /// # Errors
     ///
-    /// Besides those of every method, [`AbortCode::TOO_LONG`], [`AbortCode::TOO_SHORT`] or [`AbortCode::LENGTH`] where they
-    /// don't fit the item's type.
+    /// [`AbortCode::TOO_LONG`], [`AbortCode::TOO_SHORT`] or [`AbortCode::LENGTH`] if the bytes don't fit the item's
+    /// type, and those of every method.
     pub fn set_bytes(&mut self, address: impl ItemAddress, bytes: &[u8]) -> Result<(), AbortCode> {
         let at = self.slot(&address, 1)?;
         values::check_length(&self.slots.get(at).entry, bytes)?;
@@ -158,8 +165,8 @@ impl Device {
         Ok(())
     }
 
-    /// Gives an item a value, as [`set`](Self::set) does, which it has after each power-on, too. Few descriptions tell
-    /// the statusword then, for instance.
+    /// Sets the value of an item now, as [`set`](Self::set) does, and as its initial value after each power-on. Most
+    /// descriptions don't give an initial value of the statusword, for example.
     ///
     /// # Errors
     ///
@@ -174,7 +181,8 @@ impl Device {
         Ok(())
     }
 
-    /// Gives an item these bytes, as [`set_bytes`](Self::set_bytes) does, which it has after each power-on, too.
+    /// Sets the bytes of an item now, as [`set_bytes`](Self::set_bytes) does, and as its initial value after each
+    /// power-on.
     ///
     /// # Errors
     ///
@@ -191,13 +199,13 @@ impl Device {
         slot.initial = Some(slot.value.clone());
     }
 
-    /// Axis `number` of the device, from 1: the same items at the places of that axis.
+    /// Returns axis `number` of the device, from 1. It has the same items at the addresses of this axis.
     pub fn axis(&mut self, number: u8) -> DeviceAxis<'_> {
         DeviceAxis { device: self, number }
     }
 
-    /// Calls `reaction` with the value after a client or a PDO wrote this item. Where it fails, the item has its old value
-    /// again, and the client gets the abort code.
+    /// Calls `reaction` with the new value after a client or a PDO has written this item. If the reaction fails, the
+    /// item gets its old value back, and the client gets the abort code.
     ///
     /// # Errors
     ///
@@ -210,7 +218,7 @@ impl Device {
         self.axis(1).on_write(item, reaction)
     }
 
-    /// Calls `reaction` after a client or a PDO wrote any item, as [`on_write`](Self::on_write) does.
+    /// Calls `reaction` after a client or a PDO has written any item, as [`on_write`](Self::on_write) does.
     pub fn on_any_write(
         &mut self,
         reaction: impl FnMut(&mut Device, &Entry) -> Result<(), AbortCode> + Send + 'static,
@@ -220,8 +228,8 @@ impl Device {
         self.hooks.push(Hook { slots: None, reaction: Box::new(reaction) });
     }
 
-    /// The next access of a client fails so, and what comes after the one before it where this is called several times.
-    /// Process data pass.
+    /// Makes the next access of a client fail with `fault`. Several calls make several accesses fail, in the order of
+    /// the calls. Process data are not affected.
     pub fn fail_next(&mut self, fault: impl Into<Fault>) {
         self.faults.push_back(fault.into());
     }
@@ -230,7 +238,7 @@ impl Device {
         self.faults.pop_front().map_or(Ok(()), Err)
     }
 
-    /// What a client reads.
+    /// Handles a read access of a client.
     pub(super) fn upload(&mut self, object: Object) -> Result<&[u8], Fault> {
         self.take_fault()?;
         let slot = self.slots.get(self.slots.of_object(object)?);
@@ -240,7 +248,7 @@ impl Device {
         Ok(&slot.value)
     }
 
-    /// What a client writes.
+    /// Handles a write access of a client.
     pub(super) fn download(&mut self, network: Network, object: Object, data: &[u8]) -> Result<(), Fault> {
         self.take_fault()?;
         let at = self.slots.of_object(object)?;
@@ -262,20 +270,20 @@ impl Device {
         Ok(())
     }
 
-    /// Gives an item a value and returns the old one.
+    /// Sets the value of an item and returns the old value.
     pub(super) fn store(&mut self, at: usize, value: Vec<u8>) -> Vec<u8> {
         let old = core::mem::replace(&mut self.slots.get_mut(at).value, value);
         self.cells.spread(&mut self.slots, at);
         old
     }
 
-    /// Calls what reacts to the write of an item. A reaction's own changes call nothing.
+    /// Calls the reactions to a write of an item. Changes by a reaction call no further reactions.
     pub(super) fn react(&mut self, at: usize) -> Result<(), AbortCode> {
         let entry = self.slots.get(at).entry;
         let mut hooks = core::mem::take(&mut self.hooks);
         let concerned = hooks.iter_mut().filter(|hook| hook.slots.as_ref().map_or(true, |slots| slots.contains(&at)));
         let result = { concerned }.try_for_each(|hook| (hook.reaction)(self, at, &entry));
-        // A reaction may have added some.
+        // Keeps the reactions that a reaction has added.
         hooks.append(&mut self.hooks);
         self.hooks = hooks;
         result
@@ -294,7 +302,7 @@ impl Device {
         self.slots.of_object(object)
     }
 
-    /// All places of an item: where it has another width on Modbus, the register is one by itself.
+    /// Returns all positions of an item. The register is another entry if it has another width than the object.
     fn slots_of(&self, address: &impl ItemAddress, axis: u8) -> Result<Vec<usize>, AbortCode> {
         let mut slots = [self.slot(address, axis)?].to_vec();
         let registered = address.register().filter(|_| axis == 1 && address.is_resized());
@@ -348,10 +356,10 @@ impl fmt::Debug for Device {
     }
 }
 
-/// One axis of a device, seen from the device's side; made by [`Device::axis`].
+/// The device's side of one axis. [`Device::axis`] creates it.
 ///
-/// Its methods are those of the device, with the handles of the first axis. Where there is no such axis, or it doesn't
-/// have the item, they fail with [`AbortCode::NO_OBJECT`].
+/// Its methods are those of the device and take the handles of the first axis. They return [`AbortCode::NO_OBJECT`] if
+/// the axis doesn't exist or doesn't have the item.
 #[derive(Debug)]
 pub struct DeviceAxis<'d> {
     device: &'d mut Device,
@@ -359,7 +367,7 @@ pub struct DeviceAxis<'d> {
 }
 
 impl DeviceAxis<'_> {
-    /// The value of an item, as [`Device::get`] has it.
+    /// Returns the value of an item, as [`Device::get`] does.
     ///
     /// # Errors
     ///
@@ -368,7 +376,7 @@ impl DeviceAxis<'_> {
         self.device.axis_value(&item, self.number)
     }
 
-    /// Gives an item a value, as [`Device::set`] does.
+    /// Sets the value of an item, as [`Device::set`] does.
     ///
     /// # Errors
     ///
@@ -377,7 +385,7 @@ impl DeviceAxis<'_> {
         self.device.set_axis_value(&item, self.number, value)
     }
 
-    /// Calls `reaction` after this item was written, as [`Device::on_write`] does.
+    /// Calls `reaction` after a write of this item, as [`Device::on_write`] does.
     ///
     /// # Errors
     ///

@@ -1,4 +1,4 @@
-//! What a device tells of itself: its errors.
+//! Errors of a simulated device.
 
 use super::device::Device;
 use super::slots::ERRORS;
@@ -6,8 +6,8 @@ use crate::bus::Object;
 use crate::emergency::Emergency;
 
 impl Device {
-    /// The device has an error: it goes into the error register (0x1001) and to the top of the list of errors (0x1003), as
-    /// far as the device has them, and becomes an emergency message. Code 0 says that no error is left, and isn't listed.
+    /// Simulates an error: updates the error register (0x1001) and the error list (0x1003), as far as the device has
+    /// them, and emits an emergency message. Code 0 means that no error is left; it isn't added to the list.
     pub fn emit_emergency(&mut self, code: u16, register: u8, vendor: [u8; 5]) {
         let _ = self.set_bytes(Object::new(0x1001, 0), &[register]);
         if code != 0 {
@@ -16,12 +16,13 @@ impl Device {
         self.emergencies.push_back(Emergency { code, register, vendor });
     }
 
-    /// The emergency messages that nobody took yet. A node on a simulated CAN bus sends them by itself.
+    /// Returns and removes the emergency messages that were emitted. A node on a simulated CAN bus sends them
+    /// automatically.
     pub fn take_emergencies(&mut self) -> impl Iterator<Item = Emergency> + '_ {
         self.emergencies.drain(..)
     }
 
-    /// Puts an error to the top of the list. Older ones go down, and the oldest falls off where the list is full.
+    /// Inserts an error at the top of the list. The oldest error is removed if the list is full.
     fn remember(&mut self, code: u16, vendor: [u8; 5]) {
         let room = self.slots.objects(ERRORS, ERRORS).map(|object| object.sub_index).max().unwrap_or(0);
         let length = self.slots.number(ERRORS, 0).map_or(0, |length| length.min(room.into()) as u8);

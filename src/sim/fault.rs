@@ -1,4 +1,4 @@
-//! What goes wrong with a simulated device.
+//! Faults of a simulated device.
 
 use core::error;
 use core::fmt;
@@ -6,18 +6,18 @@ use core::fmt;
 use crate::abort::AbortCode;
 use crate::from::from;
 
-/// What an access to a simulated device ends in, other than in a value.
+/// Reason why an access to a simulated device fails.
 ///
-/// It is the error of its clients: [`Bus`](Fault::Bus) and [`Exception`](Fault::Exception) arrive as
-/// [`Error::Client`](crate::Error::Client), [`Abort`](Fault::Abort) as [`Error::Abort`](crate::Error::Abort).
+/// It is the error type of simulated clients. [`Bus`](Fault::Bus) and [`Exception`](Fault::Exception) become
+/// [`Error::Client`](crate::Error::Client). [`Abort`](Fault::Abort) becomes [`Error::Abort`](crate::Error::Abort).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Fault {
-    /// The bus fails: the request doesn't arrive, or the answer doesn't.
+    /// The bus loses the request or the reply.
     Bus,
-    /// The device refuses an SDO transfer.
+    /// The device aborts an SDO transfer.
     Abort(AbortCode),
-    /// The device refuses a request of Modbus.
+    /// The device refuses a Modbus request.
     Exception(Exception),
 }
 
@@ -38,22 +38,22 @@ from! {
     Exception => Fault::Exception;
 }
 
-/// Why a device refuses a request of Modbus (MODBUS Application Protocol 7, exception codes).
+/// Modbus exception: reason why a device refuses a request (MODBUS Application Protocol 7).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Exception {
-    /// The table takes no such function: inputs can't be written.
+    /// The function isn't allowed for this table; for example, inputs can't be written.
     IllegalFunction,
-    /// One of the registers doesn't exist, or can't be read or written.
+    /// A register doesn't exist, or can't be read or written.
     IllegalDataAddress,
-    /// The number of registers is 0 or too great, or a value is outside its range.
+    /// The number of registers is 0 or too high, or a value is out of range.
     IllegalDataValue,
-    /// The device can't do it now.
+    /// The device can't execute the request now.
     ServerDeviceFailure,
 }
 
 impl Exception {
-    /// The exception code.
+    /// Returns the exception code.
     #[must_use]
     pub const fn code(self) -> u8 {
         match self {
@@ -64,7 +64,7 @@ impl Exception {
         }
     }
 
-    /// What a device says on Modbus that would abort an SDO transfer with `code`.
+    /// Returns the Modbus exception for an error that would abort an SDO transfer with `code`.
     #[must_use]
     pub const fn of_abort(code: AbortCode) -> Self {
         match code {
@@ -81,7 +81,8 @@ impl Exception {
         }
     }
 
-    /// What a device says on Modbus of `fault`; [`ServerDeviceFailure`](Self::ServerDeviceFailure) of a bus that failed.
+    /// Returns the Modbus exception for `fault`. A bus fault becomes
+    /// [`ServerDeviceFailure`](Self::ServerDeviceFailure).
     #[must_use]
     pub const fn of_fault(fault: Fault) -> Self {
         match fault {

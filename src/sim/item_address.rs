@@ -7,21 +7,21 @@ use crate::register::Register;
 use crate::route::Route;
 use crate::value::Value;
 
-/// The address of an item: a handle of the bindings, an object, or a register. Bindings need nothing else implemented.
+/// Address of an item: a handle of the bindings, an object or a register. You needn't implement it for other types.
 pub trait ItemAddress {
-    /// Its entry in the object dictionary.
+    /// Returns the entry in the object dictionary.
     fn object(&self) -> Option<Object>;
 
-    /// Its register on Modbus.
+    /// Returns the Modbus register.
     fn register(&self) -> Option<Register>;
 
-    /// Whether it has another width on some bus: then the table has it more than once.
+    /// Returns whether the widths of the item on its buses differ. The table then has several entries for it.
     fn is_resized(&self) -> bool {
         false
     }
 }
 
-/// The first of the addresses that `select` takes from the routes of a location.
+/// Returns the first address that `select` finds in the routes of a location.
 fn find<T>(location: &impl Location, select: impl Fn(&dyn Route) -> Option<T>) -> Option<T> {
     let mut found = None;
     location.for_each_route(&mut |route| found = found.take().or_else(|| select(route)));

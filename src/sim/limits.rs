@@ -1,6 +1,6 @@
-//! Limits of requests of Modbus.
+//! Limits of Modbus requests.
 
-/// How many registers, or bits, one request takes at most (MODBUS Application Protocol 6).
+/// Maximum number of registers or bits in one request (MODBUS Application Protocol 6).
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Limits {
     pub read: u16,
@@ -8,8 +8,8 @@ pub(super) struct Limits {
 }
 
 impl Limits {
-    /// Those of registers.
+    /// Limits for registers.
     pub const REGISTERS: Self = Self { read: 125, write: 123 };
-    /// Those of single bits.
+    /// Limits for bits.
     pub const BITS: Self = Self { read: 2000, write: 1968 };
 }

@@ -1,8 +1,9 @@
-//! Simulated devices, so that a driver can be tested with no hardware (feature `std`).
+//! Simulated devices, to test drivers without hardware (feature `std`).
 //!
-//! A [`Device`] is made from the static table of the bindings (`ENTRIES`, generated with the option `table`). It has the
-//! values of power-on, takes what the description allows, and refuses the rest with the abort codes of CiA 301 7.2.4.3.17,
-//! or the exceptions of Modbus. A driver talks to it through [`Device::client`]; the test plays the rest of the device.
+//! A [`Device`] is created from the static table of the bindings (`ENTRIES`, generated with the option `table`). It
+//! starts with its initial values and checks access rights and limits of the description. It refuses other accesses
+//! with the abort codes of CiA 301 7.2.4.3.17 or with Modbus exceptions. A driver uses it through [`Device::client`];
+//! the test simulates the behavior of the device.
 //!
 //! ```
 //! use lexibus::sim::Device;
@@ -21,30 +22,32 @@
 //! let mut drive = DemoDrive::new(device.client::<CanOpen>());
 //! drive.controlword().write(Controlword::from_raw(0x0F)).unwrap();
 //! assert!(drive.statusword().read().unwrap().operation_enabled());
-//! // The handle would refuse this before it is sent.
+//! // The handle would refuse this value, so write it through the client.
 //! let target = *objects::TARGET_POSITION.location();
 //! let refused = lexibus::Client::write(drive.client(), target.canopen, &i32::MAX.to_le_bytes());
 //! assert_eq!(refused, Err(Error::Abort(AbortCode::TOO_HIGH)));
 //!
-//! // The device's side, with the same handles and no access rights:
+//! // The device's side uses the same handles, without access rights:
 //! device.set(objects::POSITION_ACTUAL_VALUE, -2)?;
 //! assert_eq!(device.transmit_pdo(0x1A01)?[2..], [0xFE, 0xFF, 0xFF, 0xFF]);
 //! # Ok::<(), AbortCode>(())
 //! ```
 //!
-//! - Values: [`Device::get`] and [`Device::set`] of numbers, [`Device::bytes`] and [`Device::set_bytes`] of everything;
-//!   [`Device::set_initial`] for what is there after power-on.
-//! - Behaviour: [`Device::on_write`], which also refuses what the table can't know, such as a value that an enumeration
-//!   doesn't have; [`Device::fail_next`] for faults.
-//! - Process data: [`Device::receive_pdo`] and [`Device::transmit_pdo`] by the present mapping, which a master changes as
-//!   that of a real device; [`Device::receive_image`] and [`Device::transmit_image`] of EtherCAT.
-//! - Modbus: [`Device::read_words`] and its like answer requests, so that a server can stand in front of it.
-//! - CAN: with the feature `canopen`, a `CanNode` is a device as a node on a bus, frame by frame, on which the real clients of
-//!   CANopen run.
+//! - Values: [`Device::get`] and [`Device::set`] for numbers, [`Device::bytes`] and [`Device::set_bytes`] for all
+//!   types, [`Device::set_initial`] for initial values after power-on.
+//! - Behavior: [`Device::on_write`] reacts to writes. It can also refuse values that the table allows, for example
+//!   undefined values of an enumeration. [`Device::fail_next`] simulates faults.
+//! - CANopen process data: [`Device::receive_pdo`] and [`Device::transmit_pdo`] use the current mapping, which a master
+//!   can change as on a real device.
+//! - EtherCAT process data: [`Device::receive_image`] and [`Device::transmit_image`].
+//! - Modbus: [`Device::read_words`] and related methods reply to requests, so you can connect a Modbus server.
+//! - CAN: with the feature `canopen`, a `CanNode` is a device on a simulated CAN bus. The CANopen clients of this crate
+//!   work with it.
 //! - Further axes: [`Device::with_axes`].
-//! - Parameters are stored (0x1010) and restored (0x1011) as far as the device has these objects.
+//! - Parameters are stored (0x1010) and restored (0x1011) if the device has these objects.
 //!
-//! What a table doesn't have, a simulated device doesn't know: the length of texts, values of enumerations, gaps in a range.
+//! A simulated device checks only what the table contains. It doesn't check the length of texts, the values of
+//! enumerations, and gaps in a range.
 
 #[cfg(feature = "canopen")]
 mod can;

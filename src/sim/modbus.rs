@@ -1,4 +1,4 @@
-//! Requests of Modbus to a simulated device.
+//! Modbus requests to a simulated device.
 
 use std::collections::BTreeSet;
 use std::vec;
@@ -17,20 +17,22 @@ const fn is_bits(table: RegisterTable) -> bool {
 }
 
 impl Device {
-    /// The same device, which reads and writes so many registers in one request at most. The standard has 125 and 123.
+    /// Returns the device with these maximum numbers of registers in one read or write request. The standard values are
+    /// 125 and 123.
     #[must_use]
     pub fn with_modbus_limits(mut self, read: u16, write: u16) -> Self {
         self.limits = Limits { read, write };
         self
     }
 
-    /// Answers functions 3 and 4: `count` registers of [`Holding`](RegisterTable::Holding) or
-    /// [`Input`](RegisterTable::Input), whatever items they belong to.
+    /// Handles functions 3 and 4: reads `count` registers of [`Holding`](RegisterTable::Holding) or
+    /// [`Input`](RegisterTable::Input). They may belong to several items.
     ///
     /// # Errors
     ///
-    /// [`Exception::IllegalDataAddress`] where one of them belongs to no item that can be read,
-    /// [`Exception::IllegalDataValue`] where they are none or too many, [`Exception::IllegalFunction`] of a table of bits.
+    /// - [`Exception::IllegalDataAddress`] if a register belongs to no readable item.
+    /// - [`Exception::IllegalDataValue`] if `count` is 0 or too high.
+    /// - [`Exception::IllegalFunction`] if the table contains bits.
     pub fn read_words(&mut self, table: RegisterTable, address: u16, count: u16) -> Result<Vec<u16>, Exception> {
         if is_bits(table) {
             return Err(Exception::IllegalFunction);
@@ -38,15 +40,18 @@ impl Device {
         self.request(table, address, count).map_err(Exception::of_fault)
     }
 
-    /// Answers functions 6 and 16: writes holding registers, whatever items they belong to. Bits of items that can't be
-    /// written stay as they are.
+    /// Handles functions 6 and 16: writes holding registers. They may belong to several items. Bits of read-only items
+    /// don't change.
     ///
     /// # Errors
     ///
-    /// [`Exception::IllegalDataAddress`] where one of them belongs to no item that can be written,
-    /// [`Exception::IllegalDataValue`] where they are none or too many, or where an item would get a value outside its
-    /// limits, [`Exception::IllegalFunction`] of another table than [`Holding`](RegisterTable::Holding), and what a
-    /// reaction fails with. Then nothing is written.
+    /// - [`Exception::IllegalDataAddress`] if a register belongs to no writable item.
+    /// - [`Exception::IllegalDataValue`] if the number of registers is 0 or too high, or an item would be outside its
+    ///   limits.
+    /// - [`Exception::IllegalFunction`] if the table isn't [`Holding`](RegisterTable::Holding).
+    /// - The error of a reaction.
+    ///
+    /// Nothing is written in these cases.
     pub fn write_words(&mut self, table: RegisterTable, address: u16, words: &[u16]) -> Result<(), Exception> {
         if table != RegisterTable::Holding {
             return Err(Exception::IllegalFunction);
@@ -54,7 +59,7 @@ impl Device {
         self.command_cells(table, address, words).map_err(Exception::of_fault)
     }
 
-    /// Answers functions 1 and 2: `count` bits of [`Coil`](RegisterTable::Coil) or
+    /// Handles functions 1 and 2: reads `count` bits of [`Coil`](RegisterTable::Coil) or
     /// [`DiscreteInput`](RegisterTable::DiscreteInput).
     ///
     /// # Errors
@@ -68,7 +73,7 @@ impl Device {
         Ok(words.into_iter().map(|word| word != 0).collect())
     }
 
-    /// Answers functions 5 and 15: writes coils.
+    /// Handles functions 5 and 15: writes coils.
     ///
     /// # Errors
     ///
@@ -81,7 +86,7 @@ impl Device {
         self.command_cells(table, address, &words).map_err(Exception::of_fault)
     }
 
-    /// What a client reads.
+    /// Handles a read access of a client.
     pub(super) fn read_register(&mut self, register: Register, buffer: &mut [u8]) -> Result<usize, Error<Fault>> {
         let words = self.request(register.table, register.address, register.count)?;
         if !is_bits(register.table) {
@@ -93,7 +98,7 @@ impl Device {
         Ok(words.len().div_ceil(8))
     }
 
-    /// What a client writes. A part of a register is read before, as every client has to.
+    /// Handles a write access of a client. Reads the register first if the value is a part of it, as real clients do.
     pub(super) fn write_register(&mut self, register: Register, data: &[u8]) -> Result<(), Error<Fault>> {
         let Register { table, address, count, .. } = register;
         if matches!(table, RegisterTable::Input | RegisterTable::DiscreteInput) {
@@ -127,14 +132,14 @@ impl Device {
         let word = |at: u16| -> Option<u16> {
             let address = (table, address.checked_add(at)?);
             let readable = self.cells.mask(&self.slots, address, is_readable);
-            // Bits of what can only be written are 0.
+            // Bits of write-only items are read as 0.
             self.cells.word(address).filter(|_| readable != 0).map(|word| word & readable)
         };
         let words: Option<Vec<u16>> = (0..count).map(word).collect();
         Ok(words.ok_or(Exception::IllegalDataAddress)?)
     }
 
-    /// Writes registers, or nothing where that fails.
+    /// Writes registers. Restores all of them if the write fails.
     fn command_cells(&mut self, table: RegisterTable, address: u16, words: &[u16]) -> Result<(), Fault> {
         self.take_fault()?;
         self.check_count(table, words.len(), |limits| limits.write)?;
@@ -165,14 +170,14 @@ impl Device {
         result
     }
 
-    /// Gives items what lies in their registers now, where that is within their limits, and calls what reacts to it.
+    /// Checks and updates the items whose registers were written, and calls the reactions.
     fn take_over(&mut self, touched: &BTreeSet<usize>) -> Result<(), Fault> {
         let mut reacting = Vec::new();
         for at in touched {
             let slot = self.slots.get(*at);
             let Some(value) = self.cells.value(&slot.entry).filter(|_| is_writable(&slot.entry)) else { continue };
             let is_part = slot.entry.register.is_some_and(|register| register.part.is_some());
-            // The other parts of a register are written along with one of them.
+            // Other parts of the register are written too, but haven't changed.
             if !is_part || value != slot.value {
                 values::check_range(&slot.entry, &value).map_err(Exception::of_abort)?;
                 reacting.push(*at);

@@ -1,4 +1,4 @@
-//! When a device takes other parameters of its PDOs (CiA 301 7.5.2.35 to 7.5.2.38).
+//! Checks of writes to PDO parameters (CiA 301 7.5.2.35 to 7.5.2.38).
 
 use super::device::{Device, Network};
 use super::values;
@@ -7,17 +7,17 @@ use crate::bus::Object;
 use crate::flags::Flags;
 use crate::pdo::{from_bytes, is_restricted, MappedEntry};
 
-/// A mapping can be written only while its sub-index 0 is 0 (ETG.1000.6).
+/// Abort code for a write to a mapping whose sub-index 0 isn't 0 (ETG.1000.6).
 const COUNT_NOT_ZERO: AbortCode = AbortCode(0x0601_0003);
 
-/// The bit of a COB-ID that says that the PDO isn't used.
+/// COB-ID bit of a disabled PDO.
 const UNUSED: u64 = 1 << 31;
-/// The bit of a COB-ID that says that it has 29 bits.
+/// COB-ID bit of a 29-bit identifier.
 const EXTENDED: u64 = 1 << 29;
-/// The bits of a COB-ID that can change only while the PDO isn't used.
+/// COB-ID bits that can change only while the PDO is disabled.
 const IDENTIFIER: u64 = 0x3FFF_FFFF;
 
-/// The most bits that a frame of CAN carries.
+/// Maximum number of bits in a CAN frame.
 const FRAME_BITS: u32 = 64;
 
 fn require(condition: bool, code: AbortCode) -> Result<(), AbortCode> {
@@ -29,18 +29,18 @@ fn require(condition: bool, code: AbortCode) -> Result<(), AbortCode> {
 }
 
 impl Device {
-    /// Whether a client may write this to an object that may be a PDO's parameter.
+    /// Checks a write by a client. Objects that aren't PDO parameters pass.
     pub(super) fn check_pdo_parameter(&self, network: Network, object: Object, data: &[u8]) -> Result<(), AbortCode> {
         let value = from_bytes(data);
         match object.index {
-            // EtherCAT has sync managers instead.
+            // EtherCAT doesn't use these parameters. It has sync managers.
             0x1400..=0x15FF | 0x1800..=0x19FF if network == Network::CanOpen => self.check_communication(object, value),
             0x1600..=0x17FF | 0x1A00..=0x1BFF => self.check_mapping(network, object, value),
             _ => Ok(()),
         }
     }
 
-    /// Whether a PDO is used, by the index of its communication parameters.
+    /// Returns whether a PDO is enabled. `communication` is the index of its communication parameters.
     pub(super) fn is_used(&self, communication: u16) -> bool {
         self.slots.number(communication, 1).is_some_and(|cob_id| cob_id & UNUSED == 0)
     }
@@ -51,7 +51,7 @@ impl Device {
             1 if value & UNUSED == 0 => {
                 let old = self.slots.number(object.index, 1).unwrap_or(UNUSED);
                 let is_same = (old ^ value) & IDENTIFIER == 0;
-                // Frames of this crate have 11 bits.
+                // The frames of this crate have 11-bit identifiers.
                 let is_possible = value & EXTENDED == 0 && !is_restricted((value & IDENTIFIER) as u32);
                 require(is_possible && (is_same || !is_used), AbortCode::INVALID_VALUE)
             }
@@ -59,7 +59,7 @@ impl Device {
                 let is_reserved = matches!(value, 241..=251) || !is_transmitted && matches!(value, 252 | 253);
                 require(!is_reserved, AbortCode::INVALID_VALUE)
             }
-            // The inhibit time and the start value of SYNC.
+            // Inhibit time and SYNC start value.
             3 | 6 if is_transmitted => require(!is_used, AbortCode::INVALID_VALUE),
             _ => Ok(()),
         }
@@ -84,11 +84,11 @@ impl Device {
         require(value == 0 || bits > 0, AbortCode::INVALID_VALUE)
     }
 
-    /// The bits of an entry, where the mapping `index` can have it.
+    /// Returns the length of an entry in bits, if the mapping object `index` can contain it.
     fn check_mapped(&self, network: Network, index: u16, entry: MappedEntry) -> Result<u32, AbortCode> {
         let is_received = index < 0x1800;
         let is_gap = match network {
-            // Types of the dictionary stand for bits of which the device makes nothing.
+            // Data types in a mapping are placeholders for unused bits.
             Network::CanOpen => entry.word() == 0 || is_received && matches!(entry.index, 1..=0x1F),
             Network::EtherCat => entry.index == 0,
         };

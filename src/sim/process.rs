@@ -1,4 +1,4 @@
-//! Process data: what PDOs carry into a device and out of it.
+//! Process data of a simulated device: PDOs and process images.
 
 use std::vec;
 use std::vec::Vec;
@@ -10,7 +10,7 @@ use crate::bits;
 use crate::bus::Object;
 use crate::pdo::MappedEntry;
 
-/// `width` bits of `data` from `bit` on.
+/// Returns the field of `width` bits of `data` at bit offset `bit`.
 fn field(data: &[u8], bit: usize, width: usize) -> Vec<u8> {
     let part = |from: usize| bits::get(data, bit + from, (width - from).min(8) as u32) as u8;
     (0..width).step_by(8).map(part).collect()
@@ -25,48 +25,48 @@ pub(super) fn width(mapping: &[MappedEntry]) -> usize {
 }
 
 impl Device {
-    /// What the PDO with the mapping object `index` carries at present ([`Pdo::INDEX`](crate::Pdo::INDEX)).
+    /// Returns the current mapping of the PDO with the mapping object `index` ([`Pdo::INDEX`](crate::Pdo::INDEX)).
     ///
     /// # Errors
     ///
-    /// [`AbortCode::NO_OBJECT`] where there is no such mapping.
+    /// [`AbortCode::NO_OBJECT`] if the mapping doesn't exist.
     pub fn mapping(&self, index: u16) -> Result<Vec<MappedEntry>, AbortCode> {
         let words = self.listed(index)?;
         Ok(words.into_iter().map(|word| MappedEntry::from_word(word as u32)).collect())
     }
 
-    /// The numbers in the sub-indices of an object, of which sub-index 0 says how many there are.
+    /// Returns the entries of an object whose sub-index 0 is their number.
     fn listed(&self, index: u16) -> Result<Vec<u64>, AbortCode> {
         let count = self.slots.number(index, 0).ok_or(AbortCode::NO_OBJECT)?;
         let count = u8::try_from(count).map_err(|_| AbortCode::NO_SUB_INDEX)?;
         (1..=count).map(|sub| self.slots.number(index, sub).ok_or(AbortCode::NO_SUB_INDEX)).collect()
     }
 
-    /// The device receives a PDO with the mapping object `index`, whether it is used at present or not. Bytes behind the
-    /// mapped ones are passed over.
+    /// Processes a received PDO with the mapping object `index`, even if the PDO is disabled. Ignores bytes after the
+    /// mapped ones.
     ///
-    /// All values are there before anything reacts to one of them.
+    /// All values are written before the first reaction is called.
     ///
     /// # Errors
     ///
-    /// [`AbortCode::TOO_SHORT`] where bytes are missing; nothing is written then. What a single value is refused with:
-    /// the first one's code, where several are. The others are written.
+    /// [`AbortCode::TOO_SHORT`] if bytes are missing; nothing is written then. Otherwise the abort code of the first
+    /// value that the device refuses; the other values are written.
     pub fn receive_pdo(&mut self, index: u16, data: &[u8]) -> Result<(), AbortCode> {
         let mapping = self.mapping(index)?;
         self.receive_mapped(&mapping, data)
     }
 
-    /// The PDO with the mapping object `index`, as the device would send it now.
+    /// Returns the current data of the PDO with the mapping object `index`.
     ///
     /// # Errors
     ///
-    /// Those of [`mapping`](Self::mapping), and what is wrong with a mapped object that the device doesn't have.
+    /// Those of [`mapping`](Self::mapping), and the abort code for a mapped object that the device doesn't have.
     pub fn transmit_pdo(&self, index: u16) -> Result<Vec<u8>, AbortCode> {
         self.transmit_mapped(&self.mapping(index)?)
     }
 
-    /// The device receives the process image of a sync manager of EtherCAT: the PDOs that `assignment` lists (0x1C12), one
-    /// behind the other.
+    /// Processes a received process image of an EtherCAT sync manager: the PDOs that `assignment` lists (0x1C12), one
+    /// after the other.
     ///
     /// # Errors
     ///
@@ -76,8 +76,8 @@ impl Device {
         self.receive_mapped(&mapping, data)
     }
 
-    /// The process image of a sync manager of EtherCAT, as the device would send it now: the PDOs that `assignment` lists
-    /// (0x1C13), one behind the other.
+    /// Returns the current process image of an EtherCAT sync manager: the PDOs that `assignment` lists (0x1C13), one
+    /// after the other.
     ///
     /// # Errors
     ///
@@ -91,7 +91,8 @@ impl Device {
         Ok(mappings.collect::<Result<Vec<_>, _>>()?.concat())
     }
 
-    /// The device receives these entries, of a PDO that has no mapping object ([`Pdo::MAPPING`](crate::Pdo::MAPPING)), say.
+    /// Processes received data with these entries, for example of a PDO without a mapping object
+    /// ([`Pdo::MAPPING`](crate::Pdo::MAPPING)).
     ///
     /// # Errors
     ///
@@ -120,7 +121,7 @@ impl Device {
         result
     }
 
-    /// Gives a mapped object its value, and returns its position and the old one.
+    /// Writes a mapped object, and returns its position and its old value.
     fn take(&mut self, object: Object, bytes: Vec<u8>) -> Result<(usize, Vec<u8>), AbortCode> {
         let at = self.slots.of_object(object)?;
         let entry = self.slots.get(at).entry;
@@ -129,11 +130,11 @@ impl Device {
         Ok((at, self.store(at, bytes)))
     }
 
-    /// These entries, of a PDO that has no mapping object, as the device would send them now.
+    /// Returns the current data for these entries, for example of a PDO without a mapping object.
     ///
     /// # Errors
     ///
-    /// What is wrong with a mapped object that the device doesn't have.
+    /// The abort code for a mapped object that the device doesn't have.
     pub fn transmit_mapped(&self, mapping: &[MappedEntry]) -> Result<Vec<u8>, AbortCode> {
         let (mut data, mut bit) = (vec![0; length(width(mapping))], 0);
         for entry in mapping {
@@ -147,7 +148,7 @@ impl Device {
     }
 }
 
-/// Whether an entry stands for bits that are no object's: index 0, or a type of the dictionary.
+/// Returns whether an entry is a placeholder for unused bits: index 0 or a data type.
 const fn is_gap(entry: MappedEntry) -> bool {
     entry.index <= 0x1F
 }

@@ -12,22 +12,22 @@ use crate::node_id::NodeId;
 use crate::register::Register;
 use crate::table::{Entry, RawInitial};
 
-/// The list of errors, the pre-defined error field (CiA 301 7.5.2.4).
+/// Index of the error list, the pre-defined error field (CiA 301 7.5.2.4).
 pub(super) const ERRORS: u16 = 0x1003;
 
 /// An item and its value.
 #[derive(Clone, Debug)]
 pub(super) struct Slot {
     pub entry: Entry,
-    /// The least significant byte first.
+    /// Current value, the least significant byte first.
     pub value: Vec<u8>,
-    /// What the test gives it after power-on, in place of what the description says.
+    /// Initial value from the test, which replaces that of the description.
     pub initial: Option<Vec<u8>>,
-    /// What was stored, which is there again after power-on.
+    /// Stored value, which is restored after power-on.
     pub stored: Option<Vec<u8>>,
 }
 
-/// All items, found by their places.
+/// All items, by position, object or register.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Slots {
     list: Vec<Slot>,
@@ -53,7 +53,7 @@ impl Slots {
         self.list.push(Slot { entry, value: Vec::new(), initial: None, stored: None });
     }
 
-    /// Adds the objects of further axes: those of the first at other places. They are no registers.
+    /// Adds the objects of further axes at their addresses. They have no registers.
     pub fn add_axes(&mut self, axes: &Axes) {
         let first: Vec<Entry> = self.list.iter().map(|slot| slot.entry).collect();
         for axis in 2..=axes.count {
@@ -66,8 +66,8 @@ impl Slots {
         }
     }
 
-    /// Gives the items that `which` names the values of power-on: those that were stored, or those of the test, or
-    /// those of the description.
+    /// Resets the items that `which` selects: to their stored values, to the initial values of the test, or to those of
+    /// the description, in this order.
     pub fn power_on(&mut self, node: NodeId, which: impl Fn(&Entry) -> bool) {
         for at in 0..self.list.len() {
             let Slot { entry, initial, stored, .. } = &self.list[at];
@@ -80,9 +80,11 @@ impl Slots {
         }
     }
 
-    /// What sub-index 0 holds of an object with further ones whose description doesn't give it: how many of a mapping
-    /// are given by the description, and else the highest sub-index. The list of errors (CiA 301 7.5.2.4) is empty, whatever
-    /// the description gives: that is for how many it has room (`CompactSubObj` of CiA 306).
+    /// Returns the initial value of a sub-index 0 that counts the entries, if the description gives no value. In a
+    /// mapping, only entries with a value in the description count. In other objects, it is the highest sub-index.
+    ///
+    /// The error list (CiA 301 7.5.2.4) is empty after power-on. A value in the description is its capacity
+    /// (`CompactSubObj` of CiA 306).
     fn count(&self, entry: &Entry) -> Option<Vec<u8>> {
         let is_count = |object: &Object| object.sub_index == 0 && entry.data_type == DataType::Unsigned8;
         let is_meant = |object: &Object| object.index == ERRORS || entry.initial == RawInitial::Unknown;
@@ -114,7 +116,7 @@ impl Slots {
         self.list.iter_mut()
     }
 
-    /// The item that is this object.
+    /// Returns the position of the item with this object.
     pub fn of_object(&self, object: Object) -> Result<usize, AbortCode> {
         if let Some(at) = self.objects.get(&object) {
             return Ok(*at);
@@ -126,17 +128,17 @@ impl Slots {
         }
     }
 
-    /// The item that is this register.
+    /// Returns the position of the item with this register.
     pub fn of_register(&self, register: Register) -> Option<usize> {
         self.registers.get(&register).copied()
     }
 
-    /// The objects of a range of indices, in ascending order.
+    /// Returns the objects of an index range, in ascending order.
     pub fn objects(&self, first: u16, last: u16) -> impl Iterator<Item = Object> + '_ {
         self.objects.range(Object::new(first, 0)..=Object::new(last, u8::MAX)).map(|(object, _)| *object)
     }
 
-    /// An object's number; `None` where there is no such object, or it is none.
+    /// Returns the value of an object as a number, or `None` if the object doesn't exist or isn't a number.
     pub fn number(&self, index: u16, sub_index: u8) -> Option<u64> {
         let slot = self.get(self.of_object(Object::new(index, sub_index)).ok()?);
         values::byte_length(slot.entry.data_type)?;

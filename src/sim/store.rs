@@ -1,4 +1,4 @@
-//! Parameters that outlive power-off, and the list of errors: objects to which a write is a command.
+//! Objects that execute a command when they are written: store and restore parameters, clear the error list.
 
 use super::device::Device;
 use super::slots::ERRORS;
@@ -6,13 +6,13 @@ use crate::abort::AbortCode;
 use crate::bus::Object;
 use crate::table::Entry;
 
-/// Stores parameters (CiA 301 7.5.2.13).
+/// Index of "store parameters" (CiA 301 7.5.2.13).
 const STORE: u16 = 0x1010;
-/// Restores those of the description (CiA 301 7.5.2.14).
+/// Index of "restore default parameters" (CiA 301 7.5.2.14).
 const RESTORE: u16 = 0x1011;
 
-/// Whether sub-index `group` of 0x1010 or 0x1011 means an object: 1 all, 2 those of communication, 3 those of the
-/// application, and the others those of the vendor.
+/// Returns whether sub-index `group` of 0x1010 or 0x1011 includes an object: 1 all, 2 communication, 3 application,
+/// others manufacturer-specific.
 fn is_in_group(group: u8, index: u16) -> bool {
     match group {
         1 => true,
@@ -29,7 +29,7 @@ fn can_be_stored(entry: &Entry, group: u8) -> bool {
 }
 
 impl Device {
-    /// Executes a write that is a command, and says whether it is one. The object keeps its value then.
+    /// Executes a write that is a command. Returns whether it was one; the value of the object doesn't change then.
     pub(super) fn command(&mut self, object: Object, data: &[u8]) -> Result<bool, AbortCode> {
         match (object.index, object.sub_index) {
             (STORE, 1..) => self.save(object.sub_index, data)?,
@@ -56,7 +56,7 @@ impl Device {
         Ok(())
     }
 
-    /// The values come back at the next power-on.
+    /// The initial values become active at the next power-on.
     fn load(&mut self, group: u8, signature: &[u8]) -> Result<(), AbortCode> {
         if signature != b"load" {
             return Err(AbortCode::CANNOT_STORE);

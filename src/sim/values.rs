@@ -1,4 +1,4 @@
-//! Values as a device holds them: their lengths, their limits, and what they are after power-on.
+//! Values of a simulated device: lengths, limits and initial values.
 
 use std::vec;
 use std::vec::Vec;
@@ -9,7 +9,7 @@ use crate::node_id::NodeId;
 use crate::pdo::{from_bytes, mask, sign_extend};
 use crate::table::{Bound, Entry, RawInitial};
 
-/// How many bytes a value takes; `None` where the value itself determines it.
+/// Returns the length of a type in bytes, or `None` if it depends on the value.
 pub(super) fn byte_length(data_type: DataType) -> Option<usize> {
     data_type.bits().map(|bits| bits.div_ceil(8) as usize)
 }
@@ -28,7 +28,7 @@ fn is_signed(data_type: DataType) -> bool {
     )
 }
 
-/// A value in as many bytes as its type takes. Missing ones repeat the sign.
+/// Extends a value to the length of its type, with its sign if the type is signed.
 pub(super) fn widened(data_type: DataType, mut bytes: Vec<u8>) -> Vec<u8> {
     if let Some(length) = byte_length(data_type) {
         let is_negative = is_signed(data_type) && bytes.last().is_some_and(|last| last >> 7 == 1);
@@ -37,7 +37,7 @@ pub(super) fn widened(data_type: DataType, mut bytes: Vec<u8>) -> Vec<u8> {
     bytes
 }
 
-/// The bytes of an integer of type `from` as one of type `to`.
+/// Converts an integer from type `from` to type `to`.
 pub(super) fn resized(from: DataType, bytes: &[u8], to: DataType) -> Result<Vec<u8>, AbortCode> {
     let (Some(length), Some(other)) = (byte_length(from), byte_length(to)) else { return Err(AbortCode::LENGTH) };
     let (narrow, sign) = if length < other { (length, is_signed(from)) } else { (other, is_signed(to)) };
@@ -51,7 +51,7 @@ pub(super) fn resized(from: DataType, bytes: &[u8], to: DataType) -> Result<Vec<
     Ok(bytes)
 }
 
-/// Whether `data` has the length of its type.
+/// Checks that `data` has the length of its type.
 pub(super) fn check_length(entry: &Entry, data: &[u8]) -> Result<(), AbortCode> {
     match byte_length(entry.data_type) {
         Some(length) if data.len() > length => Err(AbortCode::TOO_LONG),
@@ -61,7 +61,7 @@ pub(super) fn check_length(entry: &Entry, data: &[u8]) -> Result<(), AbortCode> 
     }
 }
 
-/// Whether a value of the right length lies within its limits.
+/// Checks that a value of the right length is within its limits.
 pub(super) fn check_range(entry: &Entry, data: &[u8]) -> Result<(), AbortCode> {
     let Some(bits) = entry.data_type.bits() else { return Ok(()) };
     match entry.data_type {
@@ -73,7 +73,7 @@ pub(super) fn check_range(entry: &Entry, data: &[u8]) -> Result<(), AbortCode> {
             if is_signed(data_type) {
                 return check_limits(integer(entry.low), integer(entry.high), sign_extend(raw, bits).into());
             }
-            // A number of 3 bits takes a byte.
+            // A 3-bit number, for example, is sent in a whole byte.
             if raw > mask(bits) {
                 return Err(AbortCode::TOO_HIGH);
             }
@@ -117,7 +117,8 @@ fn real(bound: Bound) -> Option<f64> {
     }
 }
 
-/// The value after power-on. Where the description gives none, it is empty or the number nearest to 0 within the limits.
+/// Returns the initial value after power-on. Without a value in the description, it is empty or the number within the
+/// limits that is nearest to 0.
 pub(super) fn initial(entry: &Entry, node: NodeId) -> Vec<u8> {
     let bytes = match entry.initial {
         RawInitial::Bytes(bytes) => bytes.to_vec(),
@@ -135,7 +136,7 @@ fn nearest_to_zero(entry: &Entry) -> Vec<u8> {
             let low = integer(entry.low).unwrap_or(0).max(0);
             let nearest = integer(entry.high).map_or(low, |high| low.min(high));
             match byte_length(data_type) {
-                // 64 bits at most.
+                // The integer has at most 64 bits.
                 Some(_) => (nearest as u64).to_le_bytes().to_vec(),
                 None => vec![],
             }

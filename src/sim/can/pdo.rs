@@ -1,4 +1,4 @@
-//! When a node sends and takes PDOs (CiA 301 7.2.2.2 and 7.5.2.35 to 7.5.2.38).
+//! PDO communication of a node (CiA 301 7.2.2.2 and 7.5.2.35 to 7.5.2.38).
 
 use core::ops::RangeInclusive;
 use core::time::Duration;
@@ -10,40 +10,41 @@ use super::super::process;
 use crate::abort::AbortCode;
 use crate::clients::canopen::CanFrame;
 
-/// The indices of the communication parameters.
+/// Indices of the communication parameters of RPDOs and TPDOs.
 const RECEIVED: RangeInclusive<u16> = 0x1400..=0x15FF;
 const TRANSMITTED: RangeInclusive<u16> = 0x1800..=0x19FF;
-/// The index of a mapping is so much greater than that of the communication parameters.
+/// Difference between the indices of mapping and communication parameters.
 const MAPPING: u16 = 0x200;
-/// A PDO that is sent when its data change, or by its timer, has this transmission type or a greater one.
+/// Minimum transmission type of PDOs that are sent on change or by timer.
 const EVENT: u64 = 254;
-/// The greatest transmission type of PDOs that SYNC concerns.
+/// Maximum transmission type of synchronous PDOs.
 const SYNCHRONOUS: u64 = 240;
 
-/// Error codes of emergency messages: a PDO is too short and isn't processed, or too long (CiA 301 7.2.7.1).
+/// Error codes of emergency messages for a received PDO that is too short and not processed, or too long (CiA 301
+/// 7.2.7.1).
 const TOO_SHORT: u16 = 0x8210;
 const TOO_LONG: u16 = 0x8220;
-/// The bits of the error register: any error, and one of communication.
+/// Error register bits: generic error and communication error.
 const COMMUNICATION_ERROR: u8 = 1 | 1 << 4;
 
-/// What a node has to remember of its PDOs while it is operational. Keys are the indices of communication parameters.
+/// PDO state of a node in Operational. The keys are indices of communication parameters.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Pdos {
     sent: BTreeMap<u16, Sent>,
-    /// What was received and waits for SYNC.
+    /// Received synchronous PDOs that wait for SYNC.
     waiting: BTreeMap<u16, Vec<u8>>,
 }
 
-/// What was sent last, and when.
+/// The last transmission of a PDO.
 #[derive(Clone, Debug, Default)]
 struct Sent {
     data: Vec<u8>,
     at: Option<Duration>,
-    /// How many SYNCs came since.
+    /// Number of SYNC messages since the transmission.
     syncs: u64,
 }
 
-/// The parameters of a PDO's communication.
+/// Communication parameters of a PDO.
 #[derive(Clone, Copy)]
 struct Communication {
     index: u16,
@@ -54,7 +55,7 @@ struct Communication {
 }
 
 impl Communication {
-    /// `None` where the PDO isn't used.
+    /// Returns the parameters, or `None` if the PDO is disabled.
     fn of(device: &Device, index: u16) -> Option<Self> {
         let number = |sub| device.slots.number(index, sub);
         let cob_id = number(1).filter(|_| device.is_used(index))?;
@@ -67,20 +68,21 @@ impl Communication {
         })
     }
 
-    /// Those that are used.
+    /// Returns the parameters of all enabled PDOs.
     fn all(device: &Device, indices: RangeInclusive<u16>) -> Vec<Self> {
         let cob_ids = device.slots.objects(*indices.start(), *indices.end()).filter(|object| object.sub_index == 1);
         cob_ids.filter_map(|object| Self::of(device, object.index)).collect()
     }
 
-    /// The data that would be sent now; `None` where nothing is mapped, or something that the device doesn't have.
+    /// Returns the current data of the PDO. Returns `None` if nothing is mapped, or an object that the device doesn't
+    /// have.
     fn data(&self, device: &Device) -> Option<Vec<u8>> {
         device.transmit_pdo(self.index + MAPPING).ok().filter(|data| !data.is_empty())
     }
 }
 
 impl Pdos {
-    /// When a timer of a PDO ends, or the time in which it may not be sent again.
+    /// Returns the time at which the next event timer or inhibit time ends.
     pub fn next_event(&self, device: &Device) -> Option<Duration> {
         let events = Communication::all(device, TRANSMITTED).into_iter().filter(|pdo| pdo.kind >= EVENT);
         let times = events.filter_map(|pdo| {
@@ -94,7 +96,8 @@ impl Pdos {
         times.min()
     }
 
-    /// The PDOs that are sent because their data changed, or their time has come. All are, when the node starts.
+    /// Returns the PDOs to send because their data changed or their event timer expired. After the start of the node,
+    /// these are all asynchronous PDOs.
     pub fn changed(&mut self, device: &Device, now: Duration) -> Vec<CanFrame> {
         let events = Communication::all(device, TRANSMITTED).into_iter().filter(|pdo| pdo.kind >= EVENT);
         events.filter_map(|pdo| self.send_event(device, &pdo, now)).collect()
@@ -111,7 +114,7 @@ impl Pdos {
         is_due.then(|| sent.send(pdo.id, data, now))?
     }
 
-    /// The PDOs that are sent on SYNC: each time or every so many times, or when their data changed before it.
+    /// Returns the PDOs to send after SYNC: cyclic ones that are due, and acyclic ones whose data changed.
     pub fn sampled(&mut self, device: &Device, now: Duration) -> Vec<CanFrame> {
         let synchronous = Communication::all(device, TRANSMITTED).into_iter().filter(|pdo| pdo.kind <= SYNCHRONOUS);
         let frames = synchronous.filter_map(|pdo| {
@@ -127,7 +130,8 @@ impl Pdos {
         frames.collect()
     }
 
-    /// Takes a PDO. What is synchronous waits for SYNC. Returns the mapping and the code of what is refused.
+    /// Processes a received PDO; synchronous PDOs wait for SYNC. Returns the mapping object and the abort code of
+    /// values that the device refused.
     pub fn receive(&mut self, device: &mut Device, id: u16, data: &[u8]) -> Vec<(u16, AbortCode)> {
         let pdos = Communication::all(device, RECEIVED).into_iter().filter(|pdo| pdo.id == id);
         let mut refused = Vec::new();
@@ -141,7 +145,7 @@ impl Pdos {
         refused
     }
 
-    /// SYNC: what waits takes effect.
+    /// Applies the waiting PDOs after SYNC.
     pub fn actuate(&mut self, device: &mut Device) -> Vec<(u16, AbortCode)> {
         let waiting = core::mem::take(&mut self.waiting);
         waiting.into_iter().filter_map(|(index, data)| take(device, index, &data)).collect()
@@ -156,7 +160,7 @@ impl Sent {
     }
 }
 
-/// The device takes a PDO, and says so where it is too short or too long.
+/// Writes the data of a PDO to the device. Emits an emergency message if the PDO is too short or too long.
 fn take(device: &mut Device, index: u16, data: &[u8]) -> Option<(u16, AbortCode)> {
     let index = index + MAPPING;
     let mapping = device.mapping(index).ok().filter(|mapping| !mapping.is_empty())?;

@@ -1,4 +1,4 @@
-//! The SDO server of a node (CiA 301 7.2.4), with `canopen-sdo`.
+//! SDO server of a node (CiA 301 7.2.4), with `canopen-sdo`.
 
 use core::fmt;
 use core::time::Duration;
@@ -13,10 +13,10 @@ use crate::bus::Object;
 use crate::clients::canopen::CanFrame;
 use crate::node_id::NodeId;
 
-/// The longest value that a transfer carries, in bytes.
+/// Maximum length of a value in a transfer, in bytes.
 const MOST_BYTES: usize = 8192;
 
-/// The default SDO channel: requests on 0x600 + node-ID, answers on 0x580 + node-ID.
+/// The default SDO channel: requests with COB-ID 0x600 + node-ID, replies with 0x580 + node-ID.
 pub(super) struct Channel(Box<SdoServer<MOST_BYTES>>);
 
 impl fmt::Debug for Channel {
@@ -25,7 +25,7 @@ impl fmt::Debug for Channel {
     }
 }
 
-/// Time in nanoseconds, as the server counts it.
+/// Converts a time to nanoseconds for the SDO server.
 fn nanoseconds(time: Duration) -> u64 {
     time.as_nanos().try_into().unwrap_or(u64::MAX)
 }
@@ -35,24 +35,24 @@ impl Channel {
         Self(Box::new(SdoServer::new(ServerConfig::new(node.get()))))
     }
 
-    /// When a transfer ends that nobody goes on with.
+    /// Returns the time at which an unfinished transfer times out.
     pub fn deadline(&self) -> Option<Duration> {
         self.0.poll_timeout().map(Duration::from_nanos)
     }
 
-    /// Ends such a transfer, and returns what is sent then.
+    /// Aborts a transfer that has timed out, and returns the abort message.
     pub fn timed_out(&mut self, now: Duration) -> Option<CanFrame> {
-        // What it returns is the abort that it sends.
+        // The result is the abort code, which is also in the abort message.
         let _ = self.0.handle_timeout(nanoseconds(now));
         self.answer()
     }
 
-    /// The answer to a request.
+    /// Processes a request and returns the reply.
     pub fn handle(&mut self, device: &mut Device, frame: &CanFrame, now: Duration) -> Option<CanFrame> {
         let mut data: [u8; 8] = frame.data().try_into().ok()?;
         tell_size(device, &mut data);
         let mut dictionary = Dictionary { device, is_lost: false };
-        // What it returns is the abort that it sends.
+        // The result is the abort code, which is also in the reply.
         let _ = self.0.handle_frame(SdoFrame::new(frame.id(), data), nanoseconds(now), &mut dictionary);
         let is_lost = dictionary.is_lost;
         self.answer().filter(|_| !is_lost)
@@ -64,7 +64,8 @@ impl Channel {
     }
 }
 
-/// An expedited download needn't say how many bytes count. The device knows, and the server wants to be told.
+/// Adds the size to an expedited download without size. CiA 301 allows this form, but the server of `canopen-sdo` needs
+/// a size.
 fn tell_size(device: &Device, data: &mut [u8; 8]) {
     const EXPEDITED: u8 = 0x22;
     const WITH_SIZE: u8 = 0x23;
@@ -79,10 +80,10 @@ fn tell_size(device: &Device, data: &mut [u8; 8]) {
     }
 }
 
-/// The device, as the server sees it.
+/// The device as object dictionary of the SDO server.
 struct Dictionary<'d> {
     device: &'d mut Device,
-    /// Whether the answer gets lost.
+    /// Whether a simulated fault loses the reply.
     is_lost: bool,
 }
 

@@ -32,7 +32,7 @@ const U8: DataType = DataType::Unsigned8;
 const U16: DataType = DataType::Unsigned16;
 const U32: DataType = DataType::Unsigned32;
 
-/// One PDO in each direction, both with 0x2000; RPDO on 0x205, TPDO on 0x185.
+/// Creates a node with an RPDO (COB-ID 0x205) and a TPDO (COB-ID 0x185), both with object 0x2000.
 fn node() -> CanNode {
     let entries = [
         entry(0x1001, 0, U8, &[0]),
@@ -66,12 +66,12 @@ fn receive(node: &mut CanNode, id: u16, patience: Duration) -> Option<CanFrame> 
     CanPort::receive(node, patience, &mut |frame| frame.id() == id).unwrap()
 }
 
-/// All frames that the node has sent.
+/// Returns all frames that the node has sent.
 fn frames(node: &mut CanNode) -> Vec<(u16, Vec<u8>)> {
     core::iter::from_fn(|| node.next_frame()).map(|frame| (frame.id(), frame.data().to_vec())).collect()
 }
 
-/// A node that is operational, and has sent its first PDO.
+/// Creates a node in Operational that has sent its first PDO.
 fn started() -> CanNode {
     let mut node = node();
     send(&mut node, 0, &[1, 0]);
@@ -89,7 +89,7 @@ fn network_management() {
     assert_eq!(node.state(), NmtState::Operational);
     assert_eq!(frames(&mut node), [(0x185, [0, 0].to_vec())]);
     send(&mut node, 0, &[2, 0]);
-    // A request that nobody answers.
+    // A stopped node doesn't reply to SDO requests.
     send(&mut node, 0x605, &[0x40, 0, 0x20, 0, 0, 0, 0, 0]);
     send(&mut node, 0x205, &[1, 0]);
     assert_eq!((node.state(), frames(&mut node)), (NmtState::Stopped, std::vec![]));
@@ -129,7 +129,7 @@ fn pdos_on_change_and_by_timer() {
     assert_eq!(frames(&mut node), []);
     set(&mut node, 0x2000, 0, &[3, 0]);
     assert_eq!(frames(&mut node), [(0x185, [3, 0].to_vec())]);
-    // Not before 10 ms, and then every 50 ms.
+    // Inhibit time 10 ms, event timer 50 ms.
     set(&mut node, 0x1800, 3, &[100, 0]);
     set(&mut node, 0x1800, 5, &[50, 0]);
     set(&mut node, 0x2000, 0, &[4, 0]);
@@ -138,7 +138,7 @@ fn pdos_on_change_and_by_timer() {
     assert_eq!((sent.map(|frame| frame.data()[0]), node.now()), (Some(4), Duration::from_millis(10)));
     node.advance(Duration::from_millis(120));
     assert_eq!(frames(&mut node).len(), 2);
-    // Not in another state.
+    // PDOs are exchanged only in Operational.
     send(&mut node, 0, &[128, 0]);
     node.advance(Duration::from_millis(120));
     send(&mut node, 0x205, &[7, 7]);
@@ -196,7 +196,7 @@ fn transfers() {
     assert_eq!(buffer[..5000], long);
     assert_eq!(client.write(number, &[1]), Err(Error::Abort(AbortCode::TOO_SHORT)));
     assert_eq!(client.read(Object::new(0x2005, 0), &mut buffer), Err(Error::Abort(AbortCode::NO_OBJECT)));
-    // Nobody says how many of the four bytes count.
+    // An expedited download without size.
     send(client.port(), 0x605, &[0x22, 0x00, 0x20, 0, 7, 0, 0xFF, 0xFF]);
     assert_eq!(frames(client.port()).last(), Some(&(0x585, [0x60, 0, 0x20, 0, 0, 0, 0, 0].to_vec())));
     assert_eq!(client.port().device().slots.number(0x2000, 0), Some(7));
@@ -214,7 +214,7 @@ fn lost_answers_and_given_up_transfers() {
     assert_eq!(client.read(object, &mut buffer), Err(Error::Timeout));
     client.port().set_connected(true);
     assert_eq!(client.read(object, &mut buffer), Ok(2));
-    // A download of which the segments never come.
+    // A download whose segments never arrive.
     let node = client.port();
     frames(node);
     send(node, 0x605, &[0x21, 0x01, 0x20, 0, 9, 0, 0, 0]);
