@@ -34,9 +34,9 @@ pub struct Axes {
 /// A range of indices and its rule for the next axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct AxisRange {
-    /// The first index.
+    /// First index of the range.
     pub first: u16,
-    /// The last index.
+    /// Last index of the range.
     pub last: u16,
     /// Rule for the next axis.
     pub step: AxisStep,

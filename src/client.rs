@@ -6,7 +6,7 @@ use core::time::Duration;
 use crate::bus::Bus;
 use crate::error::Error;
 
-/// Reads and writes one device, and blocks until each reply.
+/// Reads and writes one device, and blocks until the device replies.
 ///
 /// Values have their least significant byte first, as in CANopen, on every bus. A client converts them if the bus uses
 /// another byte order.
@@ -63,7 +63,7 @@ pub trait Client {
 /// An address and the bytes to write there.
 pub type Write<'d, B> = (<B as Bus>::Address, &'d [u8]);
 
-/// Lets the thread sleep, if the feature `std` is on.
+/// Puts the thread to sleep if the feature `std` is on.
 #[inline]
 pub(crate) fn sleep<E>(time: Duration) -> Result<(), Error<E>> {
     #[cfg(feature = "std")]

@@ -41,7 +41,7 @@ pub enum Cell {
 /// ```
 /// use lexibus::codes::{Code, CodeTable};
 ///
-/// // What the compiler emits for a table of two codes:
+/// // The compiler generates this for a table of two codes:
 /// static ALARMS: &[Code] = &[Code::new(7, 7, "motor blocked", "Let it move.", &[]), Code::new(0x80, 0x8F, "option", "", &[])];
 ///
 /// #[derive(Clone, Copy, Debug, PartialEq)]

@@ -59,7 +59,7 @@ impl<E: fmt::Display> fmt::Display for Error<E> {
             Self::Refused => f.write_str("the device refused"),
             Self::UnexpectedReply => f.write_str("unexpected reply"),
             Self::NoMessage => f.write_str("the protocol has no message for this access"),
-            Self::Timeout => f.write_str("no answer in time"),
+            Self::Timeout => f.write_str("timeout: no reply from the device, or the bus is busy"),
             Self::NoClock => f.write_str("the device needs time, but the client has no clock"),
             Self::InvalidData => f.write_str("the device marks its cyclic data as invalid"),
             Self::NoSuchAxis { axis, object } => write!(f, "axis {axis} doesn't exist or has no object {object}"),

@@ -7,7 +7,7 @@
 //! ```
 //! use lexibus::framing::{Check, Delimited, Framing};
 //!
-//! /// STX, data, check, ETX. 0x02, 0x03 and 0x1B within are 0x1B and their complement.
+//! /// STX, data, check, ETX. The bytes 0x02, 0x03 and 0x1B in the data are sent as 0x1B and their complement.
 //! const FRAMING: Delimited = Delimited::new(Some(0x02), 0x03)
 //!     .with_escape(0x1B, 0xFF, &[0x02, 0x03, 0x1B])
 //!     .with_check(Check::Xor(0xFF))

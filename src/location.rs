@@ -71,7 +71,7 @@ macro_rules! location {
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
         $visibility struct $name {
             $(
-                #[doc = concat!("The route on [`", stringify!($bus), "`].")]
+                #[doc = concat!("Route on [`", stringify!($bus), "`].")]
                 pub $field: $route,
             )*
         }

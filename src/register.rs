@@ -217,8 +217,8 @@ impl Register {
     ///
     /// # Errors
     ///
-    /// [`LengthError`], in bytes, if the number of `words` isn't [`count`](Register::count), if `data` is longer than
-    /// `words`, or if the value is a bit field in a number of more than four words.
+    /// [`LengthError`], in bytes, if the number of `words` isn't [`count`](Register::count), or `data` is longer than
+    /// `words`. The same error if the value is a bit field in a number of more than four words.
     pub fn encode(&self, data: &[u8], words: &mut [u16]) -> Result<(), LengthError> {
         self.check(words)?;
         let count = words.len();

@@ -16,7 +16,7 @@ pub struct Delimited {
     pub start: Option<u8>,
     /// End byte.
     pub end: u8,
-    /// Escaping of bytes in a frame that equal one of these; `None` if the data never contain them.
+    /// Escape sequences for start and end bytes in the data; `None` if the data never contain them.
     pub escape: Option<Escape>,
     /// Check after the data.
     pub check: Check,

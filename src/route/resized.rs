@@ -11,8 +11,8 @@ use crate::value_error::{LengthError, OutOfRange};
 
 /// Route of an integer that has `bits` bits on the bus, independent of the width of its item.
 ///
-/// If the bus has fewer bits, a value that doesn't fit isn't sent, and a value that is read is extended, with its sign
-/// if `is_signed`. If the bus has more bits, a value to write is extended, and a value that is read has to fit.
+/// If the bus has fewer bits, values that don't fit aren't sent, and values that are read are extended. If the bus has
+/// more bits, values to write are extended, and values that are read have to fit. `is_signed` means sign extension.
 ///
 /// ```
 /// use lexibus::{CanOpen, Client, Error, Modbus, Object, Register, Resized};

@@ -49,11 +49,11 @@ impl Handshake {
 /// [`Resized`](crate::Resized).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct ReadWindow<A> {
-    /// Address of the number.
+    /// Address to which the number is written.
     pub number: A,
     /// Width of the number in bits.
     pub number_bits: u8,
-    /// Address of the value.
+    /// Address from which the value is read.
     pub value: A,
     /// Width of the value in bits.
     pub value_bits: u8,
@@ -64,11 +64,11 @@ pub struct ReadWindow<A> {
 /// Window for writing: an address for the number of a value, and an address for the value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct WriteWindow<A> {
-    /// Address of the number.
+    /// Address to which the number is written.
     pub number: A,
     /// Width of the number in bits.
     pub number_bits: u8,
-    /// Address of the value.
+    /// Address to which the value is written.
     pub value: A,
     /// Width of the value in bits.
     pub value_bits: u8,

@@ -162,7 +162,7 @@ impl CanNode {
         events.into_iter().flatten().filter(|event| *event > self.now).min()
     }
 
-    /// Sends the frames that are due, and those for changes of the device.
+    /// Sends all frames that are due: by timers, and because the device has changed.
     fn settle(&mut self) {
         self.beat();
         if let Some(frame) = self.channel.timed_out(self.now) {

@@ -88,7 +88,7 @@ impl Device {
     fn check_mapped(&self, network: Network, index: u16, entry: MappedEntry) -> Result<u32, AbortCode> {
         let is_received = index < 0x1800;
         let is_gap = match network {
-            // Data types in a mapping are placeholders for unused bits.
+            // Data types are dummy entries: placeholders for unused bits.
             Network::CanOpen => entry.word() == 0 || is_received && matches!(entry.index, 1..=0x1F),
             Network::EtherCat => entry.index == 0,
         };

@@ -66,8 +66,8 @@ impl Slots {
         }
     }
 
-    /// Resets the items that `which` selects: to their stored values, to the initial values of the test, or to those of
-    /// the description, in this order.
+    /// Resets the items that `which` selects. The first available value is used: the stored value, the initial value of
+    /// the test, or that of the description.
     pub fn power_on(&mut self, node: NodeId, which: impl Fn(&Entry) -> bool) {
         for at in 0..self.list.len() {
             let Slot { entry, initial, stored, .. } = &self.list[at];

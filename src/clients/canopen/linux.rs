@@ -65,7 +65,7 @@ pub(super) fn is_full(error: &io::Error) -> bool {
     error.raw_os_error() == Some(libc::ENOBUFS)
 }
 
-/// Converts a data frame. Error frames of the interface aren't bus frames: their identifier is the error class.
+/// Converts a data frame. Returns `None` for remote frames, and for error frames, which the interface itself generates.
 pub(super) fn from_socket(frame: &socketcan::CanFrame) -> Option<CanFrame> {
     match frame {
         socketcan::CanFrame::Data(_) => CanFrame::from_frame(frame),

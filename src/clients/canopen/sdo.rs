@@ -155,7 +155,7 @@ impl Transfer {
         Some(length).filter(|length| *length > self.room)
     }
 
-    /// Returns the abort message to the node after the interface has failed.
+    /// Aborts the transfer after the interface has failed, and returns the abort message to the node.
     fn broken(&mut self) -> Option<CanFrame> {
         self.client.abort(SdoAbortCode::General);
         self.request()

@@ -226,7 +226,7 @@ fn reads_are_in_step_again_after_a_late_answer() {
     // No reply to the request and to the abort; then both replies at once.
     let mut node = scripted([&[], &[], &[&one, &two], &[&three]]);
     assert_eq!(SPEED.at(&mut node).read(), Err(Error::Timeout));
-    assert_eq!(SPEED.at(&mut node).read(), Ok(1), "nothing tells it from the answer to this request");
+    assert_eq!(SPEED.at(&mut node).read(), Ok(1), "a late reply can't be distinguished from this reply");
     assert_eq!(SPEED.at(&mut node).read(), Ok(3));
 }
 
@@ -261,7 +261,7 @@ fn values_without_a_length_have_the_length_of_their_type() {
 #[test]
 fn messages_of_less_than_eight_bytes_are_none() {
     let mut node = scripted([&[&[0x4B, 0x00, 0x20, 0]]]);
-    assert_eq!(SPEED.at(&mut node).read(), Err(Error::Timeout), "a zero that nobody sent");
+    assert_eq!(SPEED.at(&mut node).read(), Err(Error::Timeout), "not the value 0");
     let mut node = scripted([&[&[0x4B, 0x00, 0x20, 0], &number(0x2000, 7)]]);
     assert_eq!(SPEED.at(&mut node).read(), Ok(7));
 }

@@ -180,7 +180,7 @@ impl Writes {
             return Ok(self.coils(data));
         }
         if self.masks {
-            // Encoding into ones with empty data gives the AND mask; encoding into zeros gives the OR mask.
+            // Empty data encoded into 0xFFFF is the AND mask; the data encoded into 0 is the OR mask.
             let (mut kept, mut bits) = ([u16::MAX], [0]);
             register.encode(&[], &mut kept)?;
             register.encode(data, &mut bits)?;
