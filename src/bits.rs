@@ -57,7 +57,7 @@ pub const fn get(data: &[u8], bit: usize, width: u32) -> u64 {
 #[inline]
 pub const fn put<const N: usize>(buffer: [u8; N], bit: usize, width: u32, value: u64) -> [u8; N] {
     let (first, shift) = (bit / 8, (bit % 8) as u32);
-    // If the offset is a constant, the compiler reduces whole bytes to one store.
+    // If the offset is a constant, the compiler writes whole bytes with one store.
     if shift == 0 && width % 8 == 0 {
         return put_first(buffer, first, width as usize / 8, value);
     }

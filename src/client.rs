@@ -34,7 +34,7 @@ pub trait Client {
     ///
     /// # Errors
     ///
-    /// Those of [`read`](Self::read).
+    /// The errors of [`read`](Self::read).
     fn write(&mut self, address: <Self::Bus as Bus>::Address, data: &[u8]) -> Result<(), Error<Self::Error>>;
 
     /// Writes two values in this order, at the same time if the bus can, for example in one cycle of a process image.
@@ -42,7 +42,7 @@ pub trait Client {
     ///
     /// # Errors
     ///
-    /// Those of [`write`](Self::write). The first value may already be written then.
+    /// The errors of [`write`](Self::write). The first value may already be written then.
     fn write_both(&mut self, writes: [Write<'_, Self::Bus>; 2]) -> Result<(), Error<Self::Error>> {
         writes.into_iter().try_for_each(|(address, data)| self.write(address, data))
     }
@@ -91,7 +91,7 @@ pub trait AsyncClient {
     ///
     /// # Errors
     ///
-    /// Those of [`Client::read`].
+    /// The errors of [`Client::read`].
     async fn read(
         &mut self,
         address: <Self::Bus as Bus>::Address,
@@ -102,14 +102,14 @@ pub trait AsyncClient {
     ///
     /// # Errors
     ///
-    /// Those of [`Client::write`].
+    /// The errors of [`Client::write`].
     async fn write(&mut self, address: <Self::Bus as Bus>::Address, data: &[u8]) -> Result<(), Error<Self::Error>>;
 
     /// Writes two values, as [`Client::write_both`] does.
     ///
     /// # Errors
     ///
-    /// Those of [`Client::write_both`].
+    /// The errors of [`Client::write_both`].
     async fn write_both(&mut self, writes: [Write<'_, Self::Bus>; 2]) -> Result<(), Error<Self::Error>> {
         for (address, data) in writes {
             self.write(address, data).await?;
@@ -122,7 +122,7 @@ pub trait AsyncClient {
     ///
     /// # Errors
     ///
-    /// Those of [`Client::wait`].
+    /// The errors of [`Client::wait`].
     async fn wait(&mut self, time: Duration) -> Result<(), Error<Self::Error>> {
         let _ = time;
         Err(Error::NoClock)

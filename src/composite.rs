@@ -89,7 +89,7 @@ impl<const N: usize> Composite<N> {
     ///
     /// # Errors
     ///
-    /// Those of [`join`](Self::join), and [`OutOfRange`] if the sign is invalid or the absolute value doesn't fit in an
+    /// The errors of [`join`](Self::join), and [`OutOfRange`] if the sign is invalid or the absolute value doesn't fit in an
     /// `i32`.
     pub const fn join_signed(&self, sign: u16, digits: [u16; N]) -> Result<i32, OutOfRange> {
         let amount = match self.join(digits) {
@@ -107,7 +107,7 @@ impl<const N: usize> Composite<N> {
     ///
     /// # Errors
     ///
-    /// Those of [`split`](Self::split), and [`OutOfRange`] if the number is negative and the encoding has no sign.
+    /// The errors of [`split`](Self::split), and [`OutOfRange`] if the number is negative and the encoding has no sign.
     pub const fn split_signed(&self, number: i32) -> Result<(u16, [u16; N]), OutOfRange> {
         let sign = match (number < 0, self.negative) {
             (false, _) => 0,

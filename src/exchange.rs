@@ -73,7 +73,7 @@ pub trait AsyncExchange {
     ///
     /// # Errors
     ///
-    /// Those of [`Exchange::exchange`].
+    /// The errors of [`Exchange::exchange`].
     async fn exchange(&mut self, request: &[u8], reply: &mut [u8]) -> Result<usize, Error<Self::Error>>;
 }
 
@@ -152,7 +152,7 @@ pub trait ParameterMessages {
     ///
     /// # Errors
     ///
-    /// Those of [`read_reply`](Self::read_reply).
+    /// The errors of [`read_reply`](Self::read_reply).
     fn write_reply<E>(&self, parameter: Parameter, request: &[u8], reply: &[u8]) -> Result<(), Error<E>>;
 }
 

@@ -10,7 +10,7 @@ use serde::{Deserializer, Serializer};
 ///
 /// # Errors
 ///
-/// Those of the serializer.
+/// The errors of the serializer.
 pub fn serialize<S: Serializer, const N: usize>(bytes: &[u8; N], serializer: S) -> Result<S::Ok, S::Error> {
     let mut tuple = serializer.serialize_tuple(N)?;
     for byte in bytes {
@@ -23,7 +23,7 @@ pub fn serialize<S: Serializer, const N: usize>(bytes: &[u8; N], serializer: S) 
 ///
 /// # Errors
 ///
-/// Those of the deserializer. An error, too, if there are fewer than `N` bytes.
+/// The errors of the deserializer, and an error if there are fewer than `N` bytes.
 pub fn deserialize<'de, D: Deserializer<'de>, const N: usize>(deserializer: D) -> Result<[u8; N], D::Error> {
     struct Bytes<const N: usize>;
 

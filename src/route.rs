@@ -10,7 +10,7 @@ pub use limited::Limited;
 pub use resized::Resized;
 pub use window::{Handshake, ReadWindow, Through, WriteWindow};
 
-/// Address of a route, for tools. A route through a window has none.
+/// Provides the address of a route to tools. A route through a window has none.
 pub trait Route {
     /// Returns the entry of the object dictionary, on CANopen or on CANopen over EtherCAT.
     fn object(&self) -> Option<Object> {
@@ -66,14 +66,14 @@ pub trait ReadRoute<B: Bus>: Copy {
     ///
     /// # Errors
     ///
-    /// Those of the client and of the route.
+    /// The errors of the client and of the route.
     fn read<C: Client<Bus = B>>(&self, client: &mut C, buffer: &mut [u8]) -> Result<usize, Error<C::Error>>;
 
     /// Reads the value without blocking, as [`read`](Self::read) does.
     ///
     /// # Errors
     ///
-    /// Those of the client and of the route.
+    /// The errors of the client and of the route.
     #[allow(async_fn_in_trait)]
     async fn read_async<C: AsyncClient<Bus = B>>(
         &self,
@@ -92,14 +92,14 @@ pub trait WriteRoute<B: Bus>: Copy {
     ///
     /// # Errors
     ///
-    /// Those of the client and of the route.
+    /// The errors of the client and of the route.
     fn write<C: Client<Bus = B>>(&self, client: &mut C, data: &[u8]) -> Result<(), Error<C::Error>>;
 
     /// Writes the value without blocking, as [`write`](Self::write) does.
     ///
     /// # Errors
     ///
-    /// Those of the client and of the route.
+    /// The errors of the client and of the route.
     #[allow(async_fn_in_trait)]
     async fn write_async<C: AsyncClient<Bus = B>>(&self, client: &mut C, data: &[u8]) -> Result<(), Error<C::Error>>;
 }

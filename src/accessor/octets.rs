@@ -33,7 +33,7 @@ macro_rules! octets {
             ///
             /// # Errors
             ///
-            /// Only those of the client.
+            /// Only the errors of the client.
             pub $($async)? fn $write(&mut self, data: &[u8]) -> Result<(), Error<C::Error>>
             where
                 A: Writable,

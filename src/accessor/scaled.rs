@@ -19,7 +19,7 @@ macro_rules! scaled {
             ///
             /// # Errors
             ///
-            /// Those of [`read`](Accessor::read).
+            /// The errors of [`read`](Accessor::read).
             pub $($async)? fn $read_scaled(&mut self) -> Result<V::Physical, Error<C::Error>>
             where
                 A: Readable,
@@ -52,7 +52,7 @@ macro_rules! scaled {
             ///
             /// # Errors
             ///
-            /// Those of [`read`](Accessor::read).
+            /// The errors of [`read`](Accessor::read).
             pub $($async)? fn $read_scaled_by(&mut self, other: f64) -> Result<V::Physical, Error<C::Error>>
             where
                 A: Readable,
@@ -66,7 +66,7 @@ macro_rules! scaled {
             ///
             /// # Errors
             ///
-            /// Those of [`write_scaled`](Accessor::write_scaled).
+            /// The errors of [`write_scaled`](Accessor::write_scaled).
             pub $($async)? fn $write_scaled_by(&mut self, physical: f64, other: f64) -> Result<(), Error<C::Error>>
             where
                 A: Writable,

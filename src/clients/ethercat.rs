@@ -141,7 +141,7 @@ impl<'m> Sdo<'m> {
     ///
     /// # Errors
     ///
-    /// Those of [`AsyncClient::read`].
+    /// The errors of [`AsyncClient::read`].
     pub async fn read_complete(&mut self, from: Object, buffer: &mut [u8]) -> Result<usize, Error<BusError>> {
         self.upload(from, true, buffer).await
     }
@@ -150,7 +150,7 @@ impl<'m> Sdo<'m> {
     ///
     /// # Errors
     ///
-    /// Those of [`AsyncClient::write`].
+    /// The errors of [`AsyncClient::write`].
     pub async fn write_complete(&mut self, from: Object, data: &[u8]) -> Result<(), Error<BusError>> {
         self.download(from, true, data).await
     }

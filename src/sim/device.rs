@@ -124,7 +124,7 @@ impl Device {
     ///
     /// # Errors
     ///
-    /// [`AbortCode::LENGTH`] if the length of the handle's type differs from the table, and those of every method.
+    /// [`AbortCode::LENGTH`] if the length of the handle's type differs from the table, and the errors of every method (see [`Device`]).
     pub fn get<V: Fixed, A, L: Location>(&self, item: Item<V, A, L>) -> Result<V::Native, AbortCode> {
         self.axis_value(&item, 1)
     }
@@ -138,7 +138,7 @@ impl Device {
     /// # Errors
     ///
     /// [`AbortCode::LENGTH`] if the length of the handle's type differs from the table, [`AbortCode::TOO_HIGH`] if the
-    /// value doesn't fit its type, and those of every method.
+    /// value doesn't fit its type, and the errors of every method (see [`Device`]).
     pub fn set<V: Fixed, A, L: Location>(&mut self, item: Item<V, A, L>, value: V::Native) -> Result<(), AbortCode> {
         self.set_axis_value(&item, 1, value)
     }
@@ -147,7 +147,7 @@ impl Device {
     ///
     /// # Errors
     ///
-    /// Those of every method.
+    /// [`AbortCode::NO_OBJECT`] or [`AbortCode::NO_SUB_INDEX`] if the device doesn't have the item.
     pub fn bytes(&self, address: impl ItemAddress) -> Result<&[u8], AbortCode> {
         Ok(&self.slots.get(self.slot(&address, 1)?).value)
     }
@@ -157,7 +157,7 @@ impl Device {
     /// # Errors
     ///
     /// [`AbortCode::TOO_LONG`], [`AbortCode::TOO_SHORT`] or [`AbortCode::LENGTH`] if the bytes don't fit the item's
-    /// type, and those of every method.
+    /// type, and the errors of every method (see [`Device`]).
     pub fn set_bytes(&mut self, address: impl ItemAddress, bytes: &[u8]) -> Result<(), AbortCode> {
         let at = self.slot(&address, 1)?;
         values::check_length(&self.slots.get(at).entry, bytes)?;
@@ -170,7 +170,7 @@ impl Device {
     ///
     /// # Errors
     ///
-    /// Those of [`set`](Self::set).
+    /// The errors of [`set`](Self::set).
     pub fn set_initial<V: Fixed, A, L: Location>(
         &mut self,
         item: Item<V, A, L>,
@@ -186,7 +186,7 @@ impl Device {
     ///
     /// # Errors
     ///
-    /// Those of [`set_bytes`](Self::set_bytes).
+    /// The errors of [`set_bytes`](Self::set_bytes).
     pub fn set_initial_bytes(&mut self, address: impl ItemAddress, bytes: &[u8]) -> Result<(), AbortCode> {
         let at = self.slot(&address, 1)?;
         self.set_bytes(address, bytes)?;
@@ -209,7 +209,7 @@ impl Device {
     ///
     /// # Errors
     ///
-    /// Those of every method.
+    /// [`AbortCode::NO_OBJECT`] or [`AbortCode::NO_SUB_INDEX`] if the device doesn't have the item.
     pub fn on_write<V: Fixed, A, L: Location>(
         &mut self,
         item: Item<V, A, L>,
@@ -371,7 +371,7 @@ impl DeviceAxis<'_> {
     ///
     /// # Errors
     ///
-    /// Those of [`Device::get`].
+    /// The errors of [`Device::get`].
     pub fn get<V: Fixed, A, L: Location>(&self, item: Item<V, A, L>) -> Result<V::Native, AbortCode> {
         self.device.axis_value(&item, self.number)
     }
@@ -380,7 +380,7 @@ impl DeviceAxis<'_> {
     ///
     /// # Errors
     ///
-    /// Those of [`Device::set`].
+    /// The errors of [`Device::set`].
     pub fn set<V: Fixed, A, L: Location>(&mut self, item: Item<V, A, L>, value: V::Native) -> Result<(), AbortCode> {
         self.device.set_axis_value(&item, self.number, value)
     }
@@ -389,7 +389,7 @@ impl DeviceAxis<'_> {
     ///
     /// # Errors
     ///
-    /// Those of [`Device::on_write`].
+    /// The errors of [`Device::on_write`].
     pub fn on_write<V: Fixed, A, L: Location>(
         &mut self,
         item: Item<V, A, L>,

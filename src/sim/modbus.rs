@@ -64,7 +64,7 @@ impl Device {
     ///
     /// # Errors
     ///
-    /// Those of [`read_words`](Self::read_words).
+    /// The errors of [`read_words`](Self::read_words).
     pub fn read_bits(&mut self, table: RegisterTable, address: u16, count: u16) -> Result<Vec<bool>, Exception> {
         if !is_bits(table) {
             return Err(Exception::IllegalFunction);
@@ -77,7 +77,7 @@ impl Device {
     ///
     /// # Errors
     ///
-    /// Those of [`write_words`](Self::write_words).
+    /// The errors of [`write_words`](Self::write_words).
     pub fn write_bits(&mut self, table: RegisterTable, address: u16, bits: &[bool]) -> Result<(), Exception> {
         if table != RegisterTable::Coil {
             return Err(Exception::IllegalFunction);

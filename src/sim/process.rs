@@ -60,7 +60,7 @@ impl Device {
     ///
     /// # Errors
     ///
-    /// Those of [`mapping`](Self::mapping), and the abort code for a mapped object that the device doesn't have.
+    /// The errors of [`mapping`](Self::mapping), and the abort code for a mapped object that the device doesn't have.
     pub fn transmit_pdo(&self, index: u16) -> Result<Vec<u8>, AbortCode> {
         self.transmit_mapped(&self.mapping(index)?)
     }
@@ -70,7 +70,7 @@ impl Device {
     ///
     /// # Errors
     ///
-    /// Those of [`receive_pdo`](Self::receive_pdo).
+    /// The errors of [`receive_pdo`](Self::receive_pdo).
     pub fn receive_image(&mut self, assignment: u16, data: &[u8]) -> Result<(), AbortCode> {
         let mapping = self.assigned(assignment)?;
         self.receive_mapped(&mapping, data)
@@ -81,7 +81,7 @@ impl Device {
     ///
     /// # Errors
     ///
-    /// Those of [`transmit_pdo`](Self::transmit_pdo).
+    /// The errors of [`transmit_pdo`](Self::transmit_pdo).
     pub fn transmit_image(&self, assignment: u16) -> Result<Vec<u8>, AbortCode> {
         self.transmit_mapped(&self.assigned(assignment)?)
     }
@@ -96,7 +96,7 @@ impl Device {
     ///
     /// # Errors
     ///
-    /// Those of [`receive_pdo`](Self::receive_pdo).
+    /// The errors of [`receive_pdo`](Self::receive_pdo).
     pub fn receive_mapped(&mut self, mapping: &[MappedEntry], data: &[u8]) -> Result<(), AbortCode> {
         if data.len() < length(width(mapping)) {
             return Err(AbortCode::TOO_SHORT);

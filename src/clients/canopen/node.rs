@@ -108,7 +108,7 @@ macro_rules! methods {
             ///
             /// # Errors
             ///
-            /// Those of [`send`](Self::send).
+            /// The errors of [`send`](Self::send).
             pub $($async)? fn $nmt(&mut self, command: NmtCommand) -> Result<(), Error<P::Error>> {
                 let frame = command.frame(Some(self.id));
                 self.$send(&frame)$(.$await)?
@@ -118,7 +118,7 @@ macro_rules! methods {
             ///
             /// # Errors
             ///
-            /// Those of [`send`](Self::send).
+            /// The errors of [`send`](Self::send).
             pub $($async)? fn $sync(&mut self) -> Result<(), Error<P::Error>> {
                 self.$send(&nmt::sync())$(.$await)?
             }
@@ -170,7 +170,7 @@ macro_rules! methods {
             ///
             /// # Errors
             ///
-            /// Those of [`send`](Self::send). [`Error::OutOfRange`] if `cob_id` isn't an 11-bit COB-ID that a PDO may
+            /// The errors of [`send`](Self::send). [`Error::OutOfRange`] if `cob_id` isn't an 11-bit COB-ID that a PDO may
             /// have (CiA 301 7.3.5). [`Error::Length`] if `data` has more than 8 bytes.
             pub $($async)? fn $send_pdo(&mut self, cob_id: CobId, data: &[u8]) -> Result<(), Error<P::Error>> {
                 let frame = pdo(cob_id, self.id, data)?;

@@ -54,7 +54,7 @@ pub trait CanPort {
     ///
     /// # Errors
     ///
-    /// Those of the interface.
+    /// The errors of the interface.
     fn send(&mut self, frame: &CanFrame, patience: Duration) -> Result<bool, Self::Error>;
 
     /// Waits for a frame that `wanted` accepts and returns it. Passes each received frame to `wanted`; frames that it
@@ -63,7 +63,7 @@ pub trait CanPort {
     ///
     /// # Errors
     ///
-    /// Those of the interface.
+    /// The errors of the interface.
     fn receive(
         &mut self,
         patience: Duration,
@@ -81,14 +81,14 @@ pub trait AsyncCanPort {
     ///
     /// # Errors
     ///
-    /// Those of the interface.
+    /// The errors of the interface.
     async fn send(&mut self, frame: &CanFrame, patience: Duration) -> Result<bool, Self::Error>;
 
     /// Waits for a frame that `wanted` accepts, as [`CanPort::receive`] does.
     ///
     /// # Errors
     ///
-    /// Those of the interface.
+    /// The errors of the interface.
     async fn receive(
         &mut self,
         patience: Duration,
