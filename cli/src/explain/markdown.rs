@@ -1,30 +1,31 @@
-//! The catalogue of codes as a page of Markdown.
+//! Catalogue of codes as Markdown.
 
 use lexibus_codegen::diagnostics::codes::CODES;
 use lexibus_codegen::diagnostics::Code;
 
 use super::{level, strictness};
 
-/// What the codes of each family are about, by the letters that they begin with.
+/// Families of codes: the letters at the start of their codes, and their heading.
 const FAMILIES: [(&str, &str); 11] = [
-    ("IO", "Files and the selection"),
+    ("IO", "Input files and selection"),
     ("EDS", "EDS and DCF"),
-    ("XML", "XML of any format"),
+    ("XML", "XML files of any format"),
     ("ESI", "ESI"),
     ("XDD", "XDD and XDC"),
     ("GSD", "GSDML"),
     ("PDO", "PDOs"),
-    ("TAB", "Register tables, and what every description may have"),
-    ("MSG", "Messages of a command protocol"),
-    ("MOD", "Modules"),
-    ("CSV", "Lists of registers that become tables"),
+    ("TAB", "Register tables, and checks for all formats"),
+    ("MSG", "Command protocols"),
+    ("MOD", "Modules of a CANopen device"),
+    ("CSV", "Register lists (CSV)"),
 ];
 
-/// Every code with its explanation: a chapter a family, a section a code, each with the code as its anchor.
+/// Returns the catalogue: one chapter per family, and one section per code, with the code as its anchor.
 pub fn catalogue() -> String {
     let mut text = String::from(
-        "# The catalogue of codes\n\nThis page is what `lexibus explain --format markdown` prints. What classes and levels \
-         are, and how a level is set,\nis in [the chapter on diagnostics](diagnostics.md).\n\n| codes | about |\n|---|---|\n",
+        "# The catalogue of codes\n\nThis page is the output of `lexibus explain --format markdown`. \
+         [Diagnostics](diagnostics.md) explains classes and levels, and how to set a level.\n\n\
+         | codes | subject |\n|---|---|\n",
     );
     for (family, about) in FAMILIES {
         text += &format!("| [{family}](#{family}) | {about} |\n");
@@ -39,7 +40,7 @@ pub fn catalogue() -> String {
     text
 }
 
-/// A code as a section, with the code as its anchor.
+/// Returns the section of a code, with the code as its anchor.
 pub fn explain(code: &Code) -> String {
     let (class, summary) = (code.class.name(), escaped(code.summary));
     let mut text = format!("<a id=\"{}\"></a>\n\n### {}: {}\n\n", code.id, code.id, code.name);
@@ -50,12 +51,12 @@ pub fn explain(code: &Code) -> String {
     text
 }
 
-/// The letters that a code begins with.
+/// Returns the letters at the start of a code.
 fn family(code: &Code) -> &'static str {
     code.id.trim_end_matches(|letter: char| letter.is_ascii_digit())
 }
 
-/// Text in which nothing but code between backticks is markup.
+/// Escapes all markup in a text except code between backticks.
 fn escaped(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len() + 8);
     let is_paired = text.matches('`').count().is_multiple_of(2);
@@ -84,11 +85,11 @@ mod tests {
 
         ### EDS020: octal-number
 
-        **a number starts with 0 and so is octal**
+        **a number with a leading zero is octal**
 
         Class: repair (an error in strict mode). Level: warn.
 
-        In CiA 306, as in C, `012` is the octal number 10. Few authors mean that. Write the number in decimal or as `0x…`.
+        In CiA 306, as in C, `012` is the octal number 10. Few authors intend that. Lexibus follows the standard and reads the number as octal. Write it in decimal or as `0x…`.
         "#);
     }
 

@@ -1,14 +1,14 @@
-//! What `lexibus explain` prints: a code, or the catalogue of codes; for people, or as Markdown.
+//! Output of `lexibus explain`: one code or the catalogue of codes, as text or Markdown.
 
 pub mod markdown;
 
 use lexibus_codegen::diagnostics::codes::CODES;
 use lexibus_codegen::diagnostics::{Class, Code, Level};
 
-/// The width to which [`explain`] wraps.
+/// Maximum line width of [`explain`].
 const COLUMNS: usize = 80;
 
-/// What `lexibus explain` prints about a code, wrapped at 80 columns and ended by a line feed.
+/// Returns the explanation of a code, wrapped at 80 columns, with a line feed at the end.
 pub fn explain(code: &Code) -> String {
     let (class, strictness) = (code.class.name(), strictness(code.class));
     let mut text = wrapped(&format!("{}: {}", code.id, code.summary));
@@ -20,7 +20,7 @@ pub fn explain(code: &Code) -> String {
     text
 }
 
-/// Every code on a line of its own: identifier, name, class, default level, summary.
+/// Returns one line per code: identifier, name, class, default level and summary.
 pub fn catalogue() -> String {
     let width = |column: fn(&Code) -> &str| CODES.iter().map(|code| column(code).len()).max().unwrap_or(0);
     let (ids, names) = (width(|code| code.id), width(|code| code.name));
@@ -31,16 +31,16 @@ pub fn catalogue() -> String {
     CODES.iter().map(line).collect()
 }
 
-/// When findings of this class are errors.
+/// Describes when codes of a class are errors.
 fn strictness(class: Class) -> &'static str {
     match class {
         Class::Error => "always an error",
         Class::Repair => "an error in strict mode",
-        Class::Lint => "an error only where its level says so",
+        Class::Lint => "an error only if its level is deny",
     }
 }
 
-/// The default level as a user would set it.
+/// Returns the default level, as the user writes it.
 fn level(code: &Code) -> &'static str {
     match code.default {
         Level::Allow => "allow",
@@ -49,7 +49,7 @@ fn level(code: &Code) -> &'static str {
     }
 }
 
-/// `text` in lines of at most [`COLUMNS`] characters, each ended by a line feed; a longer word stays whole.
+/// Wraps a text at [`COLUMNS`] characters, with a line feed after each line. A longer word is not broken.
 fn wrapped(text: &str) -> String {
     let (mut lines, mut column) = (String::with_capacity(text.len() + 1), 0);
     for word in text.split_whitespace() {
@@ -77,14 +77,15 @@ mod tests {
     #[test]
     fn a_code_is_explained_in_80_columns() {
         insta::assert_snapshot!(explain(&codes::OCTAL_NUMBER), @r"
-        EDS020: a number starts with 0 and so is octal
+        EDS020: a number with a leading zero is octal
 
         name:   octal-number
         class:  repair (an error in strict mode)
         level:  warn
 
-        In CiA 306, as in C, `012` is the octal number 10. Few authors mean that. Write
-        the number in decimal or as `0x…`.
+        In CiA 306, as in C, `012` is the octal number 10. Few authors intend that.
+        Lexibus follows the standard and reads the number as octal. Write it in decimal
+        or as `0x…`.
         ");
         for code in codes::CODES {
             let text = explain(code);

@@ -1,17 +1,16 @@
-//! Findings that a source itself explains, by the spans in which it does.
+//! Diagnostics that a source allows, by span.
 
 use std::collections::HashMap;
 
 use super::Code;
 use crate::source::{FileId, Span};
 
-/// The spans in which findings of a code are not reported. The spans of a file and code are in order, each with the maximum of the ends so
-/// far.
+/// Spans in which a code is not reported. The spans of a file and code are sorted. The end of each is the maximum of the ends up to it.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Allowed(HashMap<(FileId, &'static str), Vec<(u32, u32)>>);
 
 impl Allowed {
-    /// Adds spans. Takes time in proportion to their number, so that a table with an `allow` in each row adds them all at once.
+    /// Adds spans. Each call sorts all spans again, so a table with many `allow` keys adds them in one call.
     pub fn extend(&mut self, spans: impl IntoIterator<Item = (Span, &'static Code)>) {
         for (span, code) in spans {
             self.0.entry((span.file, code.id)).or_default().push((span.start, span.end));
@@ -26,7 +25,7 @@ impl Allowed {
         }
     }
 
-    /// Whether a finding lies within a span of its code.
+    /// Returns whether a diagnostic is within a span in which its code is allowed.
     pub fn contains(&self, span: Span, code: &'static Code) -> bool {
         let Some(list) = self.0.get(&(span.file, code.id)) else { return false };
         let behind = list.partition_point(|(start, _)| *start <= span.start);

@@ -1,22 +1,22 @@
-//! The catalogue of diagnostic codes: the one place where a code gets its number, name, class and explanation.
+//! Catalogue of diagnostic codes, with identifier, name, class, default level and explanation of each.
 //!
-//! A code, once published, keeps its meaning; a retired one is never given out again.
+//! A published code keeps its meaning. The identifier of a retired code is never reused.
 
 use super::Level;
 
-/// What kind of finding a code stands for, which decides what strict mode makes of it.
+/// Class of a code. It determines the severity of the code in strict mode.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Class {
-    /// The input can't be used; always an error.
+    /// The input cannot be used. Always an error.
     Error,
-    /// The input broke a rule and was repaired, or a value was kept as text; an error in strict mode.
+    /// The input breaks a rule, and was repaired or kept as text. An error in strict mode.
     Repair,
-    /// The input was read as it stands, but is suspicious.
+    /// The input is suspicious, but was read unchanged.
     Lint,
 }
 
 impl Class {
-    /// One word for people.
+    /// Returns the name of the class, in lower case.
     pub fn name(self) -> &'static str {
         match self {
             Class::Error => "error",
@@ -26,29 +26,29 @@ impl Class {
     }
 }
 
-/// One kind of finding.
+/// Code of a kind of diagnostic.
 #[derive(Debug, PartialEq, Eq, Hash)]
 pub struct Code {
     /// Stable identifier, such as `EDS020`.
     pub id: &'static str,
     /// Stable name, such as `octal-number`.
     pub name: &'static str,
-    /// What strict mode makes of it.
+    /// Class.
     pub class: Class,
-    /// Its level unless a user sets another.
+    /// Level, unless the user sets another one.
     pub default: Level,
-    /// One line.
+    /// What is wrong, in lower case and without a full stop.
     pub summary: &'static str,
-    /// What `lexibus explain` prints.
+    /// Meaning, consequence, and what to do, as `lexibus explain` prints it. A line feed ends a paragraph.
     pub explanation: &'static str,
 }
 
-/// The code with this identifier or name, without regard to case.
+/// Returns the code with an identifier or name. Case does not matter.
 pub fn find(name: &str) -> Option<&'static Code> {
     CODES.iter().copied().find(|code| code.id.eq_ignore_ascii_case(name) || code.name.eq_ignore_ascii_case(name))
 }
 
-/// The name or identifier that is most similar to `name`, if any is similar at all.
+/// Returns the identifier or name that is most similar to `name`, if any is similar enough for a suggestion.
 pub fn similar(name: &str) -> Option<&'static str> {
     let name = name.to_ascii_lowercase();
     let distance = |known: &str| crate::text::edit_distance(&name, &known.to_ascii_lowercase());
@@ -61,7 +61,7 @@ pub fn similar(name: &str) -> Option<&'static str> {
         .map(|(_, known)| known)
 }
 
-/// The name of a code from that of its constant: `octal-number` for `OCTAL_NUMBER`.
+/// Returns the name of a code, derived from its constant: `octal-number` for `OCTAL_NUMBER`.
 const fn name<const LENGTH: usize>(constant: &str) -> [u8; LENGTH] {
     let mut name = [b'-'; LENGTH];
     let mut rest = constant.as_bytes();
@@ -95,672 +95,780 @@ macro_rules! codes {
             };
         )*
 
-        /// Every code, in the order of the catalogue.
+        /// All codes, in the order of the catalogue.
         pub static CODES: &[&Code] = &[$(&$constant),*];
     };
 }
 
 codes! {
-    IO001 UNREADABLE_FILE Error Deny "a file can't be read"
-        "The operating system refused to open or read the file, or the file is larger than Lexibus reads. The message \
-        quotes its reason. Check the path, the rights and, for a list of files, the working directory."
-    IO002 UNKNOWN_FORMAT Error Deny "the file is no device description"
-        "Neither the content nor the name of the file looks like any format that Lexibus reads: EDS, DCF (CiA 306), \
-        XDD, XDC (CiA 311), ESI (ETG.2000) or GSDML. The message says what the file looks like where that is known."
+    IO001 UNREADABLE_FILE Error Deny "a file cannot be read"
+        "The operating system refused to open or read the file, or the file exceeds the size limit. The message quotes \
+        the reason. Check the path and the permissions. If the command takes a list of files, check the working \
+        directory too."
+    IO002 UNKNOWN_FORMAT Error Deny "the file is not a device description"
+        "Neither the content nor the name of the file matches a format that Lexibus reads. These are EDS and DCF (CiA \
+        306), XDD and XDC (CiA 311), ESI (ETG.2000), GSDML, and register tables in TOML. The message names the actual \
+        format if Lexibus recognizes it. Check that it is the file you meant."
     IO003 INPUT_TOO_LARGE Error Deny "the description exceeds a limit"
-        "A description declares more elements, or nests them deeper, than any real device does, so that reading it \
-        would take time or memory out of proportion to the file. The limits are in the documentation of \
-        `lexibus_codegen::limits`."
-    IO004 NOTHING_SELECTED Error Deny "the description has nothing of the selected name"
-        "Devices, modules and objects can be selected by name, order code, product code and revision. Nothing in the \
-        file has this one, so that the output wouldn't be what was asked for. `lexibus info` lists what there is."
-    EDS001 ETHERNET_IP_EDS Error Deny "an EtherNet/IP EDS was given"
-        "ODVA's EtherNet/IP, DeviceNet and ControlNet devices also come with files called EDS. They share nothing with \
-        CANopen's but the name and the square brackets: their lists end in `;` and their sections are `[File]`, \
-        `[Device]`, `[Params]`. Ask the vendor for the CANopen EDS of the device."
-    EDS002 NOT_AN_EDS Error Deny "no CANopen section was found"
-        "The file has the ending of an EDS or DCF, but not one section of CiA 306 ([DeviceInfo], an object list, or an \
-        object such as [1000]). It may be empty, a link that was checked out as text, or something else."
-    EDS003 JUNK_LINE Repair Warn "a line is neither a section, an entry nor a comment"
-        "CiA 306 knows section headers, `Key=Value` entries and comment lines that start with `;`. Any other line is \
-        skipped. Often it is a wrapped value, a merge marker or an include of some other tool."
-    EDS004 ENTRY_OUTSIDE_SECTION Repair Warn "an entry stands before the first section"
-        "An entry belongs to the section above it. One with no section above has no meaning and is skipped."
-    EDS005 MALFORMED_HEADER Repair Warn "a section header isn't `[name]`"
-        "A section header is the name of the section between `[` and `]`, with nothing but a comment behind it. A \
-        header without its closing bracket is read up to the end of the line."
-    EDS006 INDENTED_HEADER Repair Warn "a section header isn't in the first column"
-        "CiA 306 wants `[` in the leftmost column. Some readers take an indented header for a value of the section \
-        above, and lose the section."
+        "The file declares more elements, or nests them deeper, than any real device does. Lexibus rejects it, because \
+        reading it would take too much time or memory. The module `lexibus_codegen::limits` documents all limits. \
+        Correct the element that the message names, such as a count or a range."
+    IO004 NOTHING_SELECTED Error Deny "nothing in the description matches the selection"
+        "You can select devices, modules and objects by name, order code, product code and revision. Nothing in the \
+        file matches, so Lexibus produces no output. Run `lexibus info` to list what the file contains."
+    EDS001 ETHERNET_IP_EDS Error Deny "the file is an EtherNet/IP EDS, not a CANopen EDS"
+        "ODVA uses the name EDS for descriptions of EtherNet/IP, DeviceNet and ControlNet devices. Their sections are \
+        `[File]`, `[Device]` and `[Params]`, and their lists end in `;`. They share only the name and the square \
+        brackets with CANopen files. Lexibus rejects the file. Ask the vendor for the CANopen EDS of the device."
+    EDS002 NOT_AN_EDS Error Deny "the file has no section of CiA 306"
+        "The file name ends in `.eds` or `.dcf`, but the file has no `[DeviceInfo]`, no object list and no object such \
+        as `[1000]`. It may be a link that was checked out as text. Lexibus rejects it. Check that it is the file you \
+        meant."
+    EDS003 JUNK_LINE Repair Warn "a line is neither a section header, an entry nor a comment"
+        "CiA 306 defines section headers, `Key=Value` entries and comment lines that start with `;`. Any other line is \
+        often a wrapped value, a merge marker or an include of another tool. Lexibus skips the line. Delete it, or \
+        join it with the value that it belongs to."
+    EDS004 ENTRY_OUTSIDE_SECTION Repair Warn "an entry is above the first section"
+        "An entry belongs to the section above it, so an entry without a section has no meaning. Lexibus skips it. \
+        Move it below a section header."
+    EDS005 MALFORMED_HEADER Repair Warn "a section header is not `[name]`"
+        "A section header is the section name between `[` and `]`. Only a comment may follow it. Lexibus reads a \
+        header without `]` up to the end of the line, and skips text after `]`. Close the bracket, or delete the text."
+    EDS006 INDENTED_HEADER Repair Warn "a section header is not in the first column"
+        "CiA 306 requires `[` in the first column. Some tools read an indented header as a value of the section above, \
+        and lose the section. Lexibus reads the section all the same. Delete the blanks before `[`."
     EDS007 DUPLICATE_SECTION Repair Warn "a section occurs twice"
-        "Section names are unique, without regard to case. The entries of both are merged; where both have a key, the \
-        later one wins, and EDS008 says so."
+        "Section names must be unique. Case does not matter. Lexibus merges the entries of both sections. If both have \
+        a key, the later value takes precedence and EDS008 reports it. Merge the sections in the file, because other \
+        tools may read only one of them."
     EDS008 DUPLICATE_KEY Repair Warn "a key occurs twice in a section"
-        "Keys are unique in a section, without regard to case. The last value is used, as most readers do."
-    EDS009 LONG_LINE Lint Warn "a line has over 255 characters"
-        "CiA 306 limits a line to 255 characters. Readers with a fixed buffer cut the line, or read the rest as a line \
-        of its own."
+        "Keys must be unique in a section. Case does not matter. Lexibus uses the last value, as most tools do. If CiA \
+        306 does not define the key, Lexibus keeps both entries. Delete the wrong entry."
+    EDS009 LONG_LINE Lint Warn "a line has more than 255 characters"
+        "CiA 306 limits a line to 255 characters. Tools with a fixed buffer cut the line, or read the rest as a \
+        separate line. Lexibus reads the whole line. Shorten it if other tools use the file."
     EDS010 ILLEGAL_SECTION_NAME Repair Warn "a section name breaks the grammar of CiA 306"
-        "An object's section is its index as four hexadecimal digits, a sub-index's is `<index>sub<n>` with the \
-        sub-index in hexadecimal. Neither has leading zeros beyond that, a `0x`, or blanks."
-    EDS011 UNKNOWN_SECTION Lint Warn "a section has no meaning in CiA 306"
-        "Lexibus keeps the entries as extension attributes of the device. Often the name is misspelt."
-    EDS012 UNKNOWN_KEY Lint Allow "a key has no meaning in CiA 306"
-        "Lexibus keeps the entry as an extension attribute of its object. Tools add keys of their own, so that this \
-        lint is off unless asked for."
-    EDS013 NOT_UTF8 Repair Warn "the file isn't ASCII or UTF-8"
-        "CiA 306 allows ASCII only. This file has bytes that aren't valid UTF-8 either; they were read as \
-        Windows-1252, in which German or French tools commonly write."
-    EDS014 HASH_COMMENT Repair Warn "a value is followed by a `#` comment"
-        "CiA 306 has no comment behind a value. Text from ` #` on was cut off the value of a key that has a fixed form \
-        (a number, an access type)."
-    EDS015 TRAILING_TEXT Repair Warn "text behind a value was cut off"
-        "The value of this key has a fixed form, and more text follows it."
+        "The section of an object is its index in four hexadecimal digits, such as `[2000]`. The section of a \
+        sub-index is `[2000sub1]`, with the sub-index in hexadecimal. More leading zeros, a `0x` prefix and blanks are \
+        not allowed. Lexibus reads the name as the object that it must mean. Correct the name, because other tools may \
+        lose the object."
+    EDS011 UNKNOWN_SECTION Lint Warn "a section is not defined in CiA 306"
+        "Often the name is misspelled. Lexibus keeps the entries as extension attributes of the device. Correct the \
+        name, or allow this code if the section is meant for another tool."
+    EDS012 UNKNOWN_KEY Lint Allow "a key is not defined in CiA 306"
+        "Lexibus keeps the entry as an extension attribute of its object. Many tools add keys, so this lint is off by \
+        default. Turn it on to find misspelled keys."
+    EDS013 NOT_UTF8 Repair Warn "the file is neither ASCII nor UTF-8"
+        "CiA 306 allows only ASCII. This file has bytes that are not valid UTF-8 either. Lexibus reads it as \
+        Windows-1252, the usual encoding of German and French tools. Save the file as ASCII or UTF-8."
+    EDS014 HASH_COMMENT Repair Warn "a `#` marks a comment"
+        "CiA 306 defines only comment lines that start with `;`. Lexibus skips lines that start with `#`. In a value \
+        of a fixed form, such as a number, it ignores the text from ` #` on. Other tools may read that text as part of \
+        the value. Write the comment on a separate line that starts with `;`."
+    EDS015 TRAILING_TEXT Repair Warn "text follows a value"
+        "The value of this key has a fixed form, such as a number, but more text follows it. Lexibus ignores the text, \
+        and also the suffix of a C literal, as in `50u`. Delete the text."
     EDS016 QUOTED_VALUE Repair Warn "a text is in quotation marks"
-        "CiA 306 writes texts without quotation marks; a reader that follows it shows them as part of the name. One \
-        pair was removed."
-    EDS020 OCTAL_NUMBER Repair Warn "a number starts with 0 and so is octal"
-        "In CiA 306, as in C, `012` is the octal number 10. Few authors mean that. Write the number in decimal or as \
-        `0x…`."
-    EDS021 LEADING_ZERO Repair Warn "a number starts with 0 but was read as decimal"
-        "A leading zero makes a number octal. This one has the digits 8 or 9, so that it can only be meant as decimal, \
-        or is the same number either way. It was read as decimal."
-    EDS022 ILLEGAL_NUMBER Repair Warn "a value is no number"
-        "The key wants a number (decimal, `0x` hexadecimal, or a $NODEID formula). The text is kept as it is, and no \
-        number is derived from it."
-    EDS023 HEX_SUFFIX Repair Warn "a hexadecimal number is written with an `h`"
-        "CiA 306 writes hexadecimal numbers with `0x` in front. `NNh` was read as hexadecimal."
-    EDS024 TWOS_COMPLEMENT Repair Warn "a bit pattern was given for a signed value"
-        "The number doesn't fit the signed data type, but its bits do. It was read as two's complement: 0xFFFFFFFF is \
-        -1 for an INTEGER32. Write the negative number."
-    EDS025 OUT_OF_TYPE Lint Warn "a value doesn't fit its data type"
-        "No value of this data type can be as large or small. It is kept in the IR; generated code clamps a limit to \
-        the type and leaves such a default out."
-    EDS026 REVERSED_NODEID Repair Warn "a formula doesn't start with $NODEID"
-        "CiA 306 wants `$NODEID+0x180`; in the other order the text is no formula, and readers that follow the grammar \
-        drop the value."
+        "CiA 306 writes texts without quotation marks. Tools that follow the standard show them as part of the name. \
+        Lexibus removes one pair. Delete the quotation marks."
+    EDS020 OCTAL_NUMBER Repair Warn "a number with a leading zero is octal"
+        "In CiA 306, as in C, `012` is the octal number 10. Few authors intend that. Lexibus follows the standard and \
+        reads the number as octal. Write it in decimal or as `0x…`."
+    EDS021 LEADING_ZERO Repair Warn "a number with a leading zero is read as decimal"
+        "A leading zero makes a number octal. This number has the digits 8 or 9, or has the same value in octal and \
+        decimal. Lexibus reads it as decimal. Delete the leading zero."
+    EDS022 ILLEGAL_NUMBER Repair Warn "a value is not a number"
+        "The key requires a number in its range: decimal, hexadecimal with `0x`, or a `$NODEID` formula. Lexibus keeps \
+        the text or leaves the value out, as the diagnostic says, and derives no number from it. Correct the value."
+    EDS023 HEX_SUFFIX Repair Warn "a hexadecimal number has the suffix `h`"
+        "CiA 306 writes hexadecimal numbers with the prefix `0x`. Lexibus reads `1Fh` as 0x1F. Write the prefix, \
+        because other tools may not read the suffix."
+    EDS024 TWOS_COMPLEMENT Repair Warn "a signed value is given as a bit pattern"
+        "The number does not fit the signed data type, but its bits do. Lexibus reads it as two's complement: \
+        `0xFFFFFFFF` is -1 for an INTEGER32. Write the negative number."
+    EDS025 OUT_OF_TYPE Lint Warn "a value does not fit its data type"
+        "The data type cannot hold a value that large or small. Lexibus keeps it in the intermediate representation. \
+        Generated code clamps a limit to the type and leaves out a default value. Correct the value or the data type."
+    EDS026 REVERSED_NODEID Repair Warn "a formula does not start with `$NODEID`"
+        "CiA 306 requires the form `$NODEID+0x180`. Tools that follow the grammar drop a value in the reverse order. \
+        Lexibus reads it as the standard form. Write `$NODEID` first."
     EDS027 UNKNOWN_FORMULA Repair Warn "a formula has an unknown form"
-        "Only sums of $NODEID and numbers are defined. The text is kept as it is. If it is another name of the \
-        node-ID, name it as an alias (`--node-id-alias`)."
-    EDS028 REAL_FOR_INTEGER Repair Warn "a decimal fraction was given for an integer"
-        "The data type is an integer and the number has a decimal point. A fraction of zero was dropped; any other \
-        value is kept as text."
+        "CiA 306 defines only sums of `$NODEID` and numbers. Lexibus keeps any other formula as text. Correct the \
+        formula. If it contains another name of the node-ID, declare the name with `--node-id-alias`."
+    EDS028 REAL_FOR_INTEGER Repair Warn "a decimal fraction is given for an integer"
+        "The data type is an integer, but the number has a decimal point. Lexibus drops a fraction of zero: `20.0` is \
+        20. It keeps any other fraction as text. Write an integer, or correct the data type."
     EDS029 DECIMAL_COMMA Repair Warn "a real number has a decimal comma"
-        "Real numbers were read with the comma as decimal point."
-    EDS030 REAL_AS_HEX Repair Warn "a hexadecimal number of odd length was given for a real"
-        "For a REAL32 or REAL64, exactly 8 or 16 hexadecimal digits are read as the bits of the IEEE 754 number. With \
-        another count of digits the number itself was taken."
+        "Lexibus reads the comma as the decimal point: `1,5` is 1.5. Other tools may reject the number or drop the \
+        digits after the comma. Write a decimal point."
+    EDS030 REAL_AS_HEX Repair Warn "a real number has the wrong number of hexadecimal digits"
+        "Lexibus reads exactly 8 digits of a REAL32, or 16 of a REAL64, as the bits of an IEEE 754 number. It reads \
+        any other count of digits as an integer: `0x02` is 2. Write the number in decimal, or all digits of its bits."
     EDS031 DOMAIN_DEFAULT Repair Warn "a domain has a default value"
-        "A DOMAIN is a block of data of any length and has no default. The text is kept as it is."
+        "A DOMAIN is a block of data of any length, and has no default value. Lexibus keeps the value as text. Delete \
+        it, or correct the data type."
     EDS032 NOT_BOOLEAN Repair Warn "a flag is neither 0 nor 1"
-        "The key is a flag. `True`, `0x1` and the like were read for what they mean."
-    EDS033 UNKNOWN_ACCESS Repair Warn "an access type isn't one of ro, wo, rw, rwr, rww, const"
-        "`r` was read as ro and `w` as wo; anything else leaves the item read-only, which can do no harm."
+        "The key is a flag, such as PDOMapping. Lexibus reads the value by its meaning: `True`, `0x1` and `2` as 1, \
+        `no` as 0. Write 0 or 1, because other tools may read the value differently."
+    EDS033 UNKNOWN_ACCESS Repair Warn "an access type is not one of ro, wo, rw, rwr, rww, const"
+        "Lexibus reads `r` as ro and `w` as wo. It makes any other item read-only, so that generated code never writes \
+        it by mistake. Write one of the six access types."
     EDS034 MISSING_ACCESS Repair Warn "an object has no access type"
-        "AccessType is mandatory but for domains. Without it the item is kept read-only."
+        "AccessType is mandatory except for domains. Lexibus makes the item read-only, so generated code cannot write \
+        it. Add AccessType."
     EDS035 MISSING_DATA_TYPE Repair Warn "a variable has no data type"
-        "DataType is mandatory for variables. Without it the item is kept read-only, as raw bytes."
-    EDS036 UNKNOWN_DATA_TYPE Repair Warn "a data type isn't known"
-        "The number is neither a basic type of CiA 301 nor an object of this file that defines a type. The item is \
-        kept as raw bytes."
-    EDS037 BAD_OCTETS Repair Warn "an octet string isn't hexadecimal"
-        "Octet strings are pairs of hexadecimal digits. The text is kept as it is."
+        "DataType is mandatory for variables. Lexibus keeps the item as read-only raw bytes. Add DataType, such as \
+        `0x0007` for UNSIGNED32."
+    EDS036 UNKNOWN_DATA_TYPE Repair Warn "a data type is unknown"
+        "The number is neither a basic type of CiA 301 nor an object of this file that defines a type. Lexibus keeps \
+        the item as raw bytes. Correct DataType."
+    EDS037 BAD_OCTETS Repair Warn "an octet string is not hexadecimal"
+        "An octet string consists of pairs of hexadecimal digits. Lexibus keeps any other value as text. Write two \
+        digits for each byte."
     EDS038 EMPTY_NAME Lint Warn "an object has no name"
-        "ParameterName is mandatory. Generated code names the object by its index. In a register table, a value or a \
-        bit whose label is empty is found too."
-    EDS039 COMPLEX_DATA_TYPE Lint Warn "an entry has a reserved or a record data type"
-        "A single value can't have a record type (0x20 to 0x23) or a reserved code. It is kept as raw bytes."
+        "ParameterName is mandatory. Generated code names the object by its index. In a register table, this code also \
+        reports values and bits with an empty label. Add the name."
+    EDS039 COMPLEX_DATA_TYPE Lint Warn "an entry has a reserved data type or the type of a record"
+        "A single value cannot have a record type (0x20 to 0x23) or a reserved code. Lexibus keeps it as raw bytes. \
+        Correct DataType."
     EDS040 ORPHAN_SUB Repair Warn "a sub-index has no object"
-        "There is a section for a sub-index, but none for its object. A RECORD was made to hold it."
+        "The file has a section for a sub-index, but none for its object. Lexibus creates a RECORD without a name to \
+        hold it. Describe the object with ObjectType and SubNumber."
     EDS041 LISTED_NOT_DESCRIBED Lint Warn "an object is listed but not described"
-        "The list announces an object that has no section, so that nothing is known of it."
+        "A list names an object that has no section. Lexibus leaves the object out, because nothing is known about it. \
+        Add the section, or delete the object from the list."
     EDS042 NOT_LISTED Lint Warn "an object is described but not listed"
-        "Every object belongs into one of [MandatoryObjects], [OptionalObjects] and [ManufacturerObjects]; many \
-        readers look at nothing else. The object is kept."
-    EDS043 LIST_COUNT Repair Warn "an object list doesn't have as many entries as it says"
-        "SupportedObjects is the number of entries, which are numbered from 1. The entries that exist are used."
+        "Every object belongs in `[MandatoryObjects]`, `[OptionalObjects]` or `[ManufacturerObjects]`. Many tools read \
+        only the objects in these lists. Lexibus keeps the object. Add it to its list."
+    EDS043 LIST_COUNT Repair Warn "a list announces a wrong number of entries"
+        "SupportedObjects, or a similar key, is the number of entries, which are numbered from 1. Lexibus uses the \
+        entries that exist. Correct the number, because other tools may ignore entries beyond it."
     EDS044 LISTED_TWICE Lint Warn "an object is listed twice"
-        "One mention is enough; the second says nothing new."
+        "One entry in the object lists is enough. Lexibus ignores the second one. Delete it."
     EDS045 WRONG_LIST Lint Warn "an object is in the wrong list"
-        "[MandatoryObjects] holds 0x1000, 0x1001 and 0x1018; [ManufacturerObjects] 0x2000 to 0x5FFF; [OptionalObjects] \
-        the others from 0x1000 on."
-    EDS046 SUB_NUMBER Repair Warn "SubNumber isn't the number of sub-indices"
-        "SubNumber counts the described sub-indices including 0, without 0xFF. The sections that exist are used."
+        "`[MandatoryObjects]` lists 0x1000, 0x1001 and 0x1018. `[ManufacturerObjects]` lists 0x2000 to 0x5FFF. \
+        `[OptionalObjects]` lists all others from 0x1000 on. Lexibus keeps the object. Move it to the right list."
+    EDS046 SUB_NUMBER Repair Warn "SubNumber is not the number of sub-indices"
+        "SubNumber counts the described sub-indices, including 0 but not 0xFF. Lexibus uses the sections that exist. \
+        Correct the number, or add the missing sections."
     EDS047 VAR_WITH_SUBS Repair Warn "a VAR has sub-indices"
-        "An object of type VAR is one value. This one has sub-indices and no data type of its own, so that it is \
-        treated as a RECORD."
+        "An object of type VAR is a single value. This one has sub-indices and no data type, so Lexibus treats it as a \
+        RECORD. Write ObjectType `0x9` for a RECORD or `0x8` for an ARRAY."
     EDS048 COMPACT_AND_SUBS Repair Warn "CompactSubObj and SubNumber are both given"
-        "Either the sub-indices are described one by one or all at once. What is described stays as it is, and the \
-        compact description fills the gaps."
-    EDS049 SUB0_MISMATCH Lint Warn "sub-index 0 doesn't give the highest sub-index"
-        "The default of sub-index 0 should be the highest sub-index that exists (CiA 301 7.4.3). PDO mappings, the \
-        PDOs of a sync manager and 0x1003 are exempt, because there it is the number of valid entries."
-    EDS050 DEFAULT_OUT_OF_LIMITS Lint Warn "a default lies outside of its limits"
-        "The device could not be written with its own default. One of the numbers is wrong. In a register table the \
-        same is said of the only value (`fixed`), of the values that are allowed, and of those that may be written."
-    EDS051 LIMITS_SWAPPED Lint Warn "LowLimit is greater than HighLimit"
-        "No value satisfies the limits. They are kept, and generated code doesn't check them."
+        "An object describes its sub-indices one by one, or all at once with CompactSubObj. Lexibus keeps the \
+        sub-indices that have a section, and fills the gaps from CompactSubObj. Delete one of the keys."
+    EDS049 SUB0_MISMATCH Lint Warn "sub-index 0 does not state the highest sub-index"
+        "The default value of sub-index 0 is the highest sub-index (CiA 301, 7.4.3). Tools that read all entries need \
+        it. PDO mappings, PDO assignments and 0x1003 are exempt, because their sub-index 0 is the number of valid \
+        entries. Correct the default value, or describe the missing sub-indices."
+    EDS050 DEFAULT_OUT_OF_LIMITS Lint Warn "a default value is outside of its limits"
+        "The device would reject its own default value, so one of the numbers is wrong. Lexibus keeps them all. In a \
+        register table, this code also reports fixed values (`fixed`), allowed values and writable values. Compare the \
+        numbers with the manual and correct one."
+    EDS051 LIMITS_SWAPPED Lint Warn "the minimum is greater than the maximum"
+        "No value satisfies the limits. Lexibus keeps them, but generated code does not check them. Correct LowLimit \
+        or HighLimit. If one of them has the wrong sign, check the data type too."
     EDS052 HEADER_FORMAT Lint Warn "a version, date or time has another form"
-        "CiA 306: versions are whole numbers, EDSVersion is `x.y`, dates are `mm-dd-yyyy`, times `hh:mm` with AM or \
-        PM. The text is kept."
-    EDS053 OLD_EDS_VERSION Lint Warn "the file says it is older than EDS 4.0"
-        "Files before version 4.0 lack CompactSubObj, ObjFlags and $NODEID in limits, and describe modules \
-        differently. A missing EDSVersion means 3.0."
+        "In CiA 306, versions are whole numbers, and EDSVersion is `x.y`. Dates are `mm-dd-yyyy`, and times are \
+        `hh:mm` with AM or PM. Lexibus keeps the text. Correct its form."
+    EDS053 OLD_EDS_VERSION Lint Warn "the file is older than EDS 4.0"
+        "Files before version 4.0 have no CompactSubObj, no ObjFlags and no `$NODEID` in limits. They also describe \
+        modules differently. A missing EDSVersion means 3.0. Ask the vendor for a newer file, or add EDSVersion if \
+        only the key is missing."
     EDS054 UNRESOLVED_MODULE Lint Warn "a module or extension is announced but not described"
-        "A module's sections are named `[M<n>ModuleInfo]`, `[M<n>FixedObjects]`, `[M<n>SubExtends]`, and so on. What \
-        is announced without them is kept empty."
-    EDS055 DANGLING_LINK Lint Warn "an object link leads nowhere"
-        "[<index>ObjectLinks] names an object that the file doesn't describe."
-    EDS056 NAME_WITHOUT_SUB Lint Warn "a name, value or denotation is given for a sub-index that doesn't exist"
-        "The sections [<index>Name], [<index>Value] and [<index>Denotation] refine the sub-indices of CompactSubObj. \
-        This entry has none to refine."
+        "The sections of a module are `[M<n>ModuleInfo]`, `[M<n>FixedObjects]`, `[M<n>SubExtends]` and so on. Lexibus \
+        keeps an announced module without these sections as an empty one. Add the sections, or correct the list."
+    EDS055 DANGLING_LINK Lint Warn "an object link has no target"
+        "`[<index>ObjectLinks]` names an object that the file does not describe. Lexibus keeps the link. Correct the \
+        index, or describe the object."
+    EDS056 NAME_WITHOUT_SUB Lint Warn "a name, value or denotation is given for a sub-index that does not exist"
+        "The sections `[<index>Name]`, `[<index>Value]` and `[<index>Denotation]` refine the sub-indices of \
+        CompactSubObj. Their keys are sub-indices in decimal. Lexibus keeps this entry as an extension attribute. \
+        Correct the key."
     EDS057 NO_SUBS Lint Warn "an ARRAY or RECORD has no sub-indices"
-        "Nothing says which sub-indices the object has: in an EDS, there is neither SubNumber nor CompactSubObj, and \
-        the sections that exist are used."
-    EDS058 NO_SUB0 Lint Warn "sub-index 0 isn't described"
-        "Every ARRAY and RECORD has a sub-index 0, which holds the highest sub-index (CiA 301 7.4.3). Who counts the \
-        entries reads it first."
+        "Nothing describes the sub-indices of the object. In an EDS, it has neither sections for them nor \
+        CompactSubObj. The object has no value to read or write. Describe its sub-indices."
+    EDS058 NO_SUB0 Lint Warn "sub-index 0 is not described"
+        "Every ARRAY and RECORD has a sub-index 0, which holds the highest sub-index (CiA 301, 7.4.3). Tools that \
+        count the entries read it first. Lexibus keeps the object without it. Describe sub-index 0 as an UNSIGNED8."
     EDS059 ARRAY_TYPES Lint Warn "the elements of an array have different types"
-        "All elements of an ARRAY have one data type; an object with different ones is a RECORD."
-    EDS060 SUB0_ACCESS Lint Allow "sub-index 0 can be written and its entries can't, or the other way round"
-        "Sub-index 0 holds the highest sub-index. Writing it makes sense only where the number of valid entries can \
-        change, as in a PDO mapping or a list of errors; then the entries can be written too, or the list is cleared \
-        by writing 0."
-    EDS061 IDENTITY_MISMATCH Lint Warn "object 0x1018 and [DeviceInfo] disagree"
-        "VendorNumber, ProductNumber and RevisionNumber are the defaults of 0x1018 sub-index 1 to 3. A master that \
-        checks the identity of a node would reject the device, or accept another."
+        "All elements of an ARRAY have one data type. An object with different types is a RECORD. Lexibus keeps the \
+        types. Correct them, or change the object to a RECORD."
+    EDS060 SUB0_ACCESS Lint Allow "sub-index 0 is writable and its entries are not, or the reverse"
+        "Sub-index 0 is writable only if the number of valid entries can change, as in a PDO mapping or an error list. \
+        Then the entries are writable too, or writing 0 clears the list. Lexibus keeps the access rights. This lint is \
+        off by default. Compare the access rights with the manual."
+    EDS061 IDENTITY_MISMATCH Lint Warn "object 0x1018 and `[DeviceInfo]` disagree"
+        "VendorNumber, ProductNumber and RevisionNumber are the default values of 0x1018, sub-index 1 to 3. A master \
+        that checks the identity of a node would reject the device, or accept another one. Lexibus uses \
+        `[DeviceInfo]`. Read 0x1018 from the device and correct the file."
     EDS062 MISSING_ENTRY Lint Allow "a mandatory entry is missing"
-        "CiA 306 makes the entry mandatory. Lexibus uses the default that most tools assume."
+        "CiA 306 requires the entry. Lexibus assumes the same default as most tools. This lint is off by default. Add \
+        the entry if another tool requires it."
     EDS063 MISSING_MANDATORY_OBJECT Lint Warn "a mandatory object is missing"
-        "Every CANopen device has the objects 0x1000, 0x1001 and 0x1018 (CiA 301 7.5.2)."
-    EDS064 VALUE_NOT_ALLOWED Lint Warn "a value isn't allowed for its key"
-        "The key has a small set or range of values. This one isn't among them; it is kept where the IR can hold it."
+        "Every CANopen device has the objects 0x1000, 0x1001 and 0x1018 (CiA 301, 7.5.2). Lexibus generates code \
+        without the missing object. Check that the file is complete, and add the object."
+    EDS064 VALUE_NOT_ALLOWED Lint Warn "a value is not allowed for its key"
+        "The key has a small set or range of values, such as 1 to 127 for a node-ID. Lexibus keeps the value if the \
+        intermediate representation can hold it. Correct the value."
     EDS065 COMPACT_WITHOUT_TYPE Lint Warn "a compact object has no data type"
-        "The elements of CompactSubObj take their type from the object. Without DataType they are raw bytes."
+        "The elements of CompactSubObj have the data type of the object. Lexibus keeps them as read-only raw bytes if \
+        DataType is missing. Add DataType."
     EDS066 STRUCTURE_ENTRY Lint Warn "sub-index 0xFF is counted as an element"
-        "Sub-index 0xFF describes the structure of the object (CiA 301 7.4.7.2). It is documented, but it is no \
-        element, and SubNumber doesn't count it."
-    EDS067 UNKNOWN_OBJECT_TYPE Repair Warn "an object type isn't known"
-        "ObjectType is one of 0 (NULL), 2 (DOMAIN), 5 (DEFTYPE), 6 (DEFSTRUCT), 7 (VAR), 8 (ARRAY) and 9 (RECORD). Any \
-        other was read by what the section describes."
-    EDS068 TYPE_AREA_OBJECT Lint Warn "an object stands in the data type area"
-        "Objects below 0x1000 define data types; they have no value to read, and object type DEFTYPE or DEFSTRUCT."
+        "Sub-index 0xFF describes the structure of the object (CiA 301, 7.4.7.2). It is not an element, so SubNumber \
+        does not count it. Lexibus keeps its description. Correct SubNumber."
+    EDS067 UNKNOWN_OBJECT_TYPE Repair Warn "an object type is unknown"
+        "ObjectType is 0 (NULL), 2 (DOMAIN), 5 (DEFTYPE), 6 (DEFSTRUCT), 7 (VAR), 8 (ARRAY) or 9 (RECORD). A sub-index \
+        is a VAR or a DOMAIN. Lexibus reads an object with sub-indices as a RECORD and any other as a VAR. Correct \
+        ObjectType."
+    EDS068 TYPE_AREA_OBJECT Lint Warn "an object is in the data type area"
+        "Objects below 0x1000 define data types. They have the object type DEFTYPE or DEFSTRUCT, and no value to read. \
+        Correct the index or ObjectType."
     EDS069 MISSING_SECTION Lint Warn "a mandatory section is missing"
-        "An EDS has the sections [FileInfo], [DeviceInfo] and [MandatoryObjects]; a file of a modular device that \
-        describes modules has [SupportedModules]."
+        "An EDS has the sections `[FileInfo]`, `[DeviceInfo]` and `[MandatoryObjects]`. A file that describes modules \
+        has `[SupportedModules]`. Lexibus reads the sections that exist. Add the missing section, because other tools \
+        may reject the file."
     EDS070 NOT_ALLOWED_ENTRY Lint Allow "an entry has no meaning in its section"
-        "The key is one of CiA 306, but says nothing where it stands: a DataType or a DefaultValue of an object whose \
-        values are its sub-indices, or a SubNumber of a single value. It is kept as an extension attribute."
-    EDS071 HEX_COUNT Lint Warn "a number of entries is in hexadecimal"
-        "The number of entries of a list is read as decimal by many tools, which then see an empty list."
-    XML001 MALFORMED_XML Error Deny "the XML isn't well formed"
-        "The file can't be read further than to this place: a tag isn't closed, an attribute isn't quoted, or the file \
-        was cut off."
-    XML002 ENTITY_REFERENCE Repair Warn "an entity isn't one of the five of XML"
-        "Lexibus expands no entities other than those that XML itself defines, so that a small file can't grow into a \
-        large one. The reference is kept as text."
-    XML003 WRONG_ENCODING Repair Warn "the file isn't in the encoding that it declares"
-        "The XML declaration names an encoding (UTF-8 where there is none), and the bytes are of another one. Bytes \
-        that are UTF-8 were read as such whatever is declared, all others as declared, or else as Windows-1252. Bytes \
-        that are no letter of that encoding are lost."
-    XML004 SECOND_ROOT Repair Warn "something follows the root element"
-        "A document has one root element, and nothing but comments behind it. What follows was left out: often it is \
-        the rest of an older, longer version of the file."
-    XML005 REFERENCED_FILE Lint Warn "a file that the description refers to wasn't read"
-        "References are followed to files beside the description or in folders below it, never elsewhere. What the \
-        file would have added is missing."
+        "CiA 306 defines the key, but not for this kind of object. Examples are a DataType of an object with \
+        sub-indices, and a SubNumber of a single value. Lexibus keeps the entry as an extension attribute. This lint \
+        is off by default. Delete the entry, or correct ObjectType."
+    EDS071 HEX_COUNT Lint Warn "the number of entries is hexadecimal"
+        "Many tools read the number of entries of a list only as decimal, and then see an empty list. Lexibus reads \
+        hexadecimal too. Write the number in decimal."
+    XML001 MALFORMED_XML Error Deny "the XML is not well-formed"
+        "A tag is not closed, an attribute is not quoted, or the file is cut off. Lexibus cannot read beyond this \
+        position and rejects the file. Correct the XML, or get a complete copy of the file."
+    XML002 ENTITY_REFERENCE Repair Warn "an entity is not defined in XML"
+        "XML defines the entities `&amp;`, `&lt;`, `&gt;`, `&quot;` and `&apos;`. Lexibus expands no others, so that a \
+        small file cannot grow into a large one. It keeps the reference as text. Write the character itself, and \
+        `&amp;` for `&`."
+    XML003 WRONG_ENCODING Repair Warn "the file is not in its declared encoding"
+        "The XML declaration names an encoding. The default is UTF-8. Lexibus reads bytes that are valid UTF-8 as \
+        UTF-8, whatever is declared. It reads others in the declared encoding, or else as Windows-1252. Bytes without \
+        a character in that encoding are lost. Declare the actual encoding."
+    XML004 SECOND_ROOT Repair Warn "content follows the root element"
+        "A document has one root element, and only comments may follow it. Often the rest of an older, longer version \
+        of the file is left. Lexibus ignores the content. Delete it."
+    XML005 REFERENCED_FILE Lint Warn "a referenced file was not read"
+        "Lexibus follows references only to files in the folder of the description and in folders below it. The \
+        content of the referenced file is missing. Put the file there, under the name in the reference."
     ESI001 ESI_VALUE Repair Warn "a text or attribute has an unknown form"
-        "ETG.2000 fixes the form: a decimal number or `#x` and hexadecimal digits, `true` or `false`, pairs of \
-        hexadecimal digits, one of a few words. What can't be read is left out, or kept as text where the IR can hold \
-        it."
-    ESI002 ESI_UNKNOWN_ELEMENT Lint Allow "an element or attribute has no meaning in ETG.2000"
-        "What it says is kept as an extension attribute. Tools add elements of their own outside of VendorSpecific."
+        "ETG.2000 fixes the form of the value, such as a decimal number, `#x` with hexadecimal digits, or one of a few \
+        words. Lexibus leaves the value out, or keeps it as text if the intermediate representation can hold it. \
+        Correct the value."
+    ESI002 ESI_UNKNOWN_ELEMENT Lint Allow "an element or attribute is not defined in ETG.2000"
+        "Lexibus keeps it as an extension attribute. Tools add elements outside of VendorSpecific, so this lint is off \
+        by default. Turn it on to find misspelled names."
     ESI003 BARE_HEX Repair Warn "a hexadecimal number has no `#x`"
-        "A number is decimal unless it starts with `#x`. This one has letters, so that it can only be hexadecimal; its \
-        neighbours without letters are read as decimal, and may be meant as hexadecimal, too."
-    ESI010 UNRESOLVED_TYPE Repair Warn "a data type isn't known"
-        "The name is neither that of a DataType of this dictionary nor one of a basic type (ETG.1000.6), or the \
-        DataType says nothing but its name. The value is kept as raw bytes."
-    ESI011 TYPE_ALIAS Lint Allow "a basic type goes by another name"
-        "ETG.1000.6 calls it USINT, UINT, UDINT and so on; the name is that of the same type in CiA 301 or in C."
+        "A number is decimal unless it starts with `#x`. This one has hexadecimal letters, so Lexibus reads it as \
+        hexadecimal. It reads numbers without letters as decimal, although the author may have meant them as \
+        hexadecimal too. Write `#x` before all hexadecimal numbers."
+    ESI010 UNRESOLVED_TYPE Repair Warn "a data type is unknown"
+        "The name is neither a DataType of this dictionary nor a basic type (ETG.1000.6), or the DataType defines only \
+        its name. Lexibus keeps the value as raw bytes. Define the type in DataTypes, or use a basic type such as \
+        UINT."
+    ESI011 TYPE_ALIAS Lint Allow "a basic type has a name of another standard"
+        "ETG.1000.6 calls the basic types USINT, UINT, UDINT and so on. This file uses the name of the same type in \
+        CiA 301 or C, such as UNSIGNED16. Lexibus reads it as the basic type. This lint is off by default. Use the \
+        name of ETG.1000.6 if another tool requires it."
     ESI012 GUESSED_TYPE Repair Warn "a data type was guessed from the beginning of its name"
-        "The name begins with that of a basic type (`UINT_hex`), the sizes agree, and nothing else says what it is."
+        "The name begins with a basic type (`UINT_hex`), the sizes agree, and nothing else defines the type. Lexibus \
+        uses the basic type. Define the type, or use the name of the basic type."
     ESI013 DUPLICATE_TYPE Repair Warn "two data types have the same name"
-        "References can mean either. The first one is used, as most tools do."
-    ESI014 SUB_ITEM_NAME Lint Warn "a sub-item has no name of its own"
-        "The name is missing, or another sub-item of the data type has it, too. Generated code tells them apart by \
-        their sub-indices."
-    ESI015 ENDLESS_TYPE Repair Warn "a data type is made of itself"
-        "The BaseType or a SubItem leads back to the data type, or there are too many layers. That part is kept as raw \
-        bytes."
+        "A reference can mean either type. Lexibus uses the first one, as most tools do. Rename one of them."
+    ESI014 SUB_ITEM_NAME Lint Warn "a sub-item has no unique name"
+        "The name is missing, or another sub-item of the data type has the same one. Generated code distinguishes them \
+        by sub-index. Give each sub-item a unique name."
+    ESI015 ENDLESS_TYPE Repair Warn "a data type contains itself"
+        "A BaseType or SubItem leads back to the data type, or there are too many levels. Lexibus keeps that part as \
+        raw bytes. Correct the reference."
     ESI016 MISSING_BASE_TYPE Repair Warn "an enumeration or array has no usable BaseType"
-        "BaseType says which integer the values are, or what the elements are. An enumeration is read as an unsigned \
-        integer of its BitSize."
-    ESI017 ARRAY_BOUNDS Repair Warn "the number of elements of an array is missing or can't be right"
-        "ArrayInfo has LBound and Elements, and BitSize is the size of all elements together. A number that is missing \
-        follows from the sizes."
-    ESI018 SUB_ITEM_MISMATCH Repair Warn "the sub-items of an object aren't those of its data type"
-        "Sub-items of an object belong to those of its data type by name. One whose name the data type doesn't have \
-        was taken by its place."
-    ESI019 BIT_SIZE Lint Warn "BitSize isn't the size of the data type"
-        "The size of an object or data type contradicts the type that it is made of."
-    ESI020 ODD_HEX Repair Warn "an odd number of hexadecimal digits"
-        "Two digits are one byte. A zero was put in front of the first digit."
-    ESI021 HEX_LENGTH Lint Warn "DefaultData, MinData or MaxData has another length than the type"
-        "The bytes are those of memory, the least significant one first, as many as the type has. Bytes that are \
-        missing are zeros; with bytes that are too many the value is kept as bytes."
-    ESI022 ESI_OUT_OF_TYPE Lint Warn "a value doesn't fit its data type"
-        "No value of this data type can be as large or small. It is kept in the IR; generated code clamps a limit to \
-        the type and leaves such a default out."
+        "BaseType is the integer type of an enumeration, or the element type of an array. Lexibus reads an enumeration \
+        without it as an unsigned integer of its BitSize, and keeps an array as raw bytes. Add BaseType."
+    ESI017 ARRAY_BOUNDS Repair Warn "the number of elements of an array is missing or wrong"
+        "ArrayInfo has LBound and Elements, and BitSize is the size of all elements together. Lexibus derives a \
+        missing number from the sizes, and uses any other number. An array has at most three dimensions, and Lexibus \
+        leaves out the others. Correct ArrayInfo or BitSize."
+    ESI018 SUB_ITEM_MISMATCH Repair Warn "the sub-items of an object do not match its data type"
+        "Lexibus finds the sub-item of the data type by name. If the data type has no such name, Lexibus uses the \
+        position. Values may then belong to the wrong sub-index. Use the names of the data type."
+    ESI019 BIT_SIZE Lint Warn "BitSize is not the size of the data type"
+        "The size of an object or data type contradicts the type that it consists of. The diagnostic says which size \
+        Lexibus uses. Correct BitSize or the type."
+    ESI020 ODD_HEX Repair Warn "the number of hexadecimal digits is odd"
+        "Two digits are one byte. Lexibus adds a zero before the first digit. Write all digits, and check that none \
+        was lost."
+    ESI021 HEX_LENGTH Lint Warn "DefaultData, MinData or MaxData does not have the length of the type"
+        "The bytes are in the order of memory: the least significant byte comes first. Lexibus reads missing bytes as \
+        zeros and drops surplus zeros. If there are other surplus bytes, it keeps the value as bytes. Write as many \
+        bytes as the type has."
+    ESI022 ESI_OUT_OF_TYPE Lint Warn "a value does not fit its data type"
+        "The data type cannot hold a value that large or small. Lexibus keeps it in the intermediate representation. \
+        Generated code clamps a limit to the type and leaves out a default value. Correct the value or the data type."
     ESI023 VALUE_FORM Repair Warn "a value has the form of another type"
-        "A fraction is given for an integer, a text for a number, or the other way round. It is read for what it can \
-        only mean, or kept as text."
+        "Examples are a fraction for an integer, and a text for a number. Lexibus converts the value if it can mean \
+        only one thing. Otherwise it keeps the value as text. Write the value in the form of its type."
     ESI024 MINUS_ONE Repair Warn "-1 is given for an unsigned integer"
-        "That is how C writes a number of which all bits are set. It is read as such."
-    ESI025 SUB_ITEM_PLACE Lint Warn "a sub-item shares bits with another, or lies beyond its data type"
-        "BitOffs and BitSize of the sub-items say where each is in the value as a whole, and BitSize of the data type \
-        how long that is. A complete access (CoE) exchanges the value as a whole, and mixes them up."
-    ESI030 ESI_MISSING_ACCESS Lint Warn "nothing says how an object may be accessed"
-        "Flags of the object or of the sub-item have an Access: ro, rw or wo. Without it the item is kept read-only, \
-        which can do no harm."
+        "In C, -1 stands for an unsigned integer with all bits set. Lexibus reads it as this number. Write the \
+        unsigned number."
+    ESI025 SUB_ITEM_PLACE Lint Warn "a sub-item shares bits with another, or exceeds its data type"
+        "BitOffs and BitSize state the position of a sub-item in the whole value, and BitSize of the data type the \
+        length of that value. CoE complete access transfers the whole value, so a wrong position mixes up the \
+        sub-items. Lexibus keeps them. Correct BitOffs or BitSize."
+    ESI030 ESI_MISSING_ACCESS Lint Warn "an object has no access rights"
+        "The flags of an object or sub-item contain Access: ro, rw or wo. Lexibus makes an item without it read-only, \
+        so that generated code never writes it by mistake. Add Access."
     ESI031 UNKNOWN_FLAG Repair Warn "a flag has an unknown value"
-        "Access is ro, rw or wo; Category is m, o or c; PdoMapping is R, T or RT; SafetyMapping is si, so, sio or sp."
+        "Access is ro, rw or wo. Category is m, o or c. PdoMapping is R, T or RT. SafetyMapping is si, so, sio or sp. \
+        The diagnostic says how Lexibus reads the value. Write one of the values above."
     ESI032 ESI_DUPLICATE_OBJECT Repair Warn "an object or sub-index occurs twice"
-        "An index is unique in a device and a sub-index in its object. The first one is used."
+        "An index must be unique in a device, and a sub-index in its object. Lexibus uses the first one and leaves out \
+        the second. Delete the wrong one."
     ESI033 ESI_MISSING_INDEX Repair Warn "an object, PDO entry or module has no usable number"
-        "Without an index an object can't be addressed and is left out. An entry is kept without an object if it has a \
-        name and a type, and is padding otherwise. A module without an ident number fits into no slot."
+        "An object without an index cannot be addressed. A module without an ident number fits no slot. Lexibus leaves \
+        both out. It keeps a PDO entry with a name and a type, and reads any other entry as padding. Add the number."
     ESI034 SUB_INDEX_RANGE Repair Warn "an object has more than 255 sub-indices"
-        "Sub-indices are numbers of one byte. An array that has no room is kept as one value, and a sub-item behind \
-        sub-index 255 is left out; often the number of elements of an array is wrong."
-    ESI040 SYNC_MANAGER_PURPOSE Repair Warn "nothing says what a sync manager is for"
-        "The text of Sm is MBoxOut, MBoxIn, Outputs or Inputs. Without such a text, the purpose follows from the PDOs \
-        that name the sync manager, or from its control byte or its position."
+        "A sub-index is a number of one byte. Lexibus keeps an array with too many elements as one value, and leaves \
+        out a sub-item after sub-index 255. Check the number of elements of the array, which is often wrong."
+    ESI040 SYNC_MANAGER_PURPOSE Repair Warn "the purpose of a sync manager is unknown"
+        "The text of Sm is MBoxOut, MBoxIn, Outputs or Inputs. Otherwise, Lexibus derives the purpose from the PDOs \
+        that name the sync manager, or else from its control byte or position. Write one of the four words."
     ESI041 PDO_WITHOUT_INDEX Repair Warn "a PDO has no index"
-        "The entries are kept, but nothing can be assigned. A PDO of an old file may name a template (Ref), which is a \
-        Pdo with this RefName in Descriptions/Pdos of the same file."
+        "Lexibus keeps the entries, but the PDO cannot be assigned to a sync manager. In an old file, Ref of a PDO \
+        names a template: a Pdo with this RefName in Descriptions/Pdos of the same file. Add the index or the \
+        template."
     ESI042 DUPLICATE_PDO Lint Warn "two PDOs have the same index"
-        "Both are kept: some devices offer one PDO on either of two sync managers, and only one can be assigned."
+        "Some devices offer a PDO on either of two sync managers, and only one of the two can be assigned. Lexibus \
+        keeps both. Correct the index, or allow this code if the device works this way."
     ESI043 UNNAMED_PDO Lint Warn "a PDO has no name"
-        "Name is mandatory. Generated code names the PDO by its index."
-    ESI044 ENTRY_LENGTH Lint Warn "the length of a PDO entry isn't that of its data type"
-        "BitLen decides the layout. The type of the entry is the one that it names."
+        "Name is mandatory. Generated code names the PDO by its index. Add the name."
+    ESI044 ENTRY_LENGTH Lint Warn "the length of a PDO entry is not that of its data type"
+        "Lexibus uses BitLen for the layout and DataType for the type. A wrong BitLen shifts all entries after it. \
+        Compare both with the manual and correct one."
     ESI050 DUPLICATE_MODULE Lint Warn "two modules have the same ident number"
-        "A device tells modules apart by their ident numbers. Both are kept."
+        "A device identifies a module by its ident number. Lexibus keeps both modules. Correct one of the numbers."
     ESI051 NO_MODULE_FITS Lint Warn "no module fits into a slot"
-        "The slot names ident numbers or classes that no module of this description or of the files that it refers to \
-        has."
+        "The slot names ident numbers or classes that no module has, neither in this description nor in the files that \
+        it references. Lexibus leaves the slot empty. Put the file with the modules next to the description, or \
+        correct the slot."
     ESI060 MISSING_IDENTITY Lint Warn "the number of the vendor or product is missing"
-        "A master finds the description of a slave by vendor number, product code and revision."
-    XDD002 POWERLINK_XDD Error Deny "a POWERLINK XDD was given"
-        "Ethernet POWERLINK uses XDD files of the same outer form (EPSG 311), with other communication profiles. \
-        Lexibus reads the CANopen ones."
-    XDD003 NOT_A_CANOPEN_XDD Error Deny "the XML is no CANopen device description"
-        "The root element of an XDD or XDC is ISO15745ProfileContainer (or ISO15745Profile), with a profile body for \
-        the device and one for the CANopen communication network."
-    XDD004 DANGLING_REFERENCE Repair Warn "a uniqueIDRef leads nowhere"
-        "An object, template or text refers to an element by its uniqueID, and no element has it."
-    XDD005 UNKNOWN_ELEMENT Lint Allow "an element has no meaning in CiA 311"
-        "The element is kept as an extension attribute where it has a value."
-    XDD006 XDD_VALUE Repair Warn "an attribute's value has an unknown form"
-        "CiA 311 fixes the form of the attribute. The text is kept where the IR can hold it."
+        "A master finds the description of a slave by vendor number, product code and revision. Lexibus reads the file \
+        without the number. Add Id of the vendor, or ProductCode of the device."
+    XDD002 POWERLINK_XDD Error Deny "the file is an Ethernet POWERLINK XDD, not a CANopen XDD"
+        "Ethernet POWERLINK uses XDD files with the same outer elements (EPSG 311), but other communication profiles. \
+        Lexibus rejects the file. Ask the vendor for the CANopen XDD of the device."
+    XDD003 NOT_A_CANOPEN_XDD Error Deny "the XML is not a CANopen device description"
+        "The root element of an XDD or XDC is ISO15745ProfileContainer or ISO15745Profile. It contains a profile body \
+        for the device and one for the CANopen communication network. Lexibus rejects any other file. Check that it is \
+        the file you meant."
+    XDD004 DANGLING_REFERENCE Repair Warn "a uniqueIDRef has no target"
+        "An object, template or text refers to an element by its uniqueID, and no element has it. Lexibus ignores the \
+        reference, so the content of the target is missing. Correct the uniqueID, or add the element."
+    XDD005 UNKNOWN_ELEMENT Lint Allow "an element or attribute is not defined in CiA 311"
+        "Lexibus keeps it as an extension attribute if it has a value. This lint is off by default. Turn it on to find \
+        misspelled names."
+    XDD006 XDD_VALUE Repair Warn "the value of an attribute has an unknown form"
+        "CiA 311 fixes the form of the attribute. Indices and data types, for example, are hexadecimal digits without \
+        a prefix. Lexibus skips a prefix. It leaves out any other value, or keeps it as text if the intermediate \
+        representation can hold it. Correct the value."
     XDD007 DUPLICATE_OBJECT Repair Warn "an object or sub-object occurs twice"
-        "Index and sub-index are unique in an object list. The last one is used."
+        "An index must be unique in an object list, and a sub-index in its object. Lexibus uses the last one. Delete \
+        the wrong one."
     XDD008 MISSING_INDEX Repair Warn "an object has no usable index"
-        "Without an index or sub-index in hexadecimal digits the object can't be addressed; it is left out."
-    GSD001 NOT_A_GSDML Error Deny "the XML is no GSDML"
-        "A GSDML file has the root element ISO15745Profile, and in it a ProfileBody with an ApplicationProcess. This \
-        one has another root."
-    GSD002 NO_DEVICE_ACCESS_POINT Lint Warn "a GSDML describes no device"
-        "Every device access point is a device. Without one the file has nothing to generate bindings for."
-    GSD003 GSDML_FILE_NAME Lint Allow "the name of a GSDML file isn't formed as it should be"
-        "Engineering tools find files by names of the form `GSDML-V2.35-Vendor-Device-20200131.xml`, and some refuse \
-        any other. The version is that of the schema. Lexibus goes by the content, so that this lint is off unless \
-        asked for."
-    GSD004 UNKNOWN_GSDML_ELEMENT Lint Allow "an element or attribute has no meaning in GSDML V2.35"
-        "Lexibus keeps it as an extension attribute. Files of later versions have such elements, so that this lint is \
-        off unless asked for."
-    GSD005 GSDML_VALUE Repair Warn "an attribute's value has an unknown form"
-        "The schema fixes the form of the attribute: a decimal number, `0x` and hexadecimal digits for ident numbers, \
-        `true` or `false`, or a list such as `1..3 7`. What can only mean one thing was read so; anything else was \
-        left out."
+        "An object needs an index and a sub-object a sub-index, in hexadecimal digits. Otherwise it cannot be \
+        addressed, and Lexibus leaves it out. Add the index or sub-index."
+    GSD001 NOT_A_GSDML Error Deny "the XML is not a GSDML file"
+        "A GSDML file has the root element ISO15745Profile, which contains a ProfileBody with an ApplicationProcess. \
+        This file has another root element, and Lexibus rejects it. Check that it is the file you meant."
+    GSD002 NO_DEVICE_ACCESS_POINT Lint Warn "a GSDML file describes no device"
+        "Every DeviceAccessPointItem is a device. Lexibus has nothing to generate code for if there is none. Check \
+        that the file is complete."
+    GSD003 GSDML_FILE_NAME Lint Allow "the name of a GSDML file has the wrong form"
+        "Engineering tools look for names such as `GSDML-V2.35-Vendor-Device-20200131.xml`, with the version of the \
+        schema after `V`. Some reject other names. Lexibus recognizes the file by its content, so this lint is off by \
+        default. Rename the file if you use it in such a tool."
+    GSD004 UNKNOWN_GSDML_ELEMENT Lint Allow "an element or attribute is not defined in GSDML V2.35"
+        "Lexibus keeps it as an extension attribute. Files of later versions have such elements, so this lint is off \
+        by default. Turn it on to find misspelled names."
+    GSD005 GSDML_VALUE Repair Warn "the value of an attribute has an unknown form"
+        "The schema fixes the form of the attribute, such as a decimal number, `true`, or a list like `1..3 7`. \
+        Lexibus reads a value that can mean only one thing, and leaves out any other. Correct the value."
     GSD006 GSDML_MISSING Repair Warn "a mandatory attribute or element is missing"
-        "The schema makes it mandatory. The message says what was done without it."
-    GSD007 ATTRIBUTE_CASE Repair Warn "an attribute's name is spelt in another case"
-        "XML tells cases apart, so that an engineering tool doesn't see the attribute. It was read for what it can \
-        only mean."
-    GSD008 MISSING_TEXT Repair Warn "a text isn't in the text list"
-        "Names are references to ExternalTextList. Where a reference leads nowhere, the identifier itself is used as \
-        the name."
+        "The schema requires the attribute or element. The diagnostic says what Lexibus assumes without it. Add it, \
+        because engineering tools may reject the file."
+    GSD007 ATTRIBUTE_CASE Repair Warn "the name of an attribute has the wrong case"
+        "XML is case-sensitive, so engineering tools do not see the attribute. Lexibus reads it as the attribute that \
+        it must mean. Write its name as in the schema."
+    GSD008 MISSING_TEXT Repair Warn "a text is not in the text list"
+        "Names are references to ExternalTextList. Lexibus uses the identifier as the name if the list does not \
+        contain it. Add the text to the list."
     GSD009 MISSING_TRANSLATION Lint Warn "a language lacks texts that the primary language has"
-        "For these texts, readers of that language get those of the primary language, which is English."
-    GSD010 DUPLICATE_ID Repair Warn "something that has to be unique occurs twice"
-        "Identifiers are unique among the elements of one kind, and texts and languages in the text list. References \
-        lead to the first."
-    GSD011 UNRESOLVED_TARGET Repair Warn "a reference leads to no element"
-        "An attribute such as ModuleItemTarget names an element by its ID, and no element of that kind has it. What \
-        the reference would have added is missing."
-    GSD012 UNKNOWN_GSDML_TYPE Repair Warn "a data type isn't known"
-        "The name is none of the data types of GSDML. One in another case was read as the data type that it is. Any \
-        other value is kept as raw bytes of the length that is given beside it; without a length it takes no room, and \
-        what follows may stand elsewhere."
-    GSD013 GSDML_DEFAULT Repair Warn "a default isn't written as its data type wants"
-        "Numbers are decimal, octets are written `0x00,0x1F`, a bit is 0 or 1. A hexadecimal number was read; anything \
-        else is kept as text."
-    GSD014 ALLOWED_VALUES Repair Warn "a part of AllowedValues is no number and no range"
-        "The list has numbers and ranges between blanks: `0..4 7 9`. A range whose last value is less than its first \
-        was read the other way round; any other part was left out."
-    GSD015 RECORD_BOUNDS Lint Warn "a parameter or constant reaches beyond its record"
-        "The record is shorter than what stands in it. A device refuses a record of another length than it expects."
+        "Readers of that language see these texts in the primary language, which is English. Add the translations."
+    GSD010 DUPLICATE_ID Repair Warn "something that must be unique occurs twice"
+        "An ID must be unique among the elements of one kind. Texts and languages must be unique in the text list, and \
+        some elements in their parent. The diagnostic says which one Lexibus uses. References lead to the first one. \
+        Rename or delete the duplicate."
+    GSD011 UNRESOLVED_TARGET Repair Warn "a reference has no target"
+        "An attribute such as ModuleItemTarget names an element by its ID, and no element of that kind has it. IDs are \
+        case-sensitive. Lexibus ignores the reference, so the content of the target is missing. Correct the ID, or add \
+        the element."
+    GSD012 UNKNOWN_GSDML_TYPE Repair Warn "a data type is unknown"
+        "The name is not a data type of GSDML. Lexibus reads a name in the wrong case as the data type that it must \
+        mean. It keeps any other value as raw bytes of the given length. Without a length, the value takes no space, \
+        and the offsets after it may be wrong. Correct the data type."
+    GSD013 GSDML_DEFAULT Repair Warn "a default value does not have the form of its data type"
+        "Numbers are decimal, octets are written as `0x00,0x1F`, and a bit is 0 or 1. Lexibus reads a hexadecimal \
+        number, and keeps any other value as text. Correct the value."
+    GSD014 ALLOWED_VALUES Repair Warn "a part of AllowedValues is neither a number nor a range"
+        "The list contains numbers and ranges, separated by blanks: `0..4 7 9`. Lexibus swaps the ends of a range in \
+        descending order, and leaves out any other part. Correct the list."
+    GSD015 RECORD_BOUNDS Lint Warn "a parameter or constant exceeds its record"
+        "The content of the record is longer than its Length. A device rejects a record of the wrong length. Lexibus \
+        keeps the content. Correct Length, ByteOffset or the data type."
     GSD016 PARAMETERS_OVERLAP Lint Warn "two parameters of a record share bits"
-        "Writing one of them changes the other."
-    GSD017 BIT_DATA_ITEM Repair Warn "a named bit doesn't go with its data item"
-        "A BitDataItem names a bit of a data item that is used as bits: within its length, and once."
+        "Writing one parameter changes the other. Lexibus keeps both. Correct the offset or data type of one."
+    GSD017 BIT_DATA_ITEM Repair Warn "a named bit does not match its data item"
+        "A BitDataItem names a bit of a data item with UseAsBits. The bit must be within the length of the item and \
+        have only one name. Lexibus leaves out any other bit. It reads the item as bits even if UseAsBits is missing. \
+        Correct the data item."
     GSD018 IO_LENGTH Lint Warn "a module has more data than its device exchanges"
-        "MaxInputLength, MaxOutputLength and MaxDataLength count the data of all submodules with their status bytes. A \
-        module that is longer by itself can't be used in the device."
-    GSD019 RECORD_SIZE Lint Warn "a record is longer than the device takes"
-        "MaxSupportedRecordSize is the greatest length of a record; where it isn't given, 4068 bytes."
-    GSD020 SLOT_RANGE Lint Warn "a module is for slots that the device doesn't have"
-        "PhysicalSlots lists the slots of a device. Every other slot that a module names is of no use."
+        "MaxInputLength, MaxOutputLength and MaxDataLength limit the data of all submodules, including their status \
+        bytes. The device cannot use a module that exceeds them. Lexibus keeps the module. Correct the lengths."
+    GSD019 RECORD_SIZE Lint Warn "a record is longer than the device accepts"
+        "MaxSupportedRecordSize is the maximum length of a record, 4068 bytes by default. The device rejects a longer \
+        record. Lexibus keeps the record. Correct its Length or MaxSupportedRecordSize."
+    GSD020 SLOT_RANGE Lint Warn "a module is for slots that the device does not have"
+        "PhysicalSlots lists the slots of the device. The other slots that the module names cannot be used. Correct \
+        PhysicalSlots or the slots of the module."
     GSD021 SUBSLOT_TAKEN Lint Warn "two submodules are fixed in one subslot"
-        "Built-in submodules have subslots of their own. A VirtualSubmoduleItem that names none is in subslot 1."
-    GSD022 UNUSED_TEXT Lint Allow "nothing refers to a text"
-        "The text is kept as an extension attribute of the catalogue. Tools leave such texts behind, so that this lint \
-        is off unless asked for."
-    PDO001 MAPPED_OBJECT_MISSING Lint Warn "a PDO maps an object that doesn't exist"
-        "The mapping names an index and sub-index that this file doesn't describe. The field is kept as raw bits."
-    PDO002 NOT_MAPPABLE Lint Warn "a PDO maps an object that isn't mappable"
-        "The object's PDOMapping is 0. A device answers such a mapping with abort code 0x06040041."
-    PDO003 WRONG_DIRECTION Lint Warn "a PDO maps an object against its access"
-        "A TPDO carries what can be read (ro, const, rw, rwr), an RPDO what can be written (wo, rw, rww); rwr and rww \
-        say the direction themselves."
+        "A subslot holds one submodule. A VirtualSubmoduleItem without FixedInSubslots is in subslot 1. Lexibus keeps \
+        both submodules. Give each built-in submodule a different subslot."
+    GSD022 UNUSED_TEXT Lint Allow "a text is not used"
+        "Nothing in the file refers to the text. Lexibus keeps it as an extension attribute. Tools often leave such \
+        texts in the file, so this lint is off by default. Delete the text, or refer to it."
+    PDO001 MAPPED_OBJECT_MISSING Lint Warn "a PDO maps an object that does not exist"
+        "The mapping names an index and sub-index that the file does not describe. Lexibus keeps the field as raw \
+        bits, or with the type that the PDO entry names. Describe the object, or correct the mapping."
+    PDO002 NOT_MAPPABLE Lint Warn "a PDO maps an object that is not mappable"
+        "The description declares that the object cannot be mapped; in an EDS, PDOMapping is 0. A CANopen device \
+        rejects the mapping with abort code 0x06040041. Lexibus keeps the entry. Correct the mapping or the object."
+    PDO003 WRONG_DIRECTION Lint Warn "a PDO maps an object against its access rights"
+        "A TPDO carries readable objects (ro, const, rw, rwr), and an RPDO writable ones (wo, rw, rww). In EtherCAT, \
+        PdoMapping states the direction. Lexibus keeps the entry. Correct the mapping or the object."
     PDO004 PDO_TOO_LONG Lint Warn "a PDO is longer than 64 bits"
-        "A CAN frame carries 8 bytes (CiA 301 7.5.2.36). A device answers with abort code 0x06040042."
+        "A CAN frame carries 8 bytes (CiA 301, 7.5.2.36). The device rejects the mapping with abort code 0x06040042. \
+        Map fewer or shorter objects."
     PDO005 MAPPED_LENGTH Lint Warn "a PDO maps an object with another length"
-        "The mapping's length in bits isn't the length of the object's data type. The mapping's length decides the \
-        layout."
+        "The length in the mapping is not the length of the object's data type. Lexibus uses the length in the mapping \
+        for the layout. Correct the mapping or the data type."
     PDO006 MAPPING_GAP Lint Warn "a PDO mapping has a gap"
-        "An entry is empty although later ones aren't. The entries behind the gap are taken as they stand."
+        "An entry is empty, but later entries are not. Lexibus ignores the empty entry and keeps the order of the \
+        later ones. Fill the entry, or move the later ones up."
     PDO007 UNMAPPABLE_TYPE Lint Warn "a PDO maps a type of variable length"
-        "Strings and domains have no fixed length and can't be mapped, unless their length is fixed by the device."
+        "Strings and domains have no fixed length, so they cannot be mapped unless the device fixes their length. \
+        Compare the mapping with the manual."
     PDO008 DUMMY_IN_TPDO Lint Warn "a TPDO maps a dummy entry"
-        "Dummy entries (0x0001 to 0x0007) reserve room in an RPDO. A TPDO must not have any (CiA 301 7.4.9)."
-    PDO009 DUMMY_NOT_SUPPORTED Lint Warn "a PDO maps a dummy entry that [DummyUsage] excludes"
-        "[DummyUsage] says which data types the device accepts as dummy entries. This one is missing there, or 0."
-    PDO010 PDO_COUNT Lint Warn "NrOfRXPDO or NrOfTXPDO isn't the number of PDOs"
-        "The file describes more PDOs than [DeviceInfo] announces, or fewer and no CompactPDO says what the others \
-        look like."
-    PDO011 GRANULARITY Lint Warn "a mapping is finer than the device's granularity"
-        "Granularity is the smallest unit of mapping in bits: 8 for bytes, 1 for bits, 0 when mappings are fixed. The \
-        entry's length isn't a multiple of it."
-    PDO012 MULTIPLEXED_PDO Lint Warn "a multiplexed PDO doesn't go with the device's description"
-        "Sub-index 0 of the mapping says 254 or 255 (multiplexed PDO), but GroupMessaging is 0."
-    PDO013 PDO_COUNT_1004 Lint Warn "object 0x1004 and [DeviceInfo] disagree"
-        "0x1004 holds the number of PDOs in its upper and lower 16 bits. The numbers differ from NrOfRXPDO and \
-        NrOfTXPDO."
+        "Dummy entries (0x0001 to 0x0007) reserve space in an RPDO. A TPDO must not contain any (CiA 301, 7.4.9). Map \
+        an object of the device instead."
+    PDO009 DUMMY_NOT_SUPPORTED Lint Warn "a PDO maps a dummy entry that `[DummyUsage]` excludes"
+        "`[DummyUsage]` lists the data types that the device accepts as dummy entries. This one is missing or 0 there. \
+        Correct the mapping or `[DummyUsage]`."
+    PDO010 PDO_COUNT Lint Warn "NrOfRXPDO or NrOfTXPDO is not the number of PDOs"
+        "The file describes more PDOs than `[DeviceInfo]` announces. Or it describes fewer, and no CompactPDO \
+        describes the others. Correct the number, or describe the missing PDOs."
+    PDO011 GRANULARITY Lint Warn "a mapping is finer than the granularity of the device"
+        "Granularity is the smallest unit of mapping in bits: 8 for bytes, 1 for bits. It is 0 if mappings are fixed. \
+        The length of this entry is not a multiple of it. Correct the mapping or Granularity."
+    PDO012 MULTIPLEXED_PDO Lint Warn "a device without multiplexed PDOs describes one"
+        "Sub-index 0 of the mapping is 254 or 255, which marks a multiplexed PDO. GroupMessaging is 0, which means \
+        that the device has none. Correct one of the two."
+    PDO013 PDO_COUNT_1004 Lint Warn "object 0x1004 and `[DeviceInfo]` disagree"
+        "The upper 16 bits of 0x1004 are the number of RPDOs, the lower 16 bits the number of TPDOs. They differ from \
+        NrOfRXPDO and NrOfTXPDO. Correct the wrong number."
     PDO014 HALF_A_PDO Lint Warn "a PDO has a communication or a mapping object, but not both"
-        "Every PDO is described by two objects: 0x1400+n goes with 0x1600+n, and 0x1800+n with 0x1A00+n. One of the \
-        two isn't there."
-    PDO015 MAPPING_UNREADABLE Lint Warn "a PDO mapping entry isn't a number"
-        "A mapping entry is index, sub-index and length in bits, as one UNSIGNED32. It can't depend on the node-ID."
+        "Two objects describe a PDO: 0x1400+n and 0x1600+n an RPDO, 0x1800+n and 0x1A00+n a TPDO. One of them is \
+        missing. Describe it."
+    PDO015 MAPPING_UNREADABLE Lint Warn "a PDO mapping entry is not a number"
+        "A mapping entry is index, sub-index and length in bits, in one UNSIGNED32. It cannot depend on the node-ID. \
+        Lexibus ignores the entry. Write the number."
     PDO016 MAPPING_COUNT Lint Warn "sub-index 0 of a mapping and its entries disagree"
-        "Sub-index 0 is the number of mapped objects. It announces more entries than are filled in."
-    PDO017 UNCLEAR_DIRECTION Lint Allow "a PDO maps an object whose access doesn't tell the direction"
-        "CiA 306 has rwr for objects that go into a TPDO and rww for those that come in an RPDO. Plain rw allows both, \
-        and a tool can't tell which of the two the device means."
+        "Sub-index 0 is the number of mapped objects. It announces more entries than have a value. Lexibus uses the \
+        entries that have one. Correct the number, or fill the entries."
+    PDO017 UNCLEAR_DIRECTION Lint Allow "the access type of a mapped object states no direction"
+        "CiA 306 has rwr for objects in a TPDO and rww for objects in an RPDO. Plain rw allows both directions, and a \
+        tool cannot know which one the device means. This lint is off by default. Write rwr or rww if the object has \
+        one direction."
     PDO018 DEFAULT_PDOS_CONFLICT Lint Warn "two PDOs that exclude each other are both assigned by default"
-        "A PDO with an Sm is assigned by default, and one that it excludes can't be. A master that assigns both gets \
-        an error from the slave. The first one is in the process image by default; the other can be chosen."
-    PDO019 NO_SUCH_SYNC_MANAGER Lint Warn "a PDO is assigned to a sync manager that isn't described"
-        "The number is the position of an Sm element, counted from 0. The PDO is no part of the process image by \
-        default."
-    PDO020 EXCLUDED_PDO_MISSING Lint Warn "a PDO excludes one that isn't described"
-        "Exclude names the index of another PDO of the same device or module. There is none with this index, so that \
-        nothing is excluded."
-    PDO021 IMAGE_TOO_LONG Lint Warn "the PDOs by default are longer than their sync manager"
-        "MaxSize of a sync manager bounds the process data that it carries. A slave refuses what is longer."
-    PDO022 ENTRY_TOO_LONG Lint Warn "an entry of a PDO is longer than 65535 bits"
-        "No frame of EtherCAT carries so much, so that BitLen can't be right. The PDO is described as the file has it, \
-        but generated code has no struct, view or field of an image for it."
-    PDO023 MAPPED_READ_ONLY Lint Allow "a PDO of EtherCAT maps an object against its access by SDO"
-        "The dictionary of the slave says that the object is read-only, and an RxPDO carries it. Many slaves give the \
-        access by SDO only, so that this lint is off unless asked for."
-    PDO024 TOO_MANY_PDOS Lint Warn "a sync manager has more PDOs by default than its assignment has room for"
-        "The list of the PDOs of a sync manager is an object with 254 sub-indices, so that no master can write it. \
-        Generated code has no `STARTUP`."
-    TAB001 REGISTER_FORMULA Lint Warn "an object isn't the one that its register's rule gives"
-        "A row has the number of a register and an object, and the rule of its space gives another object for the \
-        number; or it has none, where the rows around it have one. What the row says is used. One of the two is \
-        misprinted: look at the neighbours, write the doubt down, and allow this code on the row."
-    TAB002 TABLE_SYNTAX Error Deny "a register table isn't TOML"
-        "The file ends in .toml, or begins like a table, and breaks the grammar of TOML 1.1. Nothing of it can be used."
-    TAB003 UNKNOWN_TABLE_KEY Error Deny "the table format has no such key"
-        "The key was left out, and what else stands beside it was read. dictionaries/README.md has all keys, and \
-        `lexibus schema` prints a JSON Schema by which editors complete them."
-    TAB004 TABLE_VALUE Error Deny "a value of a table isn't what its key wants"
-        "The message says what is expected. The row, or the part of it, that has the value was left out."
-    TAB005 UNRESOLVED_NAME Error Deny "a name leads nowhere"
-        "Rows name units, bit fields, enumerations, spaces, models, options and other items. Nothing of this kind has \
-        the name; the nearest one that exists is suggested."
-    TAB006 TABLE_PLACE Error Deny "an address, a range or a number of bits can't be read"
-        "Registers are `63` or `\"63-64\"`, objects `0x6040` or `\"0x1018:1\"`, ranges of objects \
-        `\"0x1400..0x1403:1\"`, bits `7` or `\"3-2\"`."
-    TAB007 TABLE_DUPLICATE Error Deny "a name or an address occurs twice, or two rows share a register"
-        "Names of registers become names of Rust, and an address has one value: two rows share neither a register nor \
-        bits of their parts of one. Where the manual has one name for two registers, one of them gets a suffix and a \
-        doubt."
+        "A PDO with an Sm is assigned by default, and the PDOs that it excludes cannot be. The slave rejects the \
+        assignment of both. Lexibus puts the first one into the default process image, and the other one stays \
+        selectable. Delete Sm of one PDO."
+    PDO019 NO_SUCH_SYNC_MANAGER Lint Warn "a PDO is assigned to a sync manager that is not described"
+        "Sm of a PDO is the position of an Sm element, counted from 0. Lexibus leaves the PDO out of the default \
+        process image. Correct the number, or describe the sync manager."
+    PDO020 EXCLUDED_PDO_MISSING Lint Warn "a PDO excludes a PDO that is not described"
+        "Exclude names the index of another PDO of the same device or module. No PDO has this index, so nothing is \
+        excluded. Correct the index."
+    PDO021 IMAGE_TOO_LONG Lint Warn "the default PDOs are longer than their sync manager"
+        "MaxSize is the maximum length of the process data of a sync manager. The slave rejects longer data. Lexibus \
+        keeps the PDOs. Correct MaxSize, or assign fewer PDOs by default."
+    PDO022 ENTRY_TOO_LONG Lint Warn "a PDO entry is longer than 65535 bits"
+        "No EtherCAT frame carries that much, so BitLen is wrong. Lexibus documents the PDO as the file describes it, \
+        but generates no struct, view or process image field for it. Correct BitLen."
+    PDO023 MAPPED_READ_ONLY Lint Allow "an EtherCAT PDO maps an object against its SDO access rights"
+        "An RxPDO carries an object that is read-only by SDO, or a TxPDO one that is write-only. Many slaves state the \
+        access rights for SDO only, so this lint is off by default. Compare the access rights with the manual."
+    PDO024 TOO_MANY_PDOS Lint Warn "a sync manager has more default PDOs than its assignment can hold"
+        "The assignment object of a sync manager has 254 sub-indices, so no master can write a longer list. Generated \
+        code has no `STARTUP`. Assign fewer PDOs by default."
+    TAB001 REGISTER_FORMULA Lint Warn "an object does not match the rule for its register"
+        "The rule of a space derives the object from the register number. This row names another object, or names none \
+        although the rows around it do. Lexibus uses what the row says. One of the two numbers is probably misprinted. \
+        Compare the neighboring rows, record the ambiguity in `doubt`, and `allow` this code on the row."
+    TAB002 TABLE_SYNTAX Error Deny "a register table is not valid TOML"
+        "The file name ends in `.toml`, or the file begins like a register table, but it breaks the grammar of TOML \
+        1.1. Lexibus rejects the whole file. Correct the marked line."
+    TAB003 UNKNOWN_TABLE_KEY Error Deny "a key is not defined in the table format"
+        "Lexibus ignores the key, reads the rest and produces no output. `dictionaries/README.md` lists all keys. \
+        `lexibus schema` prints a JSON Schema that lets editors complete them. Correct the key."
+    TAB004 TABLE_VALUE Error Deny "a value is not valid for its key"
+        "The message says what is expected. Lexibus leaves out the row with the value, or the part of the row, and \
+        produces no output. Correct the value."
+    TAB005 UNRESOLVED_NAME Error Deny "a name has no definition"
+        "Rows refer to units, bit fields, enumerations, spaces, models, options and other items by name. Nothing of \
+        the required kind has this name. Lexibus suggests the most similar name and produces no output. Correct the \
+        name, or add the definition."
+    TAB006 TABLE_PLACE Error Deny "an address, a range or a number of bits cannot be read"
+        "Write registers as `63` or `\"63-64\"`, and objects as `0x6040` or `\"0x1018:1\"`. Write ranges of objects as \
+        `\"0x1400..0x1403:1\"`, and bits as `7` or `\"3-2\"`. Lexibus produces no output until all of them are \
+        correct."
+    TAB007 TABLE_DUPLICATE Error Deny "a name or an address occurs twice"
+        "Names of registers become Rust names, and an address has one value. Lexibus produces no output if a name, an \
+        address or an index is not unique. Correct the wrong one. If the manual has one name for two registers, add a \
+        suffix to one of them and a `doubt`."
     TAB008 ROW_WITHOUT_ADDRESS Error Deny "a row has no address"
-        "An item is reached by a register (`reg`), an object (`obj`), a parameter (`param`), a name (`ascii`) or an \
-        address in a slave controller (`esc`), on a bus that the device has."
+        "An item needs an address on a bus of the device. Write `reg` for a register, `obj` for an object, `param` for \
+        a parameter, `ascii` for a name, or `esc` for an EtherCAT slave controller."
     TAB009 REGISTER_SPAN Lint Warn "a register has more or fewer numbers than its type needs"
-        "A value of 32 bits takes two registers of 16. The type is used; either it or the printed numbers are wrong."
-    TAB010 ACCESS_NOT_GIVEN Lint Warn "nothing says how an item may be accessed"
-        "Neither the row nor the defaults of its chapter or file have an `access`. The item is read-only until one \
-        does."
-    TAB011 UNKNOWN_UNIT Lint Warn "a unit is neither defined nor known"
-        "Units are symbols of the SI and those usual with drives, or names of `[units]`, which give a symbol and a \
-        scale. A symbol that nobody knows is often a name that is misspelt, and then the scale is missing."
-    TAB012 HEX_DIGITS Lint Warn "a hexadecimal number doesn't have the digits of its type"
-        "A number with more digits than its type has bits for (`0x007FFFFFFF` of 32 bits), one that is filled up with \
-        zeros to another length (`0x0000` of 32 bits), or an index without four digits (`0x20A`) or without `0x`. A \
-        digit was doubled or lost, or the type is another. Or it begins with `0X`, which is read, and often is a mark \
-        of another hand in the manual. In an EDS, numbers as long as those of a longer type are found only where a \
-        level of this code is set."
-    TAB013 BIT_OUTSIDE_TYPE Lint Warn "a bit lies outside of its integer"
-        "The integer has fewer bits than the bit field names. Generated code leaves the field out."
+        "A value of 32 bits takes two registers of 16 bits. Lexibus uses the type. Compare the type and the printed \
+        numbers with the manual, and correct one."
+    TAB010 ACCESS_NOT_GIVEN Lint Warn "an item has no access rights"
+        "Neither the row nor the defaults of its chapter or file have `access`. Lexibus makes the item read-only, so \
+        generated code cannot write it. Add `access` to the row or to `defaults`."
+    TAB011 UNKNOWN_UNIT Lint Warn "a unit is unknown"
+        "A unit is an SI symbol, a symbol that is usual for drives, or a name in `[units]`, which defines its symbol \
+        and scale. An unknown symbol is often a misspelled name, and then the scale is missing. Lexibus keeps the text \
+        as the symbol. Correct the name, or define the unit in `[units]`."
+    TAB012 HEX_DIGITS Lint Warn "a hexadecimal number does not have the digits of its type"
+        "A number has more digits than its type (`0x007FFFFFFF` of 32 bits), or zeros up to another length (`0x0000` \
+        of 32 bits). An index has other than four digits (`0x20A`), or no `0x`. Usually a digit was doubled or lost, \
+        or the type is wrong. This code also reports the prefix `0X`. Lexibus uses the number. Compare it with the \
+        manual.\n\
+        In an EDS, numbers as long as those of a longer type are reported only if you set a level of this code."
+    TAB013 BIT_OUTSIDE_TYPE Lint Warn "a bit is outside of its integer"
+        "The bit field names a bit that the integer does not have. Generated code leaves the field out. The type is \
+        too short, or the manual counts bits from 1. Correct the type or the number of the bit."
     TAB014 BITS_OVERLAP Lint Warn "two fields share bits"
-        "A bit has one meaning at a time. Meanings that depend on another item, on the firmware or on the model say so \
-        in each of them; of any others, one has the wrong place."
-    TAB015 NAME_OUTSIDE_TYPE Lint Warn "an enumeration names a value that its integer can't have"
-        "A negative value of an unsigned integer, or one with more bits than the integer or the field has. Either the \
-        type or the value is wrong."
-    TAB016 NAME_OUTSIDE_LIMITS Lint Warn "a named value or bit lies outside of the item's limits"
-        "What has a name can be meant to be used, and the limits exclude it: generated code refuses to write it. \
-        Either a limit is wrong, or the item has an enumeration of its own with fewer values."
+        "A bit has one meaning at a time. If the meaning depends on another item, the firmware or the model, state the \
+        condition in each field: `when`, `since`, `until` or `models`. Otherwise correct the bits of the field that is \
+        wrong."
+    TAB015 NAME_OUTSIDE_TYPE Lint Warn "an enumeration names a value that its integer cannot have"
+        "The value is negative and the integer unsigned, or the value has more bits than the integer or field. Correct \
+        the type or the value."
+    TAB016 NAME_OUTSIDE_LIMITS Lint Warn "a named value or bit is outside of the limits of its item"
+        "The limits exclude a value that has a name, so generated code refuses to write it. Correct the limit. If the \
+        item supports only some of the values, define a separate enumeration for it."
     TAB017 VALUE_NAMED_TWICE Lint Warn "a value or code has two names"
-        "Two entries of an enumeration or of a table of codes are the same number, or have some in common. Of codes a \
-        range may contain narrower ones, which count there. Generated code decodes the first. Names that depend on the \
-        firmware or the model say so in each of them."
-    TAB018 UNNAMED_VALUE Lint Warn "a default, limit or condition is a value that is reserved or has no name"
-        "The value is reserved, or has no name in an enumeration that is closed, or a limit is one off the last value \
-        with a name, or a value that may be written has none. For the fields of a bit field the default and the fixed \
-        value are looked at, for conditions each value."
-    TAB019 RESERVED_BITS Lint Warn "a default, limit or fixed value sets bits without a meaning"
-        "The number sets a bit that is reserved or that nobody named, or lacks one that is always set. A limit is \
-        looked at where it is a pattern of bits, and not all bits up to the end of the type or the last one that has a \
-        name."
-    TAB020 LENGTH_MISMATCH Lint Warn "a length isn't that of the type"
-        "The bytes of an address, of a default text, or those that the manual prints (`length`) aren't as many as the \
-        type takes."
-    TAB021 SUMMARY_DIFFERS Lint Warn "another place of the manual says otherwise"
-        "The row's `summary` holds what a table of contents, an overview or the prose says of the same item. The row \
-        itself is used: write the doubt down, and allow this code on the row."
-    TAB022 SAME_VALUE_DIFFERS Lint Warn "two names of the same value are described differently"
-        "`same_as` says that two rows are one value, and their types, limits, units and scales, or the values and bits \
-        that have a meaning and their names differ; or the row of a replacement (`replaced_by`) states another access \
-        than the row that it replaces."
-    TAB023 READING_LIMITS Lint Warn "a signed value that is only read has a lower limit above zero"
-        "What a device measures is signed because it can be negative, and then it can be zero. Such limits are those \
-        of a set-point that was copied, or the type is unsigned."
-    TAB024 ACCESS_CONFLICT Lint Warn "access, storage and process data contradict each other"
-        "A value that can't be written is saved, comes in an RPDO or has values that may be written; one that can't be \
-        read goes into a TPDO; or one that the device clears by itself is saved. Descriptions other than register \
-        tables are looked at only where a level of this code is set."
-    TAB025 MENTIONED_OBJECT Lint Warn "a text mentions an object or item that the table doesn't have"
-        "Documentation, names and effects mention objects by index: 0x6000 to 0x67FF, `object 0x2010`, or with a \
-        sub-index, `0x1003:1`; and registers by number: `register 10015`. Either a row is missing, or the index is \
-        misprinted. They also mention items by name, where names are told from other words (`Rposwrtime`): one or two \
-        letters beside a name, and no name itself, is a name that is misspelt."
-    TAB026 FIRMWARE_WINDOW Lint Warn "firmware windows contradict each other"
-        "`since` is the first firmware that has something, `until` the first that doesn't. A window is empty, or the \
-        replacement of an item exists earlier or later than the item ends."
-    TAB027 VERSION_FORM Lint Warn "a firmware version can't be compared"
-        "Versions are numbers with points between them, of which each counts by itself: 6.27 is later than 6.3."
-    TAB028 STATES_OVERLAP Lint Deny "two states of a machine are told by the same status"
-        "Some values of the status item belong to both states, so that it can't be told in which one the device is."
-    TAB029 COMMANDS_OVERLAP Lint Allow "two commands of a machine can be the same value"
-        "Some values of the control item are both commands. Where the state decides which one is meant, as in CiA 402, \
-        this is as it should be, so that this lint is off unless asked for."
-    TAB030 OVERLAY_NO_MATCH Lint Warn "an entry of an overlay matches nothing"
-        "The devices that the overlay is for have no such object or item, or no row of the overlay names the \
-        definition. A newer version of the description may call it otherwise, or have dropped it."
-    TAB031 OVERLAY_NO_CHANGE Lint Warn "an entry of an overlay changes nothing"
-        "The description says already what the overlay says: a newer version of it may have been corrected. Take the \
-        row out."
-    TAB032 OVERLAY_NOT_FOR Lint Warn "an overlay is for no device of the description"
-        "`for` in `[overlay]` names a vendor, a product code, a revision, a device or a module, and the description \
-        has none that fits, or none that was selected. Nothing of the overlay was applied."
-    TAB033 STEP_IMPOSSIBLE Lint Warn "a step of a procedure can't be carried out"
-        "The step writes what can't be written, or a value that the item can't have; waits for what can't be read or \
-        never comes; or gives a PDO the COB-ID of another."
-    TAB034 ASSIGNED_PDO_MISSING Lint Warn "a PDO is assigned that isn't described"
-        "0x1C12 and 0x1C13 hold the indices of PDOs. A default, or a step of a procedure, puts one there that the \
-        table doesn't have."
+        "Two entries of an enumeration or code table have the same number, or their ranges overlap. In a code table, a \
+        range may contain narrower ranges, which take precedence. Generated code uses the first name. Correct the \
+        number. If the name depends on the firmware or the model, state this in each entry."
+    TAB018 UNNAMED_VALUE Lint Warn "a default value, limit or condition is reserved or has no name"
+        "The enumeration reserves the value, or is closed and does not name it. The code also reports unnamed writable \
+        values, and a limit next to the last named value. In a bit field, it checks the default and fixed values of \
+        each field. Name the value if the manual does, or correct the number."
+    TAB019 RESERVED_BITS Lint Warn "a default value, limit or fixed value sets bits without a meaning"
+        "The number sets a bit that is reserved or has no name, or clears a bit that is always set. A limit that sets \
+        all bits up to the end of the type or the last named bit is not reported. Correct the number, or name the bits \
+        if the manual does."
+    TAB020 LENGTH_MISMATCH Lint Warn "a length is not that of the type"
+        "A default text is longer than its type, or a printed `length` is not the length of the item's type or the \
+        PDO's entries. Compare both with the manual, and correct one."
+    TAB021 SUMMARY_DIFFERS Lint Warn "another place of the manual contradicts the row"
+        "`summary` of the row holds what a table of contents, an overview or the prose says about the item. Lexibus \
+        uses the row. Write the correct fact in the row and the other one in `doubt`, and `allow` this code on the \
+        row."
+    TAB022 SAME_VALUE_DIFFERS Lint Warn "two rows for the same value differ"
+        "`same_as` declares that two rows are one value, but their types, limits, units, scales or names differ. Or a \
+        row and its replacement (`replaced_by`) have different access rights. Lexibus keeps both rows. Compare them \
+        with the manual, and correct one."
+    TAB023 READING_LIMITS Lint Warn "a signed value that is only read has a minimum above zero"
+        "A measured value is signed because it can be negative, so it can be zero too. Often the limits were copied \
+        from a set-point, or the type is unsigned. Lexibus keeps the limit. Correct the limit or the type."
+    TAB024 ACCESS_CONFLICT Lint Warn "access rights contradict storage or process data"
+        "For example, a read-only value is saved or in an RPDO, a write-only value is in a TPDO, or a Modbus input is \
+        writable. Lexibus keeps all facts. Keep the one that the manual's text supports, and record the other in \
+        `doubt`.\n\
+        In other formats than register tables, this lint runs only if you set a level of this code."
+    TAB025 MENTIONED_OBJECT Lint Warn "a text mentions an object or item that the table does not have"
+        "Lexibus searches documentation, names and effects for objects (`object 0x2010`, `0x1003:1`), registers \
+        (`register 10015`) and names of items. A row is missing, or the mention is misprinted. A word is reported as a \
+        misspelled name if it differs from a name by one or two letters. Add the row, or correct the text."
+    TAB026 FIRMWARE_WINDOW Lint Warn "firmware ranges contradict each other"
+        "`since` is the first firmware that has something, `until` the first firmware that does not. A range is empty, \
+        or the replacement of an item appears before or after the item ends. Compare the versions with the manual, and \
+        correct one."
+    TAB027 VERSION_FORM Lint Warn "a firmware version cannot be compared"
+        "A version is numbers with points between them. Each number is compared separately: 6.27 is later than 6.3. \
+        Lexibus does not compare this version with others. Write it as numbers and points."
+    TAB028 STATES_OVERLAP Lint Deny "two states of a machine have the same status value"
+        "Some values of the status item belong to both states, so the state of the device is ambiguous. This lint is \
+        an error by default. Correct the mask or value of one state."
+    TAB029 COMMANDS_OVERLAP Lint Allow "two commands of a machine have the same control value"
+        "Some values of the control item are both commands. This is correct if the state determines which command is \
+        meant, as in CiA 402, so this lint is off by default. Otherwise correct the mask or value of one command."
+    TAB030 OVERLAY_NO_MATCH Lint Warn "an overlay entry matches nothing"
+        "The devices of the overlay have no such object or item, or no row of the overlay uses the definition. A newer \
+        version of the description may have renamed or removed it. Lexibus ignores the entry. Correct or delete it, or \
+        add the item with `add = true`."
+    TAB031 OVERLAY_NO_CHANGE Lint Warn "an overlay entry changes nothing"
+        "The description already has the facts of the entry. A newer version of it may have been corrected. Delete the \
+        entry."
+    TAB032 OVERLAY_NOT_FOR Lint Warn "an overlay matches no device of the description"
+        "`for` in `[overlay]` names a vendor, product code, revision, device or module that the description, or the \
+        selected part of it, does not have. Lexibus applies nothing of the overlay. Correct `for`, or remove the \
+        overlay."
+    TAB033 STEP_IMPOSSIBLE Lint Warn "a step of a procedure is impossible"
+        "The step writes a read-only item or a value that the item cannot have, or waits for a value that never \
+        occurs. Or it gives a PDO the COB-ID of another PDO. Compare the step with the manual, and correct it."
+    TAB034 ASSIGNED_PDO_MISSING Lint Warn "an assigned PDO is not described"
+        "0x1C12 and 0x1C13 hold the indices of the assigned PDOs. A default value or a step of a procedure writes the \
+        index of a PDO that the table does not have. Describe the PDO, or correct the index."
     TAB035 MAPPED_NOT_ASSIGNED Lint Warn "a procedure maps a PDO and assigns others"
-        "The mapping that the procedure writes has no effect, because the sync manager carries other PDOs."
-    TAB036 UNNAMED_BITS Lint Allow "a bit field says nothing of some bits"
-        "Bits that are neither named nor reserved, or values of a narrow field between those that have names. Manuals \
-        leave them out as often as not, so that this lint is off unless asked for."
+        "The mapping has no effect, because the procedure assigns other PDOs to the sync manager. Correct one of the \
+        two indices."
+    TAB036 UNNAMED_BITS Lint Allow "a bit field does not describe all bits"
+        "Some bits are neither named nor reserved, or a narrow field has an unnamed value between named ones. Manuals \
+        often omit them, so this lint is off by default. Name or reserve them if the manual does."
     TAB037 MODE_WITHOUT_BITS Lint Warn "bits that depend on a mode have no meaning in one of the modes"
-        "The table of the bits lacks a column for the mode, or the mode doesn't use them: say so, and allow this code \
-        on the bit field. The value 0, which mostly is no mode at all, doesn't count."
-    TAB038 ONE_LIMIT Lint Allow "a row has one limit only"
-        "A cell of the manual is empty beside one that isn't. Often the limit is that of the type, so that this lint \
-        is off unless asked for."
-    TAB039 PATTERN_OUTSIDE_MASK Lint Warn "a state or command wants bits that its mask leaves out"
-        "The value has bits that the mask doesn't have, so that nothing ever matches it."
-    TAB040 NAME_TWICE Lint Warn
-        "two objects, sub-entries of an object, bits or values have one name, or names of registers differ by case only"
-        "Often the name was copied from the box or line above. Generated code tells the two apart by a number. \
-        Descriptions other than register tables are looked at only where a level of this code is set."
-    TAB041 BROKEN_NAME Lint Warn
-        "a name has the hyphen of a line break, or a description, in it, or is the title of a column"
-        "The column of the manual was too narrow for the name; its prose often has the whole one. Or the name's cell \
-        has the description beside it as well: values (`0 = Stop`), tags, or a sentence where other registers are \
-        called by a word. Or a bit or value is called `Definition`, as columns are: then a line of the printed table \
-        slid."
-    TAB042 EMPTY_LIMIT Lint Warn "a row has one limit, which is that of its type"
-        "A lower limit of 0 says nothing of an unsigned value. The manual's cell for the other limit is empty, or was \
-        lost."
-    TAB043 SHARED_REGISTERS Lint Warn "two items share registers, or bits of one"
-        "One of the two has the wrong number, or a type that is too long. Where the device shows a part of a value in \
-        registers of its own, say so: `part`, or `same_as` and this code in `allow`."
-    TAB044 EXAMPLE_DIFFERS Lint Warn "an example isn't as its message says"
-        "The bytes of a request or reply that the manual prints were held against the fields of the message: their \
-        number, constant bytes and values, lengths, echoes, reserved bits, and values that have a name. One of the two \
-        is misprinted: keep what the other frames support, with a `doubt`."
+        "The manual's table of bits has no column for the mode, or the mode does not use the bits. The value 0 is not \
+        checked, because it usually means no mode. Describe the bits, or `allow` this code on the bit field if the \
+        mode does not use them."
+    TAB038 ONE_LIMIT Lint Allow "a row has only one limit"
+        "The row has a minimum or a maximum, but not both. Often the missing limit is that of the type, so this lint \
+        is off by default. Add the other limit if the manual has it."
+    TAB039 PATTERN_OUTSIDE_MASK Lint Warn "a state or command has bits outside of its mask"
+        "The value sets bits that the mask does not contain, so nothing ever matches it. Correct the mask or the \
+        value."
+    TAB040 NAME_TWICE Lint Warn "two objects, bits or values have the same name"
+        "The code also reports sub-entries of one object, and registers whose names differ only in case. Often the \
+        name was copied from the line above. Generated code adds a number to one of the names. Correct the name.\n\
+        In other formats than register tables, this lint runs only if you set a level of this code."
+    TAB041 BROKEN_NAME Lint Warn "a name contains a line break or a description, or is a column title"
+        "A narrow column of the manual breaks a name with a hyphen, and its prose often has the whole name. A name \
+        with its description contains values (`0 = Stop`) or a sentence. A bit called `Definition` has the title of a \
+        column, because a line of the table is shifted. Write only the name, and the rest as `doc`."
+    TAB042 EMPTY_LIMIT Lint Warn "the only limit of a row is that of its type"
+        "A minimum of 0, for example, says nothing about an unsigned value. The other cell of the manual is empty, or \
+        its limit was lost. Write both limits or none."
+    TAB043 SHARED_REGISTERS Lint Warn "two items share registers or bits of one register"
+        "One of the items has the wrong number, or a type that is too long. Lexibus keeps both. Correct the item. If \
+        the device shows a part of a value in separate registers, declare it with `part`, or with `same_as` and \
+        `allow`."
+    TAB044 EXAMPLE_DIFFERS Lint Warn "an example frame contradicts its message"
+        "Lexibus compares the requests and replies that the manual prints with the fields of the message. It checks \
+        the length, constants, echoes, reserved bits and named values. One of the two is misprinted. Keep what the \
+        other frames support, and record the other in `doubt`."
     TAB045 CELLS_TWICE Lint Warn "two codes have the same cells"
-        "The table says that no two codes have the same cells (`distinct`), and two do. A row was copied: write the \
-        doubt down, and allow this code on the table."
-    TAB048 NARROW_WINDOW Lint Warn "the values of a space don't fit through its windows"
-        "An item has more bits than the item through which it is read or written, and no other window of its space is \
-        wider: the upper bits are lost."
+        "The table declares with `distinct` that no two codes have the same cells. The manual probably repeats a row. \
+        Record the ambiguity in `doubt`, and `allow` this code on the table."
+    TAB048 NARROW_WINDOW Lint Warn "an item of a space has more bits than its windows"
+        "The item is read or written through an item with fewer bits, and no other window of the space is wider. The \
+        upper bits are lost. Correct the type of one item, or add a wider window."
     TAB049 WINDOW_ORDER Lint Warn "a window's procedure writes the number before the value"
-        "Where writing the number starts the transfer, what is written then is the value of the last one. Values and \
-        numbers of a process image go together; there the order means nothing."
-    TAB050 QUANTITIES_DIFFER Lint Warn "two items that are one quantity in two scales have different defaults"
-        "`same_quantity` names an item that is the same quantity in another scale. Their defaults are compared as \
-        physical numbers, model by model, to a thousandth; where the units differ, as numbers of the machine \
-        (`[given]`)."
-    TAB051 NUMBER_GAP Lint Allow "a number is missing between parameters that count up by one"
-        "A row of the manual's table may have been lost. Devices leave numbers out as often, so that this lint is off \
-        unless asked for."
-    TAB052 CONVERSION_DIFFERS Lint Warn "a number that the manual converts isn't what the scale gives"
-        "`conversions` has a raw number and what the manual says it stands for. They are further apart than a count: a \
-        digit was misprinted, or the scale, a number of the machine, or the base is another."
-    TAB053 OVERLAY_SHARED Lint Warn "an overlay changes a part of a device that it isn't for"
-        "`for` in `[overlay]` names some devices of the description, and another one has the same module or submodule, \
-        which is described once: what the overlay says of it holds there, too. Name the module in `for`, or the other \
-        device too, if that is right."
-    MSG001 FRAMING_BYTES Lint Warn "start, end, escape and escaped bytes of frames contradict each other"
-        "Start, end and escape of a frame are three bytes; each of them is escaped where it is data, and what is sent \
-        in its place is none of them. Else frames don't end where they should."
-    MSG002 MESSAGE_LENGTH Lint Warn "a message has no whole bytes, or is longer than a frame"
-        "Fields of less than a byte follow each other and fill bytes. All data of a message, with as many repetitions \
-        as it declares, fit into what the framing says is the greatest number of data bytes."
+        "If writing the number starts the transfer, the device transfers the value of the previous one. In a process \
+        image, both are sent together, so their order is not checked. Write the value first."
+    TAB050 QUANTITIES_DIFFER Lint Warn "two items for the same quantity have different default values"
+        "`same_quantity` names an item for the same quantity in another scale. For each model, Lexibus compares the \
+        default values as physical values, to a thousandth. If the units differ, it compares machine values \
+        (`[given]`). Correct a default value or a scale."
+    TAB051 NUMBER_GAP Lint Allow "a number is missing between consecutive parameters"
+        "A row of the manual's table may be missing. Devices often skip numbers, so this lint is off by default. Look \
+        for the parameter in the manual."
+    TAB052 CONVERSION_DIFFERS Lint Warn "a conversion in the manual contradicts the scale"
+        "`conversions` holds raw values and the physical values that the manual gives for them. The scale gives \
+        another value, more than one raw step away. A digit is misprinted, or the scale, a machine value or the base \
+        is wrong. Keep the numbers that fit each other, and add a `doubt`."
+    TAB053 OVERLAY_SHARED Lint Warn "an overlay changes a part of a device that it is not for"
+        "`for` in `[overlay]` names some devices. Another device has the same module or submodule, which is described \
+        once, so the overlay changes it there too. If this is correct, name the module or the other device in `for`."
+    MSG001 FRAMING_BYTES Lint Warn "start, end and escape bytes of frames contradict each other"
+        "Start, end and escape are three different bytes, and each is escaped in data. None of the bytes that replace \
+        them is one of the three. Otherwise frames end in the wrong place. Compare `[framing]` with the manual, and \
+        correct it."
+    MSG002 MESSAGE_LENGTH Lint Warn "a message has incomplete bytes or exceeds a frame"
+        "Adjacent fields shorter than a byte must fill whole bytes. The data of a message with all its repetitions \
+        must not exceed the maximum number of data bytes in the framing. Correct a length, or the `max` of repeated \
+        fields."
     MSG003 MESSAGES_ALIKE Lint Warn "two requests can have the same bytes"
-        "The device couldn't tell which of the two was meant: a constant was misprinted. Where the same request means \
-        different things after different messages, say `after`."
+        "The device could not distinguish the two requests, so a constant is probably misprinted. Correct it. If the \
+        meaning depends on the message before, declare it with `after`."
     MSG004 REPLY_OF_ANOTHER Lint Warn "a reply has the constant of another message"
-        "The constant that replies begin with is in the requests that they answer. This one is in the request of \
-        another message: the manual's table was copied from there."
-    MSG005 ERROR_ALIKE Lint Warn "a reply can have the same bytes as what comes in its place"
-        "A master can't tell from the bytes whether the device answered or refused. Where it never refuses, the \
-        message has no `error`."
-    MSG006 BYTE_NUMBERS Lint Warn "the printed numbers of bytes don't count on"
-        "Between two fields of a message, the manual's numbers of bytes (`at`) leave some out or count some twice: a \
-        row of its table is missing or has slid, or one of the numbers is misprinted."
+        "The constant at the start of a reply is also in its request. This one is in the request of another message, \
+        so the manual's table was probably copied. Compare both tables with the prose, and correct the constant."
+    MSG005 ERROR_ALIKE Lint Warn "a reply and its error message can have the same bytes"
+        "A client cannot determine from the bytes whether the device answered or refused. Correct a constant. If the \
+        device never refuses the request, delete `error`."
+    MSG006 BYTE_NUMBERS Lint Warn "the printed numbers of bytes are not consecutive"
+        "The byte numbers of the manual (`at`) skip or repeat bytes between two fields. A row of the manual's table is \
+        missing or shifted, or a number is misprinted. Compare the fields with the manual."
     MSG007 ODD_REQUEST Lint Warn "one request begins with another constant than all others of its form"
-        "Nine or more requests begin with several constants, and all but one with the same. That one is an exception \
-        or a misprint."
-    MSG008 STATES_DIFFER Lint Warn
-        "a message is accepted in a state in which the table of commands and states refuses it, or the other way round"
-        "The section of a command and the table of commands and states are two places of the manual that say the same. \
-        Keep the one that tells the states one by one."
-    MSG009 MESSAGE_UNSHAPED Lint Warn "no code is generated for a message, or for a part of the protocol"
-        "Its fields can't be written and read one after the other: a part of a byte is left over, two parts are as \
-        long as the data are, or something comes back from a place of the request that depends on what is in front of \
-        it. The same holds for what comes where the device refuses, for frames that the runtime can't delimit, and for \
-        parameters whose message has fields of its own. The documentation of the format says what messages are made of."
-    MSG010 PARAMETERS_ALIKE Lint Warn "two spaces that messages carry have a parameter of one number"
-        "A client has only the number of a parameter, and sends the message of the first space that has it: the other \
-        parameter can be reached by its own message alone."
-    MOD001 MODULE_INDEX_CLASH Lint Warn "a module's fixed object exists in the device already"
-        "The fixed objects of a module get an index of their own; the device describes this one itself, so that one \
-        index would stand for two objects."
-    MOD002 SUB_EXTEND Lint Warn "a sub-index extension isn't described as CiA 306 wants"
-        "[M<n>SubExt<index>] needs a place in [M<n>SubExtends], Count (a number of sub-indices; or 0, `;` and a number \
-        of bits), ObjExtend 0 or 1, and the keywords of a VAR. The object that it extends has sub-indices."
-    CSV001 CSV_NO_COLUMNS Error Deny "a list of registers has no titles of columns"
-        "Columns are recognised by their titles, in English, German or Italian, in any order: an address and at least \
-        one more. Where the titles are others, or there are none, `--map FIELD=TITLE` and `--map FIELD=#NUMBER` say \
-        what is what."
-    CSV002 CSV_UNKNOWN_COLUMN Lint Warn "a column isn't imported"
-        "Nothing is known of a column with this title. `--map FIELD=TITLE` says what it is; `--map doc=TITLE` keeps \
-        its text as documentation."
-    CSV003 CSV_UNREADABLE_CELL Repair Warn "a cell of a list of registers can't be read"
-        "The cell isn't what its column is about, or contradicts another one. It is left out, and the rest of the row \
-        is kept; the label says where something else is done."
-    CSV004 CSV_NO_ROW Repair Warn "a line of a list can't become a row"
-        "It has no address, one that can't be read, or one that another line has; or, with it, the repeated lines \
-        stand for more items than a table may have, or their names are taken again and again. The line is written into \
-        the table as a comment, so that a person can decide. Bits of one register share its address: they need a \
-        column with the bit."
+        "At least nine requests have the same form, and all except one begin with the same constant. That one is an \
+        exception or a misprint. Say which in a `doubt`, and `allow` this code."
+    MSG008 STATES_DIFFER Lint Warn "a message and the table of commands disagree about a state"
+        "The section of a command says that a state accepts it, and the table of commands and states says the \
+        opposite, or the reverse. Keep the one that lists the states one by one, and record the other in `doubt`."
+    MSG009 MESSAGE_UNSHAPED Lint Warn "no code is generated for a message or a part of the protocol"
+        "The fields of a message must be writable and readable one after the other. The message says what prevents \
+        this, such as an incomplete byte or two parts of variable length. The code also reports error replies, \
+        framings that the runtime does not support, and parameters whose message has other fields. The documentation \
+        of the table format lists what is possible. Correct the description, or send the message yourself."
+    MSG010 PARAMETERS_ALIKE Lint Warn "two spaces that messages carry have a parameter with the same number"
+        "A client selects a parameter by its number, and sends the message of the first space that has it. Use the \
+        other parameter's message directly to reach it."
+    MOD001 MODULE_INDEX_CLASH Lint Warn "a fixed object of a module is also an object of the device"
+        "The index would stand for two objects. Correct the index in the module or in the device."
+    MOD002 SUB_EXTEND Lint Warn "a sub-index extension breaks the rules of CiA 306"
+        "`[M<n>SubExtends]` must list the extension `[M<n>SubExt<index>]`. Count is a number of sub-indices, or 0, `;` \
+        and a number of bits. ObjExtend is 0 or 1, and the other keys are those of a VAR. The extended object must \
+        have sub-indices. Correct the section."
+    CSV001 CSV_NO_COLUMNS Error Deny "a register list has no column titles"
+        "Lexibus recognizes English, German and Italian titles, in any order. It needs an address and at least one \
+        other column. Use `--map FIELD=TITLE` for other titles, and `--map FIELD=#NUMBER` for a list without titles."
+    CSV002 CSV_UNKNOWN_COLUMN Lint Warn "a column is not imported"
+        "Lexibus does not know the title of this column. Use `--map FIELD=TITLE` to assign it to a field, or `--map \
+        doc=TITLE` to keep its text as documentation."
+    CSV003 CSV_UNREADABLE_CELL Repair Warn "a cell of a register list cannot be read"
+        "The cell does not fit its column, or contradicts another cell. Lexibus keeps the rest of the row and leaves \
+        the cell out, unless the diagnostic says otherwise. Correct the cell in the list, or the row in the table."
+    CSV004 CSV_NO_ROW Repair Warn "a line of a register list cannot become a row"
+        "The line has no address, an unreadable address, or the address of another line. Or repeated lines stand for \
+        too many items, or repeat their names. Lexibus writes the line into the table as a comment. Complete the row \
+        by hand. If the lines are bits of one register, add a column with the bit number."
     CSV005 CSV_RAGGED_ROW Repair Warn "a line has more or fewer cells than there are titles"
-        "Often a delimiter stands within a cell that isn't in quotes, and then all cells behind it are in the wrong \
-        column."
+        "Often a cell that is not in quotation marks contains the delimiter, and all cells after it are in the wrong \
+        column. Lexibus reads the cells from the left. Put the cell in quotation marks."
     CSV006 CSV_SAME_NAME Lint Warn "two lines have the same name"
-        "Names of registers become names of Rust. The second one gets a number."
-    CSV007 CSV_ASSUMPTION Lint Warn "the list leaves something open"
-        "Lists of registers use one word for different things, and leave out what everybody is thought to know. The \
-        message says what was assumed; it is told once, and holds for the whole list."
-    CSV008 CSV_UNCLOSED_QUOTE Repair Warn "a quote is never closed"
-        "All that follows, to the end of the file, is one cell. Where tabs divide cells, the quote is taken as a \
-        letter, and the lines behind it are read."
-    CSV009 CSV_NO_SUCH_COLUMN Error Deny "a column that `--map` names doesn't exist"
-        "Titles are compared without regard to case and punctuation. A column can also be named by its number: `--map \
-        reg=#2`."
+        "Names of registers become Rust names. Lexibus adds a number to the second name. Rename the register in the \
+        table."
+    CSV007 CSV_ASSUMPTION Lint Warn "the list does not state a fact that the table needs"
+        "Register lists often leave out types or access rights, or use one word for different things. Lexibus makes \
+        one assumption for the whole list, and the message states it. Compare it with the manual, and correct the \
+        table."
+    CSV008 CSV_UNCLOSED_QUOTE Repair Warn "a quotation mark is never closed"
+        "Lexibus reads everything up to the end of the file as one cell. If tabs separate the cells, it reads the \
+        quotation mark as a character and continues with the next line. Close the quotation mark."
+    CSV009 CSV_NO_SUCH_COLUMN Error Deny "a column that `--map` names does not exist"
+        "Titles are compared without regard to case and punctuation. Lexibus writes no table. Correct the title, or \
+        name the column by its number: `--map reg=#2`."
 }
 
 #[cfg(test)]

@@ -1,19 +1,19 @@
-//! Where errors are, for checks that skip what already failed.
+//! Spans of errors, for checks that skip rows with errors.
 
 use crate::source::Span;
 
-/// The spans of errors, in order.
+/// Sorted spans of errors.
 pub(crate) struct ErrorSpans(Vec<Span>);
 
 impl ErrorSpans {
-    /// Sorts the spans.
+    /// Creates the list from spans in any order.
     pub(super) fn new(spans: impl Iterator<Item = Span>) -> Self {
         let mut spans: Vec<Span> = spans.collect();
         spans.sort_unstable();
         ErrorSpans(spans)
     }
 
-    /// Whether any error lies within a span.
+    /// Returns whether a span contains an error.
     pub(crate) fn any_in(&self, span: Span) -> bool {
         let first = self.0.partition_point(|error| (error.file, error.start) < (span.file, span.start));
         let mut from = self.0.iter().skip(first).take_while(|error| error.file == span.file && error.start <= span.end);

@@ -1,4 +1,4 @@
-//! Lenient and strict mode, and the level of each code as a user sets it.
+//! Lenient and strict mode, and the levels that the user sets for codes.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -6,21 +6,21 @@ use std::fmt;
 use super::codes::{self, Class, Code};
 use super::Severity;
 
-/// What becomes of a finding.
+/// Level of a code.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Level {
-    /// Not reported.
+    /// The code is not reported.
     Allow,
-    /// Reported as a warning.
+    /// The code is a warning.
     Warn,
-    /// Reported as an error.
+    /// The code is an error.
     Deny,
 }
 
-/// The levels in force for one compilation.
+/// Levels of all codes in one compilation.
 ///
-/// A level set for a code wins over the mode; of several settings of one code the last wins. `warnings` names every
-/// code that would otherwise be a warning.
+/// The level of a code takes precedence over the mode. If a level is set twice, the last setting applies. The name `warnings`
+/// stands for all codes that are warnings by default.
 #[derive(Clone, Debug, Default)]
 pub struct Levels {
     strict: bool,
@@ -28,12 +28,12 @@ pub struct Levels {
     by_code: BTreeMap<&'static str, Level>,
 }
 
-/// A code that doesn't exist was named in a level setting.
+/// Error if a level is set for a code that does not exist.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct UnknownCode {
-    /// What was named.
+    /// Name of the missing code.
     pub name: String,
-    /// The most similar code that exists.
+    /// Most similar code that exists.
     pub suggestion: Option<&'static str>,
 }
 
@@ -50,23 +50,23 @@ impl fmt::Display for UnknownCode {
 impl std::error::Error for UnknownCode {}
 
 impl Levels {
-    /// Repairs are warnings.
+    /// Creates the levels of lenient mode, in which repairs are warnings.
     pub fn lenient() -> Self {
         Levels::default()
     }
 
-    /// Repairs are errors.
+    /// Creates the levels of strict mode, in which repairs are errors.
     pub fn strict() -> Self {
         Levels { strict: true, ..Levels::default() }
     }
 
-    /// Sets the level of a code, named by its identifier (`EDS020`), its name (`octal-number`), or of all `warnings`.
+    /// Sets the level of a code by identifier (`EDS020`) or name (`octal-number`), or of all `warnings`.
     ///
-    /// An error that left nothing to work with ([`Class::Error`]) stays an error whatever its level.
+    /// A code of [`Class::Error`] is an error at any level.
     ///
     /// # Errors
     ///
-    /// When no code has that name.
+    /// Fails if no code has that name.
     pub fn set(&mut self, name: &str, level: Level) -> Result<(), UnknownCode> {
         if name == "warnings" {
             self.warnings = Some(level);
@@ -81,12 +81,12 @@ impl Levels {
         }
     }
 
-    /// Whether a user set a level of this code by its name, at which it is reported.
+    /// Returns whether the user set a level for this code, other than [`Level::Allow`].
     pub(super) fn asks_for(&self, code: &Code) -> bool {
         self.by_code.get(code.id).is_some_and(|level| *level != Level::Allow)
     }
 
-    /// The severity of findings of this kind; `None` when they aren't reported.
+    /// Returns the severity of a code, or `None` if it is not reported.
     pub fn severity(&self, code: &'static Code) -> Option<Severity> {
         if code.class == Class::Error {
             return Some(Severity::Error);

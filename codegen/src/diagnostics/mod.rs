@@ -1,7 +1,7 @@
-//! What the compiler has to say about its input: one [`Diagnostic`] a finding, each with a stable [`Code`].
+//! Errors and warnings about the input. Each [`Diagnostic`] has a stable [`Code`].
 //!
-//! Stages only describe what they found; [`Levels`] decides how severe it is (lenient or strict, `-A`, `-W`, `-D`), and
-//! [`render`] turns the result into text for a terminal, JSON lines or SARIF.
+//! The stages of the compiler create diagnostics. [`Levels`] determines their severity (lenient or strict mode, `-A`, `-W`, `-D`), and
+//! [`render`] formats them for a terminal.
 
 mod allowed;
 pub mod codes;
@@ -20,19 +20,19 @@ use std::hash::{Hash, Hasher};
 use crate::limits::MAX_SAME_DIAGNOSTICS;
 use crate::source::{FileId, Span};
 
-/// How bad a finding is.
+/// Severity of a diagnostic.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "lowercase"))]
 pub enum Severity {
-    /// The input was understood, perhaps after a repair; output is produced.
+    /// The input was read, possibly after a repair. Does not prevent output.
     Warning,
-    /// The input, or a part of it, could not be used; no output is produced.
+    /// The input, or a part of it, cannot be used. No output is produced.
     Error,
 }
 
 impl Severity {
-    /// `error` or `warning`.
+    /// Returns `error` or `warning`.
     pub fn name(self) -> &'static str {
         match self {
             Severity::Warning => "warning",
@@ -41,45 +41,45 @@ impl Severity {
     }
 }
 
-/// One finding.
+/// Error or warning about the input.
 #[derive(Clone, Debug)]
 pub struct Diagnostic {
-    /// What kind of finding it is.
+    /// Code.
     pub code: &'static Code,
-    /// Set by [`Diagnostics::push`] from the code and the levels in force.
+    /// Severity. [`Diagnostics::push`] sets it from the code and the levels.
     pub severity: Severity,
-    /// What is wrong, in one sentence.
+    /// What is wrong, in lower case and without a full stop.
     pub message: String,
-    /// Where; an empty span means the file as a whole.
+    /// Marked text. An empty span means the whole file.
     pub span: Span,
-    /// What the marked text is or how it was read; may be empty.
+    /// What the compiler did with the marked text, or expects there. May be empty.
     pub label: String,
-    /// Further places and facts.
+    /// Other spans and facts.
     pub notes: Vec<Note>,
-    /// What to do about it.
+    /// What to do, in the imperative.
     pub help: Option<String>,
-    /// A replacement of the marked text that mends the finding.
+    /// Replacement for the marked text.
     pub fix: Option<String>,
 }
 
-/// A second place, or a further fact, of a finding.
+/// Other span or fact of a diagnostic.
 #[derive(Clone, Debug)]
 pub struct Note {
-    /// Where; `None` for a fact without a place.
+    /// Span; `None` for a fact without one.
     pub span: Option<Span>,
-    /// The fact.
+    /// Fact.
     pub message: String,
 }
 
 impl Code {
-    /// A finding of this kind at `span`.
+    /// Creates a diagnostic with this code at `span`.
     pub(crate) fn at(&'static self, span: Span, message: impl Into<String>) -> Diagnostic {
         Diagnostic::new(self, span, message)
     }
 }
 
 impl Diagnostic {
-    /// A finding of kind `code` at `span`.
+    /// Creates a diagnostic with a code at `span`.
     pub fn new(code: &'static Code, span: Span, message: impl Into<String>) -> Self {
         Diagnostic {
             code,
@@ -99,63 +99,63 @@ impl Diagnostic {
         self
     }
 
-    /// Adds a fact.
+    /// Adds a note without a span.
     pub fn note(mut self, message: impl Into<String>) -> Self {
         self.notes.push(Note { span: None, message: message.into() });
         self
     }
 
-    /// Adds a second place.
+    /// Adds a note with a span.
     pub fn note_at(mut self, span: Span, message: impl Into<String>) -> Self {
         self.notes.push(Note { span: Some(span), message: message.into() });
         self
     }
 
-    /// Says what to do.
+    /// Sets the help.
     pub fn help(mut self, help: impl Into<String>) -> Self {
         self.help = Some(help.into());
         self
     }
 
-    /// Offers a replacement for the marked text.
+    /// Sets the replacement for the marked text.
     pub fn fix(mut self, replacement: impl Into<String>) -> Self {
         self.fix = Some(replacement.into());
         self
     }
 }
 
-/// The findings of one compilation.
+/// Diagnostics of one compilation.
 #[derive(Clone, Debug, Default)]
 pub struct Diagnostics {
     list: Vec<Diagnostic>,
     levels: Levels,
-    /// Findings that the source itself explains.
+    /// Spans in which the source allows a code.
     allowed: Allowed,
-    /// How many diagnostics of each code and file are in the list.
+    /// Number of diagnostics in the list, by file and code.
     kept: HashMap<(FileId, &'static str), usize>,
-    /// Those that are only counted.
+    /// Diagnostics that are only counted.
     beyond: Vec<Beyond>,
-    /// Whether the list ends with a diagnostic for each code and file that has any of these.
+    /// Whether the list already has the closing diagnostics, which count those in `beyond`.
     is_closed: bool,
 }
 
-/// A diagnostic that is only counted.
+/// Diagnostic that is only counted.
 #[derive(Clone, Debug)]
 struct Beyond {
     code: &'static Code,
     span: Span,
-    /// The hash of its message.
+    /// Hash of the message.
     message: u64,
 }
 
 impl Diagnostics {
-    /// An empty list under `levels`.
+    /// Creates an empty list with `levels`.
     pub fn new(levels: Levels) -> Self {
         Diagnostics { levels, ..Diagnostics::default() }
     }
 
-    /// Files a finding; one whose level is `allow` is forgotten. Of one code in one file, [`MAX_SAME_DIAGNOSTICS`] are kept, and
-    /// the others counted.
+    /// Adds a diagnostic, unless its code is allowed. Keeps at most [`MAX_SAME_DIAGNOSTICS`] for each code and file, and counts the
+    /// others.
     pub fn push(&mut self, mut diagnostic: Diagnostic) {
         if self.allowed.contains(diagnostic.span, diagnostic.code) {
             return;
@@ -174,8 +174,7 @@ impl Diagnostics {
         }
     }
 
-    /// Forgets findings of these kinds within these spans, those so far and those to come: the source explains them itself.
-    /// Errors stay.
+    /// Removes and suppresses diagnostics with these codes within these spans, now and later. Codes of [`Class::Error`] are kept.
     pub fn allow(&mut self, spans: impl IntoIterator<Item = (Span, &'static Code)>) {
         self.allowed.extend(spans.into_iter().filter(|(_, code)| code.class != Class::Error));
         let (allowed, kept) = (&self.allowed, &mut self.kept);
@@ -189,7 +188,7 @@ impl Diagnostics {
         self.beyond.retain(|diagnostic| !allowed.contains(diagnostic.span, diagnostic.code));
     }
 
-    /// Forgets findings from `first` on that are there already: the same of the same place.
+    /// Removes repeated diagnostics from index `first` on: those with the same code, span and message.
     pub(crate) fn forget_repeated(&mut self, first: usize) {
         let mut seen = std::collections::HashSet::new();
         let tail = self.list.split_off(first.min(self.list.len()));
@@ -203,7 +202,7 @@ impl Diagnostics {
         }
     }
 
-    /// Returns where all errors so far are.
+    /// Returns the spans of all errors so far.
     pub(crate) fn error_spans(&self) -> ErrorSpans {
         let is_error = |diagnostic: &&Beyond| self.levels.severity(diagnostic.code) == Some(Severity::Error);
         let kept = self
@@ -214,29 +213,29 @@ impl Diagnostics {
         ErrorSpans::new(kept.chain(self.beyond.iter().filter(is_error).map(|diagnostic| diagnostic.span)))
     }
 
-    /// Whether findings of this kind are wanted: lets a stage skip the work of phrasing one that isn't.
+    /// Returns whether a code is reported. A stage can use it to skip a check.
     pub fn wants(&self, code: &'static Code) -> bool {
         self.levels.severity(code).is_some()
     }
 
-    /// Whether the user named this kind of finding: for lints that are on by default for one format only.
+    /// Returns whether the user set a level for this code, for lints that are on by default only in one format.
     pub fn asks_for(&self, code: &'static Code) -> bool {
         self.levels.asks_for(code)
     }
 
-    /// How many diagnostics there are, those that are only counted included.
+    /// Returns the number of diagnostics, including those that are only counted.
     #[cfg(feature = "table")]
     pub(crate) fn total(&self) -> usize {
         self.list.len() + self.beyond.len()
     }
 
-    /// All findings, in the order in which they were made.
+    /// Returns all kept diagnostics, in the order in which they were added, unless [`Diagnostics::sort`] sorted them.
     pub fn list(&self) -> &[Diagnostic] {
         &self.list
     }
 
-    /// Sorts by place, so that a reader walks through the file from top to bottom. Behind the diagnostics of a file, one for each
-    /// code says how many more there were.
+    /// Sorts by file and position. After the diagnostics of a file, adds one for each code with diagnostics that are only counted, with
+    /// their number.
     pub fn sort(&mut self) {
         if !std::mem::replace(&mut self.is_closed, true) {
             let mut counts: BTreeMap<(FileId, &'static str), (&'static Code, usize)> = BTreeMap::new();
@@ -251,12 +250,12 @@ impl Diagnostics {
         self.list.sort_by_key(|d| (d.span.file, d.span.start, d.span.end));
     }
 
-    /// Whether any finding is an error.
+    /// Returns whether any diagnostic is an error.
     pub fn has_errors(&self) -> bool {
         self.list.iter().any(|d| d.severity == Severity::Error)
     }
 
-    /// How many findings have this severity, those that are only counted included.
+    /// Returns the number of diagnostics with a severity, including those that are only counted.
     pub fn count(&self, severity: Severity) -> usize {
         let kept =
             self.list.iter().filter(|diagnostic| diagnostic.severity == severity && !is_closing(diagnostic)).count();
@@ -264,14 +263,14 @@ impl Diagnostics {
     }
 }
 
-/// Behind all places of a file.
+/// Start of the span of a closing diagnostic: after all positions in a file.
 const END: u32 = u32::MAX;
 
 fn is_closing(diagnostic: &Diagnostic) -> bool {
     diagnostic.span.start == END
 }
 
-/// Says how many more diagnostics of a code a file has.
+/// Creates the diagnostic that states how many more diagnostics of a code a file has.
 fn closing(file: FileId, code: &'static Code, count: usize) -> Diagnostic {
     let plural = if count == 1 { "diagnostic" } else { "diagnostics" };
     let message = format!("{count} more {plural} of {} in this file", code.id);

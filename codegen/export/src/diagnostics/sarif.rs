@@ -315,15 +315,15 @@ mod tests {
             "level": "warning"
           },
           "fullDescription": {
-            "text": "Lexibus keeps the entry as an extension attribute of its object. Tools add keys of their own, so that this lint is off unless asked for."
+            "text": "Lexibus keeps the entry as an extension attribute of its object. Many tools add keys, so this lint is off by default. Turn it on to find misspelled keys."
           },
           "help": {
-            "text": "Lexibus keeps the entry as an extension attribute of its object. Tools add keys of their own, so that this lint is off unless asked for."
+            "text": "Lexibus keeps the entry as an extension attribute of its object. Many tools add keys, so this lint is off by default. Turn it on to find misspelled keys."
           },
           "id": "EDS012",
           "name": "UnknownKey",
           "shortDescription": {
-            "text": "a key has no meaning in CiA 306"
+            "text": "a key is not defined in CiA 306"
           }
         }
         "#);

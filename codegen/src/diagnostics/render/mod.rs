@@ -1,14 +1,13 @@
-//! Diagnostics as text for a terminal.
+//! Rendering of diagnostics as text for a terminal.
 //!
-//! Every function here takes the [`Diagnostic`](super::Diagnostic)s as they are and the list of
-//! [`Source`](crate::source::Source)s that their spans index. None panics, whatever a span says: an offset outside of
-//! a file is moved to its end, one inside a character to the character's edge, and a file that isn't in the list makes
-//! a finding without a place.
+//! The functions take [`Diagnostic`](super::Diagnostic)s and the list of [`Source`](crate::source::Source)s to which their spans refer.
+//! They do not panic on any span. An offset beyond the file is moved to its end, and one inside a character to the edge of the
+//! character. A diagnostic for a file that is not in the list is rendered without a position.
 
 pub mod place;
 pub mod terminal;
 
-/// How many findings there were: `2 errors and 1 warning`, `no findings`.
+/// Returns the numbers of errors and warnings as text: `2 errors and 1 warning`, or `no findings` if there are none.
 pub fn summary(errors: usize, warnings: usize) -> String {
     let counted = |count: usize, what: &str| format!("{count} {what}{}", if count == 1 { "" } else { "s" });
     match (errors, warnings) {

@@ -1,44 +1,44 @@
-//! From a span to a place in a file, with every offset made safe to slice with.
+//! Position of a span in a file, with offsets that are safe for slicing.
 
 use std::ops::Range;
 
 use crate::source::{Position, Source, Span};
 
-/// Lines are shortened to this many characters.
+/// Maximum number of characters of a line. Longer lines are shortened.
 pub const MAX_CHARS: usize = 200;
 
-/// How much of a shortened line is kept before the mark.
+/// Characters that a shortened line keeps before the mark.
 const CHARS_BEFORE: usize = 60;
 
-/// A file, and the part of it that is meant.
+/// File, with the marked part of it.
 #[derive(Clone, Copy)]
 pub struct Place<'a> {
-    /// The file.
+    /// File.
     pub source: &'a Source,
-    /// `None` for the file as a whole.
+    /// Marked part; `None` for the whole file.
     pub mark: Option<Mark>,
 }
 
-/// A part of a file.
+/// Marked part of a file.
 #[derive(Clone, Copy)]
 pub struct Mark {
-    /// First byte; in the file, on a character's edge.
+    /// Offset of the first byte: within the file and on the edge of a character.
     pub start: usize,
-    /// One past the last byte; not before `start`, in the file, on a character's edge.
+    /// Offset after the last byte: not before `start`, within the file and on the edge of a character.
     pub end: usize,
-    /// The position of `start`.
+    /// Line and column of `start`.
     pub from: Position,
-    /// The position of `end`.
+    /// Line and column of `end`.
     pub to: Position,
 }
 
 impl<'a> Place<'a> {
-    /// Whether [`Place::of`] gives one, at less cost.
+    /// Returns whether [`Place::of`] returns `Some`, at less cost.
     pub fn exists(span: Span, sources: &[Source]) -> bool {
         (span.file.0 as usize) < sources.len()
     }
 
-    /// Where `span` points; `None` when its file isn't among `sources`.
+    /// Returns the file and position of `span`, or `None` if its file is not among `sources`.
     pub fn of(span: Span, sources: &'a [Source]) -> Option<Self> {
         let source = sources.get(span.file.0 as usize)?;
         if span.is_empty() {
@@ -58,10 +58,9 @@ impl<'a> Place<'a> {
     }
 }
 
-/// The position at the end of `marked`, which starts at `from`.
+/// Returns the position of the end of `marked`, which starts at `from`.
 ///
-/// A position is found by counting the characters before it on its line, and a file may be one long line: the marked
-/// text is most often the shorter way.
+/// Counts the characters of the marked text. It is usually shorter than the line before it, because a file may be one long line.
 fn end_position(source: &Source, marked: Range<usize>, from: Position) -> Position {
     let text = &source.text()[marked.clone()];
     match memchr::memchr2(b'\r', b'\n', text.as_bytes()) {
@@ -70,14 +69,14 @@ fn end_position(source: &Source, marked: Range<usize>, from: Position) -> Positi
     }
 }
 
-/// The text of a line and the offset in the file at which it starts.
+/// Returns the text of a line and the offset of its start in the file.
 pub fn line(source: &Source, number: u32) -> (&str, usize) {
     let line = source.line(number);
-    // Both point into the same string: the difference is what a search for the line's start would find.
+    // Both point into the same string, so the difference is the offset of the line.
     (line, (line.as_ptr() as usize).saturating_sub(source.text().as_ptr() as usize))
 }
 
-/// The part of `line` to show so that `at`, a character's edge, is in it.
+/// Returns the part of `line` to show. It contains `at`, which is on the edge of a character.
 pub fn shown(line: &str, at: usize) -> Range<usize> {
     if line.chars().nth(MAX_CHARS).is_none() {
         return 0..line.len();
@@ -87,7 +86,7 @@ pub fn shown(line: &str, at: usize) -> Range<usize> {
     left..right
 }
 
-/// The line on which `mark` starts, shortened around the mark where it is long.
+/// Returns the line on which `mark` starts. A long line is shortened around the mark.
 pub fn quoted(source: &Source, mark: &Mark) -> String {
     let (line, offset) = line(source, mark.from.line);
     let shown = shown(line, mark.start.saturating_sub(offset).min(line.len()));

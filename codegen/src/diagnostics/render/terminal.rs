@@ -1,4 +1,4 @@
-//! Findings for people, in the manner of rustc.
+//! Diagnostics in the format of rustc.
 
 use std::ops::Range;
 
@@ -9,23 +9,22 @@ use super::place::{self, Mark, Place};
 use crate::source::Source;
 use crate::text::steers;
 
-/// A mark over more lines is only drawn on its first.
+/// Maximum number of lines of a mark. A longer mark is drawn only on its first line.
 const MAX_LINES: u32 = 6;
 
-/// Messages, labels and replacements are shortened to this many characters.
+/// Maximum number of characters of a message, label or replacement. Longer texts are shortened.
 const MAX_TEXT: usize = 2000;
 
-/// Wider than any window, so that the renderer, which doesn't know what was left out already, shortens nothing.
+/// Width of the renderer. It is greater than any window, so that the renderer does not shorten lines a second time.
 const WIDTH: usize = 10 * place::MAX_CHARS;
 
-/// Ends our own `file:line:column`. A noncharacter: [`visible`] lets none through from a file.
+/// End mark of `file:line:column`. A noncharacter, which [`visible`] removes from the text of a file.
 const END_OF_ORIGIN: char = '\u{fdd0}';
 
-/// The finding with the lines that it is about, its notes, its help and its fix; no line feed at the end.
+/// Renders a diagnostic with its marked lines, notes, help and fix, without a line feed at the end.
 ///
-/// With `colour` there are ANSI escapes for the colours, without there is none. Control characters of the file or of a
-/// message are shown as pictures (`␛`) or as `�`. A finding about a file as a whole shows only the file's name. The
-/// time it takes depends on the lines that are marked and not on the size of the file.
+/// `colour` adds ANSI escapes for colors. Control characters in the file or message are rendered as pictures (`␛`) or as `�`. A
+/// diagnostic about a whole file shows only the name of the file. The time depends on the marked lines, not on the size of the file.
 pub fn render(diagnostic: &Diagnostic, sources: &[Source], colour: bool) -> String {
     let place = Place::of(diagnostic.span, sources);
     let suggestion = suggestion(diagnostic, place);
@@ -50,7 +49,7 @@ pub fn render(diagnostic: &Diagnostic, sources: &[Source], colour: bool) -> Stri
     without_counted_origins(&renderer.term_width(WIDTH).render(&groups))
 }
 
-/// The message and the marked lines.
+/// Returns the message and the marked lines.
 fn finding(diagnostic: &Diagnostic, place: Option<Place>) -> Group<'static> {
     let level = match diagnostic.severity {
         Severity::Error => Level::ERROR,
@@ -63,7 +62,7 @@ fn finding(diagnostic: &Diagnostic, place: Option<Place>) -> Group<'static> {
     title.elements(place.map(|place| quote(place, label))).elements(label_alone)
 }
 
-/// The replacement as a change of the marked lines; `None` where they aren't shown in full.
+/// Returns the replacement as a change of the marked lines, or `None` if the lines are not shown in full.
 fn suggestion(diagnostic: &Diagnostic, place: Option<Place>) -> Option<Group<'static>> {
     let (fix, place) = (diagnostic.fix.as_deref()?, place?);
     let window = Window::new(place.source, place.mark?);
@@ -76,7 +75,7 @@ fn suggestion(diagnostic: &Diagnostic, place: Option<Place>) -> Option<Group<'st
     Some(Level::HELP.secondary_title(title).element(snippet))
 }
 
-/// The marked lines under the name of their file, or the name alone for the file as a whole.
+/// Returns the marked lines below the name of their file, or only the name for a whole file.
 fn quote(Place { source, mark }: Place, label: &str) -> Element<'static> {
     let name = visible(source.name());
     let Some(mark) = mark else { return Origin::path(name).into() };
@@ -92,7 +91,7 @@ fn quote(Place { source, mark }: Place, label: &str) -> Element<'static> {
     Snippet::source(window.text).line_start(window.first_line).path(origin).annotation(annotation).into()
 }
 
-/// Drops the line and column that the renderer counts in the window it was given, behind those of the file.
+/// Removes the line and column that the renderer adds after those of the file: it counts them in the window.
 fn without_counted_origins(rendered: &str) -> String {
     let mut parts = rendered.split(END_OF_ORIGIN);
     let mut text = parts.next().unwrap_or_default().to_owned();
@@ -102,22 +101,22 @@ fn without_counted_origins(rendered: &str) -> String {
     text
 }
 
-/// The marked lines, ready to be shown: the renderer is given nothing else of the file.
+/// Marked lines, prepared for the renderer, which gets nothing else of the file.
 struct Window {
-    /// The lines, shortened, with visible control characters, separated by line feeds.
+    /// Lines, shortened, with visible control characters, separated by line feeds.
     text: String,
     first_line: usize,
-    /// The mark in `text`.
+    /// Mark in `text`.
     mark: Range<usize>,
-    /// The last marked line, where it isn't in the window.
+    /// Last marked line, if it is not in the window.
     goes_on_to: Option<u32>,
-    /// Whether all of the marked lines are there.
+    /// Whether the window contains all marked lines in full.
     is_whole: bool,
 }
 
 impl Window {
     fn new(source: &Source, mark: Mark) -> Self {
-        // A line end at the end of the mark would only draw it on into the next line.
+        // A line end at the end of the mark would extend it into the next line.
         let end = mark.start + source.text()[mark.start..mark.end].trim_end_matches(['\r', '\n']).len();
         let first = mark.from.line;
         let last = if end == mark.end { mark.to.line } else { source.position(end as u32).line };
@@ -135,7 +134,7 @@ impl Window {
         window
     }
 
-    /// Appends a line, and moves the mark to where `marked`, a range of the file, is on it.
+    /// Appends a line, and adjusts the mark to the part of `marked`, a range of the file, on that line.
     fn push_line(&mut self, source: &Source, number: u32, marked: Range<usize>) {
         let (line, offset) = place::line(source, number);
         let in_line = |at: usize| at.saturating_sub(offset).min(line.len());
@@ -160,7 +159,7 @@ impl Window {
     }
 }
 
-/// Text of unknown origin as one line that is safe to print.
+/// Returns untrusted text as one line that is safe to print.
 fn visible(text: &str) -> String {
     let mut shown = String::with_capacity(text.len().min(MAX_TEXT));
     let cut = text.char_indices().nth(MAX_TEXT).map(|(index, _)| index);
@@ -171,7 +170,7 @@ fn visible(text: &str) -> String {
     shown
 }
 
-/// Like [`visible`], but lines stay lines: the renderer indents them, so that none can pass for a message of its own.
+/// Returns untrusted text like [`visible`], but keeps its lines. The renderer indents them, so none of them looks like a separate message.
 fn paragraph(text: &str) -> String {
     let lines: Vec<String> = text.lines().map(visible).collect();
     lines.join("\n")
@@ -182,7 +181,7 @@ fn push_visible(shown: &mut String, text: &str) {
         match c {
             '\t' => *shown += "    ",
             '\u{7f}' => shown.push('␡'),
-            // The control pictures are in the order of the characters that they stand for.
+            // The control pictures have the same order as the control characters.
             '\0'..='\u{1f}' => shown.push(char::from_u32(0x2400 + u32::from(c)).unwrap_or('�')),
             '\u{fdd0}'..='\u{fdef}' => shown.push('�'),
             _ if steers(c) => shown.push('�'),
@@ -203,7 +202,7 @@ mod tests {
         [Source::new("drive.eds", text.as_ref().to_vec())]
     }
 
-    /// A warning about `start..end` of the first file.
+    /// Creates a warning about `start..end` of the first file.
     fn at(start: usize, end: usize) -> Diagnostic {
         let span = Span::new(FileId(0), start as u32, end as u32);
         let mut diagnostic = Diagnostic::new(&codes::OCTAL_NUMBER, span, "`012` is octal").label("read as 10");
@@ -211,7 +210,7 @@ mod tests {
         diagnostic
     }
 
-    /// A warning about the first `marked` of a text.
+    /// Creates a warning about the first occurrence of `marked` in a text.
     fn on(text: &str, marked: &str) -> Diagnostic {
         let start = text.find(marked).unwrap();
         at(start, start + marked.len())
@@ -279,7 +278,7 @@ mod tests {
         3 | SubNumber=0x012
           |           ++
         ");
-        // Nothing marked to put it in the place of.
+        // There is no marked text to replace.
         insta::assert_snapshot!(plain(&at(0, 0).fix("a\u{1b}b").help("mend it"), &file(OCTAL)), @r"
         warning[EDS020]: `012` is octal
         --> drive.eds
@@ -411,7 +410,7 @@ mod tests {
         1 + a␛[31m=␇␛c�2J�␀�:1:1
           |
         ");
-        // Windows-1252 leaves five bytes to the C1 control characters.
+        // Windows-1252 maps five bytes to C1 control characters.
         plain(&at(0, 2), &file(b"\x81\x8d\x8f\x90\x9d"));
     }
 
@@ -451,7 +450,7 @@ mod tests {
         3 | | SubNumber=012
           | |_____________^ read as 10
         ");
-        // The line end that it takes with it isn't drawn.
+        // The line end in the mark is not drawn.
         insta::assert_snapshot!(plain(&on(OCTAL, "[1018]\n"), &file(OCTAL)), @r"
         warning[EDS020]: `012` is octal
          --> drive.eds:1:1
@@ -528,7 +527,7 @@ mod tests {
         let pieces: Vec<&str> = pieces.split('|').collect();
         let mut state = 1u32;
         let mut random = |below: usize| {
-            // xorshift32: the same texts at every run.
+            // xorshift32, so that every run has the same texts.
             state ^= state << 13;
             state ^= state >> 17;
             state ^= state << 5;
