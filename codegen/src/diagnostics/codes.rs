@@ -150,7 +150,7 @@ codes! {
     EDS010 ILLEGAL_SECTION_NAME Repair Warn "a section name breaks the grammar of CiA 306"
         "The section of an object is its index in four hexadecimal digits, such as `[2000]`. The section of a \
         sub-index is `[2000sub1]`, with the sub-index in hexadecimal. More leading zeros, a `0x` prefix and blanks are \
-        not allowed. Lexibus reads the name as the object that it must mean. Correct the name, because other tools may \
+        not allowed. Lexibus reads `[0x2000]`, for example, as `[2000]`. Correct the name, because other tools may \
         lose the object."
     EDS011 UNKNOWN_SECTION Lint Warn "a section is not defined in CiA 306"
         "Often the name is misspelled. Lexibus keeps the entries as extension attributes of the device. Correct the \
@@ -161,7 +161,7 @@ codes! {
     EDS013 NOT_UTF8 Repair Warn "the file is neither ASCII nor UTF-8"
         "CiA 306 allows only ASCII. This file has bytes that are not valid UTF-8 either. Lexibus reads it as \
         Windows-1252, the usual encoding of German and French tools. Save the file as ASCII or UTF-8."
-    EDS014 HASH_COMMENT Repair Warn "a `#` marks a comment"
+    EDS014 HASH_COMMENT Repair Warn "a comment starts with `#`"
         "CiA 306 defines only comment lines that start with `;`. Lexibus skips lines that start with `#`. In a value \
         of a fixed form, such as a number, it ignores the text from ` #` on. Other tools may read that text as part of \
         the value. Write the comment on a separate line that starts with `;`."
@@ -170,7 +170,7 @@ codes! {
         and also the suffix of a C literal, as in `50u`. Delete the text."
     EDS016 QUOTED_VALUE Repair Warn "a text is in quotation marks"
         "CiA 306 writes texts without quotation marks. Tools that follow the standard show them as part of the name. \
-        Lexibus removes one pair. Delete the quotation marks."
+        Lexibus removes one pair of them. Delete the quotation marks."
     EDS020 OCTAL_NUMBER Repair Warn "a number with a leading zero is octal"
         "In CiA 306, as in C, `012` is the octal number 10. Few authors intend that. Lexibus follows the standard and \
         reads the number as octal. Write it in decimal or as `0x…`."
@@ -268,7 +268,7 @@ codes! {
     EDS051 LIMITS_SWAPPED Lint Warn "the minimum is greater than the maximum"
         "No value satisfies the limits. Lexibus keeps them, but generated code does not check them. Correct LowLimit \
         or HighLimit. If one of them has the wrong sign, check the data type too."
-    EDS052 HEADER_FORMAT Lint Warn "a version, date or time has another form"
+    EDS052 HEADER_FORMAT Lint Warn "a version, date or time has the wrong form"
         "In CiA 306, versions are whole numbers, and EDSVersion is `x.y`. Dates are `mm-dd-yyyy`, and times are \
         `hh:mm` with AM or PM. Lexibus keeps the text. Correct its form."
     EDS053 OLD_EDS_VERSION Lint Warn "the file is older than EDS 4.0"
@@ -344,8 +344,8 @@ codes! {
         `&amp;` for `&`."
     XML003 WRONG_ENCODING Repair Warn "the file is not in its declared encoding"
         "The XML declaration names an encoding. The default is UTF-8. Lexibus reads bytes that are valid UTF-8 as \
-        UTF-8, whatever is declared. It reads others in the declared encoding, or else as Windows-1252. Bytes without \
-        a character in that encoding are lost. Declare the actual encoding."
+        UTF-8, whatever is declared. It reads other bytes in the declared encoding, or as Windows-1252 if that fails. \
+        Bytes without a character in that encoding are lost. Declare the actual encoding."
     XML004 SECOND_ROOT Repair Warn "content follows the root element"
         "A document has one root element, and only comments may follow it. Often the rest of an older, longer version \
         of the file is left. Lexibus ignores the content. Delete it."
@@ -409,8 +409,8 @@ codes! {
         "Examples are a fraction for an integer, and a text for a number. Lexibus converts the value if it can mean \
         only one thing. Otherwise it keeps the value as text. Write the value in the form of its type."
     ESI024 MINUS_ONE Repair Warn "-1 is given for an unsigned integer"
-        "In C, -1 stands for an unsigned integer with all bits set. Lexibus reads it as this number. Write the \
-        unsigned number."
+        "In C, -1 is an unsigned integer with all bits set. Lexibus reads it as this number. Write the unsigned \
+        number."
     ESI025 SUB_ITEM_PLACE Lint Warn "a sub-item shares bits with another, or exceeds its data type"
         "BitOffs and BitSize state the position of a sub-item in the whole value, and BitSize of the data type the \
         length of that value. CoE complete access transfers the whole value, so a wrong position mixes up the \
@@ -426,13 +426,14 @@ codes! {
         the second. Delete the wrong one."
     ESI033 ESI_MISSING_INDEX Repair Warn "an object, PDO entry or module has no usable number"
         "An object without an index cannot be addressed. A module without an ident number fits no slot. Lexibus leaves \
-        both out. It keeps a PDO entry with a name and a type, and reads any other entry as padding. Add the number."
+        both out. It keeps a PDO entry without an index if the entry has a name and a type, and otherwise reads it as \
+        padding. Add the number."
     ESI034 SUB_INDEX_RANGE Repair Warn "an object has more than 255 sub-indices"
         "A sub-index is a number of one byte. Lexibus keeps an array with too many elements as one value, and leaves \
         out a sub-item after sub-index 255. Check the number of elements of the array, which is often wrong."
     ESI040 SYNC_MANAGER_PURPOSE Repair Warn "the purpose of a sync manager is unknown"
         "The text of Sm is MBoxOut, MBoxIn, Outputs or Inputs. Otherwise, Lexibus derives the purpose from the PDOs \
-        that name the sync manager, or else from its control byte or position. Write one of the four words."
+        that name the sync manager, or from its control byte or position. Write one of the four words."
     ESI041 PDO_WITHOUT_INDEX Repair Warn "a PDO has no index"
         "Lexibus keeps the entries, but the PDO cannot be assigned to a sync manager. In an old file, Ref of a PDO \
         names a template: a Pdo with this RefName in Descriptions/Pdos of the same file. Add the index or the \
@@ -497,8 +498,8 @@ codes! {
         "The schema requires the attribute or element. The diagnostic says what Lexibus assumes without it. Add it, \
         because engineering tools may reject the file."
     GSD007 ATTRIBUTE_CASE Repair Warn "the name of an attribute has the wrong case"
-        "XML is case-sensitive, so engineering tools do not see the attribute. Lexibus reads it as the attribute that \
-        it must mean. Write its name as in the schema."
+        "XML is case-sensitive, so engineering tools do not see the attribute. Lexibus reads it all the same. Write \
+        its name as in the schema."
     GSD008 MISSING_TEXT Repair Warn "a text is not in the text list"
         "Names are references to ExternalTextList. Lexibus uses the identifier as the name if the list does not \
         contain it. Add the text to the list."
@@ -513,9 +514,9 @@ codes! {
         case-sensitive. Lexibus ignores the reference, so the content of the target is missing. Correct the ID, or add \
         the element."
     GSD012 UNKNOWN_GSDML_TYPE Repair Warn "a data type is unknown"
-        "The name is not a data type of GSDML. Lexibus reads a name in the wrong case as the data type that it must \
-        mean. It keeps any other value as raw bytes of the given length. Without a length, the value takes no space, \
-        and the offsets after it may be wrong. Correct the data type."
+        "The name is not a data type of GSDML. Lexibus accepts a name in the wrong case. It keeps any other value as \
+        raw bytes of the given length. Without a length, the value takes no space, and the offsets after it may be \
+        wrong. Correct the data type."
     GSD013 GSDML_DEFAULT Repair Warn "a default value does not have the form of its data type"
         "Numbers are decimal, octets are written as `0x00,0x1F`, and a bit is 0 or 1. Lexibus reads a hexadecimal \
         number, and keeps any other value as text. Correct the value."
@@ -558,7 +559,7 @@ codes! {
     PDO004 PDO_TOO_LONG Lint Warn "a PDO is longer than 64 bits"
         "A CAN frame carries 8 bytes (CiA 301, 7.5.2.36). The device rejects the mapping with abort code 0x06040042. \
         Map fewer or shorter objects."
-    PDO005 MAPPED_LENGTH Lint Warn "a PDO maps an object with another length"
+    PDO005 MAPPED_LENGTH Lint Warn "a PDO maps an object with the wrong length"
         "The length in the mapping is not the length of the object's data type. Lexibus uses the length in the mapping \
         for the layout. Correct the mapping or the data type."
     PDO006 MAPPING_GAP Lint Warn "a PDO mapping has a gap"
@@ -593,14 +594,14 @@ codes! {
         Lexibus ignores the entry. Write the number."
     PDO016 MAPPING_COUNT Lint Warn "sub-index 0 of a mapping and its entries disagree"
         "Sub-index 0 is the number of mapped objects. It announces more entries than have a value. Lexibus uses the \
-        entries that have one. Correct the number, or fill the entries."
+        entries with a value. Correct the number, or fill the entries."
     PDO017 UNCLEAR_DIRECTION Lint Allow "the access type of a mapped object states no direction"
         "CiA 306 has rwr for objects in a TPDO and rww for objects in an RPDO. Plain rw allows both directions, and a \
         tool cannot know which one the device means. This lint is off by default. Write rwr or rww if the object has \
         one direction."
     PDO018 DEFAULT_PDOS_CONFLICT Lint Warn "two PDOs that exclude each other are both assigned by default"
-        "A PDO with an Sm is assigned by default, and the PDOs that it excludes cannot be. The slave rejects the \
-        assignment of both. Lexibus puts the first one into the default process image, and the other one stays \
+        "A PDO with an Sm is assigned by default. It cannot be assigned together with a PDO that it excludes, and the \
+        slave rejects both. Lexibus puts the first one into the default process image, and the other one stays \
         selectable. Delete Sm of one PDO."
     PDO019 NO_SUCH_SYNC_MANAGER Lint Warn "a PDO is assigned to a sync manager that is not described"
         "Sm of a PDO is the position of an Sm element, counted from 0. Lexibus leaves the PDO out of the default \
@@ -637,7 +638,7 @@ codes! {
         "Rows refer to units, bit fields, enumerations, spaces, models, options and other items by name. Nothing of \
         the required kind has this name. Lexibus suggests the most similar name and produces no output. Correct the \
         name, or add the definition."
-    TAB006 TABLE_PLACE Error Deny "an address, a range or a number of bits cannot be read"
+    TAB006 TABLE_PLACE Error Deny "an address, a range or a bit number cannot be read"
         "Write registers as `63` or `\"63-64\"`, and objects as `0x6040` or `\"0x1018:1\"`. Write ranges of objects as \
         `\"0x1400..0x1403:1\"`, and bits as `7` or `\"3-2\"`. Lexibus produces no output until all of them are \
         correct."
@@ -648,7 +649,7 @@ codes! {
     TAB008 ROW_WITHOUT_ADDRESS Error Deny "a row has no address"
         "An item needs an address on a bus of the device. Write `reg` for a register, `obj` for an object, `param` for \
         a parameter, `ascii` for a name, or `esc` for an EtherCAT slave controller."
-    TAB009 REGISTER_SPAN Lint Warn "a register has more or fewer numbers than its type needs"
+    TAB009 REGISTER_SPAN Lint Warn "the printed register numbers do not match the type"
         "A value of 32 bits takes two registers of 16 bits. Lexibus uses the type. Compare the type and the printed \
         numbers with the manual, and correct one."
     TAB010 ACCESS_NOT_GIVEN Lint Warn "an item has no access rights"
@@ -660,9 +661,9 @@ codes! {
         as the symbol. Correct the name, or define the unit in `[units]`."
     TAB012 HEX_DIGITS Lint Warn "a hexadecimal number does not have the digits of its type"
         "A number has more digits than its type (`0x007FFFFFFF` of 32 bits), or zeros up to another length (`0x0000` \
-        of 32 bits). An index has other than four digits (`0x20A`), or no `0x`. Usually a digit was doubled or lost, \
-        or the type is wrong. This code also reports the prefix `0X`. Lexibus uses the number. Compare it with the \
-        manual.\n\
+        of 32 bits). Or an index does not have four digits (`0x20A`) or the prefix `0x`. Usually a digit was doubled \
+        or lost, or the type is wrong. This code also reports the prefix `0X`. Lexibus uses the number. Compare it \
+        with the manual.\n\
         In an EDS, numbers as long as those of a longer type are reported only if you set a level of this code."
     TAB013 BIT_OUTSIDE_TYPE Lint Warn "a bit is outside of its integer"
         "The bit field names a bit that the integer does not have. Generated code leaves the field out. The type is \
@@ -681,7 +682,7 @@ codes! {
         "Two entries of an enumeration or code table have the same number, or their ranges overlap. In a code table, a \
         range may contain narrower ranges, which take precedence. Generated code uses the first name. Correct the \
         number. If the name depends on the firmware or the model, state this in each entry."
-    TAB018 UNNAMED_VALUE Lint Warn "a default value, limit or condition is reserved or has no name"
+    TAB018 UNNAMED_VALUE Lint Warn "a default value, limit or condition has a value that is reserved or unnamed"
         "The enumeration reserves the value, or is closed and does not name it. The code also reports unnamed writable \
         values, and a limit next to the last named value. In a bit field, it checks the default and fixed values of \
         each field. Name the value if the manual does, or correct the number."
@@ -730,8 +731,8 @@ codes! {
         version of the description may have renamed or removed it. Lexibus ignores the entry. Correct or delete it, or \
         add the item with `add = true`."
     TAB031 OVERLAY_NO_CHANGE Lint Warn "an overlay entry changes nothing"
-        "The description already has the facts of the entry. A newer version of it may have been corrected. Delete the \
-        entry."
+        "The description already contains everything that the entry states. A newer version of it may have been \
+        corrected. Delete the entry."
     TAB032 OVERLAY_NOT_FOR Lint Warn "an overlay matches no device of the description"
         "`for` in `[overlay]` names a vendor, product code, revision, device or module that the description, or the \
         selected part of it, does not have. Lexibus applies nothing of the overlay. Correct `for`, or remove the \
@@ -763,9 +764,9 @@ codes! {
         name was copied from the line above. Generated code adds a number to one of the names. Correct the name.\n\
         In other formats than register tables, this lint runs only if you set a level of this code."
     TAB041 BROKEN_NAME Lint Warn "a name contains a line break or a description, or is a column title"
-        "A narrow column of the manual breaks a name with a hyphen, and its prose often has the whole name. A name \
-        with its description contains values (`0 = Stop`) or a sentence. A bit called `Definition` has the title of a \
-        column, because a line of the table is shifted. Write only the name, and the rest as `doc`."
+        "In a narrow column, the manual breaks a name with a hyphen. Its prose often has the whole name. Or the cell \
+        of a name also contains values (`0 = Stop`) or a sentence. Or a bit has the title of a column, such as \
+        `Definition`, because a line of the table is shifted. Write only the name, and the rest as `doc`."
     TAB042 EMPTY_LIMIT Lint Warn "the only limit of a row is that of its type"
         "A minimum of 0, for example, says nothing about an unsigned value. The other cell of the manual is empty, or \
         its limit was lost. Write both limits or none."
@@ -784,8 +785,8 @@ codes! {
         "The item is read or written through an item with fewer bits, and no other window of the space is wider. The \
         upper bits are lost. Correct the type of one item, or add a wider window."
     TAB049 WINDOW_ORDER Lint Warn "a window's procedure writes the number before the value"
-        "If writing the number starts the transfer, the device transfers the value of the previous one. In a process \
-        image, both are sent together, so their order is not checked. Write the value first."
+        "If writing the number starts the transfer, the device transfers the previous value. In a process image, both \
+        are sent together, so their order is not checked. Write the value first."
     TAB050 QUANTITIES_DIFFER Lint Warn "two items for the same quantity have different default values"
         "`same_quantity` names an item for the same quantity in another scale. For each model, Lexibus compares the \
         default values as physical values, to a thousandth. If the units differ, it compares machine values \
@@ -827,7 +828,7 @@ codes! {
         "The section of a command says that a state accepts it, and the table of commands and states says the \
         opposite, or the reverse. Keep the one that lists the states one by one, and record the other in `doubt`."
     MSG009 MESSAGE_UNSHAPED Lint Warn "no code is generated for a message or a part of the protocol"
-        "The fields of a message must be writable and readable one after the other. The message says what prevents \
+        "The fields of a message must be writable and readable one after the other. The diagnostic says what prevents \
         this, such as an incomplete byte or two parts of variable length. The code also reports error replies, \
         framings that the runtime does not support, and parameters whose message has other fields. The documentation \
         of the table format lists what is possible. Correct the description, or send the message yourself."
@@ -835,7 +836,7 @@ codes! {
         "A client selects a parameter by its number, and sends the message of the first space that has it. Use the \
         other parameter's message directly to reach it."
     MOD001 MODULE_INDEX_CLASH Lint Warn "a fixed object of a module is also an object of the device"
-        "The index would stand for two objects. Correct the index in the module or in the device."
+        "The index would identify two objects. Correct the index in the module or in the device."
     MOD002 SUB_EXTEND Lint Warn "a sub-index extension breaks the rules of CiA 306"
         "`[M<n>SubExtends]` must list the extension `[M<n>SubExt<index>]`. Count is a number of sub-indices, or 0, `;` \
         and a number of bits. ObjExtend is 0 or 1, and the other keys are those of a VAR. The extended object must \
@@ -850,9 +851,9 @@ codes! {
         "The cell does not fit its column, or contradicts another cell. Lexibus keeps the rest of the row and leaves \
         the cell out, unless the diagnostic says otherwise. Correct the cell in the list, or the row in the table."
     CSV004 CSV_NO_ROW Repair Warn "a line of a register list cannot become a row"
-        "The line has no address, an unreadable address, or the address of another line. Or repeated lines stand for \
-        too many items, or repeat their names. Lexibus writes the line into the table as a comment. Complete the row \
-        by hand. If the lines are bits of one register, add a column with the bit number."
+        "The line has no address, an unreadable address, or the address of another line. Or its repeated lines declare \
+        too many items, or repeat a name. Lexibus writes the line into the table as a comment. Complete the row by \
+        hand. If the lines are bits of one register, add a column with the bit number."
     CSV005 CSV_RAGGED_ROW Repair Warn "a line has more or fewer cells than there are titles"
         "Often a cell that is not in quotation marks contains the delimiter, and all cells after it are in the wrong \
         column. Lexibus reads the cells from the left. Put the cell in quotation marks."

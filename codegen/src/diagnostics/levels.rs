@@ -9,11 +9,11 @@ use super::Severity;
 /// Level of a code.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Level {
-    /// The code is not reported.
+    /// Not reported.
     Allow,
-    /// The code is a warning.
+    /// Reported as a warning.
     Warn,
-    /// The code is an error.
+    /// Reported as an error.
     Deny,
 }
 
