@@ -20,7 +20,7 @@ pub enum Level {
 /// Levels of all codes in one compilation.
 ///
 /// The level of a code takes precedence over the mode. If a level is set twice, the last setting applies. The name `warnings`
-/// stands for all codes that are warnings by default.
+/// means all codes that are warnings by default.
 #[derive(Clone, Debug, Default)]
 pub struct Levels {
     strict: bool,
