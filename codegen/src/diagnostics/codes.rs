@@ -260,7 +260,7 @@ codes! {
     EDS049 SUB0_MISMATCH Lint Warn "sub-index 0 does not state the highest sub-index"
         "The default value of sub-index 0 is the highest sub-index (CiA 301, 7.4.3). Tools that read all entries need \
         it. PDO mappings, PDO assignments and 0x1003 are exempt, because their sub-index 0 is the number of valid \
-        entries. Correct the default value, or describe the missing sub-indices."
+        entries. Lexibus keeps the value. Correct it, or describe the missing sub-indices."
     EDS050 DEFAULT_OUT_OF_LIMITS Lint Warn "a default value is outside of its limits"
         "The device would reject its own default value, so one of the numbers is wrong. Lexibus keeps them all. In a \
         register table, this code also reports fixed values (`fixed`), allowed values and writable values. Compare the \
@@ -323,7 +323,7 @@ codes! {
         ObjectType."
     EDS068 TYPE_AREA_OBJECT Lint Warn "an object is in the data type area"
         "Objects below 0x1000 define data types. They have the object type DEFTYPE or DEFSTRUCT, and no value to read. \
-        Correct the index or ObjectType."
+        Lexibus keeps the object as described. Correct the index or ObjectType."
     EDS069 MISSING_SECTION Lint Warn "a mandatory section is missing"
         "An EDS has the sections `[FileInfo]`, `[DeviceInfo]` and `[MandatoryObjects]`. A file that describes modules \
         has `[SupportedModules]`. Lexibus reads the sections that exist. Add the missing section, because other tools \
@@ -539,8 +539,8 @@ codes! {
         "MaxSupportedRecordSize is the maximum length of a record, 4068 bytes by default. The device rejects a longer \
         record. Lexibus keeps the record. Correct its Length or MaxSupportedRecordSize."
     GSD020 SLOT_RANGE Lint Warn "a module is for slots that the device does not have"
-        "PhysicalSlots lists the slots of the device. The other slots that the module names cannot be used. Correct \
-        PhysicalSlots or the slots of the module."
+        "PhysicalSlots lists the slots of the device. The other slots that the module names cannot be used. Lexibus \
+        keeps the module. Correct PhysicalSlots or the slots of the module."
     GSD021 SUBSLOT_TAKEN Lint Warn "two submodules are fixed in one subslot"
         "A subslot holds one submodule. A VirtualSubmoduleItem without FixedInSubslots is in subslot 1. Lexibus keeps \
         both submodules. Give each built-in submodule a different subslot."
@@ -558,7 +558,7 @@ codes! {
         PdoMapping states the direction. Lexibus keeps the entry. Correct the mapping or the object."
     PDO004 PDO_TOO_LONG Lint Warn "a PDO is longer than 64 bits"
         "A CAN frame carries 8 bytes (CiA 301, 7.5.2.36). The device rejects the mapping with abort code 0x06040042. \
-        Map fewer or shorter objects."
+        Lexibus keeps the PDO. Map fewer or shorter objects."
     PDO005 MAPPED_LENGTH Lint Warn "a PDO maps an object with the wrong length"
         "The length in the mapping is not the length of the object's data type. Lexibus uses the length in the mapping \
         for the layout. Correct the mapping or the data type."
@@ -567,25 +567,25 @@ codes! {
         later ones. Fill the entry, or move the later ones up."
     PDO007 UNMAPPABLE_TYPE Lint Warn "a PDO maps a type of variable length"
         "Strings and domains have no fixed length, so they cannot be mapped unless the device fixes their length. \
-        Compare the mapping with the manual."
+        Lexibus keeps the entry. Compare the mapping with the manual."
     PDO008 DUMMY_IN_TPDO Lint Warn "a TPDO maps a dummy entry"
-        "Dummy entries (0x0001 to 0x0007) reserve space in an RPDO. A TPDO must not contain any (CiA 301, 7.4.9). Map \
-        an object of the device instead."
+        "Dummy entries (0x0001 to 0x0007) reserve space in an RPDO. A TPDO must not contain any (CiA 301, 7.4.9). \
+        Lexibus keeps the entry. Map an object of the device instead."
     PDO009 DUMMY_NOT_SUPPORTED Lint Warn "a PDO maps a dummy entry that `[DummyUsage]` excludes"
         "`[DummyUsage]` lists the data types that the device accepts as dummy entries. This one is missing or 0 there. \
-        Correct the mapping or `[DummyUsage]`."
+        Lexibus keeps the entry. Correct the mapping or `[DummyUsage]`."
     PDO010 PDO_COUNT Lint Warn "NrOfRXPDO or NrOfTXPDO is not the number of PDOs"
         "The file describes more PDOs than `[DeviceInfo]` announces. Or it describes fewer, and no CompactPDO \
-        describes the others. Correct the number, or describe the missing PDOs."
+        describes the others. Lexibus uses the described PDOs. Correct the number, or describe the missing PDOs."
     PDO011 GRANULARITY Lint Warn "a mapping is finer than the granularity of the device"
         "Granularity is the smallest unit of mapping in bits: 8 for bytes, 1 for bits. It is 0 if mappings are fixed. \
-        The length of this entry is not a multiple of it. Correct the mapping or Granularity."
+        The length of this entry is not a multiple of it. Lexibus keeps the entry. Correct the mapping or Granularity."
     PDO012 MULTIPLEXED_PDO Lint Warn "a device without multiplexed PDOs describes one"
         "Sub-index 0 of the mapping is 254 or 255, which marks a multiplexed PDO. GroupMessaging is 0, which means \
         that the device has none. Correct one of the two."
     PDO013 PDO_COUNT_1004 Lint Warn "object 0x1004 and `[DeviceInfo]` disagree"
         "The upper 16 bits of 0x1004 are the number of RPDOs, the lower 16 bits the number of TPDOs. They differ from \
-        NrOfRXPDO and NrOfTXPDO. Correct the wrong number."
+        NrOfRXPDO and NrOfTXPDO. Lexibus uses the described PDOs. Correct the wrong number."
     PDO014 HALF_A_PDO Lint Warn "a PDO has a communication or a mapping object, but not both"
         "Two objects describe a PDO: 0x1400+n and 0x1600+n an RPDO, 0x1800+n and 0x1A00+n a TPDO. One of them is \
         missing. Describe it."
@@ -648,7 +648,8 @@ codes! {
         suffix to one of them and a `doubt`."
     TAB008 ROW_WITHOUT_ADDRESS Error Deny "a row has no address"
         "An item needs an address on a bus of the device. Write `reg` for a register, `obj` for an object, `param` for \
-        a parameter, `ascii` for a name, or `esc` for an EtherCAT slave controller."
+        a parameter, `ascii` for a name, or `esc` for an EtherCAT slave controller. Lexibus produces no output without \
+        it."
     TAB009 REGISTER_SPAN Lint Warn "the printed register numbers do not match the type"
         "A value of 32 bits takes two registers of 16 bits. Lexibus uses the type. Compare the type and the printed \
         numbers with the manual, and correct one."
@@ -739,7 +740,8 @@ codes! {
         overlay."
     TAB033 STEP_IMPOSSIBLE Lint Warn "a step of a procedure is impossible"
         "The step writes a read-only item or a value that the item cannot have, or waits for a value that never \
-        occurs. Or it gives a PDO the COB-ID of another PDO. Compare the step with the manual, and correct it."
+        occurs. Or it gives a PDO the COB-ID of another PDO. Lexibus keeps the step. Compare the step with the manual, \
+        and correct it."
     TAB034 ASSIGNED_PDO_MISSING Lint Warn "an assigned PDO is not described"
         "0x1C12 and 0x1C13 hold the indices of the assigned PDOs. A default value or a step of a procedure writes the \
         index of a PDO that the table does not have. Describe the PDO, or correct the index."
@@ -843,7 +845,8 @@ codes! {
         have sub-indices. Correct the section."
     CSV001 CSV_NO_COLUMNS Error Deny "a register list has no column titles"
         "Lexibus recognizes English, German and Italian titles, in any order. It needs an address and at least one \
-        other column. Use `--map FIELD=TITLE` for other titles, and `--map FIELD=#NUMBER` for a list without titles."
+        other column, and writes no table without them. Use `--map FIELD=TITLE` for other titles, and `--map \
+        FIELD=#NUMBER` for a list without titles."
     CSV002 CSV_UNKNOWN_COLUMN Lint Warn "a column is not imported"
         "Lexibus does not know the title of this column. Use `--map FIELD=TITLE` to assign it to a field, or `--map \
         doc=TITLE` to keep its text as documentation."
