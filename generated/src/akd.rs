@@ -1570,16 +1570,17 @@ pub mod types {
     ///
     /// Note: The row of CoE type 7 begins one column further left. Chosen: one of the types (its text continues the list). Manual: 4\.13.1 Uscita della Mailbox; 4.13.2 Ingresso della Mailbox (lines 1154, 1193).
     ///
-    /// | Value | Name |
-    /// |---|---|
-    /// | 0 | [`Reserved`](Self::Reserved) |
-    /// | 1 | [`Emergency`](Self::Emergency) |
-    /// | 2 | [`SdoRequest`](Self::SdoRequest) |
-    /// | 3 | [`SdoResponse`](Self::SdoResponse) |
-    /// | 4 | [`TxPdo`](Self::TxPdo) |
-    /// | 5 | [`RxPdo`](Self::RxPdo) |
-    /// | 6 | [`TxPdoRemoteRequest`](Self::TxPdoRemoteRequest) |
-    /// | 7 | [`RxPdoRemoteRequest`](Self::RxPdoRemoteRequest) |
+    /// | Value | Name | Meaning |
+    /// |---|---|---|
+    /// | 0 | [`Reserved`](Self::Reserved) |  |
+    /// | 1 | [`Emergency`](Self::Emergency) |  |
+    /// | 2 | [`SdoRequest`](Self::SdoRequest) |  |
+    /// | 3 | [`SdoResponse`](Self::SdoResponse) |  |
+    /// | 4 | [`TxPdo`](Self::TxPdo) |  |
+    /// | 5 | [`RxPdo`](Self::RxPdo) |  |
+    /// | 6 | [`TxPdoRemoteRequest`](Self::TxPdoRemoteRequest) |  |
+    /// | 7 | [`RxPdoRemoteRequest`](Self::RxPdoRemoteRequest) |  |
+    /// | 8 to 15 | [`Unknown`](Self::Unknown) | reserved. Must not be used. |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum CoeService {
         /// 0: reserved. Must not be used. Manual: 4\.13.1 Uscita della Mailbox; 4.13.2 Ingresso della Mailbox (lines 1147, 1186): Riserva.
@@ -1792,30 +1793,30 @@ pub mod types {
         }
         /// Bits 3 to 0: request. Requested state. Manual: 4\.3.1 Controllo AL (indirizzo 0x0120:0x0121) (lines 609-613): Stato.
         pub const fn request(self) -> CommunicationState {
-            CommunicationState::from_raw((self.0 & 0xF) as u8)
+            CommunicationState::from_raw(rt::bits16::field(self.0, 0xF) as u8)
         }
         /// The same with another [`request`](Self::request).
         #[must_use]
         pub const fn with_request(self, value: CommunicationState) -> Self {
-            Self((self.0 & !0xF) | ((value.raw() as u16) & 0xF))
+            Self(rt::bits16::with_field(self.0, 0xF, value.raw() as u16))
         }
         /// Bit 4: acknowledge. Acts on the change from 0 to 1. Acknowledges an error. Manual: 4\.3.1 Controllo AL (indirizzo 0x0120:0x0121) (line 614): Accettazione.
         pub const fn acknowledge(self) -> bool {
-            self.0 & 0x10 != 0
+            rt::bits16::flag(self.0, 0x10)
         }
         /// The same with another [`acknowledge`](Self::acknowledge).
         #[must_use]
         pub const fn with_acknowledge(self, value: bool) -> Self {
-            Self((self.0 & !0x10) | ((value as u16) << 4))
+            Self(rt::bits16::with_flag(self.0, 0x10, value))
         }
         /// Bits 15 to 8: application specific. Manual: 4\.3.1 Controllo AL (indirizzo 0x0120:0x0121) (line 616): Specifico dell'applicazione.
         pub const fn application_specific(self) -> u8 {
-            ((self.0 >> 8) & 0xFF) as u8
+            rt::bits16::field(self.0, 0xFF00) as u8
         }
         /// The same with another [`application_specific`](Self::application_specific).
         #[must_use]
         pub const fn with_application_specific(self, value: u8) -> Self {
-            Self((self.0 & !0xFF00) | ((value as u16) << 8))
+            Self(rt::bits16::with_field(self.0, 0xFF00, value as u16))
         }
     }
     impl Default for AlControl {
@@ -1834,13 +1835,12 @@ pub mod types {
     }
     impl core::fmt::Debug for AlControl {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            let bits = rt::DebugBits::new(f, "AlControl", self.0 as u64);
-            let bits = rt::DebugBits::field(bits, "request", 0xF, &self.request());
-            let bits = rt::DebugBits::plain(
-                bits,
-                &[("acknowledge", 0x10), ("application_specific", 0xFF00)],
-            );
-            bits.finish()
+            rt::debug_bits(
+                f,
+                self.0 as u64,
+                "AlControl ?request:f acknowledge:10 application_specific:ff00",
+                &[&self.request()],
+            )
         }
     }
     /// AlStatus.
@@ -1872,30 +1872,30 @@ pub mod types {
         }
         /// Bits 3 to 0: current. Current state of the drive. Manual: 4\.3.2 Stato AL (indirizzo 0x0130:0x0131) (lines 621-625): Stato.
         pub const fn current(self) -> CommunicationState {
-            CommunicationState::from_raw((self.0 & 0xF) as u8)
+            CommunicationState::from_raw(rt::bits16::field(self.0, 0xF) as u8)
         }
         /// The same with another [`current`](Self::current).
         #[must_use]
         pub const fn with_current(self, value: CommunicationState) -> Self {
-            Self((self.0 & !0xF) | ((value.raw() as u16) & 0xF))
+            Self(rt::bits16::with_field(self.0, 0xF, value.raw() as u16))
         }
         /// Bit 4: error. The change of state failed, for example a forbidden transition; the AL status code has the reason. Manual: 4\.3.2 Stato AL (indirizzo 0x0130:0x0131) (line 626): Modifica dello stato.
         pub const fn error(self) -> bool {
-            self.0 & 0x10 != 0
+            rt::bits16::flag(self.0, 0x10)
         }
         /// The same with another [`error`](Self::error).
         #[must_use]
         pub const fn with_error(self, value: bool) -> Self {
-            Self((self.0 & !0x10) | ((value as u16) << 4))
+            Self(rt::bits16::with_flag(self.0, 0x10, value))
         }
         /// Bits 15 to 8: application specific. Manual: 4\.3.2 Stato AL (indirizzo 0x0130:0x0131) (line 628): Specifico dell'applicazione.
         pub const fn application_specific(self) -> u8 {
-            ((self.0 >> 8) & 0xFF) as u8
+            rt::bits16::field(self.0, 0xFF00) as u8
         }
         /// The same with another [`application_specific`](Self::application_specific).
         #[must_use]
         pub const fn with_application_specific(self, value: u8) -> Self {
-            Self((self.0 & !0xFF00) | ((value as u16) << 8))
+            Self(rt::bits16::with_field(self.0, 0xFF00, value as u16))
         }
     }
     impl Default for AlStatus {
@@ -1914,13 +1914,12 @@ pub mod types {
     }
     impl core::fmt::Debug for AlStatus {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            let bits = rt::DebugBits::new(f, "AlStatus", self.0 as u64);
-            let bits = rt::DebugBits::field(bits, "current", 0xF, &self.current());
-            let bits = rt::DebugBits::plain(
-                bits,
-                &[("error", 0x10), ("application_specific", 0xFF00)],
-            );
-            bits.finish()
+            rt::debug_bits(
+                f,
+                self.0 as u64,
+                "AlStatus ?current:f error:10 application_specific:ff00",
+                &[&self.current()],
+            )
         }
     }
     /// InterruptEnable.
@@ -1962,84 +1961,84 @@ pub mod types {
         }
         /// Bit 0: AL control event. Manual: 4\.2.1 Registro di abilitazione dell'interruzione (indirizzo 0x0204:0x0205) (line 567): Evento di controllo AL.
         pub const fn al_control_event(self) -> bool {
-            self.0 & 0x1 != 0
+            rt::bits16::flag(self.0, 0x1)
         }
         /// The same with another [`al_control_event`](Self::al_control_event).
         #[must_use]
         pub const fn with_al_control_event(self, value: bool) -> Self {
-            Self((self.0 & !0x1) | (value as u16))
+            Self(rt::bits16::with_flag(self.0, 0x1, value))
         }
         /// Bit 2: DC Sync0. Manual: 4\.2.1 Registro di abilitazione dell'interruzione (indirizzo 0x0204:0x0205) (line 569): Clock distribuito DC Sync0.
         pub const fn dc_sync0(self) -> bool {
-            self.0 & 0x4 != 0
+            rt::bits16::flag(self.0, 0x4)
         }
         /// The same with another [`dc_sync0`](Self::dc_sync0).
         #[must_use]
         pub const fn with_dc_sync0(self, value: bool) -> Self {
-            Self((self.0 & !0x4) | ((value as u16) << 2))
+            Self(rt::bits16::with_flag(self.0, 0x4, value))
         }
         /// Bit 3: DC Sync1. Manual: 4\.2.1 Registro di abilitazione dell'interruzione (indirizzo 0x0204:0x0205) (line 570): Clock distribuito DC Sync1.
         pub const fn dc_sync1(self) -> bool {
-            self.0 & 0x8 != 0
+            rt::bits16::flag(self.0, 0x8)
         }
         /// The same with another [`dc_sync1`](Self::dc_sync1).
         #[must_use]
         pub const fn with_dc_sync1(self, value: bool) -> Self {
-            Self((self.0 & !0x8) | ((value as u16) << 3))
+            Self(rt::bits16::with_flag(self.0, 0x8, value))
         }
         /// Bit 4: SyncManager activation changed. Manual: 4\.2.1 Registro di abilitazione dell'interruzione (indirizzo 0x0204:0x0205) (line 571): Modifica del registro di attivazione SyncManager.
         pub const fn sync_manager_activation_changed(self) -> bool {
-            self.0 & 0x10 != 0
+            rt::bits16::flag(self.0, 0x10)
         }
         /// The same with another [`sync_manager_activation_changed`](Self::sync_manager_activation_changed).
         #[must_use]
         pub const fn with_sync_manager_activation_changed(self, value: bool) -> Self {
-            Self((self.0 & !0x10) | ((value as u16) << 4))
+            Self(rt::bits16::with_flag(self.0, 0x10, value))
         }
         /// Bit 5: EEPROM emulation. Manual: 4\.2.1 Registro di abilitazione dell'interruzione (indirizzo 0x0204:0x0205) (line 572): Evento di emulazione EEPROM.
         pub const fn eeprom_emulation(self) -> bool {
-            self.0 & 0x20 != 0
+            rt::bits16::flag(self.0, 0x20)
         }
         /// The same with another [`eeprom_emulation`](Self::eeprom_emulation).
         #[must_use]
         pub const fn with_eeprom_emulation(self, value: bool) -> Self {
-            Self((self.0 & !0x20) | ((value as u16) << 5))
+            Self(rt::bits16::with_flag(self.0, 0x20, value))
         }
         /// Bit 8: SyncManager 0. Output mailbox: request to the drive. Manual: 4\.2.1 Registro di abilitazione dell'interruzione (indirizzo 0x0204:0x0205) (line 574): Evento SyncManager 0 (evento corrispondenza in uscita).
         pub const fn sync_manager_0(self) -> bool {
-            self.0 & 0x100 != 0
+            rt::bits16::flag(self.0, 0x100)
         }
         /// The same with another [`sync_manager_0`](Self::sync_manager_0).
         #[must_use]
         pub const fn with_sync_manager_0(self, value: bool) -> Self {
-            Self((self.0 & !0x100) | ((value as u16) << 8))
+            Self(rt::bits16::with_flag(self.0, 0x100, value))
         }
         /// Bit 9: SyncManager 1. Input mailbox: reply of the drive. Manual: 4\.2.1 Registro di abilitazione dell'interruzione (indirizzo 0x0204:0x0205) (line 575): Evento SyncManager 1 (evento corrispondenza in ingresso).
         pub const fn sync_manager_1(self) -> bool {
-            self.0 & 0x200 != 0
+            rt::bits16::flag(self.0, 0x200)
         }
         /// The same with another [`sync_manager_1`](Self::sync_manager_1).
         #[must_use]
         pub const fn with_sync_manager_1(self, value: bool) -> Self {
-            Self((self.0 & !0x200) | ((value as u16) << 9))
+            Self(rt::bits16::with_flag(self.0, 0x200, value))
         }
         /// Bit 10: SyncManager 2. Output process data: cyclic set-points. Manual: 4\.2.1 Registro di abilitazione dell'interruzione (indirizzo 0x0204:0x0205) (line 576): Evento SyncManager 2 (evento processo in uscita).
         pub const fn sync_manager_2(self) -> bool {
-            self.0 & 0x400 != 0
+            rt::bits16::flag(self.0, 0x400)
         }
         /// The same with another [`sync_manager_2`](Self::sync_manager_2).
         #[must_use]
         pub const fn with_sync_manager_2(self, value: bool) -> Self {
-            Self((self.0 & !0x400) | ((value as u16) << 10))
+            Self(rt::bits16::with_flag(self.0, 0x400, value))
         }
         /// Bit 11: SyncManager 3. Input process data: cyclic actual values. Manual: 4\.2.1 Registro di abilitazione dell'interruzione (indirizzo 0x0204:0x0205) (line 577): Evento SyncManager 3 (evento processo in ingresso).
         pub const fn sync_manager_3(self) -> bool {
-            self.0 & 0x800 != 0
+            rt::bits16::flag(self.0, 0x800)
         }
         /// The same with another [`sync_manager_3`](Self::sync_manager_3).
         #[must_use]
         pub const fn with_sync_manager_3(self, value: bool) -> Self {
-            Self((self.0 & !0x800) | ((value as u16) << 11))
+            Self(rt::bits16::with_flag(self.0, 0x800, value))
         }
     }
     impl Default for InterruptEnable {
@@ -2058,22 +2057,12 @@ pub mod types {
     }
     impl core::fmt::Debug for InterruptEnable {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            let bits = rt::DebugBits::new(f, "InterruptEnable", self.0 as u64);
-            let bits = rt::DebugBits::plain(
-                bits,
-                &[
-                    ("al_control_event", 0x1),
-                    ("dc_sync0", 0x4),
-                    ("dc_sync1", 0x8),
-                    ("sync_manager_activation_changed", 0x10),
-                    ("eeprom_emulation", 0x20),
-                    ("sync_manager_0", 0x100),
-                    ("sync_manager_1", 0x200),
-                    ("sync_manager_2", 0x400),
-                    ("sync_manager_3", 0x800),
-                ],
-            );
-            bits.finish()
+            rt::debug_bits(
+                f,
+                self.0 as u64,
+                "InterruptEnable al_control_event:1 dc_sync0:4 dc_sync1:8 sync_manager_activation_changed:10 eeprom_emulation:20 sync_manager_0:100 sync_manager_1:200 sync_manager_2:400 sync_manager_3:800",
+                &[],
+            )
         }
     }
     /// AlEventRequest.
@@ -2123,84 +2112,84 @@ pub mod types {
         }
         /// Bit 0: AL control event. The master requests another state. Manual: 4\.2.2 Richiesta di evento AL (indirizzo 0x0220:0x0221) (line 585): Evento di controllo AL.
         pub const fn al_control_event(self) -> bool {
-            self.0 & 0x1 != 0
+            rt::bits16::flag(self.0, 0x1)
         }
         /// The same with another [`al_control_event`](Self::al_control_event).
         #[must_use]
         pub const fn with_al_control_event(self, value: bool) -> Self {
-            Self((self.0 & !0x1) | (value as u16))
+            Self(rt::bits16::with_flag(self.0, 0x1, value))
         }
         /// Bit 2: DC Sync0. Manual: 4\.2.2 Richiesta di evento AL (indirizzo 0x0220:0x0221) (line 586): Evento clock distribuito (DC) Sync0.
         pub const fn dc_sync0(self) -> bool {
-            self.0 & 0x4 != 0
+            rt::bits16::flag(self.0, 0x4)
         }
         /// The same with another [`dc_sync0`](Self::dc_sync0).
         #[must_use]
         pub const fn with_dc_sync0(self, value: bool) -> Self {
-            Self((self.0 & !0x4) | ((value as u16) << 2))
+            Self(rt::bits16::with_flag(self.0, 0x4, value))
         }
         /// Bit 3: DC Sync1. Manual: 4\.2.2 Richiesta di evento AL (indirizzo 0x0220:0x0221) (line 587): Evento clock distribuito (DC) Sync1.
         pub const fn dc_sync1(self) -> bool {
-            self.0 & 0x8 != 0
+            rt::bits16::flag(self.0, 0x8)
         }
         /// The same with another [`dc_sync1`](Self::dc_sync1).
         #[must_use]
         pub const fn with_dc_sync1(self, value: bool) -> Self {
-            Self((self.0 & !0x8) | ((value as u16) << 3))
+            Self(rt::bits16::with_flag(self.0, 0x8, value))
         }
         /// Bit 4: SyncManager activation changed. Manual: 4\.2.2 Richiesta di evento AL (indirizzo 0x0220:0x0221) (line 588): Modifica del registro di attivazione SyncManager.
         pub const fn sync_manager_activation_changed(self) -> bool {
-            self.0 & 0x10 != 0
+            rt::bits16::flag(self.0, 0x10)
         }
         /// The same with another [`sync_manager_activation_changed`](Self::sync_manager_activation_changed).
         #[must_use]
         pub const fn with_sync_manager_activation_changed(self, value: bool) -> Self {
-            Self((self.0 & !0x10) | ((value as u16) << 4))
+            Self(rt::bits16::with_flag(self.0, 0x10, value))
         }
         /// Bit 5: EEPROM emulation. Access to the emulated EEPROM, which identifies the drive on the network. Manual: 4\.2.2 Richiesta di evento AL (indirizzo 0x0220:0x0221) (line 589): Evento di emulazione EEPROM.
         pub const fn eeprom_emulation(self) -> bool {
-            self.0 & 0x20 != 0
+            rt::bits16::flag(self.0, 0x20)
         }
         /// The same with another [`eeprom_emulation`](Self::eeprom_emulation).
         #[must_use]
         pub const fn with_eeprom_emulation(self, value: bool) -> Self {
-            Self((self.0 & !0x20) | ((value as u16) << 5))
+            Self(rt::bits16::with_flag(self.0, 0x20, value))
         }
         /// Bit 8: SyncManager 0. Request in the mailbox. Manual: 4\.2.2 Richiesta di evento AL (indirizzo 0x0220:0x0221) (line 591): Evento SyncManager 0.
         pub const fn sync_manager_0(self) -> bool {
-            self.0 & 0x100 != 0
+            rt::bits16::flag(self.0, 0x100)
         }
         /// The same with another [`sync_manager_0`](Self::sync_manager_0).
         #[must_use]
         pub const fn with_sync_manager_0(self, value: bool) -> Self {
-            Self((self.0 & !0x100) | ((value as u16) << 8))
+            Self(rt::bits16::with_flag(self.0, 0x100, value))
         }
         /// Bit 9: SyncManager 1. Reply in the mailbox. Manual: 4\.2.2 Richiesta di evento AL (indirizzo 0x0220:0x0221) (line 592): Evento SyncManager 1.
         pub const fn sync_manager_1(self) -> bool {
-            self.0 & 0x200 != 0
+            rt::bits16::flag(self.0, 0x200)
         }
         /// The same with another [`sync_manager_1`](Self::sync_manager_1).
         #[must_use]
         pub const fn with_sync_manager_1(self, value: bool) -> Self {
-            Self((self.0 & !0x200) | ((value as u16) << 9))
+            Self(rt::bits16::with_flag(self.0, 0x200, value))
         }
         /// Bit 10: SyncManager 2. Cyclic set-points. Manual: 4\.2.2 Richiesta di evento AL (indirizzo 0x0220:0x0221) (line 593): Evento SyncManager 2.
         pub const fn sync_manager_2(self) -> bool {
-            self.0 & 0x400 != 0
+            rt::bits16::flag(self.0, 0x400)
         }
         /// The same with another [`sync_manager_2`](Self::sync_manager_2).
         #[must_use]
         pub const fn with_sync_manager_2(self, value: bool) -> Self {
-            Self((self.0 & !0x400) | ((value as u16) << 10))
+            Self(rt::bits16::with_flag(self.0, 0x400, value))
         }
         /// Bit 11: SyncManager 3. Cyclic actual values. Manual: 4\.2.2 Richiesta di evento AL (indirizzo 0x0220:0x0221) (line 594): Evento SyncManager 3.
         pub const fn sync_manager_3(self) -> bool {
-            self.0 & 0x800 != 0
+            rt::bits16::flag(self.0, 0x800)
         }
         /// The same with another [`sync_manager_3`](Self::sync_manager_3).
         #[must_use]
         pub const fn with_sync_manager_3(self, value: bool) -> Self {
-            Self((self.0 & !0x800) | ((value as u16) << 11))
+            Self(rt::bits16::with_flag(self.0, 0x800, value))
         }
     }
     impl Default for AlEventRequest {
@@ -2219,22 +2208,12 @@ pub mod types {
     }
     impl core::fmt::Debug for AlEventRequest {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            let bits = rt::DebugBits::new(f, "AlEventRequest", self.0 as u64);
-            let bits = rt::DebugBits::plain(
-                bits,
-                &[
-                    ("al_control_event", 0x1),
-                    ("dc_sync0", 0x4),
-                    ("dc_sync1", 0x8),
-                    ("sync_manager_activation_changed", 0x10),
-                    ("eeprom_emulation", 0x20),
-                    ("sync_manager_0", 0x100),
-                    ("sync_manager_1", 0x200),
-                    ("sync_manager_2", 0x400),
-                    ("sync_manager_3", 0x800),
-                ],
-            );
-            bits.finish()
+            rt::debug_bits(
+                f,
+                self.0 as u64,
+                "AlEventRequest al_control_event:1 dc_sync0:4 dc_sync1:8 sync_manager_activation_changed:10 eeprom_emulation:20 sync_manager_0:100 sync_manager_1:200 sync_manager_2:400 sync_manager_3:800",
+                &[],
+            )
         }
     }
     /// ControlWord.
@@ -2287,57 +2266,57 @@ pub mod types {
         }
         /// Bit 0: switch on. Manual: Assegnazione dei bit nella parola di controllo (line 684): Accensione.
         pub const fn switch_on(self) -> bool {
-            self.0 & 0x1 != 0
+            rt::bits16::flag(self.0, 0x1)
         }
         /// The same with another [`switch_on`](Self::switch_on).
         #[must_use]
         pub const fn with_switch_on(self, value: bool) -> Self {
-            Self((self.0 & !0x1) | (value as u16))
+            Self(rt::bits16::with_flag(self.0, 0x1, value))
         }
         /// Bit 1: disable voltage. Holds while the bit is 0. 0 disables the voltage. Manual: Assegnazione dei bit nella parola di controllo; Comandi nella parola di controllo (lines 685, 698): Disabilitazione tensione.
         pub const fn disable_voltage(self) -> bool {
-            self.0 & 0x2 == 0
+            !rt::bits16::flag(self.0, 0x2)
         }
         /// The same with another [`disable_voltage`](Self::disable_voltage).
         #[must_use]
         pub const fn with_disable_voltage(self, value: bool) -> Self {
-            Self((self.0 & !0x2) | ((!value as u16) << 1))
+            Self(rt::bits16::with_flag(self.0, 0x2, !value))
         }
         /// Bit 2: quick stop. Holds while the bit is 0. 0 commands a quick stop. Manual: Assegnazione dei bit nella parola di controllo; Comandi nella parola di controllo (lines 686, 699): Arresto rapido.
         pub const fn quick_stop(self) -> bool {
-            self.0 & 0x4 == 0
+            !rt::bits16::flag(self.0, 0x4)
         }
         /// The same with another [`quick_stop`](Self::quick_stop).
         #[must_use]
         pub const fn with_quick_stop(self, value: bool) -> Self {
-            Self((self.0 & !0x4) | ((!value as u16) << 2))
+            Self(rt::bits16::with_flag(self.0, 0x4, !value))
         }
         /// Bit 3: enable operation. 1 enables the transfer of set-points. Manual: 4\.4.1 Descrizione dello stato; Assegnazione dei bit nella parola di controllo (lines 673, 687): Abilitazione operazione.
         pub const fn enable_operation(self) -> bool {
-            self.0 & 0x8 != 0
+            rt::bits16::flag(self.0, 0x8)
         }
         /// The same with another [`enable_operation`](Self::enable_operation).
         #[must_use]
         pub const fn with_enable_operation(self, value: bool) -> Self {
-            Self((self.0 & !0x8) | ((value as u16) << 3))
+            Self(rt::bits16::with_flag(self.0, 0x8, value))
         }
         /// Bit 7: fault reset. Acts on the change from 0 to 1. Resets a fault; effective only if a fault is present. Manual: Assegnazione dei bit nella parola di controllo; Comandi nella parola di controllo (lines 691, 702): Ripristino errore (valido solo per errori).
         pub const fn fault_reset(self) -> bool {
-            self.0 & 0x80 != 0
+            rt::bits16::flag(self.0, 0x80)
         }
         /// The same with another [`fault_reset`](Self::fault_reset).
         #[must_use]
         pub const fn with_fault_reset(self, value: bool) -> Self {
-            Self((self.0 & !0x80) | ((value as u16) << 7))
+            Self(rt::bits16::with_flag(self.0, 0x80, value))
         }
         /// Bit 8: halt. The drive stops in every mode; the set-points of the mode are kept. Manual: Assegnazione dei bit nella parola di controllo; Descrizione dei bit restanti nella parola di controllo (lines 684, 720): Pausa/arresto.
         pub const fn halt(self) -> bool {
-            self.0 & 0x100 != 0
+            rt::bits16::flag(self.0, 0x100)
         }
         /// The same with another [`halt`](Self::halt).
         #[must_use]
         pub const fn with_halt(self, value: bool) -> Self {
-            Self((self.0 & !0x100) | ((value as u16) << 8))
+            Self(rt::bits16::with_flag(self.0, 0x100, value))
         }
         /// The bits that have their meaning while [Modes of operation](super::objects::MODES_OF_OPERATION) is profile position (1).
         pub const fn in_profile_position(self) -> ControlWordInProfilePosition {
@@ -2364,15 +2343,12 @@ pub mod types {
     }
     impl core::fmt::Debug for ControlWord {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            let bits = rt::DebugBits::new(f, "ControlWord", self.0 as u64);
-            let bits = rt::DebugBits::plain(bits, &[("switch_on", 0x1)]);
-            let bits = rt::DebugBits::inverted(bits, "disable_voltage", 0x2);
-            let bits = rt::DebugBits::inverted(bits, "quick_stop", 0x4);
-            let bits = rt::DebugBits::plain(
-                bits,
-                &[("enable_operation", 0x8), ("fault_reset", 0x80), ("halt", 0x100)],
-            );
-            bits.finish()
+            rt::debug_bits(
+                f,
+                self.0 as u64,
+                "ControlWord switch_on:1 !disable_voltage:2 !quick_stop:4 enable_operation:8 fault_reset:80 halt:100",
+                &[],
+            )
         }
     }
     /// [`ControlWord`] while [Modes of operation](super::objects::MODES_OF_OPERATION) is profile position (1).
@@ -2385,30 +2361,30 @@ pub mod types {
         }
         /// Bit 4: new set-point. Acts on the change from 0 to 1. Accepts a new target position. Manual: Bit dipendenti dalla modalità nella parola di controllo (line 711): new\_setpoint.
         pub const fn new_set_point(self) -> bool {
-            self.0 & 0x10 != 0
+            rt::bits16::flag(self.0, 0x10)
         }
         /// The same with another [`new_set_point`](Self::new_set_point).
         #[must_use]
         pub const fn with_new_set_point(self, value: bool) -> Self {
-            Self((self.0 & !0x10) | ((value as u16) << 4))
+            Self(rt::bits16::with_flag(self.0, 0x10, value))
         }
         /// Bit 5: change set immediately. Manual: Bit dipendenti dalla modalità nella parola di controllo (line 711): change\_set\_immediately.
         pub const fn change_set_immediately(self) -> bool {
-            self.0 & 0x20 != 0
+            rt::bits16::flag(self.0, 0x20)
         }
         /// The same with another [`change_set_immediately`](Self::change_set_immediately).
         #[must_use]
         pub const fn with_change_set_immediately(self, value: bool) -> Self {
-            Self((self.0 & !0x20) | ((value as u16) << 5))
+            Self(rt::bits16::with_flag(self.0, 0x20, value))
         }
         /// Bit 6: target. Manual: Bit dipendenti dalla modalità nella parola di controllo (line 711): assoluto/relativo.
         pub const fn target(self) -> ControlWordTarget {
-            ControlWordTarget::from_raw(((self.0 >> 6) & 0x1) as u8)
+            ControlWordTarget::from_raw(rt::bits16::field(self.0, 0x40) as u8)
         }
         /// The same with another [`target`](Self::target).
         #[must_use]
         pub const fn with_target(self, value: ControlWordTarget) -> Self {
-            Self((self.0 & !0x40) | (((value.raw() as u16) << 6) & 0x40))
+            Self(rt::bits16::with_field(self.0, 0x40, value.raw() as u16))
         }
     }
     /// [`ControlWord`] while [Modes of operation](super::objects::MODES_OF_OPERATION) is homing (6).
@@ -2421,12 +2397,12 @@ pub mod types {
         }
         /// Bit 4: homing operation start. Starts homing. Manual: Bit dipendenti dalla modalità nella parola di controllo (line 714): homing\_operation\_start.
         pub const fn homing_operation_start(self) -> bool {
-            self.0 & 0x10 != 0
+            rt::bits16::flag(self.0, 0x10)
         }
         /// The same with another [`homing_operation_start`](Self::homing_operation_start).
         #[must_use]
         pub const fn with_homing_operation_start(self, value: bool) -> Self {
-            Self((self.0 & !0x10) | ((value as u16) << 4))
+            Self(rt::bits16::with_flag(self.0, 0x10, value))
         }
     }
     /// StatusWord.
@@ -2478,93 +2454,93 @@ pub mod types {
         }
         /// Bit 0: ready to switch on. Manual: Assegnazione dei bit nella parola di stato (line 731): Pronta per l'accensione.
         pub const fn ready_to_switch_on(self) -> bool {
-            self.0 & 0x1 != 0
+            rt::bits16::flag(self.0, 0x1)
         }
         /// The same with another [`ready_to_switch_on`](Self::ready_to_switch_on).
         #[must_use]
         pub const fn with_ready_to_switch_on(self, value: bool) -> Self {
-            Self((self.0 & !0x1) | (value as u16))
+            Self(rt::bits16::with_flag(self.0, 0x1, value))
         }
         /// Bit 1: switched on. Manual: Assegnazione dei bit nella parola di stato (line 732): Accesa.
         pub const fn switched_on(self) -> bool {
-            self.0 & 0x2 != 0
+            rt::bits16::flag(self.0, 0x2)
         }
         /// The same with another [`switched_on`](Self::switched_on).
         #[must_use]
         pub const fn with_switched_on(self, value: bool) -> Self {
-            Self((self.0 & !0x2) | ((value as u16) << 1))
+            Self(rt::bits16::with_flag(self.0, 0x2, value))
         }
         /// Bit 2: operation enabled. Manual: Assegnazione dei bit nella parola di stato (line 733): Abilitazione operazione.
         pub const fn operation_enabled(self) -> bool {
-            self.0 & 0x4 != 0
+            rt::bits16::flag(self.0, 0x4)
         }
         /// The same with another [`operation_enabled`](Self::operation_enabled).
         #[must_use]
         pub const fn with_operation_enabled(self, value: bool) -> Self {
-            Self((self.0 & !0x4) | ((value as u16) << 2))
+            Self(rt::bits16::with_flag(self.0, 0x4, value))
         }
         /// Bit 3: fault. Manual: Assegnazione dei bit nella parola di stato (line 734): Errore.
         pub const fn fault(self) -> bool {
-            self.0 & 0x8 != 0
+            rt::bits16::flag(self.0, 0x8)
         }
         /// The same with another [`fault`](Self::fault).
         #[must_use]
         pub const fn with_fault(self, value: bool) -> Self {
-            Self((self.0 & !0x8) | ((value as u16) << 3))
+            Self(rt::bits16::with_flag(self.0, 0x8, value))
         }
         /// Bit 4: voltage enabled. DC-link voltage is present. Manual: Assegnazione dei bit nella parola di stato; Descrizione dei bit restanti nella parola di stato (lines 735, 756): Tensione abilitata.
         pub const fn voltage_enabled(self) -> bool {
-            self.0 & 0x10 != 0
+            rt::bits16::flag(self.0, 0x10)
         }
         /// The same with another [`voltage_enabled`](Self::voltage_enabled).
         #[must_use]
         pub const fn with_voltage_enabled(self, value: bool) -> Self {
-            Self((self.0 & !0x10) | ((value as u16) << 4))
+            Self(rt::bits16::with_flag(self.0, 0x10, value))
         }
         /// Bit 5: quick stop. Holds while the bit is 0. 0 while a quick stop is active. Manual: Assegnazione dei bit nella parola di stato; Stati della macchina di stato (lines 736, 750): Arresto rapido.
         pub const fn quick_stop(self) -> bool {
-            self.0 & 0x20 == 0
+            !rt::bits16::flag(self.0, 0x20)
         }
         /// The same with another [`quick_stop`](Self::quick_stop).
         #[must_use]
         pub const fn with_quick_stop(self, value: bool) -> Self {
-            Self((self.0 & !0x20) | ((!value as u16) << 5))
+            Self(rt::bits16::with_flag(self.0, 0x20, !value))
         }
         /// Bit 6: switch on disabled. Manual: Assegnazione dei bit nella parola di stato (line 737): Accensione disabilitata.
         pub const fn switch_on_disabled(self) -> bool {
-            self.0 & 0x40 != 0
+            rt::bits16::flag(self.0, 0x40)
         }
         /// The same with another [`switch_on_disabled`](Self::switch_on_disabled).
         #[must_use]
         pub const fn with_switch_on_disabled(self, value: bool) -> Self {
-            Self((self.0 & !0x40) | ((value as u16) << 6))
+            Self(rt::bits16::with_flag(self.0, 0x40, value))
         }
         /// Bit 7: warning. A warning is active; several causes are possible. Manual: Assegnazione dei bit nella parola di stato; Descrizione dei bit restanti nella parola di stato (lines 738, 758): Avvertenza.
         pub const fn warning(self) -> bool {
-            self.0 & 0x80 != 0
+            rt::bits16::flag(self.0, 0x80)
         }
         /// The same with another [`warning`](Self::warning).
         #[must_use]
         pub const fn with_warning(self, value: bool) -> Self {
-            Self((self.0 & !0x80) | ((value as u16) << 7))
+            Self(rt::bits16::with_flag(self.0, 0x80, value))
         }
         /// Bit 10: target reached. The drive has reached the target position. Manual: Assegnazione dei bit nella parola di stato; Descrizione dei bit restanti nella parola di stato (lines 733, 762): Destinazione raggiunta.
         pub const fn target_reached(self) -> bool {
-            self.0 & 0x400 != 0
+            rt::bits16::flag(self.0, 0x400)
         }
         /// The same with another [`target_reached`](Self::target_reached).
         #[must_use]
         pub const fn with_target_reached(self, value: bool) -> Self {
-            Self((self.0 & !0x400) | ((value as u16) << 10))
+            Self(rt::bits16::with_flag(self.0, 0x400, value))
         }
         /// Bit 11: internal limit active. A movement is or was limited; the cause depends on the mode. Manual: Assegnazione dei bit nella parola di stato; Descrizione dei bit restanti nella parola di stato (lines 734, 764): Limite interno attivo.
         pub const fn internal_limit_active(self) -> bool {
-            self.0 & 0x800 != 0
+            rt::bits16::flag(self.0, 0x800)
         }
         /// The same with another [`internal_limit_active`](Self::internal_limit_active).
         #[must_use]
         pub const fn with_internal_limit_active(self, value: bool) -> Self {
-            Self((self.0 & !0x800) | ((value as u16) << 11))
+            Self(rt::bits16::with_flag(self.0, 0x800, value))
         }
     }
     impl Default for StatusWord {
@@ -2586,28 +2562,12 @@ pub mod types {
     }
     impl core::fmt::Debug for StatusWord {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            let bits = rt::DebugBits::new(f, "StatusWord", self.0 as u64);
-            let bits = rt::DebugBits::plain(
-                bits,
-                &[
-                    ("ready_to_switch_on", 0x1),
-                    ("switched_on", 0x2),
-                    ("operation_enabled", 0x4),
-                    ("fault", 0x8),
-                    ("voltage_enabled", 0x10),
-                ],
-            );
-            let bits = rt::DebugBits::inverted(bits, "quick_stop", 0x20);
-            let bits = rt::DebugBits::plain(
-                bits,
-                &[
-                    ("switch_on_disabled", 0x40),
-                    ("warning", 0x80),
-                    ("target_reached", 0x400),
-                    ("internal_limit_active", 0x800),
-                ],
-            );
-            bits.finish()
+            rt::debug_bits(
+                f,
+                self.0 as u64,
+                "StatusWord ready_to_switch_on:1 switched_on:2 operation_enabled:4 fault:8 voltage_enabled:10 !quick_stop:20 switch_on_disabled:40 warning:80 target_reached:400 internal_limit_active:800",
+                &[],
+            )
         }
     }
     /// LatchControl.
@@ -2647,48 +2607,48 @@ pub mod types {
         }
         /// Bit 0: enable latch 1 rising. Manual: Parola del controllo del blocco (2 byte) (line 1075): Abilitazione del blocco esterno 1 (tempi di aumento positivi).
         pub const fn enable_latch_1_rising(self) -> bool {
-            self.0 & 0x1 != 0
+            rt::bits16::flag(self.0, 0x1)
         }
         /// The same with another [`enable_latch_1_rising`](Self::enable_latch_1_rising).
         #[must_use]
         pub const fn with_enable_latch_1_rising(self, value: bool) -> Self {
-            Self((self.0 & !0x1) | (value as u16))
+            Self(rt::bits16::with_flag(self.0, 0x1, value))
         }
         /// Bit 1: enable latch 1 falling. Manual: Parola del controllo del blocco (2 byte) (line 1076): Abilitazione del blocco esterno 1 (tempi di aumento negativi).
         pub const fn enable_latch_1_falling(self) -> bool {
-            self.0 & 0x2 != 0
+            rt::bits16::flag(self.0, 0x2)
         }
         /// The same with another [`enable_latch_1_falling`](Self::enable_latch_1_falling).
         #[must_use]
         pub const fn with_enable_latch_1_falling(self, value: bool) -> Self {
-            Self((self.0 & !0x2) | ((value as u16) << 1))
+            Self(rt::bits16::with_flag(self.0, 0x2, value))
         }
         /// Bit 2: enable latch 2 rising. Manual: Parola del controllo del blocco (2 byte) (line 1077): Abilitazione del blocco esterno 2 (tempi di aumento positivi).
         pub const fn enable_latch_2_rising(self) -> bool {
-            self.0 & 0x4 != 0
+            rt::bits16::flag(self.0, 0x4)
         }
         /// The same with another [`enable_latch_2_rising`](Self::enable_latch_2_rising).
         #[must_use]
         pub const fn with_enable_latch_2_rising(self, value: bool) -> Self {
-            Self((self.0 & !0x4) | ((value as u16) << 2))
+            Self(rt::bits16::with_flag(self.0, 0x4, value))
         }
         /// Bit 3: enable latch 2 falling. Manual: Parola del controllo del blocco (2 byte) (line 1078): Abilitazione del blocco esterno 2 (tempi di aumento negativi).
         pub const fn enable_latch_2_falling(self) -> bool {
-            self.0 & 0x8 != 0
+            rt::bits16::flag(self.0, 0x8)
         }
         /// The same with another [`enable_latch_2_falling`](Self::enable_latch_2_falling).
         #[must_use]
         pub const fn with_enable_latch_2_falling(self, value: bool) -> Self {
-            Self((self.0 & !0x8) | ((value as u16) << 3))
+            Self(rt::bits16::with_flag(self.0, 0x8, value))
         }
         /// Bits 12 to 8: read. Captured position to read; a number, not one bit per latch. Manual: Parola del controllo del blocco (2 byte) (lines 1081-1084).
         pub const fn read(self) -> LatchControlRead {
-            LatchControlRead::from_raw(((self.0 >> 8) & 0x1F) as u8)
+            LatchControlRead::from_raw(rt::bits16::field(self.0, 0x1F00) as u8)
         }
         /// The same with another [`read`](Self::read).
         #[must_use]
         pub const fn with_read(self, value: LatchControlRead) -> Self {
-            Self((self.0 & !0x1F00) | (((value.raw() as u16) << 8) & 0x1F00))
+            Self(rt::bits16::with_field(self.0, 0x1F00, value.raw() as u16))
         }
     }
     impl Default for LatchControl {
@@ -2707,18 +2667,12 @@ pub mod types {
     }
     impl core::fmt::Debug for LatchControl {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            let bits = rt::DebugBits::new(f, "LatchControl", self.0 as u64);
-            let bits = rt::DebugBits::plain(
-                bits,
-                &[
-                    ("enable_latch_1_rising", 0x1),
-                    ("enable_latch_1_falling", 0x2),
-                    ("enable_latch_2_rising", 0x4),
-                    ("enable_latch_2_falling", 0x8),
-                ],
-            );
-            let bits = rt::DebugBits::field(bits, "read", 0x1F00, &self.read());
-            bits.finish()
+            rt::debug_bits(
+                f,
+                self.0 as u64,
+                "LatchControl enable_latch_1_rising:1 enable_latch_1_falling:2 enable_latch_2_rising:4 enable_latch_2_falling:8 ?read:1f00",
+                &[&self.read()],
+            )
         }
     }
     /// LatchStatus.
@@ -2759,84 +2713,84 @@ pub mod types {
         }
         /// Bit 0: latch 1 rising valid. Manual: Parola dello stato del blocco (2 byte) (line 1090): Blocco esterno 1 valido (tempi di aumento positivi).
         pub const fn latch_1_rising_valid(self) -> bool {
-            self.0 & 0x1 != 0
+            rt::bits16::flag(self.0, 0x1)
         }
         /// The same with another [`latch_1_rising_valid`](Self::latch_1_rising_valid).
         #[must_use]
         pub const fn with_latch_1_rising_valid(self, value: bool) -> Self {
-            Self((self.0 & !0x1) | (value as u16))
+            Self(rt::bits16::with_flag(self.0, 0x1, value))
         }
         /// Bit 1: latch 1 falling valid. Manual: Parola dello stato del blocco (2 byte) (line 1091): Blocco esterno 1 valido (tempi di aumento negativi).
         pub const fn latch_1_falling_valid(self) -> bool {
-            self.0 & 0x2 != 0
+            rt::bits16::flag(self.0, 0x2)
         }
         /// The same with another [`latch_1_falling_valid`](Self::latch_1_falling_valid).
         #[must_use]
         pub const fn with_latch_1_falling_valid(self, value: bool) -> Self {
-            Self((self.0 & !0x2) | ((value as u16) << 1))
+            Self(rt::bits16::with_flag(self.0, 0x2, value))
         }
         /// Bit 2: latch 2 rising valid. Manual: Parola dello stato del blocco (2 byte) (line 1092): Blocco esterno 2 valido (tempi di aumento positivi).
         pub const fn latch_2_rising_valid(self) -> bool {
-            self.0 & 0x4 != 0
+            rt::bits16::flag(self.0, 0x4)
         }
         /// The same with another [`latch_2_rising_valid`](Self::latch_2_rising_valid).
         #[must_use]
         pub const fn with_latch_2_rising_valid(self, value: bool) -> Self {
-            Self((self.0 & !0x4) | ((value as u16) << 2))
+            Self(rt::bits16::with_flag(self.0, 0x4, value))
         }
         /// Bit 3: latch 2 falling valid. Manual: Parola dello stato del blocco (2 byte) (line 1093): Blocco esterno 2 valido (tempi di aumento negativi).
         pub const fn latch_2_falling_valid(self) -> bool {
-            self.0 & 0x8 != 0
+            rt::bits16::flag(self.0, 0x8)
         }
         /// The same with another [`latch_2_falling_valid`](Self::latch_2_falling_valid).
         #[must_use]
         pub const fn with_latch_2_falling_valid(self, value: bool) -> Self {
-            Self((self.0 & !0x8) | ((value as u16) << 3))
+            Self(rt::bits16::with_flag(self.0, 0x8, value))
         }
         /// Bits 11 to 8: acquired. Captured position that is read; a number, not one bit per latch. Manual: Parola dello stato del blocco (2 byte) (lines 1096-1099).
         pub const fn acquired(self) -> LatchStatusAcquired {
-            LatchStatusAcquired::from_raw(((self.0 >> 8) & 0xF) as u8)
+            LatchStatusAcquired::from_raw(rt::bits16::field(self.0, 0xF00) as u8)
         }
         /// The same with another [`acquired`](Self::acquired).
         #[must_use]
         pub const fn with_acquired(self, value: LatchStatusAcquired) -> Self {
-            Self((self.0 & !0xF00) | (((value.raw() as u16) << 8) & 0xF00))
+            Self(rt::bits16::with_field(self.0, 0xF00, value.raw() as u16))
         }
         /// Bit 12: digital input 4. Manual: Parola dello stato del blocco (2 byte) (line 1100): Ingresso digitale di stato 4.
         pub const fn digital_input_4(self) -> bool {
-            self.0 & 0x1000 != 0
+            rt::bits16::flag(self.0, 0x1000)
         }
         /// The same with another [`digital_input_4`](Self::digital_input_4).
         #[must_use]
         pub const fn with_digital_input_4(self, value: bool) -> Self {
-            Self((self.0 & !0x1000) | ((value as u16) << 12))
+            Self(rt::bits16::with_flag(self.0, 0x1000, value))
         }
         /// Bit 13: digital input 3. Manual: Parola dello stato del blocco (2 byte) (line 1101): Ingresso digitale di stato 3.
         pub const fn digital_input_3(self) -> bool {
-            self.0 & 0x2000 != 0
+            rt::bits16::flag(self.0, 0x2000)
         }
         /// The same with another [`digital_input_3`](Self::digital_input_3).
         #[must_use]
         pub const fn with_digital_input_3(self, value: bool) -> Self {
-            Self((self.0 & !0x2000) | ((value as u16) << 13))
+            Self(rt::bits16::with_flag(self.0, 0x2000, value))
         }
         /// Bit 14: digital input 2. Manual: Parola dello stato del blocco (2 byte) (line 1102): Ingresso digitale di stato 2.
         pub const fn digital_input_2(self) -> bool {
-            self.0 & 0x4000 != 0
+            rt::bits16::flag(self.0, 0x4000)
         }
         /// The same with another [`digital_input_2`](Self::digital_input_2).
         #[must_use]
         pub const fn with_digital_input_2(self, value: bool) -> Self {
-            Self((self.0 & !0x4000) | ((value as u16) << 14))
+            Self(rt::bits16::with_flag(self.0, 0x4000, value))
         }
         /// Bit 15: digital input 1. Manual: Parola dello stato del blocco (2 byte) (line 1103): Ingresso digitale di stato 1.
         pub const fn digital_input_1(self) -> bool {
-            self.0 & 0x8000 != 0
+            rt::bits16::flag(self.0, 0x8000)
         }
         /// The same with another [`digital_input_1`](Self::digital_input_1).
         #[must_use]
         pub const fn with_digital_input_1(self, value: bool) -> Self {
-            Self((self.0 & !0x8000) | ((value as u16) << 15))
+            Self(rt::bits16::with_flag(self.0, 0x8000, value))
         }
     }
     impl Default for LatchStatus {
@@ -2855,27 +2809,12 @@ pub mod types {
     }
     impl core::fmt::Debug for LatchStatus {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            let bits = rt::DebugBits::new(f, "LatchStatus", self.0 as u64);
-            let bits = rt::DebugBits::plain(
-                bits,
-                &[
-                    ("latch_1_rising_valid", 0x1),
-                    ("latch_1_falling_valid", 0x2),
-                    ("latch_2_rising_valid", 0x4),
-                    ("latch_2_falling_valid", 0x8),
-                ],
-            );
-            let bits = rt::DebugBits::field(bits, "acquired", 0xF00, &self.acquired());
-            let bits = rt::DebugBits::plain(
-                bits,
-                &[
-                    ("digital_input_4", 0x1000),
-                    ("digital_input_3", 0x2000),
-                    ("digital_input_2", 0x4000),
-                    ("digital_input_1", 0x8000),
-                ],
-            );
-            bits.finish()
+            rt::debug_bits(
+                f,
+                self.0 as u64,
+                "LatchStatus latch_1_rising_valid:1 latch_1_falling_valid:2 latch_2_rising_valid:4 latch_2_falling_valid:8 ?acquired:f00 digital_input_4:1000 digital_input_3:2000 digital_input_2:4000 digital_input_1:8000",
+                &[&self.acquired()],
+            )
         }
     }
     /// PdoMapping.
@@ -2906,30 +2845,30 @@ pub mod types {
         }
         /// Bits 7 to 0: length. Length in bits. Manual: 4\.6.1 Esempio: mappatura libera PDO (lines 927, 928).
         pub const fn length(self) -> u8 {
-            (self.0 & 0xFF) as u8
+            rt::bits32::field(self.0, 0xFF) as u8
         }
         /// The same with another [`length`](Self::length).
         #[must_use]
         pub const fn with_length(self, value: u8) -> Self {
-            Self((self.0 & !0xFF) | (value as u32))
+            Self(rt::bits32::with_field(self.0, 0xFF, value as u32))
         }
         /// Bits 15 to 8: sub index. Manual: 4\.6.1 Esempio: mappatura libera PDO (line 935).
         pub const fn sub_index(self) -> u8 {
-            ((self.0 >> 8) & 0xFF) as u8
+            rt::bits32::field(self.0, 0xFF00) as u8
         }
         /// The same with another [`sub_index`](Self::sub_index).
         #[must_use]
         pub const fn with_sub_index(self, value: u8) -> Self {
-            Self((self.0 & !0xFF00) | ((value as u32) << 8))
+            Self(rt::bits32::with_field(self.0, 0xFF00, value as u32))
         }
         /// Bits 31 to 16: index. Manual: 4\.6.1 Esempio: mappatura libera PDO (line 927).
         pub const fn index(self) -> u16 {
-            ((self.0 >> 16) & 0xFFFF) as u16
+            rt::bits32::field(self.0, 0xFFFF0000) as u16
         }
         /// The same with another [`index`](Self::index).
         #[must_use]
         pub const fn with_index(self, value: u16) -> Self {
-            Self((self.0 & !0xFFFF0000) | ((value as u32) << 16))
+            Self(rt::bits32::with_field(self.0, 0xFFFF0000, value as u32))
         }
     }
     impl Default for PdoMapping {
@@ -2948,12 +2887,12 @@ pub mod types {
     }
     impl core::fmt::Debug for PdoMapping {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            let bits = rt::DebugBits::new(f, "PdoMapping", self.0 as u64);
-            let bits = rt::DebugBits::plain(
-                bits,
-                &[("length", 0xFF), ("sub_index", 0xFF00), ("index", 0xFFFF0000)],
-            );
-            bits.finish()
+            rt::debug_bits(
+                f,
+                self.0 as u64,
+                "PdoMapping length:ff sub_index:ff00 index:ffff0000",
+                &[],
+            )
         }
     }
     /// MailboxRouting.
@@ -2981,21 +2920,21 @@ pub mod types {
         }
         /// Bits 5 to 0: channel. Manual: 4\.13.1 Uscita della Mailbox; 4.13.2 Ingresso della Mailbox (lines 1141, 1180): Canale.
         pub const fn channel(self) -> u8 {
-            self.0 & 0x3F
+            rt::bits8::field(self.0, 0x3F)
         }
         /// The same with another [`channel`](Self::channel).
         #[must_use]
         pub const fn with_channel(self, value: u8) -> Self {
-            Self((self.0 & !0x3F) | (value & 0x3F))
+            Self(rt::bits8::with_field(self.0, 0x3F, value))
         }
         /// Bits 7 to 6: priority. Manual: 4\.13.1 Uscita della Mailbox; 4.13.2 Ingresso della Mailbox (lines 1141, 1180): priorità.
         pub const fn priority(self) -> u8 {
-            (self.0 >> 6) & 0x3
+            rt::bits8::field(self.0, 0xC0)
         }
         /// The same with another [`priority`](Self::priority).
         #[must_use]
         pub const fn with_priority(self, value: u8) -> Self {
-            Self((self.0 & !0xC0) | ((value << 6) & 0xC0))
+            Self(rt::bits8::with_field(self.0, 0xC0, value))
         }
     }
     impl Default for MailboxRouting {
@@ -3014,12 +2953,12 @@ pub mod types {
     }
     impl core::fmt::Debug for MailboxRouting {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            let bits = rt::DebugBits::new(f, "MailboxRouting", self.0 as u64);
-            let bits = rt::DebugBits::plain(
-                bits,
-                &[("channel", 0x3F), ("priority", 0xC0)],
-            );
-            bits.finish()
+            rt::debug_bits(
+                f,
+                self.0 as u64,
+                "MailboxRouting channel:3f priority:c0",
+                &[],
+            )
         }
     }
     /// MailboxType.
@@ -3051,12 +2990,12 @@ pub mod types {
         }
         /// Bits 3 to 0: protocol. Manual: 4\.13.1 Uscita della Mailbox; 4.13.2 Ingresso della Mailbox (lines 1142, 1181): Tipo.
         pub const fn protocol(self) -> MailboxTypeProtocol {
-            MailboxTypeProtocol::from_raw(self.0 & 0xF)
+            MailboxTypeProtocol::from_raw(rt::bits8::field(self.0, 0xF))
         }
         /// The same with another [`protocol`](Self::protocol).
         #[must_use]
         pub const fn with_protocol(self, value: MailboxTypeProtocol) -> Self {
-            Self((self.0 & !0xF) | (value.raw() & 0xF))
+            Self(rt::bits8::with_field(self.0, 0xF, value.raw()))
         }
     }
     impl Default for MailboxType {
@@ -3078,9 +3017,12 @@ pub mod types {
     }
     impl core::fmt::Debug for MailboxType {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            let bits = rt::DebugBits::new(f, "MailboxType", self.0 as u64);
-            let bits = rt::DebugBits::field(bits, "protocol", 0xF, &self.protocol());
-            bits.finish()
+            rt::debug_bits(
+                f,
+                self.0 as u64,
+                "MailboxType ?protocol:f",
+                &[&self.protocol()],
+            )
         }
     }
     /// CoeHeader.
@@ -3111,21 +3053,21 @@ pub mod types {
         }
         /// Bits 8 to 0: PDO number. Number of the PDO, for PDO services only; bit 0 of byte 7 is the most significant bit. Manual: 4\.13.1 Uscita della Mailbox; 4.13.2 Ingresso della Mailbox (lines 1144, 1145, 1183, 1184): Numero PDO.
         pub const fn pdo_number(self) -> u16 {
-            self.0 & 0x1FF
+            rt::bits16::field(self.0, 0x1FF)
         }
         /// The same with another [`pdo_number`](Self::pdo_number).
         #[must_use]
         pub const fn with_pdo_number(self, value: u16) -> Self {
-            Self((self.0 & !0x1FF) | (value & 0x1FF))
+            Self(rt::bits16::with_field(self.0, 0x1FF, value))
         }
         /// Bits 15 to 12: service. Manual: 4\.13.1 Uscita della Mailbox; 4.13.2 Ingresso della Mailbox (lines 1147-1155, 1186-1194): Tipo specifico CoE.
         pub const fn service(self) -> CoeService {
-            CoeService::from_raw(((self.0 >> 12) & 0xF) as u8)
+            CoeService::from_raw(rt::bits16::field(self.0, 0xF000) as u8)
         }
         /// The same with another [`service`](Self::service).
         #[must_use]
         pub const fn with_service(self, value: CoeService) -> Self {
-            Self((self.0 & !0xF000) | (((value.raw() as u16) << 12) & 0xF000))
+            Self(rt::bits16::with_field(self.0, 0xF000, value.raw() as u16))
         }
     }
     impl Default for CoeHeader {
@@ -3147,10 +3089,12 @@ pub mod types {
     }
     impl core::fmt::Debug for CoeHeader {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            let bits = rt::DebugBits::new(f, "CoeHeader", self.0 as u64);
-            let bits = rt::DebugBits::plain(bits, &[("pdo_number", 0x1FF)]);
-            let bits = rt::DebugBits::field(bits, "service", 0xF000, &self.service());
-            bits.finish()
+            rt::debug_bits(
+                f,
+                self.0 as u64,
+                "CoeHeader pdo_number:1ff ?service:f000",
+                &[&self.service()],
+            )
         }
     }
     /// States of al, as [AL status](super::objects::AL_STATUS) tells them.

@@ -286,6 +286,7 @@ pub mod types {
     ///
     /// | Value | Name | Meaning |
     /// |---|---|---|
+    /// | -128 to -1 | [`Unknown`](Self::Unknown) | manufacturer specific. Left to the vendor. |
     /// | 0 | [`NoMode`](Self::NoMode) |  |
     /// | 1 | [`ProfilePosition`](Self::ProfilePosition) |  |
     /// | 2 | [`Velocity`](Self::Velocity) |  |
@@ -297,6 +298,7 @@ pub mod types {
     /// | 9 | [`CyclicSynchronousVelocity`](Self::CyclicSynchronousVelocity) |  |
     /// | 10 | [`CyclicSynchronousTorque`](Self::CyclicSynchronousTorque) |  |
     /// | 11 | [`CyclicSynchronousTorqueWithAngle`](Self::CyclicSynchronousTorqueWithAngle) | The controller supplies the commutation angle. |
+    /// | 12 to 127 | [`Unknown`](Self::Unknown) | reserved. Must not be used. |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum ModesOfOperation {
         /// 0: no mode.
@@ -440,6 +442,8 @@ pub mod types {
     ///
     /// | Value | Name | Meaning |
     /// |---|---|---|
+    /// | 0 to 240 | [`Unknown`](Self::Unknown) | synchronous. With the next SYNC. |
+    /// | 241 to 253 | [`Unknown`](Self::Unknown) | reserved. Must not be used. |
     /// | 254 | [`EventOfTheManufacturer`](Self::EventOfTheManufacturer) | At once, or as the manufacturer defines. |
     /// | 255 | [`EventOfTheProfile`](Self::EventOfTheProfile) | At once, or as the profile defines. |
     #[derive(Clone, Copy, Debug, PartialEq)]
@@ -489,6 +493,8 @@ pub mod types {
     /// | Value | Name | Meaning |
     /// |---|---|---|
     /// | 0 | [`SynchronousAcyclic`](Self::SynchronousAcyclic) | With the SYNC after an event. |
+    /// | 1 to 240 | [`Unknown`](Self::Unknown) | synchronous cyclic. After this number of SYNC. |
+    /// | 241 to 251 | [`Unknown`](Self::Unknown) | reserved. Must not be used. |
     /// | 252 | [`RemoteRequestSynchronous`](Self::RemoteRequestSynchronous) | remote request, synchronous. Sampled with SYNC, transmitted on a remote frame. |
     /// | 253 | [`RemoteRequest`](Self::RemoteRequest) | Sampled and transmitted on a remote frame. |
     /// | 254 | [`EventOfTheManufacturer`](Self::EventOfTheManufacturer) | On events that the manufacturer defines. |
@@ -585,66 +591,66 @@ pub mod types {
         }
         /// Bit 0: switch on.
         pub const fn switch_on(self) -> bool {
-            self.0 & 0x1 != 0
+            rt::bits16::flag(self.0, 0x1)
         }
         /// The same with another [`switch_on`](Self::switch_on).
         #[must_use]
         pub const fn with_switch_on(self, value: bool) -> Self {
-            Self((self.0 & !0x1) | (value as u16))
+            Self(rt::bits16::with_flag(self.0, 0x1, value))
         }
         /// Bit 1: enable voltage.
         pub const fn enable_voltage(self) -> bool {
-            self.0 & 0x2 != 0
+            rt::bits16::flag(self.0, 0x2)
         }
         /// The same with another [`enable_voltage`](Self::enable_voltage).
         #[must_use]
         pub const fn with_enable_voltage(self, value: bool) -> Self {
-            Self((self.0 & !0x2) | ((value as u16) << 1))
+            Self(rt::bits16::with_flag(self.0, 0x2, value))
         }
         /// Bit 2: quick stop. Holds while the bit is 0. 0 requests a quick stop.
         pub const fn quick_stop(self) -> bool {
-            self.0 & 0x4 == 0
+            !rt::bits16::flag(self.0, 0x4)
         }
         /// The same with another [`quick_stop`](Self::quick_stop).
         #[must_use]
         pub const fn with_quick_stop(self, value: bool) -> Self {
-            Self((self.0 & !0x4) | ((!value as u16) << 2))
+            Self(rt::bits16::with_flag(self.0, 0x4, !value))
         }
         /// Bit 3: enable operation.
         pub const fn enable_operation(self) -> bool {
-            self.0 & 0x8 != 0
+            rt::bits16::flag(self.0, 0x8)
         }
         /// The same with another [`enable_operation`](Self::enable_operation).
         #[must_use]
         pub const fn with_enable_operation(self, value: bool) -> Self {
-            Self((self.0 & !0x8) | ((value as u16) << 3))
+            Self(rt::bits16::with_flag(self.0, 0x8, value))
         }
         /// Bit 7: fault reset. Acts on the change from 0 to 1.
         pub const fn fault_reset(self) -> bool {
-            self.0 & 0x80 != 0
+            rt::bits16::flag(self.0, 0x80)
         }
         /// The same with another [`fault_reset`](Self::fault_reset).
         #[must_use]
         pub const fn with_fault_reset(self, value: bool) -> Self {
-            Self((self.0 & !0x80) | ((value as u16) << 7))
+            Self(rt::bits16::with_flag(self.0, 0x80, value))
         }
         /// Bit 8: halt. Stops the axis as selected by the halt option code (0x605D).
         pub const fn halt(self) -> bool {
-            self.0 & 0x100 != 0
+            rt::bits16::flag(self.0, 0x100)
         }
         /// The same with another [`halt`](Self::halt).
         #[must_use]
         pub const fn with_halt(self, value: bool) -> Self {
-            Self((self.0 & !0x100) | ((value as u16) << 8))
+            Self(rt::bits16::with_flag(self.0, 0x100, value))
         }
         /// Bits 15 to 11: manufacturer specific.
         pub const fn manufacturer_specific(self) -> u8 {
-            ((self.0 >> 11) & 0x1F) as u8
+            rt::bits16::field(self.0, 0xF800) as u8
         }
         /// The same with another [`manufacturer_specific`](Self::manufacturer_specific).
         #[must_use]
         pub const fn with_manufacturer_specific(self, value: u8) -> Self {
-            Self((self.0 & !0xF800) | (((value as u16) << 11) & 0xF800))
+            Self(rt::bits16::with_field(self.0, 0xF800, value as u16))
         }
         /// The bits that have their meaning while [Modes of operation](super::objects::MODES_OF_OPERATION) is profile position (1).
         pub const fn in_profile_position(self) -> ControlwordInProfilePosition {
@@ -684,22 +690,12 @@ pub mod types {
     }
     impl core::fmt::Debug for Controlword {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            let bits = rt::DebugBits::new(f, "Controlword", self.0 as u64);
-            let bits = rt::DebugBits::plain(
-                bits,
-                &[("switch_on", 0x1), ("enable_voltage", 0x2)],
-            );
-            let bits = rt::DebugBits::inverted(bits, "quick_stop", 0x4);
-            let bits = rt::DebugBits::plain(
-                bits,
-                &[
-                    ("enable_operation", 0x8),
-                    ("fault_reset", 0x80),
-                    ("halt", 0x100),
-                    ("manufacturer_specific", 0xF800),
-                ],
-            );
-            bits.finish()
+            rt::debug_bits(
+                f,
+                self.0 as u64,
+                "Controlword switch_on:1 enable_voltage:2 !quick_stop:4 enable_operation:8 fault_reset:80 halt:100 manufacturer_specific:f800",
+                &[],
+            )
         }
     }
     /// [`Controlword`] while [Modes of operation](super::objects::MODES_OF_OPERATION) is profile position (1).
@@ -712,39 +708,39 @@ pub mod types {
         }
         /// Bit 4: new set-point. Acts on the change from 0 to 1. Accepts the target position.
         pub const fn new_set_point(self) -> bool {
-            self.0 & 0x10 != 0
+            rt::bits16::flag(self.0, 0x10)
         }
         /// The same with another [`new_set_point`](Self::new_set_point).
         #[must_use]
         pub const fn with_new_set_point(self, value: bool) -> Self {
-            Self((self.0 & !0x10) | ((value as u16) << 4))
+            Self(rt::bits16::with_flag(self.0, 0x10, value))
         }
         /// Bit 5: change set immediately. 1: the set-point replaces the active one; 0: it is executed after the active one.
         pub const fn change_set_immediately(self) -> bool {
-            self.0 & 0x20 != 0
+            rt::bits16::flag(self.0, 0x20)
         }
         /// The same with another [`change_set_immediately`](Self::change_set_immediately).
         #[must_use]
         pub const fn with_change_set_immediately(self, value: bool) -> Self {
-            Self((self.0 & !0x20) | ((value as u16) << 5))
+            Self(rt::bits16::with_flag(self.0, 0x20, value))
         }
         /// Bit 6: relative. 1: the target position is relative.
         pub const fn relative(self) -> bool {
-            self.0 & 0x40 != 0
+            rt::bits16::flag(self.0, 0x40)
         }
         /// The same with another [`relative`](Self::relative).
         #[must_use]
         pub const fn with_relative(self, value: bool) -> Self {
-            Self((self.0 & !0x40) | ((value as u16) << 6))
+            Self(rt::bits16::with_flag(self.0, 0x40, value))
         }
         /// Bit 9: change on set-point. The axis passes the previous target at its profile velocity.
         pub const fn change_on_set_point(self) -> bool {
-            self.0 & 0x200 != 0
+            rt::bits16::flag(self.0, 0x200)
         }
         /// The same with another [`change_on_set_point`](Self::change_on_set_point).
         #[must_use]
         pub const fn with_change_on_set_point(self, value: bool) -> Self {
-            Self((self.0 & !0x200) | ((value as u16) << 9))
+            Self(rt::bits16::with_flag(self.0, 0x200, value))
         }
     }
     /// [`Controlword`] while [Modes of operation](super::objects::MODES_OF_OPERATION) is velocity (2).
@@ -757,30 +753,30 @@ pub mod types {
         }
         /// Bit 4: enable ramp.
         pub const fn enable_ramp(self) -> bool {
-            self.0 & 0x10 != 0
+            rt::bits16::flag(self.0, 0x10)
         }
         /// The same with another [`enable_ramp`](Self::enable_ramp).
         #[must_use]
         pub const fn with_enable_ramp(self, value: bool) -> Self {
-            Self((self.0 & !0x10) | ((value as u16) << 4))
+            Self(rt::bits16::with_flag(self.0, 0x10, value))
         }
         /// Bit 5: unlock ramp.
         pub const fn unlock_ramp(self) -> bool {
-            self.0 & 0x20 != 0
+            rt::bits16::flag(self.0, 0x20)
         }
         /// The same with another [`unlock_ramp`](Self::unlock_ramp).
         #[must_use]
         pub const fn with_unlock_ramp(self, value: bool) -> Self {
-            Self((self.0 & !0x20) | ((value as u16) << 5))
+            Self(rt::bits16::with_flag(self.0, 0x20, value))
         }
         /// Bit 6: reference ramp.
         pub const fn reference_ramp(self) -> bool {
-            self.0 & 0x40 != 0
+            rt::bits16::flag(self.0, 0x40)
         }
         /// The same with another [`reference_ramp`](Self::reference_ramp).
         #[must_use]
         pub const fn with_reference_ramp(self, value: bool) -> Self {
-            Self((self.0 & !0x40) | ((value as u16) << 6))
+            Self(rt::bits16::with_flag(self.0, 0x40, value))
         }
     }
     /// [`Controlword`] while [Modes of operation](super::objects::MODES_OF_OPERATION) is homing (6).
@@ -793,12 +789,12 @@ pub mod types {
         }
         /// Bit 4: homing start. 1 starts homing, 0 interrupts it.
         pub const fn homing_start(self) -> bool {
-            self.0 & 0x10 != 0
+            rt::bits16::flag(self.0, 0x10)
         }
         /// The same with another [`homing_start`](Self::homing_start).
         #[must_use]
         pub const fn with_homing_start(self, value: bool) -> Self {
-            Self((self.0 & !0x10) | ((value as u16) << 4))
+            Self(rt::bits16::with_flag(self.0, 0x10, value))
         }
     }
     /// [`Controlword`] while [Modes of operation](super::objects::MODES_OF_OPERATION) is interpolated position (7).
@@ -811,12 +807,12 @@ pub mod types {
         }
         /// Bit 4: enable interpolation.
         pub const fn enable_interpolation(self) -> bool {
-            self.0 & 0x10 != 0
+            rt::bits16::flag(self.0, 0x10)
         }
         /// The same with another [`enable_interpolation`](Self::enable_interpolation).
         #[must_use]
         pub const fn with_enable_interpolation(self, value: bool) -> Self {
-            Self((self.0 & !0x10) | ((value as u16) << 4))
+            Self(rt::bits16::with_flag(self.0, 0x10, value))
         }
     }
     /// Statusword.
@@ -868,120 +864,120 @@ pub mod types {
         }
         /// Bit 0: ready to switch on.
         pub const fn ready_to_switch_on(self) -> bool {
-            self.0 & 0x1 != 0
+            rt::bits16::flag(self.0, 0x1)
         }
         /// The same with another [`ready_to_switch_on`](Self::ready_to_switch_on).
         #[must_use]
         pub const fn with_ready_to_switch_on(self, value: bool) -> Self {
-            Self((self.0 & !0x1) | (value as u16))
+            Self(rt::bits16::with_flag(self.0, 0x1, value))
         }
         /// Bit 1: switched on.
         pub const fn switched_on(self) -> bool {
-            self.0 & 0x2 != 0
+            rt::bits16::flag(self.0, 0x2)
         }
         /// The same with another [`switched_on`](Self::switched_on).
         #[must_use]
         pub const fn with_switched_on(self, value: bool) -> Self {
-            Self((self.0 & !0x2) | ((value as u16) << 1))
+            Self(rt::bits16::with_flag(self.0, 0x2, value))
         }
         /// Bit 2: operation enabled.
         pub const fn operation_enabled(self) -> bool {
-            self.0 & 0x4 != 0
+            rt::bits16::flag(self.0, 0x4)
         }
         /// The same with another [`operation_enabled`](Self::operation_enabled).
         #[must_use]
         pub const fn with_operation_enabled(self, value: bool) -> Self {
-            Self((self.0 & !0x4) | ((value as u16) << 2))
+            Self(rt::bits16::with_flag(self.0, 0x4, value))
         }
         /// Bit 3: fault.
         pub const fn fault(self) -> bool {
-            self.0 & 0x8 != 0
+            rt::bits16::flag(self.0, 0x8)
         }
         /// The same with another [`fault`](Self::fault).
         #[must_use]
         pub const fn with_fault(self, value: bool) -> Self {
-            Self((self.0 & !0x8) | ((value as u16) << 3))
+            Self(rt::bits16::with_flag(self.0, 0x8, value))
         }
         /// Bit 4: voltage enabled. The power stage is supplied.
         pub const fn voltage_enabled(self) -> bool {
-            self.0 & 0x10 != 0
+            rt::bits16::flag(self.0, 0x10)
         }
         /// The same with another [`voltage_enabled`](Self::voltage_enabled).
         #[must_use]
         pub const fn with_voltage_enabled(self, value: bool) -> Self {
-            Self((self.0 & !0x10) | ((value as u16) << 4))
+            Self(rt::bits16::with_flag(self.0, 0x10, value))
         }
         /// Bit 5: quick stop. Holds while the bit is 0. 0 while a quick stop is requested.
         pub const fn quick_stop(self) -> bool {
-            self.0 & 0x20 == 0
+            !rt::bits16::flag(self.0, 0x20)
         }
         /// The same with another [`quick_stop`](Self::quick_stop).
         #[must_use]
         pub const fn with_quick_stop(self, value: bool) -> Self {
-            Self((self.0 & !0x20) | ((!value as u16) << 5))
+            Self(rt::bits16::with_flag(self.0, 0x20, !value))
         }
         /// Bit 6: switch on disabled.
         pub const fn switch_on_disabled(self) -> bool {
-            self.0 & 0x40 != 0
+            rt::bits16::flag(self.0, 0x40)
         }
         /// The same with another [`switch_on_disabled`](Self::switch_on_disabled).
         #[must_use]
         pub const fn with_switch_on_disabled(self, value: bool) -> Self {
-            Self((self.0 & !0x40) | ((value as u16) << 6))
+            Self(rt::bits16::with_flag(self.0, 0x40, value))
         }
         /// Bit 7: warning.
         pub const fn warning(self) -> bool {
-            self.0 & 0x80 != 0
+            rt::bits16::flag(self.0, 0x80)
         }
         /// The same with another [`warning`](Self::warning).
         #[must_use]
         pub const fn with_warning(self, value: bool) -> Self {
-            Self((self.0 & !0x80) | ((value as u16) << 7))
+            Self(rt::bits16::with_flag(self.0, 0x80, value))
         }
         /// Bit 8: manufacturer specific.
         pub const fn manufacturer_specific_8(self) -> bool {
-            self.0 & 0x100 != 0
+            rt::bits16::flag(self.0, 0x100)
         }
         /// The same with another [`manufacturer_specific_8`](Self::manufacturer_specific_8).
         #[must_use]
         pub const fn with_manufacturer_specific_8(self, value: bool) -> Self {
-            Self((self.0 & !0x100) | ((value as u16) << 8))
+            Self(rt::bits16::with_flag(self.0, 0x100, value))
         }
         /// Bit 9: remote. The drive follows the control word.
         pub const fn remote(self) -> bool {
-            self.0 & 0x200 != 0
+            rt::bits16::flag(self.0, 0x200)
         }
         /// The same with another [`remote`](Self::remote).
         #[must_use]
         pub const fn with_remote(self, value: bool) -> Self {
-            Self((self.0 & !0x200) | ((value as u16) << 9))
+            Self(rt::bits16::with_flag(self.0, 0x200, value))
         }
         /// Bit 10: target reached. In the cyclic modes the bit is reserved or toggles in each cycle.
         pub const fn target_reached(self) -> bool {
-            self.0 & 0x400 != 0
+            rt::bits16::flag(self.0, 0x400)
         }
         /// The same with another [`target_reached`](Self::target_reached).
         #[must_use]
         pub const fn with_target_reached(self, value: bool) -> Self {
-            Self((self.0 & !0x400) | ((value as u16) << 10))
+            Self(rt::bits16::with_flag(self.0, 0x400, value))
         }
         /// Bit 11: internal limit active. A limit prevents the drive from following the set-point.
         pub const fn internal_limit_active(self) -> bool {
-            self.0 & 0x800 != 0
+            rt::bits16::flag(self.0, 0x800)
         }
         /// The same with another [`internal_limit_active`](Self::internal_limit_active).
         #[must_use]
         pub const fn with_internal_limit_active(self, value: bool) -> Self {
-            Self((self.0 & !0x800) | ((value as u16) << 11))
+            Self(rt::bits16::with_flag(self.0, 0x800, value))
         }
         /// Bits 15 to 14: manufacturer specific.
         pub const fn manufacturer_specific_14(self) -> u8 {
-            ((self.0 >> 14) & 0x3) as u8
+            rt::bits16::field(self.0, 0xC000) as u8
         }
         /// The same with another [`manufacturer_specific_14`](Self::manufacturer_specific_14).
         #[must_use]
         pub const fn with_manufacturer_specific_14(self, value: u8) -> Self {
-            Self((self.0 & !0xC000) | (((value as u16) << 14) & 0xC000))
+            Self(rt::bits16::with_field(self.0, 0xC000, value as u16))
         }
         /// The bits that have their meaning while [Modes of operation display](super::objects::MODES_OF_OPERATION_DISPLAY) is profile position (1).
         pub const fn in_profile_position(self) -> StatuswordInProfilePosition {
@@ -1034,31 +1030,12 @@ pub mod types {
     }
     impl core::fmt::Debug for Statusword {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            let bits = rt::DebugBits::new(f, "Statusword", self.0 as u64);
-            let bits = rt::DebugBits::plain(
-                bits,
-                &[
-                    ("ready_to_switch_on", 0x1),
-                    ("switched_on", 0x2),
-                    ("operation_enabled", 0x4),
-                    ("fault", 0x8),
-                    ("voltage_enabled", 0x10),
-                ],
-            );
-            let bits = rt::DebugBits::inverted(bits, "quick_stop", 0x20);
-            let bits = rt::DebugBits::plain(
-                bits,
-                &[
-                    ("switch_on_disabled", 0x40),
-                    ("warning", 0x80),
-                    ("manufacturer_specific_8", 0x100),
-                    ("remote", 0x200),
-                    ("target_reached", 0x400),
-                    ("internal_limit_active", 0x800),
-                    ("manufacturer_specific_14", 0xC000),
-                ],
-            );
-            bits.finish()
+            rt::debug_bits(
+                f,
+                self.0 as u64,
+                "Statusword ready_to_switch_on:1 switched_on:2 operation_enabled:4 fault:8 voltage_enabled:10 !quick_stop:20 switch_on_disabled:40 warning:80 manufacturer_specific_8:100 remote:200 target_reached:400 internal_limit_active:800 manufacturer_specific_14:c000",
+                &[],
+            )
         }
     }
     /// [`Statusword`] while [Modes of operation display](super::objects::MODES_OF_OPERATION_DISPLAY) is profile position (1).
@@ -1071,21 +1048,21 @@ pub mod types {
         }
         /// Bit 12: set-point acknowledge.
         pub const fn set_point_acknowledge(self) -> bool {
-            self.0 & 0x1000 != 0
+            rt::bits16::flag(self.0, 0x1000)
         }
         /// The same with another [`set_point_acknowledge`](Self::set_point_acknowledge).
         #[must_use]
         pub const fn with_set_point_acknowledge(self, value: bool) -> Self {
-            Self((self.0 & !0x1000) | ((value as u16) << 12))
+            Self(rt::bits16::with_flag(self.0, 0x1000, value))
         }
         /// Bit 13: following error.
         pub const fn following_error(self) -> bool {
-            self.0 & 0x2000 != 0
+            rt::bits16::flag(self.0, 0x2000)
         }
         /// The same with another [`following_error`](Self::following_error).
         #[must_use]
         pub const fn with_following_error(self, value: bool) -> Self {
-            Self((self.0 & !0x2000) | ((value as u16) << 13))
+            Self(rt::bits16::with_flag(self.0, 0x2000, value))
         }
     }
     /// [`Statusword`] while [Modes of operation display](super::objects::MODES_OF_OPERATION_DISPLAY) is profile velocity (3).
@@ -1098,21 +1075,21 @@ pub mod types {
         }
         /// Bit 12: speed zero.
         pub const fn speed_zero(self) -> bool {
-            self.0 & 0x1000 != 0
+            rt::bits16::flag(self.0, 0x1000)
         }
         /// The same with another [`speed_zero`](Self::speed_zero).
         #[must_use]
         pub const fn with_speed_zero(self, value: bool) -> Self {
-            Self((self.0 & !0x1000) | ((value as u16) << 12))
+            Self(rt::bits16::with_flag(self.0, 0x1000, value))
         }
         /// Bit 13: max slippage error.
         pub const fn max_slippage_error(self) -> bool {
-            self.0 & 0x2000 != 0
+            rt::bits16::flag(self.0, 0x2000)
         }
         /// The same with another [`max_slippage_error`](Self::max_slippage_error).
         #[must_use]
         pub const fn with_max_slippage_error(self, value: bool) -> Self {
-            Self((self.0 & !0x2000) | ((value as u16) << 13))
+            Self(rt::bits16::with_flag(self.0, 0x2000, value))
         }
     }
     /// [`Statusword`] while [Modes of operation display](super::objects::MODES_OF_OPERATION_DISPLAY) is homing (6).
@@ -1125,21 +1102,21 @@ pub mod types {
         }
         /// Bit 12: homing attained.
         pub const fn homing_attained(self) -> bool {
-            self.0 & 0x1000 != 0
+            rt::bits16::flag(self.0, 0x1000)
         }
         /// The same with another [`homing_attained`](Self::homing_attained).
         #[must_use]
         pub const fn with_homing_attained(self, value: bool) -> Self {
-            Self((self.0 & !0x1000) | ((value as u16) << 12))
+            Self(rt::bits16::with_flag(self.0, 0x1000, value))
         }
         /// Bit 13: homing error.
         pub const fn homing_error(self) -> bool {
-            self.0 & 0x2000 != 0
+            rt::bits16::flag(self.0, 0x2000)
         }
         /// The same with another [`homing_error`](Self::homing_error).
         #[must_use]
         pub const fn with_homing_error(self, value: bool) -> Self {
-            Self((self.0 & !0x2000) | ((value as u16) << 13))
+            Self(rt::bits16::with_flag(self.0, 0x2000, value))
         }
     }
     /// [`Statusword`] while [Modes of operation display](super::objects::MODES_OF_OPERATION_DISPLAY) is interpolated position (7).
@@ -1152,12 +1129,12 @@ pub mod types {
         }
         /// Bit 12: interpolation active.
         pub const fn interpolation_active(self) -> bool {
-            self.0 & 0x1000 != 0
+            rt::bits16::flag(self.0, 0x1000)
         }
         /// The same with another [`interpolation_active`](Self::interpolation_active).
         #[must_use]
         pub const fn with_interpolation_active(self, value: bool) -> Self {
-            Self((self.0 & !0x1000) | ((value as u16) << 12))
+            Self(rt::bits16::with_flag(self.0, 0x1000, value))
         }
     }
     /// [`Statusword`] while [Modes of operation display](super::objects::MODES_OF_OPERATION_DISPLAY) is cyclic synchronous position (8).
@@ -1170,21 +1147,21 @@ pub mod types {
         }
         /// Bit 12: follows command value.
         pub const fn follows_command_value(self) -> bool {
-            self.0 & 0x1000 != 0
+            rt::bits16::flag(self.0, 0x1000)
         }
         /// The same with another [`follows_command_value`](Self::follows_command_value).
         #[must_use]
         pub const fn with_follows_command_value(self, value: bool) -> Self {
-            Self((self.0 & !0x1000) | ((value as u16) << 12))
+            Self(rt::bits16::with_flag(self.0, 0x1000, value))
         }
         /// Bit 13: following error.
         pub const fn following_error(self) -> bool {
-            self.0 & 0x2000 != 0
+            rt::bits16::flag(self.0, 0x2000)
         }
         /// The same with another [`following_error`](Self::following_error).
         #[must_use]
         pub const fn with_following_error(self, value: bool) -> Self {
-            Self((self.0 & !0x2000) | ((value as u16) << 13))
+            Self(rt::bits16::with_flag(self.0, 0x2000, value))
         }
     }
     /// [`Statusword`] while [Modes of operation display](super::objects::MODES_OF_OPERATION_DISPLAY) is cyclic synchronous velocity (9).
@@ -1197,12 +1174,12 @@ pub mod types {
         }
         /// Bit 12: follows command value.
         pub const fn follows_command_value(self) -> bool {
-            self.0 & 0x1000 != 0
+            rt::bits16::flag(self.0, 0x1000)
         }
         /// The same with another [`follows_command_value`](Self::follows_command_value).
         #[must_use]
         pub const fn with_follows_command_value(self, value: bool) -> Self {
-            Self((self.0 & !0x1000) | ((value as u16) << 12))
+            Self(rt::bits16::with_flag(self.0, 0x1000, value))
         }
     }
     /// [`Statusword`] while [Modes of operation display](super::objects::MODES_OF_OPERATION_DISPLAY) is cyclic synchronous torque (10).
@@ -1215,12 +1192,12 @@ pub mod types {
         }
         /// Bit 12: follows command value.
         pub const fn follows_command_value(self) -> bool {
-            self.0 & 0x1000 != 0
+            rt::bits16::flag(self.0, 0x1000)
         }
         /// The same with another [`follows_command_value`](Self::follows_command_value).
         #[must_use]
         pub const fn with_follows_command_value(self, value: bool) -> Self {
-            Self((self.0 & !0x1000) | ((value as u16) << 12))
+            Self(rt::bits16::with_flag(self.0, 0x1000, value))
         }
     }
     /// DeviceType.
@@ -1250,21 +1227,21 @@ pub mod types {
         }
         /// Bits 15 to 0: profile. 0 if it follows none.
         pub const fn profile(self) -> u16 {
-            (self.0 & 0xFFFF) as u16
+            rt::bits32::field(self.0, 0xFFFF) as u16
         }
         /// The same with another [`profile`](Self::profile).
         #[must_use]
         pub const fn with_profile(self, value: u16) -> Self {
-            Self((self.0 & !0xFFFF) | (value as u32))
+            Self(rt::bits32::with_field(self.0, 0xFFFF, value as u32))
         }
         /// Bits 31 to 16: additional information.
         pub const fn additional_information(self) -> u16 {
-            ((self.0 >> 16) & 0xFFFF) as u16
+            rt::bits32::field(self.0, 0xFFFF0000) as u16
         }
         /// The same with another [`additional_information`](Self::additional_information).
         #[must_use]
         pub const fn with_additional_information(self, value: u16) -> Self {
-            Self((self.0 & !0xFFFF0000) | ((value as u32) << 16))
+            Self(rt::bits32::with_field(self.0, 0xFFFF0000, value as u32))
         }
     }
     impl Default for DeviceType {
@@ -1283,12 +1260,12 @@ pub mod types {
     }
     impl core::fmt::Debug for DeviceType {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            let bits = rt::DebugBits::new(f, "DeviceType", self.0 as u64);
-            let bits = rt::DebugBits::plain(
-                bits,
-                &[("profile", 0xFFFF), ("additional_information", 0xFFFF0000)],
-            );
-            bits.finish()
+            rt::debug_bits(
+                f,
+                self.0 as u64,
+                "DeviceType profile:ffff additional_information:ffff0000",
+                &[],
+            )
         }
     }
     /// ErrorRegister.
@@ -1326,66 +1303,66 @@ pub mod types {
         }
         /// Bit 0: generic. Set with every error.
         pub const fn generic(self) -> bool {
-            self.0 & 0x1 != 0
+            rt::bits8::flag(self.0, 0x1)
         }
         /// The same with another [`generic`](Self::generic).
         #[must_use]
         pub const fn with_generic(self, value: bool) -> Self {
-            Self((self.0 & !0x1) | (value as u8))
+            Self(rt::bits8::with_flag(self.0, 0x1, value))
         }
         /// Bit 1: current.
         pub const fn current(self) -> bool {
-            self.0 & 0x2 != 0
+            rt::bits8::flag(self.0, 0x2)
         }
         /// The same with another [`current`](Self::current).
         #[must_use]
         pub const fn with_current(self, value: bool) -> Self {
-            Self((self.0 & !0x2) | ((value as u8) << 1))
+            Self(rt::bits8::with_flag(self.0, 0x2, value))
         }
         /// Bit 2: voltage.
         pub const fn voltage(self) -> bool {
-            self.0 & 0x4 != 0
+            rt::bits8::flag(self.0, 0x4)
         }
         /// The same with another [`voltage`](Self::voltage).
         #[must_use]
         pub const fn with_voltage(self, value: bool) -> Self {
-            Self((self.0 & !0x4) | ((value as u8) << 2))
+            Self(rt::bits8::with_flag(self.0, 0x4, value))
         }
         /// Bit 3: temperature.
         pub const fn temperature(self) -> bool {
-            self.0 & 0x8 != 0
+            rt::bits8::flag(self.0, 0x8)
         }
         /// The same with another [`temperature`](Self::temperature).
         #[must_use]
         pub const fn with_temperature(self, value: bool) -> Self {
-            Self((self.0 & !0x8) | ((value as u8) << 3))
+            Self(rt::bits8::with_flag(self.0, 0x8, value))
         }
         /// Bit 4: communication.
         pub const fn communication(self) -> bool {
-            self.0 & 0x10 != 0
+            rt::bits8::flag(self.0, 0x10)
         }
         /// The same with another [`communication`](Self::communication).
         #[must_use]
         pub const fn with_communication(self, value: bool) -> Self {
-            Self((self.0 & !0x10) | ((value as u8) << 4))
+            Self(rt::bits8::with_flag(self.0, 0x10, value))
         }
         /// Bit 5: device profile.
         pub const fn device_profile(self) -> bool {
-            self.0 & 0x20 != 0
+            rt::bits8::flag(self.0, 0x20)
         }
         /// The same with another [`device_profile`](Self::device_profile).
         #[must_use]
         pub const fn with_device_profile(self, value: bool) -> Self {
-            Self((self.0 & !0x20) | ((value as u8) << 5))
+            Self(rt::bits8::with_flag(self.0, 0x20, value))
         }
         /// Bit 7: manufacturer specific.
         pub const fn manufacturer_specific(self) -> bool {
-            self.0 & 0x80 != 0
+            rt::bits8::flag(self.0, 0x80)
         }
         /// The same with another [`manufacturer_specific`](Self::manufacturer_specific).
         #[must_use]
         pub const fn with_manufacturer_specific(self, value: bool) -> Self {
-            Self((self.0 & !0x80) | ((value as u8) << 7))
+            Self(rt::bits8::with_flag(self.0, 0x80, value))
         }
     }
     impl Default for ErrorRegister {
@@ -1407,20 +1384,12 @@ pub mod types {
     }
     impl core::fmt::Debug for ErrorRegister {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            let bits = rt::DebugBits::new(f, "ErrorRegister", self.0 as u64);
-            let bits = rt::DebugBits::plain(
-                bits,
-                &[
-                    ("generic", 0x1),
-                    ("current", 0x2),
-                    ("voltage", 0x4),
-                    ("temperature", 0x8),
-                    ("communication", 0x10),
-                    ("device_profile", 0x20),
-                    ("manufacturer_specific", 0x80),
-                ],
-            );
-            bits.finish()
+            rt::debug_bits(
+                f,
+                self.0 as u64,
+                "ErrorRegister generic:1 current:2 voltage:4 temperature:8 communication:10 device_profile:20 manufacturer_specific:80",
+                &[],
+            )
         }
     }
     /// MappingEntry.
@@ -1451,30 +1420,30 @@ pub mod types {
         }
         /// Bits 7 to 0: length. Length in bits.
         pub const fn length(self) -> u8 {
-            (self.0 & 0xFF) as u8
+            rt::bits32::field(self.0, 0xFF) as u8
         }
         /// The same with another [`length`](Self::length).
         #[must_use]
         pub const fn with_length(self, value: u8) -> Self {
-            Self((self.0 & !0xFF) | (value as u32))
+            Self(rt::bits32::with_field(self.0, 0xFF, value as u32))
         }
         /// Bits 15 to 8: sub-index.
         pub const fn sub_index(self) -> u8 {
-            ((self.0 >> 8) & 0xFF) as u8
+            rt::bits32::field(self.0, 0xFF00) as u8
         }
         /// The same with another [`sub_index`](Self::sub_index).
         #[must_use]
         pub const fn with_sub_index(self, value: u8) -> Self {
-            Self((self.0 & !0xFF00) | ((value as u32) << 8))
+            Self(rt::bits32::with_field(self.0, 0xFF00, value as u32))
         }
         /// Bits 31 to 16: index.
         pub const fn index(self) -> u16 {
-            ((self.0 >> 16) & 0xFFFF) as u16
+            rt::bits32::field(self.0, 0xFFFF0000) as u16
         }
         /// The same with another [`index`](Self::index).
         #[must_use]
         pub const fn with_index(self, value: u16) -> Self {
-            Self((self.0 & !0xFFFF0000) | ((value as u32) << 16))
+            Self(rt::bits32::with_field(self.0, 0xFFFF0000, value as u32))
         }
     }
     impl Default for MappingEntry {
@@ -1493,12 +1462,12 @@ pub mod types {
     }
     impl core::fmt::Debug for MappingEntry {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            let bits = rt::DebugBits::new(f, "MappingEntry", self.0 as u64);
-            let bits = rt::DebugBits::plain(
-                bits,
-                &[("length", 0xFF), ("sub_index", 0xFF00), ("index", 0xFFFF0000)],
-            );
-            bits.finish()
+            rt::debug_bits(
+                f,
+                self.0 as u64,
+                "MappingEntry length:ff sub_index:ff00 index:ffff0000",
+                &[],
+            )
         }
     }
     /// ErrorFieldEntry.
@@ -1528,21 +1497,21 @@ pub mod types {
         }
         /// Bits 15 to 0: error code.
         pub const fn error_code(self) -> u16 {
-            (self.0 & 0xFFFF) as u16
+            rt::bits32::field(self.0, 0xFFFF) as u16
         }
         /// The same with another [`error_code`](Self::error_code).
         #[must_use]
         pub const fn with_error_code(self, value: u16) -> Self {
-            Self((self.0 & !0xFFFF) | (value as u32))
+            Self(rt::bits32::with_field(self.0, 0xFFFF, value as u32))
         }
         /// Bits 31 to 16: additional information.
         pub const fn additional_information(self) -> u16 {
-            ((self.0 >> 16) & 0xFFFF) as u16
+            rt::bits32::field(self.0, 0xFFFF0000) as u16
         }
         /// The same with another [`additional_information`](Self::additional_information).
         #[must_use]
         pub const fn with_additional_information(self, value: u16) -> Self {
-            Self((self.0 & !0xFFFF0000) | ((value as u32) << 16))
+            Self(rt::bits32::with_field(self.0, 0xFFFF0000, value as u32))
         }
     }
     impl Default for ErrorFieldEntry {
@@ -1561,12 +1530,12 @@ pub mod types {
     }
     impl core::fmt::Debug for ErrorFieldEntry {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            let bits = rt::DebugBits::new(f, "ErrorFieldEntry", self.0 as u64);
-            let bits = rt::DebugBits::plain(
-                bits,
-                &[("error_code", 0xFFFF), ("additional_information", 0xFFFF0000)],
-            );
-            bits.finish()
+            rt::debug_bits(
+                f,
+                self.0 as u64,
+                "ErrorFieldEntry error_code:ffff additional_information:ffff0000",
+                &[],
+            )
         }
     }
     /// SyncIdentifier.
@@ -1597,30 +1566,30 @@ pub mod types {
         }
         /// Bits 28 to 0: identifier.
         pub const fn identifier(self) -> u32 {
-            self.0 & 0x1FFFFFFF
+            rt::bits32::field(self.0, 0x1FFFFFFF)
         }
         /// The same with another [`identifier`](Self::identifier).
         #[must_use]
         pub const fn with_identifier(self, value: u32) -> Self {
-            Self((self.0 & !0x1FFFFFFF) | (value & 0x1FFFFFFF))
+            Self(rt::bits32::with_field(self.0, 0x1FFFFFFF, value))
         }
         /// Bit 29: extended. 1: 29-bit CAN-ID; 0: 11-bit CAN-ID.
         pub const fn extended(self) -> bool {
-            self.0 & 0x20000000 != 0
+            rt::bits32::flag(self.0, 0x20000000)
         }
         /// The same with another [`extended`](Self::extended).
         #[must_use]
         pub const fn with_extended(self, value: bool) -> Self {
-            Self((self.0 & !0x20000000) | ((value as u32) << 29))
+            Self(rt::bits32::with_flag(self.0, 0x20000000, value))
         }
         /// Bit 30: generates. The device transmits SYNC.
         pub const fn generates(self) -> bool {
-            self.0 & 0x40000000 != 0
+            rt::bits32::flag(self.0, 0x40000000)
         }
         /// The same with another [`generates`](Self::generates).
         #[must_use]
         pub const fn with_generates(self, value: bool) -> Self {
-            Self((self.0 & !0x40000000) | ((value as u32) << 30))
+            Self(rt::bits32::with_flag(self.0, 0x40000000, value))
         }
     }
     impl Default for SyncIdentifier {
@@ -1639,16 +1608,12 @@ pub mod types {
     }
     impl core::fmt::Debug for SyncIdentifier {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            let bits = rt::DebugBits::new(f, "SyncIdentifier", self.0 as u64);
-            let bits = rt::DebugBits::plain(
-                bits,
-                &[
-                    ("identifier", 0x1FFFFFFF),
-                    ("extended", 0x20000000),
-                    ("generates", 0x40000000),
-                ],
-            );
-            bits.finish()
+            rt::debug_bits(
+                f,
+                self.0 as u64,
+                "SyncIdentifier identifier:1fffffff extended:20000000 generates:40000000",
+                &[],
+            )
         }
     }
     /// EmergencyIdentifier.
@@ -1682,30 +1647,30 @@ pub mod types {
         }
         /// Bits 28 to 0: identifier.
         pub const fn identifier(self) -> u32 {
-            self.0 & 0x1FFFFFFF
+            rt::bits32::field(self.0, 0x1FFFFFFF)
         }
         /// The same with another [`identifier`](Self::identifier).
         #[must_use]
         pub const fn with_identifier(self, value: u32) -> Self {
-            Self((self.0 & !0x1FFFFFFF) | (value & 0x1FFFFFFF))
+            Self(rt::bits32::with_field(self.0, 0x1FFFFFFF, value))
         }
         /// Bit 29: extended. 1: 29-bit CAN-ID; 0: 11-bit CAN-ID.
         pub const fn extended(self) -> bool {
-            self.0 & 0x20000000 != 0
+            rt::bits32::flag(self.0, 0x20000000)
         }
         /// The same with another [`extended`](Self::extended).
         #[must_use]
         pub const fn with_extended(self, value: bool) -> Self {
-            Self((self.0 & !0x20000000) | ((value as u32) << 29))
+            Self(rt::bits32::with_flag(self.0, 0x20000000, value))
         }
         /// Bit 31: valid. Holds while the bit is 0. 0 if it is in use.
         pub const fn valid(self) -> bool {
-            self.0 & 0x80000000 == 0
+            !rt::bits32::flag(self.0, 0x80000000)
         }
         /// The same with another [`valid`](Self::valid).
         #[must_use]
         pub const fn with_valid(self, value: bool) -> Self {
-            Self((self.0 & !0x80000000) | ((!value as u32) << 31))
+            Self(rt::bits32::with_flag(self.0, 0x80000000, !value))
         }
     }
     impl Default for EmergencyIdentifier {
@@ -1727,13 +1692,12 @@ pub mod types {
     }
     impl core::fmt::Debug for EmergencyIdentifier {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            let bits = rt::DebugBits::new(f, "EmergencyIdentifier", self.0 as u64);
-            let bits = rt::DebugBits::plain(
-                bits,
-                &[("identifier", 0x1FFFFFFF), ("extended", 0x20000000)],
-            );
-            let bits = rt::DebugBits::inverted(bits, "valid", 0x80000000);
-            bits.finish()
+            rt::debug_bits(
+                f,
+                self.0 as u64,
+                "EmergencyIdentifier identifier:1fffffff extended:20000000 !valid:80000000",
+                &[],
+            )
         }
     }
     /// RevisionNumber.
@@ -1763,21 +1727,21 @@ pub mod types {
         }
         /// Bits 15 to 0: minor. Differs between versions with the same behavior on the bus.
         pub const fn minor(self) -> u16 {
-            (self.0 & 0xFFFF) as u16
+            rt::bits32::field(self.0, 0xFFFF) as u16
         }
         /// The same with another [`minor`](Self::minor).
         #[must_use]
         pub const fn with_minor(self, value: u16) -> Self {
-            Self((self.0 & !0xFFFF) | (value as u32))
+            Self(rt::bits32::with_field(self.0, 0xFFFF, value as u32))
         }
         /// Bits 31 to 16: major. Differs between versions with different behavior on the bus.
         pub const fn major(self) -> u16 {
-            ((self.0 >> 16) & 0xFFFF) as u16
+            rt::bits32::field(self.0, 0xFFFF0000) as u16
         }
         /// The same with another [`major`](Self::major).
         #[must_use]
         pub const fn with_major(self, value: u16) -> Self {
-            Self((self.0 & !0xFFFF0000) | ((value as u32) << 16))
+            Self(rt::bits32::with_field(self.0, 0xFFFF0000, value as u32))
         }
     }
     impl Default for RevisionNumber {
@@ -1796,12 +1760,12 @@ pub mod types {
     }
     impl core::fmt::Debug for RevisionNumber {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            let bits = rt::DebugBits::new(f, "RevisionNumber", self.0 as u64);
-            let bits = rt::DebugBits::plain(
-                bits,
-                &[("minor", 0xFFFF), ("major", 0xFFFF0000)],
-            );
-            bits.finish()
+            rt::debug_bits(
+                f,
+                self.0 as u64,
+                "RevisionNumber minor:ffff major:ffff0000",
+                &[],
+            )
         }
     }
     /// ReceivePdoIdentifier.
@@ -1832,30 +1796,30 @@ pub mod types {
         }
         /// Bits 28 to 0: identifier.
         pub const fn identifier(self) -> u32 {
-            self.0 & 0x1FFFFFFF
+            rt::bits32::field(self.0, 0x1FFFFFFF)
         }
         /// The same with another [`identifier`](Self::identifier).
         #[must_use]
         pub const fn with_identifier(self, value: u32) -> Self {
-            Self((self.0 & !0x1FFFFFFF) | (value & 0x1FFFFFFF))
+            Self(rt::bits32::with_field(self.0, 0x1FFFFFFF, value))
         }
         /// Bit 29: extended. 1: 29-bit CAN-ID; 0: 11-bit CAN-ID.
         pub const fn extended(self) -> bool {
-            self.0 & 0x20000000 != 0
+            rt::bits32::flag(self.0, 0x20000000)
         }
         /// The same with another [`extended`](Self::extended).
         #[must_use]
         pub const fn with_extended(self, value: bool) -> Self {
-            Self((self.0 & !0x20000000) | ((value as u32) << 29))
+            Self(rt::bits32::with_flag(self.0, 0x20000000, value))
         }
         /// Bit 31: valid. Holds while the bit is 0. 0 if the PDO is in use.
         pub const fn valid(self) -> bool {
-            self.0 & 0x80000000 == 0
+            !rt::bits32::flag(self.0, 0x80000000)
         }
         /// The same with another [`valid`](Self::valid).
         #[must_use]
         pub const fn with_valid(self, value: bool) -> Self {
-            Self((self.0 & !0x80000000) | ((!value as u32) << 31))
+            Self(rt::bits32::with_flag(self.0, 0x80000000, !value))
         }
     }
     impl Default for ReceivePdoIdentifier {
@@ -1874,13 +1838,12 @@ pub mod types {
     }
     impl core::fmt::Debug for ReceivePdoIdentifier {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            let bits = rt::DebugBits::new(f, "ReceivePdoIdentifier", self.0 as u64);
-            let bits = rt::DebugBits::plain(
-                bits,
-                &[("identifier", 0x1FFFFFFF), ("extended", 0x20000000)],
-            );
-            let bits = rt::DebugBits::inverted(bits, "valid", 0x80000000);
-            bits.finish()
+            rt::debug_bits(
+                f,
+                self.0 as u64,
+                "ReceivePdoIdentifier identifier:1fffffff extended:20000000 !valid:80000000",
+                &[],
+            )
         }
     }
     /// TransmitPdoIdentifier.
@@ -1912,39 +1875,39 @@ pub mod types {
         }
         /// Bits 28 to 0: identifier.
         pub const fn identifier(self) -> u32 {
-            self.0 & 0x1FFFFFFF
+            rt::bits32::field(self.0, 0x1FFFFFFF)
         }
         /// The same with another [`identifier`](Self::identifier).
         #[must_use]
         pub const fn with_identifier(self, value: u32) -> Self {
-            Self((self.0 & !0x1FFFFFFF) | (value & 0x1FFFFFFF))
+            Self(rt::bits32::with_field(self.0, 0x1FFFFFFF, value))
         }
         /// Bit 29: extended. 1: 29-bit CAN-ID; 0: 11-bit CAN-ID.
         pub const fn extended(self) -> bool {
-            self.0 & 0x20000000 != 0
+            rt::bits32::flag(self.0, 0x20000000)
         }
         /// The same with another [`extended`](Self::extended).
         #[must_use]
         pub const fn with_extended(self, value: bool) -> Self {
-            Self((self.0 & !0x20000000) | ((value as u32) << 29))
+            Self(rt::bits32::with_flag(self.0, 0x20000000, value))
         }
         /// Bit 30: remote request. Holds while the bit is 0. 0 if remote frames may request the PDO.
         pub const fn remote_request(self) -> bool {
-            self.0 & 0x40000000 == 0
+            !rt::bits32::flag(self.0, 0x40000000)
         }
         /// The same with another [`remote_request`](Self::remote_request).
         #[must_use]
         pub const fn with_remote_request(self, value: bool) -> Self {
-            Self((self.0 & !0x40000000) | ((!value as u32) << 30))
+            Self(rt::bits32::with_flag(self.0, 0x40000000, !value))
         }
         /// Bit 31: valid. Holds while the bit is 0. 0 if the PDO is in use.
         pub const fn valid(self) -> bool {
-            self.0 & 0x80000000 == 0
+            !rt::bits32::flag(self.0, 0x80000000)
         }
         /// The same with another [`valid`](Self::valid).
         #[must_use]
         pub const fn with_valid(self, value: bool) -> Self {
-            Self((self.0 & !0x80000000) | ((!value as u32) << 31))
+            Self(rt::bits32::with_flag(self.0, 0x80000000, !value))
         }
     }
     impl Default for TransmitPdoIdentifier {
@@ -1963,14 +1926,12 @@ pub mod types {
     }
     impl core::fmt::Debug for TransmitPdoIdentifier {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            let bits = rt::DebugBits::new(f, "TransmitPdoIdentifier", self.0 as u64);
-            let bits = rt::DebugBits::plain(
-                bits,
-                &[("identifier", 0x1FFFFFFF), ("extended", 0x20000000)],
-            );
-            let bits = rt::DebugBits::inverted(bits, "remote_request", 0x40000000);
-            let bits = rt::DebugBits::inverted(bits, "valid", 0x80000000);
-            bits.finish()
+            rt::debug_bits(
+                f,
+                self.0 as u64,
+                "TransmitPdoIdentifier identifier:1fffffff extended:20000000 !remote_request:40000000 !valid:80000000",
+                &[],
+            )
         }
     }
     /// States of drive, as [Statusword](super::objects::STATUSWORD) tells them.

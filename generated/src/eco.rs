@@ -3885,8 +3885,11 @@ pub mod types {
     /// | Value | Name | Meaning |
     /// |---|---|---|
     /// | 0 | [`AcyclicSynchronous`](Self::AcyclicSynchronous) | A TPDO is sent at the next SYNC after its event; an RPDO takes effect at the next SYNC. |
+    /// | 1 to 240 | [`Unknown`](Self::Unknown) | cyclic synchronous. A TPDO is sent every so many SYNC messages, by its value; an RPDO takes effect at the next SYNC. |
+    /// | 241 to 251 | [`Unknown`](Self::Unknown) | reserved. Must not be used. |
     /// | 252 | [`SynchronousOnRequest`](Self::SynchronousOnRequest) | Only in the general table, not in the description of the drive. |
     /// | 253 | [`AsynchronousOnRequest`](Self::AsynchronousOnRequest) | Only in the general table, not in the description of the drive. |
+    /// | 254 to 255 | [`Unknown`](Self::Unknown) | asynchronous. A TPDO is sent on its event or when its event timer has expired, once the inhibit time is over; an … |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum TransmissionType {
         /// 0: acyclic synchronous. A TPDO is sent at the next SYNC after its event; an RPDO takes effect at the next SYNC. Manual: Process data exchange with PDOs; Servizio PDO (lines 2749, 4175-4176, 4186-4187).
@@ -4089,48 +4092,48 @@ pub mod types {
         }
         /// Bit 0: torque enable. Enables the torque of the motor. Manual: Registri (line 47): Ten\_cmd.
         pub const fn torque_enable(self) -> bool {
-            self.0 & 0x1 != 0
+            rt::bits16::flag(self.0, 0x1)
         }
         /// The same with another [`torque_enable`](Self::torque_enable).
         #[must_use]
         pub const fn with_torque_enable(self, value: bool) -> Self {
-            Self((self.0 & !0x1) | (value as u16))
+            Self(rt::bits16::with_flag(self.0, 0x1, value))
         }
         /// Bit 1: motion enable. Enables movements of the axis. Manual: Registri (line 48): Ien\_cmd.
         pub const fn motion_enable(self) -> bool {
-            self.0 & 0x2 != 0
+            rt::bits16::flag(self.0, 0x2)
         }
         /// The same with another [`motion_enable`](Self::motion_enable).
         #[must_use]
         pub const fn with_motion_enable(self, value: bool) -> Self {
-            Self((self.0 & !0x2) | ((value as u16) << 1))
+            Self(rt::bits16::with_flag(self.0, 0x2, value))
         }
         /// Bit 2: stop. Manual: Registri (line 50): Stp\_cmd.
         pub const fn stop(self) -> bool {
-            self.0 & 0x4 != 0
+            rt::bits16::flag(self.0, 0x4)
         }
         /// The same with another [`stop`](Self::stop).
         #[must_use]
         pub const fn with_stop(self, value: bool) -> Self {
-            Self((self.0 & !0x4) | ((value as u16) << 2))
+            Self(rt::bits16::with_flag(self.0, 0x4, value))
         }
         /// Bit 3: alarm reset. Manual: Registri; Esempio di configurazione dell’asse; Reset allarmi (lines 51, 1442, 6456): Alm\_rst.
         pub const fn alarm_reset(self) -> bool {
-            self.0 & 0x8 != 0
+            rt::bits16::flag(self.0, 0x8)
         }
         /// The same with another [`alarm_reset`](Self::alarm_reset).
         #[must_use]
         pub const fn with_alarm_reset(self, value: bool) -> Self {
-            Self((self.0 & !0x8) | ((value as u16) << 3))
+            Self(rt::bits16::with_flag(self.0, 0x8, value))
         }
         /// Bit 4: latch reset. Resets bit 4 of the status word. Manual: Registri (line 52): Ltc\_rst.
         pub const fn latch_reset(self) -> bool {
-            self.0 & 0x10 != 0
+            rt::bits16::flag(self.0, 0x10)
         }
         /// The same with another [`latch_reset`](Self::latch_reset).
         #[must_use]
         pub const fn with_latch_reset(self, value: bool) -> Self {
-            Self((self.0 & !0x10) | ((value as u16) << 4))
+            Self(rt::bits16::with_flag(self.0, 0x10, value))
         }
         /// The bits that have their meaning while [modes\_of\_operation](super::objects::MODES_OF_OPERATION) is positioner (1).
         pub const fn in_positioner(self) -> DriveCommandInPositioner {
@@ -4172,18 +4175,12 @@ pub mod types {
     }
     impl core::fmt::Debug for DriveCommand {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            let bits = rt::DebugBits::new(f, "DriveCommand", self.0 as u64);
-            let bits = rt::DebugBits::plain(
-                bits,
-                &[
-                    ("torque_enable", 0x1),
-                    ("motion_enable", 0x2),
-                    ("stop", 0x4),
-                    ("alarm_reset", 0x8),
-                    ("latch_reset", 0x10),
-                ],
-            );
-            bits.finish()
+            rt::debug_bits(
+                f,
+                self.0 as u64,
+                "DriveCommand torque_enable:1 motion_enable:2 stop:4 alarm_reset:8 latch_reset:10",
+                &[],
+            )
         }
     }
     /// [`DriveCommand`] while [modes\_of\_operation](super::objects::MODES_OF_OPERATION) is positioner (1).
@@ -4196,30 +4193,30 @@ pub mod types {
         }
         /// Bit 5: start positioning. Acts on the change from 0 to 1. Manual: Registri; Esempio di configurazione dell’asse; Morsettiera CN2 ECO2/ECO4 (lines 53, 1471, 1703): Pos\_str.
         pub const fn start_positioning(self) -> bool {
-            self.0 & 0x20 != 0
+            rt::bits16::flag(self.0, 0x20)
         }
         /// The same with another [`start_positioning`](Self::start_positioning).
         #[must_use]
         pub const fn with_start_positioning(self, value: bool) -> Self {
-            Self((self.0 & !0x20) | ((value as u16) << 5))
+            Self(rt::bits16::with_flag(self.0, 0x20, value))
         }
         /// Bit 6: update on the fly. A new set-point replaces the active one at once. Manual: Registri (lines 58-59): Upd\_mod.
         pub const fn update_on_the_fly(self) -> bool {
-            self.0 & 0x40 != 0
+            rt::bits16::flag(self.0, 0x40)
         }
         /// The same with another [`update_on_the_fly`](Self::update_on_the_fly).
         #[must_use]
         pub const fn with_update_on_the_fly(self, value: bool) -> Self {
-            Self((self.0 & !0x40) | ((value as u16) << 6))
+            Self(rt::bits16::with_flag(self.0, 0x40, value))
         }
         /// Bit 7: incremental. The set-point is a distance. Manual: Registri (lines 66-67): Inc\_mod.
         pub const fn incremental(self) -> bool {
-            self.0 & 0x80 != 0
+            rt::bits16::flag(self.0, 0x80)
         }
         /// The same with another [`incremental`](Self::incremental).
         #[must_use]
         pub const fn with_incremental(self, value: bool) -> Self {
-            Self((self.0 & !0x80) | ((value as u16) << 7))
+            Self(rt::bits16::with_flag(self.0, 0x80, value))
         }
     }
     /// [`DriveCommand`] while [modes\_of\_operation](super::objects::MODES_OF_OPERATION) is interpolator (7).
@@ -4232,12 +4229,12 @@ pub mod types {
         }
         /// Bit 5: start interpolation. Manual: Registri (line 55): Ip\_str.
         pub const fn start_interpolation(self) -> bool {
-            self.0 & 0x20 != 0
+            rt::bits16::flag(self.0, 0x20)
         }
         /// The same with another [`start_interpolation`](Self::start_interpolation).
         #[must_use]
         pub const fn with_start_interpolation(self, value: bool) -> Self {
-            Self((self.0 & !0x20) | ((value as u16) << 5))
+            Self(rt::bits16::with_flag(self.0, 0x20, value))
         }
     }
     /// [`DriveCommand`] while [modes\_of\_operation](super::objects::MODES_OF_OPERATION) is save and load (-50).
@@ -4250,21 +4247,21 @@ pub mod types {
         }
         /// Bit 5: save. Acts on the change from 0 to 1. Saves registers and parameters to flash. Manual: Registri; Salvataggio su flash di parametri e registri; Primo metodo di salvataggio (lines 56, 1034-1036, 1494): Save.
         pub const fn save(self) -> bool {
-            self.0 & 0x20 != 0
+            rt::bits16::flag(self.0, 0x20)
         }
         /// The same with another [`save`](Self::save).
         #[must_use]
         pub const fn with_save(self, value: bool) -> Self {
-            Self((self.0 & !0x20) | ((value as u16) << 5))
+            Self(rt::bits16::with_flag(self.0, 0x20, value))
         }
         /// Bit 6: load. Acts on the change from 0 to 1. Loads registers and parameters from flash. Manual: Registri (lines 63-64): Load.
         pub const fn load(self) -> bool {
-            self.0 & 0x40 != 0
+            rt::bits16::flag(self.0, 0x40)
         }
         /// The same with another [`load`](Self::load).
         #[must_use]
         pub const fn with_load(self, value: bool) -> Self {
-            Self((self.0 & !0x40) | ((value as u16) << 6))
+            Self(rt::bits16::with_flag(self.0, 0x40, value))
         }
     }
     /// [`DriveCommand`] while [modes\_of\_operation](super::objects::MODES_OF_OPERATION) is homing (6).
@@ -4277,12 +4274,12 @@ pub mod types {
         }
         /// Bit 6: homing. Acts on the change from 0 to 1. Starts homing. Manual: Registri (line 60): Start/Stop.
         pub const fn homing(self) -> bool {
-            self.0 & 0x40 != 0
+            rt::bits16::flag(self.0, 0x40)
         }
         /// The same with another [`homing`](Self::homing).
         #[must_use]
         pub const fn with_homing(self, value: bool) -> Self {
-            Self((self.0 & !0x40) | ((value as u16) << 6))
+            Self(rt::bits16::with_flag(self.0, 0x40, value))
         }
     }
     /// [`DriveCommand`] while [modes\_of\_operation](super::objects::MODES_OF_OPERATION) is electric axis (-2).
@@ -4295,12 +4292,12 @@ pub mod types {
         }
         /// Bit 6: couple. The axis follows its master. Manual: Registri; Morsettiera CN2 ECO2/ECO4 (lines 61, 1705): Start/stop.
         pub const fn couple(self) -> bool {
-            self.0 & 0x40 != 0
+            rt::bits16::flag(self.0, 0x40)
         }
         /// The same with another [`couple`](Self::couple).
         #[must_use]
         pub const fn with_couple(self, value: bool) -> Self {
-            Self((self.0 & !0x40) | ((value as u16) << 6))
+            Self(rt::bits16::with_flag(self.0, 0x40, value))
         }
     }
     /// DriveStatus.
@@ -4348,48 +4345,48 @@ pub mod types {
         }
         /// Bit 0: torque enabled. Manual: Registri (line 142): Ten\_st.
         pub const fn torque_enabled(self) -> bool {
-            self.0 & 0x1 != 0
+            rt::bits16::flag(self.0, 0x1)
         }
         /// The same with another [`torque_enabled`](Self::torque_enabled).
         #[must_use]
         pub const fn with_torque_enabled(self, value: bool) -> Self {
-            Self((self.0 & !0x1) | (value as u16))
+            Self(rt::bits16::with_flag(self.0, 0x1, value))
         }
         /// Bit 1: motion enabled. Manual: Registri (line 143): Ien\_st.
         pub const fn motion_enabled(self) -> bool {
-            self.0 & 0x2 != 0
+            rt::bits16::flag(self.0, 0x2)
         }
         /// The same with another [`motion_enabled`](Self::motion_enabled).
         #[must_use]
         pub const fn with_motion_enabled(self, value: bool) -> Self {
-            Self((self.0 & !0x2) | ((value as u16) << 1))
+            Self(rt::bits16::with_flag(self.0, 0x2, value))
         }
         /// Bit 2: stopping. The stop ramp is active. Manual: Registri (line 145): Stp\_st.
         pub const fn stopping(self) -> bool {
-            self.0 & 0x4 != 0
+            rt::bits16::flag(self.0, 0x4)
         }
         /// The same with another [`stopping`](Self::stopping).
         #[must_use]
         pub const fn with_stopping(self, value: bool) -> Self {
-            Self((self.0 & !0x4) | ((value as u16) << 2))
+            Self(rt::bits16::with_flag(self.0, 0x4, value))
         }
         /// Bit 3: alarm. Manual: Registri (line 146): Alm\_st.
         pub const fn alarm(self) -> bool {
-            self.0 & 0x8 != 0
+            rt::bits16::flag(self.0, 0x8)
         }
         /// The same with another [`alarm`](Self::alarm).
         #[must_use]
         pub const fn with_alarm(self, value: bool) -> Self {
-            Self((self.0 & !0x8) | ((value as u16) << 3))
+            Self(rt::bits16::with_flag(self.0, 0x8, value))
         }
         /// Bit 4: position latched. latched\_position can be read. Manual: Registri (line 147): Ltc\_st.
         pub const fn position_latched(self) -> bool {
-            self.0 & 0x10 != 0
+            rt::bits16::flag(self.0, 0x10)
         }
         /// The same with another [`position_latched`](Self::position_latched).
         #[must_use]
         pub const fn with_position_latched(self, value: bool) -> Self {
-            Self((self.0 & !0x10) | ((value as u16) << 4))
+            Self(rt::bits16::with_flag(self.0, 0x10, value))
         }
         /// The bits that have their meaning while [modes\_of\_operation](super::objects::MODES_OF_OPERATION) is positioner (1).
         pub const fn in_positioner(self) -> DriveStatusInPositioner {
@@ -4432,18 +4429,12 @@ pub mod types {
     }
     impl core::fmt::Debug for DriveStatus {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            let bits = rt::DebugBits::new(f, "DriveStatus", self.0 as u64);
-            let bits = rt::DebugBits::plain(
-                bits,
-                &[
-                    ("torque_enabled", 0x1),
-                    ("motion_enabled", 0x2),
-                    ("stopping", 0x4),
-                    ("alarm", 0x8),
-                    ("position_latched", 0x10),
-                ],
-            );
-            bits.finish()
+            rt::debug_bits(
+                f,
+                self.0 as u64,
+                "DriveStatus torque_enabled:1 motion_enabled:2 stopping:4 alarm:8 position_latched:10",
+                &[],
+            )
         }
     }
     /// [`DriveStatus`] while [modes\_of\_operation](super::objects::MODES_OF_OPERATION) is positioner (1).
@@ -4456,30 +4447,30 @@ pub mod types {
         }
         /// Bit 5: ready for set-point. Manual: Registri (line 149): sp\_rdy.
         pub const fn ready_for_set_point(self) -> bool {
-            self.0 & 0x20 != 0
+            rt::bits16::flag(self.0, 0x20)
         }
         /// The same with another [`ready_for_set_point`](Self::ready_for_set_point).
         #[must_use]
         pub const fn with_ready_for_set_point(self, value: bool) -> Self {
-            Self((self.0 & !0x20) | ((value as u16) << 5))
+            Self(rt::bits16::with_flag(self.0, 0x20, value))
         }
         /// Bit 6: end of job. Manual: Registri (line 153): EOJ.
         pub const fn end_of_job(self) -> bool {
-            self.0 & 0x40 != 0
+            rt::bits16::flag(self.0, 0x40)
         }
         /// The same with another [`end_of_job`](Self::end_of_job).
         #[must_use]
         pub const fn with_end_of_job(self, value: bool) -> Self {
-            Self((self.0 & !0x40) | ((value as u16) << 6))
+            Self(rt::bits16::with_flag(self.0, 0x40, value))
         }
         /// Bit 7: following error. Manual: Registri (line 160): Following error.
         pub const fn following_error(self) -> bool {
-            self.0 & 0x80 != 0
+            rt::bits16::flag(self.0, 0x80)
         }
         /// The same with another [`following_error`](Self::following_error).
         #[must_use]
         pub const fn with_following_error(self, value: bool) -> Self {
-            Self((self.0 & !0x80) | ((value as u16) << 7))
+            Self(rt::bits16::with_flag(self.0, 0x80, value))
         }
     }
     /// [`DriveStatus`] while [modes\_of\_operation](super::objects::MODES_OF_OPERATION) is interpolator (7).
@@ -4492,12 +4483,12 @@ pub mod types {
         }
         /// Bit 5: interpolating. Manual: Registri (line 150): Ip\_st.
         pub const fn interpolating(self) -> bool {
-            self.0 & 0x20 != 0
+            rt::bits16::flag(self.0, 0x20)
         }
         /// The same with another [`interpolating`](Self::interpolating).
         #[must_use]
         pub const fn with_interpolating(self, value: bool) -> Self {
-            Self((self.0 & !0x20) | ((value as u16) << 5))
+            Self(rt::bits16::with_flag(self.0, 0x20, value))
         }
     }
     /// [`DriveStatus`] while [modes\_of\_operation](super::objects::MODES_OF_OPERATION) is save and load (-50).
@@ -4510,21 +4501,21 @@ pub mod types {
         }
         /// Bit 5: saved. Manual: Registri (line 151): Save.
         pub const fn saved(self) -> bool {
-            self.0 & 0x20 != 0
+            rt::bits16::flag(self.0, 0x20)
         }
         /// The same with another [`saved`](Self::saved).
         #[must_use]
         pub const fn with_saved(self, value: bool) -> Self {
-            Self((self.0 & !0x20) | ((value as u16) << 5))
+            Self(rt::bits16::with_flag(self.0, 0x20, value))
         }
         /// Bit 6: loaded. Manual: Registri (line 157): Load.
         pub const fn loaded(self) -> bool {
-            self.0 & 0x40 != 0
+            rt::bits16::flag(self.0, 0x40)
         }
         /// The same with another [`loaded`](Self::loaded).
         #[must_use]
         pub const fn with_loaded(self, value: bool) -> Self {
-            Self((self.0 & !0x40) | ((value as u16) << 6))
+            Self(rt::bits16::with_flag(self.0, 0x40, value))
         }
     }
     /// [`DriveStatus`] while [modes\_of\_operation](super::objects::MODES_OF_OPERATION) is homing (6).
@@ -4537,21 +4528,21 @@ pub mod types {
         }
         /// Bit 6: homing done. Manual: Registri; Esempio posizionamento punto a punto (lines 154, 6412): Homing ok.
         pub const fn homing_done(self) -> bool {
-            self.0 & 0x40 != 0
+            rt::bits16::flag(self.0, 0x40)
         }
         /// The same with another [`homing_done`](Self::homing_done).
         #[must_use]
         pub const fn with_homing_done(self, value: bool) -> Self {
-            Self((self.0 & !0x40) | ((value as u16) << 6))
+            Self(rt::bits16::with_flag(self.0, 0x40, value))
         }
         /// Bit 7: homing error. Manual: Registri (line 162).
         pub const fn homing_error(self) -> bool {
-            self.0 & 0x80 != 0
+            rt::bits16::flag(self.0, 0x80)
         }
         /// The same with another [`homing_error`](Self::homing_error).
         #[must_use]
         pub const fn with_homing_error(self, value: bool) -> Self {
-            Self((self.0 & !0x80) | ((value as u16) << 7))
+            Self(rt::bits16::with_flag(self.0, 0x80, value))
         }
     }
     /// [`DriveStatus`] while [modes\_of\_operation](super::objects::MODES_OF_OPERATION) is electric axis (-2).
@@ -4564,12 +4555,12 @@ pub mod types {
         }
         /// Bit 6: coupled. The axis follows its master. Manual: Registri (line 155): Start/stop.
         pub const fn coupled(self) -> bool {
-            self.0 & 0x40 != 0
+            rt::bits16::flag(self.0, 0x40)
         }
         /// The same with another [`coupled`](Self::coupled).
         #[must_use]
         pub const fn with_coupled(self, value: bool) -> Self {
-            Self((self.0 & !0x40) | ((value as u16) << 6))
+            Self(rt::bits16::with_flag(self.0, 0x40, value))
         }
     }
     /// [`DriveStatus`] while [modes\_of\_operation](super::objects::MODES_OF_OPERATION) is velocity (3).
@@ -4582,12 +4573,12 @@ pub mod types {
         }
         /// Bit 7: standing still. Manual: Registri (line 161).
         pub const fn standing_still(self) -> bool {
-            self.0 & 0x80 != 0
+            rt::bits16::flag(self.0, 0x80)
         }
         /// The same with another [`standing_still`](Self::standing_still).
         #[must_use]
         pub const fn with_standing_still(self, value: bool) -> Self {
-            Self((self.0 & !0x80) | ((value as u16) << 7))
+            Self(rt::bits16::with_flag(self.0, 0x80, value))
         }
     }
     /// DigitalInputs.
@@ -4630,111 +4621,111 @@ pub mod types {
         }
         /// Bit 0: position latch. Pin 11; on the miniECO pin 5 with c8 = 1 and 3. Manual: digital\_inputs; digital\_inputs in : ECO2/ECO4 standard / Tech \& Evolution / uECO (lines 1826, 4635).
         pub const fn position_latch(self) -> bool {
-            self.0 & 0x1 != 0
+            rt::bits32::flag(self.0, 0x1)
         }
         /// The same with another [`position_latch`](Self::position_latch).
         #[must_use]
         pub const fn with_position_latch(self, value: bool) -> Self {
-            Self((self.0 & !0x1) | (value as u32))
+            Self(rt::bits32::with_flag(self.0, 0x1, value))
         }
         /// Bit 1: start. Pin 1; on the miniECO pin 5 with c8 = 2, pin 11 with c8 = 3 to 6. Manual: digital\_inputs; digital\_inputs in : ECO2/ECO4 standard / Tech \& Evolution / uECO (lines 1812, 4621).
         pub const fn start(self) -> bool {
-            self.0 & 0x2 != 0
+            rt::bits32::flag(self.0, 0x2)
         }
         /// The same with another [`start`](Self::start).
         #[must_use]
         pub const fn with_start(self, value: bool) -> Self {
-            Self((self.0 & !0x2) | ((value as u32) << 1))
+            Self(rt::bits32::with_flag(self.0, 0x2, value))
         }
         /// Bit 2: input 2. Pin 2. Manual: digital\_inputs; digital\_inputs in : ECO2/ECO4 standard / Tech \& Evolution / uECO (lines 1813, 4622).
         pub const fn input_2(self) -> bool {
-            self.0 & 0x4 != 0
+            rt::bits32::flag(self.0, 0x4)
         }
         /// The same with another [`input_2`](Self::input_2).
         #[must_use]
         pub const fn with_input_2(self, value: bool) -> Self {
-            Self((self.0 & !0x4) | ((value as u32) << 2))
+            Self(rt::bits32::with_flag(self.0, 0x4, value))
         }
         /// Bit 3: input 3. Pin 3. Manual: digital\_inputs; digital\_inputs in : ECO2/ECO4 standard / Tech \& Evolution / uECO (lines 1814, 4623).
         pub const fn input_3(self) -> bool {
-            self.0 & 0x8 != 0
+            rt::bits32::flag(self.0, 0x8)
         }
         /// The same with another [`input_3`](Self::input_3).
         #[must_use]
         pub const fn with_input_3(self, value: bool) -> Self {
-            Self((self.0 & !0x8) | ((value as u32) << 3))
+            Self(rt::bits32::with_flag(self.0, 0x8, value))
         }
         /// Bit 4: input 4. Pin 4. Manual: digital\_inputs; digital\_inputs in : ECO2/ECO4 standard / Tech \& Evolution / uECO (lines 1815, 4624).
         pub const fn input_4(self) -> bool {
-            self.0 & 0x10 != 0
+            rt::bits32::flag(self.0, 0x10)
         }
         /// The same with another [`input_4`](Self::input_4).
         #[must_use]
         pub const fn with_input_4(self, value: bool) -> Self {
-            Self((self.0 & !0x10) | ((value as u32) << 4))
+            Self(rt::bits32::with_flag(self.0, 0x10, value))
         }
         /// Bit 5: select. Pin 5: high selects aux\_in\_1 as the target. Manual: digital\_inputs; digital\_inputs in : ECO2/ECO4 standard / Tech \& Evolution / uECO; Morsettiera CN2 ECO2/ECO4 (lines 1816, 4625, 1709, 1736).
         pub const fn select(self) -> bool {
-            self.0 & 0x20 != 0
+            rt::bits32::flag(self.0, 0x20)
         }
         /// The same with another [`select`](Self::select).
         #[must_use]
         pub const fn with_select(self, value: bool) -> Self {
-            Self((self.0 & !0x20) | ((value as u32) << 5))
+            Self(rt::bits32::with_flag(self.0, 0x20, value))
         }
         /// Bit 6: input 6. Pin 6. Manual: digital\_inputs; digital\_inputs in : ECO2/ECO4 standard / Tech \& Evolution / uECO (lines 1817, 4626).
         pub const fn input_6(self) -> bool {
-            self.0 & 0x40 != 0
+            rt::bits32::flag(self.0, 0x40)
         }
         /// The same with another [`input_6`](Self::input_6).
         #[must_use]
         pub const fn with_input_6(self, value: bool) -> Self {
-            Self((self.0 & !0x40) | ((value as u32) << 6))
+            Self(rt::bits32::with_flag(self.0, 0x40, value))
         }
         /// Bit 7: input 7. Pin 7. Manual: digital\_inputs; digital\_inputs in : ECO2/ECO4 standard / Tech \& Evolution / uECO (lines 1818, 4627).
         pub const fn input_7(self) -> bool {
-            self.0 & 0x80 != 0
+            rt::bits32::flag(self.0, 0x80)
         }
         /// The same with another [`input_7`](Self::input_7).
         #[must_use]
         pub const fn with_input_7(self, value: bool) -> Self {
-            Self((self.0 & !0x80) | ((value as u32) << 7))
+            Self(rt::bits32::with_flag(self.0, 0x80, value))
         }
         /// Bit 8: negative limit switch. Pin 8; on the miniECO pin 11 with c8 = 0 to 2, pin 10 with c8 = 4. Manual: digital\_inputs; digital\_inputs in : ECO2/ECO4 standard / Tech \& Evolution / uECO (lines 1819, 4628).
         pub const fn negative_limit_switch(self) -> bool {
-            self.0 & 0x100 != 0
+            rt::bits32::flag(self.0, 0x100)
         }
         /// The same with another [`negative_limit_switch`](Self::negative_limit_switch).
         #[must_use]
         pub const fn with_negative_limit_switch(self, value: bool) -> Self {
-            Self((self.0 & !0x100) | ((value as u32) << 8))
+            Self(rt::bits32::with_flag(self.0, 0x100, value))
         }
         /// Bit 9: positive limit switch. Pin 9; on the miniECO pin 10 with c8 = 0 to 2 and 5. Manual: digital\_inputs; digital\_inputs in : ECO2/ECO4 standard / Tech \& Evolution / uECO (lines 1822, 4631).
         pub const fn positive_limit_switch(self) -> bool {
-            self.0 & 0x200 != 0
+            rt::bits32::flag(self.0, 0x200)
         }
         /// The same with another [`positive_limit_switch`](Self::positive_limit_switch).
         #[must_use]
         pub const fn with_positive_limit_switch(self, value: bool) -> Self {
-            Self((self.0 & !0x200) | ((value as u32) << 9))
+            Self(rt::bits32::with_flag(self.0, 0x200, value))
         }
         /// Bit 10: home switch. Pin 14; on the miniECO pin 5 with c8 = 0, pin 10 with c8 = 3 and 6. Manual: digital\_inputs; digital\_inputs in : ECO2/ECO4 standard / Tech \& Evolution / uECO (lines 1827, 4636).
         pub const fn home_switch(self) -> bool {
-            self.0 & 0x400 != 0
+            rt::bits32::flag(self.0, 0x400)
         }
         /// The same with another [`home_switch`](Self::home_switch).
         #[must_use]
         pub const fn with_home_switch(self, value: bool) -> Self {
-            Self((self.0 & !0x400) | ((value as u32) << 10))
+            Self(rt::bits32::with_flag(self.0, 0x400, value))
         }
         /// Bit 11: input 11. Pin 10. Manual: digital\_inputs; digital\_inputs in : ECO2/ECO4 standard / Tech \& Evolution / uECO (lines 1825, 4634).
         pub const fn input_11(self) -> bool {
-            self.0 & 0x800 != 0
+            rt::bits32::flag(self.0, 0x800)
         }
         /// The same with another [`input_11`](Self::input_11).
         #[must_use]
         pub const fn with_input_11(self, value: bool) -> Self {
-            Self((self.0 & !0x800) | ((value as u32) << 11))
+            Self(rt::bits32::with_flag(self.0, 0x800, value))
         }
     }
     impl Default for DigitalInputs {
@@ -4753,25 +4744,12 @@ pub mod types {
     }
     impl core::fmt::Debug for DigitalInputs {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            let bits = rt::DebugBits::new(f, "DigitalInputs", self.0 as u64);
-            let bits = rt::DebugBits::plain(
-                bits,
-                &[
-                    ("position_latch", 0x1),
-                    ("start", 0x2),
-                    ("input_2", 0x4),
-                    ("input_3", 0x8),
-                    ("input_4", 0x10),
-                    ("select", 0x20),
-                    ("input_6", 0x40),
-                    ("input_7", 0x80),
-                    ("negative_limit_switch", 0x100),
-                    ("positive_limit_switch", 0x200),
-                    ("home_switch", 0x400),
-                    ("input_11", 0x800),
-                ],
-            );
-            bits.finish()
+            rt::debug_bits(
+                f,
+                self.0 as u64,
+                "DigitalInputs position_latch:1 start:2 input_2:4 input_3:8 input_4:10 select:20 input_6:40 input_7:80 negative_limit_switch:100 positive_limit_switch:200 home_switch:400 input_11:800",
+                &[],
+            )
         }
     }
     /// DigitalOutputs.
@@ -4807,48 +4785,48 @@ pub mod types {
         }
         /// Bit 0: output 0. Pin 12; no function on the miniECO. Manual: digital\_output e digital\_out\_mask; digital\_output in : miniECO e miniECO PLUS; digital\_output in : ECO2/ECO4 standard / Tech \& Evolution / uECO (lines 1924, 1941, 4720, 4738).
         pub const fn output_0(self) -> bool {
-            self.0 & 0x1 != 0
+            rt::bits32::flag(self.0, 0x1)
         }
         /// The same with another [`output_0`](Self::output_0).
         #[must_use]
         pub const fn with_output_0(self, value: bool) -> Self {
-            Self((self.0 & !0x1) | (value as u32))
+            Self(rt::bits32::with_flag(self.0, 0x1, value))
         }
         /// Bit 1: output 1. Pin 13. Only of ECO2, ECO4, uECO. Manual: digital\_output e digital\_out\_mask; digital\_output in : ECO2/ECO4 standard / Tech \& Evolution / uECO (lines 1925, 4721).
         pub const fn output_1(self) -> bool {
-            self.0 & 0x2 != 0
+            rt::bits32::flag(self.0, 0x2)
         }
         /// The same with another [`output_1`](Self::output_1).
         #[must_use]
         pub const fn with_output_1(self, value: bool) -> Self {
-            Self((self.0 & !0x2) | ((value as u32) << 1))
+            Self(rt::bits32::with_flag(self.0, 0x2, value))
         }
         /// Bit 1: fan. Pin 13: forces the fan. Only of miniECO. Manual: digital\_output in : miniECO e miniECO PLUS (lines 1942, 4739): Forzatura Ventola.
         pub const fn fan(self) -> bool {
-            self.0 & 0x2 != 0
+            rt::bits32::flag(self.0, 0x2)
         }
         /// The same with another [`fan`](Self::fan).
         #[must_use]
         pub const fn with_fan(self, value: bool) -> Self {
-            Self((self.0 & !0x2) | ((value as u32) << 1))
+            Self(rt::bits32::with_flag(self.0, 0x2, value))
         }
         /// Bit 2: brake. Pin 16: drives the brake on some models. Manual: Morsettiera CN2 ECO2/ECO4; digital\_output e digital\_out\_mask; digital\_output in : miniECO e miniECO PLUS; 2 more sections (lines 1790, 1927, 1944, 4723, 4741, 4765).
         pub const fn brake(self) -> bool {
-            self.0 & 0x4 != 0
+            rt::bits32::flag(self.0, 0x4)
         }
         /// The same with another [`brake`](Self::brake).
         #[must_use]
         pub const fn with_brake(self, value: bool) -> Self {
-            Self((self.0 & !0x4) | ((value as u32) << 2))
+            Self(rt::bits32::with_flag(self.0, 0x4, value))
         }
         /// Bit 3: output 3. Pin 15; no function on the miniECO. Manual: digital\_output e digital\_out\_mask; digital\_output in : miniECO e miniECO PLUS; digital\_output in : ECO2/ECO4 standard / Tech \& Evolution / uECO (lines 1926, 1943, 4722, 4740).
         pub const fn output_3(self) -> bool {
-            self.0 & 0x8 != 0
+            rt::bits32::flag(self.0, 0x8)
         }
         /// The same with another [`output_3`](Self::output_3).
         #[must_use]
         pub const fn with_output_3(self, value: bool) -> Self {
-            Self((self.0 & !0x8) | ((value as u32) << 3))
+            Self(rt::bits32::with_flag(self.0, 0x8, value))
         }
     }
     impl Default for DigitalOutputs {
@@ -4867,18 +4845,12 @@ pub mod types {
     }
     impl core::fmt::Debug for DigitalOutputs {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            let bits = rt::DebugBits::new(f, "DigitalOutputs", self.0 as u64);
-            let bits = rt::DebugBits::plain(
-                bits,
-                &[
-                    ("output_0", 0x1),
-                    ("output_1", 0x2),
-                    ("fan", 0x2),
-                    ("brake", 0x4),
-                    ("output_3", 0x8),
-                ],
-            );
-            bits.finish()
+            rt::debug_bits(
+                f,
+                self.0 as u64,
+                "DigitalOutputs output_0:1 output_1:2 fan:2 brake:4 output_3:8",
+                &[],
+            )
         }
     }
     /// ErrorRegister.
@@ -4916,66 +4888,66 @@ pub mod types {
         }
         /// Bit 0: generic error. Manual: Bit Error cause (line 2979).
         pub const fn generic_error(self) -> bool {
-            self.0 & 0x1 != 0
+            rt::bits8::flag(self.0, 0x1)
         }
         /// The same with another [`generic_error`](Self::generic_error).
         #[must_use]
         pub const fn with_generic_error(self, value: bool) -> Self {
-            Self((self.0 & !0x1) | (value as u8))
+            Self(rt::bits8::with_flag(self.0, 0x1, value))
         }
         /// Bit 1: current. Manual: Bit Error cause (line 2981).
         pub const fn current(self) -> bool {
-            self.0 & 0x2 != 0
+            rt::bits8::flag(self.0, 0x2)
         }
         /// The same with another [`current`](Self::current).
         #[must_use]
         pub const fn with_current(self, value: bool) -> Self {
-            Self((self.0 & !0x2) | ((value as u8) << 1))
+            Self(rt::bits8::with_flag(self.0, 0x2, value))
         }
         /// Bit 2: voltage. Manual: Bit Error cause (line 2983).
         pub const fn voltage(self) -> bool {
-            self.0 & 0x4 != 0
+            rt::bits8::flag(self.0, 0x4)
         }
         /// The same with another [`voltage`](Self::voltage).
         #[must_use]
         pub const fn with_voltage(self, value: bool) -> Self {
-            Self((self.0 & !0x4) | ((value as u8) << 2))
+            Self(rt::bits8::with_flag(self.0, 0x4, value))
         }
         /// Bit 3: temperature. Manual: Bit Error cause (line 2985).
         pub const fn temperature(self) -> bool {
-            self.0 & 0x8 != 0
+            rt::bits8::flag(self.0, 0x8)
         }
         /// The same with another [`temperature`](Self::temperature).
         #[must_use]
         pub const fn with_temperature(self, value: bool) -> Self {
-            Self((self.0 & !0x8) | ((value as u8) << 3))
+            Self(rt::bits8::with_flag(self.0, 0x8, value))
         }
         /// Bit 4: communication error. Manual: Bit Error cause (line 2987).
         pub const fn communication_error(self) -> bool {
-            self.0 & 0x10 != 0
+            rt::bits8::flag(self.0, 0x10)
         }
         /// The same with another [`communication_error`](Self::communication_error).
         #[must_use]
         pub const fn with_communication_error(self, value: bool) -> Self {
-            Self((self.0 & !0x10) | ((value as u8) << 4))
+            Self(rt::bits8::with_flag(self.0, 0x10, value))
         }
         /// Bit 5: device profile specific. Manual: Bit Error cause (line 2991).
         pub const fn device_profile_specific(self) -> bool {
-            self.0 & 0x20 != 0
+            rt::bits8::flag(self.0, 0x20)
         }
         /// The same with another [`device_profile_specific`](Self::device_profile_specific).
         #[must_use]
         pub const fn with_device_profile_specific(self, value: bool) -> Self {
-            Self((self.0 & !0x20) | ((value as u8) << 5))
+            Self(rt::bits8::with_flag(self.0, 0x20, value))
         }
         /// Bit 7: manufacturer specific. Manual: Bit Error cause (line 2997).
         pub const fn manufacturer_specific(self) -> bool {
-            self.0 & 0x80 != 0
+            rt::bits8::flag(self.0, 0x80)
         }
         /// The same with another [`manufacturer_specific`](Self::manufacturer_specific).
         #[must_use]
         pub const fn with_manufacturer_specific(self, value: bool) -> Self {
-            Self((self.0 & !0x80) | ((value as u8) << 7))
+            Self(rt::bits8::with_flag(self.0, 0x80, value))
         }
     }
     impl Default for ErrorRegister {
@@ -4997,20 +4969,12 @@ pub mod types {
     }
     impl core::fmt::Debug for ErrorRegister {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            let bits = rt::DebugBits::new(f, "ErrorRegister", self.0 as u64);
-            let bits = rt::DebugBits::plain(
-                bits,
-                &[
-                    ("generic_error", 0x1),
-                    ("current", 0x2),
-                    ("voltage", 0x4),
-                    ("temperature", 0x8),
-                    ("communication_error", 0x10),
-                    ("device_profile_specific", 0x20),
-                    ("manufacturer_specific", 0x80),
-                ],
-            );
-            bits.finish()
+            rt::debug_bits(
+                f,
+                self.0 as u64,
+                "ErrorRegister generic_error:1 current:2 voltage:4 temperature:8 communication_error:10 device_profile_specific:20 manufacturer_specific:80",
+                &[],
+            )
         }
     }
     /// MappedObject.
@@ -5041,30 +5005,30 @@ pub mod types {
         }
         /// Bits 7 to 0: length. In bits.
         pub const fn length(self) -> u8 {
-            (self.0 & 0xFF) as u8
+            rt::bits32::field(self.0, 0xFF) as u8
         }
         /// The same with another [`length`](Self::length).
         #[must_use]
         pub const fn with_length(self, value: u8) -> Self {
-            Self((self.0 & !0xFF) | (value as u32))
+            Self(rt::bits32::with_field(self.0, 0xFF, value as u32))
         }
         /// Bits 15 to 8: sub-index.
         pub const fn sub_index(self) -> u8 {
-            ((self.0 >> 8) & 0xFF) as u8
+            rt::bits32::field(self.0, 0xFF00) as u8
         }
         /// The same with another [`sub_index`](Self::sub_index).
         #[must_use]
         pub const fn with_sub_index(self, value: u8) -> Self {
-            Self((self.0 & !0xFF00) | ((value as u32) << 8))
+            Self(rt::bits32::with_field(self.0, 0xFF00, value as u32))
         }
         /// Bits 31 to 16: index.
         pub const fn index(self) -> u16 {
-            ((self.0 >> 16) & 0xFFFF) as u16
+            rt::bits32::field(self.0, 0xFFFF0000) as u16
         }
         /// The same with another [`index`](Self::index).
         #[must_use]
         pub const fn with_index(self, value: u16) -> Self {
-            Self((self.0 & !0xFFFF0000) | ((value as u32) << 16))
+            Self(rt::bits32::with_field(self.0, 0xFFFF0000, value as u32))
         }
     }
     impl Default for MappedObject {
@@ -5083,12 +5047,12 @@ pub mod types {
     }
     impl core::fmt::Debug for MappedObject {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            let bits = rt::DebugBits::new(f, "MappedObject", self.0 as u64);
-            let bits = rt::DebugBits::plain(
-                bits,
-                &[("length", 0xFF), ("sub_index", 0xFF00), ("index", 0xFFFF0000)],
-            );
-            bits.finish()
+            rt::debug_bits(
+                f,
+                self.0 as u64,
+                "MappedObject length:ff sub_index:ff00 index:ffff0000",
+                &[],
+            )
         }
     }
     /// Controlword.
@@ -5149,75 +5113,75 @@ pub mod types {
         }
         /// Bit 0: switch on. From CiA 402, 10.3.1.
         pub const fn switch_on(self) -> bool {
-            self.0 & 0x1 != 0
+            rt::bits16::flag(self.0, 0x1)
         }
         /// The same with another [`switch_on`](Self::switch_on).
         #[must_use]
         pub const fn with_switch_on(self, value: bool) -> Self {
-            Self((self.0 & !0x1) | (value as u16))
+            Self(rt::bits16::with_flag(self.0, 0x1, value))
         }
         /// Bit 1: enable voltage. From CiA 402, 10.3.1.
         pub const fn enable_voltage(self) -> bool {
-            self.0 & 0x2 != 0
+            rt::bits16::flag(self.0, 0x2)
         }
         /// The same with another [`enable_voltage`](Self::enable_voltage).
         #[must_use]
         pub const fn with_enable_voltage(self, value: bool) -> Self {
-            Self((self.0 & !0x2) | ((value as u16) << 1))
+            Self(rt::bits16::with_flag(self.0, 0x2, value))
         }
         /// Bit 2: quick stop. Holds while the bit is 0. 0 requests a quick stop; from CiA 402, 10.3.1.
         pub const fn quick_stop(self) -> bool {
-            self.0 & 0x4 == 0
+            !rt::bits16::flag(self.0, 0x4)
         }
         /// The same with another [`quick_stop`](Self::quick_stop).
         #[must_use]
         pub const fn with_quick_stop(self, value: bool) -> Self {
-            Self((self.0 & !0x4) | ((!value as u16) << 2))
+            Self(rt::bits16::with_flag(self.0, 0x4, !value))
         }
         /// Bit 3: enable operation. From CiA 402, 10.3.1.
         pub const fn enable_operation(self) -> bool {
-            self.0 & 0x8 != 0
+            rt::bits16::flag(self.0, 0x8)
         }
         /// The same with another [`enable_operation`](Self::enable_operation).
         #[must_use]
         pub const fn with_enable_operation(self, value: bool) -> Self {
-            Self((self.0 & !0x8) | ((value as u16) << 3))
+            Self(rt::bits16::with_flag(self.0, 0x8, value))
         }
         /// Bit 7: fault reset. Acts on the change from 0 to 1. From CiA 402, 10.3.1; the examples write 0x0080 to reset alarms. Manual: Modo Homing; Reset allarmi (lines 4285, 5914).
         pub const fn fault_reset(self) -> bool {
-            self.0 & 0x80 != 0
+            rt::bits16::flag(self.0, 0x80)
         }
         /// The same with another [`fault_reset`](Self::fault_reset).
         #[must_use]
         pub const fn with_fault_reset(self, value: bool) -> Self {
-            Self((self.0 & !0x80) | ((value as u16) << 7))
+            Self(rt::bits16::with_flag(self.0, 0x80, value))
         }
         /// Bit 8: halt. From CiA 402, 10.3.1.
         pub const fn halt(self) -> bool {
-            self.0 & 0x100 != 0
+            rt::bits16::flag(self.0, 0x100)
         }
         /// The same with another [`halt`](Self::halt).
         #[must_use]
         pub const fn with_halt(self, value: bool) -> Self {
-            Self((self.0 & !0x100) | ((value as u16) << 8))
+            Self(rt::bits16::with_flag(self.0, 0x100, value))
         }
         /// Bit 12: show master speed. 0x6069 returns the velocity of the master axis. Manual: Descrizione degli oggetti del Device Profile (lines 3915-3918).
         pub const fn show_master_speed(self) -> bool {
-            self.0 & 0x1000 != 0
+            rt::bits16::flag(self.0, 0x1000)
         }
         /// The same with another [`show_master_speed`](Self::show_master_speed).
         #[must_use]
         pub const fn with_show_master_speed(self, value: bool) -> Self {
-            Self((self.0 & !0x1000) | ((value as u16) << 12))
+            Self(rt::bits16::with_flag(self.0, 0x1000, value))
         }
         /// Bit 14: latch reset. Acts on the change from 0 to 1. Resets bit 14 of the Statusword. Manual: Descrizione degli oggetti del Device Profile (lines 3920-3921).
         pub const fn latch_reset(self) -> bool {
-            self.0 & 0x4000 != 0
+            rt::bits16::flag(self.0, 0x4000)
         }
         /// The same with another [`latch_reset`](Self::latch_reset).
         #[must_use]
         pub const fn with_latch_reset(self, value: bool) -> Self {
-            Self((self.0 & !0x4000) | ((value as u16) << 14))
+            Self(rt::bits16::with_flag(self.0, 0x4000, value))
         }
         /// The bits that have their meaning while [modes\_of\_operation](super::objects::MODES_OF_OPERATION) is positioner (1).
         pub const fn in_positioner(self) -> ControlwordInPositioner {
@@ -5255,23 +5219,12 @@ pub mod types {
     }
     impl core::fmt::Debug for Controlword {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            let bits = rt::DebugBits::new(f, "Controlword", self.0 as u64);
-            let bits = rt::DebugBits::plain(
-                bits,
-                &[("switch_on", 0x1), ("enable_voltage", 0x2)],
-            );
-            let bits = rt::DebugBits::inverted(bits, "quick_stop", 0x4);
-            let bits = rt::DebugBits::plain(
-                bits,
-                &[
-                    ("enable_operation", 0x8),
-                    ("fault_reset", 0x80),
-                    ("halt", 0x100),
-                    ("show_master_speed", 0x1000),
-                    ("latch_reset", 0x4000),
-                ],
-            );
-            bits.finish()
+            rt::debug_bits(
+                f,
+                self.0 as u64,
+                "Controlword switch_on:1 enable_voltage:2 !quick_stop:4 enable_operation:8 fault_reset:80 halt:100 show_master_speed:1000 latch_reset:4000",
+                &[],
+            )
         }
     }
     /// [`Controlword`] while [modes\_of\_operation](super::objects::MODES_OF_OPERATION) is positioner (1).
@@ -5284,30 +5237,30 @@ pub mod types {
         }
         /// Bit 4: new set-point. Acts on the change from 0 to 1. From CiA 402, 10.3.1; the example of the positioner sets it to start. Manual: Modo posizionatore (lines 4340, 4348).
         pub const fn new_set_point(self) -> bool {
-            self.0 & 0x10 != 0
+            rt::bits16::flag(self.0, 0x10)
         }
         /// The same with another [`new_set_point`](Self::new_set_point).
         #[must_use]
         pub const fn with_new_set_point(self, value: bool) -> Self {
-            Self((self.0 & !0x10) | ((value as u16) << 4))
+            Self(rt::bits16::with_flag(self.0, 0x10, value))
         }
         /// Bit 5: change set immediately. From CiA 402, 10.3.1.
         pub const fn change_set_immediately(self) -> bool {
-            self.0 & 0x20 != 0
+            rt::bits16::flag(self.0, 0x20)
         }
         /// The same with another [`change_set_immediately`](Self::change_set_immediately).
         #[must_use]
         pub const fn with_change_set_immediately(self, value: bool) -> Self {
-            Self((self.0 & !0x20) | ((value as u16) << 5))
+            Self(rt::bits16::with_flag(self.0, 0x20, value))
         }
         /// Bit 6: relative. From CiA 402, 10.3.1; the example of the positioner sets it for an incremental move. Manual: Modo posizionatore (lines 4339, 4340).
         pub const fn relative(self) -> bool {
-            self.0 & 0x40 != 0
+            rt::bits16::flag(self.0, 0x40)
         }
         /// The same with another [`relative`](Self::relative).
         #[must_use]
         pub const fn with_relative(self, value: bool) -> Self {
-            Self((self.0 & !0x40) | ((value as u16) << 6))
+            Self(rt::bits16::with_flag(self.0, 0x40, value))
         }
     }
     /// [`Controlword`] while [modes\_of\_operation](super::objects::MODES_OF_OPERATION) is homing (6).
@@ -5320,12 +5273,12 @@ pub mod types {
         }
         /// Bit 4: start homing. Acts on the change from 0 to 1. From CiA 402, 10.3.1; the examples set it to start homing. Manual: Modo Homing; Esempio completo di asse gestito con interpolatore (lines 4300, 4554).
         pub const fn start_homing(self) -> bool {
-            self.0 & 0x10 != 0
+            rt::bits16::flag(self.0, 0x10)
         }
         /// The same with another [`start_homing`](Self::start_homing).
         #[must_use]
         pub const fn with_start_homing(self, value: bool) -> Self {
-            Self((self.0 & !0x10) | ((value as u16) << 4))
+            Self(rt::bits16::with_flag(self.0, 0x10, value))
         }
     }
     /// [`Controlword`] while [modes\_of\_operation](super::objects::MODES_OF_OPERATION) is interpolator (7).
@@ -5338,12 +5291,12 @@ pub mod types {
         }
         /// Bit 4: interpolate. From CiA 402, 10.3.1; the examples set it to activate the interpolator. Manual: Modo interpolatore; Esempio completo di asse gestito con interpolatore (lines 4462, 4571).
         pub const fn interpolate(self) -> bool {
-            self.0 & 0x10 != 0
+            rt::bits16::flag(self.0, 0x10)
         }
         /// The same with another [`interpolate`](Self::interpolate).
         #[must_use]
         pub const fn with_interpolate(self, value: bool) -> Self {
-            Self((self.0 & !0x10) | ((value as u16) << 4))
+            Self(rt::bits16::with_flag(self.0, 0x10, value))
         }
     }
     /// [`Controlword`] while [modes\_of\_operation](super::objects::MODES_OF_OPERATION) is electric axis (-2).
@@ -5356,12 +5309,12 @@ pub mod types {
         }
         /// Bit 11: couple. Starts the electric axis. Manual: Descrizione degli oggetti del Device Profile (line 3914).
         pub const fn couple(self) -> bool {
-            self.0 & 0x800 != 0
+            rt::bits16::flag(self.0, 0x800)
         }
         /// The same with another [`couple`](Self::couple).
         #[must_use]
         pub const fn with_couple(self, value: bool) -> Self {
-            Self((self.0 & !0x800) | ((value as u16) << 11))
+            Self(rt::bits16::with_flag(self.0, 0x800, value))
         }
     }
     /// Statusword.
@@ -5410,129 +5363,129 @@ pub mod types {
         }
         /// Bit 0: ready to switch on. Manual: Salvataggio (line 4398).
         pub const fn ready_to_switch_on(self) -> bool {
-            self.0 & 0x1 != 0
+            rt::bits16::flag(self.0, 0x1)
         }
         /// The same with another [`ready_to_switch_on`](Self::ready_to_switch_on).
         #[must_use]
         pub const fn with_ready_to_switch_on(self, value: bool) -> Self {
-            Self((self.0 & !0x1) | (value as u16))
+            Self(rt::bits16::with_flag(self.0, 0x1, value))
         }
         /// Bit 1: switched on. From CiA 402, 10.3.2.
         pub const fn switched_on(self) -> bool {
-            self.0 & 0x2 != 0
+            rt::bits16::flag(self.0, 0x2)
         }
         /// The same with another [`switched_on`](Self::switched_on).
         #[must_use]
         pub const fn with_switched_on(self, value: bool) -> Self {
-            Self((self.0 & !0x2) | ((value as u16) << 1))
+            Self(rt::bits16::with_flag(self.0, 0x2, value))
         }
         /// Bit 2: operation enabled. From CiA 402, 10.3.2.
         pub const fn operation_enabled(self) -> bool {
-            self.0 & 0x4 != 0
+            rt::bits16::flag(self.0, 0x4)
         }
         /// The same with another [`operation_enabled`](Self::operation_enabled).
         #[must_use]
         pub const fn with_operation_enabled(self, value: bool) -> Self {
-            Self((self.0 & !0x4) | ((value as u16) << 2))
+            Self(rt::bits16::with_flag(self.0, 0x4, value))
         }
         /// Bit 3: fault. From CiA 402, 10.3.2.
         pub const fn fault(self) -> bool {
-            self.0 & 0x8 != 0
+            rt::bits16::flag(self.0, 0x8)
         }
         /// The same with another [`fault`](Self::fault).
         #[must_use]
         pub const fn with_fault(self, value: bool) -> Self {
-            Self((self.0 & !0x8) | ((value as u16) << 3))
+            Self(rt::bits16::with_flag(self.0, 0x8, value))
         }
         /// Bit 4: voltage enabled. From CiA 402, 10.3.2.
         pub const fn voltage_enabled(self) -> bool {
-            self.0 & 0x10 != 0
+            rt::bits16::flag(self.0, 0x10)
         }
         /// The same with another [`voltage_enabled`](Self::voltage_enabled).
         #[must_use]
         pub const fn with_voltage_enabled(self, value: bool) -> Self {
-            Self((self.0 & !0x10) | ((value as u16) << 4))
+            Self(rt::bits16::with_flag(self.0, 0x10, value))
         }
         /// Bit 5: quick stop. Holds while the bit is 0. 0 while a quick stop is requested; from CiA 402, 10.3.2.
         pub const fn quick_stop(self) -> bool {
-            self.0 & 0x20 == 0
+            !rt::bits16::flag(self.0, 0x20)
         }
         /// The same with another [`quick_stop`](Self::quick_stop).
         #[must_use]
         pub const fn with_quick_stop(self, value: bool) -> Self {
-            Self((self.0 & !0x20) | ((!value as u16) << 5))
+            Self(rt::bits16::with_flag(self.0, 0x20, !value))
         }
         /// Bit 6: switch on disabled. From CiA 402, 10.3.2.
         pub const fn switch_on_disabled(self) -> bool {
-            self.0 & 0x40 != 0
+            rt::bits16::flag(self.0, 0x40)
         }
         /// The same with another [`switch_on_disabled`](Self::switch_on_disabled).
         #[must_use]
         pub const fn with_switch_on_disabled(self, value: bool) -> Self {
-            Self((self.0 & !0x40) | ((value as u16) << 6))
+            Self(rt::bits16::with_flag(self.0, 0x40, value))
         }
         /// Bit 7: warning. From CiA 402, 10.3.2.
         pub const fn warning(self) -> bool {
-            self.0 & 0x80 != 0
+            rt::bits16::flag(self.0, 0x80)
         }
         /// The same with another [`warning`](Self::warning).
         #[must_use]
         pub const fn with_warning(self, value: bool) -> Self {
-            Self((self.0 & !0x80) | ((value as u16) << 7))
+            Self(rt::bits16::with_flag(self.0, 0x80, value))
         }
         /// Bit 8: latch input. Level of the latch input; its rising edge captures the position. Manual: Descrizione degli oggetti del Device Profile (lines 3926-3929).
         pub const fn latch_input(self) -> bool {
-            self.0 & 0x100 != 0
+            rt::bits16::flag(self.0, 0x100)
         }
         /// The same with another [`latch_input`](Self::latch_input).
         #[must_use]
         pub const fn with_latch_input(self, value: bool) -> Self {
-            Self((self.0 & !0x100) | ((value as u16) << 8))
+            Self(rt::bits16::with_flag(self.0, 0x100, value))
         }
         /// Bit 9: remote. From CiA 402, 10.3.2.
         pub const fn remote(self) -> bool {
-            self.0 & 0x200 != 0
+            rt::bits16::flag(self.0, 0x200)
         }
         /// The same with another [`remote`](Self::remote).
         #[must_use]
         pub const fn with_remote(self, value: bool) -> Self {
-            Self((self.0 & !0x200) | ((value as u16) << 9))
+            Self(rt::bits16::with_flag(self.0, 0x200, value))
         }
         /// Bit 10: target reached. From CiA 402, 10.3.2.
         pub const fn target_reached(self) -> bool {
-            self.0 & 0x400 != 0
+            rt::bits16::flag(self.0, 0x400)
         }
         /// The same with another [`target_reached`](Self::target_reached).
         #[must_use]
         pub const fn with_target_reached(self, value: bool) -> Self {
-            Self((self.0 & !0x400) | ((value as u16) << 10))
+            Self(rt::bits16::with_flag(self.0, 0x400, value))
         }
         /// Bit 11: internal limit active. From CiA 402, 10.3.2.
         pub const fn internal_limit_active(self) -> bool {
-            self.0 & 0x800 != 0
+            rt::bits16::flag(self.0, 0x800)
         }
         /// The same with another [`internal_limit_active`](Self::internal_limit_active).
         #[must_use]
         pub const fn with_internal_limit_active(self, value: bool) -> Self {
-            Self((self.0 & !0x800) | ((value as u16) << 11))
+            Self(rt::bits16::with_flag(self.0, 0x800, value))
         }
         /// Bit 14: position latched. latched\_position has a new position; bit 14 of the Controlword resets this bit. Manual: Descrizione degli oggetti del Device Profile (lines 3931-3934).
         pub const fn position_latched(self) -> bool {
-            self.0 & 0x4000 != 0
+            rt::bits16::flag(self.0, 0x4000)
         }
         /// The same with another [`position_latched`](Self::position_latched).
         #[must_use]
         pub const fn with_position_latched(self, value: bool) -> Self {
-            Self((self.0 & !0x4000) | ((value as u16) << 14))
+            Self(rt::bits16::with_flag(self.0, 0x4000, value))
         }
         /// Bit 15: velocity forced to zero. The target velocity is forced to 0: the axis is disabled (TEN low) or movements are disabled (IEN low). Manual: Descrizione degli oggetti del Device Profile (lines 3936-3939).
         pub const fn velocity_forced_to_zero(self) -> bool {
-            self.0 & 0x8000 != 0
+            rt::bits16::flag(self.0, 0x8000)
         }
         /// The same with another [`velocity_forced_to_zero`](Self::velocity_forced_to_zero).
         #[must_use]
         pub const fn with_velocity_forced_to_zero(self, value: bool) -> Self {
-            Self((self.0 & !0x8000) | ((value as u16) << 15))
+            Self(rt::bits16::with_flag(self.0, 0x8000, value))
         }
         /// The bits that have their meaning while [Modes Of Operation Display](super::objects::MODES_OF_OPERATION_DISPLAY) is homing (6).
         pub const fn in_homing(self) -> StatuswordInHoming {
@@ -5555,32 +5508,12 @@ pub mod types {
     }
     impl core::fmt::Debug for Statusword {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            let bits = rt::DebugBits::new(f, "Statusword", self.0 as u64);
-            let bits = rt::DebugBits::plain(
-                bits,
-                &[
-                    ("ready_to_switch_on", 0x1),
-                    ("switched_on", 0x2),
-                    ("operation_enabled", 0x4),
-                    ("fault", 0x8),
-                    ("voltage_enabled", 0x10),
-                ],
-            );
-            let bits = rt::DebugBits::inverted(bits, "quick_stop", 0x20);
-            let bits = rt::DebugBits::plain(
-                bits,
-                &[
-                    ("switch_on_disabled", 0x40),
-                    ("warning", 0x80),
-                    ("latch_input", 0x100),
-                    ("remote", 0x200),
-                    ("target_reached", 0x400),
-                    ("internal_limit_active", 0x800),
-                    ("position_latched", 0x4000),
-                    ("velocity_forced_to_zero", 0x8000),
-                ],
-            );
-            bits.finish()
+            rt::debug_bits(
+                f,
+                self.0 as u64,
+                "Statusword ready_to_switch_on:1 switched_on:2 operation_enabled:4 fault:8 voltage_enabled:10 !quick_stop:20 switch_on_disabled:40 warning:80 latch_input:100 remote:200 target_reached:400 internal_limit_active:800 position_latched:4000 velocity_forced_to_zero:8000",
+                &[],
+            )
         }
     }
     /// [`Statusword`] while [Modes Of Operation Display](super::objects::MODES_OF_OPERATION_DISPLAY) is homing (6).
@@ -5593,12 +5526,12 @@ pub mod types {
         }
         /// Bits 13 to 12: homing. Manual: Modo Homing (lines 4293-4298).
         pub const fn homing(self) -> StatuswordHoming {
-            StatuswordHoming::from_raw(((self.0 >> 12) & 0x3) as u8)
+            StatuswordHoming::from_raw(rt::bits16::field(self.0, 0x3000) as u8)
         }
         /// The same with another [`homing`](Self::homing).
         #[must_use]
         pub const fn with_homing(self, value: StatuswordHoming) -> Self {
-            Self((self.0 & !0x3000) | (((value.raw() as u16) << 12) & 0x3000))
+            Self(rt::bits16::with_field(self.0, 0x3000, value.raw() as u16))
         }
     }
     /// SupportedDriveModes.
@@ -5641,88 +5574,88 @@ pub mod types {
         }
         /// Bit 0: profile position.
         pub const fn profile_position(self) -> bool {
-            self.0 & 0x1 != 0
+            rt::bits32::flag(self.0, 0x1)
         }
         /// The same with another [`profile_position`](Self::profile_position).
         #[must_use]
         pub const fn with_profile_position(self, value: bool) -> Self {
-            Self((self.0 & !0x1) | (value as u32))
+            Self(rt::bits32::with_flag(self.0, 0x1, value))
         }
         /// Bit 1: velocity.
         pub const fn velocity(self) -> bool {
-            self.0 & 0x2 != 0
+            rt::bits32::flag(self.0, 0x2)
         }
         /// The same with another [`velocity`](Self::velocity).
         #[must_use]
         pub const fn with_velocity(self, value: bool) -> Self {
-            Self((self.0 & !0x2) | ((value as u32) << 1))
+            Self(rt::bits32::with_flag(self.0, 0x2, value))
         }
         /// Bit 2: profile velocity.
         pub const fn profile_velocity(self) -> bool {
-            self.0 & 0x4 != 0
+            rt::bits32::flag(self.0, 0x4)
         }
         /// The same with another [`profile_velocity`](Self::profile_velocity).
         #[must_use]
         pub const fn with_profile_velocity(self, value: bool) -> Self {
-            Self((self.0 & !0x4) | ((value as u32) << 2))
+            Self(rt::bits32::with_flag(self.0, 0x4, value))
         }
         /// Bit 3: profile torque.
         pub const fn profile_torque(self) -> bool {
-            self.0 & 0x8 != 0
+            rt::bits32::flag(self.0, 0x8)
         }
         /// The same with another [`profile_torque`](Self::profile_torque).
         #[must_use]
         pub const fn with_profile_torque(self, value: bool) -> Self {
-            Self((self.0 & !0x8) | ((value as u32) << 3))
+            Self(rt::bits32::with_flag(self.0, 0x8, value))
         }
         /// Bit 5: homing.
         pub const fn homing(self) -> bool {
-            self.0 & 0x20 != 0
+            rt::bits32::flag(self.0, 0x20)
         }
         /// The same with another [`homing`](Self::homing).
         #[must_use]
         pub const fn with_homing(self, value: bool) -> Self {
-            Self((self.0 & !0x20) | ((value as u32) << 5))
+            Self(rt::bits32::with_flag(self.0, 0x20, value))
         }
         /// Bit 6: interpolated position.
         pub const fn interpolated_position(self) -> bool {
-            self.0 & 0x40 != 0
+            rt::bits32::flag(self.0, 0x40)
         }
         /// The same with another [`interpolated_position`](Self::interpolated_position).
         #[must_use]
         pub const fn with_interpolated_position(self, value: bool) -> Self {
-            Self((self.0 & !0x40) | ((value as u32) << 6))
+            Self(rt::bits32::with_flag(self.0, 0x40, value))
         }
         /// Bit 7: cyclic synchronous position.
         pub const fn cyclic_synchronous_position(self) -> bool {
-            self.0 & 0x80 != 0
+            rt::bits32::flag(self.0, 0x80)
         }
         /// The same with another [`cyclic_synchronous_position`](Self::cyclic_synchronous_position).
         #[must_use]
         pub const fn with_cyclic_synchronous_position(self, value: bool) -> Self {
-            Self((self.0 & !0x80) | ((value as u32) << 7))
+            Self(rt::bits32::with_flag(self.0, 0x80, value))
         }
         /// Bit 8: cyclic synchronous velocity.
         pub const fn cyclic_synchronous_velocity(self) -> bool {
-            self.0 & 0x100 != 0
+            rt::bits32::flag(self.0, 0x100)
         }
         /// The same with another [`cyclic_synchronous_velocity`](Self::cyclic_synchronous_velocity).
         #[must_use]
         pub const fn with_cyclic_synchronous_velocity(self, value: bool) -> Self {
-            Self((self.0 & !0x100) | ((value as u32) << 8))
+            Self(rt::bits32::with_flag(self.0, 0x100, value))
         }
         /// Bit 9: cyclic synchronous torque.
         pub const fn cyclic_synchronous_torque(self) -> bool {
-            self.0 & 0x200 != 0
+            rt::bits32::flag(self.0, 0x200)
         }
         /// The same with another [`cyclic_synchronous_torque`](Self::cyclic_synchronous_torque).
         #[must_use]
         pub const fn with_cyclic_synchronous_torque(self, value: bool) -> Self {
-            Self((self.0 & !0x200) | ((value as u32) << 9))
+            Self(rt::bits32::with_flag(self.0, 0x200, value))
         }
         /// Bit 10: cyclic synchronous torque with angle.
         pub const fn cyclic_synchronous_torque_with_angle(self) -> bool {
-            self.0 & 0x400 != 0
+            rt::bits32::flag(self.0, 0x400)
         }
         /// The same with another [`cyclic_synchronous_torque_with_angle`](Self::cyclic_synchronous_torque_with_angle).
         #[must_use]
@@ -5730,16 +5663,16 @@ pub mod types {
             self,
             value: bool,
         ) -> Self {
-            Self((self.0 & !0x400) | ((value as u32) << 10))
+            Self(rt::bits32::with_flag(self.0, 0x400, value))
         }
         /// Bits 31 to 16: manufacturer specific.
         pub const fn manufacturer_specific(self) -> u16 {
-            ((self.0 >> 16) & 0xFFFF) as u16
+            rt::bits32::field(self.0, 0xFFFF0000) as u16
         }
         /// The same with another [`manufacturer_specific`](Self::manufacturer_specific).
         #[must_use]
         pub const fn with_manufacturer_specific(self, value: u16) -> Self {
-            Self((self.0 & !0xFFFF0000) | ((value as u32) << 16))
+            Self(rt::bits32::with_field(self.0, 0xFFFF0000, value as u32))
         }
     }
     impl Default for SupportedDriveModes {
@@ -5761,24 +5694,12 @@ pub mod types {
     }
     impl core::fmt::Debug for SupportedDriveModes {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            let bits = rt::DebugBits::new(f, "SupportedDriveModes", self.0 as u64);
-            let bits = rt::DebugBits::plain(
-                bits,
-                &[
-                    ("profile_position", 0x1),
-                    ("velocity", 0x2),
-                    ("profile_velocity", 0x4),
-                    ("profile_torque", 0x8),
-                    ("homing", 0x20),
-                    ("interpolated_position", 0x40),
-                    ("cyclic_synchronous_position", 0x80),
-                    ("cyclic_synchronous_velocity", 0x100),
-                    ("cyclic_synchronous_torque", 0x200),
-                    ("cyclic_synchronous_torque_with_angle", 0x400),
-                    ("manufacturer_specific", 0xFFFF0000),
-                ],
-            );
-            bits.finish()
+            rt::debug_bits(
+                f,
+                self.0 as u64,
+                "SupportedDriveModes profile_position:1 velocity:2 profile_velocity:4 profile_torque:8 homing:20 interpolated_position:40 cyclic_synchronous_position:80 cyclic_synchronous_velocity:100 cyclic_synchronous_torque:200 cyclic_synchronous_torque_with_angle:400 manufacturer_specific:ffff0000",
+                &[],
+            )
         }
     }
     /// DeviceType.
@@ -5808,21 +5729,21 @@ pub mod types {
         }
         /// Bits 15 to 0: profile. 0 if it follows none.
         pub const fn profile(self) -> u16 {
-            (self.0 & 0xFFFF) as u16
+            rt::bits32::field(self.0, 0xFFFF) as u16
         }
         /// The same with another [`profile`](Self::profile).
         #[must_use]
         pub const fn with_profile(self, value: u16) -> Self {
-            Self((self.0 & !0xFFFF) | (value as u32))
+            Self(rt::bits32::with_field(self.0, 0xFFFF, value as u32))
         }
         /// Bits 31 to 16: additional information.
         pub const fn additional_information(self) -> u16 {
-            ((self.0 >> 16) & 0xFFFF) as u16
+            rt::bits32::field(self.0, 0xFFFF0000) as u16
         }
         /// The same with another [`additional_information`](Self::additional_information).
         #[must_use]
         pub const fn with_additional_information(self, value: u16) -> Self {
-            Self((self.0 & !0xFFFF0000) | ((value as u32) << 16))
+            Self(rt::bits32::with_field(self.0, 0xFFFF0000, value as u32))
         }
     }
     impl Default for DeviceType {
@@ -5841,12 +5762,12 @@ pub mod types {
     }
     impl core::fmt::Debug for DeviceType {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            let bits = rt::DebugBits::new(f, "DeviceType", self.0 as u64);
-            let bits = rt::DebugBits::plain(
-                bits,
-                &[("profile", 0xFFFF), ("additional_information", 0xFFFF0000)],
-            );
-            bits.finish()
+            rt::debug_bits(
+                f,
+                self.0 as u64,
+                "DeviceType profile:ffff additional_information:ffff0000",
+                &[],
+            )
         }
     }
     /// ErrorFieldEntry.
@@ -5876,21 +5797,21 @@ pub mod types {
         }
         /// Bits 15 to 0: error code.
         pub const fn error_code(self) -> u16 {
-            (self.0 & 0xFFFF) as u16
+            rt::bits32::field(self.0, 0xFFFF) as u16
         }
         /// The same with another [`error_code`](Self::error_code).
         #[must_use]
         pub const fn with_error_code(self, value: u16) -> Self {
-            Self((self.0 & !0xFFFF) | (value as u32))
+            Self(rt::bits32::with_field(self.0, 0xFFFF, value as u32))
         }
         /// Bits 31 to 16: additional information.
         pub const fn additional_information(self) -> u16 {
-            ((self.0 >> 16) & 0xFFFF) as u16
+            rt::bits32::field(self.0, 0xFFFF0000) as u16
         }
         /// The same with another [`additional_information`](Self::additional_information).
         #[must_use]
         pub const fn with_additional_information(self, value: u16) -> Self {
-            Self((self.0 & !0xFFFF0000) | ((value as u32) << 16))
+            Self(rt::bits32::with_field(self.0, 0xFFFF0000, value as u32))
         }
     }
     impl Default for ErrorFieldEntry {
@@ -5909,12 +5830,12 @@ pub mod types {
     }
     impl core::fmt::Debug for ErrorFieldEntry {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            let bits = rt::DebugBits::new(f, "ErrorFieldEntry", self.0 as u64);
-            let bits = rt::DebugBits::plain(
-                bits,
-                &[("error_code", 0xFFFF), ("additional_information", 0xFFFF0000)],
-            );
-            bits.finish()
+            rt::debug_bits(
+                f,
+                self.0 as u64,
+                "ErrorFieldEntry error_code:ffff additional_information:ffff0000",
+                &[],
+            )
         }
     }
     /// SyncIdentifier.
@@ -5945,30 +5866,30 @@ pub mod types {
         }
         /// Bits 28 to 0: identifier.
         pub const fn identifier(self) -> u32 {
-            self.0 & 0x1FFFFFFF
+            rt::bits32::field(self.0, 0x1FFFFFFF)
         }
         /// The same with another [`identifier`](Self::identifier).
         #[must_use]
         pub const fn with_identifier(self, value: u32) -> Self {
-            Self((self.0 & !0x1FFFFFFF) | (value & 0x1FFFFFFF))
+            Self(rt::bits32::with_field(self.0, 0x1FFFFFFF, value))
         }
         /// Bit 29: extended. 1: 29-bit CAN-ID; 0: 11-bit CAN-ID.
         pub const fn extended(self) -> bool {
-            self.0 & 0x20000000 != 0
+            rt::bits32::flag(self.0, 0x20000000)
         }
         /// The same with another [`extended`](Self::extended).
         #[must_use]
         pub const fn with_extended(self, value: bool) -> Self {
-            Self((self.0 & !0x20000000) | ((value as u32) << 29))
+            Self(rt::bits32::with_flag(self.0, 0x20000000, value))
         }
         /// Bit 30: generates. The device transmits SYNC.
         pub const fn generates(self) -> bool {
-            self.0 & 0x40000000 != 0
+            rt::bits32::flag(self.0, 0x40000000)
         }
         /// The same with another [`generates`](Self::generates).
         #[must_use]
         pub const fn with_generates(self, value: bool) -> Self {
-            Self((self.0 & !0x40000000) | ((value as u32) << 30))
+            Self(rt::bits32::with_flag(self.0, 0x40000000, value))
         }
     }
     impl Default for SyncIdentifier {
@@ -5987,16 +5908,12 @@ pub mod types {
     }
     impl core::fmt::Debug for SyncIdentifier {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            let bits = rt::DebugBits::new(f, "SyncIdentifier", self.0 as u64);
-            let bits = rt::DebugBits::plain(
-                bits,
-                &[
-                    ("identifier", 0x1FFFFFFF),
-                    ("extended", 0x20000000),
-                    ("generates", 0x40000000),
-                ],
-            );
-            bits.finish()
+            rt::debug_bits(
+                f,
+                self.0 as u64,
+                "SyncIdentifier identifier:1fffffff extended:20000000 generates:40000000",
+                &[],
+            )
         }
     }
     /// EmergencyIdentifier.
@@ -6030,30 +5947,30 @@ pub mod types {
         }
         /// Bits 28 to 0: identifier.
         pub const fn identifier(self) -> u32 {
-            self.0 & 0x1FFFFFFF
+            rt::bits32::field(self.0, 0x1FFFFFFF)
         }
         /// The same with another [`identifier`](Self::identifier).
         #[must_use]
         pub const fn with_identifier(self, value: u32) -> Self {
-            Self((self.0 & !0x1FFFFFFF) | (value & 0x1FFFFFFF))
+            Self(rt::bits32::with_field(self.0, 0x1FFFFFFF, value))
         }
         /// Bit 29: extended. 1: 29-bit CAN-ID; 0: 11-bit CAN-ID.
         pub const fn extended(self) -> bool {
-            self.0 & 0x20000000 != 0
+            rt::bits32::flag(self.0, 0x20000000)
         }
         /// The same with another [`extended`](Self::extended).
         #[must_use]
         pub const fn with_extended(self, value: bool) -> Self {
-            Self((self.0 & !0x20000000) | ((value as u32) << 29))
+            Self(rt::bits32::with_flag(self.0, 0x20000000, value))
         }
         /// Bit 31: valid. Holds while the bit is 0. 0 if it is in use.
         pub const fn valid(self) -> bool {
-            self.0 & 0x80000000 == 0
+            !rt::bits32::flag(self.0, 0x80000000)
         }
         /// The same with another [`valid`](Self::valid).
         #[must_use]
         pub const fn with_valid(self, value: bool) -> Self {
-            Self((self.0 & !0x80000000) | ((!value as u32) << 31))
+            Self(rt::bits32::with_flag(self.0, 0x80000000, !value))
         }
     }
     impl Default for EmergencyIdentifier {
@@ -6075,13 +5992,12 @@ pub mod types {
     }
     impl core::fmt::Debug for EmergencyIdentifier {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            let bits = rt::DebugBits::new(f, "EmergencyIdentifier", self.0 as u64);
-            let bits = rt::DebugBits::plain(
-                bits,
-                &[("identifier", 0x1FFFFFFF), ("extended", 0x20000000)],
-            );
-            let bits = rt::DebugBits::inverted(bits, "valid", 0x80000000);
-            bits.finish()
+            rt::debug_bits(
+                f,
+                self.0 as u64,
+                "EmergencyIdentifier identifier:1fffffff extended:20000000 !valid:80000000",
+                &[],
+            )
         }
     }
     /// ReceivePdoIdentifier.
@@ -6112,30 +6028,30 @@ pub mod types {
         }
         /// Bits 28 to 0: identifier.
         pub const fn identifier(self) -> u32 {
-            self.0 & 0x1FFFFFFF
+            rt::bits32::field(self.0, 0x1FFFFFFF)
         }
         /// The same with another [`identifier`](Self::identifier).
         #[must_use]
         pub const fn with_identifier(self, value: u32) -> Self {
-            Self((self.0 & !0x1FFFFFFF) | (value & 0x1FFFFFFF))
+            Self(rt::bits32::with_field(self.0, 0x1FFFFFFF, value))
         }
         /// Bit 29: extended. 1: 29-bit CAN-ID; 0: 11-bit CAN-ID.
         pub const fn extended(self) -> bool {
-            self.0 & 0x20000000 != 0
+            rt::bits32::flag(self.0, 0x20000000)
         }
         /// The same with another [`extended`](Self::extended).
         #[must_use]
         pub const fn with_extended(self, value: bool) -> Self {
-            Self((self.0 & !0x20000000) | ((value as u32) << 29))
+            Self(rt::bits32::with_flag(self.0, 0x20000000, value))
         }
         /// Bit 31: valid. Holds while the bit is 0. 0 if the PDO is in use.
         pub const fn valid(self) -> bool {
-            self.0 & 0x80000000 == 0
+            !rt::bits32::flag(self.0, 0x80000000)
         }
         /// The same with another [`valid`](Self::valid).
         #[must_use]
         pub const fn with_valid(self, value: bool) -> Self {
-            Self((self.0 & !0x80000000) | ((!value as u32) << 31))
+            Self(rt::bits32::with_flag(self.0, 0x80000000, !value))
         }
     }
     impl Default for ReceivePdoIdentifier {
@@ -6154,13 +6070,12 @@ pub mod types {
     }
     impl core::fmt::Debug for ReceivePdoIdentifier {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            let bits = rt::DebugBits::new(f, "ReceivePdoIdentifier", self.0 as u64);
-            let bits = rt::DebugBits::plain(
-                bits,
-                &[("identifier", 0x1FFFFFFF), ("extended", 0x20000000)],
-            );
-            let bits = rt::DebugBits::inverted(bits, "valid", 0x80000000);
-            bits.finish()
+            rt::debug_bits(
+                f,
+                self.0 as u64,
+                "ReceivePdoIdentifier identifier:1fffffff extended:20000000 !valid:80000000",
+                &[],
+            )
         }
     }
     /// TransmitPdoIdentifier.
@@ -6192,39 +6107,39 @@ pub mod types {
         }
         /// Bits 28 to 0: identifier.
         pub const fn identifier(self) -> u32 {
-            self.0 & 0x1FFFFFFF
+            rt::bits32::field(self.0, 0x1FFFFFFF)
         }
         /// The same with another [`identifier`](Self::identifier).
         #[must_use]
         pub const fn with_identifier(self, value: u32) -> Self {
-            Self((self.0 & !0x1FFFFFFF) | (value & 0x1FFFFFFF))
+            Self(rt::bits32::with_field(self.0, 0x1FFFFFFF, value))
         }
         /// Bit 29: extended. 1: 29-bit CAN-ID; 0: 11-bit CAN-ID.
         pub const fn extended(self) -> bool {
-            self.0 & 0x20000000 != 0
+            rt::bits32::flag(self.0, 0x20000000)
         }
         /// The same with another [`extended`](Self::extended).
         #[must_use]
         pub const fn with_extended(self, value: bool) -> Self {
-            Self((self.0 & !0x20000000) | ((value as u32) << 29))
+            Self(rt::bits32::with_flag(self.0, 0x20000000, value))
         }
         /// Bit 30: remote request. Holds while the bit is 0. 0 if remote frames may request the PDO.
         pub const fn remote_request(self) -> bool {
-            self.0 & 0x40000000 == 0
+            !rt::bits32::flag(self.0, 0x40000000)
         }
         /// The same with another [`remote_request`](Self::remote_request).
         #[must_use]
         pub const fn with_remote_request(self, value: bool) -> Self {
-            Self((self.0 & !0x40000000) | ((!value as u32) << 30))
+            Self(rt::bits32::with_flag(self.0, 0x40000000, !value))
         }
         /// Bit 31: valid. Holds while the bit is 0. 0 if the PDO is in use.
         pub const fn valid(self) -> bool {
-            self.0 & 0x80000000 == 0
+            !rt::bits32::flag(self.0, 0x80000000)
         }
         /// The same with another [`valid`](Self::valid).
         #[must_use]
         pub const fn with_valid(self, value: bool) -> Self {
-            Self((self.0 & !0x80000000) | ((!value as u32) << 31))
+            Self(rt::bits32::with_flag(self.0, 0x80000000, !value))
         }
     }
     impl Default for TransmitPdoIdentifier {
@@ -6243,14 +6158,12 @@ pub mod types {
     }
     impl core::fmt::Debug for TransmitPdoIdentifier {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            let bits = rt::DebugBits::new(f, "TransmitPdoIdentifier", self.0 as u64);
-            let bits = rt::DebugBits::plain(
-                bits,
-                &[("identifier", 0x1FFFFFFF), ("extended", 0x20000000)],
-            );
-            let bits = rt::DebugBits::inverted(bits, "remote_request", 0x40000000);
-            let bits = rt::DebugBits::inverted(bits, "valid", 0x80000000);
-            bits.finish()
+            rt::debug_bits(
+                f,
+                self.0 as u64,
+                "TransmitPdoIdentifier identifier:1fffffff extended:20000000 !remote_request:40000000 !valid:80000000",
+                &[],
+            )
         }
     }
     /// States of drive, as [Statusword](super::objects::STATUSWORD) tells them.

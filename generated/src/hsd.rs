@@ -8799,75 +8799,75 @@ pub mod types {
         }
         /// Bit 0: software limits. 1 enables the software limits LOW\_SLIM and HIGH\_SLIM. Manual: Tabella 1 : Descrizione del significato dei bit del parametro (line 1620).
         pub const fn software_limits(self) -> bool {
-            self.0 & 0x1 != 0
+            rt::bits16::flag(self.0, 0x1)
         }
         /// The same with another [`software_limits`](Self::software_limits).
         #[must_use]
         pub const fn with_software_limits(self, value: bool) -> Self {
-            Self((self.0 & !0x1) | (value as u16))
+            Self(rt::bits16::with_flag(self.0, 0x1, value))
         }
         /// Bit 3: inverted direction. 0: positive rotation is counter-clockwise, seen from the flange; 1: it is clockwise. Manual: Tabella 1 : Descrizione del significato dei bit del parametro (line 1623).
         pub const fn inverted_direction(self) -> bool {
-            self.0 & 0x8 != 0
+            rt::bits16::flag(self.0, 0x8)
         }
         /// The same with another [`inverted_direction`](Self::inverted_direction).
         #[must_use]
         pub const fn with_inverted_direction(self, value: bool) -> Self {
-            Self((self.0 & !0x8) | ((value as u16) << 3))
+            Self(rt::bits16::with_flag(self.0, 0x8, value))
         }
         /// Bit 6: CmdReset only. 1: CmdNoReg no longer leaves the alarm state, only CmdReset does. Only of SM137 rev. C, SM140. Manual: Tabella 1 : Descrizione del significato dei bit del parametro (line 1626).
         pub const fn cmd_reset_only(self) -> bool {
-            self.0 & 0x40 != 0
+            rt::bits16::flag(self.0, 0x40)
         }
         /// The same with another [`cmd_reset_only`](Self::cmd_reset_only).
         #[must_use]
         pub const fn with_cmd_reset_only(self, value: bool) -> Self {
-            Self((self.0 & !0x40) | ((value as u16) << 6))
+            Self(rt::bits16::with_flag(self.0, 0x40, value))
         }
         /// Bit 8: negative limit cam. 1 enables the limit cam that the motor meets while the real position decreases, independent of the direction of rotation. Only of SM140. Manual: Tabella 1 : Descrizione del significato dei bit del parametro; G.2 Camme di extracorsa (lines 1628, 2248, 2250).
         pub const fn negative_limit_cam(self) -> bool {
-            self.0 & 0x100 != 0
+            rt::bits16::flag(self.0, 0x100)
         }
         /// The same with another [`negative_limit_cam`](Self::negative_limit_cam).
         #[must_use]
         pub const fn with_negative_limit_cam(self, value: bool) -> Self {
-            Self((self.0 & !0x100) | ((value as u16) << 8))
+            Self(rt::bits16::with_flag(self.0, 0x100, value))
         }
         /// Bit 9: positive limit cam. 1 enables the limit cam that the motor meets while the real position increases, independent of the direction of rotation. Only of SM140. Manual: Tabella 1 : Descrizione del significato dei bit del parametro; G.2 Camme di extracorsa (lines 1629, 2248, 2250).
         pub const fn positive_limit_cam(self) -> bool {
-            self.0 & 0x200 != 0
+            rt::bits16::flag(self.0, 0x200)
         }
         /// The same with another [`positive_limit_cam`](Self::positive_limit_cam).
         #[must_use]
         pub const fn with_positive_limit_cam(self, value: bool) -> Self {
-            Self((self.0 & !0x200) | ((value as u16) << 9))
+            Self(rt::bits16::with_flag(self.0, 0x200, value))
         }
         /// Bit 10: alarm at limit cams. 1: a limit cam leads to "alarm"; 0: to "stopped", with a ramp. A message reports the cam, and the motor then accepts only motions away from it. Only of SM140. Manual: Tabella 1 : Descrizione del significato dei bit del parametro; G.2 Camme di extracorsa (lines 1630, 2250-2254).
         pub const fn alarm_at_limit_cams(self) -> bool {
-            self.0 & 0x400 != 0
+            rt::bits16::flag(self.0, 0x400)
         }
         /// The same with another [`alarm_at_limit_cams`](Self::alarm_at_limit_cams).
         #[must_use]
         pub const fn with_alarm_at_limit_cams(self, value: bool) -> Self {
-            Self((self.0 & !0x400) | ((value as u16) << 10))
+            Self(rt::bits16::with_flag(self.0, 0x400, value))
         }
         /// Bit 11: no bus synchronisation. ENET-X only. 1: regulation is not synchronized to the bus. From firmware 119 on. Manual: Tabella 1 : Descrizione del significato dei bit del parametro (line 1631).
         pub const fn no_bus_synchronisation(self) -> bool {
-            self.0 & 0x800 != 0
+            rt::bits16::flag(self.0, 0x800)
         }
         /// The same with another [`no_bus_synchronisation`](Self::no_bus_synchronisation).
         #[must_use]
         pub const fn with_no_bus_synchronisation(self, value: bool) -> Self {
-            Self((self.0 & !0x800) | ((value as u16) << 11))
+            Self(rt::bits16::with_flag(self.0, 0x800, value))
         }
         /// Bit 12: no controlled braking. 0: after CmdEmerg, CmdNoReg or an alarm other than over-current and over-power, a turning motor brakes with AMAX before it leaves regulation; high inertia requires a braking resistor (P144). Only of SM140. From firmware 119 on. Manual: Tabella 1 : Descrizione del significato dei bit del parametro (line 1635).
         pub const fn no_controlled_braking(self) -> bool {
-            self.0 & 0x1000 != 0
+            rt::bits16::flag(self.0, 0x1000)
         }
         /// The same with another [`no_controlled_braking`](Self::no_controlled_braking).
         #[must_use]
         pub const fn with_no_controlled_braking(self, value: bool) -> Self {
-            Self((self.0 & !0x1000) | ((value as u16) << 12))
+            Self(rt::bits16::with_flag(self.0, 0x1000, value))
         }
     }
     impl Default for BitA {
@@ -8889,21 +8889,12 @@ pub mod types {
     }
     impl core::fmt::Debug for BitA {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            let bits = rt::DebugBits::new(f, "BitA", self.0 as u64);
-            let bits = rt::DebugBits::plain(
-                bits,
-                &[
-                    ("software_limits", 0x1),
-                    ("inverted_direction", 0x8),
-                    ("cmd_reset_only", 0x40),
-                    ("negative_limit_cam", 0x100),
-                    ("positive_limit_cam", 0x200),
-                    ("alarm_at_limit_cams", 0x400),
-                    ("no_bus_synchronisation", 0x800),
-                    ("no_controlled_braking", 0x1000),
-                ],
-            );
-            bits.finish()
+            rt::debug_bits(
+                f,
+                self.0 as u64,
+                "BitA software_limits:1 inverted_direction:8 cmd_reset_only:40 negative_limit_cam:100 positive_limit_cam:200 alarm_at_limit_cams:400 no_bus_synchronisation:800 no_controlled_braking:1000",
+                &[],
+            )
         }
     }
     /// InvertedInputs.
@@ -8940,30 +8931,30 @@ pub mod types {
         }
         /// Bit 0: input 1. Negative limit cam, detected while the signal is low. Manual: G.1 Introduzione; G.2 Camme di extracorsa (lines 2231, 2256).
         pub const fn input_1(self) -> bool {
-            self.0 & 0x1 != 0
+            rt::bits16::flag(self.0, 0x1)
         }
         /// The same with another [`input_1`](Self::input_1).
         #[must_use]
         pub const fn with_input_1(self, value: bool) -> Self {
-            Self((self.0 & !0x1) | (value as u16))
+            Self(rt::bits16::with_flag(self.0, 0x1, value))
         }
         /// Bit 1: input 2. Positive limit cam, detected while the signal is low. Manual: G.1 Introduzione; G.2 Camme di extracorsa (lines 2232, 2256).
         pub const fn input_2(self) -> bool {
-            self.0 & 0x2 != 0
+            rt::bits16::flag(self.0, 0x2)
         }
         /// The same with another [`input_2`](Self::input_2).
         #[must_use]
         pub const fn with_input_2(self, value: bool) -> Self {
-            Self((self.0 & !0x2) | ((value as u16) << 1))
+            Self(rt::bits16::with_flag(self.0, 0x2, value))
         }
         /// Bit 2: input 3. Homing switch, detected while the signal is high. Manual: G.1 Introduzione; G.3 Microinterruttore di azzeramento (lines 2233, 2260).
         pub const fn input_3(self) -> bool {
-            self.0 & 0x4 != 0
+            rt::bits16::flag(self.0, 0x4)
         }
         /// The same with another [`input_3`](Self::input_3).
         #[must_use]
         pub const fn with_input_3(self, value: bool) -> Self {
-            Self((self.0 & !0x4) | ((value as u16) << 2))
+            Self(rt::bits16::with_flag(self.0, 0x4, value))
         }
     }
     impl Default for InvertedInputs {
@@ -8982,12 +8973,12 @@ pub mod types {
     }
     impl core::fmt::Debug for InvertedInputs {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            let bits = rt::DebugBits::new(f, "InvertedInputs", self.0 as u64);
-            let bits = rt::DebugBits::plain(
-                bits,
-                &[("input_1", 0x1), ("input_2", 0x2), ("input_3", 0x4)],
-            );
-            bits.finish()
+            rt::debug_bits(
+                f,
+                self.0 as u64,
+                "InvertedInputs input_1:1 input_2:2 input_3:4",
+                &[],
+            )
         }
     }
     /// TestSlim.
@@ -9036,75 +9027,75 @@ pub mod types {
         }
         /// Bit 0: software limits. 1 enables the software limits LOWSLIM and HIGHSLIM. Manual: A Parametri di basso livello; Tabella 1 : Descrizione del significato dei bit del parametro (lines 1823, 1620).
         pub const fn software_limits(self) -> bool {
-            self.0 & 0x1 != 0
+            rt::bits16::flag(self.0, 0x1)
         }
         /// The same with another [`software_limits`](Self::software_limits).
         #[must_use]
         pub const fn with_software_limits(self, value: bool) -> Self {
-            Self((self.0 & !0x1) | (value as u16))
+            Self(rt::bits16::with_flag(self.0, 0x1, value))
         }
         /// Bit 3: inverted direction. As in BIT\_A. Manual: A Parametri di basso livello; Tabella 1 : Descrizione del significato dei bit del parametro (lines 1823, 1623).
         pub const fn inverted_direction(self) -> bool {
-            self.0 & 0x8 != 0
+            rt::bits16::flag(self.0, 0x8)
         }
         /// The same with another [`inverted_direction`](Self::inverted_direction).
         #[must_use]
         pub const fn with_inverted_direction(self, value: bool) -> Self {
-            Self((self.0 & !0x8) | ((value as u16) << 3))
+            Self(rt::bits16::with_flag(self.0, 0x8, value))
         }
         /// Bit 6: CmdReset only. As in BIT\_A. Only of SM137 rev. C, SM140. Manual: Tabella 1 : Descrizione del significato dei bit del parametro (line 1626).
         pub const fn cmd_reset_only(self) -> bool {
-            self.0 & 0x40 != 0
+            rt::bits16::flag(self.0, 0x40)
         }
         /// The same with another [`cmd_reset_only`](Self::cmd_reset_only).
         #[must_use]
         pub const fn with_cmd_reset_only(self, value: bool) -> Self {
-            Self((self.0 & !0x40) | ((value as u16) << 6))
+            Self(rt::bits16::with_flag(self.0, 0x40, value))
         }
         /// Bit 8: negative limit cam. As in BIT\_A. Only of SM140. Manual: Tabella 1 : Descrizione del significato dei bit del parametro (line 1628).
         pub const fn negative_limit_cam(self) -> bool {
-            self.0 & 0x100 != 0
+            rt::bits16::flag(self.0, 0x100)
         }
         /// The same with another [`negative_limit_cam`](Self::negative_limit_cam).
         #[must_use]
         pub const fn with_negative_limit_cam(self, value: bool) -> Self {
-            Self((self.0 & !0x100) | ((value as u16) << 8))
+            Self(rt::bits16::with_flag(self.0, 0x100, value))
         }
         /// Bit 9: positive limit cam. As in BIT\_A. Only of SM140. Manual: Tabella 1 : Descrizione del significato dei bit del parametro (line 1629).
         pub const fn positive_limit_cam(self) -> bool {
-            self.0 & 0x200 != 0
+            rt::bits16::flag(self.0, 0x200)
         }
         /// The same with another [`positive_limit_cam`](Self::positive_limit_cam).
         #[must_use]
         pub const fn with_positive_limit_cam(self, value: bool) -> Self {
-            Self((self.0 & !0x200) | ((value as u16) << 9))
+            Self(rt::bits16::with_flag(self.0, 0x200, value))
         }
         /// Bit 10: alarm at limit cams. As in BIT\_A. Only of SM140. Manual: Tabella 1 : Descrizione del significato dei bit del parametro (line 1630).
         pub const fn alarm_at_limit_cams(self) -> bool {
-            self.0 & 0x400 != 0
+            rt::bits16::flag(self.0, 0x400)
         }
         /// The same with another [`alarm_at_limit_cams`](Self::alarm_at_limit_cams).
         #[must_use]
         pub const fn with_alarm_at_limit_cams(self, value: bool) -> Self {
-            Self((self.0 & !0x400) | ((value as u16) << 10))
+            Self(rt::bits16::with_flag(self.0, 0x400, value))
         }
         /// Bit 11: no bus synchronisation. As in BIT\_A. From firmware 119 on. Manual: Tabella 1 : Descrizione del significato dei bit del parametro (line 1631).
         pub const fn no_bus_synchronisation(self) -> bool {
-            self.0 & 0x800 != 0
+            rt::bits16::flag(self.0, 0x800)
         }
         /// The same with another [`no_bus_synchronisation`](Self::no_bus_synchronisation).
         #[must_use]
         pub const fn with_no_bus_synchronisation(self, value: bool) -> Self {
-            Self((self.0 & !0x800) | ((value as u16) << 11))
+            Self(rt::bits16::with_flag(self.0, 0x800, value))
         }
         /// Bit 12: no controlled braking. As in BIT\_A. Only of SM140. From firmware 119 on. Manual: Tabella 1 : Descrizione del significato dei bit del parametro (line 1635).
         pub const fn no_controlled_braking(self) -> bool {
-            self.0 & 0x1000 != 0
+            rt::bits16::flag(self.0, 0x1000)
         }
         /// The same with another [`no_controlled_braking`](Self::no_controlled_braking).
         #[must_use]
         pub const fn with_no_controlled_braking(self, value: bool) -> Self {
-            Self((self.0 & !0x1000) | ((value as u16) << 12))
+            Self(rt::bits16::with_flag(self.0, 0x1000, value))
         }
     }
     impl Default for TestSlim {
@@ -9126,21 +9117,12 @@ pub mod types {
     }
     impl core::fmt::Debug for TestSlim {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            let bits = rt::DebugBits::new(f, "TestSlim", self.0 as u64);
-            let bits = rt::DebugBits::plain(
-                bits,
-                &[
-                    ("software_limits", 0x1),
-                    ("inverted_direction", 0x8),
-                    ("cmd_reset_only", 0x40),
-                    ("negative_limit_cam", 0x100),
-                    ("positive_limit_cam", 0x200),
-                    ("alarm_at_limit_cams", 0x400),
-                    ("no_bus_synchronisation", 0x800),
-                    ("no_controlled_braking", 0x1000),
-                ],
-            );
-            bits.finish()
+            rt::debug_bits(
+                f,
+                self.0 as u64,
+                "TestSlim software_limits:1 inverted_direction:8 cmd_reset_only:40 negative_limit_cam:100 positive_limit_cam:200 alarm_at_limit_cams:400 no_bus_synchronisation:800 no_controlled_braking:1000",
+                &[],
+            )
         }
     }
     /// BitStato.
@@ -9180,39 +9162,39 @@ pub mod types {
         }
         /// Bit 0: position not selected. The reply to the null request is not the real position. Manual: E BitStato (line 2205): MASKBITNOQUOTA\_SM.
         pub const fn position_not_selected(self) -> bool {
-            self.0 & 0x1 != 0
+            rt::bits8::flag(self.0, 0x1)
         }
         /// The same with another [`position_not_selected`](Self::position_not_selected).
         #[must_use]
         pub const fn with_position_not_selected(self, value: bool) -> Self {
-            Self((self.0 & !0x1) | (value as u8))
+            Self(rt::bits8::with_flag(self.0, 0x1, value))
         }
         /// Bit 1: command complete. 0 while the last command, such as homing or positioning, is in progress. Manual: E BitStato (line 2204): MASKBITCOMANDO\_SM.
         pub const fn command_complete(self) -> bool {
-            self.0 & 0x2 != 0
+            rt::bits8::flag(self.0, 0x2)
         }
         /// The same with another [`command_complete`](Self::command_complete).
         #[must_use]
         pub const fn with_command_complete(self, value: bool) -> Self {
-            Self((self.0 & !0x2) | ((value as u8) << 1))
+            Self(rt::bits8::with_flag(self.0, 0x2, value))
         }
         /// Bit 2: message pending. A message is pending: read it with CmdGetAlarm. Manual: E BitStato (line 2203): MASKBITWARNING\_SM.
         pub const fn message_pending(self) -> bool {
-            self.0 & 0x4 != 0
+            rt::bits8::flag(self.0, 0x4)
         }
         /// The same with another [`message_pending`](Self::message_pending).
         #[must_use]
         pub const fn with_message_pending(self, value: bool) -> Self {
-            Self((self.0 & !0x4) | ((value as u8) << 2))
+            Self(rt::bits8::with_flag(self.0, 0x4, value))
         }
         /// Bit 3: alarm. The motor is in alarm. Manual: E BitStato (line 2202): MASKBITALLARME\_SM.
         pub const fn alarm(self) -> bool {
-            self.0 & 0x8 != 0
+            rt::bits8::flag(self.0, 0x8)
         }
         /// The same with another [`alarm`](Self::alarm).
         #[must_use]
         pub const fn with_alarm(self, value: bool) -> Self {
-            Self((self.0 & !0x8) | ((value as u8) << 3))
+            Self(rt::bits8::with_flag(self.0, 0x8, value))
         }
     }
     impl Default for BitStato {
@@ -9231,17 +9213,12 @@ pub mod types {
     }
     impl core::fmt::Debug for BitStato {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            let bits = rt::DebugBits::new(f, "BitStato", self.0 as u64);
-            let bits = rt::DebugBits::plain(
-                bits,
-                &[
-                    ("position_not_selected", 0x1),
-                    ("command_complete", 0x2),
-                    ("message_pending", 0x4),
-                    ("alarm", 0x8),
-                ],
-            );
-            bits.finish()
+            rt::debug_bits(
+                f,
+                self.0 as u64,
+                "BitStato position_not_selected:1 command_complete:2 message_pending:4 alarm:8",
+                &[],
+            )
         }
     }
     /// States of interpolation.

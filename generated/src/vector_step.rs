@@ -6330,6 +6330,8 @@ pub mod types {
     /// | Value | Name | Meaning |
     /// |---|---|---|
     /// | 0 | [`SynchronousAcyclic`](Self::SynchronousAcyclic) | On SYNC, but not periodically. |
+    /// | 1 to 240 | [`Unknown`](Self::Unknown) | synchronous cyclic. On every n-th SYNC; n is the value. |
+    /// | 241 to 251 | [`Unknown`](Self::Unknown) | reserved. Must not be used. |
     /// | 252 | [`SynchronousOnRequest`](Self::SynchronousOnRequest) | Sent on a remote request only, with data sampled at the SYNC. |
     /// | 253 | [`AsynchronousOnRequest`](Self::AsynchronousOnRequest) | Sent on a remote request only, with data sampled at the request. |
     /// | 254 | [`EventTriggered254`](Self::EventTriggered254) | Asynchronous: on events, and when the event timer expires. |
@@ -6542,6 +6544,7 @@ pub mod types {
     ///
     /// | Value | Name | Meaning |
     /// |---|---|---|
+    /// | -32768 to -1 | [`Unknown`](Self::Unknown) | manufacturer specific. Left to the vendor. |
     /// | 0 | [`DisableDrive`](Self::DisableDrive) |  |
     /// | 1 | [`SlowDownRampThenDisabled`](Self::SlowDownRampThenDisabled) | slow down ramp, then disabled. Slows down on the deceleration ramp and goes to switch on disabled. |
     /// | 2 | [`QuickStopRampThenDisabled`](Self::QuickStopRampThenDisabled) | quick stop ramp, then disabled. Slows down on the quick stop ramp and goes to switch on disabled. |
@@ -6551,6 +6554,7 @@ pub mod types {
     /// | 6 | [`QuickStopRampThenQuickStop`](Self::QuickStopRampThenQuickStop) | quick stop ramp, then quick stop. Slows down on the quick stop ramp and stays in quick stop active. |
     /// | 7 | [`Reserved7`](Self::Reserved7) |  |
     /// | 8 | [`Reserved8`](Self::Reserved8) |  |
+    /// | 9 to 32767 | [`Unknown`](Self::Unknown) | reserved from 9. Must not be used. |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum QuickStopOptionCode {
         /// 0: disable drive. Manual: QUICK STOP OPTION CODE (line 1370): Disable drive function.
@@ -6623,8 +6627,10 @@ pub mod types {
     ///
     /// | Value | Name | Meaning |
     /// |---|---|---|
+    /// | -32768 to -1 | [`Unknown`](Self::Unknown) | manufacturer specific. Left to the vendor. |
     /// | 0 | [`DisableDrive`](Self::DisableDrive) |  |
     /// | 1 | [`SlowDownRamp`](Self::SlowDownRamp) | Slows down on the deceleration ramp. |
+    /// | 2 to 32767 | [`Unknown`](Self::Unknown) | reserved. Must not be used. |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum ShutdownOptionCode {
         /// 0: disable drive. Manual: SHUTDOWN OPTION CODE (line 1393): Disable drive function.
@@ -6669,8 +6675,10 @@ pub mod types {
     ///
     /// | Value | Name | Meaning |
     /// |---|---|---|
+    /// | -32768 to -1 | [`Unknown`](Self::Unknown) | manufacturer specific. Left to the vendor. |
     /// | 0 | [`DisableDrive`](Self::DisableDrive) |  |
     /// | 1 | [`SlowDownRamp`](Self::SlowDownRamp) | Slows down on the deceleration ramp. |
+    /// | 2 to 32767 | [`Unknown`](Self::Unknown) | reserved. Must not be used. |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum DisableOperationOptionCode {
         /// 0: disable drive. Manual: DISABLE OPERATION OPTION CODE (line 1409): Disable drive function.
@@ -6715,9 +6723,11 @@ pub mod types {
     ///
     /// | Value | Name | Meaning |
     /// |---|---|---|
+    /// | -32768 to -1 | [`Unknown`](Self::Unknown) | manufacturer specific. Left to the vendor. |
     /// | 0 | [`DisableDrive`](Self::DisableDrive) |  |
     /// | 1 | [`SlowDownRamp`](Self::SlowDownRamp) | Slows down on the deceleration ramp. |
     /// | 2 | [`QuickStopRamp`](Self::QuickStopRamp) | Slows down on the quick stop ramp. |
+    /// | 3 to 32767 | [`Unknown`](Self::Unknown) | reserved. Must not be used. |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum StopOptionCode {
         /// 0: disable drive. Manual: STOP OPTION CODE (line 1427): Disable drive function.
@@ -6766,9 +6776,11 @@ pub mod types {
     ///
     /// | Value | Name | Meaning |
     /// |---|---|---|
+    /// | -32768 to -1 | [`Unknown`](Self::Unknown) | manufacturer specific. Left to the vendor. |
     /// | 0 | [`DisableDrive`](Self::DisableDrive) |  |
     /// | 1 | [`SlowDownRamp`](Self::SlowDownRamp) | Slows down on the deceleration ramp. |
     /// | 2 | [`QuickStopRamp`](Self::QuickStopRamp) | Slows down on the quick stop ramp. |
+    /// | 3 to 32767 | [`Unknown`](Self::Unknown) | reserved. Must not be used. |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum FaultReactionOptionCode {
         /// 0: disable drive. Manual: FAULT REACTION OPTION CODE (line 1446): Disable drive function.
@@ -6821,13 +6833,16 @@ pub mod types {
     ///
     /// | Value | Name | Meaning |
     /// |---|---|---|
+    /// | -128 to -2 | [`Unknown`](Self::Unknown) | reserved below -1. Must not be used. |
     /// | -1 | [`AecVelocity`](Self::AecVelocity) | Jog at a velocity. |
     /// | 0 | [`Reserved0`](Self::Reserved0) |  |
     /// | 1 | [`ProfilePosition`](Self::ProfilePosition) |  |
+    /// | 2 to 5 | [`Unknown`](Self::Unknown) | reserved 2 to 5. Must not be used. |
     /// | 6 | [`Homing`](Self::Homing) |  |
     /// | 7 | [`InterpolatedPosition`](Self::InterpolatedPosition) |  |
     /// | 8 | [`CyclicSynchronousPosition`](Self::CyclicSynchronousPosition) |  |
     /// | 9 | [`CyclicSynchronousVelocity`](Self::CyclicSynchronousVelocity) |  |
+    /// | 10 to 127 | [`Unknown`](Self::Unknown) | reserved from 10. Must not be used. |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum ModesOfOperation {
         /// -1: AEC velocity. Jog at a velocity. Manual: MODES OF OPERATION; MODES OF OPERATION DISPLAY (lines 1463, 1489): AEC Velocity mode (JOG).
@@ -6894,6 +6909,7 @@ pub mod types {
     ///
     /// | Value | Name | Meaning |
     /// |---|---|---|
+    /// | -32768 to -11 | [`Unknown`](Self::Unknown) | reserved below -10. Must not be used. |
     /// | -10 | [`PureSRamp`](Self::PureSRamp) | Phases 2 and 6 last 0 %. |
     /// | -9 | [`SRamp10PercentLinear`](Self::SRamp10PercentLinear) | S ramp, 10 percent linear. Phases 2 and 6 last 10 %. |
     /// | -8 | [`SRamp20PercentLinear`](Self::SRamp20PercentLinear) | S ramp, 20 percent linear. Phases 2 and 6 last 20 %. |
@@ -6908,6 +6924,7 @@ pub mod types {
     /// | 1 | [`NotUsed1`](Self::NotUsed1) |  |
     /// | 2 | [`NotUsed2`](Self::NotUsed2) |  |
     /// | 3 | [`NotUsed3`](Self::NotUsed3) |  |
+    /// | 4 to 32767 | [`Unknown`](Self::Unknown) | reserved from 4. Must not be used. |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum MotionProfileType {
         /// -10: pure S ramp. Phases 2 and 6 last 0 %. Manual: MOTION PROFILE TYPE (line 1597): Rampa ad S pura.
@@ -7853,9 +7870,11 @@ pub mod types {
     ///
     /// Values of [`INTERPOLATION_SUBMODE_SELECT`](super::objects::INTERPOLATION_SUBMODE_SELECT).
     ///
-    /// | Value | Name |
-    /// |---|---|
-    /// | 0 | [`Linear`](Self::Linear) |
+    /// | Value | Name | Meaning |
+    /// |---|---|---|
+    /// | -32768 to -1 | [`Unknown`](Self::Unknown) | reserved below 0. Must not be used. |
+    /// | 0 | [`Linear`](Self::Linear) |  |
+    /// | 1 to 32767 | [`Unknown`](Self::Unknown) | reserved from 1. Must not be used. |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum InterpolationSubmode {
         /// 0: linear. Manual: INTERPOLATION SUBMODE SELECT (line 1814): Interpolazione lineare.
@@ -7900,6 +7919,7 @@ pub mod types {
     /// |---|---|---|
     /// | 0 | [`Clear`](Self::Clear) | Clears the buffer and disables access to it. |
     /// | 1 | [`EnableAccess`](Self::EnableAccess) |  |
+    /// | 2 to 255 | [`Unknown`](Self::Unknown) | reserved. Must not be used. |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum BufferClear {
         /// 0: clear. Clears the buffer and disables access to it. Manual: INTERPOLATION DATA CONFIGURATION (line 1940): Cancello il buffer.
@@ -8632,10 +8652,11 @@ pub mod types {
     ///
     /// Values of [`RDEFINPBLS`](super::objects::RDEFINPBLS), [`RDEFINPFLS`](super::objects::RDEFINPFLS).
     ///
-    /// | Value | Name |
-    /// |---|---|
-    /// | 255 | [`StandardInput`](Self::StandardInput) |
-    /// | 254 | [`Disabled`](Self::Disabled) |
+    /// | Value | Name | Meaning |
+    /// |---|---|---|
+    /// | 0 to 15 | [`Unknown`](Self::Unknown) | digital input. Number of the digital input, if it has no specific function. |
+    /// | 254 | [`Disabled`](Self::Disabled) |  |
+    /// | 255 | [`StandardInput`](Self::StandardInput) |  |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum LimitSwitchInput {
         /// 255: standard input. Manual: Ingresso standard.
@@ -13508,13 +13529,16 @@ pub mod types {
     ///
     /// | Value | Name | Meaning |
     /// |---|---|---|
+    /// | -128 to -2 | [`Unknown`](Self::Unknown) | reserved below -1. Must not be used. |
     /// | -1 | [`AecVelocity`](Self::AecVelocity) | Jog at a velocity. |
     /// | 0 | [`Reserved0`](Self::Reserved0) |  |
     /// | 1 | [`ProfilePosition`](Self::ProfilePosition) |  |
+    /// | 2 to 5 | [`Unknown`](Self::Unknown) | reserved 2 to 5. Must not be used. |
     /// | 6 | [`Homing`](Self::Homing) |  |
     /// | 7 | [`InterpolatedPosition`](Self::InterpolatedPosition) |  |
     /// | 8 | [`CyclicSynchronousPosition`](Self::CyclicSynchronousPosition) |  |
     /// | 9 | [`CyclicSynchronousVelocity`](Self::CyclicSynchronousVelocity) |  |
+    /// | 10 to 127 | [`Unknown`](Self::Unknown) | reserved from 10. Must not be used. |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum ModesOfOperationI16 {
         /// -1: AEC velocity. Jog at a velocity. Manual: MODES OF OPERATION; MODES OF OPERATION DISPLAY (lines 1463, 1489): AEC Velocity mode (JOG).
@@ -15437,30 +15461,30 @@ pub mod types {
         }
         /// Bits 15 to 0: device profile number. 402 for DSP-402. Manual: DEVICE TYPE (line 626): Device Profile Number.
         pub const fn device_profile_number(self) -> u16 {
-            (self.0 & 0xFFFF) as u16
+            rt::bits32::field(self.0, 0xFFFF) as u16
         }
         /// The same with another [`device_profile_number`](Self::device_profile_number).
         #[must_use]
         pub const fn with_device_profile_number(self, value: u16) -> Self {
-            Self((self.0 & !0xFFFF) | (value as u32))
+            Self(rt::bits32::with_field(self.0, 0xFFFF, value as u32))
         }
         /// Bits 23 to 16: drive type. Drive type, one bit per type. Manual: DEVICE TYPE (line 627): Drive Type bit encoding.
         pub const fn drive_type(self) -> DeviceTypeDriveType {
-            DeviceTypeDriveType::from_raw(((self.0 >> 16) & 0xFF) as u8)
+            DeviceTypeDriveType::from_raw(rt::bits32::field(self.0, 0xFF0000) as u8)
         }
         /// The same with another [`drive_type`](Self::drive_type).
         #[must_use]
         pub const fn with_drive_type(self, value: DeviceTypeDriveType) -> Self {
-            Self((self.0 & !0xFF0000) | ((value.raw() as u32) << 16))
+            Self(rt::bits32::with_field(self.0, 0xFF0000, value.raw() as u32))
         }
         /// Bits 31 to 24: manufacturer specific. 0 on these drives. Manual: DEVICE TYPE (line 628): Manufacturer Specific.
         pub const fn manufacturer_specific(self) -> u8 {
-            ((self.0 >> 24) & 0xFF) as u8
+            rt::bits32::field(self.0, 0xFF000000) as u8
         }
         /// The same with another [`manufacturer_specific`](Self::manufacturer_specific).
         #[must_use]
         pub const fn with_manufacturer_specific(self, value: u8) -> Self {
-            Self((self.0 & !0xFF000000) | ((value as u32) << 24))
+            Self(rt::bits32::with_field(self.0, 0xFF000000, value as u32))
         }
     }
     impl Default for DeviceType {
@@ -15479,19 +15503,12 @@ pub mod types {
     }
     impl core::fmt::Debug for DeviceType {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            let bits = rt::DebugBits::new(f, "DeviceType", self.0 as u64);
-            let bits = rt::DebugBits::plain(bits, &[("device_profile_number", 0xFFFF)]);
-            let bits = rt::DebugBits::field(
-                bits,
-                "drive_type",
-                0xFF0000,
-                &self.drive_type(),
-            );
-            let bits = rt::DebugBits::plain(
-                bits,
-                &[("manufacturer_specific", 0xFF000000)],
-            );
-            bits.finish()
+            rt::debug_bits(
+                f,
+                self.0 as u64,
+                "DeviceType device_profile_number:ffff ?drive_type:ff0000 manufacturer_specific:ff000000",
+                &[&self.drive_type()],
+            )
         }
     }
     /// ErrorRegister.
@@ -15529,30 +15546,30 @@ pub mod types {
         }
         /// Bit 0: generic error. Manual: ERROR REGISTER (line 641): Errore generico.
         pub const fn generic_error(self) -> bool {
-            self.0 & 0x1 != 0
+            rt::bits8::flag(self.0, 0x1)
         }
         /// The same with another [`generic_error`](Self::generic_error).
         #[must_use]
         pub const fn with_generic_error(self, value: bool) -> Self {
-            Self((self.0 & !0x1) | (value as u8))
+            Self(rt::bits8::with_flag(self.0, 0x1, value))
         }
         /// Bit 4: communication error. Overrun or error state of the bus. Manual: ERROR REGISTER (line 645): Communication error (overrun, error state).
         pub const fn communication_error(self) -> bool {
-            self.0 & 0x10 != 0
+            rt::bits8::flag(self.0, 0x10)
         }
         /// The same with another [`communication_error`](Self::communication_error).
         #[must_use]
         pub const fn with_communication_error(self, value: bool) -> Self {
-            Self((self.0 & !0x10) | ((value as u8) << 4))
+            Self(rt::bits8::with_flag(self.0, 0x10, value))
         }
         /// Bit 5: device profile error. Manual: ERROR REGISTER (line 646): Device Profile error.
         pub const fn device_profile_error(self) -> bool {
-            self.0 & 0x20 != 0
+            rt::bits8::flag(self.0, 0x20)
         }
         /// The same with another [`device_profile_error`](Self::device_profile_error).
         #[must_use]
         pub const fn with_device_profile_error(self, value: bool) -> Self {
-            Self((self.0 & !0x20) | ((value as u8) << 5))
+            Self(rt::bits8::with_flag(self.0, 0x20, value))
         }
     }
     impl Default for ErrorRegister {
@@ -15574,16 +15591,12 @@ pub mod types {
     }
     impl core::fmt::Debug for ErrorRegister {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            let bits = rt::DebugBits::new(f, "ErrorRegister", self.0 as u64);
-            let bits = rt::DebugBits::plain(
-                bits,
-                &[
-                    ("generic_error", 0x1),
-                    ("communication_error", 0x10),
-                    ("device_profile_error", 0x20),
-                ],
-            );
-            bits.finish()
+            rt::debug_bits(
+                f,
+                self.0 as u64,
+                "ErrorRegister generic_error:1 communication_error:10 device_profile_error:20",
+                &[],
+            )
         }
     }
     /// CobIdSync.
@@ -15616,39 +15629,41 @@ pub mod types {
         }
         /// Bits 10 to 0: identifier. Manual: COB-ID SYNC MESSAGE (line 725): SYNC COB-ID.
         pub const fn identifier(self) -> u16 {
-            (self.0 & 0x7FF) as u16
+            rt::bits32::field(self.0, 0x7FF) as u16
         }
         /// The same with another [`identifier`](Self::identifier).
         #[must_use]
         pub const fn with_identifier(self, value: u16) -> Self {
-            Self((self.0 & !0x7FF) | ((value as u32) & 0x7FF))
+            Self(rt::bits32::with_field(self.0, 0x7FF, value as u32))
         }
         /// Bits 28 to 11: extended identifier. Upper bits of a 29-bit identifier; ignored while bit 29 is 0. Manual: COB-ID SYNC MESSAGE (lines 723-724).
         pub const fn extended_identifier(self) -> u32 {
-            (self.0 >> 11) & 0x3FFFF
+            rt::bits32::field(self.0, 0x1FFFF800)
         }
         /// The same with another [`extended_identifier`](Self::extended_identifier).
         #[must_use]
         pub const fn with_extended_identifier(self, value: u32) -> Self {
-            Self((self.0 & !0x1FFFF800) | ((value << 11) & 0x1FFFF800))
+            Self(rt::bits32::with_field(self.0, 0x1FFFF800, value))
         }
         /// Bit 29: frame format. 11-bit (CAN 2.0A) or 29-bit (CAN 2.0B) identifier; a change is rejected. Manual: COB-ID SYNC MESSAGE (lines 721-722): 11-bit ID / 29-bit ID.
         pub const fn frame_format(self) -> CobIdSyncFrameFormat {
-            CobIdSyncFrameFormat::from_raw(((self.0 >> 29) & 0x1) as u8)
+            CobIdSyncFrameFormat::from_raw(rt::bits32::field(self.0, 0x20000000) as u8)
         }
         /// The same with another [`frame_format`](Self::frame_format).
         #[must_use]
         pub const fn with_frame_format(self, value: CobIdSyncFrameFormat) -> Self {
-            Self((self.0 & !0x20000000) | (((value.raw() as u32) << 29) & 0x20000000))
+            Self(rt::bits32::with_field(self.0, 0x20000000, value.raw() as u32))
         }
         /// Bit 30: SYNC production. 1: the device produces the SYNC message; a change is rejected. Manual: COB-ID SYNC MESSAGE (lines 719-720): Il dispositivo genera il messaggio SYNC.
         pub const fn sync_production(self) -> CobIdSyncSyncProduction {
-            CobIdSyncSyncProduction::from_raw(((self.0 >> 30) & 0x1) as u8)
+            CobIdSyncSyncProduction::from_raw(
+                rt::bits32::field(self.0, 0x40000000) as u8,
+            )
         }
         /// The same with another [`sync_production`](Self::sync_production).
         #[must_use]
         pub const fn with_sync_production(self, value: CobIdSyncSyncProduction) -> Self {
-            Self((self.0 & !0x40000000) | (((value.raw() as u32) << 30) & 0x40000000))
+            Self(rt::bits32::with_field(self.0, 0x40000000, value.raw() as u32))
         }
     }
     impl Default for CobIdSync {
@@ -15667,24 +15682,12 @@ pub mod types {
     }
     impl core::fmt::Debug for CobIdSync {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            let bits = rt::DebugBits::new(f, "CobIdSync", self.0 as u64);
-            let bits = rt::DebugBits::plain(
-                bits,
-                &[("identifier", 0x7FF), ("extended_identifier", 0x1FFFF800)],
-            );
-            let bits = rt::DebugBits::field(
-                bits,
-                "frame_format",
-                0x20000000,
-                &self.frame_format(),
-            );
-            let bits = rt::DebugBits::field(
-                bits,
-                "sync_production",
-                0x40000000,
-                &self.sync_production(),
-            );
-            bits.finish()
+            rt::debug_bits(
+                f,
+                self.0 as u64,
+                "CobIdSync identifier:7ff extended_identifier:1ffff800 ?frame_format:20000000 ?sync_production:40000000",
+                &[&self.frame_format(), &self.sync_production()],
+            )
         }
     }
     /// CobIdEmergency.
@@ -15716,30 +15719,32 @@ pub mod types {
         }
         /// Bits 10 to 0: identifier. Manual: COB-ID EMERGENCY MESSAGE (line 813): EMCY COB-ID.
         pub const fn identifier(self) -> u16 {
-            (self.0 & 0x7FF) as u16
+            rt::bits32::field(self.0, 0x7FF) as u16
         }
         /// The same with another [`identifier`](Self::identifier).
         #[must_use]
         pub const fn with_identifier(self, value: u16) -> Self {
-            Self((self.0 & !0x7FF) | ((value as u32) & 0x7FF))
+            Self(rt::bits32::with_field(self.0, 0x7FF, value as u32))
         }
         /// Bits 28 to 11: extended identifier. Upper bits of a 29-bit identifier; ignored while bit 29 is 0. Manual: COB-ID EMERGENCY MESSAGE (lines 811-812).
         pub const fn extended_identifier(self) -> u32 {
-            (self.0 >> 11) & 0x3FFFF
+            rt::bits32::field(self.0, 0x1FFFF800)
         }
         /// The same with another [`extended_identifier`](Self::extended_identifier).
         #[must_use]
         pub const fn with_extended_identifier(self, value: u32) -> Self {
-            Self((self.0 & !0x1FFFF800) | ((value << 11) & 0x1FFFF800))
+            Self(rt::bits32::with_field(self.0, 0x1FFFF800, value))
         }
         /// Bit 29: frame format. 11-bit (CAN 2.0A) or 29-bit (CAN 2.0B) identifier; a change is rejected. Manual: COB-ID EMERGENCY MESSAGE (lines 809-810): 11-bit ID / 29-bit ID.
         pub const fn frame_format(self) -> CobIdEmergencyFrameFormat {
-            CobIdEmergencyFrameFormat::from_raw(((self.0 >> 29) & 0x1) as u8)
+            CobIdEmergencyFrameFormat::from_raw(
+                rt::bits32::field(self.0, 0x20000000) as u8,
+            )
         }
         /// The same with another [`frame_format`](Self::frame_format).
         #[must_use]
         pub const fn with_frame_format(self, value: CobIdEmergencyFrameFormat) -> Self {
-            Self((self.0 & !0x20000000) | (((value.raw() as u32) << 29) & 0x20000000))
+            Self(rt::bits32::with_field(self.0, 0x20000000, value.raw() as u32))
         }
     }
     impl Default for CobIdEmergency {
@@ -15758,18 +15763,12 @@ pub mod types {
     }
     impl core::fmt::Debug for CobIdEmergency {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            let bits = rt::DebugBits::new(f, "CobIdEmergency", self.0 as u64);
-            let bits = rt::DebugBits::plain(
-                bits,
-                &[("identifier", 0x7FF), ("extended_identifier", 0x1FFFF800)],
-            );
-            let bits = rt::DebugBits::field(
-                bits,
-                "frame_format",
-                0x20000000,
-                &self.frame_format(),
-            );
-            bits.finish()
+            rt::debug_bits(
+                f,
+                self.0 as u64,
+                "CobIdEmergency identifier:7ff extended_identifier:1ffff800 ?frame_format:20000000",
+                &[&self.frame_format()],
+            )
         }
     }
     /// ConsumerHeartbeat.
@@ -15802,21 +15801,21 @@ pub mod types {
         }
         /// Bits 15 to 0: heartbeat time. In ms; 0 switches it off. Manual: CONSUMER HEARTBEAT TIME (line 858): Heart beat time.
         pub const fn heartbeat_time(self) -> u16 {
-            (self.0 & 0xFFFF) as u16
+            rt::bits32::field(self.0, 0xFFFF) as u16
         }
         /// The same with another [`heartbeat_time`](Self::heartbeat_time).
         #[must_use]
         pub const fn with_heartbeat_time(self, value: u16) -> Self {
-            Self((self.0 & !0xFFFF) | (value as u32))
+            Self(rt::bits32::with_field(self.0, 0xFFFF, value as u32))
         }
         /// Bits 23 to 16: node id. Manual: CONSUMER HEARTBEAT TIME (line 857): Node-ID.
         pub const fn node_id(self) -> u8 {
-            ((self.0 >> 16) & 0xFF) as u8
+            rt::bits32::field(self.0, 0xFF0000) as u8
         }
         /// The same with another [`node_id`](Self::node_id).
         #[must_use]
         pub const fn with_node_id(self, value: u8) -> Self {
-            Self((self.0 & !0xFF0000) | ((value as u32) << 16))
+            Self(rt::bits32::with_field(self.0, 0xFF0000, value as u32))
         }
     }
     impl Default for ConsumerHeartbeat {
@@ -15838,12 +15837,12 @@ pub mod types {
     }
     impl core::fmt::Debug for ConsumerHeartbeat {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            let bits = rt::DebugBits::new(f, "ConsumerHeartbeat", self.0 as u64);
-            let bits = rt::DebugBits::plain(
-                bits,
-                &[("heartbeat_time", 0xFFFF), ("node_id", 0xFF0000)],
-            );
-            bits.finish()
+            rt::debug_bits(
+                f,
+                self.0 as u64,
+                "ConsumerHeartbeat heartbeat_time:ffff node_id:ff0000",
+                &[],
+            )
         }
     }
     /// RevisionNumber.
@@ -15873,21 +15872,21 @@ pub mod types {
         }
         /// Bits 15 to 0: minor. Incremented by firmware changes without effect on the object dictionary. Manual: IDENTITY OBJECT (line 874).
         pub const fn minor(self) -> u16 {
-            (self.0 & 0xFFFF) as u16
+            rt::bits32::field(self.0, 0xFFFF) as u16
         }
         /// The same with another [`minor`](Self::minor).
         #[must_use]
         pub const fn with_minor(self, value: u16) -> Self {
-            Self((self.0 & !0xFFFF) | (value as u32))
+            Self(rt::bits32::with_field(self.0, 0xFFFF, value as u32))
         }
         /// Bits 31 to 16: major. Incremented when CANopen functions are added. Manual: IDENTITY OBJECT (line 874).
         pub const fn major(self) -> u16 {
-            ((self.0 >> 16) & 0xFFFF) as u16
+            rt::bits32::field(self.0, 0xFFFF0000) as u16
         }
         /// The same with another [`major`](Self::major).
         #[must_use]
         pub const fn with_major(self, value: u16) -> Self {
-            Self((self.0 & !0xFFFF0000) | ((value as u32) << 16))
+            Self(rt::bits32::with_field(self.0, 0xFFFF0000, value as u32))
         }
     }
     impl Default for RevisionNumber {
@@ -15906,12 +15905,12 @@ pub mod types {
     }
     impl core::fmt::Debug for RevisionNumber {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            let bits = rt::DebugBits::new(f, "RevisionNumber", self.0 as u64);
-            let bits = rt::DebugBits::plain(
-                bits,
-                &[("minor", 0xFFFF), ("major", 0xFFFF0000)],
-            );
-            bits.finish()
+            rt::debug_bits(
+                f,
+                self.0 as u64,
+                "RevisionNumber minor:ffff major:ffff0000",
+                &[],
+            )
         }
     }
     /// CobIdPdo.
@@ -15944,48 +15943,48 @@ pub mod types {
         }
         /// Bits 10 to 0: identifier. Manual: RxPDO COMMUNICATION PARAMETERS; TxPDO COMMUNICATION PARAMETERS (lines 985, 1095): COB-ID.
         pub const fn identifier(self) -> u16 {
-            (self.0 & 0x7FF) as u16
+            rt::bits32::field(self.0, 0x7FF) as u16
         }
         /// The same with another [`identifier`](Self::identifier).
         #[must_use]
         pub const fn with_identifier(self, value: u16) -> Self {
-            Self((self.0 & !0x7FF) | ((value as u32) & 0x7FF))
+            Self(rt::bits32::with_field(self.0, 0x7FF, value as u32))
         }
         /// Bits 28 to 11: extended identifier. Upper bits of a 29-bit identifier; 0 while bit 29 is 0. Manual: RxPDO COMMUNICATION PARAMETERS; TxPDO COMMUNICATION PARAMETERS (lines 983-984, 1093-1094).
         pub const fn extended_identifier(self) -> u32 {
-            (self.0 >> 11) & 0x3FFFF
+            rt::bits32::field(self.0, 0x1FFFF800)
         }
         /// The same with another [`extended_identifier`](Self::extended_identifier).
         #[must_use]
         pub const fn with_extended_identifier(self, value: u32) -> Self {
-            Self((self.0 & !0x1FFFF800) | ((value << 11) & 0x1FFFF800))
+            Self(rt::bits32::with_field(self.0, 0x1FFFF800, value))
         }
         /// Bit 29: frame format. 11-bit (CAN 2.0A) or 29-bit (CAN 2.0B) identifier. Manual: RxPDO COMMUNICATION PARAMETERS; TxPDO COMMUNICATION PARAMETERS (lines 981-982, 1091-1092): 11-bit ID / 29-bit ID.
         pub const fn frame_format(self) -> CobIdPdoFrameFormat {
-            CobIdPdoFrameFormat::from_raw(((self.0 >> 29) & 0x1) as u8)
+            CobIdPdoFrameFormat::from_raw(rt::bits32::field(self.0, 0x20000000) as u8)
         }
         /// The same with another [`frame_format`](Self::frame_format).
         #[must_use]
         pub const fn with_frame_format(self, value: CobIdPdoFrameFormat) -> Self {
-            Self((self.0 & !0x20000000) | (((value.raw() as u32) << 29) & 0x20000000))
+            Self(rt::bits32::with_field(self.0, 0x20000000, value.raw() as u32))
         }
         /// Bit 30: remote request. Manual: RxPDO COMMUNICATION PARAMETERS; TxPDO COMMUNICATION PARAMETERS (lines 979-980, 1089-1090): RTR abilitato / non abilitato su questo PDO.
         pub const fn remote_request(self) -> CobIdPdoRemoteRequest {
-            CobIdPdoRemoteRequest::from_raw(((self.0 >> 30) & 0x1) as u8)
+            CobIdPdoRemoteRequest::from_raw(rt::bits32::field(self.0, 0x40000000) as u8)
         }
         /// The same with another [`remote_request`](Self::remote_request).
         #[must_use]
         pub const fn with_remote_request(self, value: CobIdPdoRemoteRequest) -> Self {
-            Self((self.0 & !0x40000000) | (((value.raw() as u32) << 30) & 0x40000000))
+            Self(rt::bits32::with_field(self.0, 0x40000000, value.raw() as u32))
         }
         /// Bit 31: validity. Manual: RxPDO COMMUNICATION PARAMETERS; TxPDO COMMUNICATION PARAMETERS (lines 977-978, 1087-1088): PDO valido / non valido.
         pub const fn validity(self) -> CobIdPdoValidity {
-            CobIdPdoValidity::from_raw(((self.0 >> 31) & 0x1) as u8)
+            CobIdPdoValidity::from_raw(rt::bits32::field(self.0, 0x80000000) as u8)
         }
         /// The same with another [`validity`](Self::validity).
         #[must_use]
         pub const fn with_validity(self, value: CobIdPdoValidity) -> Self {
-            Self((self.0 & !0x80000000) | (((value.raw() as u32) << 31) & 0x80000000))
+            Self(rt::bits32::with_field(self.0, 0x80000000, value.raw() as u32))
         }
     }
     impl Default for CobIdPdo {
@@ -16004,30 +16003,12 @@ pub mod types {
     }
     impl core::fmt::Debug for CobIdPdo {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            let bits = rt::DebugBits::new(f, "CobIdPdo", self.0 as u64);
-            let bits = rt::DebugBits::plain(
-                bits,
-                &[("identifier", 0x7FF), ("extended_identifier", 0x1FFFF800)],
-            );
-            let bits = rt::DebugBits::field(
-                bits,
-                "frame_format",
-                0x20000000,
-                &self.frame_format(),
-            );
-            let bits = rt::DebugBits::field(
-                bits,
-                "remote_request",
-                0x40000000,
-                &self.remote_request(),
-            );
-            let bits = rt::DebugBits::field(
-                bits,
-                "validity",
-                0x80000000,
-                &self.validity(),
-            );
-            bits.finish()
+            rt::debug_bits(
+                f,
+                self.0 as u64,
+                "CobIdPdo identifier:7ff extended_identifier:1ffff800 ?frame_format:20000000 ?remote_request:40000000 ?validity:80000000",
+                &[&self.frame_format(), &self.remote_request(), &self.validity()],
+            )
         }
     }
     /// PdoMapping.
@@ -16058,30 +16039,30 @@ pub mod types {
         }
         /// Bits 7 to 0: length. Length in bits. Manual: Dettaglio dei parametri di mappatura (lines 1060, 1199): Numero di bit.
         pub const fn length(self) -> u8 {
-            (self.0 & 0xFF) as u8
+            rt::bits32::field(self.0, 0xFF) as u8
         }
         /// The same with another [`length`](Self::length).
         #[must_use]
         pub const fn with_length(self, value: u8) -> Self {
-            Self((self.0 & !0xFF) | (value as u32))
+            Self(rt::bits32::with_field(self.0, 0xFF, value as u32))
         }
         /// Bits 15 to 8: sub index. Manual: Dettaglio dei parametri di mappatura (lines 1060, 1199): Sub-Index oggetto.
         pub const fn sub_index(self) -> u8 {
-            ((self.0 >> 8) & 0xFF) as u8
+            rt::bits32::field(self.0, 0xFF00) as u8
         }
         /// The same with another [`sub_index`](Self::sub_index).
         #[must_use]
         pub const fn with_sub_index(self, value: u8) -> Self {
-            Self((self.0 & !0xFF00) | ((value as u32) << 8))
+            Self(rt::bits32::with_field(self.0, 0xFF00, value as u32))
         }
         /// Bits 31 to 16: index. Manual: Dettaglio dei parametri di mappatura (lines 1060, 1199): Index oggetto.
         pub const fn index(self) -> u16 {
-            ((self.0 >> 16) & 0xFFFF) as u16
+            rt::bits32::field(self.0, 0xFFFF0000) as u16
         }
         /// The same with another [`index`](Self::index).
         #[must_use]
         pub const fn with_index(self, value: u16) -> Self {
-            Self((self.0 & !0xFFFF0000) | ((value as u32) << 16))
+            Self(rt::bits32::with_field(self.0, 0xFFFF0000, value as u32))
         }
     }
     impl Default for PdoMapping {
@@ -16100,12 +16081,12 @@ pub mod types {
     }
     impl core::fmt::Debug for PdoMapping {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            let bits = rt::DebugBits::new(f, "PdoMapping", self.0 as u64);
-            let bits = rt::DebugBits::plain(
-                bits,
-                &[("length", 0xFF), ("sub_index", 0xFF00), ("index", 0xFFFF0000)],
-            );
-            bits.finish()
+            rt::debug_bits(
+                f,
+                self.0 as u64,
+                "PdoMapping length:ff sub_index:ff00 index:ffff0000",
+                &[],
+            )
         }
     }
     /// ErrorCode.
@@ -16135,21 +16116,21 @@ pub mod types {
         }
         /// Bits 7 to 0: detail. Manual: ERROR CODE (line 1269): Dettagli errore.
         pub const fn detail(self) -> u8 {
-            (self.0 & 0xFF) as u8
+            rt::bits16::field(self.0, 0xFF) as u8
         }
         /// The same with another [`detail`](Self::detail).
         #[must_use]
         pub const fn with_detail(self, value: u8) -> Self {
-            Self((self.0 & !0xFF) | (value as u16))
+            Self(rt::bits16::with_field(self.0, 0xFF, value as u16))
         }
         /// Bits 15 to 8: error. Manual: ERROR CODE (line 1268): Codice errore.
         pub const fn error(self) -> u8 {
-            ((self.0 >> 8) & 0xFF) as u8
+            rt::bits16::field(self.0, 0xFF00) as u8
         }
         /// The same with another [`error`](Self::error).
         #[must_use]
         pub const fn with_error(self, value: u8) -> Self {
-            Self((self.0 & !0xFF00) | ((value as u16) << 8))
+            Self(rt::bits16::with_field(self.0, 0xFF00, value as u16))
         }
     }
     impl Default for ErrorCode {
@@ -16168,12 +16149,7 @@ pub mod types {
     }
     impl core::fmt::Debug for ErrorCode {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            let bits = rt::DebugBits::new(f, "ErrorCode", self.0 as u64);
-            let bits = rt::DebugBits::plain(
-                bits,
-                &[("detail", 0xFF), ("error", 0xFF00)],
-            );
-            bits.finish()
+            rt::debug_bits(f, self.0 as u64, "ErrorCode detail:ff error:ff00", &[])
         }
     }
     /// Controlword.
@@ -16217,48 +16193,48 @@ pub mod types {
         }
         /// Bit 0: switch on. Manual: CONTROLWORD (line 1286): Switch ON.
         pub const fn switch_on(self) -> bool {
-            self.0 & 0x1 != 0
+            rt::bits16::flag(self.0, 0x1)
         }
         /// The same with another [`switch_on`](Self::switch_on).
         #[must_use]
         pub const fn with_switch_on(self, value: bool) -> Self {
-            Self((self.0 & !0x1) | (value as u16))
+            Self(rt::bits16::with_flag(self.0, 0x1, value))
         }
         /// Bit 1: disable voltage. Holds while the bit is 0. 0 disables the voltage. Manual: CONTROLWORD (lines 1287, 1308): Disable voltage.
         pub const fn disable_voltage(self) -> bool {
-            self.0 & 0x2 == 0
+            !rt::bits16::flag(self.0, 0x2)
         }
         /// The same with another [`disable_voltage`](Self::disable_voltage).
         #[must_use]
         pub const fn with_disable_voltage(self, value: bool) -> Self {
-            Self((self.0 & !0x2) | ((!value as u16) << 1))
+            Self(rt::bits16::with_flag(self.0, 0x2, !value))
         }
         /// Bit 2: quick stop. Holds while the bit is 0. 0 commands a quick stop. Manual: CONTROLWORD (lines 1288, 1309): Quick stop.
         pub const fn quick_stop(self) -> bool {
-            self.0 & 0x4 == 0
+            !rt::bits16::flag(self.0, 0x4)
         }
         /// The same with another [`quick_stop`](Self::quick_stop).
         #[must_use]
         pub const fn with_quick_stop(self, value: bool) -> Self {
-            Self((self.0 & !0x4) | ((!value as u16) << 2))
+            Self(rt::bits16::with_flag(self.0, 0x4, !value))
         }
         /// Bit 3: enable operation. Manual: CONTROLWORD (line 1289): Enable operation.
         pub const fn enable_operation(self) -> bool {
-            self.0 & 0x8 != 0
+            rt::bits16::flag(self.0, 0x8)
         }
         /// The same with another [`enable_operation`](Self::enable_operation).
         #[must_use]
         pub const fn with_enable_operation(self, value: bool) -> Self {
-            Self((self.0 & !0x8) | ((value as u16) << 3))
+            Self(rt::bits16::with_flag(self.0, 0x8, value))
         }
         /// Bit 7: fault reset. Acts on the change from 0 to 1. Manual: CONTROLWORD (lines 1296, 1312): Reset fault.
         pub const fn fault_reset(self) -> bool {
-            self.0 & 0x80 != 0
+            rt::bits16::flag(self.0, 0x80)
         }
         /// The same with another [`fault_reset`](Self::fault_reset).
         #[must_use]
         pub const fn with_fault_reset(self, value: bool) -> Self {
-            Self((self.0 & !0x80) | ((value as u16) << 7))
+            Self(rt::bits16::with_flag(self.0, 0x80, value))
         }
         /// The bits that have their meaning while [Modes of operation](super::objects::MODES_OF_OPERATION) is profile position (1).
         pub const fn in_profile_position(self) -> ControlwordInProfilePosition {
@@ -16289,15 +16265,12 @@ pub mod types {
     }
     impl core::fmt::Debug for Controlword {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            let bits = rt::DebugBits::new(f, "Controlword", self.0 as u64);
-            let bits = rt::DebugBits::plain(bits, &[("switch_on", 0x1)]);
-            let bits = rt::DebugBits::inverted(bits, "disable_voltage", 0x2);
-            let bits = rt::DebugBits::inverted(bits, "quick_stop", 0x4);
-            let bits = rt::DebugBits::plain(
-                bits,
-                &[("enable_operation", 0x8), ("fault_reset", 0x80)],
-            );
-            bits.finish()
+            rt::debug_bits(
+                f,
+                self.0 as u64,
+                "Controlword switch_on:1 !disable_voltage:2 !quick_stop:4 enable_operation:8 fault_reset:80",
+                &[],
+            )
         }
     }
     /// [`Controlword`] while [Modes of operation](super::objects::MODES_OF_OPERATION) is profile position (1).
@@ -16310,30 +16283,30 @@ pub mod types {
         }
         /// Bit 4: new set-point. Acts on the change from 0 to 1. Manual: CONTROLWORD (line 1290): Nuovo setpoint.
         pub const fn new_set_point(self) -> bool {
-            self.0 & 0x10 != 0
+            rt::bits16::flag(self.0, 0x10)
         }
         /// The same with another [`new_set_point`](Self::new_set_point).
         #[must_use]
         pub const fn with_new_set_point(self, value: bool) -> Self {
-            Self((self.0 & !0x10) | ((value as u16) << 4))
+            Self(rt::bits16::with_flag(self.0, 0x10, value))
         }
         /// Bit 5: change set immediately. Manual: CONTROLWORD (line 1292): Cambia setpoint immediatamente.
         pub const fn change_set_immediately(self) -> bool {
-            self.0 & 0x20 != 0
+            rt::bits16::flag(self.0, 0x20)
         }
         /// The same with another [`change_set_immediately`](Self::change_set_immediately).
         #[must_use]
         pub const fn with_change_set_immediately(self, value: bool) -> Self {
-            Self((self.0 & !0x20) | ((value as u16) << 5))
+            Self(rt::bits16::with_flag(self.0, 0x20, value))
         }
         /// Bit 6: target. Manual: CONTROLWORD (lines 1294-1295): Posizione assoluta / relativa.
         pub const fn target(self) -> ControlwordTarget {
-            ControlwordTarget::from_raw(((self.0 >> 6) & 0x1) as u8)
+            ControlwordTarget::from_raw(rt::bits16::field(self.0, 0x40) as u8)
         }
         /// The same with another [`target`](Self::target).
         #[must_use]
         pub const fn with_target(self, value: ControlwordTarget) -> Self {
-            Self((self.0 & !0x40) | (((value.raw() as u16) << 6) & 0x40))
+            Self(rt::bits16::with_field(self.0, 0x40, value.raw() as u16))
         }
     }
     /// [`Controlword`] while [Modes of operation](super::objects::MODES_OF_OPERATION) is homing (6).
@@ -16346,12 +16319,12 @@ pub mod types {
         }
         /// Bit 4: homing operation start. Acts on the change from 0 to 1. Manual: CONTROLWORD (line 1290): Homing operation start.
         pub const fn homing_operation_start(self) -> bool {
-            self.0 & 0x10 != 0
+            rt::bits16::flag(self.0, 0x10)
         }
         /// The same with another [`homing_operation_start`](Self::homing_operation_start).
         #[must_use]
         pub const fn with_homing_operation_start(self, value: bool) -> Self {
-            Self((self.0 & !0x10) | ((value as u16) << 4))
+            Self(rt::bits16::with_flag(self.0, 0x10, value))
         }
     }
     /// [`Controlword`] while [Modes of operation](super::objects::MODES_OF_OPERATION) is AEC velocity (-1).
@@ -16364,25 +16337,25 @@ pub mod types {
         }
         /// Bit 4: jog. Manual: CONTROLWORD (lines 1290-1291): Start / Stop.
         pub const fn jog(self) -> ControlwordJog {
-            ControlwordJog::from_raw(((self.0 >> 4) & 0x1) as u8)
+            ControlwordJog::from_raw(rt::bits16::field(self.0, 0x10) as u8)
         }
         /// The same with another [`jog`](Self::jog).
         #[must_use]
         pub const fn with_jog(self, value: ControlwordJog) -> Self {
-            Self((self.0 & !0x10) | (((value.raw() as u16) << 4) & 0x10))
+            Self(rt::bits16::with_field(self.0, 0x10, value.raw() as u16))
         }
         /// Bit 5: jog direction. Manual: CONTROLWORD (lines 1292-1293): CW / CCW.
         pub const fn jog_direction(self) -> ControlwordJogDirection {
-            ControlwordJogDirection::from_raw(((self.0 >> 5) & 0x1) as u8)
+            ControlwordJogDirection::from_raw(rt::bits16::field(self.0, 0x20) as u8)
         }
         /// The same with another [`jog_direction`](Self::jog_direction).
         #[must_use]
         pub const fn with_jog_direction(self, value: ControlwordJogDirection) -> Self {
-            Self((self.0 & !0x20) | (((value.raw() as u16) << 5) & 0x20))
+            Self(rt::bits16::with_field(self.0, 0x20, value.raw() as u16))
         }
         /// Bit 6: jog velocity update. Manual: CONTROLWORD (lines 1294-1295): Aggiornamento velocità.
         pub const fn jog_velocity_update(self) -> ControlwordJogVelocityUpdate {
-            ControlwordJogVelocityUpdate::from_raw(((self.0 >> 6) & 0x1) as u8)
+            ControlwordJogVelocityUpdate::from_raw(rt::bits16::field(self.0, 0x40) as u8)
         }
         /// The same with another [`jog_velocity_update`](Self::jog_velocity_update).
         #[must_use]
@@ -16390,7 +16363,7 @@ pub mod types {
             self,
             value: ControlwordJogVelocityUpdate,
         ) -> Self {
-            Self((self.0 & !0x40) | (((value.raw() as u16) << 6) & 0x40))
+            Self(rt::bits16::with_field(self.0, 0x40, value.raw() as u16))
         }
     }
     /// Statusword.
@@ -16441,111 +16414,111 @@ pub mod types {
         }
         /// Bit 0: ready to switch on. Manual: STATUSWORD (line 1329): Ready to switch ON.
         pub const fn ready_to_switch_on(self) -> bool {
-            self.0 & 0x1 != 0
+            rt::bits16::flag(self.0, 0x1)
         }
         /// The same with another [`ready_to_switch_on`](Self::ready_to_switch_on).
         #[must_use]
         pub const fn with_ready_to_switch_on(self, value: bool) -> Self {
-            Self((self.0 & !0x1) | (value as u16))
+            Self(rt::bits16::with_flag(self.0, 0x1, value))
         }
         /// Bit 1: switched on. Manual: STATUSWORD (line 1330): Switched ON.
         pub const fn switched_on(self) -> bool {
-            self.0 & 0x2 != 0
+            rt::bits16::flag(self.0, 0x2)
         }
         /// The same with another [`switched_on`](Self::switched_on).
         #[must_use]
         pub const fn with_switched_on(self, value: bool) -> Self {
-            Self((self.0 & !0x2) | ((value as u16) << 1))
+            Self(rt::bits16::with_flag(self.0, 0x2, value))
         }
         /// Bit 2: operation enabled. Manual: STATUSWORD (line 1331): Operation Enabled.
         pub const fn operation_enabled(self) -> bool {
-            self.0 & 0x4 != 0
+            rt::bits16::flag(self.0, 0x4)
         }
         /// The same with another [`operation_enabled`](Self::operation_enabled).
         #[must_use]
         pub const fn with_operation_enabled(self, value: bool) -> Self {
-            Self((self.0 & !0x4) | ((value as u16) << 2))
+            Self(rt::bits16::with_flag(self.0, 0x4, value))
         }
         /// Bit 3: fault. Manual: STATUSWORD (line 1332): Fault.
         pub const fn fault(self) -> bool {
-            self.0 & 0x8 != 0
+            rt::bits16::flag(self.0, 0x8)
         }
         /// The same with another [`fault`](Self::fault).
         #[must_use]
         pub const fn with_fault(self, value: bool) -> Self {
-            Self((self.0 & !0x8) | ((value as u16) << 3))
+            Self(rt::bits16::with_flag(self.0, 0x8, value))
         }
         /// Bit 4: voltage disabled. Holds while the bit is 0. Not part of the decoding of states. Manual: STATUSWORD (line 1333): Voltage disabled.
         pub const fn voltage_disabled(self) -> bool {
-            self.0 & 0x10 == 0
+            !rt::bits16::flag(self.0, 0x10)
         }
         /// The same with another [`voltage_disabled`](Self::voltage_disabled).
         #[must_use]
         pub const fn with_voltage_disabled(self, value: bool) -> Self {
-            Self((self.0 & !0x10) | ((!value as u16) << 4))
+            Self(rt::bits16::with_flag(self.0, 0x10, !value))
         }
         /// Bit 5: quick stop. Holds while the bit is 0. 0 while a quick stop is active. Manual: STATUSWORD (lines 1334, 1356): Quick stop.
         pub const fn quick_stop(self) -> bool {
-            self.0 & 0x20 == 0
+            !rt::bits16::flag(self.0, 0x20)
         }
         /// The same with another [`quick_stop`](Self::quick_stop).
         #[must_use]
         pub const fn with_quick_stop(self, value: bool) -> Self {
-            Self((self.0 & !0x20) | ((!value as u16) << 5))
+            Self(rt::bits16::with_flag(self.0, 0x20, !value))
         }
         /// Bit 6: switch on disabled. Manual: STATUSWORD (line 1335): Switched on disabled.
         pub const fn switch_on_disabled(self) -> bool {
-            self.0 & 0x40 != 0
+            rt::bits16::flag(self.0, 0x40)
         }
         /// The same with another [`switch_on_disabled`](Self::switch_on_disabled).
         #[must_use]
         pub const fn with_switch_on_disabled(self, value: bool) -> Self {
-            Self((self.0 & !0x40) | ((value as u16) << 6))
+            Self(rt::bits16::with_flag(self.0, 0x40, value))
         }
         /// Bit 7: warning. Manual: STATUSWORD (line 1336): Warning.
         pub const fn warning(self) -> bool {
-            self.0 & 0x80 != 0
+            rt::bits16::flag(self.0, 0x80)
         }
         /// The same with another [`warning`](Self::warning).
         #[must_use]
         pub const fn with_warning(self, value: bool) -> Self {
-            Self((self.0 & !0x80) | ((value as u16) << 7))
+            Self(rt::bits16::with_flag(self.0, 0x80, value))
         }
         /// Bit 8: motor moving. Manual: STATUSWORD (line 1337): Motor moving.
         pub const fn motor_moving(self) -> bool {
-            self.0 & 0x100 != 0
+            rt::bits16::flag(self.0, 0x100)
         }
         /// The same with another [`motor_moving`](Self::motor_moving).
         #[must_use]
         pub const fn with_motor_moving(self, value: bool) -> Self {
-            Self((self.0 & !0x100) | ((value as u16) << 8))
+            Self(rt::bits16::with_flag(self.0, 0x100, value))
         }
         /// Bit 9: remote. Manual: STATUSWORD (line 1338): Remote.
         pub const fn remote(self) -> bool {
-            self.0 & 0x200 != 0
+            rt::bits16::flag(self.0, 0x200)
         }
         /// The same with another [`remote`](Self::remote).
         #[must_use]
         pub const fn with_remote(self, value: bool) -> Self {
-            Self((self.0 & !0x200) | ((value as u16) << 9))
+            Self(rt::bits16::with_flag(self.0, 0x200, value))
         }
         /// Bit 10: target reached. Manual: STATUSWORD (line 1339): Target reached.
         pub const fn target_reached(self) -> bool {
-            self.0 & 0x400 != 0
+            rt::bits16::flag(self.0, 0x400)
         }
         /// The same with another [`target_reached`](Self::target_reached).
         #[must_use]
         pub const fn with_target_reached(self, value: bool) -> Self {
-            Self((self.0 & !0x400) | ((value as u16) << 10))
+            Self(rt::bits16::with_flag(self.0, 0x400, value))
         }
         /// Bit 11: internal limit active. Manual: STATUSWORD (line 1340): Internal limit active.
         pub const fn internal_limit_active(self) -> bool {
-            self.0 & 0x800 != 0
+            rt::bits16::flag(self.0, 0x800)
         }
         /// The same with another [`internal_limit_active`](Self::internal_limit_active).
         #[must_use]
         pub const fn with_internal_limit_active(self, value: bool) -> Self {
-            Self((self.0 & !0x800) | ((value as u16) << 11))
+            Self(rt::bits16::with_flag(self.0, 0x800, value))
         }
         /// The bits that have their meaning while [Modes of operation display](super::objects::MODES_OF_OPERATION_DISPLAY) is profile position (1).
         pub const fn in_profile_position(self) -> StatuswordInProfilePosition {
@@ -16576,30 +16549,12 @@ pub mod types {
     }
     impl core::fmt::Debug for Statusword {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            let bits = rt::DebugBits::new(f, "Statusword", self.0 as u64);
-            let bits = rt::DebugBits::plain(
-                bits,
-                &[
-                    ("ready_to_switch_on", 0x1),
-                    ("switched_on", 0x2),
-                    ("operation_enabled", 0x4),
-                    ("fault", 0x8),
-                ],
-            );
-            let bits = rt::DebugBits::inverted(bits, "voltage_disabled", 0x10);
-            let bits = rt::DebugBits::inverted(bits, "quick_stop", 0x20);
-            let bits = rt::DebugBits::plain(
-                bits,
-                &[
-                    ("switch_on_disabled", 0x40),
-                    ("warning", 0x80),
-                    ("motor_moving", 0x100),
-                    ("remote", 0x200),
-                    ("target_reached", 0x400),
-                    ("internal_limit_active", 0x800),
-                ],
-            );
-            bits.finish()
+            rt::debug_bits(
+                f,
+                self.0 as u64,
+                "Statusword ready_to_switch_on:1 switched_on:2 operation_enabled:4 fault:8 !voltage_disabled:10 !quick_stop:20 switch_on_disabled:40 warning:80 motor_moving:100 remote:200 target_reached:400 internal_limit_active:800",
+                &[],
+            )
         }
     }
     /// [`Statusword`] while [Modes of operation display](super::objects::MODES_OF_OPERATION_DISPLAY) is profile position (1).
@@ -16612,21 +16567,21 @@ pub mod types {
         }
         /// Bit 12: set-point acknowledge. Manual: STATUSWORD (line 1341): Setpoint acquisito.
         pub const fn set_point_acknowledge(self) -> bool {
-            self.0 & 0x1000 != 0
+            rt::bits16::flag(self.0, 0x1000)
         }
         /// The same with another [`set_point_acknowledge`](Self::set_point_acknowledge).
         #[must_use]
         pub const fn with_set_point_acknowledge(self, value: bool) -> Self {
-            Self((self.0 & !0x1000) | ((value as u16) << 12))
+            Self(rt::bits16::with_flag(self.0, 0x1000, value))
         }
         /// Bit 13: following error. Manual: STATUSWORD (line 1342): Errore di inseguimento.
         pub const fn following_error(self) -> bool {
-            self.0 & 0x2000 != 0
+            rt::bits16::flag(self.0, 0x2000)
         }
         /// The same with another [`following_error`](Self::following_error).
         #[must_use]
         pub const fn with_following_error(self, value: bool) -> Self {
-            Self((self.0 & !0x2000) | ((value as u16) << 13))
+            Self(rt::bits16::with_flag(self.0, 0x2000, value))
         }
     }
     /// [`Statusword`] while [Modes of operation display](super::objects::MODES_OF_OPERATION_DISPLAY) is homing (6).
@@ -16639,21 +16594,21 @@ pub mod types {
         }
         /// Bit 12: homing attained. Manual: STATUSWORD (line 1341): Home eseguito.
         pub const fn homing_attained(self) -> bool {
-            self.0 & 0x1000 != 0
+            rt::bits16::flag(self.0, 0x1000)
         }
         /// The same with another [`homing_attained`](Self::homing_attained).
         #[must_use]
         pub const fn with_homing_attained(self, value: bool) -> Self {
-            Self((self.0 & !0x1000) | ((value as u16) << 12))
+            Self(rt::bits16::with_flag(self.0, 0x1000, value))
         }
         /// Bit 13: homing error. Manual: STATUSWORD (line 1342): Errore in azzeramento.
         pub const fn homing_error(self) -> bool {
-            self.0 & 0x2000 != 0
+            rt::bits16::flag(self.0, 0x2000)
         }
         /// The same with another [`homing_error`](Self::homing_error).
         #[must_use]
         pub const fn with_homing_error(self, value: bool) -> Self {
-            Self((self.0 & !0x2000) | ((value as u16) << 13))
+            Self(rt::bits16::with_flag(self.0, 0x2000, value))
         }
     }
     /// [`Statusword`] while [Modes of operation display](super::objects::MODES_OF_OPERATION_DISPLAY) is AEC velocity (-1).
@@ -16666,12 +16621,12 @@ pub mod types {
         }
         /// Bit 12: motor stopped. Manual: STATUSWORD (line 1341): Motore fermo.
         pub const fn motor_stopped(self) -> bool {
-            self.0 & 0x1000 != 0
+            rt::bits16::flag(self.0, 0x1000)
         }
         /// The same with another [`motor_stopped`](Self::motor_stopped).
         #[must_use]
         pub const fn with_motor_stopped(self, value: bool) -> Self {
-            Self((self.0 & !0x1000) | ((value as u16) << 12))
+            Self(rt::bits16::with_flag(self.0, 0x1000, value))
         }
     }
     /// TouchProbeFunction.
@@ -16711,7 +16666,9 @@ pub mod types {
         }
         /// Bit 0: probe 1 enable. Manual: TOUCH PROBE FUNCTION; Rtouchprobefunc (CanOpen/EtherCAT standard Object 60B8h) (lines 1699-1700, 2999-3000): Disabilita / Abilita touch probe 1.
         pub const fn probe_1_enable(self) -> TouchProbeFunctionProbe1Enable {
-            TouchProbeFunctionProbe1Enable::from_raw((self.0 & 0x1) as u8)
+            TouchProbeFunctionProbe1Enable::from_raw(
+                rt::bits16::field(self.0, 0x1) as u8,
+            )
         }
         /// The same with another [`probe_1_enable`](Self::probe_1_enable).
         #[must_use]
@@ -16719,11 +16676,13 @@ pub mod types {
             self,
             value: TouchProbeFunctionProbe1Enable,
         ) -> Self {
-            Self((self.0 & !0x1) | ((value.raw() as u16) & 0x1))
+            Self(rt::bits16::with_field(self.0, 0x1, value.raw() as u16))
         }
         /// Bit 1: probe 1 continuous. Manual: TOUCH PROBE FUNCTION; Rtouchprobefunc (CanOpen/EtherCAT standard Object 60B8h) (lines 1701-1702, 3001-3002): Trigger primo evento / Continuo.
         pub const fn probe_1_continuous(self) -> TouchProbeFunctionProbe1Continuous {
-            TouchProbeFunctionProbe1Continuous::from_raw(((self.0 >> 1) & 0x1) as u8)
+            TouchProbeFunctionProbe1Continuous::from_raw(
+                rt::bits16::field(self.0, 0x2) as u8,
+            )
         }
         /// The same with another [`probe_1_continuous`](Self::probe_1_continuous).
         #[must_use]
@@ -16731,11 +16690,13 @@ pub mod types {
             self,
             value: TouchProbeFunctionProbe1Continuous,
         ) -> Self {
-            Self((self.0 & !0x2) | (((value.raw() as u16) << 1) & 0x2))
+            Self(rt::bits16::with_field(self.0, 0x2, value.raw() as u16))
         }
         /// Bits 3 to 2: probe 1 trigger. Cannot be changed while bit 4 is set. Manual: TOUCH PROBE FUNCTION; Rtouchprobefunc (CanOpen/EtherCAT standard Object 60B8h) (lines 1703-1705, 3003-3006): Trigger con input touch probe 1 / TOP encoder.
         pub const fn probe_1_trigger(self) -> TouchProbeFunctionProbe1Trigger {
-            TouchProbeFunctionProbe1Trigger::from_raw(((self.0 >> 2) & 0x3) as u8)
+            TouchProbeFunctionProbe1Trigger::from_raw(
+                rt::bits16::field(self.0, 0xC) as u8,
+            )
         }
         /// The same with another [`probe_1_trigger`](Self::probe_1_trigger).
         #[must_use]
@@ -16743,13 +16704,15 @@ pub mod types {
             self,
             value: TouchProbeFunctionProbe1Trigger,
         ) -> Self {
-            Self((self.0 & !0xC) | (((value.raw() as u16) << 2) & 0xC))
+            Self(rt::bits16::with_field(self.0, 0xC, value.raw() as u16))
         }
         /// Bit 4: probe 1 positive edge. Manual: TOUCH PROBE FUNCTION; Rtouchprobefunc (CanOpen/EtherCAT standard Object 60B8h) (lines 1706-1707, 3007-3008): Campionamento fronte positivo touch probe 1.
         pub const fn probe_1_positive_edge(
             self,
         ) -> TouchProbeFunctionProbe1PositiveEdge {
-            TouchProbeFunctionProbe1PositiveEdge::from_raw(((self.0 >> 4) & 0x1) as u8)
+            TouchProbeFunctionProbe1PositiveEdge::from_raw(
+                rt::bits16::field(self.0, 0x10) as u8,
+            )
         }
         /// The same with another [`probe_1_positive_edge`](Self::probe_1_positive_edge).
         #[must_use]
@@ -16757,13 +16720,15 @@ pub mod types {
             self,
             value: TouchProbeFunctionProbe1PositiveEdge,
         ) -> Self {
-            Self((self.0 & !0x10) | (((value.raw() as u16) << 4) & 0x10))
+            Self(rt::bits16::with_field(self.0, 0x10, value.raw() as u16))
         }
         /// Bit 5: probe 1 negative edge. Manual: TOUCH PROBE FUNCTION; Rtouchprobefunc (CanOpen/EtherCAT standard Object 60B8h) (lines 1708, 3009-3010): Campionamento fronte negativo touch probe 1.
         pub const fn probe_1_negative_edge(
             self,
         ) -> TouchProbeFunctionProbe1NegativeEdge {
-            TouchProbeFunctionProbe1NegativeEdge::from_raw(((self.0 >> 5) & 0x1) as u8)
+            TouchProbeFunctionProbe1NegativeEdge::from_raw(
+                rt::bits16::field(self.0, 0x20) as u8,
+            )
         }
         /// The same with another [`probe_1_negative_edge`](Self::probe_1_negative_edge).
         #[must_use]
@@ -16771,11 +16736,13 @@ pub mod types {
             self,
             value: TouchProbeFunctionProbe1NegativeEdge,
         ) -> Self {
-            Self((self.0 & !0x20) | (((value.raw() as u16) << 5) & 0x20))
+            Self(rt::bits16::with_field(self.0, 0x20, value.raw() as u16))
         }
         /// Bits 7 to 6: probe 1 position. Position that is sampled. Manual: TOUCH PROBE FUNCTION; Rtouchprobefunc (CanOpen/EtherCAT standard Object 60B8h) (lines 1709-1712, 3011-3014).
         pub const fn probe_1_position(self) -> TouchProbeFunctionProbe1Position {
-            TouchProbeFunctionProbe1Position::from_raw(((self.0 >> 6) & 0x3) as u8)
+            TouchProbeFunctionProbe1Position::from_raw(
+                rt::bits16::field(self.0, 0xC0) as u8,
+            )
         }
         /// The same with another [`probe_1_position`](Self::probe_1_position).
         #[must_use]
@@ -16783,11 +16750,13 @@ pub mod types {
             self,
             value: TouchProbeFunctionProbe1Position,
         ) -> Self {
-            Self((self.0 & !0xC0) | (((value.raw() as u16) << 6) & 0xC0))
+            Self(rt::bits16::with_field(self.0, 0xC0, value.raw() as u16))
         }
         /// Bit 8: probe 2 enable. Manual: TOUCH PROBE FUNCTION; Rtouchprobefunc (CanOpen/EtherCAT standard Object 60B8h) (lines 1713-1714, 3015-3016): Disabilita / Abilita touch probe 2.
         pub const fn probe_2_enable(self) -> TouchProbeFunctionProbe2Enable {
-            TouchProbeFunctionProbe2Enable::from_raw(((self.0 >> 8) & 0x1) as u8)
+            TouchProbeFunctionProbe2Enable::from_raw(
+                rt::bits16::field(self.0, 0x100) as u8,
+            )
         }
         /// The same with another [`probe_2_enable`](Self::probe_2_enable).
         #[must_use]
@@ -16795,11 +16764,13 @@ pub mod types {
             self,
             value: TouchProbeFunctionProbe2Enable,
         ) -> Self {
-            Self((self.0 & !0x100) | (((value.raw() as u16) << 8) & 0x100))
+            Self(rt::bits16::with_field(self.0, 0x100, value.raw() as u16))
         }
         /// Bit 9: probe 2 continuous. Manual: TOUCH PROBE FUNCTION; Rtouchprobefunc (CanOpen/EtherCAT standard Object 60B8h) (lines 1715-1716, 3017-3018): Trigger primo evento / Continuo.
         pub const fn probe_2_continuous(self) -> TouchProbeFunctionProbe2Continuous {
-            TouchProbeFunctionProbe2Continuous::from_raw(((self.0 >> 9) & 0x1) as u8)
+            TouchProbeFunctionProbe2Continuous::from_raw(
+                rt::bits16::field(self.0, 0x200) as u8,
+            )
         }
         /// The same with another [`probe_2_continuous`](Self::probe_2_continuous).
         #[must_use]
@@ -16807,11 +16778,13 @@ pub mod types {
             self,
             value: TouchProbeFunctionProbe2Continuous,
         ) -> Self {
-            Self((self.0 & !0x200) | (((value.raw() as u16) << 9) & 0x200))
+            Self(rt::bits16::with_field(self.0, 0x200, value.raw() as u16))
         }
         /// Bits 11 to 10: probe 2 trigger. Cannot be changed while bit 12 is set. Manual: TOUCH PROBE FUNCTION; Rtouchprobefunc (CanOpen/EtherCAT standard Object 60B8h) (lines 1717-1719, 3019-3022): Trigger con input touch probe 2 / TOP encoder.
         pub const fn probe_2_trigger(self) -> TouchProbeFunctionProbe2Trigger {
-            TouchProbeFunctionProbe2Trigger::from_raw(((self.0 >> 10) & 0x3) as u8)
+            TouchProbeFunctionProbe2Trigger::from_raw(
+                rt::bits16::field(self.0, 0xC00) as u8,
+            )
         }
         /// The same with another [`probe_2_trigger`](Self::probe_2_trigger).
         #[must_use]
@@ -16819,13 +16792,15 @@ pub mod types {
             self,
             value: TouchProbeFunctionProbe2Trigger,
         ) -> Self {
-            Self((self.0 & !0xC00) | (((value.raw() as u16) << 10) & 0xC00))
+            Self(rt::bits16::with_field(self.0, 0xC00, value.raw() as u16))
         }
         /// Bit 12: probe 2 positive edge. Manual: TOUCH PROBE FUNCTION; Rtouchprobefunc (CanOpen/EtherCAT standard Object 60B8h) (lines 1720-1721, 3023-3024): Campionamento fronte positivo touch probe 2.
         pub const fn probe_2_positive_edge(
             self,
         ) -> TouchProbeFunctionProbe2PositiveEdge {
-            TouchProbeFunctionProbe2PositiveEdge::from_raw(((self.0 >> 12) & 0x1) as u8)
+            TouchProbeFunctionProbe2PositiveEdge::from_raw(
+                rt::bits16::field(self.0, 0x1000) as u8,
+            )
         }
         /// The same with another [`probe_2_positive_edge`](Self::probe_2_positive_edge).
         #[must_use]
@@ -16833,13 +16808,15 @@ pub mod types {
             self,
             value: TouchProbeFunctionProbe2PositiveEdge,
         ) -> Self {
-            Self((self.0 & !0x1000) | (((value.raw() as u16) << 12) & 0x1000))
+            Self(rt::bits16::with_field(self.0, 0x1000, value.raw() as u16))
         }
         /// Bit 13: probe 2 negative edge. Manual: TOUCH PROBE FUNCTION; Rtouchprobefunc (CanOpen/EtherCAT standard Object 60B8h) (lines 1722, 3025-3026): Campionamento fronte negativo touch probe 2.
         pub const fn probe_2_negative_edge(
             self,
         ) -> TouchProbeFunctionProbe2NegativeEdge {
-            TouchProbeFunctionProbe2NegativeEdge::from_raw(((self.0 >> 13) & 0x1) as u8)
+            TouchProbeFunctionProbe2NegativeEdge::from_raw(
+                rt::bits16::field(self.0, 0x2000) as u8,
+            )
         }
         /// The same with another [`probe_2_negative_edge`](Self::probe_2_negative_edge).
         #[must_use]
@@ -16847,11 +16824,13 @@ pub mod types {
             self,
             value: TouchProbeFunctionProbe2NegativeEdge,
         ) -> Self {
-            Self((self.0 & !0x2000) | (((value.raw() as u16) << 13) & 0x2000))
+            Self(rt::bits16::with_field(self.0, 0x2000, value.raw() as u16))
         }
         /// Bits 15 to 14: probe 2 position. Position that is sampled. Manual: TOUCH PROBE FUNCTION; Rtouchprobefunc (CanOpen/EtherCAT standard Object 60B8h) (lines 1723-1726, 3027-3030).
         pub const fn probe_2_position(self) -> TouchProbeFunctionProbe2Position {
-            TouchProbeFunctionProbe2Position::from_raw(((self.0 >> 14) & 0x3) as u8)
+            TouchProbeFunctionProbe2Position::from_raw(
+                rt::bits16::field(self.0, 0xC000) as u8,
+            )
         }
         /// The same with another [`probe_2_position`](Self::probe_2_position).
         #[must_use]
@@ -16859,7 +16838,7 @@ pub mod types {
             self,
             value: TouchProbeFunctionProbe2Position,
         ) -> Self {
-            Self((self.0 & !0xC000) | (((value.raw() as u16) << 14) & 0xC000))
+            Self(rt::bits16::with_field(self.0, 0xC000, value.raw() as u16))
         }
     }
     impl Default for TouchProbeFunction {
@@ -16878,80 +16857,25 @@ pub mod types {
     }
     impl core::fmt::Debug for TouchProbeFunction {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            let bits = rt::DebugBits::new(f, "TouchProbeFunction", self.0 as u64);
-            let bits = rt::DebugBits::field(
-                bits,
-                "probe_1_enable",
-                0x1,
-                &self.probe_1_enable(),
-            );
-            let bits = rt::DebugBits::field(
-                bits,
-                "probe_1_continuous",
-                0x2,
-                &self.probe_1_continuous(),
-            );
-            let bits = rt::DebugBits::field(
-                bits,
-                "probe_1_trigger",
-                0xC,
-                &self.probe_1_trigger(),
-            );
-            let bits = rt::DebugBits::field(
-                bits,
-                "probe_1_positive_edge",
-                0x10,
-                &self.probe_1_positive_edge(),
-            );
-            let bits = rt::DebugBits::field(
-                bits,
-                "probe_1_negative_edge",
-                0x20,
-                &self.probe_1_negative_edge(),
-            );
-            let bits = rt::DebugBits::field(
-                bits,
-                "probe_1_position",
-                0xC0,
-                &self.probe_1_position(),
-            );
-            let bits = rt::DebugBits::field(
-                bits,
-                "probe_2_enable",
-                0x100,
-                &self.probe_2_enable(),
-            );
-            let bits = rt::DebugBits::field(
-                bits,
-                "probe_2_continuous",
-                0x200,
-                &self.probe_2_continuous(),
-            );
-            let bits = rt::DebugBits::field(
-                bits,
-                "probe_2_trigger",
-                0xC00,
-                &self.probe_2_trigger(),
-            );
-            let bits = rt::DebugBits::field(
-                bits,
-                "probe_2_positive_edge",
-                0x1000,
-                &self.probe_2_positive_edge(),
-            );
-            let bits = rt::DebugBits::field(
-                bits,
-                "probe_2_negative_edge",
-                0x2000,
-                &self.probe_2_negative_edge(),
-            );
-            let bits = rt::DebugBits::field(
-                bits,
-                "probe_2_position",
-                0xC000,
-                &self.probe_2_position(),
-            );
-            bits.finish()
+            rt::debug_bits(
+                f,
+                self.0 as u64,
+                "TouchProbeFunction ?probe_1_enable:1 ?probe_1_continuous:2 ?probe_1_trigger:c ?probe_1_positive_edge:10 ?probe_1_negative_edge:20 ?probe_1_position:c0 ?probe_2_enable:100 ?probe_2_continuous:200 ?probe_2_trigger:c00 ?probe_2_positive_edge:1000 ?probe_2_negative_edge:2000 ?probe_2_position:c000",
+                &[
+                    &self.probe_1_enable(),
+                    &self.probe_1_continuous(),
+                    &self.probe_1_trigger(),
+                    &self.probe_1_positive_edge(),
+                    &self.probe_1_negative_edge(),
+                    &self.probe_1_position(),
+                    &self.probe_2_enable(),
+                    &self.probe_2_continuous(),
+                    &self.probe_2_trigger(),
+                    &self.probe_2_positive_edge(),
+                    &self.probe_2_negative_edge(),
+                    &self.probe_2_position(),
+                ],
+            )
         }
     }
     /// TouchProbeStatus.
@@ -16989,7 +16913,7 @@ pub mod types {
         }
         /// Bit 0: probe 1 enabled. Manual: TOUCH PROBE STATUS; Rtouchprobestatus (CanOpen/EtherCAT standard Object 60B9h) (lines 1739-1740, 3040-3041): Touch probe 1 disabilitato / abilitato.
         pub const fn probe_1_enabled(self) -> TouchProbeStatusProbe1Enabled {
-            TouchProbeStatusProbe1Enabled::from_raw((self.0 & 0x1) as u8)
+            TouchProbeStatusProbe1Enabled::from_raw(rt::bits16::field(self.0, 0x1) as u8)
         }
         /// The same with another [`probe_1_enabled`](Self::probe_1_enabled).
         #[must_use]
@@ -16997,14 +16921,14 @@ pub mod types {
             self,
             value: TouchProbeStatusProbe1Enabled,
         ) -> Self {
-            Self((self.0 & !0x1) | ((value.raw() as u16) & 0x1))
+            Self(rt::bits16::with_field(self.0, 0x1, value.raw() as u16))
         }
         /// Bit 1: probe 1 positive edge stored. Manual: TOUCH PROBE STATUS; Rtouchprobestatus (CanOpen/EtherCAT standard Object 60B9h) (lines 1741-1742, 3042-3043): Touch probe 1 – valore salvato.
         pub const fn probe_1_positive_edge_stored(
             self,
         ) -> TouchProbeStatusProbe1PositiveEdgeStored {
             TouchProbeStatusProbe1PositiveEdgeStored::from_raw(
-                ((self.0 >> 1) & 0x1) as u8,
+                rt::bits16::field(self.0, 0x2) as u8,
             )
         }
         /// The same with another [`probe_1_positive_edge_stored`](Self::probe_1_positive_edge_stored).
@@ -17013,14 +16937,14 @@ pub mod types {
             self,
             value: TouchProbeStatusProbe1PositiveEdgeStored,
         ) -> Self {
-            Self((self.0 & !0x2) | (((value.raw() as u16) << 1) & 0x2))
+            Self(rt::bits16::with_field(self.0, 0x2, value.raw() as u16))
         }
         /// Bit 2: probe 1 negative edge stored. Not supported before. From firmware 6 on. Manual: TOUCH PROBE STATUS; Rtouchprobestatus (CanOpen/EtherCAT standard Object 60B9h) (lines 1743, 3044-3045): Touch probe 1 fronte negativo – posizione salvata.
         pub const fn probe_1_negative_edge_stored(
             self,
         ) -> TouchProbeStatusProbe1NegativeEdgeStored {
             TouchProbeStatusProbe1NegativeEdgeStored::from_raw(
-                ((self.0 >> 2) & 0x1) as u8,
+                rt::bits16::field(self.0, 0x4) as u8,
             )
         }
         /// The same with another [`probe_1_negative_edge_stored`](Self::probe_1_negative_edge_stored).
@@ -17029,20 +16953,22 @@ pub mod types {
             self,
             value: TouchProbeStatusProbe1NegativeEdgeStored,
         ) -> Self {
-            Self((self.0 & !0x4) | (((value.raw() as u16) << 2) & 0x4))
+            Self(rt::bits16::with_field(self.0, 0x4, value.raw() as u16))
         }
         /// Bit 7: probe 1 update. Each change of the bit counts. Changes with every value stored while sampling is continuous. Manual: TOUCH PROBE STATUS; Rtouchprobestatus (CanOpen/EtherCAT standard Object 60B9h) (lines 1745, 1754, 3047).
         pub const fn probe_1_update(self) -> bool {
-            self.0 & 0x80 != 0
+            rt::bits16::flag(self.0, 0x80)
         }
         /// The same with another [`probe_1_update`](Self::probe_1_update).
         #[must_use]
         pub const fn with_probe_1_update(self, value: bool) -> Self {
-            Self((self.0 & !0x80) | ((value as u16) << 7))
+            Self(rt::bits16::with_flag(self.0, 0x80, value))
         }
         /// Bit 8: probe 2 enabled. Manual: TOUCH PROBE STATUS; Rtouchprobestatus (CanOpen/EtherCAT standard Object 60B9h) (lines 1746-1747, 3048-3049): Touch probe 2 disabilitato / abilitato.
         pub const fn probe_2_enabled(self) -> TouchProbeStatusProbe2Enabled {
-            TouchProbeStatusProbe2Enabled::from_raw(((self.0 >> 8) & 0x1) as u8)
+            TouchProbeStatusProbe2Enabled::from_raw(
+                rt::bits16::field(self.0, 0x100) as u8,
+            )
         }
         /// The same with another [`probe_2_enabled`](Self::probe_2_enabled).
         #[must_use]
@@ -17050,14 +16976,14 @@ pub mod types {
             self,
             value: TouchProbeStatusProbe2Enabled,
         ) -> Self {
-            Self((self.0 & !0x100) | (((value.raw() as u16) << 8) & 0x100))
+            Self(rt::bits16::with_field(self.0, 0x100, value.raw() as u16))
         }
         /// Bit 9: probe 2 positive edge stored. Manual: TOUCH PROBE STATUS; Rtouchprobestatus (CanOpen/EtherCAT standard Object 60B9h) (lines 1748-1749, 3050-3051): Touch probe 2 valore salvato.
         pub const fn probe_2_positive_edge_stored(
             self,
         ) -> TouchProbeStatusProbe2PositiveEdgeStored {
             TouchProbeStatusProbe2PositiveEdgeStored::from_raw(
-                ((self.0 >> 9) & 0x1) as u8,
+                rt::bits16::field(self.0, 0x200) as u8,
             )
         }
         /// The same with another [`probe_2_positive_edge_stored`](Self::probe_2_positive_edge_stored).
@@ -17066,14 +16992,14 @@ pub mod types {
             self,
             value: TouchProbeStatusProbe2PositiveEdgeStored,
         ) -> Self {
-            Self((self.0 & !0x200) | (((value.raw() as u16) << 9) & 0x200))
+            Self(rt::bits16::with_field(self.0, 0x200, value.raw() as u16))
         }
         /// Bit 10: probe 2 negative edge stored. Not supported before. From firmware 6 on. Manual: TOUCH PROBE STATUS; Rtouchprobestatus (CanOpen/EtherCAT standard Object 60B9h) (lines 1750, 3052-3053): Touch probe 2 fronte negativo – posizione salvata.
         pub const fn probe_2_negative_edge_stored(
             self,
         ) -> TouchProbeStatusProbe2NegativeEdgeStored {
             TouchProbeStatusProbe2NegativeEdgeStored::from_raw(
-                ((self.0 >> 10) & 0x1) as u8,
+                rt::bits16::field(self.0, 0x400) as u8,
             )
         }
         /// The same with another [`probe_2_negative_edge_stored`](Self::probe_2_negative_edge_stored).
@@ -17082,16 +17008,16 @@ pub mod types {
             self,
             value: TouchProbeStatusProbe2NegativeEdgeStored,
         ) -> Self {
-            Self((self.0 & !0x400) | (((value.raw() as u16) << 10) & 0x400))
+            Self(rt::bits16::with_field(self.0, 0x400, value.raw() as u16))
         }
         /// Bit 15: probe 2 update. Each change of the bit counts. Changes with every value stored while sampling is continuous. Manual: TOUCH PROBE STATUS; Rtouchprobestatus (CanOpen/EtherCAT standard Object 60B9h) (lines 1752, 1754, 3055).
         pub const fn probe_2_update(self) -> bool {
-            self.0 & 0x8000 != 0
+            rt::bits16::flag(self.0, 0x8000)
         }
         /// The same with another [`probe_2_update`](Self::probe_2_update).
         #[must_use]
         pub const fn with_probe_2_update(self, value: bool) -> Self {
-            Self((self.0 & !0x8000) | ((value as u16) << 15))
+            Self(rt::bits16::with_flag(self.0, 0x8000, value))
         }
     }
     impl Default for TouchProbeStatus {
@@ -17110,46 +17036,19 @@ pub mod types {
     }
     impl core::fmt::Debug for TouchProbeStatus {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            let bits = rt::DebugBits::new(f, "TouchProbeStatus", self.0 as u64);
-            let bits = rt::DebugBits::field(
-                bits,
-                "probe_1_enabled",
-                0x1,
-                &self.probe_1_enabled(),
-            );
-            let bits = rt::DebugBits::field(
-                bits,
-                "probe_1_positive_edge_stored",
-                0x2,
-                &self.probe_1_positive_edge_stored(),
-            );
-            let bits = rt::DebugBits::field(
-                bits,
-                "probe_1_negative_edge_stored",
-                0x4,
-                &self.probe_1_negative_edge_stored(),
-            );
-            let bits = rt::DebugBits::plain(bits, &[("probe_1_update", 0x80)]);
-            let bits = rt::DebugBits::field(
-                bits,
-                "probe_2_enabled",
-                0x100,
-                &self.probe_2_enabled(),
-            );
-            let bits = rt::DebugBits::field(
-                bits,
-                "probe_2_positive_edge_stored",
-                0x200,
-                &self.probe_2_positive_edge_stored(),
-            );
-            let bits = rt::DebugBits::field(
-                bits,
-                "probe_2_negative_edge_stored",
-                0x400,
-                &self.probe_2_negative_edge_stored(),
-            );
-            let bits = rt::DebugBits::plain(bits, &[("probe_2_update", 0x8000)]);
-            bits.finish()
+            rt::debug_bits(
+                f,
+                self.0 as u64,
+                "TouchProbeStatus ?probe_1_enabled:1 ?probe_1_positive_edge_stored:2 ?probe_1_negative_edge_stored:4 probe_1_update:80 ?probe_2_enabled:100 ?probe_2_positive_edge_stored:200 ?probe_2_negative_edge_stored:400 probe_2_update:8000",
+                &[
+                    &self.probe_1_enabled(),
+                    &self.probe_1_positive_edge_stored(),
+                    &self.probe_1_negative_edge_stored(),
+                    &self.probe_2_enabled(),
+                    &self.probe_2_positive_edge_stored(),
+                    &self.probe_2_negative_edge_stored(),
+                ],
+            )
         }
     }
     /// ProfileDigitalInputs.
@@ -17197,174 +17096,174 @@ pub mod types {
         }
         /// Bit 0: negative limit switch. BLS, active high. Manual: DIGITAL INPUTS (line 1956): Negative limit switch (BLS attivo alto).
         pub const fn negative_limit_switch(self) -> bool {
-            self.0 & 0x1 != 0
+            rt::bits32::flag(self.0, 0x1)
         }
         /// The same with another [`negative_limit_switch`](Self::negative_limit_switch).
         #[must_use]
         pub const fn with_negative_limit_switch(self, value: bool) -> Self {
-            Self((self.0 & !0x1) | (value as u32))
+            Self(rt::bits32::with_flag(self.0, 0x1, value))
         }
         /// Bit 1: positive limit switch. FLS, active high. Manual: DIGITAL INPUTS (line 1957): Positive limit switch (FLS attivo alto).
         pub const fn positive_limit_switch(self) -> bool {
-            self.0 & 0x2 != 0
+            rt::bits32::flag(self.0, 0x2)
         }
         /// The same with another [`positive_limit_switch`](Self::positive_limit_switch).
         #[must_use]
         pub const fn with_positive_limit_switch(self, value: bool) -> Self {
-            Self((self.0 & !0x2) | ((value as u32) << 1))
+            Self(rt::bits32::with_flag(self.0, 0x2, value))
         }
         /// Bit 2: home switch. TOP, active high. Manual: DIGITAL INPUTS (line 1958): Home switch (TOP attivo alto).
         pub const fn home_switch(self) -> bool {
-            self.0 & 0x4 != 0
+            rt::bits32::flag(self.0, 0x4)
         }
         /// The same with another [`home_switch`](Self::home_switch).
         #[must_use]
         pub const fn with_home_switch(self, value: bool) -> Self {
-            Self((self.0 & !0x4) | ((value as u32) << 2))
+            Self(rt::bits32::with_flag(self.0, 0x4, value))
         }
         /// Bit 16: digital input 0. Manual: DIGITAL INPUTS (line 1960): Ingressi digitali (digital input \[0..15\]).
         pub const fn digital_input_0(self) -> bool {
-            self.0 & 0x10000 != 0
+            rt::bits32::flag(self.0, 0x10000)
         }
         /// The same with another [`digital_input_0`](Self::digital_input_0).
         #[must_use]
         pub const fn with_digital_input_0(self, value: bool) -> Self {
-            Self((self.0 & !0x10000) | ((value as u32) << 16))
+            Self(rt::bits32::with_flag(self.0, 0x10000, value))
         }
         /// Bit 17: digital input 1. Manual: DIGITAL INPUTS (line 1960): Ingressi digitali (digital input \[0..15\]).
         pub const fn digital_input_1(self) -> bool {
-            self.0 & 0x20000 != 0
+            rt::bits32::flag(self.0, 0x20000)
         }
         /// The same with another [`digital_input_1`](Self::digital_input_1).
         #[must_use]
         pub const fn with_digital_input_1(self, value: bool) -> Self {
-            Self((self.0 & !0x20000) | ((value as u32) << 17))
+            Self(rt::bits32::with_flag(self.0, 0x20000, value))
         }
         /// Bit 18: digital input 2. Manual: DIGITAL INPUTS (line 1960): Ingressi digitali (digital input \[0..15\]).
         pub const fn digital_input_2(self) -> bool {
-            self.0 & 0x40000 != 0
+            rt::bits32::flag(self.0, 0x40000)
         }
         /// The same with another [`digital_input_2`](Self::digital_input_2).
         #[must_use]
         pub const fn with_digital_input_2(self, value: bool) -> Self {
-            Self((self.0 & !0x40000) | ((value as u32) << 18))
+            Self(rt::bits32::with_flag(self.0, 0x40000, value))
         }
         /// Bit 19: digital input 3. Manual: DIGITAL INPUTS (line 1960): Ingressi digitali (digital input \[0..15\]).
         pub const fn digital_input_3(self) -> bool {
-            self.0 & 0x80000 != 0
+            rt::bits32::flag(self.0, 0x80000)
         }
         /// The same with another [`digital_input_3`](Self::digital_input_3).
         #[must_use]
         pub const fn with_digital_input_3(self, value: bool) -> Self {
-            Self((self.0 & !0x80000) | ((value as u32) << 19))
+            Self(rt::bits32::with_flag(self.0, 0x80000, value))
         }
         /// Bit 20: digital input 4. Manual: DIGITAL INPUTS (line 1960): Ingressi digitali (digital input \[0..15\]).
         pub const fn digital_input_4(self) -> bool {
-            self.0 & 0x100000 != 0
+            rt::bits32::flag(self.0, 0x100000)
         }
         /// The same with another [`digital_input_4`](Self::digital_input_4).
         #[must_use]
         pub const fn with_digital_input_4(self, value: bool) -> Self {
-            Self((self.0 & !0x100000) | ((value as u32) << 20))
+            Self(rt::bits32::with_flag(self.0, 0x100000, value))
         }
         /// Bit 21: digital input 5. Manual: DIGITAL INPUTS (line 1960): Ingressi digitali (digital input \[0..15\]).
         pub const fn digital_input_5(self) -> bool {
-            self.0 & 0x200000 != 0
+            rt::bits32::flag(self.0, 0x200000)
         }
         /// The same with another [`digital_input_5`](Self::digital_input_5).
         #[must_use]
         pub const fn with_digital_input_5(self, value: bool) -> Self {
-            Self((self.0 & !0x200000) | ((value as u32) << 21))
+            Self(rt::bits32::with_flag(self.0, 0x200000, value))
         }
         /// Bit 22: digital input 6. Manual: DIGITAL INPUTS (line 1960): Ingressi digitali (digital input \[0..15\]).
         pub const fn digital_input_6(self) -> bool {
-            self.0 & 0x400000 != 0
+            rt::bits32::flag(self.0, 0x400000)
         }
         /// The same with another [`digital_input_6`](Self::digital_input_6).
         #[must_use]
         pub const fn with_digital_input_6(self, value: bool) -> Self {
-            Self((self.0 & !0x400000) | ((value as u32) << 22))
+            Self(rt::bits32::with_flag(self.0, 0x400000, value))
         }
         /// Bit 23: digital input 7. Manual: DIGITAL INPUTS (line 1960): Ingressi digitali (digital input \[0..15\]).
         pub const fn digital_input_7(self) -> bool {
-            self.0 & 0x800000 != 0
+            rt::bits32::flag(self.0, 0x800000)
         }
         /// The same with another [`digital_input_7`](Self::digital_input_7).
         #[must_use]
         pub const fn with_digital_input_7(self, value: bool) -> Self {
-            Self((self.0 & !0x800000) | ((value as u32) << 23))
+            Self(rt::bits32::with_flag(self.0, 0x800000, value))
         }
         /// Bit 24: digital input 8. Manual: DIGITAL INPUTS (line 1960): Ingressi digitali (digital input \[0..15\]).
         pub const fn digital_input_8(self) -> bool {
-            self.0 & 0x1000000 != 0
+            rt::bits32::flag(self.0, 0x1000000)
         }
         /// The same with another [`digital_input_8`](Self::digital_input_8).
         #[must_use]
         pub const fn with_digital_input_8(self, value: bool) -> Self {
-            Self((self.0 & !0x1000000) | ((value as u32) << 24))
+            Self(rt::bits32::with_flag(self.0, 0x1000000, value))
         }
         /// Bit 25: digital input 9. Manual: DIGITAL INPUTS (line 1960): Ingressi digitali (digital input \[0..15\]).
         pub const fn digital_input_9(self) -> bool {
-            self.0 & 0x2000000 != 0
+            rt::bits32::flag(self.0, 0x2000000)
         }
         /// The same with another [`digital_input_9`](Self::digital_input_9).
         #[must_use]
         pub const fn with_digital_input_9(self, value: bool) -> Self {
-            Self((self.0 & !0x2000000) | ((value as u32) << 25))
+            Self(rt::bits32::with_flag(self.0, 0x2000000, value))
         }
         /// Bit 26: digital input 10. Manual: DIGITAL INPUTS (line 1960): Ingressi digitali (digital input \[0..15\]).
         pub const fn digital_input_10(self) -> bool {
-            self.0 & 0x4000000 != 0
+            rt::bits32::flag(self.0, 0x4000000)
         }
         /// The same with another [`digital_input_10`](Self::digital_input_10).
         #[must_use]
         pub const fn with_digital_input_10(self, value: bool) -> Self {
-            Self((self.0 & !0x4000000) | ((value as u32) << 26))
+            Self(rt::bits32::with_flag(self.0, 0x4000000, value))
         }
         /// Bit 27: digital input 11. Manual: DIGITAL INPUTS (line 1960): Ingressi digitali (digital input \[0..15\]).
         pub const fn digital_input_11(self) -> bool {
-            self.0 & 0x8000000 != 0
+            rt::bits32::flag(self.0, 0x8000000)
         }
         /// The same with another [`digital_input_11`](Self::digital_input_11).
         #[must_use]
         pub const fn with_digital_input_11(self, value: bool) -> Self {
-            Self((self.0 & !0x8000000) | ((value as u32) << 27))
+            Self(rt::bits32::with_flag(self.0, 0x8000000, value))
         }
         /// Bit 28: digital input 12. Manual: DIGITAL INPUTS (line 1960): Ingressi digitali (digital input \[0..15\]).
         pub const fn digital_input_12(self) -> bool {
-            self.0 & 0x10000000 != 0
+            rt::bits32::flag(self.0, 0x10000000)
         }
         /// The same with another [`digital_input_12`](Self::digital_input_12).
         #[must_use]
         pub const fn with_digital_input_12(self, value: bool) -> Self {
-            Self((self.0 & !0x10000000) | ((value as u32) << 28))
+            Self(rt::bits32::with_flag(self.0, 0x10000000, value))
         }
         /// Bit 29: digital input 13. Manual: DIGITAL INPUTS (line 1960): Ingressi digitali (digital input \[0..15\]).
         pub const fn digital_input_13(self) -> bool {
-            self.0 & 0x20000000 != 0
+            rt::bits32::flag(self.0, 0x20000000)
         }
         /// The same with another [`digital_input_13`](Self::digital_input_13).
         #[must_use]
         pub const fn with_digital_input_13(self, value: bool) -> Self {
-            Self((self.0 & !0x20000000) | ((value as u32) << 29))
+            Self(rt::bits32::with_flag(self.0, 0x20000000, value))
         }
         /// Bit 30: digital input 14. Manual: DIGITAL INPUTS (line 1960): Ingressi digitali (digital input \[0..15\]).
         pub const fn digital_input_14(self) -> bool {
-            self.0 & 0x40000000 != 0
+            rt::bits32::flag(self.0, 0x40000000)
         }
         /// The same with another [`digital_input_14`](Self::digital_input_14).
         #[must_use]
         pub const fn with_digital_input_14(self, value: bool) -> Self {
-            Self((self.0 & !0x40000000) | ((value as u32) << 30))
+            Self(rt::bits32::with_flag(self.0, 0x40000000, value))
         }
         /// Bit 31: digital input 15. Manual: DIGITAL INPUTS (line 1960): Ingressi digitali (digital input \[0..15\]).
         pub const fn digital_input_15(self) -> bool {
-            self.0 & 0x80000000 != 0
+            rt::bits32::flag(self.0, 0x80000000)
         }
         /// The same with another [`digital_input_15`](Self::digital_input_15).
         #[must_use]
         pub const fn with_digital_input_15(self, value: bool) -> Self {
-            Self((self.0 & !0x80000000) | ((value as u32) << 31))
+            Self(rt::bits32::with_flag(self.0, 0x80000000, value))
         }
     }
     impl Default for ProfileDigitalInputs {
@@ -17383,32 +17282,12 @@ pub mod types {
     }
     impl core::fmt::Debug for ProfileDigitalInputs {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            let bits = rt::DebugBits::new(f, "ProfileDigitalInputs", self.0 as u64);
-            let bits = rt::DebugBits::plain(
-                bits,
-                &[
-                    ("negative_limit_switch", 0x1),
-                    ("positive_limit_switch", 0x2),
-                    ("home_switch", 0x4),
-                    ("digital_input_0", 0x10000),
-                    ("digital_input_1", 0x20000),
-                    ("digital_input_2", 0x40000),
-                    ("digital_input_3", 0x80000),
-                    ("digital_input_4", 0x100000),
-                    ("digital_input_5", 0x200000),
-                    ("digital_input_6", 0x400000),
-                    ("digital_input_7", 0x800000),
-                    ("digital_input_8", 0x1000000),
-                    ("digital_input_9", 0x2000000),
-                    ("digital_input_10", 0x4000000),
-                    ("digital_input_11", 0x8000000),
-                    ("digital_input_12", 0x10000000),
-                    ("digital_input_13", 0x20000000),
-                    ("digital_input_14", 0x40000000),
-                    ("digital_input_15", 0x80000000),
-                ],
-            );
-            bits.finish()
+            rt::debug_bits(
+                f,
+                self.0 as u64,
+                "ProfileDigitalInputs negative_limit_switch:1 positive_limit_switch:2 home_switch:4 digital_input_0:10000 digital_input_1:20000 digital_input_2:40000 digital_input_3:80000 digital_input_4:100000 digital_input_5:200000 digital_input_6:400000 digital_input_7:800000 digital_input_8:1000000 digital_input_9:2000000 digital_input_10:4000000 digital_input_11:8000000 digital_input_12:10000000 digital_input_13:20000000 digital_input_14:40000000 digital_input_15:80000000",
+                &[],
+            )
         }
     }
     /// ProfileDigitalOutputs.
@@ -17448,75 +17327,75 @@ pub mod types {
         }
         /// Bit 16: digital output 0. Manual: DIGITAL OUTPUTS (line 1994): Uscite digitali (digital output \[0.. 8\]).
         pub const fn digital_output_0(self) -> bool {
-            self.0 & 0x10000 != 0
+            rt::bits32::flag(self.0, 0x10000)
         }
         /// The same with another [`digital_output_0`](Self::digital_output_0).
         #[must_use]
         pub const fn with_digital_output_0(self, value: bool) -> Self {
-            Self((self.0 & !0x10000) | ((value as u32) << 16))
+            Self(rt::bits32::with_flag(self.0, 0x10000, value))
         }
         /// Bit 17: digital output 1. Manual: DIGITAL OUTPUTS (line 1994): Uscite digitali (digital output \[0.. 8\]).
         pub const fn digital_output_1(self) -> bool {
-            self.0 & 0x20000 != 0
+            rt::bits32::flag(self.0, 0x20000)
         }
         /// The same with another [`digital_output_1`](Self::digital_output_1).
         #[must_use]
         pub const fn with_digital_output_1(self, value: bool) -> Self {
-            Self((self.0 & !0x20000) | ((value as u32) << 17))
+            Self(rt::bits32::with_flag(self.0, 0x20000, value))
         }
         /// Bit 18: digital output 2. Manual: DIGITAL OUTPUTS (line 1994): Uscite digitali (digital output \[0.. 8\]).
         pub const fn digital_output_2(self) -> bool {
-            self.0 & 0x40000 != 0
+            rt::bits32::flag(self.0, 0x40000)
         }
         /// The same with another [`digital_output_2`](Self::digital_output_2).
         #[must_use]
         pub const fn with_digital_output_2(self, value: bool) -> Self {
-            Self((self.0 & !0x40000) | ((value as u32) << 18))
+            Self(rt::bits32::with_flag(self.0, 0x40000, value))
         }
         /// Bit 19: digital output 3. Manual: DIGITAL OUTPUTS (line 1994): Uscite digitali (digital output \[0.. 8\]).
         pub const fn digital_output_3(self) -> bool {
-            self.0 & 0x80000 != 0
+            rt::bits32::flag(self.0, 0x80000)
         }
         /// The same with another [`digital_output_3`](Self::digital_output_3).
         #[must_use]
         pub const fn with_digital_output_3(self, value: bool) -> Self {
-            Self((self.0 & !0x80000) | ((value as u32) << 19))
+            Self(rt::bits32::with_flag(self.0, 0x80000, value))
         }
         /// Bit 20: digital output 4. Manual: DIGITAL OUTPUTS (line 1994): Uscite digitali (digital output \[0.. 8\]).
         pub const fn digital_output_4(self) -> bool {
-            self.0 & 0x100000 != 0
+            rt::bits32::flag(self.0, 0x100000)
         }
         /// The same with another [`digital_output_4`](Self::digital_output_4).
         #[must_use]
         pub const fn with_digital_output_4(self, value: bool) -> Self {
-            Self((self.0 & !0x100000) | ((value as u32) << 20))
+            Self(rt::bits32::with_flag(self.0, 0x100000, value))
         }
         /// Bit 21: digital output 5. Manual: DIGITAL OUTPUTS (line 1994): Uscite digitali (digital output \[0.. 8\]).
         pub const fn digital_output_5(self) -> bool {
-            self.0 & 0x200000 != 0
+            rt::bits32::flag(self.0, 0x200000)
         }
         /// The same with another [`digital_output_5`](Self::digital_output_5).
         #[must_use]
         pub const fn with_digital_output_5(self, value: bool) -> Self {
-            Self((self.0 & !0x200000) | ((value as u32) << 21))
+            Self(rt::bits32::with_flag(self.0, 0x200000, value))
         }
         /// Bit 22: digital output 6. Manual: DIGITAL OUTPUTS (line 1994): Uscite digitali (digital output \[0.. 8\]).
         pub const fn digital_output_6(self) -> bool {
-            self.0 & 0x400000 != 0
+            rt::bits32::flag(self.0, 0x400000)
         }
         /// The same with another [`digital_output_6`](Self::digital_output_6).
         #[must_use]
         pub const fn with_digital_output_6(self, value: bool) -> Self {
-            Self((self.0 & !0x400000) | ((value as u32) << 22))
+            Self(rt::bits32::with_flag(self.0, 0x400000, value))
         }
         /// Bit 23: digital output 7. Manual: DIGITAL OUTPUTS (line 1994): Uscite digitali (digital output \[0.. 8\]).
         pub const fn digital_output_7(self) -> bool {
-            self.0 & 0x800000 != 0
+            rt::bits32::flag(self.0, 0x800000)
         }
         /// The same with another [`digital_output_7`](Self::digital_output_7).
         #[must_use]
         pub const fn with_digital_output_7(self, value: bool) -> Self {
-            Self((self.0 & !0x800000) | ((value as u32) << 23))
+            Self(rt::bits32::with_flag(self.0, 0x800000, value))
         }
     }
     impl Default for ProfileDigitalOutputs {
@@ -17535,21 +17414,12 @@ pub mod types {
     }
     impl core::fmt::Debug for ProfileDigitalOutputs {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            let bits = rt::DebugBits::new(f, "ProfileDigitalOutputs", self.0 as u64);
-            let bits = rt::DebugBits::plain(
-                bits,
-                &[
-                    ("digital_output_0", 0x10000),
-                    ("digital_output_1", 0x20000),
-                    ("digital_output_2", 0x40000),
-                    ("digital_output_3", 0x80000),
-                    ("digital_output_4", 0x100000),
-                    ("digital_output_5", 0x200000),
-                    ("digital_output_6", 0x400000),
-                    ("digital_output_7", 0x800000),
-                ],
-            );
-            bits.finish()
+            rt::debug_bits(
+                f,
+                self.0 as u64,
+                "ProfileDigitalOutputs digital_output_0:10000 digital_output_1:20000 digital_output_2:40000 digital_output_3:80000 digital_output_4:100000 digital_output_5:200000 digital_output_6:400000 digital_output_7:800000",
+                &[],
+            )
         }
     }
     /// SupportedDriveModes.
@@ -17587,66 +17457,66 @@ pub mod types {
         }
         /// Bit 0: profile position. Supported. Manual: SUPPORTED DRIVE MODE (line 2042): Profile Position Mode.
         pub const fn profile_position(self) -> bool {
-            self.0 & 0x1 != 0
+            rt::bits32::flag(self.0, 0x1)
         }
         /// The same with another [`profile_position`](Self::profile_position).
         #[must_use]
         pub const fn with_profile_position(self, value: bool) -> Self {
-            Self((self.0 & !0x1) | (value as u32))
+            Self(rt::bits32::with_flag(self.0, 0x1, value))
         }
         /// Bit 1: velocity. Not supported. Manual: SUPPORTED DRIVE MODE (line 2043): Velocity Mode.
         pub const fn velocity(self) -> bool {
-            self.0 & 0x2 != 0
+            rt::bits32::flag(self.0, 0x2)
         }
         /// The same with another [`velocity`](Self::velocity).
         #[must_use]
         pub const fn with_velocity(self, value: bool) -> Self {
-            Self((self.0 & !0x2) | ((value as u32) << 1))
+            Self(rt::bits32::with_flag(self.0, 0x2, value))
         }
         /// Bit 2: profile velocity. Not supported. Manual: SUPPORTED DRIVE MODE (line 2044): Profile Velocity Mode.
         pub const fn profile_velocity(self) -> bool {
-            self.0 & 0x4 != 0
+            rt::bits32::flag(self.0, 0x4)
         }
         /// The same with another [`profile_velocity`](Self::profile_velocity).
         #[must_use]
         pub const fn with_profile_velocity(self, value: bool) -> Self {
-            Self((self.0 & !0x4) | ((value as u32) << 2))
+            Self(rt::bits32::with_flag(self.0, 0x4, value))
         }
         /// Bit 3: profile torque. Not supported. Manual: SUPPORTED DRIVE MODE (line 2045): Profile Torque Mode.
         pub const fn profile_torque(self) -> bool {
-            self.0 & 0x8 != 0
+            rt::bits32::flag(self.0, 0x8)
         }
         /// The same with another [`profile_torque`](Self::profile_torque).
         #[must_use]
         pub const fn with_profile_torque(self, value: bool) -> Self {
-            Self((self.0 & !0x8) | ((value as u32) << 3))
+            Self(rt::bits32::with_flag(self.0, 0x8, value))
         }
         /// Bit 5: homing. Supported. Manual: SUPPORTED DRIVE MODE (line 2047): Homing Mode.
         pub const fn homing(self) -> bool {
-            self.0 & 0x20 != 0
+            rt::bits32::flag(self.0, 0x20)
         }
         /// The same with another [`homing`](Self::homing).
         #[must_use]
         pub const fn with_homing(self, value: bool) -> Self {
-            Self((self.0 & !0x20) | ((value as u32) << 5))
+            Self(rt::bits32::with_flag(self.0, 0x20, value))
         }
         /// Bit 6: interpolated position. Marked as supported, but not in the printed value. Manual: SUPPORTED DRIVE MODE (line 2048): Interpolated Position Mode.
         pub const fn interpolated_position(self) -> bool {
-            self.0 & 0x40 != 0
+            rt::bits32::flag(self.0, 0x40)
         }
         /// The same with another [`interpolated_position`](Self::interpolated_position).
         #[must_use]
         pub const fn with_interpolated_position(self, value: bool) -> Self {
-            Self((self.0 & !0x40) | ((value as u32) << 6))
+            Self(rt::bits32::with_flag(self.0, 0x40, value))
         }
         /// Bit 16: AEC velocity. Supported. Manual: SUPPORTED DRIVE MODE (line 2050): AEC Velocity Mode.
         pub const fn aec_velocity(self) -> bool {
-            self.0 & 0x10000 != 0
+            rt::bits32::flag(self.0, 0x10000)
         }
         /// The same with another [`aec_velocity`](Self::aec_velocity).
         #[must_use]
         pub const fn with_aec_velocity(self, value: bool) -> Self {
-            Self((self.0 & !0x10000) | ((value as u32) << 16))
+            Self(rt::bits32::with_flag(self.0, 0x10000, value))
         }
     }
     impl Default for SupportedDriveModes {
@@ -17665,20 +17535,12 @@ pub mod types {
     }
     impl core::fmt::Debug for SupportedDriveModes {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            let bits = rt::DebugBits::new(f, "SupportedDriveModes", self.0 as u64);
-            let bits = rt::DebugBits::plain(
-                bits,
-                &[
-                    ("profile_position", 0x1),
-                    ("velocity", 0x2),
-                    ("profile_velocity", 0x4),
-                    ("profile_torque", 0x8),
-                    ("homing", 0x20),
-                    ("interpolated_position", 0x40),
-                    ("aec_velocity", 0x10000),
-                ],
-            );
-            bits.finish()
+            rt::debug_bits(
+                f,
+                self.0 as u64,
+                "SupportedDriveModes profile_position:1 velocity:2 profile_velocity:4 profile_torque:8 homing:20 interpolated_position:40 aec_velocity:10000",
+                &[],
+            )
         }
     }
     /// SavedPosition.
@@ -17705,12 +17567,12 @@ pub mod types {
         }
         /// Bit 0: position saved. 1: the position saved at power-off is valid and is in Rposactsaved. Manual: quota salvata correttamente.
         pub const fn position_saved(self) -> bool {
-            self.0 & 0x1 != 0
+            rt::bits16::flag(self.0, 0x1)
         }
         /// The same with another [`position_saved`](Self::position_saved).
         #[must_use]
         pub const fn with_position_saved(self, value: bool) -> Self {
-            Self((self.0 & !0x1) | (value as u16))
+            Self(rt::bits16::with_flag(self.0, 0x1, value))
         }
     }
     impl Default for SavedPosition {
@@ -17729,9 +17591,7 @@ pub mod types {
     }
     impl core::fmt::Debug for SavedPosition {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            let bits = rt::DebugBits::new(f, "SavedPosition", self.0 as u64);
-            let bits = rt::DebugBits::plain(bits, &[("position_saved", 0x1)]);
-            bits.finish()
+            rt::debug_bits(f, self.0 as u64, "SavedPosition position_saved:1", &[])
         }
     }
     /// Status.
@@ -17773,147 +17633,147 @@ pub mod types {
         }
         /// Bit 0: enabled. Manual: Azionamento abilitato.
         pub const fn enabled(self) -> bool {
-            self.0 & 0x1 != 0
+            rt::bits16::flag(self.0, 0x1)
         }
         /// The same with another [`enabled`](Self::enabled).
         #[must_use]
         pub const fn with_enabled(self, value: bool) -> Self {
-            Self((self.0 & !0x1) | (value as u16))
+            Self(rt::bits16::with_flag(self.0, 0x1, value))
         }
         /// Bit 1: alarm active. Manual: Azionamento in allarme.
         pub const fn alarm_active(self) -> bool {
-            self.0 & 0x2 != 0
+            rt::bits16::flag(self.0, 0x2)
         }
         /// The same with another [`alarm_active`](Self::alarm_active).
         #[must_use]
         pub const fn with_alarm_active(self, value: bool) -> Self {
-            Self((self.0 & !0x2) | ((value as u16) << 1))
+            Self(rt::bits16::with_flag(self.0, 0x2, value))
         }
         /// Bit 2: axis homed. Cleared by writing 0 to the register. Manual: Asse azzerato.
         pub const fn axis_homed(self) -> bool {
-            self.0 & 0x4 != 0
+            rt::bits16::flag(self.0, 0x4)
         }
         /// The same with another [`axis_homed`](Self::axis_homed).
         #[must_use]
         pub const fn with_axis_homed(self, value: bool) -> Self {
-            Self((self.0 & !0x4) | ((value as u16) << 2))
+            Self(rt::bits16::with_flag(self.0, 0x4, value))
         }
         /// Bit 3: theoretical motion. The motion profile is running, independently of the motor. Manual: Motore in movimento teorico.
         pub const fn theoretical_motion(self) -> bool {
-            self.0 & 0x8 != 0
+            rt::bits16::flag(self.0, 0x8)
         }
         /// The same with another [`theoretical_motion`](Self::theoretical_motion).
         #[must_use]
         pub const fn with_theoretical_motion(self, value: bool) -> Self {
-            Self((self.0 & !0x8) | ((value as u16) << 3))
+            Self(rt::bits16::with_flag(self.0, 0x8, value))
         }
         /// Bit 4: accelerating. Manual: Motore in accelerazione.
         pub const fn accelerating(self) -> bool {
-            self.0 & 0x10 != 0
+            rt::bits16::flag(self.0, 0x10)
         }
         /// The same with another [`accelerating`](Self::accelerating).
         #[must_use]
         pub const fn with_accelerating(self, value: bool) -> Self {
-            Self((self.0 & !0x10) | ((value as u16) << 4))
+            Self(rt::bits16::with_flag(self.0, 0x10, value))
         }
         /// Bit 5: constant speed. Manual: Motore a velocita' costante.
         pub const fn constant_speed(self) -> bool {
-            self.0 & 0x20 != 0
+            rt::bits16::flag(self.0, 0x20)
         }
         /// The same with another [`constant_speed`](Self::constant_speed).
         #[must_use]
         pub const fn with_constant_speed(self, value: bool) -> Self {
-            Self((self.0 & !0x20) | ((value as u16) << 5))
+            Self(rt::bits16::with_flag(self.0, 0x20, value))
         }
         /// Bit 6: decelerating. Manual: Motore in decelerazione.
         pub const fn decelerating(self) -> bool {
-            self.0 & 0x40 != 0
+            rt::bits16::flag(self.0, 0x40)
         }
         /// The same with another [`decelerating`](Self::decelerating).
         #[must_use]
         pub const fn with_decelerating(self, value: bool) -> Self {
-            Self((self.0 & !0x40) | ((value as u16) << 6))
+            Self(rt::bits16::with_flag(self.0, 0x40, value))
         }
         /// Bit 7: closed loop report. Set by bits 0, 1 and 2 of Rstscllp. Manual: Segnalazioni da registro Rstscllp.
         pub const fn closed_loop_report(self) -> bool {
-            self.0 & 0x80 != 0
+            rt::bits16::flag(self.0, 0x80)
         }
         /// The same with another [`closed_loop_report`](Self::closed_loop_report).
         #[must_use]
         pub const fn with_closed_loop_report(self, value: bool) -> Self {
-            Self((self.0 & !0x80) | ((value as u16) << 7))
+            Self(rt::bits16::with_flag(self.0, 0x80, value))
         }
         /// Bit 8: homing failed. Manual: Home terminato con errore.
         pub const fn homing_failed(self) -> bool {
-            self.0 & 0x100 != 0
+            rt::bits16::flag(self.0, 0x100)
         }
         /// The same with another [`homing_failed`](Self::homing_failed).
         #[must_use]
         pub const fn with_homing_failed(self, value: bool) -> Self {
-            Self((self.0 & !0x100) | ((value as u16) << 8))
+            Self(rt::bits16::with_flag(self.0, 0x100, value))
         }
         /// Bit 9: motor current. Manual: Stato corrente.
         pub const fn motor_current(self) -> StatusMotorCurrent {
-            StatusMotorCurrent::from_raw(((self.0 >> 9) & 0x1) as u8)
+            StatusMotorCurrent::from_raw(rt::bits16::field(self.0, 0x200) as u8)
         }
         /// The same with another [`motor_current`](Self::motor_current).
         #[must_use]
         pub const fn with_motor_current(self, value: StatusMotorCurrent) -> Self {
-            Self((self.0 & !0x200) | (((value.raw() as u16) << 9) & 0x200))
+            Self(rt::bits16::with_field(self.0, 0x200, value.raw() as u16))
         }
         /// Bit 10: in position. Manual: Motore in posizione.
         pub const fn in_position(self) -> bool {
-            self.0 & 0x400 != 0
+            rt::bits16::flag(self.0, 0x400)
         }
         /// The same with another [`in_position`](Self::in_position).
         #[must_use]
         pub const fn with_in_position(self, value: bool) -> Self {
-            Self((self.0 & !0x400) | ((value as u16) << 10))
+            Self(rt::bits16::with_flag(self.0, 0x400, value))
         }
         /// Bit 11: following error. Manual: Errore di inseguimento.
         pub const fn following_error(self) -> bool {
-            self.0 & 0x800 != 0
+            rt::bits16::flag(self.0, 0x800)
         }
         /// The same with another [`following_error`](Self::following_error).
         #[must_use]
         pub const fn with_following_error(self, value: bool) -> Self {
-            Self((self.0 & !0x800) | ((value as u16) << 11))
+            Self(rt::bits16::with_flag(self.0, 0x800, value))
         }
         /// Bit 12: moved while disabled. Only with an encoder; the window is Rdeadpos. Manual: Motore mosso durante lo stato disable.
         pub const fn moved_while_disabled(self) -> bool {
-            self.0 & 0x1000 != 0
+            rt::bits16::flag(self.0, 0x1000)
         }
         /// The same with another [`moved_while_disabled`](Self::moved_while_disabled).
         #[must_use]
         pub const fn with_moved_while_disabled(self, value: bool) -> Self {
-            Self((self.0 & !0x1000) | ((value as u16) << 12))
+            Self(rt::bits16::with_flag(self.0, 0x1000, value))
         }
         /// Bit 13: anticlockwise. Manual: Verso rotazione antioraria.
         pub const fn anticlockwise(self) -> bool {
-            self.0 & 0x2000 != 0
+            rt::bits16::flag(self.0, 0x2000)
         }
         /// The same with another [`anticlockwise`](Self::anticlockwise).
         #[must_use]
         pub const fn with_anticlockwise(self, value: bool) -> Self {
-            Self((self.0 & !0x2000) | ((value as u16) << 13))
+            Self(rt::bits16::with_flag(self.0, 0x2000, value))
         }
         /// Bit 14: outside software limits. Manual: Quota attuale fuori dai limiti software.
         pub const fn outside_software_limits(self) -> bool {
-            self.0 & 0x4000 != 0
+            rt::bits16::flag(self.0, 0x4000)
         }
         /// The same with another [`outside_software_limits`](Self::outside_software_limits).
         #[must_use]
         pub const fn with_outside_software_limits(self, value: bool) -> Self {
-            Self((self.0 & !0x4000) | ((value as u16) << 14))
+            Self(rt::bits16::with_flag(self.0, 0x4000, value))
         }
         /// Bit 15: homing in progress. Manual: Home in corso.
         pub const fn homing_in_progress(self) -> bool {
-            self.0 & 0x8000 != 0
+            rt::bits16::flag(self.0, 0x8000)
         }
         /// The same with another [`homing_in_progress`](Self::homing_in_progress).
         #[must_use]
         pub const fn with_homing_in_progress(self, value: bool) -> Self {
-            Self((self.0 & !0x8000) | ((value as u16) << 15))
+            Self(rt::bits16::with_flag(self.0, 0x8000, value))
         }
     }
     impl Default for Status {
@@ -17932,39 +17792,12 @@ pub mod types {
     }
     impl core::fmt::Debug for Status {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            let bits = rt::DebugBits::new(f, "Status", self.0 as u64);
-            let bits = rt::DebugBits::plain(
-                bits,
-                &[
-                    ("enabled", 0x1),
-                    ("alarm_active", 0x2),
-                    ("axis_homed", 0x4),
-                    ("theoretical_motion", 0x8),
-                    ("accelerating", 0x10),
-                    ("constant_speed", 0x20),
-                    ("decelerating", 0x40),
-                    ("closed_loop_report", 0x80),
-                    ("homing_failed", 0x100),
-                ],
-            );
-            let bits = rt::DebugBits::field(
-                bits,
-                "motor_current",
-                0x200,
-                &self.motor_current(),
-            );
-            let bits = rt::DebugBits::plain(
-                bits,
-                &[
-                    ("in_position", 0x400),
-                    ("following_error", 0x800),
-                    ("moved_while_disabled", 0x1000),
-                    ("anticlockwise", 0x2000),
-                    ("outside_software_limits", 0x4000),
-                    ("homing_in_progress", 0x8000),
-                ],
-            );
-            bits.finish()
+            rt::debug_bits(
+                f,
+                self.0 as u64,
+                "Status enabled:1 alarm_active:2 axis_homed:4 theoretical_motion:8 accelerating:10 constant_speed:20 decelerating:40 closed_loop_report:80 homing_failed:100 ?motor_current:200 in_position:400 following_error:800 moved_while_disabled:1000 anticlockwise:2000 outside_software_limits:4000 homing_in_progress:8000",
+                &[&self.motor_current()],
+            )
         }
     }
     /// Status1.
@@ -18008,147 +17841,147 @@ pub mod types {
         }
         /// Bit 0: alarms in buffer. Manual: Allarmi presenti in buffer.
         pub const fn alarms_in_buffer(self) -> bool {
-            self.0 & 0x1 != 0
+            rt::bits16::flag(self.0, 0x1)
         }
         /// The same with another [`alarms_in_buffer`](Self::alarms_in_buffer).
         #[must_use]
         pub const fn with_alarms_in_buffer(self, value: bool) -> Self {
-            Self((self.0 & !0x1) | (value as u16))
+            Self(rt::bits16::with_flag(self.0, 0x1, value))
         }
         /// Bit 1: warning present. Manual: Presenza warning.
         pub const fn warning_present(self) -> bool {
-            self.0 & 0x2 != 0
+            rt::bits16::flag(self.0, 0x2)
         }
         /// The same with another [`warning_present`](Self::warning_present).
         #[must_use]
         pub const fn with_warning_present(self, value: bool) -> Self {
-            Self((self.0 & !0x2) | ((value as u16) << 1))
+            Self(rt::bits16::with_flag(self.0, 0x2, value))
         }
         /// Bit 2: power off signal. Manual: Power\_OFF signal.
         pub const fn power_off_signal(self) -> bool {
-            self.0 & 0x4 != 0
+            rt::bits16::flag(self.0, 0x4)
         }
         /// The same with another [`power_off_signal`](Self::power_off_signal).
         #[must_use]
         pub const fn with_power_off_signal(self, value: bool) -> Self {
-            Self((self.0 & !0x4) | ((value as u16) << 2))
+            Self(rt::bits16::with_flag(self.0, 0x4, value))
         }
         /// Bit 3: stop in progress. Manual: STOP in esecuzione.
         pub const fn stop_in_progress(self) -> bool {
-            self.0 & 0x8 != 0
+            rt::bits16::flag(self.0, 0x8)
         }
         /// The same with another [`stop_in_progress`](Self::stop_in_progress).
         #[must_use]
         pub const fn with_stop_in_progress(self, value: bool) -> Self {
-            Self((self.0 & !0x8) | ((value as u16) << 3))
+            Self(rt::bits16::with_flag(self.0, 0x8, value))
         }
         /// Bit 4: task in progress. Manual: TASK in esecuzione.
         pub const fn task_in_progress(self) -> bool {
-            self.0 & 0x10 != 0
+            rt::bits16::flag(self.0, 0x10)
         }
         /// The same with another [`task_in_progress`](Self::task_in_progress).
         #[must_use]
         pub const fn with_task_in_progress(self, value: bool) -> Self {
-            Self((self.0 & !0x10) | ((value as u16) << 4))
+            Self(rt::bits16::with_flag(self.0, 0x10, value))
         }
         /// Bit 5: lower software limit hit. Manual: Intervento limite SW inferiore.
         pub const fn lower_software_limit_hit(self) -> bool {
-            self.0 & 0x20 != 0
+            rt::bits16::flag(self.0, 0x20)
         }
         /// The same with another [`lower_software_limit_hit`](Self::lower_software_limit_hit).
         #[must_use]
         pub const fn with_lower_software_limit_hit(self, value: bool) -> Self {
-            Self((self.0 & !0x20) | ((value as u16) << 5))
+            Self(rt::bits16::with_flag(self.0, 0x20, value))
         }
         /// Bit 6: upper software limit hit. Manual: Intervento limite SW superiore.
         pub const fn upper_software_limit_hit(self) -> bool {
-            self.0 & 0x40 != 0
+            rt::bits16::flag(self.0, 0x40)
         }
         /// The same with another [`upper_software_limit_hit`](Self::upper_software_limit_hit).
         #[must_use]
         pub const fn with_upper_software_limit_hit(self, value: bool) -> Self {
-            Self((self.0 & !0x40) | ((value as u16) << 6))
+            Self(rt::bits16::with_flag(self.0, 0x40, value))
         }
         /// Bit 7: backward limit switch latched. Remains set after the switch BLS was reached. Manual: Intervento BLS (memoria).
         pub const fn backward_limit_switch_latched(self) -> bool {
-            self.0 & 0x80 != 0
+            rt::bits16::flag(self.0, 0x80)
         }
         /// The same with another [`backward_limit_switch_latched`](Self::backward_limit_switch_latched).
         #[must_use]
         pub const fn with_backward_limit_switch_latched(self, value: bool) -> Self {
-            Self((self.0 & !0x80) | ((value as u16) << 7))
+            Self(rt::bits16::with_flag(self.0, 0x80, value))
         }
         /// Bit 8: forward limit switch latched. Remains set after the switch FLS was reached. Manual: Intervento FLS (memoria).
         pub const fn forward_limit_switch_latched(self) -> bool {
-            self.0 & 0x100 != 0
+            rt::bits16::flag(self.0, 0x100)
         }
         /// The same with another [`forward_limit_switch_latched`](Self::forward_limit_switch_latched).
         #[must_use]
         pub const fn with_forward_limit_switch_latched(self, value: bool) -> Self {
-            Self((self.0 & !0x100) | ((value as u16) << 8))
+            Self(rt::bits16::with_flag(self.0, 0x100, value))
         }
         /// Bit 9: voltage limit. Manual: Funzionamento in limite di tensione.
         pub const fn voltage_limit(self) -> bool {
-            self.0 & 0x200 != 0
+            rt::bits16::flag(self.0, 0x200)
         }
         /// The same with another [`voltage_limit`](Self::voltage_limit).
         #[must_use]
         pub const fn with_voltage_limit(self, value: bool) -> Self {
-            Self((self.0 & !0x200) | ((value as u16) << 9))
+            Self(rt::bits16::with_flag(self.0, 0x200, value))
         }
         /// Bit 10: regulators saturated. Manual: Regolatori saturi.
         pub const fn regulators_saturated(self) -> bool {
-            self.0 & 0x400 != 0
+            rt::bits16::flag(self.0, 0x400)
         }
         /// The same with another [`regulators_saturated`](Self::regulators_saturated).
         #[must_use]
         pub const fn with_regulators_saturated(self, value: bool) -> Self {
-            Self((self.0 & !0x400) | ((value as u16) << 10))
+            Self(rt::bits16::with_flag(self.0, 0x400, value))
         }
         /// Bit 11: current limit active. Manual: Limite di corrente attivo.
         pub const fn current_limit_active(self) -> bool {
-            self.0 & 0x800 != 0
+            rt::bits16::flag(self.0, 0x800)
         }
         /// The same with another [`current_limit_active`](Self::current_limit_active).
         #[must_use]
         pub const fn with_current_limit_active(self, value: bool) -> Self {
-            Self((self.0 & !0x800) | ((value as u16) << 11))
+            Self(rt::bits16::with_flag(self.0, 0x800, value))
         }
         /// Bit 12: encoder phasing in progress. Manual: Fasatura encoder in corso.
         pub const fn encoder_phasing_in_progress(self) -> bool {
-            self.0 & 0x1000 != 0
+            rt::bits16::flag(self.0, 0x1000)
         }
         /// The same with another [`encoder_phasing_in_progress`](Self::encoder_phasing_in_progress).
         #[must_use]
         pub const fn with_encoder_phasing_in_progress(self, value: bool) -> Self {
-            Self((self.0 & !0x1000) | ((value as u16) << 12))
+            Self(rt::bits16::with_flag(self.0, 0x1000, value))
         }
         /// Bit 13: Rextencvel updated. The speed of the external encoder has a new value. Manual: Registro Rextencvel aggiornato.
         pub const fn rextencvel_updated(self) -> bool {
-            self.0 & 0x2000 != 0
+            rt::bits16::flag(self.0, 0x2000)
         }
         /// The same with another [`rextencvel_updated`](Self::rextencvel_updated).
         #[must_use]
         pub const fn with_rextencvel_updated(self, value: bool) -> Self {
-            Self((self.0 & !0x2000) | ((value as u16) << 13))
+            Self(rt::bits16::with_flag(self.0, 0x2000, value))
         }
         /// Bit 14: Rextencotovel updated. The speed from the index of the external encoder has a new value. Manual: Registro Rextencvtopvel aggiornato.
         pub const fn rextencotovel_updated(self) -> bool {
-            self.0 & 0x4000 != 0
+            rt::bits16::flag(self.0, 0x4000)
         }
         /// The same with another [`rextencotovel_updated`](Self::rextencotovel_updated).
         #[must_use]
         pub const fn with_rextencotovel_updated(self, value: bool) -> Self {
-            Self((self.0 & !0x4000) | ((value as u16) << 14))
+            Self(rt::bits16::with_flag(self.0, 0x4000, value))
         }
         /// Bit 15: STO active. Manual: STO attivo.
         pub const fn sto_active(self) -> bool {
-            self.0 & 0x8000 != 0
+            rt::bits16::flag(self.0, 0x8000)
         }
         /// The same with another [`sto_active`](Self::sto_active).
         #[must_use]
         pub const fn with_sto_active(self, value: bool) -> Self {
-            Self((self.0 & !0x8000) | ((value as u16) << 15))
+            Self(rt::bits16::with_flag(self.0, 0x8000, value))
         }
     }
     impl Default for Status1 {
@@ -18167,29 +18000,12 @@ pub mod types {
     }
     impl core::fmt::Debug for Status1 {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            let bits = rt::DebugBits::new(f, "Status1", self.0 as u64);
-            let bits = rt::DebugBits::plain(
-                bits,
-                &[
-                    ("alarms_in_buffer", 0x1),
-                    ("warning_present", 0x2),
-                    ("power_off_signal", 0x4),
-                    ("stop_in_progress", 0x8),
-                    ("task_in_progress", 0x10),
-                    ("lower_software_limit_hit", 0x20),
-                    ("upper_software_limit_hit", 0x40),
-                    ("backward_limit_switch_latched", 0x80),
-                    ("forward_limit_switch_latched", 0x100),
-                    ("voltage_limit", 0x200),
-                    ("regulators_saturated", 0x400),
-                    ("current_limit_active", 0x800),
-                    ("encoder_phasing_in_progress", 0x1000),
-                    ("rextencvel_updated", 0x2000),
-                    ("rextencotovel_updated", 0x4000),
-                    ("sto_active", 0x8000),
-                ],
-            );
-            bits.finish()
+            rt::debug_bits(
+                f,
+                self.0 as u64,
+                "Status1 alarms_in_buffer:1 warning_present:2 power_off_signal:4 stop_in_progress:8 task_in_progress:10 lower_software_limit_hit:20 upper_software_limit_hit:40 backward_limit_switch_latched:80 forward_limit_switch_latched:100 voltage_limit:200 regulators_saturated:400 current_limit_active:800 encoder_phasing_in_progress:1000 rextencvel_updated:2000 rextencotovel_updated:4000 sto_active:8000",
+                &[],
+            )
         }
     }
     /// ClosedLoopStatus.
@@ -18231,93 +18047,93 @@ pub mod types {
         }
         /// Bit 0: encoder phased. Manual: Encoder fasato.
         pub const fn encoder_phased(self) -> bool {
-            self.0 & 0x1 != 0
+            rt::bits16::flag(self.0, 0x1)
         }
         /// The same with another [`encoder_phased`](Self::encoder_phased).
         #[must_use]
         pub const fn with_encoder_phased(self, value: bool) -> Self {
-            Self((self.0 & !0x1) | (value as u16))
+            Self(rt::bits16::with_flag(self.0, 0x1, value))
         }
         /// Bit 1: theoretical motion. Manual: Motore in movimento teorico.
         pub const fn theoretical_motion(self) -> bool {
-            self.0 & 0x2 != 0
+            rt::bits16::flag(self.0, 0x2)
         }
         /// The same with another [`theoretical_motion`](Self::theoretical_motion).
         #[must_use]
         pub const fn with_theoretical_motion(self, value: bool) -> Self {
-            Self((self.0 & !0x2) | ((value as u16) << 1))
+            Self(rt::bits16::with_flag(self.0, 0x2, value))
         }
         /// Bit 2: in position. Manual: Motore in posizione.
         pub const fn in_position(self) -> bool {
-            self.0 & 0x4 != 0
+            rt::bits16::flag(self.0, 0x4)
         }
         /// The same with another [`in_position`](Self::in_position).
         #[must_use]
         pub const fn with_in_position(self, value: bool) -> Self {
-            Self((self.0 & !0x4) | ((value as u16) << 2))
+            Self(rt::bits16::with_flag(self.0, 0x4, value))
         }
         /// Bit 3: position alarm. Manual: Allarme posizione.
         pub const fn position_alarm(self) -> bool {
-            self.0 & 0x8 != 0
+            rt::bits16::flag(self.0, 0x8)
         }
         /// The same with another [`position_alarm`](Self::position_alarm).
         #[must_use]
         pub const fn with_position_alarm(self, value: bool) -> Self {
-            Self((self.0 & !0x8) | ((value as u16) << 3))
+            Self(rt::bits16::with_flag(self.0, 0x8, value))
         }
         /// Bit 4: following alarm. Manual: Allarme inseguimento.
         pub const fn following_alarm(self) -> bool {
-            self.0 & 0x10 != 0
+            rt::bits16::flag(self.0, 0x10)
         }
         /// The same with another [`following_alarm`](Self::following_alarm).
         #[must_use]
         pub const fn with_following_alarm(self, value: bool) -> Self {
-            Self((self.0 & !0x10) | ((value as u16) << 4))
+            Self(rt::bits16::with_flag(self.0, 0x10, value))
         }
         /// Bit 6: positioning timeout. Manual: Time out posizionamento.
         pub const fn positioning_timeout(self) -> bool {
-            self.0 & 0x40 != 0
+            rt::bits16::flag(self.0, 0x40)
         }
         /// The same with another [`positioning_timeout`](Self::positioning_timeout).
         #[must_use]
         pub const fn with_positioning_timeout(self, value: bool) -> Self {
-            Self((self.0 & !0x40) | ((value as u16) << 6))
+            Self(rt::bits16::with_flag(self.0, 0x40, value))
         }
         /// Bit 7: real motion. The motor is actually turning. Manual: Motore in movimento reale.
         pub const fn real_motion(self) -> bool {
-            self.0 & 0x80 != 0
+            rt::bits16::flag(self.0, 0x80)
         }
         /// The same with another [`real_motion`](Self::real_motion).
         #[must_use]
         pub const fn with_real_motion(self, value: bool) -> Self {
-            Self((self.0 & !0x80) | ((value as u16) << 7))
+            Self(rt::bits16::with_flag(self.0, 0x80, value))
         }
         /// Bit 8: current limit. Manual: Limite di corrente.
         pub const fn current_limit(self) -> bool {
-            self.0 & 0x100 != 0
+            rt::bits16::flag(self.0, 0x100)
         }
         /// The same with another [`current_limit`](Self::current_limit).
         #[must_use]
         pub const fn with_current_limit(self, value: bool) -> Self {
-            Self((self.0 & !0x100) | ((value as u16) << 8))
+            Self(rt::bits16::with_flag(self.0, 0x100, value))
         }
         /// Bit 9: speed limit. Manual: Limite di velocita'.
         pub const fn speed_limit(self) -> bool {
-            self.0 & 0x200 != 0
+            rt::bits16::flag(self.0, 0x200)
         }
         /// The same with another [`speed_limit`](Self::speed_limit).
         #[must_use]
         pub const fn with_speed_limit(self, value: bool) -> Self {
-            Self((self.0 & !0x200) | ((value as u16) << 9))
+            Self(rt::bits16::with_flag(self.0, 0x200, value))
         }
         /// Bit 10: acceleration limit. Manual: Limite di accelerazione.
         pub const fn acceleration_limit(self) -> bool {
-            self.0 & 0x400 != 0
+            rt::bits16::flag(self.0, 0x400)
         }
         /// The same with another [`acceleration_limit`](Self::acceleration_limit).
         #[must_use]
         pub const fn with_acceleration_limit(self, value: bool) -> Self {
-            Self((self.0 & !0x400) | ((value as u16) << 10))
+            Self(rt::bits16::with_flag(self.0, 0x400, value))
         }
     }
     impl Default for ClosedLoopStatus {
@@ -18336,23 +18152,12 @@ pub mod types {
     }
     impl core::fmt::Debug for ClosedLoopStatus {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            let bits = rt::DebugBits::new(f, "ClosedLoopStatus", self.0 as u64);
-            let bits = rt::DebugBits::plain(
-                bits,
-                &[
-                    ("encoder_phased", 0x1),
-                    ("theoretical_motion", 0x2),
-                    ("in_position", 0x4),
-                    ("position_alarm", 0x8),
-                    ("following_alarm", 0x10),
-                    ("positioning_timeout", 0x40),
-                    ("real_motion", 0x80),
-                    ("current_limit", 0x100),
-                    ("speed_limit", 0x200),
-                    ("acceleration_limit", 0x400),
-                ],
-            );
-            bits.finish()
+            rt::debug_bits(
+                f,
+                self.0 as u64,
+                "ClosedLoopStatus encoder_phased:1 theoretical_motion:2 in_position:4 position_alarm:8 following_alarm:10 positioning_timeout:40 real_motion:80 current_limit:100 speed_limit:200 acceleration_limit:400",
+                &[],
+            )
         }
     }
     /// ModeFlags1.
@@ -18394,39 +18199,39 @@ pub mod types {
         }
         /// Bit 0: wait for end of movement. Manual: Attendi fine movimento.
         pub const fn wait_for_end_of_movement(self) -> bool {
-            self.0 & 0x1 != 0
+            rt::bits16::flag(self.0, 0x1)
         }
         /// The same with another [`wait_for_end_of_movement`](Self::wait_for_end_of_movement).
         #[must_use]
         pub const fn with_wait_for_end_of_movement(self, value: bool) -> Self {
-            Self((self.0 & !0x1) | (value as u16))
+            Self(rt::bits16::with_flag(self.0, 0x1, value))
         }
         /// Bit 1: update jog immediately. Manual: Update JOG immediately.
         pub const fn update_jog_immediately(self) -> bool {
-            self.0 & 0x2 != 0
+            rt::bits16::flag(self.0, 0x2)
         }
         /// The same with another [`update_jog_immediately`](Self::update_jog_immediately).
         #[must_use]
         pub const fn with_update_jog_immediately(self, value: bool) -> Self {
-            Self((self.0 & !0x2) | ((value as u16) << 1))
+            Self(rt::bits16::with_flag(self.0, 0x2, value))
         }
         /// Bit 2: cam table positioning. Positions from the CAM table, started by the master's position, with digital outputs. Manual: Abilita tabella CAM.
         pub const fn cam_table_positioning(self) -> bool {
-            self.0 & 0x4 != 0
+            rt::bits16::flag(self.0, 0x4)
         }
         /// The same with another [`cam_table_positioning`](Self::cam_table_positioning).
         #[must_use]
         pub const fn with_cam_table_positioning(self, value: bool) -> Self {
-            Self((self.0 & !0x4) | ((value as u16) << 2))
+            Self(rt::bits16::with_flag(self.0, 0x4, value))
         }
         /// Bit 12: clear closed loop deviation. Acts on the change from 0 to 1. Removes the difference between real and theoretical position; the same as bit 12 of STW1 on Profibus. Manual: azzera delta quote in anello chiuso.
         pub const fn clear_closed_loop_deviation(self) -> bool {
-            self.0 & 0x1000 != 0
+            rt::bits16::flag(self.0, 0x1000)
         }
         /// The same with another [`clear_closed_loop_deviation`](Self::clear_closed_loop_deviation).
         #[must_use]
         pub const fn with_clear_closed_loop_deviation(self, value: bool) -> Self {
-            Self((self.0 & !0x1000) | ((value as u16) << 12))
+            Self(rt::bits16::with_flag(self.0, 0x1000, value))
         }
     }
     impl Default for ModeFlags1 {
@@ -18445,17 +18250,12 @@ pub mod types {
     }
     impl core::fmt::Debug for ModeFlags1 {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            let bits = rt::DebugBits::new(f, "ModeFlags1", self.0 as u64);
-            let bits = rt::DebugBits::plain(
-                bits,
-                &[
-                    ("wait_for_end_of_movement", 0x1),
-                    ("update_jog_immediately", 0x2),
-                    ("cam_table_positioning", 0x4),
-                    ("clear_closed_loop_deviation", 0x1000),
-                ],
-            );
-            bits.finish()
+            rt::debug_bits(
+                f,
+                self.0 as u64,
+                "ModeFlags1 wait_for_end_of_movement:1 update_jog_immediately:2 cam_table_positioning:4 clear_closed_loop_deviation:1000",
+                &[],
+            )
         }
     }
     /// ModeFlags.
@@ -18501,63 +18301,65 @@ pub mod types {
         }
         /// Bit 0: wait for end of movement. Manual: Wait end of movement.
         pub const fn wait_for_end_of_movement(self) -> bool {
-            self.0 & 0x1 != 0
+            rt::bits32::flag(self.0, 0x1)
         }
         /// The same with another [`wait_for_end_of_movement`](Self::wait_for_end_of_movement).
         #[must_use]
         pub const fn with_wait_for_end_of_movement(self, value: bool) -> Self {
-            Self((self.0 & !0x1) | (value as u32))
+            Self(rt::bits32::with_flag(self.0, 0x1, value))
         }
         /// Bit 1: update jog velocity immediately. See also bit 1 of Rflag1. Manual: Update velocity JOG immediately.
         pub const fn update_jog_velocity_immediately(self) -> bool {
-            self.0 & 0x2 != 0
+            rt::bits32::flag(self.0, 0x2)
         }
         /// The same with another [`update_jog_velocity_immediately`](Self::update_jog_velocity_immediately).
         #[must_use]
         pub const fn with_update_jog_velocity_immediately(self, value: bool) -> Self {
-            Self((self.0 & !0x2) | ((value as u32) << 1))
+            Self(rt::bits32::with_flag(self.0, 0x2, value))
         }
         /// Bit 2: lower limit enabled. Enables Rlowlim. Manual: Enable low limit.
         pub const fn lower_limit_enabled(self) -> bool {
-            self.0 & 0x4 != 0
+            rt::bits32::flag(self.0, 0x4)
         }
         /// The same with another [`lower_limit_enabled`](Self::lower_limit_enabled).
         #[must_use]
         pub const fn with_lower_limit_enabled(self, value: bool) -> Self {
-            Self((self.0 & !0x4) | ((value as u32) << 2))
+            Self(rt::bits32::with_flag(self.0, 0x4, value))
         }
         /// Bit 3: upper limit enabled. Enables Rupplim. Manual: Enable up limit.
         pub const fn upper_limit_enabled(self) -> bool {
-            self.0 & 0x8 != 0
+            rt::bits32::flag(self.0, 0x8)
         }
         /// The same with another [`upper_limit_enabled`](Self::upper_limit_enabled).
         #[must_use]
         pub const fn with_upper_limit_enabled(self, value: bool) -> Self {
-            Self((self.0 & !0x8) | ((value as u32) << 3))
+            Self(rt::bits32::with_flag(self.0, 0x8, value))
         }
         /// Bit 4: backward limit switch enabled. Manual: Enable BLS.
         pub const fn backward_limit_switch_enabled(self) -> bool {
-            self.0 & 0x10 != 0
+            rt::bits32::flag(self.0, 0x10)
         }
         /// The same with another [`backward_limit_switch_enabled`](Self::backward_limit_switch_enabled).
         #[must_use]
         pub const fn with_backward_limit_switch_enabled(self, value: bool) -> Self {
-            Self((self.0 & !0x10) | ((value as u32) << 4))
+            Self(rt::bits32::with_flag(self.0, 0x10, value))
         }
         /// Bit 5: forward limit switch enabled. Manual: Enable FLS.
         pub const fn forward_limit_switch_enabled(self) -> bool {
-            self.0 & 0x20 != 0
+            rt::bits32::flag(self.0, 0x20)
         }
         /// The same with another [`forward_limit_switch_enabled`](Self::forward_limit_switch_enabled).
         #[must_use]
         pub const fn with_forward_limit_switch_enabled(self, value: bool) -> Self {
-            Self((self.0 & !0x20) | ((value as u32) << 5))
+            Self(rt::bits32::with_flag(self.0, 0x20, value))
         }
         /// Bit 6: actual position after homing. Manual: Reset Posact dopo Home.
         pub const fn actual_position_after_homing(
             self,
         ) -> ModeFlagsActualPositionAfterHoming {
-            ModeFlagsActualPositionAfterHoming::from_raw(((self.0 >> 6) & 0x1) as u8)
+            ModeFlagsActualPositionAfterHoming::from_raw(
+                rt::bits32::field(self.0, 0x40) as u8,
+            )
         }
         /// The same with another [`actual_position_after_homing`](Self::actual_position_after_homing).
         #[must_use]
@@ -18565,13 +18367,15 @@ pub mod types {
             self,
             value: ModeFlagsActualPositionAfterHoming,
         ) -> Self {
-            Self((self.0 & !0x40) | (((value.raw() as u32) << 6) & 0x40))
+            Self(rt::bits32::with_field(self.0, 0x40, value.raw() as u32))
         }
         /// Bit 7: motor encoder after homing. Manual: Reset Motenc dopo Home.
         pub const fn motor_encoder_after_homing(
             self,
         ) -> ModeFlagsMotorEncoderAfterHoming {
-            ModeFlagsMotorEncoderAfterHoming::from_raw(((self.0 >> 7) & 0x1) as u8)
+            ModeFlagsMotorEncoderAfterHoming::from_raw(
+                rt::bits32::field(self.0, 0x80) as u8,
+            )
         }
         /// The same with another [`motor_encoder_after_homing`](Self::motor_encoder_after_homing).
         #[must_use]
@@ -18579,13 +18383,15 @@ pub mod types {
             self,
             value: ModeFlagsMotorEncoderAfterHoming,
         ) -> Self {
-            Self((self.0 & !0x80) | (((value.raw() as u32) << 7) & 0x80))
+            Self(rt::bits32::with_field(self.0, 0x80, value.raw() as u32))
         }
         /// Bit 8: external encoder after homing. Manual: Reset Motext dopo Home.
         pub const fn external_encoder_after_homing(
             self,
         ) -> ModeFlagsExternalEncoderAfterHoming {
-            ModeFlagsExternalEncoderAfterHoming::from_raw(((self.0 >> 8) & 0x1) as u8)
+            ModeFlagsExternalEncoderAfterHoming::from_raw(
+                rt::bits32::field(self.0, 0x100) as u8,
+            )
         }
         /// The same with another [`external_encoder_after_homing`](Self::external_encoder_after_homing).
         #[must_use]
@@ -18593,13 +18399,15 @@ pub mod types {
             self,
             value: ModeFlagsExternalEncoderAfterHoming,
         ) -> Self {
-            Self((self.0 & !0x100) | (((value.raw() as u32) << 8) & 0x100))
+            Self(rt::bits32::with_field(self.0, 0x100, value.raw() as u32))
         }
         /// Bit 9: actual position after home offset. Manual: Reset Posact dopo Home offset.
         pub const fn actual_position_after_home_offset(
             self,
         ) -> ModeFlagsActualPositionAfterHomeOffset {
-            ModeFlagsActualPositionAfterHomeOffset::from_raw(((self.0 >> 9) & 0x1) as u8)
+            ModeFlagsActualPositionAfterHomeOffset::from_raw(
+                rt::bits32::field(self.0, 0x200) as u8,
+            )
         }
         /// The same with another [`actual_position_after_home_offset`](Self::actual_position_after_home_offset).
         #[must_use]
@@ -18607,13 +18415,15 @@ pub mod types {
             self,
             value: ModeFlagsActualPositionAfterHomeOffset,
         ) -> Self {
-            Self((self.0 & !0x200) | (((value.raw() as u32) << 9) & 0x200))
+            Self(rt::bits32::with_field(self.0, 0x200, value.raw() as u32))
         }
         /// Bit 10: motor encoder after home offset. Manual: Reset Motenc dopo Home offset.
         pub const fn motor_encoder_after_home_offset(
             self,
         ) -> ModeFlagsMotorEncoderAfterHomeOffset {
-            ModeFlagsMotorEncoderAfterHomeOffset::from_raw(((self.0 >> 10) & 0x1) as u8)
+            ModeFlagsMotorEncoderAfterHomeOffset::from_raw(
+                rt::bits32::field(self.0, 0x400) as u8,
+            )
         }
         /// The same with another [`motor_encoder_after_home_offset`](Self::motor_encoder_after_home_offset).
         #[must_use]
@@ -18621,14 +18431,14 @@ pub mod types {
             self,
             value: ModeFlagsMotorEncoderAfterHomeOffset,
         ) -> Self {
-            Self((self.0 & !0x400) | (((value.raw() as u32) << 10) & 0x400))
+            Self(rt::bits32::with_field(self.0, 0x400, value.raw() as u32))
         }
         /// Bit 11: external encoder after home offset. Manual: Reset Motext dopo Home offset.
         pub const fn external_encoder_after_home_offset(
             self,
         ) -> ModeFlagsExternalEncoderAfterHomeOffset {
             ModeFlagsExternalEncoderAfterHomeOffset::from_raw(
-                ((self.0 >> 11) & 0x1) as u8,
+                rt::bits32::field(self.0, 0x800) as u8,
             )
         }
         /// The same with another [`external_encoder_after_home_offset`](Self::external_encoder_after_home_offset).
@@ -18637,56 +18447,56 @@ pub mod types {
             self,
             value: ModeFlagsExternalEncoderAfterHomeOffset,
         ) -> Self {
-            Self((self.0 & !0x800) | (((value.raw() as u32) << 11) & 0x800))
+            Self(rt::bits32::with_field(self.0, 0x800, value.raw() as u32))
         }
         /// Bit 12: automatic offset correction. In closed loop. Manual: correzione offset automatico in anello chiuso.
         pub const fn automatic_offset_correction(self) -> bool {
-            self.0 & 0x1000 != 0
+            rt::bits32::flag(self.0, 0x1000)
         }
         /// The same with another [`automatic_offset_correction`](Self::automatic_offset_correction).
         #[must_use]
         pub const fn with_automatic_offset_correction(self, value: bool) -> Self {
-            Self((self.0 & !0x1000) | ((value as u32) << 12))
+            Self(rt::bits32::with_flag(self.0, 0x1000, value))
         }
         /// Bit 13: automatic current PID correction. In closed loop. Manual: correzione PID corrente automatico in anello chiuso.
         pub const fn automatic_current_pid_correction(self) -> bool {
-            self.0 & 0x2000 != 0
+            rt::bits32::flag(self.0, 0x2000)
         }
         /// The same with another [`automatic_current_pid_correction`](Self::automatic_current_pid_correction).
         #[must_use]
         pub const fn with_automatic_current_pid_correction(self, value: bool) -> Self {
-            Self((self.0 & !0x2000) | ((value as u32) << 13))
+            Self(rt::bits32::with_flag(self.0, 0x2000, value))
         }
         /// Bit 14: unidirectional gear. Manual: Gear unidirezionale.
         pub const fn unidirectional_gear(self) -> bool {
-            self.0 & 0x4000 != 0
+            rt::bits32::flag(self.0, 0x4000)
         }
         /// The same with another [`unidirectional_gear`](Self::unidirectional_gear).
         #[must_use]
         pub const fn with_unidirectional_gear(self, value: bool) -> Self {
-            Self((self.0 & !0x4000) | ((value as u32) << 14))
+            Self(rt::bits32::with_flag(self.0, 0x4000, value))
         }
         /// Bit 15: gear forward only. Manual: Gear solo avanti.
         pub const fn gear_forward_only(self) -> bool {
-            self.0 & 0x8000 != 0
+            rt::bits32::flag(self.0, 0x8000)
         }
         /// The same with another [`gear_forward_only`](Self::gear_forward_only).
         #[must_use]
         pub const fn with_gear_forward_only(self, value: bool) -> Self {
-            Self((self.0 & !0x8000) | ((value as u32) << 15))
+            Self(rt::bits32::with_flag(self.0, 0x8000, value))
         }
         /// Bit 16: gear backward only. Manual: Gear solo indietro.
         pub const fn gear_backward_only(self) -> bool {
-            self.0 & 0x10000 != 0
+            rt::bits32::flag(self.0, 0x10000)
         }
         /// The same with another [`gear_backward_only`](Self::gear_backward_only).
         #[must_use]
         pub const fn with_gear_backward_only(self, value: bool) -> Self {
-            Self((self.0 & !0x10000) | ((value as u32) << 16))
+            Self(rt::bits32::with_flag(self.0, 0x10000, value))
         }
         /// Bit 17: take encoder position at current on. Smart mode: at current on, the demand position is set to the encoder position. Manual: In smart mode al current on.
         pub const fn take_encoder_position_at_current_on(self) -> bool {
-            self.0 & 0x20000 != 0
+            rt::bits32::flag(self.0, 0x20000)
         }
         /// The same with another [`take_encoder_position_at_current_on`](Self::take_encoder_position_at_current_on).
         #[must_use]
@@ -18694,11 +18504,11 @@ pub mod types {
             self,
             value: bool,
         ) -> Self {
-            Self((self.0 & !0x20000) | ((value as u32) << 17))
+            Self(rt::bits32::with_flag(self.0, 0x20000, value))
         }
         /// Bit 18: hold requested position at current off. Smart mode: without current, the demand position is not updated from the encoder, so it can be recovered afterwards. Manual: In Smart mode durante il current off.
         pub const fn hold_requested_position_at_current_off(self) -> bool {
-            self.0 & 0x40000 != 0
+            rt::bits32::flag(self.0, 0x40000)
         }
         /// The same with another [`hold_requested_position_at_current_off`](Self::hold_requested_position_at_current_off).
         #[must_use]
@@ -18706,11 +18516,13 @@ pub mod types {
             self,
             value: bool,
         ) -> Self {
-            Self((self.0 & !0x40000) | ((value as u32) << 18))
+            Self(rt::bits32::with_flag(self.0, 0x40000, value))
         }
         /// Bit 19: USB port parameters. The USB port has no slave address in both cases. Manual: Porta USB.
         pub const fn usb_port_parameters(self) -> ModeFlagsUsbPortParameters {
-            ModeFlagsUsbPortParameters::from_raw(((self.0 >> 19) & 0x1) as u8)
+            ModeFlagsUsbPortParameters::from_raw(
+                rt::bits32::field(self.0, 0x80000) as u8,
+            )
         }
         /// The same with another [`usb_port_parameters`](Self::usb_port_parameters).
         #[must_use]
@@ -18718,7 +18530,7 @@ pub mod types {
             self,
             value: ModeFlagsUsbPortParameters,
         ) -> Self {
-            Self((self.0 & !0x80000) | (((value.raw() as u32) << 19) & 0x80000))
+            Self(rt::bits32::with_field(self.0, 0x80000, value.raw() as u32))
         }
     }
     impl Default for ModeFlags {
@@ -18737,73 +18549,20 @@ pub mod types {
     }
     impl core::fmt::Debug for ModeFlags {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            let bits = rt::DebugBits::new(f, "ModeFlags", self.0 as u64);
-            let bits = rt::DebugBits::plain(
-                bits,
+            rt::debug_bits(
+                f,
+                self.0 as u64,
+                "ModeFlags wait_for_end_of_movement:1 update_jog_velocity_immediately:2 lower_limit_enabled:4 upper_limit_enabled:8 backward_limit_switch_enabled:10 forward_limit_switch_enabled:20 ?actual_position_after_homing:40 ?motor_encoder_after_homing:80 ?external_encoder_after_homing:100 ?actual_position_after_home_offset:200 ?motor_encoder_after_home_offset:400 ?external_encoder_after_home_offset:800 automatic_offset_correction:1000 automatic_current_pid_correction:2000 unidirectional_gear:4000 gear_forward_only:8000 gear_backward_only:10000 take_encoder_position_at_current_on:20000 hold_requested_position_at_current_off:40000 ?usb_port_parameters:80000",
                 &[
-                    ("wait_for_end_of_movement", 0x1),
-                    ("update_jog_velocity_immediately", 0x2),
-                    ("lower_limit_enabled", 0x4),
-                    ("upper_limit_enabled", 0x8),
-                    ("backward_limit_switch_enabled", 0x10),
-                    ("forward_limit_switch_enabled", 0x20),
+                    &self.actual_position_after_homing(),
+                    &self.motor_encoder_after_homing(),
+                    &self.external_encoder_after_homing(),
+                    &self.actual_position_after_home_offset(),
+                    &self.motor_encoder_after_home_offset(),
+                    &self.external_encoder_after_home_offset(),
+                    &self.usb_port_parameters(),
                 ],
-            );
-            let bits = rt::DebugBits::field(
-                bits,
-                "actual_position_after_homing",
-                0x40,
-                &self.actual_position_after_homing(),
-            );
-            let bits = rt::DebugBits::field(
-                bits,
-                "motor_encoder_after_homing",
-                0x80,
-                &self.motor_encoder_after_homing(),
-            );
-            let bits = rt::DebugBits::field(
-                bits,
-                "external_encoder_after_homing",
-                0x100,
-                &self.external_encoder_after_homing(),
-            );
-            let bits = rt::DebugBits::field(
-                bits,
-                "actual_position_after_home_offset",
-                0x200,
-                &self.actual_position_after_home_offset(),
-            );
-            let bits = rt::DebugBits::field(
-                bits,
-                "motor_encoder_after_home_offset",
-                0x400,
-                &self.motor_encoder_after_home_offset(),
-            );
-            let bits = rt::DebugBits::field(
-                bits,
-                "external_encoder_after_home_offset",
-                0x800,
-                &self.external_encoder_after_home_offset(),
-            );
-            let bits = rt::DebugBits::plain(
-                bits,
-                &[
-                    ("automatic_offset_correction", 0x1000),
-                    ("automatic_current_pid_correction", 0x2000),
-                    ("unidirectional_gear", 0x4000),
-                    ("gear_forward_only", 0x8000),
-                    ("gear_backward_only", 0x10000),
-                    ("take_encoder_position_at_current_on", 0x20000),
-                    ("hold_requested_position_at_current_off", 0x40000),
-                ],
-            );
-            let bits = rt::DebugBits::field(
-                bits,
-                "usb_port_parameters",
-                0x80000,
-                &self.usb_port_parameters(),
-            );
-            bits.finish()
+            )
         }
     }
     /// HardwareConfig.
@@ -18844,43 +18603,45 @@ pub mod types {
         }
         /// Bit 1: motor encoder direction. Later the forward and backward quadrature of Renc1mode (10031). Before firmware 6\.15. Replaced by Renc1mode. Manual: Direzione encoder motore.
         pub const fn motor_encoder_direction(self) -> bool {
-            self.0 & 0x2 != 0
+            rt::bits16::flag(self.0, 0x2)
         }
         /// The same with another [`motor_encoder_direction`](Self::motor_encoder_direction).
         #[must_use]
         pub const fn with_motor_encoder_direction(self, value: bool) -> Self {
-            Self((self.0 & !0x2) | ((value as u16) << 1))
+            Self(rt::bits16::with_flag(self.0, 0x2, value))
         }
         /// Bit 2: motor direction. Manual: Direzione rotazione motore.
         pub const fn motor_direction(self) -> bool {
-            self.0 & 0x4 != 0
+            rt::bits16::flag(self.0, 0x4)
         }
         /// The same with another [`motor_direction`](Self::motor_direction).
         #[must_use]
         pub const fn with_motor_direction(self, value: bool) -> Self {
-            Self((self.0 & !0x4) | ((value as u16) << 2))
+            Self(rt::bits16::with_flag(self.0, 0x4, value))
         }
         /// Bit 3: reset encoder phased flag. The device clears it by itself. A request in closed loop; the drive clears the bit after execution. Manual: Reset flag encoder fasato in Anello chiuso.
         pub const fn reset_encoder_phased_flag(self) -> bool {
-            self.0 & 0x8 != 0
+            rt::bits16::flag(self.0, 0x8)
         }
         /// The same with another [`reset_encoder_phased_flag`](Self::reset_encoder_phased_flag).
         #[must_use]
         pub const fn with_reset_encoder_phased_flag(self, value: bool) -> Self {
-            Self((self.0 & !0x8) | ((value as u16) << 3))
+            Self(rt::bits16::with_flag(self.0, 0x8, value))
         }
         /// Bit 4: analog input 0 bipolar. 1: analog input 0 reads -10 V to +10 V. Only of SMD1004\*. Manual: AnInp0 -10/+10V in SMD1004.
         pub const fn analog_input_0_bipolar(self) -> bool {
-            self.0 & 0x10 != 0
+            rt::bits16::flag(self.0, 0x10)
         }
         /// The same with another [`analog_input_0_bipolar`](Self::analog_input_0_bipolar).
         #[must_use]
         pub const fn with_analog_input_0_bipolar(self, value: bool) -> Self {
-            Self((self.0 & !0x10) | ((value as u16) << 4))
+            Self(rt::bits16::with_flag(self.0, 0x10, value))
         }
         /// Bit 5: motor encoder kind. Later the quadrature and step/direction modes of Renc1mode (10031). Before firmware 6\.15. Replaced by Renc1mode. Manual: Encoder motore in quadratura / pulse/direction.
         pub const fn motor_encoder_kind(self) -> HardwareConfigMotorEncoderKind {
-            HardwareConfigMotorEncoderKind::from_raw(((self.0 >> 5) & 0x1) as u8)
+            HardwareConfigMotorEncoderKind::from_raw(
+                rt::bits16::field(self.0, 0x20) as u8,
+            )
         }
         /// The same with another [`motor_encoder_kind`](Self::motor_encoder_kind).
         #[must_use]
@@ -18888,20 +18649,22 @@ pub mod types {
             self,
             value: HardwareConfigMotorEncoderKind,
         ) -> Self {
-            Self((self.0 & !0x20) | (((value.raw() as u16) << 5) & 0x20))
+            Self(rt::bits16::with_field(self.0, 0x20, value.raw() as u16))
         }
         /// Bit 6: SSI encoder preset. Later bit 7 of Rencabsctrl (10035), with bit 7 of Rencabsmode (10034). Before firmware 6\.15. Replaced by Rencabsctrl. Manual: Preset encoder SSI.
         pub const fn ssi_encoder_preset(self) -> bool {
-            self.0 & 0x40 != 0
+            rt::bits16::flag(self.0, 0x40)
         }
         /// The same with another [`ssi_encoder_preset`](Self::ssi_encoder_preset).
         #[must_use]
         pub const fn with_ssi_encoder_preset(self, value: bool) -> Self {
-            Self((self.0 & !0x40) | ((value as u16) << 6))
+            Self(rt::bits16::with_flag(self.0, 0x40, value))
         }
         /// Bit 7: SSI encoder complement. Later bit 0 of Rencabsmode (10034). Before firmware 6\.15. Replaced by Rencabsmode. Manual: Encoder SSI normale / complement.
         pub const fn ssi_encoder_complement(self) -> HardwareConfigSsiEncoderComplement {
-            HardwareConfigSsiEncoderComplement::from_raw(((self.0 >> 7) & 0x1) as u8)
+            HardwareConfigSsiEncoderComplement::from_raw(
+                rt::bits16::field(self.0, 0x80) as u8,
+            )
         }
         /// The same with another [`ssi_encoder_complement`](Self::ssi_encoder_complement).
         #[must_use]
@@ -18909,11 +18672,13 @@ pub mod types {
             self,
             value: HardwareConfigSsiEncoderComplement,
         ) -> Self {
-            Self((self.0 & !0x80) | (((value.raw() as u16) << 7) & 0x80))
+            Self(rt::bits16::with_field(self.0, 0x80, value.raw() as u16))
         }
         /// Bit 8: SSI encoder code. Later bit 1 of Rencabsmode (10034). Before firmware 6\.15. Replaced by Rencabsmode. Manual: Encoder SSI Gray / Binario.
         pub const fn ssi_encoder_code(self) -> HardwareConfigSsiEncoderCode {
-            HardwareConfigSsiEncoderCode::from_raw(((self.0 >> 8) & 0x1) as u8)
+            HardwareConfigSsiEncoderCode::from_raw(
+                rt::bits16::field(self.0, 0x100) as u8,
+            )
         }
         /// The same with another [`ssi_encoder_code`](Self::ssi_encoder_code).
         #[must_use]
@@ -18921,11 +18686,13 @@ pub mod types {
             self,
             value: HardwareConfigSsiEncoderCode,
         ) -> Self {
-            Self((self.0 & !0x100) | (((value.raw() as u16) << 8) & 0x100))
+            Self(rt::bits16::with_field(self.0, 0x100, value.raw() as u16))
         }
         /// Bits 10 to 9: SSI encoder alignment. Alignment of the data in the frame; later bits 3 and 2 of Rencabsmode (10034). Before firmware 6\.15. Replaced by Rencabsmode. Manual: Encoder ssi con dati allineati.
         pub const fn ssi_encoder_alignment(self) -> HardwareConfigSsiEncoderAlignment {
-            HardwareConfigSsiEncoderAlignment::from_raw(((self.0 >> 9) & 0x3) as u8)
+            HardwareConfigSsiEncoderAlignment::from_raw(
+                rt::bits16::field(self.0, 0x600) as u8,
+            )
         }
         /// The same with another [`ssi_encoder_alignment`](Self::ssi_encoder_alignment).
         #[must_use]
@@ -18933,34 +18700,34 @@ pub mod types {
             self,
             value: HardwareConfigSsiEncoderAlignment,
         ) -> Self {
-            Self((self.0 & !0x600) | (((value.raw() as u16) << 9) & 0x600))
+            Self(rt::bits16::with_field(self.0, 0x600, value.raw() as u16))
         }
         /// Bit 11: PWM range. Only of DMD\*. Manual: DMD con PWM.
         pub const fn pwm_range(self) -> HardwareConfigPwmRange {
-            HardwareConfigPwmRange::from_raw(((self.0 >> 11) & 0x1) as u8)
+            HardwareConfigPwmRange::from_raw(rt::bits16::field(self.0, 0x800) as u8)
         }
         /// The same with another [`pwm_range`](Self::pwm_range).
         #[must_use]
         pub const fn with_pwm_range(self, value: HardwareConfigPwmRange) -> Self {
-            Self((self.0 & !0x800) | (((value.raw() as u16) << 11) & 0x800))
+            Self(rt::bits16::with_field(self.0, 0x800, value.raw() as u16))
         }
         /// Bit 12: realign entering interpolation. A setting, for Nardi CANopen masters: the position is realigned when interpolation begins. Manual: Riallinea quota in entrata in modalita' interpolazione.
         pub const fn realign_entering_interpolation(self) -> bool {
-            self.0 & 0x1000 != 0
+            rt::bits16::flag(self.0, 0x1000)
         }
         /// The same with another [`realign_entering_interpolation`](Self::realign_entering_interpolation).
         #[must_use]
         pub const fn with_realign_entering_interpolation(self, value: bool) -> Self {
-            Self((self.0 & !0x1000) | ((value as u16) << 12))
+            Self(rt::bits16::with_flag(self.0, 0x1000, value))
         }
         /// Bit 13: realign in interpolation. A setting, for Sipro CANopen masters: realigns Rposact and Rposactreq in interpolation. Manual: Riallinea quote Rposact e Rposactreq.
         pub const fn realign_in_interpolation(self) -> bool {
-            self.0 & 0x2000 != 0
+            rt::bits16::flag(self.0, 0x2000)
         }
         /// The same with another [`realign_in_interpolation`](Self::realign_in_interpolation).
         #[must_use]
         pub const fn with_realign_in_interpolation(self, value: bool) -> Self {
-            Self((self.0 & !0x2000) | ((value as u16) << 13))
+            Self(rt::bits16::with_flag(self.0, 0x2000, value))
         }
     }
     impl Default for HardwareConfig {
@@ -18979,50 +18746,18 @@ pub mod types {
     }
     impl core::fmt::Debug for HardwareConfig {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            let bits = rt::DebugBits::new(f, "HardwareConfig", self.0 as u64);
-            let bits = rt::DebugBits::plain(
-                bits,
+            rt::debug_bits(
+                f,
+                self.0 as u64,
+                "HardwareConfig motor_encoder_direction:2 motor_direction:4 reset_encoder_phased_flag:8 analog_input_0_bipolar:10 ?motor_encoder_kind:20 ssi_encoder_preset:40 ?ssi_encoder_complement:80 ?ssi_encoder_code:100 ?ssi_encoder_alignment:600 ?pwm_range:800 realign_entering_interpolation:1000 realign_in_interpolation:2000",
                 &[
-                    ("motor_encoder_direction", 0x2),
-                    ("motor_direction", 0x4),
-                    ("reset_encoder_phased_flag", 0x8),
-                    ("analog_input_0_bipolar", 0x10),
+                    &self.motor_encoder_kind(),
+                    &self.ssi_encoder_complement(),
+                    &self.ssi_encoder_code(),
+                    &self.ssi_encoder_alignment(),
+                    &self.pwm_range(),
                 ],
-            );
-            let bits = rt::DebugBits::field(
-                bits,
-                "motor_encoder_kind",
-                0x20,
-                &self.motor_encoder_kind(),
-            );
-            let bits = rt::DebugBits::plain(bits, &[("ssi_encoder_preset", 0x40)]);
-            let bits = rt::DebugBits::field(
-                bits,
-                "ssi_encoder_complement",
-                0x80,
-                &self.ssi_encoder_complement(),
-            );
-            let bits = rt::DebugBits::field(
-                bits,
-                "ssi_encoder_code",
-                0x100,
-                &self.ssi_encoder_code(),
-            );
-            let bits = rt::DebugBits::field(
-                bits,
-                "ssi_encoder_alignment",
-                0x600,
-                &self.ssi_encoder_alignment(),
-            );
-            let bits = rt::DebugBits::field(bits, "pwm_range", 0x800, &self.pwm_range());
-            let bits = rt::DebugBits::plain(
-                bits,
-                &[
-                    ("realign_entering_interpolation", 0x1000),
-                    ("realign_in_interpolation", 0x2000),
-                ],
-            );
-            bits.finish()
+            )
         }
     }
     /// Command.
@@ -19064,147 +18799,147 @@ pub mod types {
         }
         /// Bit 0: disable drive. The device clears it by itself. Manual: DISABILITA DRIVE.
         pub const fn disable_drive(self) -> bool {
-            self.0 & 0x1 != 0
+            rt::bits16::flag(self.0, 0x1)
         }
         /// The same with another [`disable_drive`](Self::disable_drive).
         #[must_use]
         pub const fn with_disable_drive(self, value: bool) -> Self {
-            Self((self.0 & !0x1) | (value as u16))
+            Self(rt::bits16::with_flag(self.0, 0x1, value))
         }
         /// Bit 1: enable drive. The device clears it by itself. Manual: ABILITA DRIVE.
         pub const fn enable_drive(self) -> bool {
-            self.0 & 0x2 != 0
+            rt::bits16::flag(self.0, 0x2)
         }
         /// The same with another [`enable_drive`](Self::enable_drive).
         #[must_use]
         pub const fn with_enable_drive(self, value: bool) -> Self {
-            Self((self.0 & !0x2) | ((value as u16) << 1))
+            Self(rt::bits16::with_flag(self.0, 0x2, value))
         }
         /// Bit 2: abort. The device clears it by itself. Manual: ABORT.
         pub const fn abort(self) -> bool {
-            self.0 & 0x4 != 0
+            rt::bits16::flag(self.0, 0x4)
         }
         /// The same with another [`abort`](Self::abort).
         #[must_use]
         pub const fn with_abort(self, value: bool) -> Self {
-            Self((self.0 & !0x4) | ((value as u16) << 2))
+            Self(rt::bits16::with_flag(self.0, 0x4, value))
         }
         /// Bit 3: stop. The device clears it by itself. Manual: STOP.
         pub const fn stop(self) -> bool {
-            self.0 & 0x8 != 0
+            rt::bits16::flag(self.0, 0x8)
         }
         /// The same with another [`stop`](Self::stop).
         #[must_use]
         pub const fn with_stop(self, value: bool) -> Self {
-            Self((self.0 & !0x8) | ((value as u16) << 3))
+            Self(rt::bits16::with_flag(self.0, 0x8, value))
         }
         /// Bit 4: ESTOP. The device clears it by itself. Stop when a register or variable meets a condition, see Restpflg. Manual: ESTOP.
         pub const fn estop(self) -> bool {
-            self.0 & 0x10 != 0
+            rt::bits16::flag(self.0, 0x10)
         }
         /// The same with another [`estop`](Self::estop).
         #[must_use]
         pub const fn with_estop(self, value: bool) -> Self {
-            Self((self.0 & !0x10) | ((value as u16) << 4))
+            Self(rt::bits16::with_flag(self.0, 0x10, value))
         }
         /// Bit 5: jog clockwise. The device clears it by itself. Manual: JOG CW.
         pub const fn jog_clockwise(self) -> bool {
-            self.0 & 0x20 != 0
+            rt::bits16::flag(self.0, 0x20)
         }
         /// The same with another [`jog_clockwise`](Self::jog_clockwise).
         #[must_use]
         pub const fn with_jog_clockwise(self, value: bool) -> Self {
-            Self((self.0 & !0x20) | ((value as u16) << 5))
+            Self(rt::bits16::with_flag(self.0, 0x20, value))
         }
         /// Bit 6: jog anticlockwise. The device clears it by itself. Manual: JOG CCW.
         pub const fn jog_anticlockwise(self) -> bool {
-            self.0 & 0x40 != 0
+            rt::bits16::flag(self.0, 0x40)
         }
         /// The same with another [`jog_anticlockwise`](Self::jog_anticlockwise).
         #[must_use]
         pub const fn with_jog_anticlockwise(self, value: bool) -> Self {
-            Self((self.0 & !0x40) | ((value as u16) << 6))
+            Self(rt::bits16::with_flag(self.0, 0x40, value))
         }
         /// Bit 7: new set-point GO. The device clears it by itself. Manual: New setpoint GO.
         pub const fn new_set_point_go(self) -> bool {
-            self.0 & 0x80 != 0
+            rt::bits16::flag(self.0, 0x80)
         }
         /// The same with another [`new_set_point_go`](Self::new_set_point_go).
         #[must_use]
         pub const fn with_new_set_point_go(self, value: bool) -> Self {
-            Self((self.0 & !0x80) | ((value as u16) << 7))
+            Self(rt::bits16::with_flag(self.0, 0x80, value))
         }
         /// Bit 8: new set-point GOR. The device clears it by itself. Manual: New setpoint GOR.
         pub const fn new_set_point_gor(self) -> bool {
-            self.0 & 0x100 != 0
+            rt::bits16::flag(self.0, 0x100)
         }
         /// The same with another [`new_set_point_gor`](Self::new_set_point_gor).
         #[must_use]
         pub const fn with_new_set_point_gor(self, value: bool) -> Self {
-            Self((self.0 & !0x100) | ((value as u16) << 8))
+            Self(rt::bits16::with_flag(self.0, 0x100, value))
         }
         /// Bit 9: home. The device clears it by itself. Manual: HOME.
         pub const fn home(self) -> bool {
-            self.0 & 0x200 != 0
+            rt::bits16::flag(self.0, 0x200)
         }
         /// The same with another [`home`](Self::home).
         #[must_use]
         pub const fn with_home(self, value: bool) -> Self {
-            Self((self.0 & !0x200) | ((value as u16) << 9))
+            Self(rt::bits16::with_flag(self.0, 0x200, value))
         }
         /// Bit 10: gear. The device clears it by itself. Manual: GEAR.
         pub const fn gear(self) -> bool {
-            self.0 & 0x400 != 0
+            rt::bits16::flag(self.0, 0x400)
         }
         /// The same with another [`gear`](Self::gear).
         #[must_use]
         pub const fn with_gear(self, value: bool) -> Self {
-            Self((self.0 & !0x400) | ((value as u16) << 10))
+            Self(rt::bits16::with_flag(self.0, 0x400, value))
         }
         /// Bit 11: cam start stop. The device clears it by itself. Manual: CAM Start Stop.
         pub const fn cam_start_stop(self) -> bool {
-            self.0 & 0x800 != 0
+            rt::bits16::flag(self.0, 0x800)
         }
         /// The same with another [`cam_start_stop`](Self::cam_start_stop).
         #[must_use]
         pub const fn with_cam_start_stop(self, value: bool) -> Self {
-            Self((self.0 & !0x800) | ((value as u16) << 11))
+            Self(rt::bits16::with_flag(self.0, 0x800, value))
         }
         /// Bit 12: cam. The device clears it by itself. Manual: CAM.
         pub const fn cam(self) -> bool {
-            self.0 & 0x1000 != 0
+            rt::bits16::flag(self.0, 0x1000)
         }
         /// The same with another [`cam`](Self::cam).
         #[must_use]
         pub const fn with_cam(self, value: bool) -> Self {
-            Self((self.0 & !0x1000) | ((value as u16) << 12))
+            Self(rt::bits16::with_flag(self.0, 0x1000, value))
         }
         /// Bit 13: task. The device clears it by itself. Manual: TASK.
         pub const fn task(self) -> bool {
-            self.0 & 0x2000 != 0
+            rt::bits16::flag(self.0, 0x2000)
         }
         /// The same with another [`task`](Self::task).
         #[must_use]
         pub const fn with_task(self, value: bool) -> Self {
-            Self((self.0 & !0x2000) | ((value as u16) << 13))
+            Self(rt::bits16::with_flag(self.0, 0x2000, value))
         }
         /// Bit 14: BESTOP. The device clears it by itself. Stop on the state of a bit or on an edge of an index, see Rbestpflg. Manual: BESTOP.
         pub const fn bestop(self) -> bool {
-            self.0 & 0x4000 != 0
+            rt::bits16::flag(self.0, 0x4000)
         }
         /// The same with another [`bestop`](Self::bestop).
         #[must_use]
         pub const fn with_bestop(self, value: bool) -> Self {
-            Self((self.0 & !0x4000) | ((value as u16) << 14))
+            Self(rt::bits16::with_flag(self.0, 0x4000, value))
         }
         /// Bit 15: shift stop. The device clears it by itself. Manual: SHIFT STOP.
         pub const fn shift_stop(self) -> bool {
-            self.0 & 0x8000 != 0
+            rt::bits16::flag(self.0, 0x8000)
         }
         /// The same with another [`shift_stop`](Self::shift_stop).
         #[must_use]
         pub const fn with_shift_stop(self, value: bool) -> Self {
-            Self((self.0 & !0x8000) | ((value as u16) << 15))
+            Self(rt::bits16::with_flag(self.0, 0x8000, value))
         }
     }
     impl Default for Command {
@@ -19223,29 +18958,12 @@ pub mod types {
     }
     impl core::fmt::Debug for Command {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            let bits = rt::DebugBits::new(f, "Command", self.0 as u64);
-            let bits = rt::DebugBits::plain(
-                bits,
-                &[
-                    ("disable_drive", 0x1),
-                    ("enable_drive", 0x2),
-                    ("abort", 0x4),
-                    ("stop", 0x8),
-                    ("estop", 0x10),
-                    ("jog_clockwise", 0x20),
-                    ("jog_anticlockwise", 0x40),
-                    ("new_set_point_go", 0x80),
-                    ("new_set_point_gor", 0x100),
-                    ("home", 0x200),
-                    ("gear", 0x400),
-                    ("cam_start_stop", 0x800),
-                    ("cam", 0x1000),
-                    ("task", 0x2000),
-                    ("bestop", 0x4000),
-                    ("shift_stop", 0x8000),
-                ],
-            );
-            bits.finish()
+            rt::debug_bits(
+                f,
+                self.0 as u64,
+                "Command disable_drive:1 enable_drive:2 abort:4 stop:8 estop:10 jog_clockwise:20 jog_anticlockwise:40 new_set_point_go:80 new_set_point_gor:100 home:200 gear:400 cam_start_stop:800 cam:1000 task:2000 bestop:4000 shift_stop:8000",
+                &[],
+            )
         }
     }
     /// Command1.
@@ -19287,61 +19005,61 @@ pub mod types {
         }
         /// Bit 0: current step on phase A. Manual: Comanda uno step di corrente su fase A.
         pub const fn current_step_on_phase_a(self) -> bool {
-            self.0 & 0x1 != 0
+            rt::bits16::flag(self.0, 0x1)
         }
         /// The same with another [`current_step_on_phase_a`](Self::current_step_on_phase_a).
         #[must_use]
         pub const fn with_current_step_on_phase_a(self, value: bool) -> Self {
-            Self((self.0 & !0x1) | (value as u16))
+            Self(rt::bits16::with_flag(self.0, 0x1, value))
         }
         /// Bit 1: test phases. Manual: Comanda un test delle fasi.
         pub const fn test_phases(self) -> bool {
-            self.0 & 0x2 != 0
+            rt::bits16::flag(self.0, 0x2)
         }
         /// The same with another [`test_phases`](Self::test_phases).
         #[must_use]
         pub const fn with_test_phases(self, value: bool) -> Self {
-            Self((self.0 & !0x2) | ((value as u16) << 1))
+            Self(rt::bits16::with_flag(self.0, 0x2, value))
         }
         /// Bit 2: winding mode. Manual: Winding mode.
         pub const fn winding_mode(self) -> bool {
-            self.0 & 0x4 != 0
+            rt::bits16::flag(self.0, 0x4)
         }
         /// The same with another [`winding_mode`](Self::winding_mode).
         #[must_use]
         pub const fn with_winding_mode(self, value: bool) -> Self {
-            Self((self.0 & !0x4) | ((value as u16) << 2))
+            Self(rt::bits16::with_flag(self.0, 0x4, value))
         }
         /// Bit 3: Smit mode. Manual: Smit mode.
         pub const fn smit_mode(self) -> bool {
-            self.0 & 0x8 != 0
+            rt::bits16::flag(self.0, 0x8)
         }
         /// The same with another [`smit_mode`](Self::smit_mode).
         #[must_use]
         pub const fn with_smit_mode(self, value: bool) -> Self {
-            Self((self.0 & !0x8) | ((value as u16) << 3))
+            Self(rt::bits16::with_flag(self.0, 0x8, value))
         }
         /// Bit 4: realign positions in SmartMode. Removes a remaining thrust of the motor. Manual: Riallinea quote in SmartMode.
         pub const fn realign_positions_in_smart_mode(self) -> bool {
-            self.0 & 0x10 != 0
+            rt::bits16::flag(self.0, 0x10)
         }
         /// The same with another [`realign_positions_in_smart_mode`](Self::realign_positions_in_smart_mode).
         #[must_use]
         pub const fn with_realign_positions_in_smart_mode(self, value: bool) -> Self {
-            Self((self.0 & !0x10) | ((value as u16) << 4))
+            Self(rt::bits16::with_flag(self.0, 0x10, value))
         }
         /// Bit 6: step direction cam mode. Runs as in step/direction mode without a change from Position to Step Dir. Manual: Setta modalita' camma step/dir.
         pub const fn step_direction_cam_mode(self) -> bool {
-            self.0 & 0x40 != 0
+            rt::bits16::flag(self.0, 0x40)
         }
         /// The same with another [`step_direction_cam_mode`](Self::step_direction_cam_mode).
         #[must_use]
         pub const fn with_step_direction_cam_mode(self, value: bool) -> Self {
-            Self((self.0 & !0x40) | ((value as u16) << 6))
+            Self(rt::bits16::with_flag(self.0, 0x40, value))
         }
         /// Bit 7: regain motor position in SmartMode. For a motor that was moved while the drive was disabled. Manual: Recupera la quota del motore.
         pub const fn regain_motor_position_in_smart_mode(self) -> bool {
-            self.0 & 0x80 != 0
+            rt::bits16::flag(self.0, 0x80)
         }
         /// The same with another [`regain_motor_position_in_smart_mode`](Self::regain_motor_position_in_smart_mode).
         #[must_use]
@@ -19349,7 +19067,7 @@ pub mod types {
             self,
             value: bool,
         ) -> Self {
-            Self((self.0 & !0x80) | ((value as u16) << 7))
+            Self(rt::bits16::with_flag(self.0, 0x80, value))
         }
     }
     impl Default for Command1 {
@@ -19368,20 +19086,12 @@ pub mod types {
     }
     impl core::fmt::Debug for Command1 {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            let bits = rt::DebugBits::new(f, "Command1", self.0 as u64);
-            let bits = rt::DebugBits::plain(
-                bits,
-                &[
-                    ("current_step_on_phase_a", 0x1),
-                    ("test_phases", 0x2),
-                    ("winding_mode", 0x4),
-                    ("smit_mode", 0x8),
-                    ("realign_positions_in_smart_mode", 0x10),
-                    ("step_direction_cam_mode", 0x40),
-                    ("regain_motor_position_in_smart_mode", 0x80),
-                ],
-            );
-            bits.finish()
+            rt::debug_bits(
+                f,
+                self.0 as u64,
+                "Command1 current_step_on_phase_a:1 test_phases:2 winding_mode:4 smit_mode:8 realign_positions_in_smart_mode:10 step_direction_cam_mode:40 regain_motor_position_in_smart_mode:80",
+                &[],
+            )
         }
     }
     /// CommandState.
@@ -19423,120 +19133,120 @@ pub mod types {
         }
         /// Bit 2: positioning abort. Manual: Abort posizionamento.
         pub const fn positioning_abort(self) -> bool {
-            self.0 & 0x4 != 0
+            rt::bits16::flag(self.0, 0x4)
         }
         /// The same with another [`positioning_abort`](Self::positioning_abort).
         #[must_use]
         pub const fn with_positioning_abort(self, value: bool) -> Self {
-            Self((self.0 & !0x4) | ((value as u16) << 2))
+            Self(rt::bits16::with_flag(self.0, 0x4, value))
         }
         /// Bit 3: stop on ramp. Manual: Stop movimento in rampa.
         pub const fn stop_on_ramp(self) -> bool {
-            self.0 & 0x8 != 0
+            rt::bits16::flag(self.0, 0x8)
         }
         /// The same with another [`stop_on_ramp`](Self::stop_on_ramp).
         #[must_use]
         pub const fn with_stop_on_ramp(self, value: bool) -> Self {
-            Self((self.0 & !0x8) | ((value as u16) << 3))
+            Self(rt::bits16::with_flag(self.0, 0x8, value))
         }
         /// Bit 4: ESTOP active. Manual: ESTOP attivo.
         pub const fn estop_active(self) -> bool {
-            self.0 & 0x10 != 0
+            rt::bits16::flag(self.0, 0x10)
         }
         /// The same with another [`estop_active`](Self::estop_active).
         #[must_use]
         pub const fn with_estop_active(self, value: bool) -> Self {
-            Self((self.0 & !0x10) | ((value as u16) << 4))
+            Self(rt::bits16::with_flag(self.0, 0x10, value))
         }
         /// Bit 5: jog positive. Manual: Jog+.
         pub const fn jog_positive(self) -> bool {
-            self.0 & 0x20 != 0
+            rt::bits16::flag(self.0, 0x20)
         }
         /// The same with another [`jog_positive`](Self::jog_positive).
         #[must_use]
         pub const fn with_jog_positive(self, value: bool) -> Self {
-            Self((self.0 & !0x20) | ((value as u16) << 5))
+            Self(rt::bits16::with_flag(self.0, 0x20, value))
         }
         /// Bit 6: jog negative. Manual: Jog-.
         pub const fn jog_negative(self) -> bool {
-            self.0 & 0x40 != 0
+            rt::bits16::flag(self.0, 0x40)
         }
         /// The same with another [`jog_negative`](Self::jog_negative).
         #[must_use]
         pub const fn with_jog_negative(self, value: bool) -> Self {
-            Self((self.0 & !0x40) | ((value as u16) << 6))
+            Self(rt::bits16::with_flag(self.0, 0x40, value))
         }
         /// Bit 7: new set-point GO. Manual: New setpoint GO.
         pub const fn new_set_point_go(self) -> bool {
-            self.0 & 0x80 != 0
+            rt::bits16::flag(self.0, 0x80)
         }
         /// The same with another [`new_set_point_go`](Self::new_set_point_go).
         #[must_use]
         pub const fn with_new_set_point_go(self, value: bool) -> Self {
-            Self((self.0 & !0x80) | ((value as u16) << 7))
+            Self(rt::bits16::with_flag(self.0, 0x80, value))
         }
         /// Bit 8: new set-point GOR. Manual: New setpoint GOR.
         pub const fn new_set_point_gor(self) -> bool {
-            self.0 & 0x100 != 0
+            rt::bits16::flag(self.0, 0x100)
         }
         /// The same with another [`new_set_point_gor`](Self::new_set_point_gor).
         #[must_use]
         pub const fn with_new_set_point_gor(self, value: bool) -> Self {
-            Self((self.0 & !0x100) | ((value as u16) << 8))
+            Self(rt::bits16::with_flag(self.0, 0x100, value))
         }
         /// Bit 9: home. Manual: Home.
         pub const fn home(self) -> bool {
-            self.0 & 0x200 != 0
+            rt::bits16::flag(self.0, 0x200)
         }
         /// The same with another [`home`](Self::home).
         #[must_use]
         pub const fn with_home(self, value: bool) -> Self {
-            Self((self.0 & !0x200) | ((value as u16) << 9))
+            Self(rt::bits16::with_flag(self.0, 0x200, value))
         }
         /// Bit 10: gear. Manual: Gear.
         pub const fn gear(self) -> bool {
-            self.0 & 0x400 != 0
+            rt::bits16::flag(self.0, 0x400)
         }
         /// The same with another [`gear`](Self::gear).
         #[must_use]
         pub const fn with_gear(self, value: bool) -> Self {
-            Self((self.0 & !0x400) | ((value as u16) << 10))
+            Self(rt::bits16::with_flag(self.0, 0x400, value))
         }
         /// Bit 11: cam start stop mode. Manual: CAM Start Stop Mode.
         pub const fn cam_start_stop_mode(self) -> bool {
-            self.0 & 0x800 != 0
+            rt::bits16::flag(self.0, 0x800)
         }
         /// The same with another [`cam_start_stop_mode`](Self::cam_start_stop_mode).
         #[must_use]
         pub const fn with_cam_start_stop_mode(self, value: bool) -> Self {
-            Self((self.0 & !0x800) | ((value as u16) << 11))
+            Self(rt::bits16::with_flag(self.0, 0x800, value))
         }
         /// Bit 12: cam mode. Manual: CAM Mode.
         pub const fn cam_mode(self) -> bool {
-            self.0 & 0x1000 != 0
+            rt::bits16::flag(self.0, 0x1000)
         }
         /// The same with another [`cam_mode`](Self::cam_mode).
         #[must_use]
         pub const fn with_cam_mode(self, value: bool) -> Self {
-            Self((self.0 & !0x1000) | ((value as u16) << 12))
+            Self(rt::bits16::with_flag(self.0, 0x1000, value))
         }
         /// Bit 13: task mode. Manual: TASK Mode.
         pub const fn task_mode(self) -> bool {
-            self.0 & 0x2000 != 0
+            rt::bits16::flag(self.0, 0x2000)
         }
         /// The same with another [`task_mode`](Self::task_mode).
         #[must_use]
         pub const fn with_task_mode(self, value: bool) -> Self {
-            Self((self.0 & !0x2000) | ((value as u16) << 13))
+            Self(rt::bits16::with_flag(self.0, 0x2000, value))
         }
         /// Bit 14: BESTOP active. Manual: BESTOP attivo.
         pub const fn bestop_active(self) -> bool {
-            self.0 & 0x4000 != 0
+            rt::bits16::flag(self.0, 0x4000)
         }
         /// The same with another [`bestop_active`](Self::bestop_active).
         #[must_use]
         pub const fn with_bestop_active(self, value: bool) -> Self {
-            Self((self.0 & !0x4000) | ((value as u16) << 14))
+            Self(rt::bits16::with_flag(self.0, 0x4000, value))
         }
     }
     impl Default for CommandState {
@@ -19555,26 +19265,12 @@ pub mod types {
     }
     impl core::fmt::Debug for CommandState {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            let bits = rt::DebugBits::new(f, "CommandState", self.0 as u64);
-            let bits = rt::DebugBits::plain(
-                bits,
-                &[
-                    ("positioning_abort", 0x4),
-                    ("stop_on_ramp", 0x8),
-                    ("estop_active", 0x10),
-                    ("jog_positive", 0x20),
-                    ("jog_negative", 0x40),
-                    ("new_set_point_go", 0x80),
-                    ("new_set_point_gor", 0x100),
-                    ("home", 0x200),
-                    ("gear", 0x400),
-                    ("cam_start_stop_mode", 0x800),
-                    ("cam_mode", 0x1000),
-                    ("task_mode", 0x2000),
-                    ("bestop_active", 0x4000),
-                ],
-            );
-            bits.finish()
+            rt::debug_bits(
+                f,
+                self.0 as u64,
+                "CommandState positioning_abort:4 stop_on_ramp:8 estop_active:10 jog_positive:20 jog_negative:40 new_set_point_go:80 new_set_point_gor:100 home:200 gear:400 cam_start_stop_mode:800 cam_mode:1000 task_mode:2000 bestop_active:4000",
+                &[],
+            )
         }
     }
     /// CommandState1.
@@ -19615,66 +19311,66 @@ pub mod types {
         }
         /// Bit 0: current step done. Manual: Step di corrente eseguito.
         pub const fn current_step_done(self) -> bool {
-            self.0 & 0x1 != 0
+            rt::bits16::flag(self.0, 0x1)
         }
         /// The same with another [`current_step_done`](Self::current_step_done).
         #[must_use]
         pub const fn with_current_step_done(self, value: bool) -> Self {
-            Self((self.0 & !0x1) | (value as u16))
+            Self(rt::bits16::with_flag(self.0, 0x1, value))
         }
         /// Bit 1: phase test done. Cleared by writing 0 to Rcmd1wr, or when another test starts. Manual: Test fasi eseguito.
         pub const fn phase_test_done(self) -> bool {
-            self.0 & 0x2 != 0
+            rt::bits16::flag(self.0, 0x2)
         }
         /// The same with another [`phase_test_done`](Self::phase_test_done).
         #[must_use]
         pub const fn with_phase_test_done(self, value: bool) -> Self {
-            Self((self.0 & !0x2) | ((value as u16) << 1))
+            Self(rt::bits16::with_flag(self.0, 0x2, value))
         }
         /// Bit 3: winding mode active. Manual: Winding mode attivo.
         pub const fn winding_mode_active(self) -> bool {
-            self.0 & 0x8 != 0
+            rt::bits16::flag(self.0, 0x8)
         }
         /// The same with another [`winding_mode_active`](Self::winding_mode_active).
         #[must_use]
         pub const fn with_winding_mode_active(self, value: bool) -> Self {
-            Self((self.0 & !0x8) | ((value as u16) << 3))
+            Self(rt::bits16::with_flag(self.0, 0x8, value))
         }
         /// Bit 4: Smit mode active. Manual: Smit mode attivo.
         pub const fn smit_mode_active(self) -> bool {
-            self.0 & 0x10 != 0
+            rt::bits16::flag(self.0, 0x10)
         }
         /// The same with another [`smit_mode_active`](Self::smit_mode_active).
         #[must_use]
         pub const fn with_smit_mode_active(self, value: bool) -> Self {
-            Self((self.0 & !0x10) | ((value as u16) << 4))
+            Self(rt::bits16::with_flag(self.0, 0x10, value))
         }
         /// Bit 5: SmartMode realignment done. Manual: Riallineamento quote SmartMode eseguito.
         pub const fn smart_mode_realignment_done(self) -> bool {
-            self.0 & 0x20 != 0
+            rt::bits16::flag(self.0, 0x20)
         }
         /// The same with another [`smart_mode_realignment_done`](Self::smart_mode_realignment_done).
         #[must_use]
         pub const fn with_smart_mode_realignment_done(self, value: bool) -> Self {
-            Self((self.0 & !0x20) | ((value as u16) << 5))
+            Self(rt::bits16::with_flag(self.0, 0x20, value))
         }
         /// Bit 7: step direction cam mode active. Manual: Modalita' camma step/dir attiva.
         pub const fn step_direction_cam_mode_active(self) -> bool {
-            self.0 & 0x80 != 0
+            rt::bits16::flag(self.0, 0x80)
         }
         /// The same with another [`step_direction_cam_mode_active`](Self::step_direction_cam_mode_active).
         #[must_use]
         pub const fn with_step_direction_cam_mode_active(self, value: bool) -> Self {
-            Self((self.0 & !0x80) | ((value as u16) << 7))
+            Self(rt::bits16::with_flag(self.0, 0x80, value))
         }
         /// Bit 8: SmartMode position regained. Manual: Recupero quota motore in SmartMode eseguita.
         pub const fn smart_mode_position_regained(self) -> bool {
-            self.0 & 0x100 != 0
+            rt::bits16::flag(self.0, 0x100)
         }
         /// The same with another [`smart_mode_position_regained`](Self::smart_mode_position_regained).
         #[must_use]
         pub const fn with_smart_mode_position_regained(self, value: bool) -> Self {
-            Self((self.0 & !0x100) | ((value as u16) << 8))
+            Self(rt::bits16::with_flag(self.0, 0x100, value))
         }
     }
     impl Default for CommandState1 {
@@ -19693,20 +19389,12 @@ pub mod types {
     }
     impl core::fmt::Debug for CommandState1 {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            let bits = rt::DebugBits::new(f, "CommandState1", self.0 as u64);
-            let bits = rt::DebugBits::plain(
-                bits,
-                &[
-                    ("current_step_done", 0x1),
-                    ("phase_test_done", 0x2),
-                    ("winding_mode_active", 0x8),
-                    ("smit_mode_active", 0x10),
-                    ("smart_mode_realignment_done", 0x20),
-                    ("step_direction_cam_mode_active", 0x80),
-                    ("smart_mode_position_regained", 0x100),
-                ],
-            );
-            bits.finish()
+            rt::debug_bits(
+                f,
+                self.0 as u64,
+                "CommandState1 current_step_done:1 phase_test_done:2 winding_mode_active:8 smit_mode_active:10 smart_mode_realignment_done:20 step_direction_cam_mode_active:80 smart_mode_position_regained:100",
+                &[],
+            )
         }
     }
     /// HomingStatus.
@@ -19748,75 +19436,75 @@ pub mod types {
         }
         /// Bit 0: homing in progress. Manual: Home in corso.
         pub const fn homing_in_progress(self) -> bool {
-            self.0 & 0x1 != 0
+            rt::bits16::flag(self.0, 0x1)
         }
         /// The same with another [`homing_in_progress`](Self::homing_in_progress).
         #[must_use]
         pub const fn with_homing_in_progress(self, value: bool) -> Self {
-            Self((self.0 & !0x1) | (value as u16))
+            Self(rt::bits16::with_flag(self.0, 0x1, value))
         }
         /// Bit 1: drive not enabled. Manual: Azionamento non abilitato.
         pub const fn drive_not_enabled(self) -> bool {
-            self.0 & 0x2 != 0
+            rt::bits16::flag(self.0, 0x2)
         }
         /// The same with another [`drive_not_enabled`](Self::drive_not_enabled).
         #[must_use]
         pub const fn with_drive_not_enabled(self, value: bool) -> Self {
-            Self((self.0 & !0x2) | ((value as u16) << 1))
+            Self(rt::bits16::with_flag(self.0, 0x2, value))
         }
         /// Bit 2: maximum distance reached. Homing has used up the distance of Rhmaxspc. Manual: Massimo spazio per sequenza di home.
         pub const fn maximum_distance_reached(self) -> bool {
-            self.0 & 0x4 != 0
+            rt::bits16::flag(self.0, 0x4)
         }
         /// The same with another [`maximum_distance_reached`](Self::maximum_distance_reached).
         #[must_use]
         pub const fn with_maximum_distance_reached(self, value: bool) -> Self {
-            Self((self.0 & !0x4) | ((value as u16) << 2))
+            Self(rt::bits16::with_flag(self.0, 0x4, value))
         }
         /// Bit 3: backward limit switch error. Manual: Errore intervento BLS.
         pub const fn backward_limit_switch_error(self) -> bool {
-            self.0 & 0x8 != 0
+            rt::bits16::flag(self.0, 0x8)
         }
         /// The same with another [`backward_limit_switch_error`](Self::backward_limit_switch_error).
         #[must_use]
         pub const fn with_backward_limit_switch_error(self, value: bool) -> Self {
-            Self((self.0 & !0x8) | ((value as u16) << 3))
+            Self(rt::bits16::with_flag(self.0, 0x8, value))
         }
         /// Bit 4: forward limit switch error. Manual: Errore intervento FLS.
         pub const fn forward_limit_switch_error(self) -> bool {
-            self.0 & 0x10 != 0
+            rt::bits16::flag(self.0, 0x10)
         }
         /// The same with another [`forward_limit_switch_error`](Self::forward_limit_switch_error).
         #[must_use]
         pub const fn with_forward_limit_switch_error(self, value: bool) -> Self {
-            Self((self.0 & !0x10) | ((value as u16) << 4))
+            Self(rt::bits16::with_flag(self.0, 0x10, value))
         }
         /// Bit 5: interrupted. Manual: Home interrotto.
         pub const fn interrupted(self) -> bool {
-            self.0 & 0x20 != 0
+            rt::bits16::flag(self.0, 0x20)
         }
         /// The same with another [`interrupted`](Self::interrupted).
         #[must_use]
         pub const fn with_interrupted(self, value: bool) -> Self {
-            Self((self.0 & !0x20) | ((value as u16) << 5))
+            Self(rt::bits16::with_flag(self.0, 0x20, value))
         }
         /// Bit 6: unknown error. Manual: Errore Home sconosciuto.
         pub const fn unknown_error(self) -> bool {
-            self.0 & 0x40 != 0
+            rt::bits16::flag(self.0, 0x40)
         }
         /// The same with another [`unknown_error`](Self::unknown_error).
         #[must_use]
         pub const fn with_unknown_error(self, value: bool) -> Self {
-            Self((self.0 & !0x40) | ((value as u16) << 6))
+            Self(rt::bits16::with_flag(self.0, 0x40, value))
         }
         /// Bit 7: mechanical stop in FOC\_OPEN. Manual: Home in battuta con FOC\_OPEN.
         pub const fn mechanical_stop_in_foc_open(self) -> bool {
-            self.0 & 0x80 != 0
+            rt::bits16::flag(self.0, 0x80)
         }
         /// The same with another [`mechanical_stop_in_foc_open`](Self::mechanical_stop_in_foc_open).
         #[must_use]
         pub const fn with_mechanical_stop_in_foc_open(self, value: bool) -> Self {
-            Self((self.0 & !0x80) | ((value as u16) << 7))
+            Self(rt::bits16::with_flag(self.0, 0x80, value))
         }
     }
     impl Default for HomingStatus {
@@ -19835,21 +19523,12 @@ pub mod types {
     }
     impl core::fmt::Debug for HomingStatus {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            let bits = rt::DebugBits::new(f, "HomingStatus", self.0 as u64);
-            let bits = rt::DebugBits::plain(
-                bits,
-                &[
-                    ("homing_in_progress", 0x1),
-                    ("drive_not_enabled", 0x2),
-                    ("maximum_distance_reached", 0x4),
-                    ("backward_limit_switch_error", 0x8),
-                    ("forward_limit_switch_error", 0x10),
-                    ("interrupted", 0x20),
-                    ("unknown_error", 0x40),
-                    ("mechanical_stop_in_foc_open", 0x80),
-                ],
-            );
-            bits.finish()
+            rt::debug_bits(
+                f,
+                self.0 as u64,
+                "HomingStatus homing_in_progress:1 drive_not_enabled:2 maximum_distance_reached:4 backward_limit_switch_error:8 forward_limit_switch_error:10 interrupted:20 unknown_error:40 mechanical_stop_in_foc_open:80",
+                &[],
+            )
         }
     }
     /// BestopSetup.
@@ -19882,66 +19561,66 @@ pub mod types {
         }
         /// Bits 4 to 0: bit number. Manual: Bit Number.
         pub const fn bit_number(self) -> u8 {
-            (self.0 & 0x1F) as u8
+            rt::bits16::field(self.0, 0x1F) as u8
         }
         /// The same with another [`bit_number`](Self::bit_number).
         #[must_use]
         pub const fn with_bit_number(self, value: u8) -> Self {
-            Self((self.0 & !0x1F) | ((value as u16) & 0x1F))
+            Self(rt::bits16::with_field(self.0, 0x1F, value as u16))
         }
         /// Bit 5: condition. Manual: Condizione.
         pub const fn condition(self) -> BestopSetupCondition {
-            BestopSetupCondition::from_raw(((self.0 >> 5) & 0x1) as u8)
+            BestopSetupCondition::from_raw(rt::bits16::field(self.0, 0x20) as u8)
         }
         /// The same with another [`condition`](Self::condition).
         #[must_use]
         pub const fn with_condition(self, value: BestopSetupCondition) -> Self {
-            Self((self.0 & !0x20) | (((value.raw() as u16) << 5) & 0x20))
+            Self(rt::bits16::with_field(self.0, 0x20, value.raw() as u16))
         }
         /// Bit 6: type. Meaning of the number in Rbestppar. Manual: Tipo.
         pub const fn r#type(self) -> BestopSetupType {
-            BestopSetupType::from_raw(((self.0 >> 6) & 0x1) as u8)
+            BestopSetupType::from_raw(rt::bits16::field(self.0, 0x40) as u8)
         }
         /// The same with another [`type`](Self::type).
         #[must_use]
         pub const fn with_type(self, value: BestopSetupType) -> Self {
-            Self((self.0 & !0x40) | (((value.raw() as u16) << 6) & 0x40))
+            Self(rt::bits16::with_field(self.0, 0x40, value.raw() as u16))
         }
         /// Bit 7: stop on rising motor index. Manual: Stop su fronte salita TOP mot.
         pub const fn stop_on_rising_motor_index(self) -> bool {
-            self.0 & 0x80 != 0
+            rt::bits16::flag(self.0, 0x80)
         }
         /// The same with another [`stop_on_rising_motor_index`](Self::stop_on_rising_motor_index).
         #[must_use]
         pub const fn with_stop_on_rising_motor_index(self, value: bool) -> Self {
-            Self((self.0 & !0x80) | ((value as u16) << 7))
+            Self(rt::bits16::with_flag(self.0, 0x80, value))
         }
         /// Bit 8: stop on falling motor index. Manual: Stop su fronte discesa TOP mot.
         pub const fn stop_on_falling_motor_index(self) -> bool {
-            self.0 & 0x100 != 0
+            rt::bits16::flag(self.0, 0x100)
         }
         /// The same with another [`stop_on_falling_motor_index`](Self::stop_on_falling_motor_index).
         #[must_use]
         pub const fn with_stop_on_falling_motor_index(self, value: bool) -> Self {
-            Self((self.0 & !0x100) | ((value as u16) << 8))
+            Self(rt::bits16::with_flag(self.0, 0x100, value))
         }
         /// Bit 9: stop on rising external index. Manual: Stop su fronte salita TOP ext.
         pub const fn stop_on_rising_external_index(self) -> bool {
-            self.0 & 0x200 != 0
+            rt::bits16::flag(self.0, 0x200)
         }
         /// The same with another [`stop_on_rising_external_index`](Self::stop_on_rising_external_index).
         #[must_use]
         pub const fn with_stop_on_rising_external_index(self, value: bool) -> Self {
-            Self((self.0 & !0x200) | ((value as u16) << 9))
+            Self(rt::bits16::with_flag(self.0, 0x200, value))
         }
         /// Bit 10: stop on falling external index. Manual: Stop su fronte discesa TOP ext.
         pub const fn stop_on_falling_external_index(self) -> bool {
-            self.0 & 0x400 != 0
+            rt::bits16::flag(self.0, 0x400)
         }
         /// The same with another [`stop_on_falling_external_index`](Self::stop_on_falling_external_index).
         #[must_use]
         pub const fn with_stop_on_falling_external_index(self, value: bool) -> Self {
-            Self((self.0 & !0x400) | ((value as u16) << 10))
+            Self(rt::bits16::with_flag(self.0, 0x400, value))
         }
     }
     impl Default for BestopSetup {
@@ -19960,20 +19639,12 @@ pub mod types {
     }
     impl core::fmt::Debug for BestopSetup {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            let bits = rt::DebugBits::new(f, "BestopSetup", self.0 as u64);
-            let bits = rt::DebugBits::plain(bits, &[("bit_number", 0x1F)]);
-            let bits = rt::DebugBits::field(bits, "condition", 0x20, &self.condition());
-            let bits = rt::DebugBits::field(bits, "type", 0x40, &self.r#type());
-            let bits = rt::DebugBits::plain(
-                bits,
-                &[
-                    ("stop_on_rising_motor_index", 0x80),
-                    ("stop_on_falling_motor_index", 0x100),
-                    ("stop_on_rising_external_index", 0x200),
-                    ("stop_on_falling_external_index", 0x400),
-                ],
-            );
-            bits.finish()
+            rt::debug_bits(
+                f,
+                self.0 as u64,
+                "BestopSetup bit_number:1f ?condition:20 ?type:40 stop_on_rising_motor_index:80 stop_on_falling_motor_index:100 stop_on_rising_external_index:200 stop_on_falling_external_index:400",
+                &[&self.condition(), &self.r#type()],
+            )
         }
     }
     /// EstopSetup.
@@ -20003,30 +19674,30 @@ pub mod types {
         }
         /// Bits 4 to 1: condition. Manual: Condizione di salto.
         pub const fn condition(self) -> EstopSetupCondition {
-            EstopSetupCondition::from_raw(((self.0 >> 1) & 0xF) as u8)
+            EstopSetupCondition::from_raw(rt::bits16::field(self.0, 0x1E) as u8)
         }
         /// The same with another [`condition`](Self::condition).
         #[must_use]
         pub const fn with_condition(self, value: EstopSetupCondition) -> Self {
-            Self((self.0 & !0x1E) | (((value.raw() as u16) << 1) & 0x1E))
+            Self(rt::bits16::with_field(self.0, 0x1E, value.raw() as u16))
         }
         /// Bits 6 to 5: source. Manual: Source.
         pub const fn source(self) -> EstopSetupSource {
-            EstopSetupSource::from_raw(((self.0 >> 5) & 0x3) as u8)
+            EstopSetupSource::from_raw(rt::bits16::field(self.0, 0x60) as u8)
         }
         /// The same with another [`source`](Self::source).
         #[must_use]
         pub const fn with_source(self, value: EstopSetupSource) -> Self {
-            Self((self.0 & !0x60) | (((value.raw() as u16) << 5) & 0x60))
+            Self(rt::bits16::with_field(self.0, 0x60, value.raw() as u16))
         }
         /// Bit 7: destination. Manual: Destinazione.
         pub const fn destination(self) -> EstopSetupDestination {
-            EstopSetupDestination::from_raw(((self.0 >> 7) & 0x1) as u8)
+            EstopSetupDestination::from_raw(rt::bits16::field(self.0, 0x80) as u8)
         }
         /// The same with another [`destination`](Self::destination).
         #[must_use]
         pub const fn with_destination(self, value: EstopSetupDestination) -> Self {
-            Self((self.0 & !0x80) | (((value.raw() as u16) << 7) & 0x80))
+            Self(rt::bits16::with_field(self.0, 0x80, value.raw() as u16))
         }
     }
     impl Default for EstopSetup {
@@ -20045,16 +19716,12 @@ pub mod types {
     }
     impl core::fmt::Debug for EstopSetup {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            let bits = rt::DebugBits::new(f, "EstopSetup", self.0 as u64);
-            let bits = rt::DebugBits::field(bits, "condition", 0x1E, &self.condition());
-            let bits = rt::DebugBits::field(bits, "source", 0x60, &self.source());
-            let bits = rt::DebugBits::field(
-                bits,
-                "destination",
-                0x80,
-                &self.destination(),
-            );
-            bits.finish()
+            rt::debug_bits(
+                f,
+                self.0 as u64,
+                "EstopSetup ?condition:1e ?source:60 ?destination:80",
+                &[&self.condition(), &self.source(), &self.destination()],
+            )
         }
     }
     /// Alarm.
@@ -20096,147 +19763,147 @@ pub mod types {
         }
         /// Bit 0: hardware overcurrent. Not maskable. Manual: Overcurrent HW.
         pub const fn hardware_overcurrent(self) -> bool {
-            self.0 & 0x1 != 0
+            rt::bits16::flag(self.0, 0x1)
         }
         /// The same with another [`hardware_overcurrent`](Self::hardware_overcurrent).
         #[must_use]
         pub const fn with_hardware_overcurrent(self, value: bool) -> Self {
-            Self((self.0 & !0x1) | (value as u16))
+            Self(rt::bits16::with_flag(self.0, 0x1, value))
         }
         /// Bit 1: software overcurrent. Not maskable. Manual: Overcurrent SW.
         pub const fn software_overcurrent(self) -> bool {
-            self.0 & 0x2 != 0
+            rt::bits16::flag(self.0, 0x2)
         }
         /// The same with another [`software_overcurrent`](Self::software_overcurrent).
         #[must_use]
         pub const fn with_software_overcurrent(self, value: bool) -> Self {
-            Self((self.0 & !0x2) | ((value as u16) << 1))
+            Self(rt::bits16::with_flag(self.0, 0x2, value))
         }
         /// Bit 2: I2T. Manual: I2T.
         pub const fn i2_t(self) -> bool {
-            self.0 & 0x4 != 0
+            rt::bits16::flag(self.0, 0x4)
         }
         /// The same with another [`i2_t`](Self::i2_t).
         #[must_use]
         pub const fn with_i2_t(self, value: bool) -> Self {
-            Self((self.0 & !0x4) | ((value as u16) << 2))
+            Self(rt::bits16::with_flag(self.0, 0x4, value))
         }
         /// Bit 3: position error. Closed loop: out of the window Rdeadpos for Rposalmtime, with zero demand speed. Off by default. Manual: Errore di posizione.
         pub const fn position_error(self) -> bool {
-            self.0 & 0x8 != 0
+            rt::bits16::flag(self.0, 0x8)
         }
         /// The same with another [`position_error`](Self::position_error).
         #[must_use]
         pub const fn with_position_error(self, value: bool) -> Self {
-            Self((self.0 & !0x8) | ((value as u16) << 3))
+            Self(rt::bits16::with_flag(self.0, 0x8, value))
         }
         /// Bit 4: following error. Open loop: difference between encoder and motor steps above Rflwmax. Closed loop: with a demand speed, for Rposalmtime (Rflwtim in the text of the manual). Off by default. Manual: Errore di inseguimento.
         pub const fn following_error(self) -> bool {
-            self.0 & 0x10 != 0
+            rt::bits16::flag(self.0, 0x10)
         }
         /// The same with another [`following_error`](Self::following_error).
         #[must_use]
         pub const fn with_following_error(self, value: bool) -> Self {
-            Self((self.0 & !0x10) | ((value as u16) << 4))
+            Self(rt::bits16::with_flag(self.0, 0x10, value))
         }
         /// Bit 5: digital output overload. Not maskable. Manual: Overload digital output.
         pub const fn digital_output_overload(self) -> bool {
-            self.0 & 0x20 != 0
+            rt::bits16::flag(self.0, 0x20)
         }
         /// The same with another [`digital_output_overload`](Self::digital_output_overload).
         #[must_use]
         pub const fn with_digital_output_overload(self, value: bool) -> Self {
-            Self((self.0 & !0x20) | ((value as u16) << 5))
+            Self(rt::bits16::with_flag(self.0, 0x20, value))
         }
         /// Bit 6: overtemperature. Not maskable. Manual: Sovratemperatura.
         pub const fn overtemperature(self) -> bool {
-            self.0 & 0x40 != 0
+            rt::bits16::flag(self.0, 0x40)
         }
         /// The same with another [`overtemperature`](Self::overtemperature).
         #[must_use]
         pub const fn with_overtemperature(self, value: bool) -> Self {
-            Self((self.0 & !0x40) | ((value as u16) << 6))
+            Self(rt::bits16::with_flag(self.0, 0x40, value))
         }
         /// Bit 7: overvoltage. Not maskable. Manual: Sovratensione.
         pub const fn overvoltage(self) -> bool {
-            self.0 & 0x80 != 0
+            rt::bits16::flag(self.0, 0x80)
         }
         /// The same with another [`overvoltage`](Self::overvoltage).
         #[must_use]
         pub const fn with_overvoltage(self, value: bool) -> Self {
-            Self((self.0 & !0x80) | ((value as u16) << 7))
+            Self(rt::bits16::with_flag(self.0, 0x80, value))
         }
         /// Bit 8: undervoltage. Manual: Sottotensione.
         pub const fn undervoltage(self) -> bool {
-            self.0 & 0x100 != 0
+            rt::bits16::flag(self.0, 0x100)
         }
         /// The same with another [`undervoltage`](Self::undervoltage).
         #[must_use]
         pub const fn with_undervoltage(self, value: bool) -> Self {
-            Self((self.0 & !0x100) | ((value as u16) << 8))
+            Self(rt::bits16::with_flag(self.0, 0x100, value))
         }
         /// Bit 9: motor encoder phasing error. Not maskable. Manual: Errore fasatura Encoder motore.
         pub const fn motor_encoder_phasing_error(self) -> bool {
-            self.0 & 0x200 != 0
+            rt::bits16::flag(self.0, 0x200)
         }
         /// The same with another [`motor_encoder_phasing_error`](Self::motor_encoder_phasing_error).
         #[must_use]
         pub const fn with_motor_encoder_phasing_error(self, value: bool) -> Self {
-            Self((self.0 & !0x200) | ((value as u16) << 9))
+            Self(rt::bits16::with_flag(self.0, 0x200, value))
         }
         /// Bit 10: phase A disconnected. Not maskable. Manual: Fase A disconnessa.
         pub const fn phase_a_disconnected(self) -> bool {
-            self.0 & 0x400 != 0
+            rt::bits16::flag(self.0, 0x400)
         }
         /// The same with another [`phase_a_disconnected`](Self::phase_a_disconnected).
         #[must_use]
         pub const fn with_phase_a_disconnected(self, value: bool) -> Self {
-            Self((self.0 & !0x400) | ((value as u16) << 10))
+            Self(rt::bits16::with_flag(self.0, 0x400, value))
         }
         /// Bit 11: phase B disconnected. Not maskable. Manual: Fase B disconnessa.
         pub const fn phase_b_disconnected(self) -> bool {
-            self.0 & 0x800 != 0
+            rt::bits16::flag(self.0, 0x800)
         }
         /// The same with another [`phase_b_disconnected`](Self::phase_b_disconnected).
         #[must_use]
         pub const fn with_phase_b_disconnected(self, value: bool) -> Self {
-            Self((self.0 & !0x800) | ((value as u16) << 11))
+            Self(rt::bits16::with_flag(self.0, 0x800, value))
         }
         /// Bit 12: positioning timeout. Manual: Timeout Posizionamento.
         pub const fn positioning_timeout(self) -> bool {
-            self.0 & 0x1000 != 0
+            rt::bits16::flag(self.0, 0x1000)
         }
         /// The same with another [`positioning_timeout`](Self::positioning_timeout).
         #[must_use]
         pub const fn with_positioning_timeout(self, value: bool) -> Self {
-            Self((self.0 & !0x1000) | ((value as u16) << 12))
+            Self(rt::bits16::with_flag(self.0, 0x1000, value))
         }
         /// Bit 13: homing error. Manual: Homing Error.
         pub const fn homing_error(self) -> bool {
-            self.0 & 0x2000 != 0
+            rt::bits16::flag(self.0, 0x2000)
         }
         /// The same with another [`homing_error`](Self::homing_error).
         #[must_use]
         pub const fn with_homing_error(self, value: bool) -> Self {
-            Self((self.0 & !0x2000) | ((value as u16) << 13))
+            Self(rt::bits16::with_flag(self.0, 0x2000, value))
         }
         /// Bit 14: encoder inverted. In SmartMode or closed loop. Manual: Encoder invertito in Smart Mode.
         pub const fn encoder_inverted(self) -> bool {
-            self.0 & 0x4000 != 0
+            rt::bits16::flag(self.0, 0x4000)
         }
         /// The same with another [`encoder_inverted`](Self::encoder_inverted).
         #[must_use]
         pub const fn with_encoder_inverted(self, value: bool) -> Self {
-            Self((self.0 & !0x4000) | ((value as u16) << 14))
+            Self(rt::bits16::with_flag(self.0, 0x4000, value))
         }
         /// Bit 15: encoder fault. Manual: Anomalia Encoder.
         pub const fn encoder_fault(self) -> bool {
-            self.0 & 0x8000 != 0
+            rt::bits16::flag(self.0, 0x8000)
         }
         /// The same with another [`encoder_fault`](Self::encoder_fault).
         #[must_use]
         pub const fn with_encoder_fault(self, value: bool) -> Self {
-            Self((self.0 & !0x8000) | ((value as u16) << 15))
+            Self(rt::bits16::with_flag(self.0, 0x8000, value))
         }
     }
     impl Default for Alarm {
@@ -20255,29 +19922,12 @@ pub mod types {
     }
     impl core::fmt::Debug for Alarm {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            let bits = rt::DebugBits::new(f, "Alarm", self.0 as u64);
-            let bits = rt::DebugBits::plain(
-                bits,
-                &[
-                    ("hardware_overcurrent", 0x1),
-                    ("software_overcurrent", 0x2),
-                    ("i2_t", 0x4),
-                    ("position_error", 0x8),
-                    ("following_error", 0x10),
-                    ("digital_output_overload", 0x20),
-                    ("overtemperature", 0x40),
-                    ("overvoltage", 0x80),
-                    ("undervoltage", 0x100),
-                    ("motor_encoder_phasing_error", 0x200),
-                    ("phase_a_disconnected", 0x400),
-                    ("phase_b_disconnected", 0x800),
-                    ("positioning_timeout", 0x1000),
-                    ("homing_error", 0x2000),
-                    ("encoder_inverted", 0x4000),
-                    ("encoder_fault", 0x8000),
-                ],
-            );
-            bits.finish()
+            rt::debug_bits(
+                f,
+                self.0 as u64,
+                "Alarm hardware_overcurrent:1 software_overcurrent:2 i2_t:4 position_error:8 following_error:10 digital_output_overload:20 overtemperature:40 overvoltage:80 undervoltage:100 motor_encoder_phasing_error:200 phase_a_disconnected:400 phase_b_disconnected:800 positioning_timeout:1000 homing_error:2000 encoder_inverted:4000 encoder_fault:8000",
+                &[],
+            )
         }
     }
     /// Warning.
@@ -20319,120 +19969,120 @@ pub mod types {
         }
         /// Bit 0: hardware overcurrent. The same as the alarm; not maskable. Manual: Overcurrent HW.
         pub const fn hardware_overcurrent(self) -> bool {
-            self.0 & 0x1 != 0
+            rt::bits16::flag(self.0, 0x1)
         }
         /// The same with another [`hardware_overcurrent`](Self::hardware_overcurrent).
         #[must_use]
         pub const fn with_hardware_overcurrent(self, value: bool) -> Self {
-            Self((self.0 & !0x1) | (value as u16))
+            Self(rt::bits16::with_flag(self.0, 0x1, value))
         }
         /// Bit 1: software overcurrent. Not maskable. Manual: Overcurrent SW.
         pub const fn software_overcurrent(self) -> bool {
-            self.0 & 0x2 != 0
+            rt::bits16::flag(self.0, 0x2)
         }
         /// The same with another [`software_overcurrent`](Self::software_overcurrent).
         #[must_use]
         pub const fn with_software_overcurrent(self, value: bool) -> Self {
-            Self((self.0 & !0x2) | ((value as u16) << 1))
+            Self(rt::bits16::with_flag(self.0, 0x2, value))
         }
         /// Bit 2: I2T. Manual: I2T.
         pub const fn i2_t(self) -> bool {
-            self.0 & 0x4 != 0
+            rt::bits16::flag(self.0, 0x4)
         }
         /// The same with another [`i2_t`](Self::i2_t).
         #[must_use]
         pub const fn with_i2_t(self, value: bool) -> Self {
-            Self((self.0 & !0x4) | ((value as u16) << 2))
+            Self(rt::bits16::with_flag(self.0, 0x4, value))
         }
         /// Bit 3: position error. Closed loop: out of the window Rdeadpos for Rposwrtime, with zero demand speed. Off by default. Manual: Errore di posizione.
         pub const fn position_error(self) -> bool {
-            self.0 & 0x8 != 0
+            rt::bits16::flag(self.0, 0x8)
         }
         /// The same with another [`position_error`](Self::position_error).
         #[must_use]
         pub const fn with_position_error(self, value: bool) -> Self {
-            Self((self.0 & !0x8) | ((value as u16) << 3))
+            Self(rt::bits16::with_flag(self.0, 0x8, value))
         }
         /// Bit 4: following error. Open loop: difference between encoder and motor steps above Rflwvrn. Closed loop: above Rflwmax for Rposwrtime (above Rflwvrn at once in the text of the manual). Off by default. Manual: Errore di inseguimento.
         pub const fn following_error(self) -> bool {
-            self.0 & 0x10 != 0
+            rt::bits16::flag(self.0, 0x10)
         }
         /// The same with another [`following_error`](Self::following_error).
         #[must_use]
         pub const fn with_following_error(self, value: bool) -> Self {
-            Self((self.0 & !0x10) | ((value as u16) << 4))
+            Self(rt::bits16::with_flag(self.0, 0x10, value))
         }
         /// Bit 5: digital output overload. Not maskable. Manual: Overload digital output.
         pub const fn digital_output_overload(self) -> bool {
-            self.0 & 0x20 != 0
+            rt::bits16::flag(self.0, 0x20)
         }
         /// The same with another [`digital_output_overload`](Self::digital_output_overload).
         #[must_use]
         pub const fn with_digital_output_overload(self, value: bool) -> Self {
-            Self((self.0 & !0x20) | ((value as u16) << 5))
+            Self(rt::bits16::with_flag(self.0, 0x20, value))
         }
         /// Bit 6: overtemperature. Not maskable. Manual: Sovratemperatura.
         pub const fn overtemperature(self) -> bool {
-            self.0 & 0x40 != 0
+            rt::bits16::flag(self.0, 0x40)
         }
         /// The same with another [`overtemperature`](Self::overtemperature).
         #[must_use]
         pub const fn with_overtemperature(self, value: bool) -> Self {
-            Self((self.0 & !0x40) | ((value as u16) << 6))
+            Self(rt::bits16::with_flag(self.0, 0x40, value))
         }
         /// Bit 7: overvoltage. Not maskable. Manual: Sovratensione.
         pub const fn overvoltage(self) -> bool {
-            self.0 & 0x80 != 0
+            rt::bits16::flag(self.0, 0x80)
         }
         /// The same with another [`overvoltage`](Self::overvoltage).
         #[must_use]
         pub const fn with_overvoltage(self, value: bool) -> Self {
-            Self((self.0 & !0x80) | ((value as u16) << 7))
+            Self(rt::bits16::with_flag(self.0, 0x80, value))
         }
         /// Bit 8: undervoltage. Manual: Sottotensione.
         pub const fn undervoltage(self) -> bool {
-            self.0 & 0x100 != 0
+            rt::bits16::flag(self.0, 0x100)
         }
         /// The same with another [`undervoltage`](Self::undervoltage).
         #[must_use]
         pub const fn with_undervoltage(self, value: bool) -> Self {
-            Self((self.0 & !0x100) | ((value as u16) << 8))
+            Self(rt::bits16::with_flag(self.0, 0x100, value))
         }
         /// Bit 9: current limited by voltage. Manual: Corrente limitata da tensione.
         pub const fn current_limited_by_voltage(self) -> bool {
-            self.0 & 0x200 != 0
+            rt::bits16::flag(self.0, 0x200)
         }
         /// The same with another [`current_limited_by_voltage`](Self::current_limited_by_voltage).
         #[must_use]
         pub const fn with_current_limited_by_voltage(self, value: bool) -> Self {
-            Self((self.0 & !0x200) | ((value as u16) << 9))
+            Self(rt::bits16::with_flag(self.0, 0x200, value))
         }
         /// Bit 10: regulator saturated. Manual: Regolatore saturo.
         pub const fn regulator_saturated(self) -> bool {
-            self.0 & 0x400 != 0
+            rt::bits16::flag(self.0, 0x400)
         }
         /// The same with another [`regulator_saturated`](Self::regulator_saturated).
         #[must_use]
         pub const fn with_regulator_saturated(self, value: bool) -> Self {
-            Self((self.0 & !0x400) | ((value as u16) << 10))
+            Self(rt::bits16::with_flag(self.0, 0x400, value))
         }
         /// Bit 11: current limit active. Manual: Limite di corrente attivo.
         pub const fn current_limit_active(self) -> bool {
-            self.0 & 0x800 != 0
+            rt::bits16::flag(self.0, 0x800)
         }
         /// The same with another [`current_limit_active`](Self::current_limit_active).
         #[must_use]
         pub const fn with_current_limit_active(self, value: bool) -> Self {
-            Self((self.0 & !0x800) | ((value as u16) << 11))
+            Self(rt::bits16::with_flag(self.0, 0x800, value))
         }
         /// Bit 12: positioning timeout. Manual: Timeout Posizionamento.
         pub const fn positioning_timeout(self) -> bool {
-            self.0 & 0x1000 != 0
+            rt::bits16::flag(self.0, 0x1000)
         }
         /// The same with another [`positioning_timeout`](Self::positioning_timeout).
         #[must_use]
         pub const fn with_positioning_timeout(self, value: bool) -> Self {
-            Self((self.0 & !0x1000) | ((value as u16) << 12))
+            Self(rt::bits16::with_flag(self.0, 0x1000, value))
         }
     }
     impl Default for Warning {
@@ -20451,26 +20101,12 @@ pub mod types {
     }
     impl core::fmt::Debug for Warning {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            let bits = rt::DebugBits::new(f, "Warning", self.0 as u64);
-            let bits = rt::DebugBits::plain(
-                bits,
-                &[
-                    ("hardware_overcurrent", 0x1),
-                    ("software_overcurrent", 0x2),
-                    ("i2_t", 0x4),
-                    ("position_error", 0x8),
-                    ("following_error", 0x10),
-                    ("digital_output_overload", 0x20),
-                    ("overtemperature", 0x40),
-                    ("overvoltage", 0x80),
-                    ("undervoltage", 0x100),
-                    ("current_limited_by_voltage", 0x200),
-                    ("regulator_saturated", 0x400),
-                    ("current_limit_active", 0x800),
-                    ("positioning_timeout", 0x1000),
-                ],
-            );
-            bits.finish()
+            rt::debug_bits(
+                f,
+                self.0 as u64,
+                "Warning hardware_overcurrent:1 software_overcurrent:2 i2_t:4 position_error:8 following_error:10 digital_output_overload:20 overtemperature:40 overvoltage:80 undervoltage:100 current_limited_by_voltage:200 regulator_saturated:400 current_limit_active:800 positioning_timeout:1000",
+                &[],
+            )
         }
     }
     /// AlarmAcknowledge.
@@ -20498,21 +20134,21 @@ pub mod types {
         }
         /// Bit 0: acknowledge. Manual: Alarm Acknowledge.
         pub const fn acknowledge(self) -> bool {
-            self.0 & 0x1 != 0
+            rt::bits16::flag(self.0, 0x1)
         }
         /// The same with another [`acknowledge`](Self::acknowledge).
         #[must_use]
         pub const fn with_acknowledge(self, value: bool) -> Self {
-            Self((self.0 & !0x1) | (value as u16))
+            Self(rt::bits16::with_flag(self.0, 0x1, value))
         }
         /// Bit 1: reset alarm counter. Manual: Reset alarm counter.
         pub const fn reset_alarm_counter(self) -> bool {
-            self.0 & 0x2 != 0
+            rt::bits16::flag(self.0, 0x2)
         }
         /// The same with another [`reset_alarm_counter`](Self::reset_alarm_counter).
         #[must_use]
         pub const fn with_reset_alarm_counter(self, value: bool) -> Self {
-            Self((self.0 & !0x2) | ((value as u16) << 1))
+            Self(rt::bits16::with_flag(self.0, 0x2, value))
         }
     }
     impl Default for AlarmAcknowledge {
@@ -20531,12 +20167,12 @@ pub mod types {
     }
     impl core::fmt::Debug for AlarmAcknowledge {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            let bits = rt::DebugBits::new(f, "AlarmAcknowledge", self.0 as u64);
-            let bits = rt::DebugBits::plain(
-                bits,
-                &[("acknowledge", 0x1), ("reset_alarm_counter", 0x2)],
-            );
-            bits.finish()
+            rt::debug_bits(
+                f,
+                self.0 as u64,
+                "AlarmAcknowledge acknowledge:1 reset_alarm_counter:2",
+                &[],
+            )
         }
     }
     /// Alarm32.
@@ -20588,201 +20224,201 @@ pub mod types {
         }
         /// Bit 0: hardware overcurrent. Not maskable. Manual: Overcurrent HW.
         pub const fn hardware_overcurrent(self) -> bool {
-            self.0 & 0x1 != 0
+            rt::bits32::flag(self.0, 0x1)
         }
         /// The same with another [`hardware_overcurrent`](Self::hardware_overcurrent).
         #[must_use]
         pub const fn with_hardware_overcurrent(self, value: bool) -> Self {
-            Self((self.0 & !0x1) | (value as u32))
+            Self(rt::bits32::with_flag(self.0, 0x1, value))
         }
         /// Bit 1: software overcurrent. Not maskable. Manual: Overcurrent SW.
         pub const fn software_overcurrent(self) -> bool {
-            self.0 & 0x2 != 0
+            rt::bits32::flag(self.0, 0x2)
         }
         /// The same with another [`software_overcurrent`](Self::software_overcurrent).
         #[must_use]
         pub const fn with_software_overcurrent(self, value: bool) -> Self {
-            Self((self.0 & !0x2) | ((value as u32) << 1))
+            Self(rt::bits32::with_flag(self.0, 0x2, value))
         }
         /// Bit 2: I2T. Manual: I2T.
         pub const fn i2_t(self) -> bool {
-            self.0 & 0x4 != 0
+            rt::bits32::flag(self.0, 0x4)
         }
         /// The same with another [`i2_t`](Self::i2_t).
         #[must_use]
         pub const fn with_i2_t(self, value: bool) -> Self {
-            Self((self.0 & !0x4) | ((value as u32) << 2))
+            Self(rt::bits32::with_flag(self.0, 0x4, value))
         }
         /// Bit 3: position error. Closed loop: out of the window Rdeadpos for Rposalmtime, with zero demand speed. Off by default. Manual: Errore di posizione.
         pub const fn position_error(self) -> bool {
-            self.0 & 0x8 != 0
+            rt::bits32::flag(self.0, 0x8)
         }
         /// The same with another [`position_error`](Self::position_error).
         #[must_use]
         pub const fn with_position_error(self, value: bool) -> Self {
-            Self((self.0 & !0x8) | ((value as u32) << 3))
+            Self(rt::bits32::with_flag(self.0, 0x8, value))
         }
         /// Bit 4: following error. Open loop: difference between encoder and motor steps above Rflwmax. Closed loop: with a demand speed, for Rposalmtime (Rflwtim in the text of the manual). Off by default. Manual: Errore di inseguimento.
         pub const fn following_error(self) -> bool {
-            self.0 & 0x10 != 0
+            rt::bits32::flag(self.0, 0x10)
         }
         /// The same with another [`following_error`](Self::following_error).
         #[must_use]
         pub const fn with_following_error(self, value: bool) -> Self {
-            Self((self.0 & !0x10) | ((value as u32) << 4))
+            Self(rt::bits32::with_flag(self.0, 0x10, value))
         }
         /// Bit 5: digital output overload. Not maskable. Manual: Overload digital output.
         pub const fn digital_output_overload(self) -> bool {
-            self.0 & 0x20 != 0
+            rt::bits32::flag(self.0, 0x20)
         }
         /// The same with another [`digital_output_overload`](Self::digital_output_overload).
         #[must_use]
         pub const fn with_digital_output_overload(self, value: bool) -> Self {
-            Self((self.0 & !0x20) | ((value as u32) << 5))
+            Self(rt::bits32::with_flag(self.0, 0x20, value))
         }
         /// Bit 6: overtemperature. Not maskable. Manual: Sovratemperatura.
         pub const fn overtemperature(self) -> bool {
-            self.0 & 0x40 != 0
+            rt::bits32::flag(self.0, 0x40)
         }
         /// The same with another [`overtemperature`](Self::overtemperature).
         #[must_use]
         pub const fn with_overtemperature(self, value: bool) -> Self {
-            Self((self.0 & !0x40) | ((value as u32) << 6))
+            Self(rt::bits32::with_flag(self.0, 0x40, value))
         }
         /// Bit 7: overvoltage. Not maskable. Manual: Sovratensione.
         pub const fn overvoltage(self) -> bool {
-            self.0 & 0x80 != 0
+            rt::bits32::flag(self.0, 0x80)
         }
         /// The same with another [`overvoltage`](Self::overvoltage).
         #[must_use]
         pub const fn with_overvoltage(self, value: bool) -> Self {
-            Self((self.0 & !0x80) | ((value as u32) << 7))
+            Self(rt::bits32::with_flag(self.0, 0x80, value))
         }
         /// Bit 8: undervoltage. Manual: Sottotensione.
         pub const fn undervoltage(self) -> bool {
-            self.0 & 0x100 != 0
+            rt::bits32::flag(self.0, 0x100)
         }
         /// The same with another [`undervoltage`](Self::undervoltage).
         #[must_use]
         pub const fn with_undervoltage(self, value: bool) -> Self {
-            Self((self.0 & !0x100) | ((value as u32) << 8))
+            Self(rt::bits32::with_flag(self.0, 0x100, value))
         }
         /// Bit 9: motor encoder phasing error. Not maskable. Manual: Errore fasatura Encoder motore.
         pub const fn motor_encoder_phasing_error(self) -> bool {
-            self.0 & 0x200 != 0
+            rt::bits32::flag(self.0, 0x200)
         }
         /// The same with another [`motor_encoder_phasing_error`](Self::motor_encoder_phasing_error).
         #[must_use]
         pub const fn with_motor_encoder_phasing_error(self, value: bool) -> Self {
-            Self((self.0 & !0x200) | ((value as u32) << 9))
+            Self(rt::bits32::with_flag(self.0, 0x200, value))
         }
         /// Bit 10: phase A disconnected. Not maskable. Manual: Fase A disconnessa.
         pub const fn phase_a_disconnected(self) -> bool {
-            self.0 & 0x400 != 0
+            rt::bits32::flag(self.0, 0x400)
         }
         /// The same with another [`phase_a_disconnected`](Self::phase_a_disconnected).
         #[must_use]
         pub const fn with_phase_a_disconnected(self, value: bool) -> Self {
-            Self((self.0 & !0x400) | ((value as u32) << 10))
+            Self(rt::bits32::with_flag(self.0, 0x400, value))
         }
         /// Bit 11: phase B disconnected. Not maskable. Manual: Fase B disconnessa.
         pub const fn phase_b_disconnected(self) -> bool {
-            self.0 & 0x800 != 0
+            rt::bits32::flag(self.0, 0x800)
         }
         /// The same with another [`phase_b_disconnected`](Self::phase_b_disconnected).
         #[must_use]
         pub const fn with_phase_b_disconnected(self, value: bool) -> Self {
-            Self((self.0 & !0x800) | ((value as u32) << 11))
+            Self(rt::bits32::with_flag(self.0, 0x800, value))
         }
         /// Bit 12: positioning timeout. Manual: Timeout Posizionamento.
         pub const fn positioning_timeout(self) -> bool {
-            self.0 & 0x1000 != 0
+            rt::bits32::flag(self.0, 0x1000)
         }
         /// The same with another [`positioning_timeout`](Self::positioning_timeout).
         #[must_use]
         pub const fn with_positioning_timeout(self, value: bool) -> Self {
-            Self((self.0 & !0x1000) | ((value as u32) << 12))
+            Self(rt::bits32::with_flag(self.0, 0x1000, value))
         }
         /// Bit 13: homing error. Manual: Homing Error.
         pub const fn homing_error(self) -> bool {
-            self.0 & 0x2000 != 0
+            rt::bits32::flag(self.0, 0x2000)
         }
         /// The same with another [`homing_error`](Self::homing_error).
         #[must_use]
         pub const fn with_homing_error(self, value: bool) -> Self {
-            Self((self.0 & !0x2000) | ((value as u32) << 13))
+            Self(rt::bits32::with_flag(self.0, 0x2000, value))
         }
         /// Bit 14: encoder inverted. In SmartMode or closed loop. Manual: Encoder invertito in Smart Mode.
         pub const fn encoder_inverted(self) -> bool {
-            self.0 & 0x4000 != 0
+            rt::bits32::flag(self.0, 0x4000)
         }
         /// The same with another [`encoder_inverted`](Self::encoder_inverted).
         #[must_use]
         pub const fn with_encoder_inverted(self, value: bool) -> Self {
-            Self((self.0 & !0x4000) | ((value as u32) << 14))
+            Self(rt::bits32::with_flag(self.0, 0x4000, value))
         }
         /// Bit 15: encoder fault. Manual: Anomalia Encoder.
         pub const fn encoder_fault(self) -> bool {
-            self.0 & 0x8000 != 0
+            rt::bits32::flag(self.0, 0x8000)
         }
         /// The same with another [`encoder_fault`](Self::encoder_fault).
         #[must_use]
         pub const fn with_encoder_fault(self, value: bool) -> Self {
-            Self((self.0 & !0x8000) | ((value as u32) << 15))
+            Self(rt::bits32::with_flag(self.0, 0x8000, value))
         }
         /// Bit 18: sync missing. CANopen or EtherCAT. Manual: Mancanza Sync.
         pub const fn sync_missing(self) -> bool {
-            self.0 & 0x40000 != 0
+            rt::bits32::flag(self.0, 0x40000)
         }
         /// The same with another [`sync_missing`](Self::sync_missing).
         #[must_use]
         pub const fn with_sync_missing(self, value: bool) -> Self {
-            Self((self.0 & !0x40000) | ((value as u32) << 18))
+            Self(rt::bits32::with_flag(self.0, 0x40000, value))
         }
         /// Bit 19: SSP fault. Inconsistent inputs. Manual: Anomalia SSP.
         pub const fn ssp_fault(self) -> bool {
-            self.0 & 0x80000 != 0
+            rt::bits32::flag(self.0, 0x80000)
         }
         /// The same with another [`ssp_fault`](Self::ssp_fault).
         #[must_use]
         pub const fn with_ssp_fault(self, value: bool) -> Self {
-            Self((self.0 & !0x80000) | ((value as u32) << 19))
+            Self(rt::bits32::with_flag(self.0, 0x80000, value))
         }
         /// Bit 20: logic undervoltage. Manual: Allarme sottotensione VLogic.
         pub const fn logic_undervoltage(self) -> bool {
-            self.0 & 0x100000 != 0
+            rt::bits32::flag(self.0, 0x100000)
         }
         /// The same with another [`logic_undervoltage`](Self::logic_undervoltage).
         #[must_use]
         pub const fn with_logic_undervoltage(self, value: bool) -> Self {
-            Self((self.0 & !0x100000) | ((value as u32) << 20))
+            Self(rt::bits32::with_flag(self.0, 0x100000, value))
         }
         /// Bit 21: STO A test failed. Manual: Anomalia STO (test su STO A fallito).
         pub const fn sto_a_test_failed(self) -> bool {
-            self.0 & 0x200000 != 0
+            rt::bits32::flag(self.0, 0x200000)
         }
         /// The same with another [`sto_a_test_failed`](Self::sto_a_test_failed).
         #[must_use]
         pub const fn with_sto_a_test_failed(self, value: bool) -> Self {
-            Self((self.0 & !0x200000) | ((value as u32) << 21))
+            Self(rt::bits32::with_flag(self.0, 0x200000, value))
         }
         /// Bit 22: STO B test failed. Manual: Anomalia STO (test su STO B fallito).
         pub const fn sto_b_test_failed(self) -> bool {
-            self.0 & 0x400000 != 0
+            rt::bits32::flag(self.0, 0x400000)
         }
         /// The same with another [`sto_b_test_failed`](Self::sto_b_test_failed).
         #[must_use]
         pub const fn with_sto_b_test_failed(self, value: bool) -> Self {
-            Self((self.0 & !0x400000) | ((value as u32) << 22))
+            Self(rt::bits32::with_flag(self.0, 0x400000, value))
         }
         /// Bit 23: safe state output fault. Output pin that signals the safe state. Manual: Anomalia su pin di uscita.
         pub const fn safe_state_output_fault(self) -> bool {
-            self.0 & 0x800000 != 0
+            rt::bits32::flag(self.0, 0x800000)
         }
         /// The same with another [`safe_state_output_fault`](Self::safe_state_output_fault).
         #[must_use]
         pub const fn with_safe_state_output_fault(self, value: bool) -> Self {
-            Self((self.0 & !0x800000) | ((value as u32) << 23))
+            Self(rt::bits32::with_flag(self.0, 0x800000, value))
         }
     }
     impl Default for Alarm32 {
@@ -20801,35 +20437,12 @@ pub mod types {
     }
     impl core::fmt::Debug for Alarm32 {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            let bits = rt::DebugBits::new(f, "Alarm32", self.0 as u64);
-            let bits = rt::DebugBits::plain(
-                bits,
-                &[
-                    ("hardware_overcurrent", 0x1),
-                    ("software_overcurrent", 0x2),
-                    ("i2_t", 0x4),
-                    ("position_error", 0x8),
-                    ("following_error", 0x10),
-                    ("digital_output_overload", 0x20),
-                    ("overtemperature", 0x40),
-                    ("overvoltage", 0x80),
-                    ("undervoltage", 0x100),
-                    ("motor_encoder_phasing_error", 0x200),
-                    ("phase_a_disconnected", 0x400),
-                    ("phase_b_disconnected", 0x800),
-                    ("positioning_timeout", 0x1000),
-                    ("homing_error", 0x2000),
-                    ("encoder_inverted", 0x4000),
-                    ("encoder_fault", 0x8000),
-                    ("sync_missing", 0x40000),
-                    ("ssp_fault", 0x80000),
-                    ("logic_undervoltage", 0x100000),
-                    ("sto_a_test_failed", 0x200000),
-                    ("sto_b_test_failed", 0x400000),
-                    ("safe_state_output_fault", 0x800000),
-                ],
-            );
-            bits.finish()
+            rt::debug_bits(
+                f,
+                self.0 as u64,
+                "Alarm32 hardware_overcurrent:1 software_overcurrent:2 i2_t:4 position_error:8 following_error:10 digital_output_overload:20 overtemperature:40 overvoltage:80 undervoltage:100 motor_encoder_phasing_error:200 phase_a_disconnected:400 phase_b_disconnected:800 positioning_timeout:1000 homing_error:2000 encoder_inverted:4000 encoder_fault:8000 sync_missing:40000 ssp_fault:80000 logic_undervoltage:100000 sto_a_test_failed:200000 sto_b_test_failed:400000 safe_state_output_fault:800000",
+                &[],
+            )
         }
     }
     /// Warning32.
@@ -20877,138 +20490,138 @@ pub mod types {
         }
         /// Bit 0: hardware overcurrent. The same as the alarm; not maskable. Manual: Overcurrent HW.
         pub const fn hardware_overcurrent(self) -> bool {
-            self.0 & 0x1 != 0
+            rt::bits32::flag(self.0, 0x1)
         }
         /// The same with another [`hardware_overcurrent`](Self::hardware_overcurrent).
         #[must_use]
         pub const fn with_hardware_overcurrent(self, value: bool) -> Self {
-            Self((self.0 & !0x1) | (value as u32))
+            Self(rt::bits32::with_flag(self.0, 0x1, value))
         }
         /// Bit 1: software overcurrent. Not maskable. Manual: Overcurrent SW.
         pub const fn software_overcurrent(self) -> bool {
-            self.0 & 0x2 != 0
+            rt::bits32::flag(self.0, 0x2)
         }
         /// The same with another [`software_overcurrent`](Self::software_overcurrent).
         #[must_use]
         pub const fn with_software_overcurrent(self, value: bool) -> Self {
-            Self((self.0 & !0x2) | ((value as u32) << 1))
+            Self(rt::bits32::with_flag(self.0, 0x2, value))
         }
         /// Bit 2: I2T. Manual: I2T.
         pub const fn i2_t(self) -> bool {
-            self.0 & 0x4 != 0
+            rt::bits32::flag(self.0, 0x4)
         }
         /// The same with another [`i2_t`](Self::i2_t).
         #[must_use]
         pub const fn with_i2_t(self, value: bool) -> Self {
-            Self((self.0 & !0x4) | ((value as u32) << 2))
+            Self(rt::bits32::with_flag(self.0, 0x4, value))
         }
         /// Bit 3: position error. Closed loop: out of the window Rdeadpos for Rposwrtime, with zero demand speed. Off by default. Manual: Errore di posizione.
         pub const fn position_error(self) -> bool {
-            self.0 & 0x8 != 0
+            rt::bits32::flag(self.0, 0x8)
         }
         /// The same with another [`position_error`](Self::position_error).
         #[must_use]
         pub const fn with_position_error(self, value: bool) -> Self {
-            Self((self.0 & !0x8) | ((value as u32) << 3))
+            Self(rt::bits32::with_flag(self.0, 0x8, value))
         }
         /// Bit 4: following error. Open loop: difference between encoder and motor steps above Rflwvrn. Closed loop: above Rflwmax for Rposwrtime (above Rflwvrn at once in the text of the manual). Off by default. Manual: Errore di inseguimento.
         pub const fn following_error(self) -> bool {
-            self.0 & 0x10 != 0
+            rt::bits32::flag(self.0, 0x10)
         }
         /// The same with another [`following_error`](Self::following_error).
         #[must_use]
         pub const fn with_following_error(self, value: bool) -> Self {
-            Self((self.0 & !0x10) | ((value as u32) << 4))
+            Self(rt::bits32::with_flag(self.0, 0x10, value))
         }
         /// Bit 5: digital output overload. Not maskable. Manual: Overload digital output.
         pub const fn digital_output_overload(self) -> bool {
-            self.0 & 0x20 != 0
+            rt::bits32::flag(self.0, 0x20)
         }
         /// The same with another [`digital_output_overload`](Self::digital_output_overload).
         #[must_use]
         pub const fn with_digital_output_overload(self, value: bool) -> Self {
-            Self((self.0 & !0x20) | ((value as u32) << 5))
+            Self(rt::bits32::with_flag(self.0, 0x20, value))
         }
         /// Bit 6: overtemperature. Not maskable. Manual: Sovratemperatura.
         pub const fn overtemperature(self) -> bool {
-            self.0 & 0x40 != 0
+            rt::bits32::flag(self.0, 0x40)
         }
         /// The same with another [`overtemperature`](Self::overtemperature).
         #[must_use]
         pub const fn with_overtemperature(self, value: bool) -> Self {
-            Self((self.0 & !0x40) | ((value as u32) << 6))
+            Self(rt::bits32::with_flag(self.0, 0x40, value))
         }
         /// Bit 7: overvoltage. Not maskable. Manual: Sovratensione.
         pub const fn overvoltage(self) -> bool {
-            self.0 & 0x80 != 0
+            rt::bits32::flag(self.0, 0x80)
         }
         /// The same with another [`overvoltage`](Self::overvoltage).
         #[must_use]
         pub const fn with_overvoltage(self, value: bool) -> Self {
-            Self((self.0 & !0x80) | ((value as u32) << 7))
+            Self(rt::bits32::with_flag(self.0, 0x80, value))
         }
         /// Bit 8: undervoltage. Manual: Sottotensione.
         pub const fn undervoltage(self) -> bool {
-            self.0 & 0x100 != 0
+            rt::bits32::flag(self.0, 0x100)
         }
         /// The same with another [`undervoltage`](Self::undervoltage).
         #[must_use]
         pub const fn with_undervoltage(self, value: bool) -> Self {
-            Self((self.0 & !0x100) | ((value as u32) << 8))
+            Self(rt::bits32::with_flag(self.0, 0x100, value))
         }
         /// Bit 9: current limited by voltage. Manual: Corrente limitata da tensione.
         pub const fn current_limited_by_voltage(self) -> bool {
-            self.0 & 0x200 != 0
+            rt::bits32::flag(self.0, 0x200)
         }
         /// The same with another [`current_limited_by_voltage`](Self::current_limited_by_voltage).
         #[must_use]
         pub const fn with_current_limited_by_voltage(self, value: bool) -> Self {
-            Self((self.0 & !0x200) | ((value as u32) << 9))
+            Self(rt::bits32::with_flag(self.0, 0x200, value))
         }
         /// Bit 10: regulator saturated. Manual: Regolatore saturo.
         pub const fn regulator_saturated(self) -> bool {
-            self.0 & 0x400 != 0
+            rt::bits32::flag(self.0, 0x400)
         }
         /// The same with another [`regulator_saturated`](Self::regulator_saturated).
         #[must_use]
         pub const fn with_regulator_saturated(self, value: bool) -> Self {
-            Self((self.0 & !0x400) | ((value as u32) << 10))
+            Self(rt::bits32::with_flag(self.0, 0x400, value))
         }
         /// Bit 11: current limit active. Manual: Limite di corrente attivo.
         pub const fn current_limit_active(self) -> bool {
-            self.0 & 0x800 != 0
+            rt::bits32::flag(self.0, 0x800)
         }
         /// The same with another [`current_limit_active`](Self::current_limit_active).
         #[must_use]
         pub const fn with_current_limit_active(self, value: bool) -> Self {
-            Self((self.0 & !0x800) | ((value as u32) << 11))
+            Self(rt::bits32::with_flag(self.0, 0x800, value))
         }
         /// Bit 12: positioning timeout. Manual: Timeout Posizionamento.
         pub const fn positioning_timeout(self) -> bool {
-            self.0 & 0x1000 != 0
+            rt::bits32::flag(self.0, 0x1000)
         }
         /// The same with another [`positioning_timeout`](Self::positioning_timeout).
         #[must_use]
         pub const fn with_positioning_timeout(self, value: bool) -> Self {
-            Self((self.0 & !0x1000) | ((value as u32) << 12))
+            Self(rt::bits32::with_flag(self.0, 0x1000, value))
         }
         /// Bit 18: sync missing. CANopen or EtherCAT. Manual: Mancanza Sync.
         pub const fn sync_missing(self) -> bool {
-            self.0 & 0x40000 != 0
+            rt::bits32::flag(self.0, 0x40000)
         }
         /// The same with another [`sync_missing`](Self::sync_missing).
         #[must_use]
         pub const fn with_sync_missing(self, value: bool) -> Self {
-            Self((self.0 & !0x40000) | ((value as u32) << 18))
+            Self(rt::bits32::with_flag(self.0, 0x40000, value))
         }
         /// Bit 19: STO fault. Manual: Anomalia STO.
         pub const fn sto_fault(self) -> bool {
-            self.0 & 0x80000 != 0
+            rt::bits32::flag(self.0, 0x80000)
         }
         /// The same with another [`sto_fault`](Self::sto_fault).
         #[must_use]
         pub const fn with_sto_fault(self, value: bool) -> Self {
-            Self((self.0 & !0x80000) | ((value as u32) << 19))
+            Self(rt::bits32::with_flag(self.0, 0x80000, value))
         }
     }
     impl Default for Warning32 {
@@ -21027,28 +20640,12 @@ pub mod types {
     }
     impl core::fmt::Debug for Warning32 {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            let bits = rt::DebugBits::new(f, "Warning32", self.0 as u64);
-            let bits = rt::DebugBits::plain(
-                bits,
-                &[
-                    ("hardware_overcurrent", 0x1),
-                    ("software_overcurrent", 0x2),
-                    ("i2_t", 0x4),
-                    ("position_error", 0x8),
-                    ("following_error", 0x10),
-                    ("digital_output_overload", 0x20),
-                    ("overtemperature", 0x40),
-                    ("overvoltage", 0x80),
-                    ("undervoltage", 0x100),
-                    ("current_limited_by_voltage", 0x200),
-                    ("regulator_saturated", 0x400),
-                    ("current_limit_active", 0x800),
-                    ("positioning_timeout", 0x1000),
-                    ("sync_missing", 0x40000),
-                    ("sto_fault", 0x80000),
-                ],
-            );
-            bits.finish()
+            rt::debug_bits(
+                f,
+                self.0 as u64,
+                "Warning32 hardware_overcurrent:1 software_overcurrent:2 i2_t:4 position_error:8 following_error:10 digital_output_overload:20 overtemperature:40 overvoltage:80 undervoltage:100 current_limited_by_voltage:200 regulator_saturated:400 current_limit_active:800 positioning_timeout:1000 sync_missing:40000 sto_fault:80000",
+                &[],
+            )
         }
     }
     /// LimitSwitches.
@@ -21082,75 +20679,75 @@ pub mod types {
         }
         /// Bit 0: forward limit switch. Manual: FLS Extra corsa avanti.
         pub const fn forward_limit_switch(self) -> bool {
-            self.0 & 0x1 != 0
+            rt::bits16::flag(self.0, 0x1)
         }
         /// The same with another [`forward_limit_switch`](Self::forward_limit_switch).
         #[must_use]
         pub const fn with_forward_limit_switch(self, value: bool) -> Self {
-            Self((self.0 & !0x1) | (value as u16))
+            Self(rt::bits16::with_flag(self.0, 0x1, value))
         }
         /// Bit 1: backward limit switch. Manual: BLS Extra corsa indietro.
         pub const fn backward_limit_switch(self) -> bool {
-            self.0 & 0x2 != 0
+            rt::bits16::flag(self.0, 0x2)
         }
         /// The same with another [`backward_limit_switch`](Self::backward_limit_switch).
         #[must_use]
         pub const fn with_backward_limit_switch(self, value: bool) -> Self {
-            Self((self.0 & !0x2) | ((value as u16) << 1))
+            Self(rt::bits16::with_flag(self.0, 0x2, value))
         }
         /// Bit 2: motor encoder index. Manual: TOP Encoder motore.
         pub const fn motor_encoder_index(self) -> bool {
-            self.0 & 0x4 != 0
+            rt::bits16::flag(self.0, 0x4)
         }
         /// The same with another [`motor_encoder_index`](Self::motor_encoder_index).
         #[must_use]
         pub const fn with_motor_encoder_index(self, value: bool) -> Self {
-            Self((self.0 & !0x4) | ((value as u16) << 2))
+            Self(rt::bits16::with_flag(self.0, 0x4, value))
         }
         /// Bit 3: motor encoder channel A. Manual: CH.A Encoder motore.
         pub const fn motor_encoder_channel_a(self) -> bool {
-            self.0 & 0x8 != 0
+            rt::bits16::flag(self.0, 0x8)
         }
         /// The same with another [`motor_encoder_channel_a`](Self::motor_encoder_channel_a).
         #[must_use]
         pub const fn with_motor_encoder_channel_a(self, value: bool) -> Self {
-            Self((self.0 & !0x8) | ((value as u16) << 3))
+            Self(rt::bits16::with_flag(self.0, 0x8, value))
         }
         /// Bit 4: motor encoder channel B. Manual: CH.B Encoder motore.
         pub const fn motor_encoder_channel_b(self) -> bool {
-            self.0 & 0x10 != 0
+            rt::bits16::flag(self.0, 0x10)
         }
         /// The same with another [`motor_encoder_channel_b`](Self::motor_encoder_channel_b).
         #[must_use]
         pub const fn with_motor_encoder_channel_b(self, value: bool) -> Self {
-            Self((self.0 & !0x10) | ((value as u16) << 4))
+            Self(rt::bits16::with_flag(self.0, 0x10, value))
         }
         /// Bit 5: external encoder index. Manual: TOP Encoder esterno.
         pub const fn external_encoder_index(self) -> bool {
-            self.0 & 0x20 != 0
+            rt::bits16::flag(self.0, 0x20)
         }
         /// The same with another [`external_encoder_index`](Self::external_encoder_index).
         #[must_use]
         pub const fn with_external_encoder_index(self, value: bool) -> Self {
-            Self((self.0 & !0x20) | ((value as u16) << 5))
+            Self(rt::bits16::with_flag(self.0, 0x20, value))
         }
         /// Bit 6: external encoder channel A. Manual: CH.A Encoder esterno.
         pub const fn external_encoder_channel_a(self) -> bool {
-            self.0 & 0x40 != 0
+            rt::bits16::flag(self.0, 0x40)
         }
         /// The same with another [`external_encoder_channel_a`](Self::external_encoder_channel_a).
         #[must_use]
         pub const fn with_external_encoder_channel_a(self, value: bool) -> Self {
-            Self((self.0 & !0x40) | ((value as u16) << 6))
+            Self(rt::bits16::with_flag(self.0, 0x40, value))
         }
         /// Bit 7: external encoder channel B. Manual: CH.B Encoder esterno.
         pub const fn external_encoder_channel_b(self) -> bool {
-            self.0 & 0x80 != 0
+            rt::bits16::flag(self.0, 0x80)
         }
         /// The same with another [`external_encoder_channel_b`](Self::external_encoder_channel_b).
         #[must_use]
         pub const fn with_external_encoder_channel_b(self, value: bool) -> Self {
-            Self((self.0 & !0x80) | ((value as u16) << 7))
+            Self(rt::bits16::with_flag(self.0, 0x80, value))
         }
     }
     impl Default for LimitSwitches {
@@ -21169,21 +20766,12 @@ pub mod types {
     }
     impl core::fmt::Debug for LimitSwitches {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            let bits = rt::DebugBits::new(f, "LimitSwitches", self.0 as u64);
-            let bits = rt::DebugBits::plain(
-                bits,
-                &[
-                    ("forward_limit_switch", 0x1),
-                    ("backward_limit_switch", 0x2),
-                    ("motor_encoder_index", 0x4),
-                    ("motor_encoder_channel_a", 0x8),
-                    ("motor_encoder_channel_b", 0x10),
-                    ("external_encoder_index", 0x20),
-                    ("external_encoder_channel_a", 0x40),
-                    ("external_encoder_channel_b", 0x80),
-                ],
-            );
-            bits.finish()
+            rt::debug_bits(
+                f,
+                self.0 as u64,
+                "LimitSwitches forward_limit_switch:1 backward_limit_switch:2 motor_encoder_index:4 motor_encoder_channel_a:8 motor_encoder_channel_b:10 external_encoder_index:20 external_encoder_channel_a:40 external_encoder_channel_b:80",
+                &[],
+            )
         }
     }
     /// DigitalInputs.
@@ -21225,147 +20813,147 @@ pub mod types {
         }
         /// Bit 0: input 0. Manual: Input 0.
         pub const fn input_0(self) -> bool {
-            self.0 & 0x1 != 0
+            rt::bits16::flag(self.0, 0x1)
         }
         /// The same with another [`input_0`](Self::input_0).
         #[must_use]
         pub const fn with_input_0(self, value: bool) -> Self {
-            Self((self.0 & !0x1) | (value as u16))
+            Self(rt::bits16::with_flag(self.0, 0x1, value))
         }
         /// Bit 1: input 1. Manual: Input 1.
         pub const fn input_1(self) -> bool {
-            self.0 & 0x2 != 0
+            rt::bits16::flag(self.0, 0x2)
         }
         /// The same with another [`input_1`](Self::input_1).
         #[must_use]
         pub const fn with_input_1(self, value: bool) -> Self {
-            Self((self.0 & !0x2) | ((value as u16) << 1))
+            Self(rt::bits16::with_flag(self.0, 0x2, value))
         }
         /// Bit 2: input 2. Manual: Input 2.
         pub const fn input_2(self) -> bool {
-            self.0 & 0x4 != 0
+            rt::bits16::flag(self.0, 0x4)
         }
         /// The same with another [`input_2`](Self::input_2).
         #[must_use]
         pub const fn with_input_2(self, value: bool) -> Self {
-            Self((self.0 & !0x4) | ((value as u16) << 2))
+            Self(rt::bits16::with_flag(self.0, 0x4, value))
         }
         /// Bit 3: input 3. Manual: Input 3.
         pub const fn input_3(self) -> bool {
-            self.0 & 0x8 != 0
+            rt::bits16::flag(self.0, 0x8)
         }
         /// The same with another [`input_3`](Self::input_3).
         #[must_use]
         pub const fn with_input_3(self, value: bool) -> Self {
-            Self((self.0 & !0x8) | ((value as u16) << 3))
+            Self(rt::bits16::with_flag(self.0, 0x8, value))
         }
         /// Bit 4: input 4. Manual: Input 4.
         pub const fn input_4(self) -> bool {
-            self.0 & 0x10 != 0
+            rt::bits16::flag(self.0, 0x10)
         }
         /// The same with another [`input_4`](Self::input_4).
         #[must_use]
         pub const fn with_input_4(self, value: bool) -> Self {
-            Self((self.0 & !0x10) | ((value as u16) << 4))
+            Self(rt::bits16::with_flag(self.0, 0x10, value))
         }
         /// Bit 5: input 5. Manual: Input 5.
         pub const fn input_5(self) -> bool {
-            self.0 & 0x20 != 0
+            rt::bits16::flag(self.0, 0x20)
         }
         /// The same with another [`input_5`](Self::input_5).
         #[must_use]
         pub const fn with_input_5(self, value: bool) -> Self {
-            Self((self.0 & !0x20) | ((value as u16) << 5))
+            Self(rt::bits16::with_flag(self.0, 0x20, value))
         }
         /// Bit 6: input 6. Manual: Input 6.
         pub const fn input_6(self) -> bool {
-            self.0 & 0x40 != 0
+            rt::bits16::flag(self.0, 0x40)
         }
         /// The same with another [`input_6`](Self::input_6).
         #[must_use]
         pub const fn with_input_6(self, value: bool) -> Self {
-            Self((self.0 & !0x40) | ((value as u16) << 6))
+            Self(rt::bits16::with_flag(self.0, 0x40, value))
         }
         /// Bit 7: input 7. Manual: Input 7.
         pub const fn input_7(self) -> bool {
-            self.0 & 0x80 != 0
+            rt::bits16::flag(self.0, 0x80)
         }
         /// The same with another [`input_7`](Self::input_7).
         #[must_use]
         pub const fn with_input_7(self, value: bool) -> Self {
-            Self((self.0 & !0x80) | ((value as u16) << 7))
+            Self(rt::bits16::with_flag(self.0, 0x80, value))
         }
         /// Bit 8: input 8. Manual: Input 8.
         pub const fn input_8(self) -> bool {
-            self.0 & 0x100 != 0
+            rt::bits16::flag(self.0, 0x100)
         }
         /// The same with another [`input_8`](Self::input_8).
         #[must_use]
         pub const fn with_input_8(self, value: bool) -> Self {
-            Self((self.0 & !0x100) | ((value as u16) << 8))
+            Self(rt::bits16::with_flag(self.0, 0x100, value))
         }
         /// Bit 9: input 9. Manual: Input 9.
         pub const fn input_9(self) -> bool {
-            self.0 & 0x200 != 0
+            rt::bits16::flag(self.0, 0x200)
         }
         /// The same with another [`input_9`](Self::input_9).
         #[must_use]
         pub const fn with_input_9(self, value: bool) -> Self {
-            Self((self.0 & !0x200) | ((value as u16) << 9))
+            Self(rt::bits16::with_flag(self.0, 0x200, value))
         }
         /// Bit 10: input 10. Manual: Input 10.
         pub const fn input_10(self) -> bool {
-            self.0 & 0x400 != 0
+            rt::bits16::flag(self.0, 0x400)
         }
         /// The same with another [`input_10`](Self::input_10).
         #[must_use]
         pub const fn with_input_10(self, value: bool) -> Self {
-            Self((self.0 & !0x400) | ((value as u16) << 10))
+            Self(rt::bits16::with_flag(self.0, 0x400, value))
         }
         /// Bit 11: input 11. Manual: Input 11.
         pub const fn input_11(self) -> bool {
-            self.0 & 0x800 != 0
+            rt::bits16::flag(self.0, 0x800)
         }
         /// The same with another [`input_11`](Self::input_11).
         #[must_use]
         pub const fn with_input_11(self, value: bool) -> Self {
-            Self((self.0 & !0x800) | ((value as u16) << 11))
+            Self(rt::bits16::with_flag(self.0, 0x800, value))
         }
         /// Bit 12: input 12. Manual: Input 12.
         pub const fn input_12(self) -> bool {
-            self.0 & 0x1000 != 0
+            rt::bits16::flag(self.0, 0x1000)
         }
         /// The same with another [`input_12`](Self::input_12).
         #[must_use]
         pub const fn with_input_12(self, value: bool) -> Self {
-            Self((self.0 & !0x1000) | ((value as u16) << 12))
+            Self(rt::bits16::with_flag(self.0, 0x1000, value))
         }
         /// Bit 13: input 13. Manual: Input 13.
         pub const fn input_13(self) -> bool {
-            self.0 & 0x2000 != 0
+            rt::bits16::flag(self.0, 0x2000)
         }
         /// The same with another [`input_13`](Self::input_13).
         #[must_use]
         pub const fn with_input_13(self, value: bool) -> Self {
-            Self((self.0 & !0x2000) | ((value as u16) << 13))
+            Self(rt::bits16::with_flag(self.0, 0x2000, value))
         }
         /// Bit 14: input 14. Manual: Input 14.
         pub const fn input_14(self) -> bool {
-            self.0 & 0x4000 != 0
+            rt::bits16::flag(self.0, 0x4000)
         }
         /// The same with another [`input_14`](Self::input_14).
         #[must_use]
         pub const fn with_input_14(self, value: bool) -> Self {
-            Self((self.0 & !0x4000) | ((value as u16) << 14))
+            Self(rt::bits16::with_flag(self.0, 0x4000, value))
         }
         /// Bit 15: input 15. Manual: Input 15.
         pub const fn input_15(self) -> bool {
-            self.0 & 0x8000 != 0
+            rt::bits16::flag(self.0, 0x8000)
         }
         /// The same with another [`input_15`](Self::input_15).
         #[must_use]
         pub const fn with_input_15(self, value: bool) -> Self {
-            Self((self.0 & !0x8000) | ((value as u16) << 15))
+            Self(rt::bits16::with_flag(self.0, 0x8000, value))
         }
     }
     impl Default for DigitalInputs {
@@ -21384,29 +20972,12 @@ pub mod types {
     }
     impl core::fmt::Debug for DigitalInputs {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            let bits = rt::DebugBits::new(f, "DigitalInputs", self.0 as u64);
-            let bits = rt::DebugBits::plain(
-                bits,
-                &[
-                    ("input_0", 0x1),
-                    ("input_1", 0x2),
-                    ("input_2", 0x4),
-                    ("input_3", 0x8),
-                    ("input_4", 0x10),
-                    ("input_5", 0x20),
-                    ("input_6", 0x40),
-                    ("input_7", 0x80),
-                    ("input_8", 0x100),
-                    ("input_9", 0x200),
-                    ("input_10", 0x400),
-                    ("input_11", 0x800),
-                    ("input_12", 0x1000),
-                    ("input_13", 0x2000),
-                    ("input_14", 0x4000),
-                    ("input_15", 0x8000),
-                ],
-            );
-            bits.finish()
+            rt::debug_bits(
+                f,
+                self.0 as u64,
+                "DigitalInputs input_0:1 input_1:2 input_2:4 input_3:8 input_4:10 input_5:20 input_6:40 input_7:80 input_8:100 input_9:200 input_10:400 input_11:800 input_12:1000 input_13:2000 input_14:4000 input_15:8000",
+                &[],
+            )
         }
     }
     /// LimitSwitchPolarity.
@@ -21442,7 +21013,9 @@ pub mod types {
         pub const fn forward_limit_switch(
             self,
         ) -> LimitSwitchPolarityForwardLimitSwitch {
-            LimitSwitchPolarityForwardLimitSwitch::from_raw((self.0 & 0x1) as u8)
+            LimitSwitchPolarityForwardLimitSwitch::from_raw(
+                rt::bits16::field(self.0, 0x1) as u8,
+            )
         }
         /// The same with another [`forward_limit_switch`](Self::forward_limit_switch).
         #[must_use]
@@ -21450,13 +21023,15 @@ pub mod types {
             self,
             value: LimitSwitchPolarityForwardLimitSwitch,
         ) -> Self {
-            Self((self.0 & !0x1) | ((value.raw() as u16) & 0x1))
+            Self(rt::bits16::with_field(self.0, 0x1, value.raw() as u16))
         }
         /// Bit 1: backward limit switch. Manual: BLS Extracorsa indietro.
         pub const fn backward_limit_switch(
             self,
         ) -> LimitSwitchPolarityBackwardLimitSwitch {
-            LimitSwitchPolarityBackwardLimitSwitch::from_raw(((self.0 >> 1) & 0x1) as u8)
+            LimitSwitchPolarityBackwardLimitSwitch::from_raw(
+                rt::bits16::field(self.0, 0x2) as u8,
+            )
         }
         /// The same with another [`backward_limit_switch`](Self::backward_limit_switch).
         #[must_use]
@@ -21464,11 +21039,13 @@ pub mod types {
             self,
             value: LimitSwitchPolarityBackwardLimitSwitch,
         ) -> Self {
-            Self((self.0 & !0x2) | (((value.raw() as u16) << 1) & 0x2))
+            Self(rt::bits16::with_field(self.0, 0x2, value.raw() as u16))
         }
         /// Bit 2: motor encoder index. Always the rising edge if HOME or ESTOP uses this input. Manual: TOP Encoder motore.
         pub const fn motor_encoder_index(self) -> LimitSwitchPolarityMotorEncoderIndex {
-            LimitSwitchPolarityMotorEncoderIndex::from_raw(((self.0 >> 2) & 0x1) as u8)
+            LimitSwitchPolarityMotorEncoderIndex::from_raw(
+                rt::bits16::field(self.0, 0x4) as u8,
+            )
         }
         /// The same with another [`motor_encoder_index`](Self::motor_encoder_index).
         #[must_use]
@@ -21476,14 +21053,14 @@ pub mod types {
             self,
             value: LimitSwitchPolarityMotorEncoderIndex,
         ) -> Self {
-            Self((self.0 & !0x4) | (((value.raw() as u16) << 2) & 0x4))
+            Self(rt::bits16::with_field(self.0, 0x4, value.raw() as u16))
         }
         /// Bit 3: motor encoder channel A. Manual: CH.A Encoder motore.
         pub const fn motor_encoder_channel_a(
             self,
         ) -> LimitSwitchPolarityMotorEncoderChannelA {
             LimitSwitchPolarityMotorEncoderChannelA::from_raw(
-                ((self.0 >> 3) & 0x1) as u8,
+                rt::bits16::field(self.0, 0x8) as u8,
             )
         }
         /// The same with another [`motor_encoder_channel_a`](Self::motor_encoder_channel_a).
@@ -21492,14 +21069,14 @@ pub mod types {
             self,
             value: LimitSwitchPolarityMotorEncoderChannelA,
         ) -> Self {
-            Self((self.0 & !0x8) | (((value.raw() as u16) << 3) & 0x8))
+            Self(rt::bits16::with_field(self.0, 0x8, value.raw() as u16))
         }
         /// Bit 4: motor encoder channel B. Manual: CH.B Encoder motore.
         pub const fn motor_encoder_channel_b(
             self,
         ) -> LimitSwitchPolarityMotorEncoderChannelB {
             LimitSwitchPolarityMotorEncoderChannelB::from_raw(
-                ((self.0 >> 4) & 0x1) as u8,
+                rt::bits16::field(self.0, 0x10) as u8,
             )
         }
         /// The same with another [`motor_encoder_channel_b`](Self::motor_encoder_channel_b).
@@ -21508,14 +21085,14 @@ pub mod types {
             self,
             value: LimitSwitchPolarityMotorEncoderChannelB,
         ) -> Self {
-            Self((self.0 & !0x10) | (((value.raw() as u16) << 4) & 0x10))
+            Self(rt::bits16::with_field(self.0, 0x10, value.raw() as u16))
         }
         /// Bit 5: external encoder index. Manual: TOP Encoder esterno.
         pub const fn external_encoder_index(
             self,
         ) -> LimitSwitchPolarityExternalEncoderIndex {
             LimitSwitchPolarityExternalEncoderIndex::from_raw(
-                ((self.0 >> 5) & 0x1) as u8,
+                rt::bits16::field(self.0, 0x20) as u8,
             )
         }
         /// The same with another [`external_encoder_index`](Self::external_encoder_index).
@@ -21524,14 +21101,14 @@ pub mod types {
             self,
             value: LimitSwitchPolarityExternalEncoderIndex,
         ) -> Self {
-            Self((self.0 & !0x20) | (((value.raw() as u16) << 5) & 0x20))
+            Self(rt::bits16::with_field(self.0, 0x20, value.raw() as u16))
         }
         /// Bit 6: external encoder channel A. Manual: CH.A Encoder esterno.
         pub const fn external_encoder_channel_a(
             self,
         ) -> LimitSwitchPolarityExternalEncoderChannelA {
             LimitSwitchPolarityExternalEncoderChannelA::from_raw(
-                ((self.0 >> 6) & 0x1) as u8,
+                rt::bits16::field(self.0, 0x40) as u8,
             )
         }
         /// The same with another [`external_encoder_channel_a`](Self::external_encoder_channel_a).
@@ -21540,14 +21117,14 @@ pub mod types {
             self,
             value: LimitSwitchPolarityExternalEncoderChannelA,
         ) -> Self {
-            Self((self.0 & !0x40) | (((value.raw() as u16) << 6) & 0x40))
+            Self(rt::bits16::with_field(self.0, 0x40, value.raw() as u16))
         }
         /// Bit 7: external encoder channel B. Manual: CH.B Encoder esterno.
         pub const fn external_encoder_channel_b(
             self,
         ) -> LimitSwitchPolarityExternalEncoderChannelB {
             LimitSwitchPolarityExternalEncoderChannelB::from_raw(
-                ((self.0 >> 7) & 0x1) as u8,
+                rt::bits16::field(self.0, 0x80) as u8,
             )
         }
         /// The same with another [`external_encoder_channel_b`](Self::external_encoder_channel_b).
@@ -21556,7 +21133,7 @@ pub mod types {
             self,
             value: LimitSwitchPolarityExternalEncoderChannelB,
         ) -> Self {
-            Self((self.0 & !0x80) | (((value.raw() as u16) << 7) & 0x80))
+            Self(rt::bits16::with_field(self.0, 0x80, value.raw() as u16))
         }
     }
     impl Default for LimitSwitchPolarity {
@@ -21575,56 +21152,21 @@ pub mod types {
     }
     impl core::fmt::Debug for LimitSwitchPolarity {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            let bits = rt::DebugBits::new(f, "LimitSwitchPolarity", self.0 as u64);
-            let bits = rt::DebugBits::field(
-                bits,
-                "forward_limit_switch",
-                0x1,
-                &self.forward_limit_switch(),
-            );
-            let bits = rt::DebugBits::field(
-                bits,
-                "backward_limit_switch",
-                0x2,
-                &self.backward_limit_switch(),
-            );
-            let bits = rt::DebugBits::field(
-                bits,
-                "motor_encoder_index",
-                0x4,
-                &self.motor_encoder_index(),
-            );
-            let bits = rt::DebugBits::field(
-                bits,
-                "motor_encoder_channel_a",
-                0x8,
-                &self.motor_encoder_channel_a(),
-            );
-            let bits = rt::DebugBits::field(
-                bits,
-                "motor_encoder_channel_b",
-                0x10,
-                &self.motor_encoder_channel_b(),
-            );
-            let bits = rt::DebugBits::field(
-                bits,
-                "external_encoder_index",
-                0x20,
-                &self.external_encoder_index(),
-            );
-            let bits = rt::DebugBits::field(
-                bits,
-                "external_encoder_channel_a",
-                0x40,
-                &self.external_encoder_channel_a(),
-            );
-            let bits = rt::DebugBits::field(
-                bits,
-                "external_encoder_channel_b",
-                0x80,
-                &self.external_encoder_channel_b(),
-            );
-            bits.finish()
+            rt::debug_bits(
+                f,
+                self.0 as u64,
+                "LimitSwitchPolarity ?forward_limit_switch:1 ?backward_limit_switch:2 ?motor_encoder_index:4 ?motor_encoder_channel_a:8 ?motor_encoder_channel_b:10 ?external_encoder_index:20 ?external_encoder_channel_a:40 ?external_encoder_channel_b:80",
+                &[
+                    &self.forward_limit_switch(),
+                    &self.backward_limit_switch(),
+                    &self.motor_encoder_index(),
+                    &self.motor_encoder_channel_a(),
+                    &self.motor_encoder_channel_b(),
+                    &self.external_encoder_index(),
+                    &self.external_encoder_channel_a(),
+                    &self.external_encoder_channel_b(),
+                ],
+            )
         }
     }
     /// DigitalInputPolarity.
@@ -21666,147 +21208,155 @@ pub mod types {
         }
         /// Bit 0: input 0. Manual: Input 0.
         pub const fn input_0(self) -> DigitalInputPolarityInput0 {
-            DigitalInputPolarityInput0::from_raw((self.0 & 0x1) as u8)
+            DigitalInputPolarityInput0::from_raw(rt::bits16::field(self.0, 0x1) as u8)
         }
         /// The same with another [`input_0`](Self::input_0).
         #[must_use]
         pub const fn with_input_0(self, value: DigitalInputPolarityInput0) -> Self {
-            Self((self.0 & !0x1) | ((value.raw() as u16) & 0x1))
+            Self(rt::bits16::with_field(self.0, 0x1, value.raw() as u16))
         }
         /// Bit 1: input 1. Manual: Input 1.
         pub const fn input_1(self) -> DigitalInputPolarityInput1 {
-            DigitalInputPolarityInput1::from_raw(((self.0 >> 1) & 0x1) as u8)
+            DigitalInputPolarityInput1::from_raw(rt::bits16::field(self.0, 0x2) as u8)
         }
         /// The same with another [`input_1`](Self::input_1).
         #[must_use]
         pub const fn with_input_1(self, value: DigitalInputPolarityInput1) -> Self {
-            Self((self.0 & !0x2) | (((value.raw() as u16) << 1) & 0x2))
+            Self(rt::bits16::with_field(self.0, 0x2, value.raw() as u16))
         }
         /// Bit 2: input 2. Manual: Input 2.
         pub const fn input_2(self) -> DigitalInputPolarityInput2 {
-            DigitalInputPolarityInput2::from_raw(((self.0 >> 2) & 0x1) as u8)
+            DigitalInputPolarityInput2::from_raw(rt::bits16::field(self.0, 0x4) as u8)
         }
         /// The same with another [`input_2`](Self::input_2).
         #[must_use]
         pub const fn with_input_2(self, value: DigitalInputPolarityInput2) -> Self {
-            Self((self.0 & !0x4) | (((value.raw() as u16) << 2) & 0x4))
+            Self(rt::bits16::with_field(self.0, 0x4, value.raw() as u16))
         }
         /// Bit 3: input 3. Manual: Input 3.
         pub const fn input_3(self) -> DigitalInputPolarityInput3 {
-            DigitalInputPolarityInput3::from_raw(((self.0 >> 3) & 0x1) as u8)
+            DigitalInputPolarityInput3::from_raw(rt::bits16::field(self.0, 0x8) as u8)
         }
         /// The same with another [`input_3`](Self::input_3).
         #[must_use]
         pub const fn with_input_3(self, value: DigitalInputPolarityInput3) -> Self {
-            Self((self.0 & !0x8) | (((value.raw() as u16) << 3) & 0x8))
+            Self(rt::bits16::with_field(self.0, 0x8, value.raw() as u16))
         }
         /// Bit 4: input 4. Manual: Input 4.
         pub const fn input_4(self) -> DigitalInputPolarityInput4 {
-            DigitalInputPolarityInput4::from_raw(((self.0 >> 4) & 0x1) as u8)
+            DigitalInputPolarityInput4::from_raw(rt::bits16::field(self.0, 0x10) as u8)
         }
         /// The same with another [`input_4`](Self::input_4).
         #[must_use]
         pub const fn with_input_4(self, value: DigitalInputPolarityInput4) -> Self {
-            Self((self.0 & !0x10) | (((value.raw() as u16) << 4) & 0x10))
+            Self(rt::bits16::with_field(self.0, 0x10, value.raw() as u16))
         }
         /// Bit 5: input 5. Manual: Input 5.
         pub const fn input_5(self) -> DigitalInputPolarityInput5 {
-            DigitalInputPolarityInput5::from_raw(((self.0 >> 5) & 0x1) as u8)
+            DigitalInputPolarityInput5::from_raw(rt::bits16::field(self.0, 0x20) as u8)
         }
         /// The same with another [`input_5`](Self::input_5).
         #[must_use]
         pub const fn with_input_5(self, value: DigitalInputPolarityInput5) -> Self {
-            Self((self.0 & !0x20) | (((value.raw() as u16) << 5) & 0x20))
+            Self(rt::bits16::with_field(self.0, 0x20, value.raw() as u16))
         }
         /// Bit 6: input 6. Manual: Input 6.
         pub const fn input_6(self) -> DigitalInputPolarityInput6 {
-            DigitalInputPolarityInput6::from_raw(((self.0 >> 6) & 0x1) as u8)
+            DigitalInputPolarityInput6::from_raw(rt::bits16::field(self.0, 0x40) as u8)
         }
         /// The same with another [`input_6`](Self::input_6).
         #[must_use]
         pub const fn with_input_6(self, value: DigitalInputPolarityInput6) -> Self {
-            Self((self.0 & !0x40) | (((value.raw() as u16) << 6) & 0x40))
+            Self(rt::bits16::with_field(self.0, 0x40, value.raw() as u16))
         }
         /// Bit 7: input 7. Manual: Input 7.
         pub const fn input_7(self) -> DigitalInputPolarityInput7 {
-            DigitalInputPolarityInput7::from_raw(((self.0 >> 7) & 0x1) as u8)
+            DigitalInputPolarityInput7::from_raw(rt::bits16::field(self.0, 0x80) as u8)
         }
         /// The same with another [`input_7`](Self::input_7).
         #[must_use]
         pub const fn with_input_7(self, value: DigitalInputPolarityInput7) -> Self {
-            Self((self.0 & !0x80) | (((value.raw() as u16) << 7) & 0x80))
+            Self(rt::bits16::with_field(self.0, 0x80, value.raw() as u16))
         }
         /// Bit 8: input 8. Manual: Input 8.
         pub const fn input_8(self) -> DigitalInputPolarityInput8 {
-            DigitalInputPolarityInput8::from_raw(((self.0 >> 8) & 0x1) as u8)
+            DigitalInputPolarityInput8::from_raw(rt::bits16::field(self.0, 0x100) as u8)
         }
         /// The same with another [`input_8`](Self::input_8).
         #[must_use]
         pub const fn with_input_8(self, value: DigitalInputPolarityInput8) -> Self {
-            Self((self.0 & !0x100) | (((value.raw() as u16) << 8) & 0x100))
+            Self(rt::bits16::with_field(self.0, 0x100, value.raw() as u16))
         }
         /// Bit 9: input 9. Manual: Input 9.
         pub const fn input_9(self) -> DigitalInputPolarityInput9 {
-            DigitalInputPolarityInput9::from_raw(((self.0 >> 9) & 0x1) as u8)
+            DigitalInputPolarityInput9::from_raw(rt::bits16::field(self.0, 0x200) as u8)
         }
         /// The same with another [`input_9`](Self::input_9).
         #[must_use]
         pub const fn with_input_9(self, value: DigitalInputPolarityInput9) -> Self {
-            Self((self.0 & !0x200) | (((value.raw() as u16) << 9) & 0x200))
+            Self(rt::bits16::with_field(self.0, 0x200, value.raw() as u16))
         }
         /// Bit 10: input 10. Manual: Input 10.
         pub const fn input_10(self) -> DigitalInputPolarityInput10 {
-            DigitalInputPolarityInput10::from_raw(((self.0 >> 10) & 0x1) as u8)
+            DigitalInputPolarityInput10::from_raw(rt::bits16::field(self.0, 0x400) as u8)
         }
         /// The same with another [`input_10`](Self::input_10).
         #[must_use]
         pub const fn with_input_10(self, value: DigitalInputPolarityInput10) -> Self {
-            Self((self.0 & !0x400) | (((value.raw() as u16) << 10) & 0x400))
+            Self(rt::bits16::with_field(self.0, 0x400, value.raw() as u16))
         }
         /// Bit 11: input 11. Manual: Input 11.
         pub const fn input_11(self) -> DigitalInputPolarityInput11 {
-            DigitalInputPolarityInput11::from_raw(((self.0 >> 11) & 0x1) as u8)
+            DigitalInputPolarityInput11::from_raw(rt::bits16::field(self.0, 0x800) as u8)
         }
         /// The same with another [`input_11`](Self::input_11).
         #[must_use]
         pub const fn with_input_11(self, value: DigitalInputPolarityInput11) -> Self {
-            Self((self.0 & !0x800) | (((value.raw() as u16) << 11) & 0x800))
+            Self(rt::bits16::with_field(self.0, 0x800, value.raw() as u16))
         }
         /// Bit 12: input 12. Manual: Input 12.
         pub const fn input_12(self) -> DigitalInputPolarityInput12 {
-            DigitalInputPolarityInput12::from_raw(((self.0 >> 12) & 0x1) as u8)
+            DigitalInputPolarityInput12::from_raw(
+                rt::bits16::field(self.0, 0x1000) as u8,
+            )
         }
         /// The same with another [`input_12`](Self::input_12).
         #[must_use]
         pub const fn with_input_12(self, value: DigitalInputPolarityInput12) -> Self {
-            Self((self.0 & !0x1000) | (((value.raw() as u16) << 12) & 0x1000))
+            Self(rt::bits16::with_field(self.0, 0x1000, value.raw() as u16))
         }
         /// Bit 13: input 13. Manual: Input 13.
         pub const fn input_13(self) -> DigitalInputPolarityInput13 {
-            DigitalInputPolarityInput13::from_raw(((self.0 >> 13) & 0x1) as u8)
+            DigitalInputPolarityInput13::from_raw(
+                rt::bits16::field(self.0, 0x2000) as u8,
+            )
         }
         /// The same with another [`input_13`](Self::input_13).
         #[must_use]
         pub const fn with_input_13(self, value: DigitalInputPolarityInput13) -> Self {
-            Self((self.0 & !0x2000) | (((value.raw() as u16) << 13) & 0x2000))
+            Self(rt::bits16::with_field(self.0, 0x2000, value.raw() as u16))
         }
         /// Bit 14: input 14. Manual: Input 14.
         pub const fn input_14(self) -> DigitalInputPolarityInput14 {
-            DigitalInputPolarityInput14::from_raw(((self.0 >> 14) & 0x1) as u8)
+            DigitalInputPolarityInput14::from_raw(
+                rt::bits16::field(self.0, 0x4000) as u8,
+            )
         }
         /// The same with another [`input_14`](Self::input_14).
         #[must_use]
         pub const fn with_input_14(self, value: DigitalInputPolarityInput14) -> Self {
-            Self((self.0 & !0x4000) | (((value.raw() as u16) << 14) & 0x4000))
+            Self(rt::bits16::with_field(self.0, 0x4000, value.raw() as u16))
         }
         /// Bit 15: input 15. Manual: Input 15.
         pub const fn input_15(self) -> DigitalInputPolarityInput15 {
-            DigitalInputPolarityInput15::from_raw(((self.0 >> 15) & 0x1) as u8)
+            DigitalInputPolarityInput15::from_raw(
+                rt::bits16::field(self.0, 0x8000) as u8,
+            )
         }
         /// The same with another [`input_15`](Self::input_15).
         #[must_use]
         pub const fn with_input_15(self, value: DigitalInputPolarityInput15) -> Self {
-            Self((self.0 & !0x8000) | (((value.raw() as u16) << 15) & 0x8000))
+            Self(rt::bits16::with_field(self.0, 0x8000, value.raw() as u16))
         }
     }
     impl Default for DigitalInputPolarity {
@@ -21825,24 +21375,29 @@ pub mod types {
     }
     impl core::fmt::Debug for DigitalInputPolarity {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            let bits = rt::DebugBits::new(f, "DigitalInputPolarity", self.0 as u64);
-            let bits = rt::DebugBits::field(bits, "input_0", 0x1, &self.input_0());
-            let bits = rt::DebugBits::field(bits, "input_1", 0x2, &self.input_1());
-            let bits = rt::DebugBits::field(bits, "input_2", 0x4, &self.input_2());
-            let bits = rt::DebugBits::field(bits, "input_3", 0x8, &self.input_3());
-            let bits = rt::DebugBits::field(bits, "input_4", 0x10, &self.input_4());
-            let bits = rt::DebugBits::field(bits, "input_5", 0x20, &self.input_5());
-            let bits = rt::DebugBits::field(bits, "input_6", 0x40, &self.input_6());
-            let bits = rt::DebugBits::field(bits, "input_7", 0x80, &self.input_7());
-            let bits = rt::DebugBits::field(bits, "input_8", 0x100, &self.input_8());
-            let bits = rt::DebugBits::field(bits, "input_9", 0x200, &self.input_9());
-            let bits = rt::DebugBits::field(bits, "input_10", 0x400, &self.input_10());
-            let bits = rt::DebugBits::field(bits, "input_11", 0x800, &self.input_11());
-            let bits = rt::DebugBits::field(bits, "input_12", 0x1000, &self.input_12());
-            let bits = rt::DebugBits::field(bits, "input_13", 0x2000, &self.input_13());
-            let bits = rt::DebugBits::field(bits, "input_14", 0x4000, &self.input_14());
-            let bits = rt::DebugBits::field(bits, "input_15", 0x8000, &self.input_15());
-            bits.finish()
+            rt::debug_bits(
+                f,
+                self.0 as u64,
+                "DigitalInputPolarity ?input_0:1 ?input_1:2 ?input_2:4 ?input_3:8 ?input_4:10 ?input_5:20 ?input_6:40 ?input_7:80 ?input_8:100 ?input_9:200 ?input_10:400 ?input_11:800 ?input_12:1000 ?input_13:2000 ?input_14:4000 ?input_15:8000",
+                &[
+                    &self.input_0(),
+                    &self.input_1(),
+                    &self.input_2(),
+                    &self.input_3(),
+                    &self.input_4(),
+                    &self.input_5(),
+                    &self.input_6(),
+                    &self.input_7(),
+                    &self.input_8(),
+                    &self.input_9(),
+                    &self.input_10(),
+                    &self.input_11(),
+                    &self.input_12(),
+                    &self.input_13(),
+                    &self.input_14(),
+                    &self.input_15(),
+                ],
+            )
         }
     }
     /// DigitalOutputs.
@@ -21876,75 +21431,75 @@ pub mod types {
         }
         /// Bit 0: output 0. Manual: Output0.
         pub const fn output_0(self) -> bool {
-            self.0 & 0x1 != 0
+            rt::bits16::flag(self.0, 0x1)
         }
         /// The same with another [`output_0`](Self::output_0).
         #[must_use]
         pub const fn with_output_0(self, value: bool) -> Self {
-            Self((self.0 & !0x1) | (value as u16))
+            Self(rt::bits16::with_flag(self.0, 0x1, value))
         }
         /// Bit 1: output 1. Manual: Output1.
         pub const fn output_1(self) -> bool {
-            self.0 & 0x2 != 0
+            rt::bits16::flag(self.0, 0x2)
         }
         /// The same with another [`output_1`](Self::output_1).
         #[must_use]
         pub const fn with_output_1(self, value: bool) -> Self {
-            Self((self.0 & !0x2) | ((value as u16) << 1))
+            Self(rt::bits16::with_flag(self.0, 0x2, value))
         }
         /// Bit 2: output 2. Manual: Output2.
         pub const fn output_2(self) -> bool {
-            self.0 & 0x4 != 0
+            rt::bits16::flag(self.0, 0x4)
         }
         /// The same with another [`output_2`](Self::output_2).
         #[must_use]
         pub const fn with_output_2(self, value: bool) -> Self {
-            Self((self.0 & !0x4) | ((value as u16) << 2))
+            Self(rt::bits16::with_flag(self.0, 0x4, value))
         }
         /// Bit 3: output 3. Manual: Output3.
         pub const fn output_3(self) -> bool {
-            self.0 & 0x8 != 0
+            rt::bits16::flag(self.0, 0x8)
         }
         /// The same with another [`output_3`](Self::output_3).
         #[must_use]
         pub const fn with_output_3(self, value: bool) -> Self {
-            Self((self.0 & !0x8) | ((value as u16) << 3))
+            Self(rt::bits16::with_flag(self.0, 0x8, value))
         }
         /// Bit 4: output 4. Manual: Output4.
         pub const fn output_4(self) -> bool {
-            self.0 & 0x10 != 0
+            rt::bits16::flag(self.0, 0x10)
         }
         /// The same with another [`output_4`](Self::output_4).
         #[must_use]
         pub const fn with_output_4(self, value: bool) -> Self {
-            Self((self.0 & !0x10) | ((value as u16) << 4))
+            Self(rt::bits16::with_flag(self.0, 0x10, value))
         }
         /// Bit 5: output 5. Manual: Output5.
         pub const fn output_5(self) -> bool {
-            self.0 & 0x20 != 0
+            rt::bits16::flag(self.0, 0x20)
         }
         /// The same with another [`output_5`](Self::output_5).
         #[must_use]
         pub const fn with_output_5(self, value: bool) -> Self {
-            Self((self.0 & !0x20) | ((value as u16) << 5))
+            Self(rt::bits16::with_flag(self.0, 0x20, value))
         }
         /// Bit 6: output 6. Manual: Output6.
         pub const fn output_6(self) -> bool {
-            self.0 & 0x40 != 0
+            rt::bits16::flag(self.0, 0x40)
         }
         /// The same with another [`output_6`](Self::output_6).
         #[must_use]
         pub const fn with_output_6(self, value: bool) -> Self {
-            Self((self.0 & !0x40) | ((value as u16) << 6))
+            Self(rt::bits16::with_flag(self.0, 0x40, value))
         }
         /// Bit 7: output 7. Manual: Output7.
         pub const fn output_7(self) -> bool {
-            self.0 & 0x80 != 0
+            rt::bits16::flag(self.0, 0x80)
         }
         /// The same with another [`output_7`](Self::output_7).
         #[must_use]
         pub const fn with_output_7(self, value: bool) -> Self {
-            Self((self.0 & !0x80) | ((value as u16) << 7))
+            Self(rt::bits16::with_flag(self.0, 0x80, value))
         }
     }
     impl Default for DigitalOutputs {
@@ -21963,21 +21518,12 @@ pub mod types {
     }
     impl core::fmt::Debug for DigitalOutputs {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            let bits = rt::DebugBits::new(f, "DigitalOutputs", self.0 as u64);
-            let bits = rt::DebugBits::plain(
-                bits,
-                &[
-                    ("output_0", 0x1),
-                    ("output_1", 0x2),
-                    ("output_2", 0x4),
-                    ("output_3", 0x8),
-                    ("output_4", 0x10),
-                    ("output_5", 0x20),
-                    ("output_6", 0x40),
-                    ("output_7", 0x80),
-                ],
-            );
-            bits.finish()
+            rt::debug_bits(
+                f,
+                self.0 as u64,
+                "DigitalOutputs output_0:1 output_1:2 output_2:4 output_3:8 output_4:10 output_5:20 output_6:40 output_7:80",
+                &[],
+            )
         }
     }
     /// DigitalOutputPolarity.
@@ -22011,75 +21557,75 @@ pub mod types {
         }
         /// Bit 0: output 0. Manual: Output0.
         pub const fn output_0(self) -> DigitalOutputPolarityOutput0 {
-            DigitalOutputPolarityOutput0::from_raw((self.0 & 0x1) as u8)
+            DigitalOutputPolarityOutput0::from_raw(rt::bits16::field(self.0, 0x1) as u8)
         }
         /// The same with another [`output_0`](Self::output_0).
         #[must_use]
         pub const fn with_output_0(self, value: DigitalOutputPolarityOutput0) -> Self {
-            Self((self.0 & !0x1) | ((value.raw() as u16) & 0x1))
+            Self(rt::bits16::with_field(self.0, 0x1, value.raw() as u16))
         }
         /// Bit 1: output 1. Manual: Output1.
         pub const fn output_1(self) -> DigitalOutputPolarityOutput1 {
-            DigitalOutputPolarityOutput1::from_raw(((self.0 >> 1) & 0x1) as u8)
+            DigitalOutputPolarityOutput1::from_raw(rt::bits16::field(self.0, 0x2) as u8)
         }
         /// The same with another [`output_1`](Self::output_1).
         #[must_use]
         pub const fn with_output_1(self, value: DigitalOutputPolarityOutput1) -> Self {
-            Self((self.0 & !0x2) | (((value.raw() as u16) << 1) & 0x2))
+            Self(rt::bits16::with_field(self.0, 0x2, value.raw() as u16))
         }
         /// Bit 2: output 2. Manual: Output2.
         pub const fn output_2(self) -> DigitalOutputPolarityOutput2 {
-            DigitalOutputPolarityOutput2::from_raw(((self.0 >> 2) & 0x1) as u8)
+            DigitalOutputPolarityOutput2::from_raw(rt::bits16::field(self.0, 0x4) as u8)
         }
         /// The same with another [`output_2`](Self::output_2).
         #[must_use]
         pub const fn with_output_2(self, value: DigitalOutputPolarityOutput2) -> Self {
-            Self((self.0 & !0x4) | (((value.raw() as u16) << 2) & 0x4))
+            Self(rt::bits16::with_field(self.0, 0x4, value.raw() as u16))
         }
         /// Bit 3: output 3. Manual: Output3.
         pub const fn output_3(self) -> DigitalOutputPolarityOutput3 {
-            DigitalOutputPolarityOutput3::from_raw(((self.0 >> 3) & 0x1) as u8)
+            DigitalOutputPolarityOutput3::from_raw(rt::bits16::field(self.0, 0x8) as u8)
         }
         /// The same with another [`output_3`](Self::output_3).
         #[must_use]
         pub const fn with_output_3(self, value: DigitalOutputPolarityOutput3) -> Self {
-            Self((self.0 & !0x8) | (((value.raw() as u16) << 3) & 0x8))
+            Self(rt::bits16::with_field(self.0, 0x8, value.raw() as u16))
         }
         /// Bit 4: output 4. Manual: Output4.
         pub const fn output_4(self) -> DigitalOutputPolarityOutput4 {
-            DigitalOutputPolarityOutput4::from_raw(((self.0 >> 4) & 0x1) as u8)
+            DigitalOutputPolarityOutput4::from_raw(rt::bits16::field(self.0, 0x10) as u8)
         }
         /// The same with another [`output_4`](Self::output_4).
         #[must_use]
         pub const fn with_output_4(self, value: DigitalOutputPolarityOutput4) -> Self {
-            Self((self.0 & !0x10) | (((value.raw() as u16) << 4) & 0x10))
+            Self(rt::bits16::with_field(self.0, 0x10, value.raw() as u16))
         }
         /// Bit 5: output 5. Manual: Output5.
         pub const fn output_5(self) -> DigitalOutputPolarityOutput5 {
-            DigitalOutputPolarityOutput5::from_raw(((self.0 >> 5) & 0x1) as u8)
+            DigitalOutputPolarityOutput5::from_raw(rt::bits16::field(self.0, 0x20) as u8)
         }
         /// The same with another [`output_5`](Self::output_5).
         #[must_use]
         pub const fn with_output_5(self, value: DigitalOutputPolarityOutput5) -> Self {
-            Self((self.0 & !0x20) | (((value.raw() as u16) << 5) & 0x20))
+            Self(rt::bits16::with_field(self.0, 0x20, value.raw() as u16))
         }
         /// Bit 6: output 6. Manual: Output6.
         pub const fn output_6(self) -> DigitalOutputPolarityOutput6 {
-            DigitalOutputPolarityOutput6::from_raw(((self.0 >> 6) & 0x1) as u8)
+            DigitalOutputPolarityOutput6::from_raw(rt::bits16::field(self.0, 0x40) as u8)
         }
         /// The same with another [`output_6`](Self::output_6).
         #[must_use]
         pub const fn with_output_6(self, value: DigitalOutputPolarityOutput6) -> Self {
-            Self((self.0 & !0x40) | (((value.raw() as u16) << 6) & 0x40))
+            Self(rt::bits16::with_field(self.0, 0x40, value.raw() as u16))
         }
         /// Bit 7: output 7. Manual: Output7.
         pub const fn output_7(self) -> DigitalOutputPolarityOutput7 {
-            DigitalOutputPolarityOutput7::from_raw(((self.0 >> 7) & 0x1) as u8)
+            DigitalOutputPolarityOutput7::from_raw(rt::bits16::field(self.0, 0x80) as u8)
         }
         /// The same with another [`output_7`](Self::output_7).
         #[must_use]
         pub const fn with_output_7(self, value: DigitalOutputPolarityOutput7) -> Self {
-            Self((self.0 & !0x80) | (((value.raw() as u16) << 7) & 0x80))
+            Self(rt::bits16::with_field(self.0, 0x80, value.raw() as u16))
         }
     }
     impl Default for DigitalOutputPolarity {
@@ -22098,16 +21644,21 @@ pub mod types {
     }
     impl core::fmt::Debug for DigitalOutputPolarity {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            let bits = rt::DebugBits::new(f, "DigitalOutputPolarity", self.0 as u64);
-            let bits = rt::DebugBits::field(bits, "output_0", 0x1, &self.output_0());
-            let bits = rt::DebugBits::field(bits, "output_1", 0x2, &self.output_1());
-            let bits = rt::DebugBits::field(bits, "output_2", 0x4, &self.output_2());
-            let bits = rt::DebugBits::field(bits, "output_3", 0x8, &self.output_3());
-            let bits = rt::DebugBits::field(bits, "output_4", 0x10, &self.output_4());
-            let bits = rt::DebugBits::field(bits, "output_5", 0x20, &self.output_5());
-            let bits = rt::DebugBits::field(bits, "output_6", 0x40, &self.output_6());
-            let bits = rt::DebugBits::field(bits, "output_7", 0x80, &self.output_7());
-            bits.finish()
+            rt::debug_bits(
+                f,
+                self.0 as u64,
+                "DigitalOutputPolarity ?output_0:1 ?output_1:2 ?output_2:4 ?output_3:8 ?output_4:10 ?output_5:20 ?output_6:40 ?output_7:80",
+                &[
+                    &self.output_0(),
+                    &self.output_1(),
+                    &self.output_2(),
+                    &self.output_3(),
+                    &self.output_4(),
+                    &self.output_5(),
+                    &self.output_6(),
+                    &self.output_7(),
+                ],
+            )
         }
     }
     /// DigitalOutputEnable.
@@ -22142,84 +21693,84 @@ pub mod types {
         }
         /// Bit 0: output 0. Manual: Out0.
         pub const fn output_0(self) -> DigitalOutputEnableOutput0 {
-            DigitalOutputEnableOutput0::from_raw((self.0 & 0x1) as u8)
+            DigitalOutputEnableOutput0::from_raw(rt::bits16::field(self.0, 0x1) as u8)
         }
         /// The same with another [`output_0`](Self::output_0).
         #[must_use]
         pub const fn with_output_0(self, value: DigitalOutputEnableOutput0) -> Self {
-            Self((self.0 & !0x1) | ((value.raw() as u16) & 0x1))
+            Self(rt::bits16::with_field(self.0, 0x1, value.raw() as u16))
         }
         /// Bit 1: output 1. Manual: Out1.
         pub const fn output_1(self) -> DigitalOutputEnableOutput1 {
-            DigitalOutputEnableOutput1::from_raw(((self.0 >> 1) & 0x1) as u8)
+            DigitalOutputEnableOutput1::from_raw(rt::bits16::field(self.0, 0x2) as u8)
         }
         /// The same with another [`output_1`](Self::output_1).
         #[must_use]
         pub const fn with_output_1(self, value: DigitalOutputEnableOutput1) -> Self {
-            Self((self.0 & !0x2) | (((value.raw() as u16) << 1) & 0x2))
+            Self(rt::bits16::with_field(self.0, 0x2, value.raw() as u16))
         }
         /// Bit 2: output 2. Manual: Out2.
         pub const fn output_2(self) -> DigitalOutputEnableOutput2 {
-            DigitalOutputEnableOutput2::from_raw(((self.0 >> 2) & 0x1) as u8)
+            DigitalOutputEnableOutput2::from_raw(rt::bits16::field(self.0, 0x4) as u8)
         }
         /// The same with another [`output_2`](Self::output_2).
         #[must_use]
         pub const fn with_output_2(self, value: DigitalOutputEnableOutput2) -> Self {
-            Self((self.0 & !0x4) | (((value.raw() as u16) << 2) & 0x4))
+            Self(rt::bits16::with_field(self.0, 0x4, value.raw() as u16))
         }
         /// Bit 3: output 3. Manual: Out3.
         pub const fn output_3(self) -> DigitalOutputEnableOutput3 {
-            DigitalOutputEnableOutput3::from_raw(((self.0 >> 3) & 0x1) as u8)
+            DigitalOutputEnableOutput3::from_raw(rt::bits16::field(self.0, 0x8) as u8)
         }
         /// The same with another [`output_3`](Self::output_3).
         #[must_use]
         pub const fn with_output_3(self, value: DigitalOutputEnableOutput3) -> Self {
-            Self((self.0 & !0x8) | (((value.raw() as u16) << 3) & 0x8))
+            Self(rt::bits16::with_field(self.0, 0x8, value.raw() as u16))
         }
         /// Bit 4: output 4. Manual: Out4.
         pub const fn output_4(self) -> DigitalOutputEnableOutput4 {
-            DigitalOutputEnableOutput4::from_raw(((self.0 >> 4) & 0x1) as u8)
+            DigitalOutputEnableOutput4::from_raw(rt::bits16::field(self.0, 0x10) as u8)
         }
         /// The same with another [`output_4`](Self::output_4).
         #[must_use]
         pub const fn with_output_4(self, value: DigitalOutputEnableOutput4) -> Self {
-            Self((self.0 & !0x10) | (((value.raw() as u16) << 4) & 0x10))
+            Self(rt::bits16::with_field(self.0, 0x10, value.raw() as u16))
         }
         /// Bit 5: output 5. Manual: Out5.
         pub const fn output_5(self) -> DigitalOutputEnableOutput5 {
-            DigitalOutputEnableOutput5::from_raw(((self.0 >> 5) & 0x1) as u8)
+            DigitalOutputEnableOutput5::from_raw(rt::bits16::field(self.0, 0x20) as u8)
         }
         /// The same with another [`output_5`](Self::output_5).
         #[must_use]
         pub const fn with_output_5(self, value: DigitalOutputEnableOutput5) -> Self {
-            Self((self.0 & !0x20) | (((value.raw() as u16) << 5) & 0x20))
+            Self(rt::bits16::with_field(self.0, 0x20, value.raw() as u16))
         }
         /// Bit 6: output 6. Manual: Out6.
         pub const fn output_6(self) -> DigitalOutputEnableOutput6 {
-            DigitalOutputEnableOutput6::from_raw(((self.0 >> 6) & 0x1) as u8)
+            DigitalOutputEnableOutput6::from_raw(rt::bits16::field(self.0, 0x40) as u8)
         }
         /// The same with another [`output_6`](Self::output_6).
         #[must_use]
         pub const fn with_output_6(self, value: DigitalOutputEnableOutput6) -> Self {
-            Self((self.0 & !0x40) | (((value.raw() as u16) << 6) & 0x40))
+            Self(rt::bits16::with_field(self.0, 0x40, value.raw() as u16))
         }
         /// Bit 7: output 7. Manual: Out7.
         pub const fn output_7(self) -> DigitalOutputEnableOutput7 {
-            DigitalOutputEnableOutput7::from_raw(((self.0 >> 7) & 0x1) as u8)
+            DigitalOutputEnableOutput7::from_raw(rt::bits16::field(self.0, 0x80) as u8)
         }
         /// The same with another [`output_7`](Self::output_7).
         #[must_use]
         pub const fn with_output_7(self, value: DigitalOutputEnableOutput7) -> Self {
-            Self((self.0 & !0x80) | (((value.raw() as u16) << 7) & 0x80))
+            Self(rt::bits16::with_field(self.0, 0x80, value.raw() as u16))
         }
         /// Bit 8: output 8. Manual: Out8.
         pub const fn output_8(self) -> DigitalOutputEnableOutput8 {
-            DigitalOutputEnableOutput8::from_raw(((self.0 >> 8) & 0x1) as u8)
+            DigitalOutputEnableOutput8::from_raw(rt::bits16::field(self.0, 0x100) as u8)
         }
         /// The same with another [`output_8`](Self::output_8).
         #[must_use]
         pub const fn with_output_8(self, value: DigitalOutputEnableOutput8) -> Self {
-            Self((self.0 & !0x100) | (((value.raw() as u16) << 8) & 0x100))
+            Self(rt::bits16::with_field(self.0, 0x100, value.raw() as u16))
         }
     }
     impl Default for DigitalOutputEnable {
@@ -22238,17 +21789,22 @@ pub mod types {
     }
     impl core::fmt::Debug for DigitalOutputEnable {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            let bits = rt::DebugBits::new(f, "DigitalOutputEnable", self.0 as u64);
-            let bits = rt::DebugBits::field(bits, "output_0", 0x1, &self.output_0());
-            let bits = rt::DebugBits::field(bits, "output_1", 0x2, &self.output_1());
-            let bits = rt::DebugBits::field(bits, "output_2", 0x4, &self.output_2());
-            let bits = rt::DebugBits::field(bits, "output_3", 0x8, &self.output_3());
-            let bits = rt::DebugBits::field(bits, "output_4", 0x10, &self.output_4());
-            let bits = rt::DebugBits::field(bits, "output_5", 0x20, &self.output_5());
-            let bits = rt::DebugBits::field(bits, "output_6", 0x40, &self.output_6());
-            let bits = rt::DebugBits::field(bits, "output_7", 0x80, &self.output_7());
-            let bits = rt::DebugBits::field(bits, "output_8", 0x100, &self.output_8());
-            bits.finish()
+            rt::debug_bits(
+                f,
+                self.0 as u64,
+                "DigitalOutputEnable ?output_0:1 ?output_1:2 ?output_2:4 ?output_3:8 ?output_4:10 ?output_5:20 ?output_6:40 ?output_7:80 ?output_8:100",
+                &[
+                    &self.output_0(),
+                    &self.output_1(),
+                    &self.output_2(),
+                    &self.output_3(),
+                    &self.output_4(),
+                    &self.output_5(),
+                    &self.output_6(),
+                    &self.output_7(),
+                    &self.output_8(),
+                ],
+            )
         }
     }
     /// AnalogueInputDisable.
@@ -22277,30 +21833,30 @@ pub mod types {
         }
         /// Bit 0: disable input 0. Manual: B0.
         pub const fn disable_input_0(self) -> bool {
-            self.0 & 0x1 != 0
+            rt::bits16::flag(self.0, 0x1)
         }
         /// The same with another [`disable_input_0`](Self::disable_input_0).
         #[must_use]
         pub const fn with_disable_input_0(self, value: bool) -> Self {
-            Self((self.0 & !0x1) | (value as u16))
+            Self(rt::bits16::with_flag(self.0, 0x1, value))
         }
         /// Bit 1: disable input 1. Manual: B1.
         pub const fn disable_input_1(self) -> bool {
-            self.0 & 0x2 != 0
+            rt::bits16::flag(self.0, 0x2)
         }
         /// The same with another [`disable_input_1`](Self::disable_input_1).
         #[must_use]
         pub const fn with_disable_input_1(self, value: bool) -> Self {
-            Self((self.0 & !0x2) | ((value as u16) << 1))
+            Self(rt::bits16::with_flag(self.0, 0x2, value))
         }
         /// Bit 2: disable input 2. Manual: B2.
         pub const fn disable_input_2(self) -> bool {
-            self.0 & 0x4 != 0
+            rt::bits16::flag(self.0, 0x4)
         }
         /// The same with another [`disable_input_2`](Self::disable_input_2).
         #[must_use]
         pub const fn with_disable_input_2(self, value: bool) -> Self {
-            Self((self.0 & !0x4) | ((value as u16) << 2))
+            Self(rt::bits16::with_flag(self.0, 0x4, value))
         }
     }
     impl Default for AnalogueInputDisable {
@@ -22319,16 +21875,12 @@ pub mod types {
     }
     impl core::fmt::Debug for AnalogueInputDisable {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            let bits = rt::DebugBits::new(f, "AnalogueInputDisable", self.0 as u64);
-            let bits = rt::DebugBits::plain(
-                bits,
-                &[
-                    ("disable_input_0", 0x1),
-                    ("disable_input_1", 0x2),
-                    ("disable_input_2", 0x4),
-                ],
-            );
-            bits.finish()
+            rt::debug_bits(
+                f,
+                self.0 as u64,
+                "AnalogueInputDisable disable_input_0:1 disable_input_1:2 disable_input_2:4",
+                &[],
+            )
         }
     }
     /// EncoderPeriods.
@@ -22357,30 +21909,30 @@ pub mod types {
         }
         /// Bit 0: encoder 1 has new period. Manual: Nuovo periodo encoder 1.
         pub const fn encoder_1_has_new_period(self) -> bool {
-            self.0 & 0x1 != 0
+            rt::bits16::flag(self.0, 0x1)
         }
         /// The same with another [`encoder_1_has_new_period`](Self::encoder_1_has_new_period).
         #[must_use]
         pub const fn with_encoder_1_has_new_period(self, value: bool) -> Self {
-            Self((self.0 & !0x1) | (value as u16))
+            Self(rt::bits16::with_flag(self.0, 0x1, value))
         }
         /// Bit 1: encoder 2 has new period. Manual: Nuovo periodo encoder 2.
         pub const fn encoder_2_has_new_period(self) -> bool {
-            self.0 & 0x2 != 0
+            rt::bits16::flag(self.0, 0x2)
         }
         /// The same with another [`encoder_2_has_new_period`](Self::encoder_2_has_new_period).
         #[must_use]
         pub const fn with_encoder_2_has_new_period(self, value: bool) -> Self {
-            Self((self.0 & !0x2) | ((value as u16) << 1))
+            Self(rt::bits16::with_flag(self.0, 0x2, value))
         }
         /// Bit 2: encoder 3 has new period. Manual: Nuovo periodo encoder 3.
         pub const fn encoder_3_has_new_period(self) -> bool {
-            self.0 & 0x4 != 0
+            rt::bits16::flag(self.0, 0x4)
         }
         /// The same with another [`encoder_3_has_new_period`](Self::encoder_3_has_new_period).
         #[must_use]
         pub const fn with_encoder_3_has_new_period(self, value: bool) -> Self {
-            Self((self.0 & !0x4) | ((value as u16) << 2))
+            Self(rt::bits16::with_flag(self.0, 0x4, value))
         }
     }
     impl Default for EncoderPeriods {
@@ -22399,16 +21951,12 @@ pub mod types {
     }
     impl core::fmt::Debug for EncoderPeriods {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            let bits = rt::DebugBits::new(f, "EncoderPeriods", self.0 as u64);
-            let bits = rt::DebugBits::plain(
-                bits,
-                &[
-                    ("encoder_1_has_new_period", 0x1),
-                    ("encoder_2_has_new_period", 0x2),
-                    ("encoder_3_has_new_period", 0x4),
-                ],
-            );
-            bits.finish()
+            rt::debug_bits(
+                f,
+                self.0 as u64,
+                "EncoderPeriods encoder_1_has_new_period:1 encoder_2_has_new_period:2 encoder_3_has_new_period:4",
+                &[],
+            )
         }
     }
     /// OldEncoderPeriods.
@@ -22436,21 +21984,21 @@ pub mod types {
         }
         /// Bit 0: motor encoder has new period. Manual: Nuovo periodo encoder motore.
         pub const fn motor_encoder_has_new_period(self) -> bool {
-            self.0 & 0x1 != 0
+            rt::bits16::flag(self.0, 0x1)
         }
         /// The same with another [`motor_encoder_has_new_period`](Self::motor_encoder_has_new_period).
         #[must_use]
         pub const fn with_motor_encoder_has_new_period(self, value: bool) -> Self {
-            Self((self.0 & !0x1) | (value as u16))
+            Self(rt::bits16::with_flag(self.0, 0x1, value))
         }
         /// Bit 1: external encoder has new period. Manual: Nuovo periodo encoder esterno.
         pub const fn external_encoder_has_new_period(self) -> bool {
-            self.0 & 0x2 != 0
+            rt::bits16::flag(self.0, 0x2)
         }
         /// The same with another [`external_encoder_has_new_period`](Self::external_encoder_has_new_period).
         #[must_use]
         pub const fn with_external_encoder_has_new_period(self, value: bool) -> Self {
-            Self((self.0 & !0x2) | ((value as u16) << 1))
+            Self(rt::bits16::with_flag(self.0, 0x2, value))
         }
     }
     impl Default for OldEncoderPeriods {
@@ -22469,15 +22017,12 @@ pub mod types {
     }
     impl core::fmt::Debug for OldEncoderPeriods {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            let bits = rt::DebugBits::new(f, "OldEncoderPeriods", self.0 as u64);
-            let bits = rt::DebugBits::plain(
-                bits,
-                &[
-                    ("motor_encoder_has_new_period", 0x1),
-                    ("external_encoder_has_new_period", 0x2),
-                ],
-            );
-            bits.finish()
+            rt::debug_bits(
+                f,
+                self.0 as u64,
+                "OldEncoderPeriods motor_encoder_has_new_period:1 external_encoder_has_new_period:2",
+                &[],
+            )
         }
     }
     /// AbsoluteEncoderMode.
@@ -22511,7 +22056,7 @@ pub mod types {
         }
         /// Bit 0: complement. Manual: Normal / Complement.
         pub const fn complement(self) -> AbsoluteEncoderModeComplement {
-            AbsoluteEncoderModeComplement::from_raw((self.0 & 0x1) as u8)
+            AbsoluteEncoderModeComplement::from_raw(rt::bits16::field(self.0, 0x1) as u8)
         }
         /// The same with another [`complement`](Self::complement).
         #[must_use]
@@ -22519,70 +22064,70 @@ pub mod types {
             self,
             value: AbsoluteEncoderModeComplement,
         ) -> Self {
-            Self((self.0 & !0x1) | ((value.raw() as u16) & 0x1))
+            Self(rt::bits16::with_field(self.0, 0x1, value.raw() as u16))
         }
         /// Bit 1: code. Manual: Gray / Binario.
         pub const fn code(self) -> AbsoluteEncoderModeCode {
-            AbsoluteEncoderModeCode::from_raw(((self.0 >> 1) & 0x1) as u8)
+            AbsoluteEncoderModeCode::from_raw(rt::bits16::field(self.0, 0x2) as u8)
         }
         /// The same with another [`code`](Self::code).
         #[must_use]
         pub const fn with_code(self, value: AbsoluteEncoderModeCode) -> Self {
-            Self((self.0 & !0x2) | (((value.raw() as u16) << 1) & 0x2))
+            Self(rt::bits16::with_field(self.0, 0x2, value.raw() as u16))
         }
         /// Bits 3 to 2: alignment. Manual: Dati allineati.
         pub const fn alignment(self) -> AbsoluteEncoderModeAlignment {
-            AbsoluteEncoderModeAlignment::from_raw(((self.0 >> 2) & 0x3) as u8)
+            AbsoluteEncoderModeAlignment::from_raw(rt::bits16::field(self.0, 0xC) as u8)
         }
         /// The same with another [`alignment`](Self::alignment).
         #[must_use]
         pub const fn with_alignment(self, value: AbsoluteEncoderModeAlignment) -> Self {
-            Self((self.0 & !0xC) | (((value.raw() as u16) << 2) & 0xC))
+            Self(rt::bits16::with_field(self.0, 0xC, value.raw() as u16))
         }
         /// Bit 4: enable reading. Manual: Enable absolute encoder read.
         pub const fn enable_reading(self) -> bool {
-            self.0 & 0x10 != 0
+            rt::bits16::flag(self.0, 0x10)
         }
         /// The same with another [`enable_reading`](Self::enable_reading).
         #[must_use]
         pub const fn with_enable_reading(self, value: bool) -> Self {
-            Self((self.0 & !0x10) | ((value as u16) << 4))
+            Self(rt::bits16::with_flag(self.0, 0x10, value))
         }
         /// Bit 5: check presence at start. Manual: Abilita check iniziale presenza encoder.
         pub const fn check_presence_at_start(self) -> bool {
-            self.0 & 0x20 != 0
+            rt::bits16::flag(self.0, 0x20)
         }
         /// The same with another [`check_presence_at_start`](Self::check_presence_at_start).
         #[must_use]
         pub const fn with_check_presence_at_start(self, value: bool) -> Self {
-            Self((self.0 & !0x20) | ((value as u16) << 5))
+            Self(rt::bits16::with_flag(self.0, 0x20, value))
         }
         /// Bit 6: phase without moving. Motor phasing without movement. Manual: Abilita fasatura senza movimento motore.
         pub const fn phase_without_moving(self) -> bool {
-            self.0 & 0x40 != 0
+            rt::bits16::flag(self.0, 0x40)
         }
         /// The same with another [`phase_without_moving`](Self::phase_without_moving).
         #[must_use]
         pub const fn with_phase_without_moving(self, value: bool) -> Self {
-            Self((self.0 & !0x40) | ((value as u16) << 6))
+            Self(rt::bits16::with_flag(self.0, 0x40, value))
         }
         /// Bit 7: hardware preset. Preset commanded by bit 7 of Rencabsctrl: 0 = by software, 1 = by hardware. Manual: ENCODER ASSOLUTO (lines 2577, 2578): Abilita Preset hardware.
         pub const fn hardware_preset(self) -> bool {
-            self.0 & 0x80 != 0
+            rt::bits16::flag(self.0, 0x80)
         }
         /// The same with another [`hardware_preset`](Self::hardware_preset).
         #[must_use]
         pub const fn with_hardware_preset(self, value: bool) -> Self {
-            Self((self.0 & !0x80) | ((value as u16) << 7))
+            Self(rt::bits16::with_flag(self.0, 0x80, value))
         }
         /// Bit 8: hardware complement. Manual: Complement hardware.
         pub const fn hardware_complement(self) -> bool {
-            self.0 & 0x100 != 0
+            rt::bits16::flag(self.0, 0x100)
         }
         /// The same with another [`hardware_complement`](Self::hardware_complement).
         #[must_use]
         pub const fn with_hardware_complement(self, value: bool) -> Self {
-            Self((self.0 & !0x100) | ((value as u16) << 8))
+            Self(rt::bits16::with_flag(self.0, 0x100, value))
         }
     }
     impl Default for AbsoluteEncoderMode {
@@ -22601,21 +22146,12 @@ pub mod types {
     }
     impl core::fmt::Debug for AbsoluteEncoderMode {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            let bits = rt::DebugBits::new(f, "AbsoluteEncoderMode", self.0 as u64);
-            let bits = rt::DebugBits::field(bits, "complement", 0x1, &self.complement());
-            let bits = rt::DebugBits::field(bits, "code", 0x2, &self.code());
-            let bits = rt::DebugBits::field(bits, "alignment", 0xC, &self.alignment());
-            let bits = rt::DebugBits::plain(
-                bits,
-                &[
-                    ("enable_reading", 0x10),
-                    ("check_presence_at_start", 0x20),
-                    ("phase_without_moving", 0x40),
-                    ("hardware_preset", 0x80),
-                    ("hardware_complement", 0x100),
-                ],
-            );
-            bits.finish()
+            rt::debug_bits(
+                f,
+                self.0 as u64,
+                "AbsoluteEncoderMode ?complement:1 ?code:2 ?alignment:c enable_reading:10 check_presence_at_start:20 phase_without_moving:40 hardware_preset:80 hardware_complement:100",
+                &[&self.complement(), &self.code(), &self.alignment()],
+            )
         }
     }
     /// AbsoluteEncoderControl.
@@ -22649,30 +22185,30 @@ pub mod types {
         }
         /// Bit 0: reset phasing valid. 1 clears the valid-phasing flag in the EEPROM. Manual: Reset flag fasatura valida in Eeprom.
         pub const fn reset_phasing_valid(self) -> bool {
-            self.0 & 0x1 != 0
+            rt::bits16::flag(self.0, 0x1)
         }
         /// The same with another [`reset_phasing_valid`](Self::reset_phasing_valid).
         #[must_use]
         pub const fn with_reset_phasing_valid(self, value: bool) -> Self {
-            Self((self.0 & !0x1) | (value as u16))
+            Self(rt::bits16::with_flag(self.0, 0x1, value))
         }
         /// Bit 1: reset zero offset. 1 clears the offset of position 0 in the EEPROM. Manual: Reset offset posizione 0 in Eeprom.
         pub const fn reset_zero_offset(self) -> bool {
-            self.0 & 0x2 != 0
+            rt::bits16::flag(self.0, 0x2)
         }
         /// The same with another [`reset_zero_offset`](Self::reset_zero_offset).
         #[must_use]
         pub const fn with_reset_zero_offset(self, value: bool) -> Self {
-            Self((self.0 & !0x2) | ((value as u16) << 1))
+            Self(rt::bits16::with_flag(self.0, 0x2, value))
         }
         /// Bit 7: preset. 1 presets the absolute encoder; bit 7 of Rencabsmode selects hardware or software. Manual: Preset encoder assoluto.
         pub const fn preset(self) -> bool {
-            self.0 & 0x80 != 0
+            rt::bits16::flag(self.0, 0x80)
         }
         /// The same with another [`preset`](Self::preset).
         #[must_use]
         pub const fn with_preset(self, value: bool) -> Self {
-            Self((self.0 & !0x80) | ((value as u16) << 7))
+            Self(rt::bits16::with_flag(self.0, 0x80, value))
         }
     }
     impl Default for AbsoluteEncoderControl {
@@ -22691,16 +22227,12 @@ pub mod types {
     }
     impl core::fmt::Debug for AbsoluteEncoderControl {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            let bits = rt::DebugBits::new(f, "AbsoluteEncoderControl", self.0 as u64);
-            let bits = rt::DebugBits::plain(
-                bits,
-                &[
-                    ("reset_phasing_valid", 0x1),
-                    ("reset_zero_offset", 0x2),
-                    ("preset", 0x80),
-                ],
-            );
-            bits.finish()
+            rt::debug_bits(
+                f,
+                self.0 as u64,
+                "AbsoluteEncoderControl reset_phasing_valid:1 reset_zero_offset:2 preset:80",
+                &[],
+            )
         }
     }
     /// VariableCommand.
@@ -22728,21 +22260,21 @@ pub mod types {
         }
         /// Bits 7 to 0: variable. 1 to 128. Manual: Numero variabile da caricare o salvare.
         pub const fn variable(self) -> u8 {
-            (self.0 & 0xFF) as u8
+            rt::bits16::field(self.0, 0xFF) as u8
         }
         /// The same with another [`variable`](Self::variable).
         #[must_use]
         pub const fn with_variable(self, value: u8) -> Self {
-            Self((self.0 & !0xFF) | (value as u16))
+            Self(rt::bits16::with_field(self.0, 0xFF, value as u16))
         }
         /// Bit 15: action. Manual: 1 Carica / 0 Salva.
         pub const fn action(self) -> VariableCommandAction {
-            VariableCommandAction::from_raw(((self.0 >> 15) & 0x1) as u8)
+            VariableCommandAction::from_raw(rt::bits16::field(self.0, 0x8000) as u8)
         }
         /// The same with another [`action`](Self::action).
         #[must_use]
         pub const fn with_action(self, value: VariableCommandAction) -> Self {
-            Self((self.0 & !0x8000) | (((value.raw() as u16) << 15) & 0x8000))
+            Self(rt::bits16::with_field(self.0, 0x8000, value.raw() as u16))
         }
     }
     impl Default for VariableCommand {
@@ -22761,10 +22293,12 @@ pub mod types {
     }
     impl core::fmt::Debug for VariableCommand {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            let bits = rt::DebugBits::new(f, "VariableCommand", self.0 as u64);
-            let bits = rt::DebugBits::plain(bits, &[("variable", 0xFF)]);
-            let bits = rt::DebugBits::field(bits, "action", 0x8000, &self.action());
-            bits.finish()
+            rt::debug_bits(
+                f,
+                self.0 as u64,
+                "VariableCommand variable:ff ?action:8000",
+                &[&self.action()],
+            )
         }
     }
     /// EepromStatus.
@@ -22806,133 +22340,133 @@ pub mod types {
         }
         /// Bit 0: busy. Manual: R/W in corso.
         pub const fn busy(self) -> bool {
-            self.0 & 0x1 != 0
+            rt::bits16::flag(self.0, 0x1)
         }
         /// The same with another [`busy`](Self::busy).
         #[must_use]
         pub const fn with_busy(self, value: bool) -> Self {
-            Self((self.0 & !0x1) | (value as u16))
+            Self(rt::bits16::with_flag(self.0, 0x1, value))
         }
         /// Bit 1: invalid command. Manual: Comando non valido.
         pub const fn invalid_command(self) -> bool {
-            self.0 & 0x2 != 0
+            rt::bits16::flag(self.0, 0x2)
         }
         /// The same with another [`invalid_command`](Self::invalid_command).
         #[must_use]
         pub const fn with_invalid_command(self, value: bool) -> Self {
-            Self((self.0 & !0x2) | ((value as u16) << 1))
+            Self(rt::bits16::with_flag(self.0, 0x2, value))
         }
         /// Bit 2: reading registers failed. Manual: Errore in lettura registri.
         pub const fn reading_registers_failed(self) -> bool {
-            self.0 & 0x4 != 0
+            rt::bits16::flag(self.0, 0x4)
         }
         /// The same with another [`reading_registers_failed`](Self::reading_registers_failed).
         #[must_use]
         pub const fn with_reading_registers_failed(self, value: bool) -> Self {
-            Self((self.0 & !0x4) | ((value as u16) << 2))
+            Self(rt::bits16::with_flag(self.0, 0x4, value))
         }
         /// Bit 3: writing registers failed. Manual: Errore in scrittura registri.
         pub const fn writing_registers_failed(self) -> bool {
-            self.0 & 0x8 != 0
+            rt::bits16::flag(self.0, 0x8)
         }
         /// The same with another [`writing_registers_failed`](Self::writing_registers_failed).
         #[must_use]
         pub const fn with_writing_registers_failed(self, value: bool) -> Self {
-            Self((self.0 & !0x8) | ((value as u16) << 3))
+            Self(rt::bits16::with_flag(self.0, 0x8, value))
         }
         /// Bit 4: reading variables failed. Manual: Errore in lettura variabili.
         pub const fn reading_variables_failed(self) -> bool {
-            self.0 & 0x10 != 0
+            rt::bits16::flag(self.0, 0x10)
         }
         /// The same with another [`reading_variables_failed`](Self::reading_variables_failed).
         #[must_use]
         pub const fn with_reading_variables_failed(self, value: bool) -> Self {
-            Self((self.0 & !0x10) | ((value as u16) << 4))
+            Self(rt::bits16::with_flag(self.0, 0x10, value))
         }
         /// Bit 5: writing variables failed. Manual: Errore in scrittura variabili.
         pub const fn writing_variables_failed(self) -> bool {
-            self.0 & 0x20 != 0
+            rt::bits16::flag(self.0, 0x20)
         }
         /// The same with another [`writing_variables_failed`](Self::writing_variables_failed).
         #[must_use]
         pub const fn with_writing_variables_failed(self, value: bool) -> Self {
-            Self((self.0 & !0x20) | ((value as u16) << 5))
+            Self(rt::bits16::with_flag(self.0, 0x20, value))
         }
         /// Bit 6: reading program failed. Manual: Errore in lettura programma.
         pub const fn reading_program_failed(self) -> bool {
-            self.0 & 0x40 != 0
+            rt::bits16::flag(self.0, 0x40)
         }
         /// The same with another [`reading_program_failed`](Self::reading_program_failed).
         #[must_use]
         pub const fn with_reading_program_failed(self, value: bool) -> Self {
-            Self((self.0 & !0x40) | ((value as u16) << 6))
+            Self(rt::bits16::with_flag(self.0, 0x40, value))
         }
         /// Bit 7: writing program failed. Manual: Errore in scrittura programma.
         pub const fn writing_program_failed(self) -> bool {
-            self.0 & 0x80 != 0
+            rt::bits16::flag(self.0, 0x80)
         }
         /// The same with another [`writing_program_failed`](Self::writing_program_failed).
         #[must_use]
         pub const fn with_writing_program_failed(self, value: bool) -> Self {
-            Self((self.0 & !0x80) | ((value as u16) << 7))
+            Self(rt::bits16::with_flag(self.0, 0x80, value))
         }
         /// Bit 8: reading password failed. Manual: Errore in lettura password.
         pub const fn reading_password_failed(self) -> bool {
-            self.0 & 0x100 != 0
+            rt::bits16::flag(self.0, 0x100)
         }
         /// The same with another [`reading_password_failed`](Self::reading_password_failed).
         #[must_use]
         pub const fn with_reading_password_failed(self, value: bool) -> Self {
-            Self((self.0 & !0x100) | ((value as u16) << 8))
+            Self(rt::bits16::with_flag(self.0, 0x100, value))
         }
         /// Bit 9: writing password failed. Manual: Errore in scrittura password.
         pub const fn writing_password_failed(self) -> bool {
-            self.0 & 0x200 != 0
+            rt::bits16::flag(self.0, 0x200)
         }
         /// The same with another [`writing_password_failed`](Self::writing_password_failed).
         #[must_use]
         pub const fn with_writing_password_failed(self, value: bool) -> Self {
-            Self((self.0 & !0x200) | ((value as u16) << 9))
+            Self(rt::bits16::with_flag(self.0, 0x200, value))
         }
         /// Bit 10: reading task failed. Manual: Errore in lettura task.
         pub const fn reading_task_failed(self) -> bool {
-            self.0 & 0x400 != 0
+            rt::bits16::flag(self.0, 0x400)
         }
         /// The same with another [`reading_task_failed`](Self::reading_task_failed).
         #[must_use]
         pub const fn with_reading_task_failed(self, value: bool) -> Self {
-            Self((self.0 & !0x400) | ((value as u16) << 10))
+            Self(rt::bits16::with_flag(self.0, 0x400, value))
         }
         /// Bit 11: writing task failed. Manual: Errore in scrittura task.
         pub const fn writing_task_failed(self) -> bool {
-            self.0 & 0x800 != 0
+            rt::bits16::flag(self.0, 0x800)
         }
         /// The same with another [`writing_task_failed`](Self::writing_task_failed).
         #[must_use]
         pub const fn with_writing_task_failed(self, value: bool) -> Self {
-            Self((self.0 & !0x800) | ((value as u16) << 11))
+            Self(rt::bits16::with_flag(self.0, 0x800, value))
         }
         /// Bit 12: reading alarm buffer failed. Manual: Errore in lettura buffer allarmi.
         pub const fn reading_alarm_buffer_failed(self) -> bool {
-            self.0 & 0x1000 != 0
+            rt::bits16::flag(self.0, 0x1000)
         }
         /// The same with another [`reading_alarm_buffer_failed`](Self::reading_alarm_buffer_failed).
         #[must_use]
         pub const fn with_reading_alarm_buffer_failed(self, value: bool) -> Self {
-            Self((self.0 & !0x1000) | ((value as u16) << 12))
+            Self(rt::bits16::with_flag(self.0, 0x1000, value))
         }
         /// Bit 13: writing alarm buffer failed. Manual: Errore in scrittura buffer allarmi.
         pub const fn writing_alarm_buffer_failed(self) -> bool {
-            self.0 & 0x2000 != 0
+            rt::bits16::flag(self.0, 0x2000)
         }
         /// The same with another [`writing_alarm_buffer_failed`](Self::writing_alarm_buffer_failed).
         #[must_use]
         pub const fn with_writing_alarm_buffer_failed(self, value: bool) -> Self {
-            Self((self.0 & !0x2000) | ((value as u16) << 13))
+            Self(rt::bits16::with_flag(self.0, 0x2000, value))
         }
         /// Bit 14: reading current sensor offsets failed. Manual: Errore in lettura offset sensori corrente.
         pub const fn reading_current_sensor_offsets_failed(self) -> bool {
-            self.0 & 0x4000 != 0
+            rt::bits16::flag(self.0, 0x4000)
         }
         /// The same with another [`reading_current_sensor_offsets_failed`](Self::reading_current_sensor_offsets_failed).
         #[must_use]
@@ -22940,11 +22474,11 @@ pub mod types {
             self,
             value: bool,
         ) -> Self {
-            Self((self.0 & !0x4000) | ((value as u16) << 14))
+            Self(rt::bits16::with_flag(self.0, 0x4000, value))
         }
         /// Bit 15: writing current sensor offsets failed. Manual: Errore in scrittura offset sensori corrente.
         pub const fn writing_current_sensor_offsets_failed(self) -> bool {
-            self.0 & 0x8000 != 0
+            rt::bits16::flag(self.0, 0x8000)
         }
         /// The same with another [`writing_current_sensor_offsets_failed`](Self::writing_current_sensor_offsets_failed).
         #[must_use]
@@ -22952,7 +22486,7 @@ pub mod types {
             self,
             value: bool,
         ) -> Self {
-            Self((self.0 & !0x8000) | ((value as u16) << 15))
+            Self(rt::bits16::with_flag(self.0, 0x8000, value))
         }
     }
     impl Default for EepromStatus {
@@ -22971,29 +22505,12 @@ pub mod types {
     }
     impl core::fmt::Debug for EepromStatus {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            let bits = rt::DebugBits::new(f, "EepromStatus", self.0 as u64);
-            let bits = rt::DebugBits::plain(
-                bits,
-                &[
-                    ("busy", 0x1),
-                    ("invalid_command", 0x2),
-                    ("reading_registers_failed", 0x4),
-                    ("writing_registers_failed", 0x8),
-                    ("reading_variables_failed", 0x10),
-                    ("writing_variables_failed", 0x20),
-                    ("reading_program_failed", 0x40),
-                    ("writing_program_failed", 0x80),
-                    ("reading_password_failed", 0x100),
-                    ("writing_password_failed", 0x200),
-                    ("reading_task_failed", 0x400),
-                    ("writing_task_failed", 0x800),
-                    ("reading_alarm_buffer_failed", 0x1000),
-                    ("writing_alarm_buffer_failed", 0x2000),
-                    ("reading_current_sensor_offsets_failed", 0x4000),
-                    ("writing_current_sensor_offsets_failed", 0x8000),
-                ],
-            );
-            bits.finish()
+            rt::debug_bits(
+                f,
+                self.0 as u64,
+                "EepromStatus busy:1 invalid_command:2 reading_registers_failed:4 writing_registers_failed:8 reading_variables_failed:10 writing_variables_failed:20 reading_program_failed:40 writing_program_failed:80 reading_password_failed:100 writing_password_failed:200 reading_task_failed:400 writing_task_failed:800 reading_alarm_buffer_failed:1000 writing_alarm_buffer_failed:2000 reading_current_sensor_offsets_failed:4000 writing_current_sensor_offsets_failed:8000",
+                &[],
+            )
         }
     }
     /// EepromStatus32.
@@ -23035,133 +22552,133 @@ pub mod types {
         }
         /// Bit 0: busy. Manual: R/W in corso.
         pub const fn busy(self) -> bool {
-            self.0 & 0x1 != 0
+            rt::bits32::flag(self.0, 0x1)
         }
         /// The same with another [`busy`](Self::busy).
         #[must_use]
         pub const fn with_busy(self, value: bool) -> Self {
-            Self((self.0 & !0x1) | (value as u32))
+            Self(rt::bits32::with_flag(self.0, 0x1, value))
         }
         /// Bit 1: invalid command. Manual: Comando non valido.
         pub const fn invalid_command(self) -> bool {
-            self.0 & 0x2 != 0
+            rt::bits32::flag(self.0, 0x2)
         }
         /// The same with another [`invalid_command`](Self::invalid_command).
         #[must_use]
         pub const fn with_invalid_command(self, value: bool) -> Self {
-            Self((self.0 & !0x2) | ((value as u32) << 1))
+            Self(rt::bits32::with_flag(self.0, 0x2, value))
         }
         /// Bit 2: reading registers failed. Manual: Errore in lettura registri.
         pub const fn reading_registers_failed(self) -> bool {
-            self.0 & 0x4 != 0
+            rt::bits32::flag(self.0, 0x4)
         }
         /// The same with another [`reading_registers_failed`](Self::reading_registers_failed).
         #[must_use]
         pub const fn with_reading_registers_failed(self, value: bool) -> Self {
-            Self((self.0 & !0x4) | ((value as u32) << 2))
+            Self(rt::bits32::with_flag(self.0, 0x4, value))
         }
         /// Bit 3: writing registers failed. Manual: Errore in scrittura registri.
         pub const fn writing_registers_failed(self) -> bool {
-            self.0 & 0x8 != 0
+            rt::bits32::flag(self.0, 0x8)
         }
         /// The same with another [`writing_registers_failed`](Self::writing_registers_failed).
         #[must_use]
         pub const fn with_writing_registers_failed(self, value: bool) -> Self {
-            Self((self.0 & !0x8) | ((value as u32) << 3))
+            Self(rt::bits32::with_flag(self.0, 0x8, value))
         }
         /// Bit 4: reading variables failed. Manual: Errore in lettura variabili.
         pub const fn reading_variables_failed(self) -> bool {
-            self.0 & 0x10 != 0
+            rt::bits32::flag(self.0, 0x10)
         }
         /// The same with another [`reading_variables_failed`](Self::reading_variables_failed).
         #[must_use]
         pub const fn with_reading_variables_failed(self, value: bool) -> Self {
-            Self((self.0 & !0x10) | ((value as u32) << 4))
+            Self(rt::bits32::with_flag(self.0, 0x10, value))
         }
         /// Bit 5: writing variables failed. Manual: Errore in scrittura variabili.
         pub const fn writing_variables_failed(self) -> bool {
-            self.0 & 0x20 != 0
+            rt::bits32::flag(self.0, 0x20)
         }
         /// The same with another [`writing_variables_failed`](Self::writing_variables_failed).
         #[must_use]
         pub const fn with_writing_variables_failed(self, value: bool) -> Self {
-            Self((self.0 & !0x20) | ((value as u32) << 5))
+            Self(rt::bits32::with_flag(self.0, 0x20, value))
         }
         /// Bit 6: reading program failed. Manual: Errore in lettura programma.
         pub const fn reading_program_failed(self) -> bool {
-            self.0 & 0x40 != 0
+            rt::bits32::flag(self.0, 0x40)
         }
         /// The same with another [`reading_program_failed`](Self::reading_program_failed).
         #[must_use]
         pub const fn with_reading_program_failed(self, value: bool) -> Self {
-            Self((self.0 & !0x40) | ((value as u32) << 6))
+            Self(rt::bits32::with_flag(self.0, 0x40, value))
         }
         /// Bit 7: writing program failed. Manual: Errore in scrittura programma.
         pub const fn writing_program_failed(self) -> bool {
-            self.0 & 0x80 != 0
+            rt::bits32::flag(self.0, 0x80)
         }
         /// The same with another [`writing_program_failed`](Self::writing_program_failed).
         #[must_use]
         pub const fn with_writing_program_failed(self, value: bool) -> Self {
-            Self((self.0 & !0x80) | ((value as u32) << 7))
+            Self(rt::bits32::with_flag(self.0, 0x80, value))
         }
         /// Bit 8: reading password failed. Manual: Errore in lettura password.
         pub const fn reading_password_failed(self) -> bool {
-            self.0 & 0x100 != 0
+            rt::bits32::flag(self.0, 0x100)
         }
         /// The same with another [`reading_password_failed`](Self::reading_password_failed).
         #[must_use]
         pub const fn with_reading_password_failed(self, value: bool) -> Self {
-            Self((self.0 & !0x100) | ((value as u32) << 8))
+            Self(rt::bits32::with_flag(self.0, 0x100, value))
         }
         /// Bit 9: writing password failed. Manual: Errore in scrittura password.
         pub const fn writing_password_failed(self) -> bool {
-            self.0 & 0x200 != 0
+            rt::bits32::flag(self.0, 0x200)
         }
         /// The same with another [`writing_password_failed`](Self::writing_password_failed).
         #[must_use]
         pub const fn with_writing_password_failed(self, value: bool) -> Self {
-            Self((self.0 & !0x200) | ((value as u32) << 9))
+            Self(rt::bits32::with_flag(self.0, 0x200, value))
         }
         /// Bit 10: reading task failed. Manual: Errore in lettura task.
         pub const fn reading_task_failed(self) -> bool {
-            self.0 & 0x400 != 0
+            rt::bits32::flag(self.0, 0x400)
         }
         /// The same with another [`reading_task_failed`](Self::reading_task_failed).
         #[must_use]
         pub const fn with_reading_task_failed(self, value: bool) -> Self {
-            Self((self.0 & !0x400) | ((value as u32) << 10))
+            Self(rt::bits32::with_flag(self.0, 0x400, value))
         }
         /// Bit 11: writing task failed. Manual: Errore in scrittura task.
         pub const fn writing_task_failed(self) -> bool {
-            self.0 & 0x800 != 0
+            rt::bits32::flag(self.0, 0x800)
         }
         /// The same with another [`writing_task_failed`](Self::writing_task_failed).
         #[must_use]
         pub const fn with_writing_task_failed(self, value: bool) -> Self {
-            Self((self.0 & !0x800) | ((value as u32) << 11))
+            Self(rt::bits32::with_flag(self.0, 0x800, value))
         }
         /// Bit 12: reading alarm buffer failed. Manual: Errore in lettura buffer allarmi.
         pub const fn reading_alarm_buffer_failed(self) -> bool {
-            self.0 & 0x1000 != 0
+            rt::bits32::flag(self.0, 0x1000)
         }
         /// The same with another [`reading_alarm_buffer_failed`](Self::reading_alarm_buffer_failed).
         #[must_use]
         pub const fn with_reading_alarm_buffer_failed(self, value: bool) -> Self {
-            Self((self.0 & !0x1000) | ((value as u32) << 12))
+            Self(rt::bits32::with_flag(self.0, 0x1000, value))
         }
         /// Bit 13: writing alarm buffer failed. Manual: Errore in scrittura buffer allarmi.
         pub const fn writing_alarm_buffer_failed(self) -> bool {
-            self.0 & 0x2000 != 0
+            rt::bits32::flag(self.0, 0x2000)
         }
         /// The same with another [`writing_alarm_buffer_failed`](Self::writing_alarm_buffer_failed).
         #[must_use]
         pub const fn with_writing_alarm_buffer_failed(self, value: bool) -> Self {
-            Self((self.0 & !0x2000) | ((value as u32) << 13))
+            Self(rt::bits32::with_flag(self.0, 0x2000, value))
         }
         /// Bit 14: reading current sensor offsets failed. Manual: Errore in lettura offset sensori corrente.
         pub const fn reading_current_sensor_offsets_failed(self) -> bool {
-            self.0 & 0x4000 != 0
+            rt::bits32::flag(self.0, 0x4000)
         }
         /// The same with another [`reading_current_sensor_offsets_failed`](Self::reading_current_sensor_offsets_failed).
         #[must_use]
@@ -23169,11 +22686,11 @@ pub mod types {
             self,
             value: bool,
         ) -> Self {
-            Self((self.0 & !0x4000) | ((value as u32) << 14))
+            Self(rt::bits32::with_flag(self.0, 0x4000, value))
         }
         /// Bit 15: writing current sensor offsets failed. Manual: Errore in scrittura offset sensori corrente.
         pub const fn writing_current_sensor_offsets_failed(self) -> bool {
-            self.0 & 0x8000 != 0
+            rt::bits32::flag(self.0, 0x8000)
         }
         /// The same with another [`writing_current_sensor_offsets_failed`](Self::writing_current_sensor_offsets_failed).
         #[must_use]
@@ -23181,7 +22698,7 @@ pub mod types {
             self,
             value: bool,
         ) -> Self {
-            Self((self.0 & !0x8000) | ((value as u32) << 15))
+            Self(rt::bits32::with_flag(self.0, 0x8000, value))
         }
     }
     impl Default for EepromStatus32 {
@@ -23200,29 +22717,12 @@ pub mod types {
     }
     impl core::fmt::Debug for EepromStatus32 {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            let bits = rt::DebugBits::new(f, "EepromStatus32", self.0 as u64);
-            let bits = rt::DebugBits::plain(
-                bits,
-                &[
-                    ("busy", 0x1),
-                    ("invalid_command", 0x2),
-                    ("reading_registers_failed", 0x4),
-                    ("writing_registers_failed", 0x8),
-                    ("reading_variables_failed", 0x10),
-                    ("writing_variables_failed", 0x20),
-                    ("reading_program_failed", 0x40),
-                    ("writing_program_failed", 0x80),
-                    ("reading_password_failed", 0x100),
-                    ("writing_password_failed", 0x200),
-                    ("reading_task_failed", 0x400),
-                    ("writing_task_failed", 0x800),
-                    ("reading_alarm_buffer_failed", 0x1000),
-                    ("writing_alarm_buffer_failed", 0x2000),
-                    ("reading_current_sensor_offsets_failed", 0x4000),
-                    ("writing_current_sensor_offsets_failed", 0x8000),
-                ],
-            );
-            bits.finish()
+            rt::debug_bits(
+                f,
+                self.0 as u64,
+                "EepromStatus32 busy:1 invalid_command:2 reading_registers_failed:4 writing_registers_failed:8 reading_variables_failed:10 writing_variables_failed:20 reading_program_failed:40 writing_program_failed:80 reading_password_failed:100 writing_password_failed:200 reading_task_failed:400 writing_task_failed:800 reading_alarm_buffer_failed:1000 writing_alarm_buffer_failed:2000 reading_current_sensor_offsets_failed:4000 writing_current_sensor_offsets_failed:8000",
+                &[],
+            )
         }
     }
     /// EnableMask.
@@ -23254,21 +22754,21 @@ pub mod types {
         }
         /// Bit 0: configuration set. Rconfig has been set. Manual: GESTIONE POTENZA (line 2659): Rconfig impostato.
         pub const fn configuration_set(self) -> bool {
-            self.0 & 0x1 != 0
+            rt::bits16::flag(self.0, 0x1)
         }
         /// The same with another [`configuration_set`](Self::configuration_set).
         #[must_use]
         pub const fn with_configuration_set(self, value: bool) -> Self {
-            Self((self.0 & !0x1) | (value as u16))
+            Self(rt::bits16::with_flag(self.0, 0x1, value))
         }
         /// Bit 15: mask error. The check of the mask failed. Manual: GESTIONE POTENZA (line 2659): Errore maschera di controllo.
         pub const fn mask_error(self) -> bool {
-            self.0 & 0x8000 != 0
+            rt::bits16::flag(self.0, 0x8000)
         }
         /// The same with another [`mask_error`](Self::mask_error).
         #[must_use]
         pub const fn with_mask_error(self, value: bool) -> Self {
-            Self((self.0 & !0x8000) | ((value as u16) << 15))
+            Self(rt::bits16::with_flag(self.0, 0x8000, value))
         }
     }
     impl Default for EnableMask {
@@ -23287,12 +22787,12 @@ pub mod types {
     }
     impl core::fmt::Debug for EnableMask {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            let bits = rt::DebugBits::new(f, "EnableMask", self.0 as u64);
-            let bits = rt::DebugBits::plain(
-                bits,
-                &[("configuration_set", 0x1), ("mask_error", 0x8000)],
-            );
-            bits.finish()
+            rt::debug_bits(
+                f,
+                self.0 as u64,
+                "EnableMask configuration_set:1 mask_error:8000",
+                &[],
+            )
         }
     }
     /// HardwareOptions.
@@ -23319,12 +22819,12 @@ pub mod types {
         }
         /// Bit 0: STO present. Safe torque off is fitted. Manual: VARIE (line 2779): STO presente.
         pub const fn sto_present(self) -> bool {
-            self.0 & 0x1 != 0
+            rt::bits16::flag(self.0, 0x1)
         }
         /// The same with another [`sto_present`](Self::sto_present).
         #[must_use]
         pub const fn with_sto_present(self, value: bool) -> Self {
-            Self((self.0 & !0x1) | (value as u16))
+            Self(rt::bits16::with_flag(self.0, 0x1, value))
         }
     }
     impl Default for HardwareOptions {
@@ -23343,9 +22843,7 @@ pub mod types {
     }
     impl core::fmt::Debug for HardwareOptions {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            let bits = rt::DebugBits::new(f, "HardwareOptions", self.0 as u64);
-            let bits = rt::DebugBits::plain(bits, &[("sto_present", 0x1)]);
-            bits.finish()
+            rt::debug_bits(f, self.0 as u64, "HardwareOptions sto_present:1", &[])
         }
     }
     /// ModelDefinition.
@@ -23375,34 +22873,36 @@ pub mod types {
         }
         /// Bits 2 to 0: voltage. Manual: VARIE (line 2786): Voltage.
         pub const fn voltage(self) -> ModelDefinitionVoltage {
-            ModelDefinitionVoltage::from_raw((self.0 & 0x7) as u8)
+            ModelDefinitionVoltage::from_raw(rt::bits16::field(self.0, 0x7) as u8)
         }
         /// The same with another [`voltage`](Self::voltage).
         #[must_use]
         pub const fn with_voltage(self, value: ModelDefinitionVoltage) -> Self {
-            Self((self.0 & !0x7) | ((value.raw() as u16) & 0x7))
+            Self(rt::bits16::with_field(self.0, 0x7, value.raw() as u16))
         }
         /// Bits 5 to 3: application. The manual calls the third one etichettatrice. Manual: VARIE (line 2786): Applicazione.
         pub const fn application(self) -> ModelDefinitionApplication {
-            ModelDefinitionApplication::from_raw(((self.0 >> 3) & 0x7) as u8)
+            ModelDefinitionApplication::from_raw(rt::bits16::field(self.0, 0x38) as u8)
         }
         /// The same with another [`application`](Self::application).
         #[must_use]
         pub const fn with_application(self, value: ModelDefinitionApplication) -> Self {
-            Self((self.0 & !0x38) | (((value.raw() as u16) << 3) & 0x38))
+            Self(rt::bits16::with_field(self.0, 0x38, value.raw() as u16))
         }
         /// Bits 8 to 6: platform. Manual: VARIE (line 2786): Modello azionamento.
         pub const fn platform(self) -> ModelDefinitionPlatform {
-            ModelDefinitionPlatform::from_raw(((self.0 >> 6) & 0x7) as u8)
+            ModelDefinitionPlatform::from_raw(rt::bits16::field(self.0, 0x1C0) as u8)
         }
         /// The same with another [`platform`](Self::platform).
         #[must_use]
         pub const fn with_platform(self, value: ModelDefinitionPlatform) -> Self {
-            Self((self.0 & !0x1C0) | (((value.raw() as u16) << 6) & 0x1C0))
+            Self(rt::bits16::with_field(self.0, 0x1C0, value.raw() as u16))
         }
         /// Bits 11 to 9: communication chip. Manual: VARIE (line 2786): Chip comunicazione.
         pub const fn communication_chip(self) -> ModelDefinitionCommunicationChip {
-            ModelDefinitionCommunicationChip::from_raw(((self.0 >> 9) & 0x7) as u8)
+            ModelDefinitionCommunicationChip::from_raw(
+                rt::bits16::field(self.0, 0xE00) as u8,
+            )
         }
         /// The same with another [`communication_chip`](Self::communication_chip).
         #[must_use]
@@ -23410,7 +22910,7 @@ pub mod types {
             self,
             value: ModelDefinitionCommunicationChip,
         ) -> Self {
-            Self((self.0 & !0xE00) | (((value.raw() as u16) << 9) & 0xE00))
+            Self(rt::bits16::with_field(self.0, 0xE00, value.raw() as u16))
         }
     }
     impl Default for ModelDefinition {
@@ -23429,22 +22929,17 @@ pub mod types {
     }
     impl core::fmt::Debug for ModelDefinition {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            let bits = rt::DebugBits::new(f, "ModelDefinition", self.0 as u64);
-            let bits = rt::DebugBits::field(bits, "voltage", 0x7, &self.voltage());
-            let bits = rt::DebugBits::field(
-                bits,
-                "application",
-                0x38,
-                &self.application(),
-            );
-            let bits = rt::DebugBits::field(bits, "platform", 0x1C0, &self.platform());
-            let bits = rt::DebugBits::field(
-                bits,
-                "communication_chip",
-                0xE00,
-                &self.communication_chip(),
-            );
-            bits.finish()
+            rt::debug_bits(
+                f,
+                self.0 as u64,
+                "ModelDefinition ?voltage:7 ?application:38 ?platform:1c0 ?communication_chip:e00",
+                &[
+                    &self.voltage(),
+                    &self.application(),
+                    &self.platform(),
+                    &self.communication_chip(),
+                ],
+            )
         }
     }
     /// DriveOptions.
@@ -23473,7 +22968,7 @@ pub mod types {
         }
         /// Bits 2 to 0: absolute encoder. Manual: VARIE (line 2788).
         pub const fn absolute_encoder(self) -> DriveOptionsAbsoluteEncoder {
-            DriveOptionsAbsoluteEncoder::from_raw((self.0 & 0x7) as u8)
+            DriveOptionsAbsoluteEncoder::from_raw(rt::bits16::field(self.0, 0x7) as u8)
         }
         /// The same with another [`absolute_encoder`](Self::absolute_encoder).
         #[must_use]
@@ -23481,7 +22976,7 @@ pub mod types {
             self,
             value: DriveOptionsAbsoluteEncoder,
         ) -> Self {
-            Self((self.0 & !0x7) | ((value.raw() as u16) & 0x7))
+            Self(rt::bits16::with_field(self.0, 0x7, value.raw() as u16))
         }
     }
     impl Default for DriveOptions {
@@ -23500,14 +22995,12 @@ pub mod types {
     }
     impl core::fmt::Debug for DriveOptions {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            let bits = rt::DebugBits::new(f, "DriveOptions", self.0 as u64);
-            let bits = rt::DebugBits::field(
-                bits,
-                "absolute_encoder",
-                0x7,
-                &self.absolute_encoder(),
-            );
-            bits.finish()
+            rt::debug_bits(
+                f,
+                self.0 as u64,
+                "DriveOptions ?absolute_encoder:7",
+                &[&self.absolute_encoder()],
+            )
         }
     }
     /// CanopenStatus.
@@ -23535,21 +23028,21 @@ pub mod types {
         }
         /// Bits 3 to 0: red LED. Manual: FIELDBUS; STATO DEL LED FLD (lines 2812, 3324): stato LED RED.
         pub const fn red_led(self) -> CanopenStatusRedLed {
-            CanopenStatusRedLed::from_raw((self.0 & 0xF) as u8)
+            CanopenStatusRedLed::from_raw(rt::bits16::field(self.0, 0xF) as u8)
         }
         /// The same with another [`red_led`](Self::red_led).
         #[must_use]
         pub const fn with_red_led(self, value: CanopenStatusRedLed) -> Self {
-            Self((self.0 & !0xF) | ((value.raw() as u16) & 0xF))
+            Self(rt::bits16::with_field(self.0, 0xF, value.raw() as u16))
         }
         /// Bits 7 to 4: green LED. Manual: FIELDBUS; STATO DEL LED FLD (lines 2812, 3330): stato LED GREEN.
         pub const fn green_led(self) -> CanopenStatusGreenLed {
-            CanopenStatusGreenLed::from_raw(((self.0 >> 4) & 0xF) as u8)
+            CanopenStatusGreenLed::from_raw(rt::bits16::field(self.0, 0xF0) as u8)
         }
         /// The same with another [`green_led`](Self::green_led).
         #[must_use]
         pub const fn with_green_led(self, value: CanopenStatusGreenLed) -> Self {
-            Self((self.0 & !0xF0) | (((value.raw() as u16) << 4) & 0xF0))
+            Self(rt::bits16::with_field(self.0, 0xF0, value.raw() as u16))
         }
     }
     impl Default for CanopenStatus {
@@ -23568,10 +23061,12 @@ pub mod types {
     }
     impl core::fmt::Debug for CanopenStatus {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            let bits = rt::DebugBits::new(f, "CanopenStatus", self.0 as u64);
-            let bits = rt::DebugBits::field(bits, "red_led", 0xF, &self.red_led());
-            let bits = rt::DebugBits::field(bits, "green_led", 0xF0, &self.green_led());
-            bits.finish()
+            rt::debug_bits(
+                f,
+                self.0 as u64,
+                "CanopenStatus ?red_led:f ?green_led:f0",
+                &[&self.red_led(), &self.green_led()],
+            )
         }
     }
     /// Ds402Compatibility.
@@ -23599,21 +23094,21 @@ pub mod types {
         }
         /// Bit 0: current off on controlword xxx7. For Omron motion blocks. Manual: FIELDBUS (line 2831): Current off con Controlword xxx7.
         pub const fn current_off_on_controlword_xxx7(self) -> bool {
-            self.0 & 0x1 != 0
+            rt::bits16::flag(self.0, 0x1)
         }
         /// The same with another [`current_off_on_controlword_xxx7`](Self::current_off_on_controlword_xxx7).
         #[must_use]
         pub const fn with_current_off_on_controlword_xxx7(self, value: bool) -> Self {
-            Self((self.0 & !0x1) | (value as u16))
+            Self(rt::bits16::with_flag(self.0, 0x1, value))
         }
         /// Bit 1: CSP and CSV on controlword xxxF. For Omron motion blocks: cyclic position and speed are active with this controlword. Manual: FIELDBUS (line 2831): CSP e CSV attivi con Controlword xxxF.
         pub const fn csp_and_csv_on_controlword_xxx_f(self) -> bool {
-            self.0 & 0x2 != 0
+            rt::bits16::flag(self.0, 0x2)
         }
         /// The same with another [`csp_and_csv_on_controlword_xxx_f`](Self::csp_and_csv_on_controlword_xxx_f).
         #[must_use]
         pub const fn with_csp_and_csv_on_controlword_xxx_f(self, value: bool) -> Self {
-            Self((self.0 & !0x2) | ((value as u16) << 1))
+            Self(rt::bits16::with_flag(self.0, 0x2, value))
         }
     }
     impl Default for Ds402Compatibility {
@@ -23632,15 +23127,12 @@ pub mod types {
     }
     impl core::fmt::Debug for Ds402Compatibility {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            let bits = rt::DebugBits::new(f, "Ds402Compatibility", self.0 as u64);
-            let bits = rt::DebugBits::plain(
-                bits,
-                &[
-                    ("current_off_on_controlword_xxx7", 0x1),
-                    ("csp_and_csv_on_controlword_xxx_f", 0x2),
-                ],
-            );
-            bits.finish()
+            rt::debug_bits(
+                f,
+                self.0 as u64,
+                "Ds402Compatibility current_off_on_controlword_xxx7:1 csp_and_csv_on_controlword_xxx_f:2",
+                &[],
+            )
         }
     }
     /// ModuloCommand.
@@ -23673,66 +23165,66 @@ pub mod types {
         }
         /// Bit 0: always forward. Every target is approached forward, over the rollover if necessary. Manual: QUOTA MODULO; Gestione funzionamento con quota in modulo (lines 2874, 2889): Modulo Avanti.
         pub const fn always_forward(self) -> bool {
-            self.0 & 0x1 != 0
+            rt::bits16::flag(self.0, 0x1)
         }
         /// The same with another [`always_forward`](Self::always_forward).
         #[must_use]
         pub const fn with_always_forward(self, value: bool) -> Self {
-            Self((self.0 & !0x1) | (value as u16))
+            Self(rt::bits16::with_flag(self.0, 0x1, value))
         }
         /// Bit 1: always backward. Every target is approached backward, over the rollover if necessary. Manual: QUOTA MODULO; Gestione funzionamento con quota in modulo (lines 2874, 2891): Modulo Indietro.
         pub const fn always_backward(self) -> bool {
-            self.0 & 0x2 != 0
+            rt::bits16::flag(self.0, 0x2)
         }
         /// The same with another [`always_backward`](Self::always_backward).
         #[must_use]
         pub const fn with_always_backward(self, value: bool) -> Self {
-            Self((self.0 & !0x2) | ((value as u16) << 1))
+            Self(rt::bits16::with_flag(self.0, 0x2, value))
         }
         /// Bit 2: shortest way. The drive selects the shorter direction before each movement. Manual: QUOTA MODULO; Gestione funzionamento con quota in modulo (lines 2874, 2893-2895): Modulo Minima distanza.
         pub const fn shortest_way(self) -> bool {
-            self.0 & 0x4 != 0
+            rt::bits16::flag(self.0, 0x4)
         }
         /// The same with another [`shortest_way`](Self::shortest_way).
         #[must_use]
         pub const fn with_shortest_way(self, value: bool) -> Self {
-            Self((self.0 & !0x4) | ((value as u16) << 2))
+            Self(rt::bits16::with_flag(self.0, 0x4, value))
         }
         /// Bit 3: encoder 1 wraps. Manual: QUOTA MODULO; Gestione funzionamento con quota in modulo (lines 2874, 2883): Modulo Encoder 1.
         pub const fn encoder_1_wraps(self) -> bool {
-            self.0 & 0x8 != 0
+            rt::bits16::flag(self.0, 0x8)
         }
         /// The same with another [`encoder_1_wraps`](Self::encoder_1_wraps).
         #[must_use]
         pub const fn with_encoder_1_wraps(self, value: bool) -> Self {
-            Self((self.0 & !0x8) | ((value as u16) << 3))
+            Self(rt::bits16::with_flag(self.0, 0x8, value))
         }
         /// Bit 4: encoder 2 wraps. Manual: QUOTA MODULO; Gestione funzionamento con quota in modulo (lines 2874, 2883): Modulo Encoder 2.
         pub const fn encoder_2_wraps(self) -> bool {
-            self.0 & 0x10 != 0
+            rt::bits16::flag(self.0, 0x10)
         }
         /// The same with another [`encoder_2_wraps`](Self::encoder_2_wraps).
         #[must_use]
         pub const fn with_encoder_2_wraps(self, value: bool) -> Self {
-            Self((self.0 & !0x10) | ((value as u16) << 4))
+            Self(rt::bits16::with_flag(self.0, 0x10, value))
         }
         /// Bit 5: encoder 3 wraps. Manual: QUOTA MODULO; Gestione funzionamento con quota in modulo (lines 2874, 2883): Modulo Encoder 3.
         pub const fn encoder_3_wraps(self) -> bool {
-            self.0 & 0x20 != 0
+            rt::bits16::flag(self.0, 0x20)
         }
         /// The same with another [`encoder_3_wraps`](Self::encoder_3_wraps).
         #[must_use]
         pub const fn with_encoder_3_wraps(self, value: bool) -> Self {
-            Self((self.0 & !0x20) | ((value as u16) << 5))
+            Self(rt::bits16::with_flag(self.0, 0x20, value))
         }
         /// Bit 6: absolute encoder wraps. Manual: QUOTA MODULO; Gestione funzionamento con quota in modulo (lines 2874, 2883): Modulo Encoder assoluto.
         pub const fn absolute_encoder_wraps(self) -> bool {
-            self.0 & 0x40 != 0
+            rt::bits16::flag(self.0, 0x40)
         }
         /// The same with another [`absolute_encoder_wraps`](Self::absolute_encoder_wraps).
         #[must_use]
         pub const fn with_absolute_encoder_wraps(self, value: bool) -> Self {
-            Self((self.0 & !0x40) | ((value as u16) << 6))
+            Self(rt::bits16::with_flag(self.0, 0x40, value))
         }
     }
     impl Default for ModuloCommand {
@@ -23751,20 +23243,12 @@ pub mod types {
     }
     impl core::fmt::Debug for ModuloCommand {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            let bits = rt::DebugBits::new(f, "ModuloCommand", self.0 as u64);
-            let bits = rt::DebugBits::plain(
-                bits,
-                &[
-                    ("always_forward", 0x1),
-                    ("always_backward", 0x2),
-                    ("shortest_way", 0x4),
-                    ("encoder_1_wraps", 0x8),
-                    ("encoder_2_wraps", 0x10),
-                    ("encoder_3_wraps", 0x20),
-                    ("absolute_encoder_wraps", 0x40),
-                ],
-            );
-            bits.finish()
+            rt::debug_bits(
+                f,
+                self.0 as u64,
+                "ModuloCommand always_forward:1 always_backward:2 shortest_way:4 encoder_1_wraps:8 encoder_2_wraps:10 encoder_3_wraps:20 absolute_encoder_wraps:40",
+                &[],
+            )
         }
     }
     /// LineUpCommand.
@@ -23795,48 +23279,48 @@ pub mod types {
         }
         /// Bit 0: positioner. The device clears it by itself. Rposactreq takes the value of Rlineuppos. Manual: RIALLINEAMENTO QUOTA; Gestione Riallineamento Quota (lines 2912, 2924): Quota posizionario.
         pub const fn positioner(self) -> bool {
-            self.0 & 0x1 != 0
+            rt::bits16::flag(self.0, 0x1)
         }
         /// The same with another [`positioner`](Self::positioner).
         #[must_use]
         pub const fn with_positioner(self, value: bool) -> Self {
-            Self((self.0 & !0x1) | (value as u16))
+            Self(rt::bits16::with_flag(self.0, 0x1, value))
         }
         /// Bit 1: encoder 1. The device clears it by itself. Rmotenc takes the value of Rlineupmotenc. Manual: RIALLINEAMENTO QUOTA; Gestione Riallineamento Quota (lines 2912, 2926): Quota encoder 1.
         pub const fn encoder_1(self) -> bool {
-            self.0 & 0x2 != 0
+            rt::bits16::flag(self.0, 0x2)
         }
         /// The same with another [`encoder_1`](Self::encoder_1).
         #[must_use]
         pub const fn with_encoder_1(self, value: bool) -> Self {
-            Self((self.0 & !0x2) | ((value as u16) << 1))
+            Self(rt::bits16::with_flag(self.0, 0x2, value))
         }
         /// Bit 2: encoder 2. The device clears it by itself. Rextenc takes the value of Rlineupextenc. Manual: RIALLINEAMENTO QUOTA; Gestione Riallineamento Quota (lines 2912, 2928): Quota encoder 2.
         pub const fn encoder_2(self) -> bool {
-            self.0 & 0x4 != 0
+            rt::bits16::flag(self.0, 0x4)
         }
         /// The same with another [`encoder_2`](Self::encoder_2).
         #[must_use]
         pub const fn with_encoder_2(self, value: bool) -> Self {
-            Self((self.0 & !0x4) | ((value as u16) << 2))
+            Self(rt::bits16::with_flag(self.0, 0x4, value))
         }
         /// Bit 3: encoder 3. The device clears it by itself. Manual: RIALLINEAMENTO QUOTA (line 2912): Quota encoder 3.
         pub const fn encoder_3(self) -> bool {
-            self.0 & 0x8 != 0
+            rt::bits16::flag(self.0, 0x8)
         }
         /// The same with another [`encoder_3`](Self::encoder_3).
         #[must_use]
         pub const fn with_encoder_3(self, value: bool) -> Self {
-            Self((self.0 & !0x8) | ((value as u16) << 3))
+            Self(rt::bits16::with_flag(self.0, 0x8, value))
         }
         /// Bit 4: absolute encoder. The device clears it by itself. Manual: RIALLINEAMENTO QUOTA (line 2912): Quota encoder assoluto.
         pub const fn absolute_encoder(self) -> bool {
-            self.0 & 0x10 != 0
+            rt::bits16::flag(self.0, 0x10)
         }
         /// The same with another [`absolute_encoder`](Self::absolute_encoder).
         #[must_use]
         pub const fn with_absolute_encoder(self, value: bool) -> Self {
-            Self((self.0 & !0x10) | ((value as u16) << 4))
+            Self(rt::bits16::with_flag(self.0, 0x10, value))
         }
     }
     impl Default for LineUpCommand {
@@ -23855,18 +23339,12 @@ pub mod types {
     }
     impl core::fmt::Debug for LineUpCommand {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            let bits = rt::DebugBits::new(f, "LineUpCommand", self.0 as u64);
-            let bits = rt::DebugBits::plain(
-                bits,
-                &[
-                    ("positioner", 0x1),
-                    ("encoder_1", 0x2),
-                    ("encoder_2", 0x4),
-                    ("encoder_3", 0x8),
-                    ("absolute_encoder", 0x10),
-                ],
-            );
-            bits.finish()
+            rt::debug_bits(
+                f,
+                self.0 as u64,
+                "LineUpCommand positioner:1 encoder_1:2 encoder_2:4 encoder_3:8 absolute_encoder:10",
+                &[],
+            )
         }
     }
     /// LineUpDefinition.
@@ -23895,30 +23373,30 @@ pub mod types {
         }
         /// Bit 0: axis position. Manual: Riallinea quota posizione asse.
         pub const fn axis_position(self) -> bool {
-            self.0 & 0x1 != 0
+            rt::bits16::flag(self.0, 0x1)
         }
         /// The same with another [`axis_position`](Self::axis_position).
         #[must_use]
         pub const fn with_axis_position(self, value: bool) -> Self {
-            Self((self.0 & !0x1) | (value as u16))
+            Self(rt::bits16::with_flag(self.0, 0x1, value))
         }
         /// Bit 1: motor encoder. Manual: Riallinea quota encoder motore.
         pub const fn motor_encoder(self) -> bool {
-            self.0 & 0x2 != 0
+            rt::bits16::flag(self.0, 0x2)
         }
         /// The same with another [`motor_encoder`](Self::motor_encoder).
         #[must_use]
         pub const fn with_motor_encoder(self, value: bool) -> Self {
-            Self((self.0 & !0x2) | ((value as u16) << 1))
+            Self(rt::bits16::with_flag(self.0, 0x2, value))
         }
         /// Bit 2: external encoder. Manual: Riallinea quota encoder esterno.
         pub const fn external_encoder(self) -> bool {
-            self.0 & 0x4 != 0
+            rt::bits16::flag(self.0, 0x4)
         }
         /// The same with another [`external_encoder`](Self::external_encoder).
         #[must_use]
         pub const fn with_external_encoder(self, value: bool) -> Self {
-            Self((self.0 & !0x4) | ((value as u16) << 2))
+            Self(rt::bits16::with_flag(self.0, 0x4, value))
         }
     }
     impl Default for LineUpDefinition {
@@ -23937,16 +23415,12 @@ pub mod types {
     }
     impl core::fmt::Debug for LineUpDefinition {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            let bits = rt::DebugBits::new(f, "LineUpDefinition", self.0 as u64);
-            let bits = rt::DebugBits::plain(
-                bits,
-                &[
-                    ("axis_position", 0x1),
-                    ("motor_encoder", 0x2),
-                    ("external_encoder", 0x4),
-                ],
-            );
-            bits.finish()
+            rt::debug_bits(
+                f,
+                self.0 as u64,
+                "LineUpDefinition axis_position:1 motor_encoder:2 external_encoder:4",
+                &[],
+            )
         }
     }
     /// TouchProbeControl.
@@ -23984,7 +23458,7 @@ pub mod types {
         }
         /// Bit 0: probe 1 enable. Manual: FUNZIONE TOUCH PROBE; Rtouchprobefunc (CanOpen/EtherCAT standard Object 60B8h) (lines 2951, 2963, 2999): Enable touch probe 1.
         pub const fn probe_1_enable(self) -> TouchProbeControlProbe1Enable {
-            TouchProbeControlProbe1Enable::from_raw((self.0 & 0x1) as u8)
+            TouchProbeControlProbe1Enable::from_raw(rt::bits16::field(self.0, 0x1) as u8)
         }
         /// The same with another [`probe_1_enable`](Self::probe_1_enable).
         #[must_use]
@@ -23992,11 +23466,13 @@ pub mod types {
             self,
             value: TouchProbeControlProbe1Enable,
         ) -> Self {
-            Self((self.0 & !0x1) | ((value.raw() as u16) & 0x1))
+            Self(rt::bits16::with_field(self.0, 0x1, value.raw() as u16))
         }
         /// Bit 1: probe 1 continuous. Manual: FUNZIONE TOUCH PROBE; Rtouchprobefunc (CanOpen/EtherCAT standard Object 60B8h) (lines 2951, 2963, 3001): Trigger first event / Continuous.
         pub const fn probe_1_continuous(self) -> TouchProbeControlProbe1Continuous {
-            TouchProbeControlProbe1Continuous::from_raw(((self.0 >> 1) & 0x1) as u8)
+            TouchProbeControlProbe1Continuous::from_raw(
+                rt::bits16::field(self.0, 0x2) as u8,
+            )
         }
         /// The same with another [`probe_1_continuous`](Self::probe_1_continuous).
         #[must_use]
@@ -24004,11 +23480,13 @@ pub mod types {
             self,
             value: TouchProbeControlProbe1Continuous,
         ) -> Self {
-            Self((self.0 & !0x2) | (((value.raw() as u16) << 1) & 0x2))
+            Self(rt::bits16::with_field(self.0, 0x2, value.raw() as u16))
         }
         /// Bits 3 to 2: probe 1 trigger. Locked once bit 4 is set. Manual: FUNZIONE TOUCH PROBE; Rtouchprobefunc (CanOpen/EtherCAT standard Object 60B8h) (lines 2951, 2963, 2996, 3003): Trigger with touch probe 1.
         pub const fn probe_1_trigger(self) -> TouchProbeControlProbe1Trigger {
-            TouchProbeControlProbe1Trigger::from_raw(((self.0 >> 2) & 0x3) as u8)
+            TouchProbeControlProbe1Trigger::from_raw(
+                rt::bits16::field(self.0, 0xC) as u8,
+            )
         }
         /// The same with another [`probe_1_trigger`](Self::probe_1_trigger).
         #[must_use]
@@ -24016,11 +23494,13 @@ pub mod types {
             self,
             value: TouchProbeControlProbe1Trigger,
         ) -> Self {
-            Self((self.0 & !0xC) | (((value.raw() as u16) << 2) & 0xC))
+            Self(rt::bits16::with_field(self.0, 0xC, value.raw() as u16))
         }
         /// Bit 4: probe 1 positive edge. Manual: FUNZIONE TOUCH PROBE; Rtouchprobefunc (CanOpen/EtherCAT standard Object 60B8h) (lines 2951, 2963, 3007): Enable sampling at positive edge of touch probe 1.
         pub const fn probe_1_positive_edge(self) -> TouchProbeControlProbe1PositiveEdge {
-            TouchProbeControlProbe1PositiveEdge::from_raw(((self.0 >> 4) & 0x1) as u8)
+            TouchProbeControlProbe1PositiveEdge::from_raw(
+                rt::bits16::field(self.0, 0x10) as u8,
+            )
         }
         /// The same with another [`probe_1_positive_edge`](Self::probe_1_positive_edge).
         #[must_use]
@@ -24028,11 +23508,13 @@ pub mod types {
             self,
             value: TouchProbeControlProbe1PositiveEdge,
         ) -> Self {
-            Self((self.0 & !0x10) | (((value.raw() as u16) << 4) & 0x10))
+            Self(rt::bits16::with_field(self.0, 0x10, value.raw() as u16))
         }
         /// Bit 5: probe 1 negative edge. Manual: FUNZIONE TOUCH PROBE; Rtouchprobefunc (CanOpen/EtherCAT standard Object 60B8h) (lines 2951, 2963, 3009): Enable sampling at negative edge of touch probe 1.
         pub const fn probe_1_negative_edge(self) -> TouchProbeControlProbe1NegativeEdge {
-            TouchProbeControlProbe1NegativeEdge::from_raw(((self.0 >> 5) & 0x1) as u8)
+            TouchProbeControlProbe1NegativeEdge::from_raw(
+                rt::bits16::field(self.0, 0x20) as u8,
+            )
         }
         /// The same with another [`probe_1_negative_edge`](Self::probe_1_negative_edge).
         #[must_use]
@@ -24040,11 +23522,13 @@ pub mod types {
             self,
             value: TouchProbeControlProbe1NegativeEdge,
         ) -> Self {
-            Self((self.0 & !0x20) | (((value.raw() as u16) << 5) & 0x20))
+            Self(rt::bits16::with_field(self.0, 0x20, value.raw() as u16))
         }
         /// Bits 7 to 6: probe 1 position. Manual: FUNZIONE TOUCH PROBE; Rtouchprobefunc (CanOpen/EtherCAT standard Object 60B8h) (lines 2951, 2963, 3011): Touch Rposact / Encoder / Absolute Encoder.
         pub const fn probe_1_position(self) -> TouchProbeControlProbe1Position {
-            TouchProbeControlProbe1Position::from_raw(((self.0 >> 6) & 0x3) as u8)
+            TouchProbeControlProbe1Position::from_raw(
+                rt::bits16::field(self.0, 0xC0) as u8,
+            )
         }
         /// The same with another [`probe_1_position`](Self::probe_1_position).
         #[must_use]
@@ -24052,11 +23536,13 @@ pub mod types {
             self,
             value: TouchProbeControlProbe1Position,
         ) -> Self {
-            Self((self.0 & !0xC0) | (((value.raw() as u16) << 6) & 0xC0))
+            Self(rt::bits16::with_field(self.0, 0xC0, value.raw() as u16))
         }
         /// Bit 8: probe 2 enable. Manual: FUNZIONE TOUCH PROBE; Rtouchprobefunc (CanOpen/EtherCAT standard Object 60B8h) (lines 2951, 2963, 3015): Enable touch probe 2.
         pub const fn probe_2_enable(self) -> TouchProbeControlProbe2Enable {
-            TouchProbeControlProbe2Enable::from_raw(((self.0 >> 8) & 0x1) as u8)
+            TouchProbeControlProbe2Enable::from_raw(
+                rt::bits16::field(self.0, 0x100) as u8,
+            )
         }
         /// The same with another [`probe_2_enable`](Self::probe_2_enable).
         #[must_use]
@@ -24064,11 +23550,13 @@ pub mod types {
             self,
             value: TouchProbeControlProbe2Enable,
         ) -> Self {
-            Self((self.0 & !0x100) | (((value.raw() as u16) << 8) & 0x100))
+            Self(rt::bits16::with_field(self.0, 0x100, value.raw() as u16))
         }
         /// Bit 9: probe 2 continuous. Manual: FUNZIONE TOUCH PROBE; Rtouchprobefunc (CanOpen/EtherCAT standard Object 60B8h) (lines 2951, 2963, 3017): Trigger first event / Continuous.
         pub const fn probe_2_continuous(self) -> TouchProbeControlProbe2Continuous {
-            TouchProbeControlProbe2Continuous::from_raw(((self.0 >> 9) & 0x1) as u8)
+            TouchProbeControlProbe2Continuous::from_raw(
+                rt::bits16::field(self.0, 0x200) as u8,
+            )
         }
         /// The same with another [`probe_2_continuous`](Self::probe_2_continuous).
         #[must_use]
@@ -24076,11 +23564,13 @@ pub mod types {
             self,
             value: TouchProbeControlProbe2Continuous,
         ) -> Self {
-            Self((self.0 & !0x200) | (((value.raw() as u16) << 9) & 0x200))
+            Self(rt::bits16::with_field(self.0, 0x200, value.raw() as u16))
         }
         /// Bits 11 to 10: probe 2 trigger. Locked once bit 12 is set. Manual: FUNZIONE TOUCH PROBE; Rtouchprobefunc (CanOpen/EtherCAT standard Object 60B8h) (lines 2951, 2963, 2996, 3019): Trigger with touch probe 2.
         pub const fn probe_2_trigger(self) -> TouchProbeControlProbe2Trigger {
-            TouchProbeControlProbe2Trigger::from_raw(((self.0 >> 10) & 0x3) as u8)
+            TouchProbeControlProbe2Trigger::from_raw(
+                rt::bits16::field(self.0, 0xC00) as u8,
+            )
         }
         /// The same with another [`probe_2_trigger`](Self::probe_2_trigger).
         #[must_use]
@@ -24088,11 +23578,13 @@ pub mod types {
             self,
             value: TouchProbeControlProbe2Trigger,
         ) -> Self {
-            Self((self.0 & !0xC00) | (((value.raw() as u16) << 10) & 0xC00))
+            Self(rt::bits16::with_field(self.0, 0xC00, value.raw() as u16))
         }
         /// Bit 12: probe 2 positive edge. Manual: FUNZIONE TOUCH PROBE; Rtouchprobefunc (CanOpen/EtherCAT standard Object 60B8h) (lines 2951, 2963, 3023): Enable sampling at positive edge of touch probe 2.
         pub const fn probe_2_positive_edge(self) -> TouchProbeControlProbe2PositiveEdge {
-            TouchProbeControlProbe2PositiveEdge::from_raw(((self.0 >> 12) & 0x1) as u8)
+            TouchProbeControlProbe2PositiveEdge::from_raw(
+                rt::bits16::field(self.0, 0x1000) as u8,
+            )
         }
         /// The same with another [`probe_2_positive_edge`](Self::probe_2_positive_edge).
         #[must_use]
@@ -24100,11 +23592,13 @@ pub mod types {
             self,
             value: TouchProbeControlProbe2PositiveEdge,
         ) -> Self {
-            Self((self.0 & !0x1000) | (((value.raw() as u16) << 12) & 0x1000))
+            Self(rt::bits16::with_field(self.0, 0x1000, value.raw() as u16))
         }
         /// Bit 13: probe 2 negative edge. Manual: FUNZIONE TOUCH PROBE; Rtouchprobefunc (CanOpen/EtherCAT standard Object 60B8h) (lines 2951, 2963, 3025): Enable sampling at negative edge of touch probe 2.
         pub const fn probe_2_negative_edge(self) -> TouchProbeControlProbe2NegativeEdge {
-            TouchProbeControlProbe2NegativeEdge::from_raw(((self.0 >> 13) & 0x1) as u8)
+            TouchProbeControlProbe2NegativeEdge::from_raw(
+                rt::bits16::field(self.0, 0x2000) as u8,
+            )
         }
         /// The same with another [`probe_2_negative_edge`](Self::probe_2_negative_edge).
         #[must_use]
@@ -24112,11 +23606,13 @@ pub mod types {
             self,
             value: TouchProbeControlProbe2NegativeEdge,
         ) -> Self {
-            Self((self.0 & !0x2000) | (((value.raw() as u16) << 13) & 0x2000))
+            Self(rt::bits16::with_field(self.0, 0x2000, value.raw() as u16))
         }
         /// Bits 15 to 14: probe 2 position. Manual: FUNZIONE TOUCH PROBE; Rtouchprobefunc (CanOpen/EtherCAT standard Object 60B8h) (lines 2951, 2963, 3027): Touch Rposact / Encoder / Absolute Encoder.
         pub const fn probe_2_position(self) -> TouchProbeControlProbe2Position {
-            TouchProbeControlProbe2Position::from_raw(((self.0 >> 14) & 0x3) as u8)
+            TouchProbeControlProbe2Position::from_raw(
+                rt::bits16::field(self.0, 0xC000) as u8,
+            )
         }
         /// The same with another [`probe_2_position`](Self::probe_2_position).
         #[must_use]
@@ -24124,7 +23620,7 @@ pub mod types {
             self,
             value: TouchProbeControlProbe2Position,
         ) -> Self {
-            Self((self.0 & !0xC000) | (((value.raw() as u16) << 14) & 0xC000))
+            Self(rt::bits16::with_field(self.0, 0xC000, value.raw() as u16))
         }
     }
     impl Default for TouchProbeControl {
@@ -24143,80 +23639,25 @@ pub mod types {
     }
     impl core::fmt::Debug for TouchProbeControl {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            let bits = rt::DebugBits::new(f, "TouchProbeControl", self.0 as u64);
-            let bits = rt::DebugBits::field(
-                bits,
-                "probe_1_enable",
-                0x1,
-                &self.probe_1_enable(),
-            );
-            let bits = rt::DebugBits::field(
-                bits,
-                "probe_1_continuous",
-                0x2,
-                &self.probe_1_continuous(),
-            );
-            let bits = rt::DebugBits::field(
-                bits,
-                "probe_1_trigger",
-                0xC,
-                &self.probe_1_trigger(),
-            );
-            let bits = rt::DebugBits::field(
-                bits,
-                "probe_1_positive_edge",
-                0x10,
-                &self.probe_1_positive_edge(),
-            );
-            let bits = rt::DebugBits::field(
-                bits,
-                "probe_1_negative_edge",
-                0x20,
-                &self.probe_1_negative_edge(),
-            );
-            let bits = rt::DebugBits::field(
-                bits,
-                "probe_1_position",
-                0xC0,
-                &self.probe_1_position(),
-            );
-            let bits = rt::DebugBits::field(
-                bits,
-                "probe_2_enable",
-                0x100,
-                &self.probe_2_enable(),
-            );
-            let bits = rt::DebugBits::field(
-                bits,
-                "probe_2_continuous",
-                0x200,
-                &self.probe_2_continuous(),
-            );
-            let bits = rt::DebugBits::field(
-                bits,
-                "probe_2_trigger",
-                0xC00,
-                &self.probe_2_trigger(),
-            );
-            let bits = rt::DebugBits::field(
-                bits,
-                "probe_2_positive_edge",
-                0x1000,
-                &self.probe_2_positive_edge(),
-            );
-            let bits = rt::DebugBits::field(
-                bits,
-                "probe_2_negative_edge",
-                0x2000,
-                &self.probe_2_negative_edge(),
-            );
-            let bits = rt::DebugBits::field(
-                bits,
-                "probe_2_position",
-                0xC000,
-                &self.probe_2_position(),
-            );
-            bits.finish()
+            rt::debug_bits(
+                f,
+                self.0 as u64,
+                "TouchProbeControl ?probe_1_enable:1 ?probe_1_continuous:2 ?probe_1_trigger:c ?probe_1_positive_edge:10 ?probe_1_negative_edge:20 ?probe_1_position:c0 ?probe_2_enable:100 ?probe_2_continuous:200 ?probe_2_trigger:c00 ?probe_2_positive_edge:1000 ?probe_2_negative_edge:2000 ?probe_2_position:c000",
+                &[
+                    &self.probe_1_enable(),
+                    &self.probe_1_continuous(),
+                    &self.probe_1_trigger(),
+                    &self.probe_1_positive_edge(),
+                    &self.probe_1_negative_edge(),
+                    &self.probe_1_position(),
+                    &self.probe_2_enable(),
+                    &self.probe_2_continuous(),
+                    &self.probe_2_trigger(),
+                    &self.probe_2_positive_edge(),
+                    &self.probe_2_negative_edge(),
+                    &self.probe_2_position(),
+                ],
+            )
         }
     }
     /// TouchProbeStatusBeforeV6.
@@ -24258,7 +23699,9 @@ pub mod types {
         }
         /// Bit 0: probe 1 enabled. Manual: Touch Probe 1 is enabled.
         pub const fn probe_1_enabled(self) -> TouchProbeStatusBeforeV6Probe1Enabled {
-            TouchProbeStatusBeforeV6Probe1Enabled::from_raw((self.0 & 0x1) as u8)
+            TouchProbeStatusBeforeV6Probe1Enabled::from_raw(
+                rt::bits16::field(self.0, 0x1) as u8,
+            )
         }
         /// The same with another [`probe_1_enabled`](Self::probe_1_enabled).
         #[must_use]
@@ -24266,14 +23709,14 @@ pub mod types {
             self,
             value: TouchProbeStatusBeforeV6Probe1Enabled,
         ) -> Self {
-            Self((self.0 & !0x1) | ((value.raw() as u16) & 0x1))
+            Self(rt::bits16::with_field(self.0, 0x1, value.raw() as u16))
         }
         /// Bit 1: probe 1 value stored. Manual: Touch Probe 1 value stored.
         pub const fn probe_1_value_stored(
             self,
         ) -> TouchProbeStatusBeforeV6Probe1ValueStored {
             TouchProbeStatusBeforeV6Probe1ValueStored::from_raw(
-                ((self.0 >> 1) & 0x1) as u8,
+                rt::bits16::field(self.0, 0x2) as u8,
             )
         }
         /// The same with another [`probe_1_value_stored`](Self::probe_1_value_stored).
@@ -24282,20 +23725,22 @@ pub mod types {
             self,
             value: TouchProbeStatusBeforeV6Probe1ValueStored,
         ) -> Self {
-            Self((self.0 & !0x2) | (((value.raw() as u16) << 1) & 0x2))
+            Self(rt::bits16::with_field(self.0, 0x2, value.raw() as u16))
         }
         /// Bit 7: probe 1 update. Each change of the bit counts. Changes with each value stored while the probe works continuously. Manual: FUNZIONE TOUCH PROBE; Rtouchprobestatus (CanOpen/EtherCAT standard Object 60B9h) (lines 2952, 3057): Shall toggle with every update of T.P.1.
         pub const fn probe_1_update(self) -> bool {
-            self.0 & 0x80 != 0
+            rt::bits16::flag(self.0, 0x80)
         }
         /// The same with another [`probe_1_update`](Self::probe_1_update).
         #[must_use]
         pub const fn with_probe_1_update(self, value: bool) -> Self {
-            Self((self.0 & !0x80) | ((value as u16) << 7))
+            Self(rt::bits16::with_flag(self.0, 0x80, value))
         }
         /// Bit 8: probe 2 enabled. Manual: Touch Probe 2 is enabled.
         pub const fn probe_2_enabled(self) -> TouchProbeStatusBeforeV6Probe2Enabled {
-            TouchProbeStatusBeforeV6Probe2Enabled::from_raw(((self.0 >> 8) & 0x1) as u8)
+            TouchProbeStatusBeforeV6Probe2Enabled::from_raw(
+                rt::bits16::field(self.0, 0x100) as u8,
+            )
         }
         /// The same with another [`probe_2_enabled`](Self::probe_2_enabled).
         #[must_use]
@@ -24303,14 +23748,14 @@ pub mod types {
             self,
             value: TouchProbeStatusBeforeV6Probe2Enabled,
         ) -> Self {
-            Self((self.0 & !0x100) | (((value.raw() as u16) << 8) & 0x100))
+            Self(rt::bits16::with_field(self.0, 0x100, value.raw() as u16))
         }
         /// Bit 9: probe 2 value stored. Manual: Touch Probe 2 value stored.
         pub const fn probe_2_value_stored(
             self,
         ) -> TouchProbeStatusBeforeV6Probe2ValueStored {
             TouchProbeStatusBeforeV6Probe2ValueStored::from_raw(
-                ((self.0 >> 9) & 0x1) as u8,
+                rt::bits16::field(self.0, 0x200) as u8,
             )
         }
         /// The same with another [`probe_2_value_stored`](Self::probe_2_value_stored).
@@ -24319,16 +23764,16 @@ pub mod types {
             self,
             value: TouchProbeStatusBeforeV6Probe2ValueStored,
         ) -> Self {
-            Self((self.0 & !0x200) | (((value.raw() as u16) << 9) & 0x200))
+            Self(rt::bits16::with_field(self.0, 0x200, value.raw() as u16))
         }
         /// Bit 15: probe 2 update. Each change of the bit counts. Changes with each value stored while the probe works continuously. Manual: FUNZIONE TOUCH PROBE; Rtouchprobestatus (CanOpen/EtherCAT standard Object 60B9h) (lines 2952, 3057): Shall toggle with every update of T.P.2.
         pub const fn probe_2_update(self) -> bool {
-            self.0 & 0x8000 != 0
+            rt::bits16::flag(self.0, 0x8000)
         }
         /// The same with another [`probe_2_update`](Self::probe_2_update).
         #[must_use]
         pub const fn with_probe_2_update(self, value: bool) -> Self {
-            Self((self.0 & !0x8000) | ((value as u16) << 15))
+            Self(rt::bits16::with_flag(self.0, 0x8000, value))
         }
     }
     impl Default for TouchProbeStatusBeforeV6 {
@@ -24347,34 +23792,17 @@ pub mod types {
     }
     impl core::fmt::Debug for TouchProbeStatusBeforeV6 {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            let bits = rt::DebugBits::new(f, "TouchProbeStatusBeforeV6", self.0 as u64);
-            let bits = rt::DebugBits::field(
-                bits,
-                "probe_1_enabled",
-                0x1,
-                &self.probe_1_enabled(),
-            );
-            let bits = rt::DebugBits::field(
-                bits,
-                "probe_1_value_stored",
-                0x2,
-                &self.probe_1_value_stored(),
-            );
-            let bits = rt::DebugBits::plain(bits, &[("probe_1_update", 0x80)]);
-            let bits = rt::DebugBits::field(
-                bits,
-                "probe_2_enabled",
-                0x100,
-                &self.probe_2_enabled(),
-            );
-            let bits = rt::DebugBits::field(
-                bits,
-                "probe_2_value_stored",
-                0x200,
-                &self.probe_2_value_stored(),
-            );
-            let bits = rt::DebugBits::plain(bits, &[("probe_2_update", 0x8000)]);
-            bits.finish()
+            rt::debug_bits(
+                f,
+                self.0 as u64,
+                "TouchProbeStatusBeforeV6 ?probe_1_enabled:1 ?probe_1_value_stored:2 probe_1_update:80 ?probe_2_enabled:100 ?probe_2_value_stored:200 probe_2_update:8000",
+                &[
+                    &self.probe_1_enabled(),
+                    &self.probe_1_value_stored(),
+                    &self.probe_2_enabled(),
+                    &self.probe_2_value_stored(),
+                ],
+            )
         }
     }
     /// TouchProbeStatusV6.
@@ -24418,7 +23846,9 @@ pub mod types {
         }
         /// Bit 0: probe 1 enabled. Manual: Touch Probe 1 is enabled.
         pub const fn probe_1_enabled(self) -> TouchProbeStatusV6Probe1Enabled {
-            TouchProbeStatusV6Probe1Enabled::from_raw((self.0 & 0x1) as u8)
+            TouchProbeStatusV6Probe1Enabled::from_raw(
+                rt::bits16::field(self.0, 0x1) as u8,
+            )
         }
         /// The same with another [`probe_1_enabled`](Self::probe_1_enabled).
         #[must_use]
@@ -24426,14 +23856,14 @@ pub mod types {
             self,
             value: TouchProbeStatusV6Probe1Enabled,
         ) -> Self {
-            Self((self.0 & !0x1) | ((value.raw() as u16) & 0x1))
+            Self(rt::bits16::with_field(self.0, 0x1, value.raw() as u16))
         }
         /// Bit 1: probe 1 positive edge stored. Manual: Touch Probe 1 positive edge position stored.
         pub const fn probe_1_positive_edge_stored(
             self,
         ) -> TouchProbeStatusV6Probe1PositiveEdgeStored {
             TouchProbeStatusV6Probe1PositiveEdgeStored::from_raw(
-                ((self.0 >> 1) & 0x1) as u8,
+                rt::bits16::field(self.0, 0x2) as u8,
             )
         }
         /// The same with another [`probe_1_positive_edge_stored`](Self::probe_1_positive_edge_stored).
@@ -24442,14 +23872,14 @@ pub mod types {
             self,
             value: TouchProbeStatusV6Probe1PositiveEdgeStored,
         ) -> Self {
-            Self((self.0 & !0x2) | (((value.raw() as u16) << 1) & 0x2))
+            Self(rt::bits16::with_field(self.0, 0x2, value.raw() as u16))
         }
         /// Bit 2: probe 1 negative edge stored. Manual: Touch Probe 1 negative edge position stored.
         pub const fn probe_1_negative_edge_stored(
             self,
         ) -> TouchProbeStatusV6Probe1NegativeEdgeStored {
             TouchProbeStatusV6Probe1NegativeEdgeStored::from_raw(
-                ((self.0 >> 2) & 0x1) as u8,
+                rt::bits16::field(self.0, 0x4) as u8,
             )
         }
         /// The same with another [`probe_1_negative_edge_stored`](Self::probe_1_negative_edge_stored).
@@ -24458,20 +23888,22 @@ pub mod types {
             self,
             value: TouchProbeStatusV6Probe1NegativeEdgeStored,
         ) -> Self {
-            Self((self.0 & !0x4) | (((value.raw() as u16) << 2) & 0x4))
+            Self(rt::bits16::with_field(self.0, 0x4, value.raw() as u16))
         }
         /// Bit 7: probe 1 update. Each change of the bit counts. Changes with each value stored while the probe works continuously. Manual: FUNZIONE TOUCH PROBE; Rtouchprobestatus (CanOpen/EtherCAT standard Object 60B9h) (lines 2964, 3057): Shall toggle with every update of T.P.1.
         pub const fn probe_1_update(self) -> bool {
-            self.0 & 0x80 != 0
+            rt::bits16::flag(self.0, 0x80)
         }
         /// The same with another [`probe_1_update`](Self::probe_1_update).
         #[must_use]
         pub const fn with_probe_1_update(self, value: bool) -> Self {
-            Self((self.0 & !0x80) | ((value as u16) << 7))
+            Self(rt::bits16::with_flag(self.0, 0x80, value))
         }
         /// Bit 8: probe 2 enabled. Manual: Touch Probe 2 is enabled.
         pub const fn probe_2_enabled(self) -> TouchProbeStatusV6Probe2Enabled {
-            TouchProbeStatusV6Probe2Enabled::from_raw(((self.0 >> 8) & 0x1) as u8)
+            TouchProbeStatusV6Probe2Enabled::from_raw(
+                rt::bits16::field(self.0, 0x100) as u8,
+            )
         }
         /// The same with another [`probe_2_enabled`](Self::probe_2_enabled).
         #[must_use]
@@ -24479,14 +23911,14 @@ pub mod types {
             self,
             value: TouchProbeStatusV6Probe2Enabled,
         ) -> Self {
-            Self((self.0 & !0x100) | (((value.raw() as u16) << 8) & 0x100))
+            Self(rt::bits16::with_field(self.0, 0x100, value.raw() as u16))
         }
         /// Bit 9: probe 2 positive edge stored. Manual: Touch Probe 2 positive edge position stored.
         pub const fn probe_2_positive_edge_stored(
             self,
         ) -> TouchProbeStatusV6Probe2PositiveEdgeStored {
             TouchProbeStatusV6Probe2PositiveEdgeStored::from_raw(
-                ((self.0 >> 9) & 0x1) as u8,
+                rt::bits16::field(self.0, 0x200) as u8,
             )
         }
         /// The same with another [`probe_2_positive_edge_stored`](Self::probe_2_positive_edge_stored).
@@ -24495,14 +23927,14 @@ pub mod types {
             self,
             value: TouchProbeStatusV6Probe2PositiveEdgeStored,
         ) -> Self {
-            Self((self.0 & !0x200) | (((value.raw() as u16) << 9) & 0x200))
+            Self(rt::bits16::with_field(self.0, 0x200, value.raw() as u16))
         }
         /// Bit 10: probe 2 negative edge stored. Manual: Touch Probe 1 negative edge position stored.
         pub const fn probe_2_negative_edge_stored(
             self,
         ) -> TouchProbeStatusV6Probe2NegativeEdgeStored {
             TouchProbeStatusV6Probe2NegativeEdgeStored::from_raw(
-                ((self.0 >> 10) & 0x1) as u8,
+                rt::bits16::field(self.0, 0x400) as u8,
             )
         }
         /// The same with another [`probe_2_negative_edge_stored`](Self::probe_2_negative_edge_stored).
@@ -24511,16 +23943,16 @@ pub mod types {
             self,
             value: TouchProbeStatusV6Probe2NegativeEdgeStored,
         ) -> Self {
-            Self((self.0 & !0x400) | (((value.raw() as u16) << 10) & 0x400))
+            Self(rt::bits16::with_field(self.0, 0x400, value.raw() as u16))
         }
         /// Bit 15: probe 2 update. Each change of the bit counts. Changes with each value stored while the probe works continuously. Manual: FUNZIONE TOUCH PROBE; Rtouchprobestatus (CanOpen/EtherCAT standard Object 60B9h) (lines 2964, 3057): Shall toggle with every update of T.P.2.
         pub const fn probe_2_update(self) -> bool {
-            self.0 & 0x8000 != 0
+            rt::bits16::flag(self.0, 0x8000)
         }
         /// The same with another [`probe_2_update`](Self::probe_2_update).
         #[must_use]
         pub const fn with_probe_2_update(self, value: bool) -> Self {
-            Self((self.0 & !0x8000) | ((value as u16) << 15))
+            Self(rt::bits16::with_flag(self.0, 0x8000, value))
         }
     }
     impl Default for TouchProbeStatusV6 {
@@ -24539,46 +23971,19 @@ pub mod types {
     }
     impl core::fmt::Debug for TouchProbeStatusV6 {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            let bits = rt::DebugBits::new(f, "TouchProbeStatusV6", self.0 as u64);
-            let bits = rt::DebugBits::field(
-                bits,
-                "probe_1_enabled",
-                0x1,
-                &self.probe_1_enabled(),
-            );
-            let bits = rt::DebugBits::field(
-                bits,
-                "probe_1_positive_edge_stored",
-                0x2,
-                &self.probe_1_positive_edge_stored(),
-            );
-            let bits = rt::DebugBits::field(
-                bits,
-                "probe_1_negative_edge_stored",
-                0x4,
-                &self.probe_1_negative_edge_stored(),
-            );
-            let bits = rt::DebugBits::plain(bits, &[("probe_1_update", 0x80)]);
-            let bits = rt::DebugBits::field(
-                bits,
-                "probe_2_enabled",
-                0x100,
-                &self.probe_2_enabled(),
-            );
-            let bits = rt::DebugBits::field(
-                bits,
-                "probe_2_positive_edge_stored",
-                0x200,
-                &self.probe_2_positive_edge_stored(),
-            );
-            let bits = rt::DebugBits::field(
-                bits,
-                "probe_2_negative_edge_stored",
-                0x400,
-                &self.probe_2_negative_edge_stored(),
-            );
-            let bits = rt::DebugBits::plain(bits, &[("probe_2_update", 0x8000)]);
-            bits.finish()
+            rt::debug_bits(
+                f,
+                self.0 as u64,
+                "TouchProbeStatusV6 ?probe_1_enabled:1 ?probe_1_positive_edge_stored:2 ?probe_1_negative_edge_stored:4 probe_1_update:80 ?probe_2_enabled:100 ?probe_2_positive_edge_stored:200 ?probe_2_negative_edge_stored:400 probe_2_update:8000",
+                &[
+                    &self.probe_1_enabled(),
+                    &self.probe_1_positive_edge_stored(),
+                    &self.probe_1_negative_edge_stored(),
+                    &self.probe_2_enabled(),
+                    &self.probe_2_positive_edge_stored(),
+                    &self.probe_2_negative_edge_stored(),
+                ],
+            )
         }
     }
     /// CamControl.
@@ -24620,21 +24025,21 @@ pub mod types {
         }
         /// Bit 0: reset. Manual: Reset camma.
         pub const fn reset(self) -> bool {
-            self.0 & 0x1 != 0
+            rt::bits16::flag(self.0, 0x1)
         }
         /// The same with another [`reset`](Self::reset).
         #[must_use]
         pub const fn with_reset(self, value: bool) -> Self {
-            Self((self.0 & !0x1) | (value as u16))
+            Self(rt::bits16::with_flag(self.0, 0x1, value))
         }
         /// Bit 1: single turn. The cam runs one turn and then stays at its maximum. Manual: Solo 1 giro della camma.
         pub const fn single_turn(self) -> bool {
-            self.0 & 0x2 != 0
+            rt::bits16::flag(self.0, 0x2)
         }
         /// The same with another [`single_turn`](Self::single_turn).
         #[must_use]
         pub const fn with_single_turn(self, value: bool) -> Self {
-            Self((self.0 & !0x2) | ((value as u16) << 1))
+            Self(rt::bits16::with_flag(self.0, 0x2, value))
         }
     }
     impl Default for CamControl {
@@ -24653,12 +24058,7 @@ pub mod types {
     }
     impl core::fmt::Debug for CamControl {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            let bits = rt::DebugBits::new(f, "CamControl", self.0 as u64);
-            let bits = rt::DebugBits::plain(
-                bits,
-                &[("reset", 0x1), ("single_turn", 0x2)],
-            );
-            bits.finish()
+            rt::debug_bits(f, self.0 as u64, "CamControl reset:1 single_turn:2", &[])
         }
     }
     /// CamStatus.
@@ -24700,48 +24100,48 @@ pub mod types {
         }
         /// Bit 0: reset done. Manual: Camma resettata.
         pub const fn reset_done(self) -> bool {
-            self.0 & 0x1 != 0
+            rt::bits16::flag(self.0, 0x1)
         }
         /// The same with another [`reset_done`](Self::reset_done).
         #[must_use]
         pub const fn with_reset_done(self, value: bool) -> Self {
-            Self((self.0 & !0x1) | (value as u16))
+            Self(rt::bits16::with_flag(self.0, 0x1, value))
         }
         /// Bit 1: moving. Manual: Camma in fase di movimento.
         pub const fn moving(self) -> bool {
-            self.0 & 0x2 != 0
+            rt::bits16::flag(self.0, 0x2)
         }
         /// The same with another [`moving`](Self::moving).
         #[must_use]
         pub const fn with_moving(self, value: bool) -> Self {
-            Self((self.0 & !0x2) | ((value as u16) << 1))
+            Self(rt::bits16::with_flag(self.0, 0x2, value))
         }
         /// Bit 2: accelerating. Manual: Camma in accelerazione.
         pub const fn accelerating(self) -> bool {
-            self.0 & 0x4 != 0
+            rt::bits16::flag(self.0, 0x4)
         }
         /// The same with another [`accelerating`](Self::accelerating).
         #[must_use]
         pub const fn with_accelerating(self, value: bool) -> Self {
-            Self((self.0 & !0x4) | ((value as u16) << 2))
+            Self(rt::bits16::with_flag(self.0, 0x4, value))
         }
         /// Bit 3: constant speed. Manual: Camma in velocita' costante.
         pub const fn constant_speed(self) -> bool {
-            self.0 & 0x8 != 0
+            rt::bits16::flag(self.0, 0x8)
         }
         /// The same with another [`constant_speed`](Self::constant_speed).
         #[must_use]
         pub const fn with_constant_speed(self, value: bool) -> Self {
-            Self((self.0 & !0x8) | ((value as u16) << 3))
+            Self(rt::bits16::with_flag(self.0, 0x8, value))
         }
         /// Bit 4: decelerating. Manual: Camma in decelerazione.
         pub const fn decelerating(self) -> bool {
-            self.0 & 0x10 != 0
+            rt::bits16::flag(self.0, 0x10)
         }
         /// The same with another [`decelerating`](Self::decelerating).
         #[must_use]
         pub const fn with_decelerating(self, value: bool) -> Self {
-            Self((self.0 & !0x10) | ((value as u16) << 4))
+            Self(rt::bits16::with_flag(self.0, 0x10, value))
         }
     }
     impl Default for CamStatus {
@@ -24760,18 +24160,12 @@ pub mod types {
     }
     impl core::fmt::Debug for CamStatus {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            let bits = rt::DebugBits::new(f, "CamStatus", self.0 as u64);
-            let bits = rt::DebugBits::plain(
-                bits,
-                &[
-                    ("reset_done", 0x1),
-                    ("moving", 0x2),
-                    ("accelerating", 0x4),
-                    ("constant_speed", 0x8),
-                    ("decelerating", 0x10),
-                ],
-            );
-            bits.finish()
+            rt::debug_bits(
+                f,
+                self.0 as u64,
+                "CamStatus reset_done:1 moving:2 accelerating:4 constant_speed:8 decelerating:10",
+                &[],
+            )
         }
     }
     /// CamStartStopControl.
@@ -24805,39 +24199,39 @@ pub mod types {
         }
         /// Bit 0: run. Manual: 0=Stop/1=Run.
         pub const fn run(self) -> CamStartStopControlRun {
-            CamStartStopControlRun::from_raw((self.0 & 0x1) as u8)
+            CamStartStopControlRun::from_raw(rt::bits16::field(self.0, 0x1) as u8)
         }
         /// The same with another [`run`](Self::run).
         #[must_use]
         pub const fn with_run(self, value: CamStartStopControlRun) -> Self {
-            Self((self.0 & !0x1) | ((value.raw() as u16) & 0x1))
+            Self(rt::bits16::with_field(self.0, 0x1, value.raw() as u16))
         }
         /// Bit 1: disable start delay. Manual: Disabilita ritardo start.
         pub const fn disable_start_delay(self) -> bool {
-            self.0 & 0x2 != 0
+            rt::bits16::flag(self.0, 0x2)
         }
         /// The same with another [`disable_start_delay`](Self::disable_start_delay).
         #[must_use]
         pub const fn with_disable_start_delay(self, value: bool) -> Self {
-            Self((self.0 & !0x2) | ((value as u16) << 1))
+            Self(rt::bits16::with_flag(self.0, 0x2, value))
         }
         /// Bit 2: disable stop delay. Manual: Disabilita ritardo stop.
         pub const fn disable_stop_delay(self) -> bool {
-            self.0 & 0x4 != 0
+            rt::bits16::flag(self.0, 0x4)
         }
         /// The same with another [`disable_stop_delay`](Self::disable_stop_delay).
         #[must_use]
         pub const fn with_disable_stop_delay(self, value: bool) -> Self {
-            Self((self.0 & !0x4) | ((value as u16) << 2))
+            Self(rt::bits16::with_flag(self.0, 0x4, value))
         }
         /// Bit 3: simulated encoder. Manual: Encoder simulato.
         pub const fn simulated_encoder(self) -> bool {
-            self.0 & 0x8 != 0
+            rt::bits16::flag(self.0, 0x8)
         }
         /// The same with another [`simulated_encoder`](Self::simulated_encoder).
         #[must_use]
         pub const fn with_simulated_encoder(self, value: bool) -> Self {
-            Self((self.0 & !0x8) | ((value as u16) << 3))
+            Self(rt::bits16::with_flag(self.0, 0x8, value))
         }
     }
     impl Default for CamStartStopControl {
@@ -24856,17 +24250,12 @@ pub mod types {
     }
     impl core::fmt::Debug for CamStartStopControl {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            let bits = rt::DebugBits::new(f, "CamStartStopControl", self.0 as u64);
-            let bits = rt::DebugBits::field(bits, "run", 0x1, &self.run());
-            let bits = rt::DebugBits::plain(
-                bits,
-                &[
-                    ("disable_start_delay", 0x2),
-                    ("disable_stop_delay", 0x4),
-                    ("simulated_encoder", 0x8),
-                ],
-            );
-            bits.finish()
+            rt::debug_bits(
+                f,
+                self.0 as u64,
+                "CamStartStopControl ?run:1 disable_start_delay:2 disable_stop_delay:4 simulated_encoder:8",
+                &[&self.run()],
+            )
         }
     }
     /// CamStartStopStatus.
@@ -24900,48 +24289,48 @@ pub mod types {
         }
         /// Bit 0: enabled. Manual: Camma abilitata.
         pub const fn enabled(self) -> bool {
-            self.0 & 0x1 != 0
+            rt::bits16::flag(self.0, 0x1)
         }
         /// The same with another [`enabled`](Self::enabled).
         #[must_use]
         pub const fn with_enabled(self, value: bool) -> Self {
-            Self((self.0 & !0x1) | (value as u16))
+            Self(rt::bits16::with_flag(self.0, 0x1, value))
         }
         /// Bit 1: running. Manual: Camma in run.
         pub const fn running(self) -> bool {
-            self.0 & 0x2 != 0
+            rt::bits16::flag(self.0, 0x2)
         }
         /// The same with another [`running`](Self::running).
         #[must_use]
         pub const fn with_running(self, value: bool) -> Self {
-            Self((self.0 & !0x2) | ((value as u16) << 1))
+            Self(rt::bits16::with_flag(self.0, 0x2, value))
         }
         /// Bit 2: accelerating. Manual: Camma in accelerazione.
         pub const fn accelerating(self) -> bool {
-            self.0 & 0x4 != 0
+            rt::bits16::flag(self.0, 0x4)
         }
         /// The same with another [`accelerating`](Self::accelerating).
         #[must_use]
         pub const fn with_accelerating(self, value: bool) -> Self {
-            Self((self.0 & !0x4) | ((value as u16) << 2))
+            Self(rt::bits16::with_flag(self.0, 0x4, value))
         }
         /// Bit 3: constant speed. Manual: Camma a velocità costante.
         pub const fn constant_speed(self) -> bool {
-            self.0 & 0x8 != 0
+            rt::bits16::flag(self.0, 0x8)
         }
         /// The same with another [`constant_speed`](Self::constant_speed).
         #[must_use]
         pub const fn with_constant_speed(self, value: bool) -> Self {
-            Self((self.0 & !0x8) | ((value as u16) << 3))
+            Self(rt::bits16::with_flag(self.0, 0x8, value))
         }
         /// Bit 4: decelerating. Manual: Camma in decelerazione.
         pub const fn decelerating(self) -> bool {
-            self.0 & 0x10 != 0
+            rt::bits16::flag(self.0, 0x10)
         }
         /// The same with another [`decelerating`](Self::decelerating).
         #[must_use]
         pub const fn with_decelerating(self, value: bool) -> Self {
-            Self((self.0 & !0x10) | ((value as u16) << 4))
+            Self(rt::bits16::with_flag(self.0, 0x10, value))
         }
     }
     impl Default for CamStartStopStatus {
@@ -24960,18 +24349,12 @@ pub mod types {
     }
     impl core::fmt::Debug for CamStartStopStatus {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            let bits = rt::DebugBits::new(f, "CamStartStopStatus", self.0 as u64);
-            let bits = rt::DebugBits::plain(
-                bits,
-                &[
-                    ("enabled", 0x1),
-                    ("running", 0x2),
-                    ("accelerating", 0x4),
-                    ("constant_speed", 0x8),
-                    ("decelerating", 0x10),
-                ],
-            );
-            bits.finish()
+            rt::debug_bits(
+                f,
+                self.0 as u64,
+                "CamStartStopStatus enabled:1 running:2 accelerating:4 constant_speed:8 decelerating:10",
+                &[],
+            )
         }
     }
     /// WindingControl.
@@ -25003,57 +24386,57 @@ pub mod types {
         }
         /// Bit 0: enable winding cam. Manual: Abilita camma winding.
         pub const fn enable_winding_cam(self) -> bool {
-            self.0 & 0x1 != 0
+            rt::bits16::flag(self.0, 0x1)
         }
         /// The same with another [`enable_winding_cam`](Self::enable_winding_cam).
         #[must_use]
         pub const fn with_enable_winding_cam(self, value: bool) -> Self {
-            Self((self.0 & !0x1) | (value as u16))
+            Self(rt::bits16::with_flag(self.0, 0x1, value))
         }
         /// Bit 1: enable stop sequence. Manual: Abilita sequenza di stop.
         pub const fn enable_stop_sequence(self) -> bool {
-            self.0 & 0x2 != 0
+            rt::bits16::flag(self.0, 0x2)
         }
         /// The same with another [`enable_stop_sequence`](Self::enable_stop_sequence).
         #[must_use]
         pub const fn with_enable_stop_sequence(self, value: bool) -> Self {
-            Self((self.0 & !0x2) | ((value as u16) << 1))
+            Self(rt::bits16::with_flag(self.0, 0x2, value))
         }
         /// Bit 2: enable tying sequence. Manual: Abilita sequenza legatura.
         pub const fn enable_tying_sequence(self) -> bool {
-            self.0 & 0x4 != 0
+            rt::bits16::flag(self.0, 0x4)
         }
         /// The same with another [`enable_tying_sequence`](Self::enable_tying_sequence).
         #[must_use]
         pub const fn with_enable_tying_sequence(self, value: bool) -> Self {
-            Self((self.0 & !0x4) | ((value as u16) << 2))
+            Self(rt::bits16::with_flag(self.0, 0x4, value))
         }
         /// Bit 3: disable encoder reading. Manual: Disabilita lettura encoder.
         pub const fn disable_encoder_reading(self) -> bool {
-            self.0 & 0x8 != 0
+            rt::bits16::flag(self.0, 0x8)
         }
         /// The same with another [`disable_encoder_reading`](Self::disable_encoder_reading).
         #[must_use]
         pub const fn with_disable_encoder_reading(self, value: bool) -> Self {
-            Self((self.0 & !0x8) | ((value as u16) << 3))
+            Self(rt::bits16::with_flag(self.0, 0x8, value))
         }
         /// Bit 4: reset error. Manual: Reset errore camma winding.
         pub const fn reset_error(self) -> bool {
-            self.0 & 0x10 != 0
+            rt::bits16::flag(self.0, 0x10)
         }
         /// The same with another [`reset_error`](Self::reset_error).
         #[must_use]
         pub const fn with_reset_error(self, value: bool) -> Self {
-            Self((self.0 & !0x10) | ((value as u16) << 4))
+            Self(rt::bits16::with_flag(self.0, 0x10, value))
         }
         /// Bit 5: start direction. Start direction of laying; the manual does not assign the values. Manual: Direzione di avvio del deposito.
         pub const fn start_direction(self) -> bool {
-            self.0 & 0x20 != 0
+            rt::bits16::flag(self.0, 0x20)
         }
         /// The same with another [`start_direction`](Self::start_direction).
         #[must_use]
         pub const fn with_start_direction(self, value: bool) -> Self {
-            Self((self.0 & !0x20) | ((value as u16) << 5))
+            Self(rt::bits16::with_flag(self.0, 0x20, value))
         }
     }
     impl Default for WindingControl {
@@ -25072,19 +24455,12 @@ pub mod types {
     }
     impl core::fmt::Debug for WindingControl {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            let bits = rt::DebugBits::new(f, "WindingControl", self.0 as u64);
-            let bits = rt::DebugBits::plain(
-                bits,
-                &[
-                    ("enable_winding_cam", 0x1),
-                    ("enable_stop_sequence", 0x2),
-                    ("enable_tying_sequence", 0x4),
-                    ("disable_encoder_reading", 0x8),
-                    ("reset_error", 0x10),
-                    ("start_direction", 0x20),
-                ],
-            );
-            bits.finish()
+            rt::debug_bits(
+                f,
+                self.0 as u64,
+                "WindingControl enable_winding_cam:1 enable_stop_sequence:2 enable_tying_sequence:4 disable_encoder_reading:8 reset_error:10 start_direction:20",
+                &[],
+            )
         }
     }
     /// WindingStatus.
@@ -25126,102 +24502,102 @@ pub mod types {
         }
         /// Bit 0: winding cam enabled. Manual: Camma winding abilitata.
         pub const fn winding_cam_enabled(self) -> bool {
-            self.0 & 0x1 != 0
+            rt::bits16::flag(self.0, 0x1)
         }
         /// The same with another [`winding_cam_enabled`](Self::winding_cam_enabled).
         #[must_use]
         pub const fn with_winding_cam_enabled(self, value: bool) -> Self {
-            Self((self.0 & !0x1) | (value as u16))
+            Self(rt::bits16::with_flag(self.0, 0x1, value))
         }
         /// Bit 1: stop sequence requested. Manual: Richiesta sequenza di stop abilitata.
         pub const fn stop_sequence_requested(self) -> bool {
-            self.0 & 0x2 != 0
+            rt::bits16::flag(self.0, 0x2)
         }
         /// The same with another [`stop_sequence_requested`](Self::stop_sequence_requested).
         #[must_use]
         pub const fn with_stop_sequence_requested(self, value: bool) -> Self {
-            Self((self.0 & !0x2) | ((value as u16) << 1))
+            Self(rt::bits16::with_flag(self.0, 0x2, value))
         }
         /// Bit 2: tying sequence requested. Manual: Richiesta sequenza di legatura abilitata.
         pub const fn tying_sequence_requested(self) -> bool {
-            self.0 & 0x4 != 0
+            rt::bits16::flag(self.0, 0x4)
         }
         /// The same with another [`tying_sequence_requested`](Self::tying_sequence_requested).
         #[must_use]
         pub const fn with_tying_sequence_requested(self, value: bool) -> Self {
-            Self((self.0 & !0x4) | ((value as u16) << 2))
+            Self(rt::bits16::with_flag(self.0, 0x4, value))
         }
         /// Bit 3: encoder disabled. Manual: Encoder disabilitato.
         pub const fn encoder_disabled(self) -> bool {
-            self.0 & 0x8 != 0
+            rt::bits16::flag(self.0, 0x8)
         }
         /// The same with another [`encoder_disabled`](Self::encoder_disabled).
         #[must_use]
         pub const fn with_encoder_disabled(self, value: bool) -> Self {
-            Self((self.0 & !0x8) | ((value as u16) << 3))
+            Self(rt::bits16::with_flag(self.0, 0x8, value))
         }
         /// Bit 4: motor direction. Direction of the stepper motor in the cam; used to count the passes. Manual: Flag direzione motore pp camma.
         pub const fn motor_direction(self) -> bool {
-            self.0 & 0x10 != 0
+            rt::bits16::flag(self.0, 0x10)
         }
         /// The same with another [`motor_direction`](Self::motor_direction).
         #[must_use]
         pub const fn with_motor_direction(self, value: bool) -> Self {
-            Self((self.0 & !0x10) | ((value as u16) << 4))
+            Self(rt::bits16::with_flag(self.0, 0x10, value))
         }
         /// Bit 5: sequence finished. Manual: Fine sequenza camma.
         pub const fn sequence_finished(self) -> bool {
-            self.0 & 0x20 != 0
+            rt::bits16::flag(self.0, 0x20)
         }
         /// The same with another [`sequence_finished`](Self::sequence_finished).
         #[must_use]
         pub const fn with_sequence_finished(self, value: bool) -> Self {
-            Self((self.0 & !0x20) | ((value as u16) << 5))
+            Self(rt::bits16::with_flag(self.0, 0x20, value))
         }
         /// Bit 6: error. Manual: Errore in camma.
         pub const fn error(self) -> bool {
-            self.0 & 0x40 != 0
+            rt::bits16::flag(self.0, 0x40)
         }
         /// The same with another [`error`](Self::error).
         #[must_use]
         pub const fn with_error(self, value: bool) -> Self {
-            Self((self.0 & !0x40) | ((value as u16) << 6))
+            Self(rt::bits16::with_flag(self.0, 0x40, value))
         }
         /// Bit 7: tying sequence done. Manual: Sequenza di legatura eseguita.
         pub const fn tying_sequence_done(self) -> bool {
-            self.0 & 0x80 != 0
+            rt::bits16::flag(self.0, 0x80)
         }
         /// The same with another [`tying_sequence_done`](Self::tying_sequence_done).
         #[must_use]
         pub const fn with_tying_sequence_done(self, value: bool) -> Self {
-            Self((self.0 & !0x80) | ((value as u16) << 7))
+            Self(rt::bits16::with_flag(self.0, 0x80, value))
         }
         /// Bit 13: accelerating. Manual: Camma in accelerazione.
         pub const fn accelerating(self) -> bool {
-            self.0 & 0x2000 != 0
+            rt::bits16::flag(self.0, 0x2000)
         }
         /// The same with another [`accelerating`](Self::accelerating).
         #[must_use]
         pub const fn with_accelerating(self, value: bool) -> Self {
-            Self((self.0 & !0x2000) | ((value as u16) << 13))
+            Self(rt::bits16::with_flag(self.0, 0x2000, value))
         }
         /// Bit 14: constant speed. Manual: Camma in velocita' costante.
         pub const fn constant_speed(self) -> bool {
-            self.0 & 0x4000 != 0
+            rt::bits16::flag(self.0, 0x4000)
         }
         /// The same with another [`constant_speed`](Self::constant_speed).
         #[must_use]
         pub const fn with_constant_speed(self, value: bool) -> Self {
-            Self((self.0 & !0x4000) | ((value as u16) << 14))
+            Self(rt::bits16::with_flag(self.0, 0x4000, value))
         }
         /// Bit 15: decelerating. Manual: Camma in decelerazione.
         pub const fn decelerating(self) -> bool {
-            self.0 & 0x8000 != 0
+            rt::bits16::flag(self.0, 0x8000)
         }
         /// The same with another [`decelerating`](Self::decelerating).
         #[must_use]
         pub const fn with_decelerating(self, value: bool) -> Self {
-            Self((self.0 & !0x8000) | ((value as u16) << 15))
+            Self(rt::bits16::with_flag(self.0, 0x8000, value))
         }
     }
     impl Default for WindingStatus {
@@ -25240,24 +24616,12 @@ pub mod types {
     }
     impl core::fmt::Debug for WindingStatus {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            let bits = rt::DebugBits::new(f, "WindingStatus", self.0 as u64);
-            let bits = rt::DebugBits::plain(
-                bits,
-                &[
-                    ("winding_cam_enabled", 0x1),
-                    ("stop_sequence_requested", 0x2),
-                    ("tying_sequence_requested", 0x4),
-                    ("encoder_disabled", 0x8),
-                    ("motor_direction", 0x10),
-                    ("sequence_finished", 0x20),
-                    ("error", 0x40),
-                    ("tying_sequence_done", 0x80),
-                    ("accelerating", 0x2000),
-                    ("constant_speed", 0x4000),
-                    ("decelerating", 0x8000),
-                ],
-            );
-            bits.finish()
+            rt::debug_bits(
+                f,
+                self.0 as u64,
+                "WindingStatus winding_cam_enabled:1 stop_sequence_requested:2 tying_sequence_requested:4 encoder_disabled:8 motor_direction:10 sequence_finished:20 error:40 tying_sequence_done:80 accelerating:2000 constant_speed:4000 decelerating:8000",
+                &[],
+            )
         }
     }
     /// UserPidControl.
@@ -25289,21 +24653,21 @@ pub mod types {
         }
         /// Bit 0: run. Manual: 0=Stop PID / 1=Start PID.
         pub const fn run(self) -> UserPidControlRun {
-            UserPidControlRun::from_raw((self.0 & 0x1) as u8)
+            UserPidControlRun::from_raw(rt::bits16::field(self.0, 0x1) as u8)
         }
         /// The same with another [`run`](Self::run).
         #[must_use]
         pub const fn with_run(self, value: UserPidControlRun) -> Self {
-            Self((self.0 & !0x1) | ((value.raw() as u16) & 0x1))
+            Self(rt::bits16::with_field(self.0, 0x1, value.raw() as u16))
         }
         /// Bit 1: reset. Manual: Reset PID.
         pub const fn reset(self) -> bool {
-            self.0 & 0x2 != 0
+            rt::bits16::flag(self.0, 0x2)
         }
         /// The same with another [`reset`](Self::reset).
         #[must_use]
         pub const fn with_reset(self, value: bool) -> Self {
-            Self((self.0 & !0x2) | ((value as u16) << 1))
+            Self(rt::bits16::with_flag(self.0, 0x2, value))
         }
     }
     impl Default for UserPidControl {
@@ -25322,10 +24686,12 @@ pub mod types {
     }
     impl core::fmt::Debug for UserPidControl {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            let bits = rt::DebugBits::new(f, "UserPidControl", self.0 as u64);
-            let bits = rt::DebugBits::field(bits, "run", 0x1, &self.run());
-            let bits = rt::DebugBits::plain(bits, &[("reset", 0x2)]);
-            bits.finish()
+            rt::debug_bits(
+                f,
+                self.0 as u64,
+                "UserPidControl ?run:1 reset:2",
+                &[&self.run()],
+            )
         }
     }
     /// ProgramStatus.
@@ -25360,21 +24726,21 @@ pub mod types {
         }
         /// Bit 0: running. Manual: RUN (Programma in RUN se 1).
         pub const fn running(self) -> bool {
-            self.0 & 0x1 != 0
+            rt::bits16::flag(self.0, 0x1)
         }
         /// The same with another [`running`](Self::running).
         #[must_use]
         pub const fn with_running(self, value: bool) -> Self {
-            Self((self.0 & !0x1) | (value as u16))
+            Self(rt::bits16::with_flag(self.0, 0x1, value))
         }
         /// Bit 1: valid. Manual: PRG\_OK (Prog. non valido se 0).
         pub const fn valid(self) -> ProgramStatusValid {
-            ProgramStatusValid::from_raw(((self.0 >> 1) & 0x1) as u8)
+            ProgramStatusValid::from_raw(rt::bits16::field(self.0, 0x2) as u8)
         }
         /// The same with another [`valid`](Self::valid).
         #[must_use]
         pub const fn with_valid(self, value: ProgramStatusValid) -> Self {
-            Self((self.0 & !0x2) | (((value.raw() as u16) << 1) & 0x2))
+            Self(rt::bits16::with_field(self.0, 0x2, value.raw() as u16))
         }
     }
     impl Default for ProgramStatus {
@@ -25393,10 +24759,12 @@ pub mod types {
     }
     impl core::fmt::Debug for ProgramStatus {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            let bits = rt::DebugBits::new(f, "ProgramStatus", self.0 as u64);
-            let bits = rt::DebugBits::plain(bits, &[("running", 0x1)]);
-            let bits = rt::DebugBits::field(bits, "valid", 0x2, &self.valid());
-            bits.finish()
+            rt::debug_bits(
+                f,
+                self.0 as u64,
+                "ProgramStatus running:1 ?valid:2",
+                &[&self.valid()],
+            )
         }
     }
     /// ProgramConditionCodes.
@@ -25427,48 +24795,48 @@ pub mod types {
         }
         /// Bit 0: carry. Manual: Carry.
         pub const fn carry(self) -> bool {
-            self.0 & 0x1 != 0
+            rt::bits16::flag(self.0, 0x1)
         }
         /// The same with another [`carry`](Self::carry).
         #[must_use]
         pub const fn with_carry(self, value: bool) -> Self {
-            Self((self.0 & !0x1) | (value as u16))
+            Self(rt::bits16::with_flag(self.0, 0x1, value))
         }
         /// Bit 1: overflow. Manual: Overflow.
         pub const fn overflow(self) -> bool {
-            self.0 & 0x2 != 0
+            rt::bits16::flag(self.0, 0x2)
         }
         /// The same with another [`overflow`](Self::overflow).
         #[must_use]
         pub const fn with_overflow(self, value: bool) -> Self {
-            Self((self.0 & !0x2) | ((value as u16) << 1))
+            Self(rt::bits16::with_flag(self.0, 0x2, value))
         }
         /// Bit 2: zero. Manual: Zero.
         pub const fn zero(self) -> bool {
-            self.0 & 0x4 != 0
+            rt::bits16::flag(self.0, 0x4)
         }
         /// The same with another [`zero`](Self::zero).
         #[must_use]
         pub const fn with_zero(self, value: bool) -> Self {
-            Self((self.0 & !0x4) | ((value as u16) << 2))
+            Self(rt::bits16::with_flag(self.0, 0x4, value))
         }
         /// Bit 3: negative. Manual: Negativo.
         pub const fn negative(self) -> bool {
-            self.0 & 0x8 != 0
+            rt::bits16::flag(self.0, 0x8)
         }
         /// The same with another [`negative`](Self::negative).
         #[must_use]
         pub const fn with_negative(self, value: bool) -> Self {
-            Self((self.0 & !0x8) | ((value as u16) << 3))
+            Self(rt::bits16::with_flag(self.0, 0x8, value))
         }
         /// Bit 4: interrupts masked. 1 masks the instructions ONH and ONL. Manual: Interrupt.
         pub const fn interrupts_masked(self) -> bool {
-            self.0 & 0x10 != 0
+            rt::bits16::flag(self.0, 0x10)
         }
         /// The same with another [`interrupts_masked`](Self::interrupts_masked).
         #[must_use]
         pub const fn with_interrupts_masked(self, value: bool) -> Self {
-            Self((self.0 & !0x10) | ((value as u16) << 4))
+            Self(rt::bits16::with_flag(self.0, 0x10, value))
         }
     }
     impl Default for ProgramConditionCodes {
@@ -25487,18 +24855,12 @@ pub mod types {
     }
     impl core::fmt::Debug for ProgramConditionCodes {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            let bits = rt::DebugBits::new(f, "ProgramConditionCodes", self.0 as u64);
-            let bits = rt::DebugBits::plain(
-                bits,
-                &[
-                    ("carry", 0x1),
-                    ("overflow", 0x2),
-                    ("zero", 0x4),
-                    ("negative", 0x8),
-                    ("interrupts_masked", 0x10),
-                ],
-            );
-            bits.finish()
+            rt::debug_bits(
+                f,
+                self.0 as u64,
+                "ProgramConditionCodes carry:1 overflow:2 zero:4 negative:8 interrupts_masked:10",
+                &[],
+            )
         }
     }
     /// ErrorFieldEntry.
@@ -25528,21 +24890,21 @@ pub mod types {
         }
         /// Bits 15 to 0: error code.
         pub const fn error_code(self) -> u16 {
-            (self.0 & 0xFFFF) as u16
+            rt::bits32::field(self.0, 0xFFFF) as u16
         }
         /// The same with another [`error_code`](Self::error_code).
         #[must_use]
         pub const fn with_error_code(self, value: u16) -> Self {
-            Self((self.0 & !0xFFFF) | (value as u32))
+            Self(rt::bits32::with_field(self.0, 0xFFFF, value as u32))
         }
         /// Bits 31 to 16: additional information.
         pub const fn additional_information(self) -> u16 {
-            ((self.0 >> 16) & 0xFFFF) as u16
+            rt::bits32::field(self.0, 0xFFFF0000) as u16
         }
         /// The same with another [`additional_information`](Self::additional_information).
         #[must_use]
         pub const fn with_additional_information(self, value: u16) -> Self {
-            Self((self.0 & !0xFFFF0000) | ((value as u32) << 16))
+            Self(rt::bits32::with_field(self.0, 0xFFFF0000, value as u32))
         }
     }
     impl Default for ErrorFieldEntry {
@@ -25561,12 +24923,12 @@ pub mod types {
     }
     impl core::fmt::Debug for ErrorFieldEntry {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            let bits = rt::DebugBits::new(f, "ErrorFieldEntry", self.0 as u64);
-            let bits = rt::DebugBits::plain(
-                bits,
-                &[("error_code", 0xFFFF), ("additional_information", 0xFFFF0000)],
-            );
-            bits.finish()
+            rt::debug_bits(
+                f,
+                self.0 as u64,
+                "ErrorFieldEntry error_code:ffff additional_information:ffff0000",
+                &[],
+            )
         }
     }
     /// SdoIdentifier.
@@ -25598,39 +24960,39 @@ pub mod types {
         }
         /// Bits 28 to 0: identifier.
         pub const fn identifier(self) -> u32 {
-            self.0 & 0x1FFFFFFF
+            rt::bits32::field(self.0, 0x1FFFFFFF)
         }
         /// The same with another [`identifier`](Self::identifier).
         #[must_use]
         pub const fn with_identifier(self, value: u32) -> Self {
-            Self((self.0 & !0x1FFFFFFF) | (value & 0x1FFFFFFF))
+            Self(rt::bits32::with_field(self.0, 0x1FFFFFFF, value))
         }
         /// Bit 29: extended. 1: 29-bit CAN-ID; 0: 11-bit CAN-ID.
         pub const fn extended(self) -> bool {
-            self.0 & 0x20000000 != 0
+            rt::bits32::flag(self.0, 0x20000000)
         }
         /// The same with another [`extended`](Self::extended).
         #[must_use]
         pub const fn with_extended(self, value: bool) -> Self {
-            Self((self.0 & !0x20000000) | ((value as u32) << 29))
+            Self(rt::bits32::with_flag(self.0, 0x20000000, value))
         }
         /// Bit 30: dynamic. Assigned at run time.
         pub const fn dynamic(self) -> bool {
-            self.0 & 0x40000000 != 0
+            rt::bits32::flag(self.0, 0x40000000)
         }
         /// The same with another [`dynamic`](Self::dynamic).
         #[must_use]
         pub const fn with_dynamic(self, value: bool) -> Self {
-            Self((self.0 & !0x40000000) | ((value as u32) << 30))
+            Self(rt::bits32::with_flag(self.0, 0x40000000, value))
         }
         /// Bit 31: valid. Holds while the bit is 0. 0 if it is in use.
         pub const fn valid(self) -> bool {
-            self.0 & 0x80000000 == 0
+            !rt::bits32::flag(self.0, 0x80000000)
         }
         /// The same with another [`valid`](Self::valid).
         #[must_use]
         pub const fn with_valid(self, value: bool) -> Self {
-            Self((self.0 & !0x80000000) | ((!value as u32) << 31))
+            Self(rt::bits32::with_flag(self.0, 0x80000000, !value))
         }
     }
     impl Default for SdoIdentifier {
@@ -25649,17 +25011,12 @@ pub mod types {
     }
     impl core::fmt::Debug for SdoIdentifier {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            let bits = rt::DebugBits::new(f, "SdoIdentifier", self.0 as u64);
-            let bits = rt::DebugBits::plain(
-                bits,
-                &[
-                    ("identifier", 0x1FFFFFFF),
-                    ("extended", 0x20000000),
-                    ("dynamic", 0x40000000),
-                ],
-            );
-            let bits = rt::DebugBits::inverted(bits, "valid", 0x80000000);
-            bits.finish()
+            rt::debug_bits(
+                f,
+                self.0 as u64,
+                "SdoIdentifier identifier:1fffffff extended:20000000 dynamic:40000000 !valid:80000000",
+                &[],
+            )
         }
     }
     /// States of drive, as [Statusword](super::objects::STATUSWORD) tells them.
