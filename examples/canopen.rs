@@ -1,9 +1,9 @@
-//! A drive on CANopen, from power-on to a move: with SDO transfers first, and then with PDOs.
+//! A CANopen drive from power-on to a movement, first with SDO transfers, then with PDOs.
 //!
 //!     cargo run --example canopen --features std,canopen
 //!
-//! The node is simulated, frame by frame. With a real one, `simulated_node` becomes a CAN interface, and the rest
-//! stays: `socketcan::CanSocket::open("can0")?`, for instance.
+//! The node is simulated at the level of CAN frames. For a real node, replace `simulated_node` by a CAN interface,
+//! such as `socketcan::CanSocket::open("can0")?`.
 
 use std::error::Error;
 use std::time::Duration;
@@ -14,9 +14,9 @@ use lexibus::{AbortCode, NodeId, Step};
 use lexibus_drives::demo_drive::types::{Command, Controlword, ModesOfOperation, State, Statusword};
 use lexibus_drives::demo_drive::{objects, pdo, DemoDrive, ENTRIES};
 
-/// How long anything may take.
+/// Timeout of a response.
 const PATIENCE: Duration = Duration::from_millis(500);
-/// So many steps, or cycles, are waited for.
+/// Maximum number of steps or cycles.
 const MOST_STEPS: u32 = 100;
 
 type Drive = DemoDrive<Node<CanNode>>;
@@ -33,29 +33,29 @@ fn main() -> Result<(), Box<dyn Error>> {
     drive.modes_of_operation().write(ModesOfOperation::ProfilePosition)?;
     drive.profile_velocity().write(20_000)?;
     match drive.profile_velocity().write(600_000) {
-        Err(error) => println!("600000 isn't sent: {error}"),
+        Err(error) => println!("600000 is not sent: {error}"),
         Ok(()) => return Err("the range was not checked".into()),
     }
     enable(&mut drive)?;
     move_to(&mut drive, id, 100_000)
 }
 
-/// Takes the drive step by step to the state in which it moves.
+/// Brings the drive to Operation enabled, step by step.
 fn enable(drive: &mut Drive) -> Result<(), Box<dyn Error>> {
     for _ in 0..MOST_STEPS {
-        let state = drive.statusword().read()?.state().ok_or("the statusword tells no state")?;
+        let state = drive.statusword().read()?.state().ok_or("the statusword has no valid state")?;
         println!("{state:?}");
         match state.toward(State::OperationEnabled) {
             Step::Reached => return Ok(()),
             Step::Command(command) => drive.controlword().write(Controlword::new().with_command(command))?,
             Step::Wait => {}
-            Step::Unreachable => return Err("no command leads to operation".into()),
+            Step::Unreachable => return Err("no command leads to Operation enabled".into()),
         }
     }
-    Err("the drive doesn't get there".into())
+    Err("the drive doesn't reach Operation enabled".into())
 }
 
-/// Moves with process data: targets go out in RPDO 2, and positions come back in TPDO 2, both on SYNC.
+/// Moves with process data: RPDO 2 sends the target, TPDO 2 returns the position, both on SYNC.
 fn move_to(drive: &mut Drive, id: NodeId, target: i32) -> Result<(), Box<dyn Error>> {
     for write in pdo::RxPdo2::configuration(id).iter().chain(&pdo::TxPdo2::configuration(id)) {
         write.send(drive.client())?;
@@ -77,10 +77,10 @@ fn move_to(drive: &mut Drive, id: NodeId, target: i32) -> Result<(), Box<dyn Err
             return Ok(());
         }
     }
-    Err("the drive doesn't get there".into())
+    Err("the drive doesn't reach the target".into())
 }
 
-/// A drive that follows its controlword, and goes a bit of its way with each of them.
+/// A simulated drive that follows its controlword. Each controlword moves it a part of the way.
 fn simulated_node(id: NodeId) -> Result<CanNode, Box<dyn Error>> {
     let mut device = Device::new(ENTRIES).with_node_id(id);
     device.set_initial(objects::STATUSWORD, Statusword::from_raw(0x40))?;

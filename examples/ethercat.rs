@@ -1,9 +1,9 @@
-//! An EtherCAT drive from Init to motion: objects, PDO assignment, process data, all typed.
+//! An EtherCAT drive from Init to motion, with typed objects, PDO assignment and process data.
 //!
 //! `cargo run --example ethercat --features std,ethercat,macros`
 //!
-//! It runs against a drive that is simulated in this process. On a real segment, `ethercrab::std::tx_rx_task` takes the
-//! place of `Segment::run`, and nothing else changes.
+//! The drive is simulated in this process. For a real segment, replace `Segment::run` by
+//! `ethercrab::std::tx_rx_task`.
 
 use std::error::Error;
 use std::time::Duration;
@@ -18,14 +18,14 @@ use lexibus::Step;
 mod ethercat;
 
 lexibus::dictionary! {
-    /// The drive, from its description.
+    /// The bindings of the drive.
     pub mod servo = "examples/support/servo.esi.xml" { table: true }
 }
 
 use servo::types::{Controlword, State};
 use servo::{image, DemoServo};
 
-/// At most so many SubDevices (a power of two), bytes of process data, frames under way, and bytes in a frame.
+/// Limits: number of SubDevices (a power of two), bytes of process data, frames in flight, bytes in a frame.
 const SUBDEVICES: usize = 16;
 const PROCESS_DATA: usize = 64;
 const FRAMES: usize = 16;
@@ -49,14 +49,14 @@ async fn main() -> Result<(), Box<dyn Error>> {
 }
 
 async fn drive(maindevice: &MainDevice<'_>) -> Result<(), Box<dyn Error>> {
-    // Init to Pre-Operational.
+    // From Init to Pre-Operational.
     let group = maindevice.init_single_group::<SUBDEVICES, PROCESS_DATA>(ethercat_now).await?;
     let found = group.iter(maindevice).position(|subdevice| is_a(&subdevice, &servo::IDENTITY));
     let position = found.ok_or("there is no demo servo")?;
     let subdevice = group.subdevice(maindevice, position)?;
     let mut drive = DemoServo::new(Sdo::new(maindevice, &subdevice));
 
-    // Objects.
+    // Access objects.
     let mut buffer = [0; 64];
     println!("{}", drive.device_name().read_into_async(&mut buffer).await?);
     println!("operating time {} ms", drive.operating_time().read_async().await?);
@@ -66,18 +66,18 @@ async fn drive(maindevice: &MainDevice<'_>) -> Result<(), Box<dyn Error>> {
         Err(error) => println!("velocity 2000000: {error}"),
     }
 
-    // Which PDOs are exchanged: those that the description assigns by default.
+    // Use the default PDO assignment.
     let assignment = Assignment::<8>::by_default(&servo::DEVICE)?;
     drive.client().configure(assignment.startup()).await?;
 
-    // Safe-Operational and Operational.
+    // Go to Safe-Operational and Operational.
     let group = group.into_op(maindevice).await?;
     let subdevice = group.subdevice(maindevice, position)?;
     let mut controlword = Controlword::new();
     let mut target = 0;
     for cycle in 0..16 {
         {
-            // The lock on the process data ends here: `tx_rx` wants it, too.
+            // `tx_rx` locks the process data, too, so the lock must end here.
             let mut outputs = subdevice.outputs_raw_mut();
             let mut outputs = image::OutputsView::new(&mut outputs[..])?;
             outputs.position_mode_mut().set_controlword(controlword);
@@ -85,7 +85,7 @@ async fn drive(maindevice: &MainDevice<'_>) -> Result<(), Box<dyn Error>> {
         }
         group.tx_rx(maindevice).await?;
         let inputs = image::Inputs::unpack(&subdevice.inputs_raw())?.position;
-        let state = inputs.statusword.state().ok_or("the status word tells no state")?;
+        let state = inputs.statusword.state().ok_or("the statusword has no valid state")?;
         println!("cycle {cycle:2}: {state:?}, position {}", inputs.position_actual_value);
         match state.toward(State::OperationEnabled) {
             Step::Command(command) => controlword = controlword.with_command(command),

@@ -1,6 +1,7 @@
-//! A drive on Modbus TCP, from its table to values: `cargo run --example modbus --features macros,modbus`.
+//! A drive on Modbus TCP, described by a register table: `cargo run --example modbus --features macros,modbus`.
 //!
-//! The drive is simulated: a server of `tokio-modbus` in the same process, with the registers of `examples/inverter.toml`.
+//! The drive is simulated by a `tokio-modbus` server in this process. It has the registers of
+//! `examples/inverter.toml`.
 
 use std::time::Duration;
 
@@ -13,7 +14,7 @@ use inverter::{objects, Inverter};
 use server::{Device, Framing, Map, Server};
 
 lexibus::dictionary! {
-    /// An imaginary frequency inverter.
+    /// A fictitious frequency inverter.
     pub mod inverter = "examples/inverter.toml";
 }
 
@@ -21,7 +22,7 @@ lexibus::dictionary! {
 #[path = "../tests/support/modbus_server.rs"]
 mod server;
 
-// What a cycle reads is of one moment only if it is one request. The compiler counts.
+// The values of a cycle are consistent only if one request reads them. Checked at compile time.
 const _: () = {
     let cycle = [
         objects::SPEED.location().modbus,
@@ -36,7 +37,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let device = Device::new(simulated());
     let server = Server::start(&device, Framing::Tcp)?;
 
-    // From here on, what a program for a real drive does. The client keeps to what the drive takes: `MODBUS`.
+    // The code for a real drive begins here. `MODBUS` has the limits of the drive's requests.
     let context = sync::tcp::connect_with_timeout(server.address(), Some(Duration::from_secs(5)))?;
     let client = ModbusClient::new(context).with_limits(inverter::MODBUS);
     let mut drive = Inverter::new(client);
@@ -51,18 +52,18 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     }
     show("written", &device);
 
-    // Four measured values, one request.
+    // Four measured values in one request.
     let (speed, current, position, temperature) =
         drive.client().read_block((objects::SPEED, objects::CURRENT, objects::POSITION, objects::TEMPERATURE))?;
     println!("speed {speed} rpm, current {} A", objects::CURRENT.physical(current));
     match objects::TEMPERATURE.physical(temperature) {
         Some(degrees) => println!("position {} mm, {degrees} °C", objects::POSITION.physical(position)),
-        None => println!("position {} mm, no sensor of temperature", objects::POSITION.physical(position)),
+        None => println!("position {} mm, no temperature sensor", objects::POSITION.physical(position)),
     }
     show("the cycle", &device);
 
-    // Values from all over the drive, in any order: as few requests as it allows. Nothing reads the password, which
-    // lies between two of them.
+    // Items in any order, with as few requests as the drive allows. No request includes the password, which lies
+    // between two of them.
     let (limit, serial, mode, hours, stopped, setpoint) = drive.client().read_block((
         objects::CURRENT_LIMIT,
         objects::SERIAL_NUMBER,
@@ -84,7 +85,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     Ok(())
 }
 
-/// The registers of the drive, with what is in them when it starts.
+/// Returns the registers of the drive after power-on.
 fn simulated() -> Map {
     let text = |text: &[u8; 8]| [0, 2, 4, 6].map(|at| u16::from_be_bytes([text[at], text[at + 1]]));
     Map::default()
@@ -99,7 +100,7 @@ fn simulated() -> Map {
         .with(DiscreteInput, 0, &[1, 0])
 }
 
-/// Prints the requests that the device got.
+/// Prints the requests that the device received.
 fn show(title: &str, device: &Device<Map>) {
     println!("-- {title}:");
     for request in device.requests() {

@@ -1,8 +1,8 @@
-//! The controller's side of a PROFINET drive: start-up records, the process image, and parameters of PROFIdrive.
+//! The controller side of a PROFINET drive: start-up records, process image and PROFIdrive parameters.
 //!
 //!     cargo run --example profinet --features macros
 //!
-//! The drive is simulated in this program. With a real one, only `Servo` is another: a controller library carries the bytes.
+//! The drive is simulated in this program. For a real drive, replace `Servo` by an adapter to a controller library.
 
 use std::collections::BTreeMap;
 use std::error;
@@ -16,7 +16,7 @@ use lexibus::profinet::{
 use lexibus::Error;
 
 lexibus::dictionary! {
-    /// A servo drive that follows PROFIdrive.
+    /// A servo drive with the PROFIdrive profile.
     pub mod servo = "examples/servo.gsdml.xml";
 }
 
@@ -34,7 +34,7 @@ fn main() -> AnyResult {
     turn(&plan, &mut drive)
 }
 
-/// What a controller does once, before data are exchanged.
+/// Sends the start-up records, once before the data exchange.
 fn start_up(plan: &Plan<8>, drive: &mut Servo) -> AnyResult {
     for place in plan.expected() {
         println!("slot {} subslot {:#06x}: submodule {:#06x}", place.slot, place.subslot, place.submodule_ident);
@@ -47,7 +47,7 @@ fn start_up(plan: &Plan<8>, drive: &mut Servo) -> AnyResult {
     Ok(())
 }
 
-/// A record later on, as a struct.
+/// Accesses a record as a struct.
 fn records(plan: &Plan<8>, drive: &mut Servo) -> AnyResult {
     let axis = plan.address(1, 1).ok_or("no submodule")?;
     let mut records = RecordAccess::<_, 64>::new(drive);
@@ -59,7 +59,7 @@ fn records(plan: &Plan<8>, drive: &mut Servo) -> AnyResult {
     Ok(())
 }
 
-/// Parameters of axis 1, which the device description doesn't have.
+/// Reads parameters of axis 1. The device description doesn't contain them.
 fn parameters(drive: &mut Servo) -> AnyResult {
     let mut parameters = ParameterAccess::new(drive, 1, 1);
     let telegram: u16 = parameters.read(1, 922, 0)?;
@@ -70,7 +70,7 @@ fn parameters(drive: &mut Servo) -> AnyResult {
     Ok(())
 }
 
-/// Switches the axis on and lets it turn for some cycles.
+/// Switches the axis on and turns it for some cycles.
 fn turn(plan: &Plan<8>, drive: &mut Servo) -> AnyResult {
     let axis = plan.submodule_io(1, 2).ok_or("no telegram")?;
     let (inputs_len, outputs_len) = plan.lengths();
@@ -98,7 +98,7 @@ fn turn(plan: &Plan<8>, drive: &mut Servo) -> AnyResult {
     Ok(())
 }
 
-/// A drive of one axis in memory. It answers a parameter request after a while.
+/// A simulated drive with one axis. It answers a parameter request with a delay.
 struct Servo {
     axis: SubmoduleIo,
     limits: Vec<u8>,
@@ -121,7 +121,7 @@ impl Servo {
         })
     }
 
-    /// A request for one parameter that is no array.
+    /// Executes a request for one parameter that isn't an array.
     fn parameter_request(&mut self, request: &[u8]) {
         let [reference, kind, axis, 1, _, _, high, low, _, _, rest @ ..] = request else { return };
         let pnu = u16::from_be_bytes([*high, *low]);

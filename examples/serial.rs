@@ -1,8 +1,8 @@
-//! Messages with a drive on a serial line, and its parameters as items.
+//! Messages to a drive on a serial line, and its parameters as items.
 //!
 //!     cargo run --example serial --features serial
 //!
-//! The drive is simulated: a thread at the other end of a pseudo-terminal. With a real one, the port is
+//! The drive is simulated by a thread at the other end of a pseudo-terminal. For a real drive, use the port
 //! `serialport::new("/dev/ttyUSB0", 115_200).timeout(…).open_native()`.
 
 #[cfg(unix)]
@@ -33,7 +33,7 @@ mod unix {
     };
     use serialport::{SerialPort, TTYPort};
 
-    /// STX, data, check, ETX; these and ESC within are ESC and their complement.
+    /// STX, data, checksum, ETX. STX, ETX and ESC in the data are sent as ESC and their complement.
     const FRAMING: Delimited = Delimited::new(Some(0x02), 0x03)
         .with_escape(0x1B, 0xFF, &[0x02, 0x03, 0x1B])
         .with_check(Check::Xor(0xFF))
@@ -41,7 +41,7 @@ mod unix {
     const MAX_DATA: usize = 16;
 
     const NODE: u8 = 1;
-    /// The first byte of a request that reads or changes a parameter, or asks how the drive is.
+    /// Order codes: read a parameter, change a parameter, query the state, refusal.
     const READ: u8 = 0x10;
     const CHANGE: u8 = 0x11;
     const STATE: u8 = 0x12;
@@ -64,7 +64,7 @@ mod unix {
     }
 
     fn talk(port: TTYPort) -> Result<(), Box<dyn error::Error>> {
-        // Begin, end, and each byte of data and check twice.
+        // Start, end, and twice the bytes of data and checksum.
         let mut line: SerialLine<_, _, { 2 * (MAX_DATA + 1) + 2 }> = SerialLine::new(FromStd::new(port), FRAMING);
         let mut reply = [0; MAX_DATA];
         let length = line.exchange(&[NODE, STATE], &mut reply)?;
@@ -80,8 +80,8 @@ mod unix {
         Ok(())
     }
 
-    /// Node, order, number and value of a parameter, numbers with their most significant byte first. The reply begins alike, or
-    /// has another order.
+    /// Messages: node, order code, parameter number and value, big-endian. The reply has the same start, or another
+    /// order code.
     struct Messages;
 
     fn head(order: u8, parameter: Parameter) -> [u8; 4] {
@@ -132,16 +132,16 @@ mod unix {
         }
     }
 
-    /// A drive with parameters that somebody has written.
+    /// A simulated drive that stores parameters.
     #[derive(Default)]
     struct Drive(BTreeMap<[u8; 2], Vec<u8>>);
 
     impl Drive {
-        /// Answers until the line ends.
+        /// Answers requests until the line is closed.
         fn serve(&mut self, port: &mut TTYPort) -> Result<(), std::io::Error> {
             let (mut decoder, mut data, mut frame) = (FRAMING.decoder(), [0; MAX_DATA], [0; 64]);
             let mut byte = [0];
-            // The other end is closed: an error of the pseudo-terminal, or the end of the stream.
+            // When the other end is closed, the pseudo-terminal returns an error or the end of the stream.
             while let Ok(1) = port.read(&mut byte) {
                 let Ok(Some(length)) = FRAMING.decode(&mut decoder, byte[0], &mut data) else { continue };
                 let reply = self.reply(&data[..length]);

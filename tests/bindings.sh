@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
-# Generates what is checked in: the bindings under generated/src, those whose instructions are counted, the schema of
-# register tables, the profiles, and the book's catalogue of codes; with --check, compares them instead. `$LEXIBUS` is the compiler where one is there already.
+# Generates the checked-in files: the bindings in generated/src and benches/instructions, the schema of register tables, the
+# profiles, and the book's catalog of diagnostics. With --check, compares them instead. Set `$LEXIBUS` to use an existing compiler.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 lexibus() {
     if [[ -n ${LEXIBUS:-} ]]; then "$LEXIBUS" "$@"; else cargo run --quiet -p lexibus-cli -- "$@"; fi
 }
-# Unit tests of the compiler write the files that it contains: the schema and the profiles.
+# Unit tests of the compiler write the files embedded in it: the schema and the profiles.
 if [[ ${1:-} != --check && -z ${LEXIBUS:-} ]]; then
     LEXIBUS_BLESS=1 cargo test --quiet -p lexibus-codegen --lib -- frontend::table::schema profiles::stored
 fi
@@ -27,7 +27,7 @@ lexibus generate tests/data/drive.gsdml.xml \
 lexibus schema --out dictionaries/table.schema.json "$@"
 catalogue=$(lexibus explain --format markdown)
 if [[ ${1:-} == --check ]]; then
-    diff docs/src/lints.md <(echo "$catalogue") || { echo "docs/src/lints.md is stale: tests/bindings.sh writes it again"; exit 1; }
+    diff docs/src/lints.md <(echo "$catalogue") || { echo "docs/src/lints.md is stale: run tests/bindings.sh"; exit 1; }
 else
     echo "$catalogue" >docs/src/lints.md
 fi

@@ -1,4 +1,4 @@
-//! A client of twenty lines, and everything that an accessor does with it.
+//! A minimal client of twenty lines, used by all methods of an accessor.
 
 use std::collections::HashMap;
 
@@ -32,7 +32,7 @@ const PROGRAM: Item<Domain, Wo, OnCanOpen> =
 const COB_ID: Item<u32, Rw, OnCanOpen> =
     Item::new(OnCanOpen::canopen(0x1400, 1), "COB-ID", Range::Full, Initial::NodeId(0x200), "", Flags::NONE);
 
-/// A device in memory. It reports the object that it doesn't have.
+/// A simulated device. It reports an object that it doesn't have.
 #[derive(Default)]
 struct Memory(HashMap<Object, Vec<u8>>);
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Chooses the sample of the corpus that the fast tests read, and writes their names to tests/corpus-sample.txt.
+"""Chooses the files of the corpus that the fast tests read, and writes their names to tests/corpus-sample.txt.
 
 usage: tests/corpus-sample.py LEXIBUS [--check | --explain] [--jobs N]
 
@@ -36,9 +36,9 @@ CORPUS = ROOT.parent / "shared" / "corpus"
 LIST = ROOT / "tests" / "corpus-sample.txt"
 NOT_DESCRIPTIONS = {"MANIFEST.tsv", "oracle.json"}
 MINIMUM = {"eds": 12, "esi": 8, "gsdml": 8}
-# In bytes. Larger files are left to the full tests: a debug build takes longer for one of them than for ten others.
+# In bytes. Only the full tests read larger files: in a debug build, one of them takes longer than ten others.
 SIZE_LIMIT = 250_000
-# In bytes. Without it, many tiny files would be cheaper than one file of medium size.
+# In bytes. Added to the size of each file, so that a medium-sized file is preferred to many tiny ones.
 FILE_COST = 50_000
 
 # Formats that one frontend reads, or that become the same part of the intermediate representation.
@@ -49,9 +49,9 @@ IGNORED = {"at", "documentation", "doubts", "extensions", "files", "header", "na
 # Keys whose text is the name of an enumeration variant. Other texts are data.
 ENUMERATIONS = {"access", "code", "completion", "direction", "kind", "meaning", "pdi_access", "purpose", "space", "storage",
                 "trigger", "type", "zone"}
-# Keys of a type: an item's, an array's, an alias's, an enumeration's.
+# Keys whose value is a type, in items, arrays, aliases and enumerations.
 TYPES = {"ty", "element", "alias", "base"}
-# Widths in bits. All others count as one.
+# Widths in bits that count separately. All other widths count as one.
 WIDTHS = {1, 8, 16, 24, 32, 64}
 KEYS = 5
 
@@ -204,7 +204,7 @@ def features_of_file(lexibus, warn, file):
             features.add(("format", f"root {root.group(1)}"))
         features.update(quirk_features(text, {"eds": "E", "esi": "X", "gsdml": "G"}[folder]))
     if size <= SIZE_LIMIT:
-        # There is no dump of a file with errors.
+        # `dump` prints nothing for a file with errors.
         dump = run("dump")
         if dump:
             features.update(ir_features(json.loads(dump), FAMILIES[info["format"]], ()))
@@ -213,7 +213,7 @@ def features_of_file(lexibus, warn, file):
 
 def choose_sample(files):
     """Returns the chosen files, each with the features that it was chosen for, and the features that only large files have."""
-    # `max` takes the first of equals, so the order of the names decides.
+    # `max` returns the first of equal files, so sorting makes the result reproducible.
     eligible = {file: entry for file, entry in sorted(files.items()) if entry[0] <= SIZE_LIMIT}
     features_of = {file: features for file, (_, features) in eligible.items()}
     everything = set().union(*features_of.values())
@@ -251,7 +251,7 @@ def main():
     arguments.add_argument("--jobs", type=int, default=2, help="number of files to read at once (default: 2)")
     options = arguments.parse_args()
     if not CORPUS.is_dir():
-        print("no corpus in ../shared/corpus: the sample is left as it is", file=sys.stderr)
+        print("no corpus in ../shared/corpus: the sample is unchanged", file=sys.stderr)
         return 0 if options.check else 1
     lexibus = shutil.which(options.lexibus)
     if lexibus is None:

@@ -1,5 +1,6 @@
-//! The Eco on two buses: the manual's example of a positioner (configure, home, position; L1401 to L1471 on Modbus, L6372 to L6430
-//! on PROFINET) is one sequence of generated code, and gives the bytes that are printed on each.
+//! The Eco on two buses: the manual's example of a positioner (configuration, homing, positioning). The same
+//! generated code sends the bytes printed in "Esempio di configurazione dell'asse" on Modbus and in "Esempio
+//! posizionamento punto a punto" on PROFINET.
 
 use std::convert::Infallible;
 use std::time::Duration;
@@ -11,10 +12,10 @@ use lexibus_drives::eco::types::{DriveCommand, HomingMethod, Mode, MotionProfile
 
 type Outcome<T> = Result<T, Error<Infallible>>;
 
-/// Enabled, as both examples have it.
+/// The command that enables torque and motion, as in both examples.
 const ENABLED: DriveCommand = DriveCommand::new().with_torque_enable(true).with_motion_enable(true);
 
-/// The sequence, on a client of any bus that the items are on.
+/// The sequence, for a client of any bus that has the items.
 macro_rules! configure_home_position {
     ($client:expr) => {{
         let client = $client;
@@ -43,7 +44,7 @@ macro_rules! configure_home_position {
     }};
 }
 
-/// A drive on Modbus that keeps what it gets, as the data of function 16 in front of the check.
+/// A simulated drive on Modbus. It records the data of write requests (function 16) without CRC.
 #[derive(Default)]
 struct Serial {
     frames: Vec<String>,
@@ -56,7 +57,7 @@ impl Client for Serial {
 
     fn read(&mut self, register: Register, buffer: &mut [u8]) -> Outcome<usize> {
         let value: u32 = match register.address {
-            // Homing takes a while.
+            // Homing isn't done at the first read.
             0x8005 => {
                 self.looked += 1;
                 if self.looked > 2 {
@@ -115,7 +116,7 @@ fn on_modbus() -> Outcome<()> {
     Ok(())
 }
 
-/// Saving by registers, for which the torque has to be off.
+/// Saves with registers. The torque must be off.
 macro_rules! save {
     ($client:expr) => {{
         let client = $client;
@@ -126,7 +127,8 @@ macro_rules! save {
     }};
 }
 
-/// L1482 to L1495, with a step for the torque (L1051).
+/// "Primo metodo di salvataggio". The first step turns the torque off, as "Salvataggio su flash di parametri e
+/// registri" requires.
 #[test]
 fn saving_by_registers_on_modbus() -> Outcome<()> {
     let mut drive = Serial::default();
@@ -137,7 +139,7 @@ fn saving_by_registers_on_modbus() -> Outcome<()> {
     Ok(())
 }
 
-/// The other way of Modbus, with one register or two (L1532, L1610); nothing else is taken there.
+/// "Secondo metodo di salvataggio", with 16-bit and 32-bit access. The address accepts only the printed value.
 #[test]
 fn saving_by_an_address_on_modbus() -> Outcome<()> {
     let mut drive = Serial::default();
@@ -147,28 +149,28 @@ fn saving_by_an_address_on_modbus() -> Outcome<()> {
     let refused = Err(Error::OutOfRange(OutOfRange));
     assert_eq!(objects::SAVE_TO_FLASH.at(&mut drive).write(0x0012), refused);
     assert_eq!(objects::SAVE_TO_FLASH_32.at(&mut drive).write(0), refused);
-    // The frame of one register by function 16; `frames` has that of function 6.
+    // The frame with one register uses function 16; `frames` tests function 6.
     let printed =
         ["01 10 80 00 00 02 04 00 00 00 00", "01 10 38 02 00 01 02 00 11", "01 10 38 02 00 02 04 00 00 00 11"];
     assert_eq!(drive.frames, printed);
     Ok(())
 }
 
-/// A drive on PROFINET that keeps what changes in the bytes that it gets: the field's first byte, and the field.
+/// A simulated drive on PROFINET. It records changed fields: byte offset and content.
 struct Cyclically {
     before: [u8; 32],
     changes: Vec<(usize, String)>,
-    /// What a window wrote: the number and the value of each cycle that changed one of them.
+    /// The number and value written to the window, for each cycle that changed one of them.
     pairs: Vec<String>,
 }
 
-/// Where the 32 bytes and their status are, in both directions.
+/// Returns the positions of the 32 bytes and their status, which are the same in both directions.
 fn place() -> SubmoduleIo {
     let span = Some(IoSpan { offset: 0, length: 33 });
     SubmoduleIo { slot: 1, subslot: 1, inputs: span, outputs: span, inputs_consumer: None, outputs_consumer: None }
 }
 
-/// First byte and length of each field that the drive gets (L6077 to L6098).
+/// Offset and length in bytes of each output field ("Mappatura memoria condivisa").
 const FIELDS: [(usize, usize); 10] =
     [(0, 2), (2, 1), (3, 4), (8, 4), (12, 4), (16, 4), (20, 4), (24, 2), (26, 2), (28, 4)];
 
@@ -186,7 +188,7 @@ impl ImageClient for Cyclically {
             self.pairs.push(hex(&outputs[26..32]));
         }
         self.before.copy_from_slice(&outputs[..32]);
-        // Status word: homing done, after a while; position.
+        // Statusword: homing is done some cycles later. Then the position.
         let done = if self.before[1] == 0x43 || self.before[2] == 1 { 0x40 } else { 0 };
         inputs[..2].copy_from_slice(&[0, done]);
         inputs[3..7].copy_from_slice(&6000_i32.to_be_bytes());
@@ -199,7 +201,7 @@ impl ImageClient for Cyclically {
     }
 }
 
-/// A drive on PROFINET that has got nothing yet.
+/// Returns a client for a drive that hasn't received any output yet.
 fn cyclically() -> Cyclic<Cyclically, [u8; 33], [u8; 33]> {
     let drive = Cyclically { before: [0; 32], changes: Vec::new(), pairs: Vec::new() };
     let mut outputs = [0; 33];
@@ -207,7 +209,7 @@ fn cyclically() -> Cyclic<Cyclically, [u8; 33], [u8; 33]> {
     Cyclic::new(drive, place(), outputs, [0; 33])
 }
 
-/// Saving by registers is in the image, too: the manual has the mode for every bus (L79), and prints no example.
+/// The process image can also save with registers: "Registri" lists the mode for all buses, without an example.
 #[test]
 fn saving_by_registers_on_profinet() -> Outcome<()> {
     let mut drive = cyclically();
@@ -225,7 +227,7 @@ fn on_profinet() -> Outcome<()> {
     let mut drive = cyclically();
     let position = configure_home_position!(&mut drive);
     assert_eq!(position, 6000);
-    // L6375 to L6427. What the image lacks goes through its window.
+    // Items without a field in the image are written through its window.
     let expected = [
         (26, "80 02"),
         (28, "00 00 00 3C"),
@@ -253,7 +255,7 @@ fn on_profinet() -> Outcome<()> {
     ];
     let changes = &drive.image().changes;
     assert_eq!(changes.iter().map(|(at, field)| (*at, field.as_str())).collect::<Vec<_>>(), expected);
-    // Number and value change in one cycle: no variable gets the value of another.
+    // Number and value change in the same cycle: no variable gets the value of another.
     let pairs = [
         "80 02 00 00 00 3C",
         "80 1B 00 00 00 00",
@@ -266,7 +268,8 @@ fn on_profinet() -> Outcome<()> {
     Ok(())
 }
 
-/// Parameter d1 by the window of PROFINET (L6298 to L6304), and a register that no field has.
+/// Reads parameter d1 through the window of the image ("Accesso asincrono a registri e parametri"), and a register
+/// without a field.
 #[test]
 fn what_the_image_lacks_is_read_through_its_window() -> Outcome<()> {
     struct Window;

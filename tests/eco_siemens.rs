@@ -1,5 +1,5 @@
-//! The Eco's second map of addresses on Modbus, for controllers of Siemens: a choice of its table. The manual prints the fields of
-//! requests without their bytes (L1626 to L1675).
+//! The Eco's second Modbus address map, for Siemens controllers: an option of its table. The manual prints the fields
+//! of the requests ("Esempi di utilizzo dei codici funzione"), not their bytes.
 
 use std::convert::Infallible;
 
@@ -7,19 +7,19 @@ use lexibus::modbus::{Limits, RegisterClient};
 use lexibus::{Client, Error, Modbus, Register};
 
 lexibus::dictionary! {
-    /// Addresses as the drive takes them with E3 = 9, and a controller that takes off one.
+    /// Wire addresses with E3 = 9, for a controller that subtracts 1 from an address.
     #[allow(deprecated)]
     pub mod siemens = "dictionaries/eco.toml" { option: "register_base=siemens_plc", option: "parameter_base=siemens_plc" };
 }
 
 use siemens::{objects, types};
 
-/// Keeps what is asked for: the address, the number of registers, and what is written to them.
+/// Records the requests: address, number of registers, written words.
 #[derive(Default)]
 struct Probe {
     asked: Vec<(u16, u16)>,
     words: Vec<u16>,
-    /// What is answered.
+    /// The words returned by reads.
     registers: Vec<u16>,
 }
 
@@ -58,16 +58,17 @@ fn the_second_map() -> Result<(), Error<Infallible>> {
     assert_eq!(drive.client().words, [0x0000, 0x03E8]);
     let asked = [(0x9C42, 1), (0xAC41, 2), (0xAC42, 2), (0x9C44, 1), (0xAC4A, 2)];
     assert_eq!(drive.client().asked, asked);
-    // The command that saves stays where it is.
+    // The address that saves is the same in both maps.
     drive.save_to_flash().write(0x0011)?;
     assert_eq!(drive.client().asked.last(), Some(&(0x3802, 1)));
     Ok(())
 }
 
-/// One request each: quantity 3 from 0x9C42 on (L1630 to L1634), quantity 4 from 0xAC41 on, the upper word first (L1636 to L1648).
+/// The two examples of "Codice 0x03": three registers from 0x9C42 on, and four from 0xAC41 on with the high word
+/// first.
 #[test]
 fn blocks_of_the_second_map() -> Result<(), Error<Infallible>> {
-    // What the node of the first map answers (L1162).
+    // The response printed for the first map.
     let mut drive = Probe { registers: vec![0x0014, 0x0032, 0x0032], ..Probe::default() };
     assert_eq!(drive.read_block((objects::D1, objects::D2, objects::D3))?, (20, 50, 50));
     drive.registers = vec![0x0000, 0x0023, 0xFFFF, 0xFFFE];

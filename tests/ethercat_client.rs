@@ -1,5 +1,5 @@
-//! Generated accessors and PDOs of an EtherCAT drive through `ethercrab`, with SubDevices simulated in this process: no
-//! network, no interface.
+//! Generated accessors and PDOs of an EtherCAT drive through `ethercrab`. The SubDevices are simulated in this
+//! process, without network or interface.
 
 use std::cell::RefCell;
 use std::future::Future;
@@ -33,7 +33,7 @@ use servo::{image, objects, pdo, view, DemoServo};
 
 type Group<S = PreOp> = SubDeviceGroup<4, 64, DefaultLock, S>;
 
-/// Runs `work` beside a segment. The limits of time are so wide that a busy machine doesn't reach them.
+/// Runs `work` concurrently with a simulated segment. The timeouts are long enough for a busy machine.
 fn with_segment<F: Future>(
     subdevices: Vec<SubDevice>,
     work: impl FnOnce(&'static MainDevice<'static>) -> F,
@@ -61,7 +61,7 @@ fn with_segment<F: Future>(
     })
 }
 
-/// A servo that the test can look into.
+/// Returns a SubDevice, and its servo for inspection.
 fn servo() -> (SubDevice, Rc<RefCell<Servo>>) {
     let servo = Rc::new(RefCell::new(Servo::new()));
     (SubDevice::new(&servo::DEVICE, servo.clone()), servo)
@@ -92,7 +92,7 @@ fn objects_of_every_length() {
         let group = pre_op(maindevice).await;
         let mut drive = drive(maindevice, &group, 0);
 
-        // Expedited: 1, 2 and 4 bytes.
+        // Expedited transfers of 1, 2 and 4 bytes.
         drive.modes_of_operation().write_async(ModesOfOperation::Homing).await.unwrap();
         assert_eq!(drive.modes_of_operation().read_async().await, Ok(ModesOfOperation::Homing));
         assert_eq!(drive.statusword().read_async().await.unwrap().raw(), 0x0250);
@@ -100,7 +100,7 @@ fn objects_of_every_length() {
         assert_eq!(drive.target_position().read_async().await, Ok(-100_000));
         assert_eq!(device.borrow().device.get(objects::TARGET_POSITION), Ok(-100_000));
 
-        // Normal: what fits into a message of the mailbox.
+        // Normal transfers: the value fits into one mailbox message.
         assert_eq!(drive.operating_time().read_async().await, Ok(5_000_000_123));
         drive.encoder_offset().write_async(i64::MIN + 5).await.unwrap();
         assert_eq!(drive.encoder_offset().read_async().await, Ok(i64::MIN + 5));
@@ -109,7 +109,8 @@ fn objects_of_every_length() {
         drive.axis_label().write_async("turntable").await.unwrap();
         assert_eq!(drive.axis_label().read_into_async(&mut buffer).await, Ok("turntable"));
 
-        // Segmented: of 128 bytes of the mailbox, 112 go with the first message and 119 with each segment.
+        // Segmented transfers: with a mailbox of 128 bytes, the first message has 112 bytes of data, each segment
+        // 119.
         let text: String = ('a'..='z').cycle().take(300).collect();
         for length in [112, 113, 117, 119, 230, 231, 232, 235, 300] {
             drive.axis_label().write_async(&text[..length]).await.unwrap();
@@ -147,7 +148,7 @@ fn what_the_device_refuses() {
     with_segment(vec![subdevice], |maindevice| async move {
         let group = pre_op(maindevice).await;
         let mut drive = drive(maindevice, &group, 0);
-        // The accessor sends nothing that is out of range; the device doesn't take it either.
+        // The accessor rejects values that are out of range, and so does the device.
         let refused = drive.profile_velocity().write_async(1_000_001).await;
         assert_eq!(refused, Err(Error::OutOfRange(OutOfRange)));
         let client = drive.client();
@@ -161,7 +162,7 @@ fn what_the_device_refuses() {
         let message = read(client, 0x5FFF, 0).await.unwrap_err().to_string();
         assert_eq!(message, "the device refused: 0x06020000: the object doesn't exist in the dictionary");
 
-        // A value that is longer than the room for it, in one message and in several; the next transfer is fine.
+        // The value exceeds the buffer, in one message and in several. The next transfer works.
         let label = Object { index: 0x2011, sub_index: 0 };
         for length in [20, 200] {
             client.write(label, &vec![b'x'; length]).await.unwrap();
@@ -184,7 +185,7 @@ fn process_data_by_default() {
         let mut drive = drive(maindevice, &group, 0);
         let assignment = Assignment::<8>::by_default(&servo::DEVICE).unwrap();
         drive.client().configure(assignment.startup()).await.unwrap();
-        // What the description wants to be written on the way to Safe-Operational.
+        // The initialization command of the device description has been sent.
         assert_eq!(
             device.borrow().device.get(objects::MODES_OF_OPERATION),
             Ok(ModesOfOperation::CyclicSynchronousPosition)
@@ -213,7 +214,7 @@ fn process_data_by_default() {
         assert_eq!(device.borrow().device.get(objects::TARGET_POSITION), Ok(4711));
         assert_eq!(drive.position_actual_value().read_async().await, Ok(4711));
 
-        // One field where it stands.
+        // A single field, written in place.
         let mut outputs = subdevice.outputs_raw_mut();
         image::OutputsView::new(&mut outputs[..]).unwrap().position_mode_mut().set_target_position(-2);
         drop(outputs);
@@ -265,7 +266,7 @@ fn a_mapping_is_written_in_its_order_and_in_pre_operational() {
         let group = pre_op(maindevice).await;
         let mut drive = drive(maindevice, &group, 0);
         let client = drive.client();
-        // Entries can't be written before the count is 0, a fixed mapping not at all, and only what there is is mapped.
+        // The device rejects entries before the count is 0, writes to a fixed mapping, and unknown objects.
         let entry = 0x6064_0020_u32.to_le_bytes();
         assert_eq!(write(client, 0x1A02, 1, &entry).await, Err(Error::Abort(AbortCode(0x0601_0003))));
         assert_eq!(write(client, 0x1A00, 0, &[0]).await, Err(Error::Abort(AbortCode::READ_ONLY)));
@@ -274,7 +275,7 @@ fn a_mapping_is_written_in_its_order_and_in_pre_operational() {
         assert_eq!(missing, Err(Error::Abort(AbortCode::NOT_MAPPABLE)));
         SdoWrite::new_u32(0x1A02, 1, u32::from_le_bytes(entry)).send_async(client).await.unwrap();
         SdoWrite::new_u8(0x1A02, 0, 1).send_async(client).await.unwrap();
-        // Exclusions.
+        // PDOs that exclude each other.
         SdoWrite::new_u8(0x1C12, 0, 0).send_async(client).await.unwrap();
         SdoWrite::new_u16(0x1C12, 1, 0x1600).send_async(client).await.unwrap();
         SdoWrite::new_u16(0x1C12, 2, 0x1601).send_async(client).await.unwrap();
@@ -330,13 +331,13 @@ fn an_emergency_in_front_of_an_answer_is_kept() {
             subdevice.outputs_raw_mut().copy_from_slice(&packed);
             group.tx_rx(maindevice).await.unwrap();
         }
-        // This trips the drive, whose emergency message overtakes the answer.
+        // The write causes a fault, and the emergency message precedes the response.
         drive.encoder_offset().write_async(7).await.unwrap();
         let emergency = Emergency { code: 0x7300, register: 0x21, vendor: [0; 5] };
         assert_eq!(drive.client().take_emergency(), Some(emergency));
         assert_eq!(drive.client().take_emergency(), None);
         assert_eq!(drive.encoder_offset().read_async().await, Ok(7));
-        // And one that was there before the request.
+        // An emergency message that was pending before the request.
         device.borrow_mut().trip(0x3210).unwrap();
         assert_eq!(drive.statusword().read_async().await.unwrap().state(), Some(State::Fault));
         assert_eq!(drive.client().take_emergency().map(|emergency| emergency.code), Some(0x3210));
@@ -374,7 +375,7 @@ fn several_subdevices_in_a_row() {
     });
 }
 
-/// The same controller without a mailbox.
+/// The same drive without a mailbox.
 static MUTE: Device = Device { mailbox: Mailbox::NONE, sync_managers: &[], ..servo::DEVICE };
 
 #[test]
@@ -387,7 +388,7 @@ fn what_goes_wrong_on_the_bus() {
         }
 
         fn write(&mut self, _: u16, _: u8, _: &[u8]) -> Result<(), u32> {
-            // No code of the standard.
+            // Not a standard abort code.
             Err(0x1234_5678)
         }
     }

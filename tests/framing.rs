@@ -1,15 +1,16 @@
-//! Frames on a stream of bytes: where they begin and end, what is escaped, what becomes of broken ones.
+//! Framing of byte streams: delimiters, escapes and errors.
 
 use lexibus::framing::{Check, Delimited, FrameError, Framing};
 use lexibus::LengthError;
 
-/// STX, data, check, ETX; 0x02, 0x03 and 0x1B as 0x1B and their complement. A drive on RS-485 has it.
+/// STX, data, checksum, ETX. Bytes 0x02, 0x03 and 0x1B are sent as 0x1B and their complement. A real drive on RS-485
+/// uses it.
 const DRIVE: Delimited = Delimited::new(Some(0x02), 0x03)
     .with_escape(0x1B, 0xFF, &[0x02, 0x03, 0x1B])
     .with_check(Check::Xor(0xFF))
     .with_max_data(68);
 
-/// What a decoder finds in a stream: frames and errors.
+/// Decodes a stream into frames and errors.
 fn decoded(framing: &Delimited, stream: &[u8]) -> Vec<Result<Vec<u8>, FrameError>> {
     let (mut decoder, mut data, mut found) = (framing.decoder(), [0; 80], Vec::new());
     for byte in stream {
@@ -28,7 +29,7 @@ fn encoded(framing: &Delimited, data: &[u8]) -> Vec<u8> {
     frame[..length].to_vec()
 }
 
-/// Messages and their frames, the check worked out by hand.
+/// Messages and their frames. The checksums were computed by hand.
 const FRAMES: [(&[u8], &[u8]); 7] = [
     (&[0x05, 0x08, 0x9C, 0, 0, 0], &[0x02, 0x05, 0x08, 0x9C, 0, 0, 0, 0x6E, 0x03]),
     (&[0x01, 0x02, 0x6F, 0x9E, 0x00, 0x1B], &[0x02, 0x01, 0x1B, 0xFD, 0x6F, 0x9E, 0x00, 0x1B, 0xE4, 0x16, 0x03]),
@@ -50,11 +51,11 @@ fn byte_by_byte() {
     assert_eq!(decoded(&DRIVE, &stream), all);
 }
 
-/// Framings of every kind that data with any bytes go through.
+/// Framings of all kinds that can carry any data.
 fn framings() -> Vec<Delimited> {
     let mut all = Vec::new();
     for check in [Check::None, Check::Xor(0), Check::Sum(7), Check::Lrc(0), Check::Crc16(0xFFFF)] {
-        // Escaped bytes as they are, combined with a number, and with one byte for begin and end.
+        // Escaped bytes unchanged, combined with a number, and with the same byte as start and end.
         let framings = [
             Delimited::new(Some(0x02), 0x03).with_escape(0x10, 0x00, &[0x02, 0x03, 0x10]),
             Delimited::new(Some(0x02), 0x03).with_escape(0x1B, 0xFF, &[0x02, 0x03, 0x1B]),
@@ -90,7 +91,7 @@ fn special_bytes_at_every_position() {
 
 #[test]
 fn checks_that_have_to_be_escaped() {
-    // The check of one byte is the byte and 0xFF: those that look like begin, end and escape.
+    // The checksum of a single byte is its complement: here it equals start, end and escape.
     for (byte, escaped) in [(0xFD, 0xFD), (0xFC, 0xFC), (0xE4, 0xE4)] {
         assert_eq!(encoded(&DRIVE, &[byte]), [0x02, byte, 0x1B, escaped, 0x03]);
         assert_eq!(decoded(&DRIVE, &encoded(&DRIVE, &[byte])), [Ok(vec![byte])]);
@@ -101,11 +102,11 @@ fn checks_that_have_to_be_escaped() {
 fn noise_in_front_and_what_is_cut_off() {
     for (data, frame) in FRAMES {
         for cut in 1..frame.len() {
-            // The end of one frame, as noise, and a whole one.
+            // The rest of a frame as noise, then a complete frame.
             let late = [&frame[cut..], frame].concat();
             let found = decoded(&DRIVE, &late);
             assert_eq!(found.last(), Some(&Ok(data.to_vec())), "{late:02X?}");
-            // The beginning of one frame, and a whole one.
+            // The start of a frame, then a complete frame.
             let early = [&frame[..cut], frame].concat();
             let lost = if frame[cut - 1] == 0x1B { FrameError::Escape } else { FrameError::Interrupted };
             assert_eq!(decoded(&DRIVE, &early), [Err(lost), Ok(data.to_vec())], "{early:02X?}");
@@ -132,7 +133,7 @@ fn every_bit_that_flips_is_noticed_and_the_next_frame_found() {
             }
         }
     }
-    // Each kind of error but one occurs; frames that are too long have their own test.
+    // Every kind of error occurs except `TooLong`, which has its own test.
     assert!(kinds.iter().enumerate().all(|(kind, count)| (kind == FrameError::TooLong as usize) == (*count == 0)));
 }
 
@@ -150,14 +151,14 @@ fn lengths() {
     let long = encoded(&any, &[0x41; 69]);
     let stream = [&long[..], &encoded(&DRIVE, &[1])].concat();
     assert_eq!(decoded(&DRIVE, &stream), [Err(FrameError::TooLong), Ok(vec![1])]);
-    // The room is too small.
+    // The buffer is too short.
     let (mut decoder, mut data) = (DRIVE.decoder(), [0; 2]);
     let frame = encoded(&DRIVE, &[5, 6, 7]);
     let errors: Vec<_> = frame.iter().filter_map(|byte| DRIVE.decode(&mut decoder, *byte, &mut data).err()).collect();
     assert_eq!(errors, [FrameError::TooLong]);
     for (frame, found) in [
         (&[0x02, 0x03][..], vec![Err(FrameError::TooShort)]),
-        // No data and their check.
+        // A frame without data.
         (&[0x02, 0xFF, 0x03], vec![Ok(vec![])]),
         (&[0x02, 0x41, 0x1B, 0x03], vec![Err(FrameError::Escape)]),
         (&[0x02, 0x41, 0x1B, 0x41, 0x03], vec![Err(FrameError::Escape)]),
@@ -185,7 +186,7 @@ fn frames_that_share_a_byte() {
 #[test]
 fn checks_that_are_not_escaped() {
     let raw = Delimited { is_check_escaped: false, ..DRIVE };
-    // 0xFD, 0xFC and 0xE4 have checks that look like begin, end and escape.
+    // The checksums of 0xFD, 0xFC and 0xE4 equal start, end and escape.
     for (byte, check) in [(0xFD, 0x02), (0xFC, 0x03), (0xE4, 0x1B), (0x41, 0xBE)] {
         assert_eq!(encoded(&raw, &[byte]), [0x02, byte, check, 0x03]);
     }
@@ -225,7 +226,7 @@ fn a_borrowed_framing_frames() {
     assert_eq!(there_and_back(borrowed, &[1, 2, 3]), Some(Ok(3)));
 }
 
-/// Bytes that look like chance, the same each time.
+/// Returns pseudo-random bytes from a seed.
 fn noise(seed: &mut u32) -> u8 {
     *seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
     (*seed >> 24) as u8
@@ -244,7 +245,7 @@ fn whatever_comes_a_frame_behind_it_is_found() {
                     byte => byte,
                 })
                 .collect();
-            // An escape at the end of the noise would take the first byte with it.
+            // An escape at the end of the noise would consume the first byte of the frame.
             stream.push(0x41);
             let data = vec![0x02, noise(&mut seed), 0x1B];
             stream.extend(encoded(&framing, &data));

@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
-# The full lane: everything that is tested, on the whole corpus. Goes on after a failure, and prints a table with times at the end.
+# The full lane: all tests, with the whole corpus. Continues after a failure and prints a table of results and times at the end.
 #
 #     tests/full.sh                   # all parts
 #     tests/full.sh clippy browser    # these parts
 #     tests/full.sh --list            # their names
-#     tests/full.sh coverage          # on request only: an hour more
+#     tests/full.sh coverage          # only on request: takes an hour
 #
 # Logs are in target/full. Parts that need the corpus are skipped with a message if ../shared is absent.
 set -uo pipefail
@@ -16,7 +16,7 @@ logs=$target/full
 parts=(programs format clippy features outside packages rustdoc build sample bindings units doctests ui corpus generated packing \
     differential arbitrary mutations nested site browser book pages rest examples)
 
-# Names of test programs, as arguments of cargo. Each program of the workspace is in one part; `rest` runs what no other part names.
+# Names of test programs for `cargo test --test`. Each program of the workspace belongs to one part; `rest` runs the unlisted ones.
 ui=(ui)
 corpus=(corpus_exports corpus_fixes corpus_esi corpus_gsdml corpus_lexer corpus_values frozen profinet_corpus rust_format)
 generated=(generated_code rustdoc table_code)
@@ -39,14 +39,14 @@ tests() {
 part_programs() { tests/programs.sh; }
 part_format() { cargo fmt --all --check; }
 part_clippy() { cargo clippy --quiet --workspace --all-targets --all-features -- -D warnings; }
-# Each feature of the runtime compiles alone.
+# Each feature of the runtime must compile alone.
 part_features() {
     local features failed=0
     for features in "" std canopen socketcan socketcan-tokio ethercat modbus serial macros serde,defmt; do
         echo "features: $features"
         cargo check --quiet -p lexibus --no-default-features --features "$features" || failed=1
     done
-    # So does each front end of the compiler; a format whose front end is left out is an error.
+    # Each front end of the compiler must compile alone. The test checks the error for formats without a front end.
     for features in "" eds xdd esi gsdml table messages eds,table; do
         echo "front ends: $features"
         cargo check --quiet -p lexibus-codegen --no-default-features --features "$features" || failed=1
@@ -54,7 +54,7 @@ part_features() {
     done
     return $failed
 }
-# Crates outside of the workspace: they need a C++ compiler, or the newest Rust.
+# Crates outside the workspace: they need a C++ compiler or the newest Rust.
 part_outside() {
     local crate failed=0
     for crate in codegen/fuzz benches/packing benches/peers; do
@@ -64,18 +64,18 @@ part_outside() {
             continue
         fi
         cargo check --quiet --all-targets --manifest-path "$crate/Cargo.toml" --target-dir "$target/apart" || failed=1
-        # A lock file that does not fit is written again.
+        # Cargo rewrites a lock file that is out of date.
         git diff --exit-code -- "$crate/Cargo.lock" || failed=1
     done
     return $failed
 }
-# Each crate as crates.io would get it, and a build against the packages.
+# Packages all crates as for crates.io and builds against the packages.
 part_packages() { CARGO_TARGET_DIR=$(realpath "$target") tests/packages.sh; }
 part_rustdoc() {
     RUSTDOCFLAGS='-D warnings' cargo doc --quiet --workspace --all-features --no-deps --lib --bins --examples
 }
 part_sample() { tests/corpus-sample.py "$target/debug/lexibus" --check; }
-# The compiler is compiled once: for macros, tests and programs alike.
+# The compiler must be compiled only once, for macros, tests and programs together.
 part_build() {
     local builds
     builds=$(cargo test --all-features --no-run --message-format json | grep -c '"reason":"compiler-artifact".*"name":"lexibus_codegen".*"test":false')
@@ -96,9 +96,9 @@ part_nested() { tests "${nested[@]}"; }
 part_site() { tests "${site[@]}"; }
 part_browser() { tests "${browser[@]}"; }
 part_book() { tests "${book[@]}"; }
-# The book as mdBook builds it.
+# Checks the book as built by mdBook.
 part_pages() { cargo test --no-fail-fast -p lexibus-book-pages; }
-# Every test program that no other part names.
+# All test programs that no other part lists.
 part_rest() {
     local named=" ${ui[*]} ${corpus[*]} ${generated[*]} ${packing[*]} ${differential[*]} ${arbitrary[*]} ${mutations[*]} ${nested[*]} ${site[*]} ${browser[*]} ${book[*]} ${pages[*]} "
     local all rest=() name
@@ -107,7 +107,7 @@ part_rest() {
     for name in $all; do [[ $named == *" $name "* ]] || rest+=("$name"); done
     tests "${rest[@]}"
 }
-# A program for each bus, each against a simulated device.
+# Runs an example for each bus, with a simulated device.
 part_examples() {
     local example failed=0
     cargo build --quiet --all-features --examples || return 1

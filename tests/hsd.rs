@@ -1,5 +1,5 @@
-//! The HSD motors through their bindings: each packet both ways, what becomes of damaged ones, the manual's examples, and a
-//! simulated motor at the other end of a pseudo-terminal.
+//! The bindings of the HSD motors: encoding and decoding of each packet, damaged packets, the manual's examples, and
+//! a simulated motor on a pseudo-terminal.
 
 #![cfg(unix)]
 
@@ -19,19 +19,19 @@ mod states;
 use lexibus::framing::{FrameError, Framing};
 use lexibus_drives::hsd::messages::FRAMING;
 
-/// The frame of a message.
+/// Returns the frame of a message.
 fn framed(data: &[u8]) -> Vec<u8> {
     let mut frame = [0; 160];
     let length = FRAMING.encode(data, &mut frame).expect("a message of the protocol");
     frame[..length].to_vec()
 }
 
-/// What a decoder finds in a stream that comes byte by byte.
+/// Decodes a stream byte by byte into frames and errors.
 fn found(stream: &[u8]) -> Vec<Result<Vec<u8>, FrameError>> {
     found_in_pieces(&[stream])
 }
 
-/// The same in pieces, after each of which nothing is kept but the decoder and the data.
+/// Decodes a stream in pieces. Between them, only the decoder and its data are kept.
 fn found_in_pieces(pieces: &[&[u8]]) -> Vec<Result<Vec<u8>, FrameError>> {
     let (mut decoder, mut data, mut all) = (FRAMING.decoder(), [0; 80], Vec::new());
     for byte in pieces.iter().copied().flatten() {

@@ -1,8 +1,9 @@
-//! Packing, unpacking and accessing values takes no more instructions than the same written by hand, but for what [`TOLERATED`] has.
+//! Generated code for packing, unpacking and accessing values executes no more instructions than handwritten code,
+//! except for [`TOLERATED`].
 //!
-//! `valgrind --tool=callgrind` counts what the pairs of functions in `benches/instructions` execute, in a release build:
-//! the counts are exact and the same in every run. `LEXIBUS_LANE=full cargo test --test instructions -- --nocapture` prints them, and the bytes
-//! of code of each function where `nm` tells them.
+//! `valgrind --tool=callgrind` counts the instructions of the function pairs in `benches/instructions`, in a release
+//! build. The counts are exact and reproducible. `LEXIBUS_LANE=full cargo test --test instructions -- --nocapture`
+//! prints them, and the code size of each function if `nm` reports it.
 
 #[path = "support/lane.rs"]
 mod lane;
@@ -11,31 +12,31 @@ use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// What a pair may differ by, in instructions a call, and why. All others may not.
+/// Pairs that may differ: the number of instructions per call, and the reason.
 const TOLERATED: [(&str, &str, f64); 3] = [
-    // Bytes 4 and 5 of the first PDO are stored by themselves, and LLVM takes them from a word instead of a field.
+    // Bytes 4 and 5 of the first PDO are stored separately, and LLVM extracts them from a word instead of a field.
     ("several_pdos", "pack", 1.0),
-    // The buffer has 8 bytes for every type. What is read is laid out with the errors in one place: a jump.
+    // The buffer has 8 bytes for all types. The result is in the same place as the errors, which costs a jump.
     ("objects", "read", 2.0),
-    // The value passes through an enumeration, which names most of its numbers.
+    // The value passes through an enumeration that names most of its values.
     ("objects", "write_mode", 4.0),
 ];
 
-/// Calls of a function, and the instructions that these took, with all that it calls.
+/// Per function: the number of calls, and the instructions of these calls, including called functions.
 type Costs = HashMap<String, (u64, u64)>;
 
 fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
 }
 
-/// The binary that calls all pairs.
+/// Builds the binary that calls all pairs.
 fn build() -> PathBuf {
     let target = Path::new(env!("CARGO_TARGET_TMPDIR")).join("instructions");
     let output = Command::new(env!("CARGO"))
         .args(["build", "--quiet", "--release", "-p", "lexibus-instructions"])
         .current_dir(root())
         .env("CARGO_TARGET_DIR", &target)
-        // Parts that are compiled apart aren't inlined into each other.
+        // Functions in separate codegen units aren't inlined into each other.
         .env("CARGO_INCREMENTAL", "0")
         .env_remove("RUSTFLAGS")
         .output()
@@ -44,7 +45,7 @@ fn build() -> PathBuf {
     target.join("release/lexibus-instructions")
 }
 
-/// Runs the binary under `valgrind`: the names of the pairs, `case action`, and what each function cost.
+/// Runs the binary under `valgrind`. Returns the names of the pairs (`case action`) and the costs of all functions.
 fn count(binary: &Path) -> (Vec<(String, String)>, Costs) {
     let profile = Path::new(env!("CARGO_TARGET_TMPDIR")).join("callgrind.out");
     let output = Command::new("valgrind")
@@ -59,8 +60,8 @@ fn count(binary: &Path) -> (Vec<(String, String)>, Costs) {
     (pairs, costs(&std::fs::read_to_string(profile).expect("a profile")))
 }
 
-/// Reads the calls of a profile: `cfn=` names the function, `calls=` says how often it is called from this place, and the
-/// line behind it ends with what these calls cost.
+/// Parses the calls of a profile. `cfn=` names the function, `calls=` is the number of calls from this place. The
+/// following line ends with their cost.
 fn costs(profile: &str) -> Costs {
     let mut costs = Costs::new();
     let (mut function, mut lines) = ("", profile.lines());
@@ -78,7 +79,7 @@ fn costs(profile: &str) -> Costs {
     costs
 }
 
-/// What a call of a function costs. Mangled names hold the names of modules with their lengths in front.
+/// Returns the instructions per call of a function. Mangled names contain module names, each preceded by its length.
 fn cost(costs: &Costs, case: &str, action: &str, side: &str) -> f64 {
     let path: String = [case, action, side].iter().map(|name| format!("{}{name}", name.len())).collect();
     let found: Vec<_> = costs.iter().filter(|(name, _)| name.contains(&path)).collect();
@@ -87,7 +88,7 @@ fn cost(costs: &Costs, case: &str, action: &str, side: &str) -> f64 {
     *instructions as f64 / *calls as f64
 }
 
-/// The bytes of code of each function, by its mangled name.
+/// Returns the code size of each function in bytes, by mangled name.
 fn sizes(binary: &Path) -> HashMap<String, u64> {
     let Ok(output) = Command::new("nm").arg("--print-size").arg(binary).output() else { return HashMap::new() };
     let row = |line: &str| {
@@ -97,7 +98,7 @@ fn sizes(binary: &Path) -> HashMap<String, u64> {
     String::from_utf8_lossy(&output.stdout).lines().filter_map(row).collect()
 }
 
-/// The bytes of code of one of a pair.
+/// Returns the code size of one function of a pair in bytes.
 fn size(sizes: &HashMap<String, u64>, case: &str, action: &str, side: &str) -> u64 {
     let path: String = [case, action, side].iter().map(|name| format!("{}{name}", name.len())).collect();
     sizes.iter().filter(|(name, _)| name.contains(&path)).map(|(_, size)| size).sum()

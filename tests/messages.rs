@@ -1,5 +1,5 @@
-//! Messages of a serial protocol through generated code: from the program to the bytes on the line and back, with a simulated hoist
-//! at the other end.
+//! Messages of a serial protocol in generated code, from a program to the bytes on the line and back. The device is a
+//! simulated hoist.
 
 mod bindings {
     lexibus::dictionary! {
@@ -22,7 +22,7 @@ use now::now;
 
 const NODE: u32 = 5;
 
-/// A hoist that remembers its parameters. It refuses to go beyond 100 m.
+/// A simulated hoist that stores its parameters. It refuses heights above 100 m.
 #[derive(Default)]
 struct Simulated {
     parameters: BTreeMap<u32, Setting>,
@@ -58,7 +58,7 @@ impl Simulated {
                 self.shows_load = false;
                 SelectHeightReply.write(request, to)
             }
-            // The two polls are alike.
+            // Both polls have the same data.
             Request::PollLoad(_) if self.shows_load => PollLoadReply { status, load: 0x7FFF }.write(request, to),
             Request::PollLoad(_) => PollHeightReply { status, height: self.height }.write(request, to),
             Request::Write(write) => {
@@ -170,7 +170,7 @@ fn several_parameters_in_one_frame() -> Result<(), OutOfRange> {
     assert_eq!(hoist.client().exchange().sent[0], expected);
     let read = hoist.read(Parameter(0x010C)).send().unwrap();
     assert_eq!((read.setting.value_of(&objects::HEIGHT), read.setting.value_of(&objects::GAIN)), (Some(-5), None));
-    // As many as the message may have, and as many as fit.
+    // More settings than the message allows, then more than its length allows.
     let many = [settings[0]; 9];
     assert_eq!(hoist.write(&many).send(), Err(Error::OutOfRange(OutOfRange).into()));
     let long = [settings[1]; 7];
@@ -187,7 +187,7 @@ fn what_a_request_means_is_a_type() {
     {
         let mut shows_load = hoist.select_load().select().unwrap();
         assert_eq!(PollLoadReply::LOAD.physical(shows_load.poll_load().send().unwrap().load), None);
-        // What has nothing to do with it is there, too.
+        // Requests that are independent of the selection remain available.
         shows_load.store().send().unwrap();
         assert!(shows_load.poll_load().send().unwrap().is_complete());
     }
@@ -213,7 +213,7 @@ fn what_is_repeated_and_what_goes_on_to_the_end() {
     assert_eq!(hoist.play(List::from(&too_high)).send(), Err(Error::OutOfRange(OutOfRange).into()));
 }
 
-/// A reply that isn't one to the request, in any byte, isn't taken for it; the two bytes without meaning may be anything.
+/// A reply with any changed byte isn't accepted, except for the two bytes without meaning.
 #[test]
 fn every_byte_of_a_reply_counts() {
     let request = [5, 0x02, 0x02, 0x34, 0x00, 0x01, 0x25, 0x8E];

@@ -1,4 +1,5 @@
-//! What isn't used leaves nothing in a binary, and the default build needs nothing: the programs of `examples/no_std`.
+//! Unused code leaves no trace in a binary, and the default build has no dependencies. Uses the programs of
+//! `examples/no_std`.
 
 #[path = "support/lane.rs"]
 mod lane;
@@ -14,7 +15,7 @@ fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
 }
 
-/// Builds the programs and returns the folder of their binaries; nothing where they can't be linked.
+/// Builds the programs and returns the folder of their binaries; `None` if they can't be linked.
 fn build() -> Option<PathBuf> {
     if !cfg!(all(target_os = "linux", target_arch = "x86_64")) {
         println!("skipped: the programs of examples/no_std are for Linux on x86-64");
@@ -32,7 +33,7 @@ fn build() -> Option<PathBuf> {
     Some(target.join("release"))
 }
 
-/// What of a program is loaded, and the names of its functions.
+/// The loaded sections of a program, and the names of its functions.
 struct Program {
     code: usize,
     data: usize,
@@ -45,7 +46,7 @@ fn read(binary: &Path) -> Program {
     let file = object::File::parse(&*bytes).expect("an object file");
     let mut program = Program { code: 0, data: 0, loaded: Vec::new(), symbols: Vec::new() };
     for section in file.sections() {
-        // Tables for unwinding, which a linker script for a microcontroller throws away.
+        // Unwinding tables, which a linker script for a microcontroller discards.
         if section.name().is_ok_and(|name| name.starts_with(".eh_frame")) {
             continue;
         }
@@ -65,13 +66,13 @@ fn read(binary: &Path) -> Program {
     program
 }
 
-/// All texts of five letters or more in the bindings: names of registers, units, texts of codes.
+/// Returns all texts of at least five letters in the bindings: names of registers, units, texts of codes.
 fn texts(bindings: &str) -> BTreeSet<&str> {
     let code = bindings.lines().filter(|line| !line.trim_start().starts_with("//"));
     code.flat_map(|line| line.split('"').skip(1).step_by(2)).filter(|text| text.len() >= 5).collect()
 }
 
-/// Runs a program with the replies of a drive, and returns what it sent.
+/// Runs a program with the replies of a drive, and returns its exit code and output.
 fn run(binary: &Path, replies: &[u8]) -> (Option<i32>, Vec<u8>) {
     let mut child =
         Command::new(binary).stdin(Stdio::piped()).stdout(Stdio::piped()).spawn().expect("the program starts");
@@ -98,7 +99,7 @@ fn what_is_not_used_leaves_nothing() {
         let found = generated.loaded.windows(text.len()).any(|window| window == text.as_bytes());
         assert!(!found, "`{text}` is in the binary");
     }
-    // A table of 585 registers would take thousands of bytes.
+    // A table of 585 registers would need thousands of bytes.
     assert!(generated.code + generated.data < 1024, "{} + {} bytes", generated.code, generated.data);
     assert!(generated.data <= by_hand.data, "{} bytes of data", generated.data);
     for name in &generated.symbols {
@@ -126,7 +127,7 @@ fn both_programs_send_the_same_frames() {
     .concat();
     for name in ["generated", "by_hand"] {
         assert_eq!(run(&folder.join(name), &replies), (Some(0), frames.clone()), "{name}");
-        // A refusal ends it.
+        // The program ends after a refusal.
         let refused = [0x80, 0x60, 0x60, 0, 0, 0, 2, 6];
         assert_eq!(run(&folder.join(name), &refused), (Some(2), frames[..8].to_vec()), "{name}");
     }

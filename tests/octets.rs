@@ -1,4 +1,4 @@
-//! Arrays of more than 32 bytes, for which `serde` has no traits of its own.
+//! Arrays of more than 32 bytes: `serde` doesn't implement its traits for them.
 
 #[derive(Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 struct Frame {

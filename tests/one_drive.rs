@@ -1,4 +1,5 @@
-//! One device on every bus: the accessors of `data/one-drive.toml`, over objects, windows, registers and a process image.
+//! One device on all buses: the accessors of `data/one-drive.toml` use objects, windows, registers and a process
+//! image.
 
 #![cfg(all(feature = "macros", feature = "std"))]
 
@@ -16,7 +17,7 @@ use lexibus::{
 };
 
 lexibus::dictionary! {
-    /// A made-up drive.
+    /// A fictitious drive.
     #[allow(deprecated)]
     pub mod one = "tests/data/one-drive.toml" { table: true }
 }
@@ -24,7 +25,7 @@ lexibus::dictionary! {
 use one::types::Modes;
 use one::{objects, OneDrive, ENTRIES};
 
-/// The result of a future that never has to wait.
+/// Returns the result of a future that is ready at once.
 fn now<F: Future>(future: F) -> F::Output {
     struct Silent;
     impl std::task::Wake for Silent {
@@ -37,7 +38,7 @@ fn now<F: Future>(future: F) -> F::Output {
     }
 }
 
-/// The drive on CANopen: what is behind its window is what the registers hold.
+/// The drive on CANopen. Its window accesses the registers.
 fn node() -> Device {
     let mut device = Device::new(ENTRIES);
     device
@@ -75,9 +76,9 @@ fn windows_are_as_addresses() {
     assert_eq!(drive.master_speed().read(), Ok(-5));
     now(drive.gain().write_async(70_001)).unwrap();
     assert_eq!(now(drive.gain().read_async()), Ok(70_001));
-    // The item's own range holds here, too.
+    // The accessor checks the item's range, too.
     assert_eq!(drive.gain().write(100_001), Err(Error::OutOfRange(OutOfRange)));
-    // An address of its own goes before a window.
+    // An item with its own object doesn't use the window.
     drive.target_position().write(60_000).unwrap();
     assert_eq!(device.bytes(Object::new(0x607A, 0)), Ok(60_000_i32.to_le_bytes().as_slice()));
     assert_eq!(device.bytes(Object::new(0x2006, 2)), Ok(70_001_i32.to_le_bytes().as_slice()));
@@ -88,7 +89,7 @@ fn what_the_device_refuses_comes_through_a_window() {
     let mut device = node();
     device.fail_next(AbortCode::HARDWARE);
     assert_eq!(OneDrive::new(device.client::<CanOpen>()).gain().read(), Err(Error::Abort(AbortCode::HARDWARE)));
-    // Nobody clears the number.
+    // This device never clears the number.
     let mut dead = Device::new(ENTRIES);
     assert_eq!(OneDrive::new(dead.client::<CanOpen>()).gain().read(), Err(Error::Timeout));
     assert_eq!(now(OneDrive::new(dead.client::<CanOpen>()).gain().read_async()), Err(Error::Timeout));
@@ -117,7 +118,7 @@ fn a_window_of_bytes_takes_what_fits() {
     assert_eq!(drive.station().write(201), Err(Error::OutOfRange(OutOfRange)));
 }
 
-/// A drive on EtherCAT that says what is done to it.
+/// A simulated drive on EtherCAT that logs all accesses.
 #[derive(Default)]
 struct Slave {
     log: Vec<String>,
@@ -219,7 +220,7 @@ fn each_bus_has_its_own_width() {
     drive.mode().write(Modes::SaveParameters).unwrap();
     assert_eq!(drive.client().log, ["write 0x6060:00 [CE, FF]"]);
     assert_eq!(drive.mode().read(), Ok(Modes::SaveParameters));
-    // 8 bits on CANopen, where the mode that saves doesn't exist, and where reading goes through the window.
+    // 8 bits on CANopen. There the mode that saves doesn't exist, and reads use the window.
     let mut device = node();
     let mut drive = OneDrive::new(device.client::<CanOpen>());
     assert_eq!(drive.mode().write(Modes::SaveParameters), Err(Error::OutOfRange(OutOfRange)));
@@ -233,13 +234,14 @@ fn each_bus_has_its_own_width() {
     assert_eq!(device.bytes(objects::MODE.location().modbus), Ok((-50_i32).to_le_bytes().as_slice()));
 }
 
-/// A drive with an image of 16 bytes each way, which answers its channel of variables in the second cycle after a question.
+/// A simulated drive with a process image of 16 bytes in each direction. It answers its parameter channel in the
+/// second cycle after a request.
 #[derive(Default)]
 struct Controller {
     cycles: usize,
     asked: Option<u16>,
     gain: i32,
-    /// What the gain was set to.
+    /// All values written to the gain.
     gains: Vec<i32>,
     is_bad: bool,
 }
@@ -254,7 +256,7 @@ impl Controller {
             self.gains.push(value);
         }
         inputs.fill(0);
-        // It is always where it should be.
+        // The actual position equals the target position.
         inputs[1..5].copy_from_slice(&outputs[1..5]);
         inputs[9..11].copy_from_slice(&(-300_i16).to_be_bytes());
         inputs[11] = 0b1000;
@@ -312,12 +314,12 @@ fn the_image_is_a_bus() {
     assert_eq!((drive.ready().read(), drive.alarm().read()), (Ok(true), Ok(0)));
     drive.mode().write(Modes::SaveParameters).unwrap();
     assert_eq!(drive.client().outputs()[0], 0xCE);
-    // What the image only sends is read through the channel of variables; what it doesn't have goes through it both ways.
+    // Output-only fields are read through the parameter channel. Items without a field use it for reads and writes.
     assert_eq!(drive.mode().read(), Ok(Modes::SaveParameters));
     drive.gain().write(70_000).unwrap();
     assert_eq!(drive.gain().read(), Ok(70_000));
     assert_eq!(now(drive.gain().read_async()), Ok(70_000));
-    // No cycle had the number with the value of another.
+    // No cycle combined the number with the value of another item.
     assert!(drive.client().image().gains.iter().all(|gain| *gain == 70_000));
     now(drive.gain().write_async(70_001)).unwrap();
     assert_eq!(drive.client().image().gain, 70_001);
@@ -332,7 +334,7 @@ fn fields_of_one_cycle_go_out_together() {
     assert_eq!(drive.client().image().cycles, 0);
     drive.client().cycle().unwrap();
     assert_eq!((drive.actual_position().read(), drive.client().image().cycles), (Ok(5), 1));
-    // A window takes its time, and the cycles that are in it.
+    // A window access takes time, during which cycles continue.
     drive.gain().write(9).unwrap();
     assert_eq!((drive.gain().read(), drive.client().image().cycles), (Ok(9), 9));
 }

@@ -1,10 +1,10 @@
-//! Mappings of one's own: what `lexibus::pdo!` packs, unpacks and writes into a device.
+//! Custom mappings: packing, unpacking and configuration of `lexibus::pdo!` structs.
 
 use lexibus::{CobId, Int, LengthError, MappedEntry, NodeId, Pdo, SdoWrite, Uint};
 use lexibus_drives::{demo_drive, vector_step};
 use proptest::prelude::*;
 
-/// What the compiler emits, of a device with odd numbers of bits and with bits for granularity.
+/// Generated code for a device with odd lengths and a granularity of one bit.
 #[allow(missing_docs)]
 pub mod odd {
     pub mod types {
@@ -69,7 +69,7 @@ pub mod odd {
             const TIMING: &'static [rt::SdoWrite] = &[rt::SdoWrite::new_u8(0x1400, 2, 255)];
         }
 
-        /// On EtherCAT, with an entry that stays.
+        /// A PDO on EtherCAT with a fixed entry.
         pub enum Inputs {}
 
         impl rt::Remappable for Inputs {
@@ -81,7 +81,7 @@ pub mod odd {
             const KEPT: &'static [rt::MappedEntry] = &[rt::MappedEntry::new(0x2000, 0, 3)];
         }
 
-        /// Nobody may write its identifier, and it has none by default.
+        /// A PDO without default COB-ID, which is read-only.
         pub enum TxPdo2 {}
 
         impl rt::Remappable for TxPdo2 {
@@ -96,13 +96,13 @@ pub mod odd {
 use odd::types::Mode;
 
 lexibus::pdo! {
-    /// Set-points of odd numbers of bits.
+    /// Setpoints of odd lengths.
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct SetPoints: odd::pdo::RxPdo1 {
         mode,
         enable,
         _: 8,
-        /// Where to.
+        /// Target position.
         position,
         left: inputs::input_1,
         _: 1,
@@ -137,10 +137,10 @@ fn fields_stand_bit_by_bit() {
         left: Uint::from_raw(0xABC),
     };
     assert_eq!((SetPoints::BITS, SetPoints::LEN), (49, 7));
-    // 3 bits, 1 bit, a gap of 8, 24 bits, 12 bits, a gap of 1: 0xABC_FFFFFE_00_E.
+    // 3 bits, 1 bit, a gap of 8 bits, 24 bits, 12 bits, a gap of 1 bit: 0xABC_FFFFFE_00_E.
     assert_eq!(points.pack(), [0x0E, 0xE0, 0xFF, 0xFF, 0xCF, 0xAB, 0x00]);
     assert_eq!(SetPoints::unpack(&points.pack()), Ok(points));
-    // What is in gaps and behind the frame is nobody's.
+    // Bits in gaps and after the mapped ones are ignored.
     assert_eq!(SetPoints::unpack(&[0xFE, 0xEF, 0xFF, 0xFF, 0xCF, 0xAB, 0xFF, 0xFF]), Ok(points));
     assert_eq!(SetPoints::unpack(&[0; 6]), Err(LengthError { expected: 7, actual: 6 }));
 }
@@ -156,7 +156,7 @@ fn values_are_cut_to_their_bits() {
 fn a_pdo_may_be_longer_than_a_word() {
     let long = Long { left: Uint::from_raw(0x123), real: 1.0, mode: Mode::On, text: *b"Hello" };
     assert_eq!((Long::BITS, Long::LEN), (97, 13));
-    // 12 bits, 32 bits of 0x3F800000, 3 bits from bit 44, a gap of 10, 40 bits from bit 57.
+    // 12 bits, 32 bits of 0x3F800000, 3 bits from bit 44 on, a gap of 10 bits, 40 bits from bit 57 on.
     assert_eq!(long.pack(), [0x23, 0x01, 0x00, 0x00, 0xF8, 0x13, 0x00, 0x90, 0xCA, 0xD8, 0xD8, 0xDE, 0x00]);
     assert_eq!(Long::unpack(&long.pack()), Ok(long));
     assert_eq!(Long::unpack(&[0; 12]), Err(LengthError { expected: 13, actual: 12 }));
@@ -169,7 +169,7 @@ fn configuration_is_disable_clear_map_count_timing_enable() {
         SdoWrite::new_u8(0x1600, 0, 0),
         SdoWrite::new_u32(0x1600, 1, 0x2000_0003),
         SdoWrite::new_u32(0x1600, 2, 0x2001_0001),
-        // The dummy entries of 8 bits and of 1.
+        // The dummy entries of 8 bits and 1 bit.
         SdoWrite::new_u32(0x1600, 3, 0x0005_0008),
         SdoWrite::new_u32(0x1600, 4, 0x2002_0018),
         SdoWrite::new_u32(0x1600, 5, 0x2010_010C),
@@ -202,13 +202,13 @@ fn a_gap_on_ethercat_needs_no_object() {
 }
 
 lexibus::pdo! {
-    /// As the drive has it by default.
+    /// The default mapping.
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct SameAsDefault: demo_drive::pdo::RxPdo2 { controlword, target_position }
 }
 
 lexibus::pdo! {
-    /// Of an array, and under a name of one's own.
+    /// An array entry with a custom field name.
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct Feedback: ::lexibus_drives::demo_drive::pdo::TxPdo2 {
         mode: modes_of_operation_display,
@@ -242,7 +242,7 @@ fn enumerations_and_entries_of_arrays() {
 }
 
 lexibus::pdo! {
-    /// Into a PDO that is empty by default.
+    /// A mapping for a PDO that has none by default.
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct Fast: vector_step::pdo::RxPdo3 { controlword, profile_velocity }
 }
@@ -273,7 +273,7 @@ proptest! {
     #[test]
     fn short_frames_come_back(frame: [u8; 7]) {
         let mut expected = frame;
-        // The gaps: bits 4 to 11, and 48 and what is behind.
+        // The gaps: bits 4 to 11, and everything from bit 48 on.
         (expected[0], expected[1], expected[6]) = (frame[0] & 0x0F, frame[1] & 0xF0, 0);
         prop_assert_eq!(SetPoints::unpack(&frame).unwrap().pack(), expected);
     }
@@ -281,7 +281,7 @@ proptest! {
     #[test]
     fn long_frames_come_back(frame: [u8; 13]) {
         let mut expected = frame;
-        // The gaps: bits 47 to 56, and what is behind bit 97.
+        // The gaps: bits 47 to 56, and everything from bit 97 on.
         (expected[5], expected[6], expected[7], expected[12]) = (frame[5] & 0x7F, 0, frame[7] & 0xFE, frame[12] & 1);
         prop_assert_eq!(Long::unpack(&frame).unwrap().pack(), expected);
     }
@@ -290,12 +290,12 @@ proptest! {
     fn frames_of_a_drive_are_read_alike(frame: [u8; 8]) {
         let (own, default) = (SameAsDefault::unpack(&frame).unwrap(), demo_drive::pdo::RxPdo2::unpack(&frame).unwrap());
         prop_assert_eq!((own.controlword, own.target_position), (default.controlword, default.target_position));
-        // Reserved bits, too: PDOs are packed as they are.
+        // Reserved bits keep their value.
         prop_assert_eq!(own.pack(), default.pack());
     }
 }
 
-/// EtherCAT, from a description.
+/// PDOs of an EtherCAT device description.
 #[cfg(feature = "macros")]
 mod ethercat {
     use super::*;
@@ -310,7 +310,7 @@ mod ethercat {
     }
 
     lexibus::pdo! {
-        /// Position and a gap.
+        /// Controlword, a gap and the target position.
         #[derive(Clone, Copy, Debug, PartialEq)]
         pub struct Position: drive::pdo::PositionMode { controlword, _: 3, target_position }
     }
@@ -325,7 +325,7 @@ mod ethercat {
         let commands: Vec<SdoWrite> = assignment.commands().collect();
         let at = commands.iter().position(|write| write.object().index == 0x1600).unwrap();
         assert_eq!(commands[at..at + 5], Position::mapping_writes());
-        // The assignment is cleared in front of the mapping and written behind it.
+        // The assignment is cleared before the mapping is written, and written after it.
         assert_eq!(commands[0], SdoWrite::new_u8(0x1C12, 0, 0));
         assert!(commands[at + 5..].contains(&SdoWrite::new_u16(0x1C12, 1, 0x1600)));
         let other = Assignment::<8>::new(&drive::DEVICE, &[0x1601, 0x1A01]).unwrap();
@@ -339,7 +339,7 @@ mod ethercat {
     }
 
     lexibus::pdo! {
-        /// The state, which has to stay, and what else there is.
+        /// The fixed entry for the state, and all other entries.
         #[derive(Clone, Copy, Debug, PartialEq)]
         pub struct Everything: sensor::pdo::Measurement { _: 5, label, state, trend, alarm }
     }
@@ -349,7 +349,7 @@ mod ethercat {
         use sensor::pdo::Measurement;
         use sensor::types::{State, Trend};
 
-        // State 1, the alarm, trend -1: the bits above those of the state are others'.
+        // State 1, the alarm, trend -1. The bits above the state belong to other fields.
         let measurement = Measurement { state: State::Measuring, alarm: true, trend: Trend::Falling };
         assert_eq!(measurement.pack(), [0xFD, 0x07]);
         assert_eq!(Measurement::unpack(&[0xFD, 0xFF]), Ok(measurement));
@@ -361,7 +361,7 @@ mod ethercat {
     fn the_limits_are_those_of_the_description() {
         use sensor::remappable::Measurement;
 
-        // 14 bytes; the entry of the state; what is mapped by default can be mapped.
+        // At most 14 bytes, a fixed entry for the state. Objects of the default mapping can be mapped.
         assert_eq!(
             (Measurement::MAX_BITS, Measurement::KEPT, Measurement::ENTRIES),
             (112, &[MappedEntry::new(0x6000, 0, 2)][..], 254)
@@ -373,7 +373,7 @@ mod ethercat {
             alarm: true,
         };
         assert_eq!((Everything::BITS, Everything::LEN), (96, 12));
-        // From bit 80: five bits of the text, two of the state, eight of the trend, the alarm.
+        // From bit 80 on: five bits of the text, two of the state, eight of the trend, the alarm.
         assert_eq!(everything.pack()[10..], [0x80 | 0x20 | 0x07, 0x80]);
         assert_eq!(Everything::unpack(&everything.pack()), Ok(everything));
     }

@@ -1,4 +1,4 @@
-//! Ways to a value that aren't its address alone: the asynchronous one does on the bus what the blocking one does.
+//! Routes to values other than a plain address: blocking and asynchronous access do the same on the bus.
 
 use std::collections::BTreeMap;
 use std::convert::Infallible;
@@ -15,12 +15,12 @@ use now::now;
 
 type Failure = Error<Infallible>;
 
-/// A device of plain memory, and all that happened to it.
+/// A simulated device that logs all accesses.
 #[derive(Clone, Debug, Default, PartialEq)]
 struct Node {
     memory: BTreeMap<Object, Vec<u8>>,
     journal: Vec<String>,
-    /// How often the number of a window is still there when it is looked at.
+    /// Number of reads until the number of a window is cleared.
     busy: u16,
     has_clock: bool,
 }
@@ -92,7 +92,7 @@ impl AsyncClient for Node {
 const NUMBER: Object = Object::new(0x2005, 1);
 const VALUE: Object = Object::new(0x2005, 2);
 
-/// Reads on `route` from a node both ways: what comes, and what the node went through.
+/// Reads through `route`, blocking and asynchronously. Returns the result and the node afterwards.
 fn read(route: &impl ReadRoute<CanOpen>, node: &Node, length: usize) -> (Result<Vec<u8>, Failure>, Node) {
     let (mut one, mut other) = (node.clone(), node.clone());
     let (mut value, mut value_async) = (vec![0xAA; length], vec![0xAA; length]);
@@ -102,7 +102,7 @@ fn read(route: &impl ReadRoute<CanOpen>, node: &Node, length: usize) -> (Result<
     (blocking, one)
 }
 
-/// Writes on `route` both ways.
+/// Writes through `route`, blocking and asynchronously.
 fn write(route: &impl WriteRoute<CanOpen>, node: &Node, data: &[u8]) -> (Result<(), Failure>, Node) {
     let (mut one, mut other) = (node.clone(), node.clone());
     let blocking = route.write(&mut one, data);

@@ -1,4 +1,4 @@
-//! Messages and numbered parameters over streams of `embedded-io`, with a simulated drive at the other end.
+//! Messages and numbered parameters over `embedded-io` streams, with a simulated drive.
 
 use std::collections::{BTreeMap, VecDeque};
 use std::io::ErrorKind;
@@ -26,14 +26,14 @@ fn framed(data: &[u8]) -> Vec<u8> {
     frame[..length].to_vec()
 }
 
-/// A line with a drive at its end, or with bytes that are there whatever is asked.
+/// A line with a drive at its end, or with fixed replies.
 #[derive(Default)]
 struct Line {
     received: Vec<u8>,
     replies: VecDeque<u8>,
-    /// What the end of the replies is: an error, or the end of the stream.
+    /// What follows the replies: a timeout, or the end of the stream.
     is_late: bool,
-    /// How many bytes it takes at once.
+    /// Whether each write accepts only one byte.
     slow: bool,
     drive: Option<Drive>,
 }
@@ -67,7 +67,7 @@ impl Line {
     }
 }
 
-/// What `embedded-io` asks of an error.
+/// An error type for `embedded-io`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Late(ErrorKind);
 
@@ -105,7 +105,7 @@ impl embedded_io::Write for Line {
     }
 }
 
-/// The same without blocking.
+/// The asynchronous line.
 struct AsyncLine(Line);
 
 impl embedded_io::ErrorType for AsyncLine {
@@ -128,8 +128,8 @@ impl embedded_io_async::Write for AsyncLine {
     }
 }
 
-/// Requests `r` number, `w` number value; replies `r` number value, `w` number, `!` number. Values have their most significant
-/// byte first.
+/// A protocol with requests `r` number and `w` number value, and replies `r` number value, `w` number and `!` number.
+/// Values are big-endian.
 struct Messages;
 
 impl ParameterMessages for Messages {
@@ -167,7 +167,7 @@ fn reply_to<E>(kind: u8, parameter: Parameter, reply: &[u8]) -> Result<&[u8], Er
     }
 }
 
-/// A drive with parameters. It doesn't have number 9.
+/// A simulated drive with parameters, except number 9.
 #[derive(Default)]
 struct Drive {
     decoder: Option<<Delimited as Framing>::Decoder>,
@@ -193,7 +193,7 @@ impl Drive {
 
 type Answer = Result<Vec<u8>, Error<SerialError<Late>>>;
 
-/// What an exchange gives, blocking and not, when these bytes come.
+/// Returns the result of an exchange with these replies. Checks that the asynchronous result is the same.
 fn exchanged(replies: &[u8]) -> Answer {
     let answer = |result: Result<usize, _>, reply: &[u8]| result.map(|length| reply[..length].to_vec());
     let mut reply = [0; 20];
@@ -294,7 +294,7 @@ fn parameters_are_items() {
         assert_eq!(POSITION.at(&mut drive).read_async().await, Ok(-7));
         assert_eq!(GAIN.at(&mut drive).read_async().await, Ok(-2));
     });
-    // A reply to something else.
+    // A reply to another request.
     let line = SerialLine::<_, _, 64>::new(Line::replying(framed(b"w\x04")), FRAMING);
     let mut drive = Parameters::<_, _, 20>::new(line, Messages);
     assert_eq!(GAIN.at(&mut drive).write(1), Err(Error::UnexpectedReply));

@@ -1,4 +1,4 @@
-//! Drivers against simulated devices: the bindings of two drives, on each of their buses.
+//! Drivers with simulated devices: the bindings of two drives on each of their buses.
 
 use std::sync::Arc;
 
@@ -37,7 +37,7 @@ fn exception<T>(exception: Exception) -> Result<T, Error<Fault>> {
     Err(Error::Client(Fault::Exception(exception)))
 }
 
-/// Where the power drive goes from `state` by a controlword (CiA 402-2 6.2).
+/// Returns the state after a controlword (CiA 402-2 6.2).
 fn after(state: State, controlword: u16) -> State {
     let is = |command: Command| controlword & command.mask() == command.value();
     match state {
@@ -61,7 +61,7 @@ fn status(state: State) -> Statusword {
     })
 }
 
-/// A drive whose statusword follows its controlword, and which is where it is told to be.
+/// A simulated drive whose statusword follows its controlword. Its actual position equals the target position.
 fn moving_drive() -> Device {
     let mut device = demo();
     device.set_initial(objects::STATUSWORD, status(State::SwitchOnDisabled)).unwrap();
@@ -108,14 +108,14 @@ fn process_data_go_both_ways() {
         write.send(&mut device.client::<CanOpen>()).unwrap();
     }
     device.set(objects::STATUSWORD, status(State::OperationEnabled)).unwrap();
-    // The target stands behind the controlword in the PDO, and is there already when the drive reacts to it.
+    // The target follows the controlword in the PDO. It is stored before the device reacts to the controlword.
     let frame = pdo::RxPdo2 { controlword: Controlword::from_raw(0x1F), target_position: 250_000 };
     assert_eq!(device.receive_pdo(pdo::RxPdo2::INDEX, &frame.pack()), Ok(()));
     let answer = pdo::TxPdo2::unpack(&device.transmit_pdo(pdo::TxPdo2::INDEX).unwrap()).unwrap();
     assert_eq!(answer.position_actual_value, 250_000);
     assert_eq!(answer.statusword.state(), Some(State::OperationEnabled));
     assert_eq!(device.receive_pdo(pdo::RxPdo2::INDEX, &[0; 5]), Err(AbortCode::TOO_SHORT));
-    // Beyond the limits of the target; the controlword is taken.
+    // The target exceeds its limit. The controlword is accepted.
     let frame = pdo::RxPdo2 { controlword: Controlword::from_raw(0), target_position: 1_000_001 };
     assert_eq!(device.receive_pdo(pdo::RxPdo2::INDEX, &frame.pack()), Err(AbortCode::TOO_HIGH));
     assert_eq!(device.get(objects::TARGET_POSITION), Ok(250_000));
@@ -131,7 +131,7 @@ fn a_mapping_of_ones_own() {
     let unused = SdoWrite::new_u32(0x1800, 1, 0x8000_0185);
     let clear = SdoWrite::new_u8(0x1A00, 0, 0);
     let word = |sub, word| SdoWrite::new_u32(0x1A00, sub, word);
-    // While the PDO is used, and while there are mapped objects, nothing changes.
+    // The mapping can't be changed while the PDO is enabled or the number of entries isn't 0.
     assert_eq!(send(&[clear]), abort(AbortCode::INVALID_VALUE));
     assert_eq!(send(&[unused, word(1, 0x6064_0020)]), abort(AbortCode::INVALID_VALUE));
     assert_eq!(send(&[clear, word(1, 0x6064_0020)]), Ok(()));
@@ -141,7 +141,7 @@ fn a_mapping_of_ones_own() {
     assert_eq!(send(&[word(1, 0x6064_0120)]), abort(AbortCode::NO_SUB_INDEX));
     assert_eq!(send(&[SdoWrite::new_u8(0x1A00, 0, 2)]), abort(AbortCode::INVALID_VALUE));
     assert_eq!(send(&[word(1, 0), SdoWrite::new_u8(0x1A00, 0, 1)]), abort(AbortCode::INVALID_VALUE));
-    // Identifiers of other services, and another one while the PDO is used.
+    // COB-IDs of other services are rejected, and so is a change of the COB-ID of an enabled PDO.
     assert_eq!(send(&[SdoWrite::new_u32(0x1800, 1, 0x605)]), abort(AbortCode::INVALID_VALUE));
     assert_eq!(send(&[word(1, 0x6064_0020), SdoWrite::new_u8(0x1A00, 0, 1)]), Ok(()));
     assert_eq!(send(&[SdoWrite::new_u32(0x1800, 1, 0x1B5)]), Ok(()));
@@ -163,7 +163,7 @@ fn a_frame_has_64_bits_on_can_only() {
     let mut client = device.client::<CanOpen>();
     clear.iter().chain(&map).try_for_each(|write| write.send(&mut client)).unwrap();
     assert_eq!(count.send(&mut client), abort(AbortCode::PDO_LENGTH));
-    // EtherCAT has no COB-IDs, and says in its own way that sub-index 0 comes first.
+    // EtherCAT has no COB-IDs. Its abort code for entries written before sub-index 0 differs.
     let mut device = vector();
     let mut client = device.client::<CoE>();
     assert_eq!(map[0].send(&mut client), abort(AbortCode(0x0601_0003)));
@@ -172,7 +172,7 @@ fn a_frame_has_64_bits_on_can_only() {
     assert_eq!(device.transmit_pdo(0x1600).map(|data| data.len()), Ok(12));
 }
 
-/// A value that the entry accepts, other than the present one where there is one.
+/// Returns an allowed value of the entry that differs from the current one, if there is one.
 fn another(entry: &Entry) -> Vec<u8> {
     let Some(bits) = entry.data_type.bits() else { return b"ab".to_vec() };
     let bytes = match (entry.high, entry.low) {
@@ -183,7 +183,7 @@ fn another(entry: &Entry) -> Vec<u8> {
     bytes[..bits.div_ceil(8) as usize].to_vec()
 }
 
-/// Objects to which a write is a command, or that take other values at certain times only.
+/// Returns whether an object executes commands, or accepts other values only at certain times.
 fn is_special(object: Object) -> bool {
     matches!(object.index, 0x1003 | 0x1010 | 0x1011 | 0x1400..=0x1BFF)
 }
@@ -232,7 +232,7 @@ fn every_register_is_read_and_written() {
     let mut device = vector();
     let mut written = 0;
     for entry in vector_step::ENTRIES {
-        // Programs take several requests.
+        // Program registers need several requests.
         let Some(register) = entry.register.filter(|register| register.count < 100) else { continue };
         let length = entry.data_type.bits().map_or(2 * usize::from(register.count), |bits| bits.div_ceil(8) as usize);
         let (mut buffer, value) = (vec![0; length], another(entry));
@@ -251,7 +251,7 @@ fn every_register_is_read_and_written() {
         }
         assert_eq!(client.read(register, &mut buffer), Ok(length));
         assert_eq!(buffer[..value.len()], value, "{entry:?}");
-        // The object is the same value.
+        // The object has the same value as the register.
         if let Some(object) = entry.object {
             assert_eq!(device.bytes(object).map(|bytes| bytes[0]), Ok(value[0]), "{entry:?}");
         }
@@ -363,11 +363,11 @@ fn parameters_are_stored() {
     drive.client().device().power_cycle();
     assert_eq!(drive.profile_velocity().read(), Ok(7));
     assert_eq!(drive.profile_acceleration().read(), Ok(10_000));
-    // The signature isn't kept: the object tells what the device can store.
+    // The signature isn't stored. The object returns the storage capabilities of the device.
     assert_eq!(drive.client().device().bytes(Object::new(0x1010, 1)), Ok([1, 0, 0, 0].as_slice()));
 }
 
-/// What an entry of a device that no description has doesn't say.
+/// An entry of a device without description.
 const BLANK: Entry = Entry {
     object: None,
     register: None,
@@ -392,7 +392,7 @@ fn parameters_are_restored_by_groups() {
     for command in [0x1010, 0x1011] {
         entries.extend((1..=4).map(|group| object(command, group, DataType::Unsigned32)));
     }
-    // Sub-index, and which of them it is about (CiA 301 7.5.2.14).
+    // Sub-index, and the objects that it restores (CiA 301 7.5.2.14).
     for (group, restored) in [(1, &ALL[..]), (2, &ALL[..1]), (3, &ALL[2..]), (4, &ALL[1..2])] {
         let mut device = Device::new(&entries);
         ALL.iter().for_each(|index| device.set_bytes(Object::new(*index, 0), &[7]).unwrap());
@@ -439,7 +439,7 @@ fn process_images_of_ethercat() {
     }
     let mut device = Device::new(&entries);
     let mut set = |index, sub_index, bytes: &[u8]| device.set_bytes(Object::new(index, sub_index), bytes).unwrap();
-    // A word, and behind a gap of 8 bits a byte, in two PDOs.
+    // A word, a gap of 8 bits and a byte, in two PDOs.
     for (index, mapped) in [(0x1600, [0x2000_0010_u32, 0x0000_0008]), (0x1601, [0x2001_0008, 0])] {
         set(index, 0, &[if index == 0x1600 { 2 } else { 1 }]);
         set(index, 1, &mapped[0].to_le_bytes());
@@ -456,7 +456,7 @@ fn process_images_of_ethercat() {
     assert_eq!(device.transmit_image(0x1C13), Ok(vec![0x34, 0x12, 0, 0x56]));
     assert_eq!(device.receive_image(0x1C12, &[0; 3]), Err(AbortCode::TOO_SHORT));
     assert_eq!(device.transmit_image(0x1C14), Err(AbortCode::NO_OBJECT));
-    // What the device refuses keeps its value; the rest is taken.
+    // A refused value is unchanged; the other one is written.
     device.on_any_write(|_, entry| match entry.object {
         Some(Object { index: 0x2000, .. }) => Err(AbortCode::INVALID_VALUE),
         _ => Ok(()),
@@ -547,7 +547,7 @@ fn an_axis_is_enabled_step_by_step() {
         steps += 1;
     }
     assert_eq!((steps, axis.statusword().read().unwrap().state()), (3, Some(State::OperationEnabled)));
-    // The first axis stands where it stood.
+    // The state of the first axis is unchanged.
     assert_ne!(drive.statusword().read().unwrap().raw(), 0x27);
 }
 
@@ -612,12 +612,12 @@ fn a_device_that_is_only_on_modbus() {
         entry(LIMIT, DataType::Boolean, AccessRights::ReadOnly),
     ];
     let mut device = Device::new(&entries);
-    // Names of the same bits agree.
+    // Items with the same bits have consistent values.
     device.set_bytes(STATUS, &[0x0B, 0x80]).unwrap();
     assert_eq!((device.bytes(FAULT), device.bytes(READY)), (Ok([1].as_slice()), Ok([3].as_slice())));
     device.set_bytes(READY, &[1]).unwrap();
     assert_eq!(device.bytes(STATUS), Ok([0x09, 0x80].as_slice()));
-    // Of a register, only the bits change that can be written.
+    // Only the writable bits of a register change.
     device.write_words(RegisterTable::Holding, 5, &[0]).unwrap();
     assert_eq!(device.read_words(RegisterTable::Holding, 5, 1), Ok(vec![0x8001]));
     let mut client = device.client::<Modbus>();
@@ -626,7 +626,7 @@ fn a_device_that_is_only_on_modbus() {
     client.write(SPEED, &70_000_i32.to_le_bytes()).unwrap();
     assert_eq!(client.write(SPEED, &70_001_i32.to_le_bytes()), exception(Exception::IllegalDataValue));
     assert_eq!(device.read_words(RegisterTable::Holding, 5, 3), Ok(vec![0x8001, 1, 0x1170]));
-    // Half of a value is what it is.
+    // A write to half of a value changes only that half.
     device.write_words(RegisterTable::Holding, 7, &[9]).unwrap();
     assert_eq!(device.bytes(SPEED), Ok(0x0001_0009_i32.to_le_bytes().as_slice()));
     let mut client = device.client::<Modbus>();
@@ -654,7 +654,7 @@ fn without_blocking() {
     assert_eq!(now(drive.profile_velocity().read_async()), Ok(1000));
 }
 
-/// The same drivers over the real SDO client, frame by frame.
+/// The same drivers with the real SDO client, frame by frame.
 #[cfg(feature = "canopen")]
 mod frames {
     use std::time::Duration;
@@ -686,7 +686,7 @@ mod frames {
         }
         let node = drive.client();
         node.nmt(NmtCommand::Start).unwrap();
-        // TPDO 1 is event-driven, and sent when the node starts.
+        // TPDO 1 is event-driven and sent when the node starts.
         let first = receive(node.port(), 0x185);
         assert_eq!(pdo::TxPdo1::unpack(first.data()).unwrap().statusword.state(), Some(State::OperationEnabled));
         let frame = pdo::RxPdo2 { controlword: Controlword::from_raw(0x1F), target_position: -70_000 };
@@ -733,7 +733,7 @@ mod frames {
         let emergency = drive.client().emergency(PATIENCE).unwrap().unwrap();
         assert_eq!(emergency.alarm::<DriveErrors>(), DriveErrors::FollowingError);
         assert_eq!(drive.error_register().read().map(|own| own.raw()), Ok(0x21));
-        // Silence takes no time but that of the node's clock.
+        // Waiting without frames only advances the clock of the node.
         drive.client().port().set_connected(false);
         assert_eq!(drive.client().heartbeat(Duration::from_secs(3600)), Ok(None));
         assert_eq!(drive.statusword().read().map(|_| ()), Err(Error::Timeout));

@@ -1,4 +1,5 @@
-//! Register tables from description to device: the bindings of `data/press.toml`, with a client of each bus.
+//! Register tables from description to device: the bindings of `data/press.toml`, with a simulated client for each
+//! bus.
 
 #![cfg(feature = "macros")]
 
@@ -10,7 +11,7 @@ use lexibus::{
 };
 
 lexibus::dictionary! {
-    /// A made-up press.
+    /// A fictitious press.
     #[allow(deprecated)]
     pub mod press = "tests/data/press.toml";
 }
@@ -18,7 +19,7 @@ lexibus::dictionary! {
 use press::types::{Command, Control, ControlDirection, ControlRamp, Mode, State, Status};
 use press::{objects, Press};
 
-/// Objects, on CANopen or on EtherCAT.
+/// A client for objects, on CANopen or EtherCAT.
 struct Objects<B> {
     entries: HashMap<Object, Vec<u8>>,
     bus: std::marker::PhantomData<B>,
@@ -44,7 +45,7 @@ fn objects_on<B>() -> Objects<B> {
     Objects { entries: HashMap::new(), bus: std::marker::PhantomData }
 }
 
-/// Registers as a Modbus library has them: words and bits by address.
+/// A client for registers: words and bits by address.
 #[derive(Default)]
 struct Registers {
     words: HashMap<(RegisterTable, u16), u16>,
@@ -87,7 +88,7 @@ impl Client for Registers {
     }
 }
 
-/// A protocol with numbered parameters that have a value each.
+/// A client for numbered parameters.
 #[derive(Default)]
 struct Parameters(HashMap<Parameter, Vec<u8>>);
 
@@ -154,11 +155,11 @@ fn places_of_modbus() {
 fn texts_in_registers() {
     let mut press = Press::new(Registers::default());
     let mut buffer = [0; 16];
-    // A letter of 16 bits has a register for itself, as a number.
+    // Each 16-bit character is a number in a separate register.
     press.title().write("Äb", &mut buffer).unwrap();
     assert_eq!((press.client().words[&(HOLDING, 129)], press.client().words[&(HOLDING, 130)]), (0xC4, 0x62));
     assert_eq!(press.title().read_into(&mut buffer).unwrap(), "Äb");
-    // The numbers tell the length that the type doesn't.
+    // The type has no length; it follows from the register addresses.
     press.note().write("ABCDEFG").unwrap();
     assert_eq!(press.client().words[&(HOLDING, 141)], 0x4546);
     assert_eq!(press.note().read_into(&mut buffer), Ok("ABCDEFG"));
@@ -186,7 +187,7 @@ fn further_axes() {
     press.axis(1).target_position().write(1).unwrap();
     press.axis(2).target_position().write(2).unwrap();
     press.axis(2).velocity().write(20).unwrap();
-    // Axes share the gain.
+    // All axes have the same gain.
     press.axis(2).gain().write(3).unwrap();
     let entries = &press.client().entries;
     assert_eq!(entries[&Object::new(0x607A, 0)], [1, 0, 0, 0]);
@@ -205,7 +206,7 @@ fn scaled_values() {
     assert_eq!(press.velocity().read(), Ok(123));
     assert_eq!(press.velocity().read_scaled(), Ok(Some(12.3)));
     assert_eq!(press.velocity().write_scaled(500.1), Err(Error::OutOfRange(OutOfRange)));
-    // 0 means that the ram is off, which is no velocity.
+    // 0 means that the ram is off. It isn't a velocity.
     assert_eq!(press.velocity().write_scaled(0.0), Err(Error::OutOfRange(OutOfRange)));
     press.velocity().write(0).unwrap();
     assert_eq!(press.velocity().read_scaled(), Ok(None));
@@ -231,12 +232,12 @@ fn bit_fields() {
     const ENABLED: Control = Control::new().with_enable(true).with_direction(ControlDirection::Up);
     assert_eq!(Control::default().raw(), 0x2000);
     assert_eq!(ENABLED.raw(), 0x2201);
-    // Bit 1 stops while it is 0.
+    // Bit 1 is active low.
     assert!(ENABLED.stop() && !ENABLED.with_stop(false).stop());
     assert_eq!(ENABLED.with_stop(false).raw(), 0x2203);
     assert_eq!((ENABLED.with_tool(5).tool(), ENABLED.with_tool(9).raw()), (5, 0x2221));
     assert_eq!(Control::from_raw(0x0C00).ramp(), ControlRamp::Unknown(3));
-    // All four numbers of two bits have names, so that there are no others.
+    // All four values of the two bits have names, so the match is exhaustive.
     let name = match Control::from_raw(0x0300).direction() {
         ControlDirection::None => "none",
         ControlDirection::Down => "down",

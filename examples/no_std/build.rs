@@ -1,4 +1,4 @@
-//! No start files and no C library: what is in the binary is what the sources ask for.
+//! Links without start files and C library: the binary contains only what the sources need.
 
 fn main() {
     println!("cargo:rerun-if-changed=build.rs");

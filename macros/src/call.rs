@@ -1,4 +1,4 @@
-//! What stands between the parentheses of the macro.
+//! Parsing of the macro's arguments.
 
 use lexibus_codegen::compile::{self, Options};
 use lexibus_codegen::diagnostics::Levels;
@@ -13,7 +13,7 @@ pub struct Call {
     pub name: Ident,
     pub path: LitStr,
     pub options: Options,
-    /// Tables that correct the description.
+    /// Paths of overlays.
     pub overlays: Vec<LitStr>,
 }
 
@@ -80,8 +80,8 @@ fn parse_options(input: ParseStream<'_>, options: &mut Options, overlays: &mut V
             "deny" => levels.push((input.parse::<LitStr>()?, Level::Deny)),
             other => {
                 let message = format!(
-                    "there is no option `{other}`; there are device, module, objects, option, overlay, profiles, device_name, runtime, accessors, pdos, table, debug, \
-                     partial_eq, defmt, serde, strict, allow, warn, deny and node_id_alias"
+                    "unknown option `{other}`; expected one of device, module, objects, option, overlay, profiles, device_name, runtime, accessors, pdos, table, debug, \
+                     partial_eq, defmt, serde, strict, allow, warn, deny or node_id_alias"
                 );
                 return Err(syn::Error::new(key.span(), message));
             }
@@ -97,7 +97,7 @@ fn parse_options(input: ParseStream<'_>, options: &mut Options, overlays: &mut V
     Ok(())
 }
 
-/// `true`, `false`, or the name of the feature behind which it is.
+/// Parses `true`, `false`, or the name of the cargo feature that enables the code.
 fn presence(input: ParseStream<'_>) -> syn::Result<Presence> {
     if input.peek(LitBool) {
         let always = input.parse::<LitBool>()?.value;

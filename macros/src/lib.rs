@@ -1,6 +1,6 @@
-//! The macro of Lexibus: a device description becomes a typed Rust module while the crate is compiled.
+//! The macro `dictionary!`: generates a typed Rust module from a device description at compile time.
 //!
-//! It is re-exported by the runtime crate under its feature `macros`, and used from there:
+//! The runtime crate re-exports it with the feature `macros`. Use it from there:
 //!
 //! ```
 //! lexibus::dictionary! {
@@ -24,7 +24,7 @@ use proc_macro2::{Span, TokenStream};
 use quote::{quote, quote_spanned};
 use syn::LitStr;
 
-/// A module with the typed bindings of a device description.
+/// Declares a module with the bindings generated from a device description.
 ///
 /// ```
 /// use lexibus::dictionary;
@@ -35,40 +35,40 @@ use syn::LitStr;
 /// }
 /// ```
 ///
-/// The path is relative to the folder of the calling crate. Behind it, options may follow in braces:
+/// The path is relative to the folder of the calling crate. Options follow in braces:
 ///
 /// ```
 /// # use lexibus::dictionary;
 /// dictionary! {
 ///     pub mod drive = "../dictionaries/demo-drive.eds" {
-///         device: "DEMO-1*",             // of several devices, the one of this name, order code or product code
-///         objects: "0x6000..0x67FF",     // the objects of this range; also module; each may be repeated
-///         device_name: "Axis",           // name of the device's type
+///         device: "DEMO-1*",             // name, order code or product code, if there are several devices
+///         objects: "0x6000..0x67FF",     // range of objects; also module; each may be repeated
+///         device_name: "Axis",           // name of the device type
 ///         accessors: false,              // handles only
 ///         pdos: false,                   // no PDO structs
 ///         table: true,                   // a table of all entries; also false, or the name of a feature
-///         debug: true, partial_eq: true, // traits of generated types, likewise; also defmt and serde
-///         strict: true,                  // repairs of the description are errors
-///         deny: "EDS049",                // the level of a code; also allow and warn; may be repeated
-///         node_id_alias: "$MY_NODE_ID",  // another name of $NODEID
-///         profiles: true,                // what CiA 301, CiA 402, CoE and PROFIdrive say of their objects
+///         debug: true, partial_eq: true, // traits of generated types, as for table; also defmt and serde
+///         strict: true,                  // treat repairs of the description as errors
+///         deny: "EDS049",                // level of a diagnostic; also allow and warn; may be repeated
+///         node_id_alias: "$MY_NODE_ID",  // alias of $NODEID
+///         profiles: true,                // add facts from CiA 301, CiA 402, CoE and PROFIdrive
 ///     }
 /// }
 /// ```
 ///
-/// `overlay: "../dictionaries/drive.overlay.toml"` applies a table that corrects the description and adds to it; it may be
+/// `overlay: "../dictionaries/drive.overlay.toml"` applies a table that corrects or extends the description. It may be
 /// repeated.
 ///
-/// Errors of the description appear at the path, with the line that causes them, and so do its warnings, as uses of a
-/// deprecated constant: it is how a macro can warn. In a crate that denies warnings, `#[allow(deprecated)]` on the
-/// module lets them pass. Cargo and editors track the file.
+/// Errors and warnings are reported at the path and quote the line of the description. Warnings appear as uses of a
+/// deprecated constant, because a macro can't report warnings otherwise. If your crate denies warnings, put
+/// `#[allow(deprecated)]` on the module. Cargo and editors detect changes of the file.
 #[proc_macro]
 pub fn dictionary(input: proc_macro::TokenStream) -> proc_macro::TokenStream {
     let call = syn::parse_macro_input!(input as Call);
     expand(&call).unwrap_or_else(|error| error.to_compile_error()).into()
 }
 
-/// What a call describes, and the text of its module.
+/// Compiles the description and generates the text of the module.
 fn compiled(call: &Call) -> syn::Result<(Compilation, String)> {
     let mut options = call.options.clone();
     options.overlays = call.overlays.iter().map(read).collect::<syn::Result<_>>()?;
@@ -80,10 +80,10 @@ fn compiled(call: &Call) -> syn::Result<(Compilation, String)> {
 
 fn expand(call: &Call) -> syn::Result<TokenStream> {
     let (compilation, text) = compiled(call)?;
-    let fail = |error| syn::Error::new(call.path.span(), format!("the generated code is no Rust: {error}"));
+    let fail = |error| syn::Error::new(call.path.span(), format!("the generated code is not valid Rust: {error}"));
     let content: TokenStream = text.parse().map_err(fail)?;
     let warnings = warnings(&compilation, call.path.span());
-    // Files that the description refers to go by their paths already, and overlays come behind them.
+    // The names of referenced files are full paths. Overlays are at the end of the list.
     let referred = compilation.sources.len().saturating_sub(call.overlays.len());
     let others = compilation.sources.iter().take(referred).skip(1).map(Source::name);
     let named = std::iter::once(&call.path).chain(&call.overlays).map(|path| absolute(&path.value()));
@@ -105,7 +105,7 @@ fn expand(call: &Call) -> syn::Result<TokenStream> {
     })
 }
 
-/// Reads a file. Diagnostics and the header name it as the caller does, not by where it lies on this machine.
+/// Reads a file. Diagnostics and the header use the path in the call: an absolute path would depend on the machine.
 fn read(path: &LitStr) -> syn::Result<Source> {
     let place = absolute(&path.value());
     let fail = |error| syn::Error::new(path.span(), format!("can't read {}: {error}", place.display()));
@@ -114,16 +114,16 @@ fn read(path: &LitStr) -> syn::Result<Source> {
     Ok(Source::new(path.value(), source.bytes().into_owned()).in_folder(folder))
 }
 
-/// A path that isn't absolute is relative to the folder of the calling crate.
+/// Resolves a relative path against the folder of the calling crate.
 fn absolute(path: &str) -> PathBuf {
     let folder = std::env::var_os("CARGO_MANIFEST_DIR").map(PathBuf::from).unwrap_or_default();
     folder.join(Path::new(path))
 }
 
-/// The greatest number of findings that are shown one by one.
+/// Maximum number of diagnostics that are shown individually.
 const MAX_SHOWN: usize = 16;
 
-/// A use of a deprecated constant for every warning: a macro of stable Rust has no other way to warn.
+/// Uses a deprecated constant for each warning: stable Rust has no other way for a macro to report warnings.
 fn warnings(compilation: &Compilation, span: Span) -> Vec<TokenStream> {
     let list = compilation.diagnostics.list().iter().filter(|diagnostic| diagnostic.severity == Severity::Warning);
     let mut notes: Vec<String> = list.clone().take(MAX_SHOWN).map(|warning| compilation.one_line(warning)).collect();
@@ -164,7 +164,7 @@ mod tests {
 
     use super::*;
 
-    /// Paths are relative to the folder of this crate, as they are to a user's.
+    /// Paths relative to the folder of this crate.
     const DICTIONARIES: [&str; 10] = [
         "../dictionaries/demo-drive.eds",
         "../dictionaries/aec-vector-step.toml",
@@ -178,7 +178,7 @@ mod tests {
         "../codegen/tests/quirks_eds/everything.dcf",
     ];
 
-    /// The command line's are held against the build script's by `cli/tests/cli.rs`.
+    /// `cli/tests/cli.rs` compares the output of the command line with that of the build script.
     #[test]
     fn the_macro_and_the_build_script_give_the_same_bytes() {
         for path in DICTIONARIES {

@@ -1,4 +1,4 @@
-//! A choice of PDOs, the process image that it makes, and the commands that set it up.
+//! PDO assignments: which PDOs are exchanged, the resulting process image, and the commands that configure it.
 
 use core::fmt;
 
@@ -12,24 +12,24 @@ use crate::pdo::{MappedEntry, Pdo, SdoWrite};
 /// Index of the assignment object of sync manager 0 (ETG.1000.6 5.6.7.4).
 pub(super) const ASSIGN: u16 = 0x1C10;
 
-/// A PDO at its place in the process image of its sync manager.
+/// A PDO and its position in the process image of its sync manager.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct AssignedPdo {
-    /// The PDO.
+    /// Description of the PDO.
     pub pdo: &'static PdoInfo,
     /// Number of the sync manager.
     pub sync_manager: u8,
-    /// Its first bit, counted from the first of the sync manager's data.
+    /// Bit offset in the process data of the sync manager.
     pub bit: u32,
     /// Length in bits.
     pub bits: u32,
-    /// What it carries: the mapping of the description, or [one's own](Assignment::with_mapping).
+    /// The mapping: the one of the device description, or the one passed to [`Assignment::with_mapping`].
     pub mapping: &'static [MappedEntry],
 }
 
-/// A legal choice of at most `N` PDOs of a device.
+/// A valid assignment of at most `N` PDOs of a device.
 ///
-/// The PDOs of a sync manager follow each other bit by bit, in the order in which they are assigned.
+/// The PDOs of one sync manager are packed without gaps, in the order in which they are assigned.
 #[derive(Clone, Copy, Debug)]
 pub struct Assignment<const N: usize = 32> {
     device: &'static Device,
@@ -37,32 +37,32 @@ pub struct Assignment<const N: usize = 32> {
     len: usize,
 }
 
-/// Why PDOs can't be assigned together.
+/// Reasons why an assignment is invalid.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum AssignmentError {
     /// The device has no PDO with this index.
     Unknown(u16),
-    /// A PDO is named twice.
+    /// The PDO is assigned more than once.
     Twice(u16),
-    /// The second excludes the first, or the other way round.
+    /// At least one of the two PDOs excludes the other.
     Conflict(u16, u16),
     /// A mandatory PDO is missing.
     Missing(u16),
-    /// No sync manager takes the PDO.
+    /// The device has no sync manager for the PDO.
     NoSyncManager(u16),
-    /// The data of a sync manager are longer than it can be.
+    /// The process data exceed the maximum length of the sync manager.
     TooLong {
         /// Number of the sync manager.
         sync_manager: u8,
         /// Length of the data in bytes.
         bytes: usize,
-        /// Greatest length in bytes.
+        /// Maximum length in bytes.
         max: usize,
     },
-    /// There are more PDOs than the assignment has room for, or the device for those of one sync manager, which are 255.
+    /// The number of PDOs exceeds `N`, or the number for one sync manager exceeds 255.
     TooMany,
-    /// The mapping of the PDO can't be changed.
+    /// The device doesn't allow a change to the mapping of the PDO.
     Fixed(u16),
 }
 
@@ -70,16 +70,16 @@ impl fmt::Display for AssignmentError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             AssignmentError::Unknown(index) => write!(f, "the device has no PDO {index:#06X}"),
-            AssignmentError::Twice(index) => write!(f, "the PDO {index:#06X} is named twice"),
+            AssignmentError::Twice(index) => write!(f, "the PDO {index:#06X} is assigned twice"),
             AssignmentError::Conflict(one, other) => {
                 write!(f, "the PDOs {one:#06X} and {other:#06X} exclude each other")
             }
-            AssignmentError::Missing(index) => write!(f, "the PDO {index:#06X} has to be assigned"),
-            AssignmentError::NoSyncManager(index) => write!(f, "no sync manager takes the PDO {index:#06X}"),
+            AssignmentError::Missing(index) => write!(f, "the mandatory PDO {index:#06X} is not assigned"),
+            AssignmentError::NoSyncManager(index) => write!(f, "the device has no sync manager for PDO {index:#06X}"),
             AssignmentError::TooLong { sync_manager, bytes, max } => {
-                write!(f, "the data of sync manager {sync_manager} have {bytes} bytes, and at most {max} fit")
+                write!(f, "sync manager {sync_manager} has {bytes} bytes of process data; the maximum is {max}")
             }
-            AssignmentError::TooMany => f.write_str("there are more PDOs than the assignment has room for"),
+            AssignmentError::TooMany => f.write_str("too many PDOs for the assignment or for one sync manager"),
             AssignmentError::Fixed(index) => write!(f, "the mapping of the PDO {index:#06X} can't be changed"),
         }
     }
@@ -88,20 +88,21 @@ impl fmt::Display for AssignmentError {
 impl core::error::Error for AssignmentError {}
 
 impl<const N: usize> Assignment<N> {
-    /// The PDOs that are assigned by default.
+    /// Creates the assignment that is active by default.
     ///
     /// # Errors
     ///
-    /// Where the description contradicts itself, or has more than `N` of them.
+    /// See [`AssignmentError`]. The default assignment is valid unless the device description contradicts itself or
+    /// `N` is too small.
     pub fn by_default(device: &'static Device) -> Result<Self, AssignmentError> {
         Self::new(device, device.default_pdos)
     }
 
-    /// The PDOs with these indices, in this order.
+    /// Creates an assignment of the PDOs with these indices, in this order.
     ///
     /// # Errors
     ///
-    /// Why they can't be assigned together.
+    /// See [`AssignmentError`].
     pub fn new(device: &'static Device, pdos: &[u16]) -> Result<Self, AssignmentError> {
         let mut assignment = Self { device, assigned: [None; N], len: 0 };
         for &index in pdos {
@@ -115,13 +116,14 @@ impl<const N: usize> Assignment<N> {
         Ok(assignment)
     }
 
-    /// The same PDOs, with a mapping of one's own for one of them: a struct that [`pdo!`](crate::pdo!) made. The PDOs
-    /// behind it move.
+    /// Replaces the mapping of one PDO by a custom one: `P` is a struct declared with [`pdo!`](crate::pdo!). The
+    /// offsets of the PDOs after it change accordingly.
     ///
     /// # Errors
     ///
-    /// [`AssignmentError::Unknown`] where the PDO isn't assigned, [`AssignmentError::Fixed`] where the device lets nobody
-    /// write its mapping, and [`AssignmentError::TooLong`].
+    /// - [`AssignmentError::Unknown`] if the PDO isn't assigned.
+    /// - [`AssignmentError::Fixed`] if its mapping is read-only.
+    /// - [`AssignmentError::TooLong`] if the process data become too long.
     pub fn with_mapping<P: Pdo>(mut self) -> Result<Self, AssignmentError> {
         let configures = self.device.mailbox.coe.is_some_and(|coe| coe.pdo_config);
         let mut assigned = self.assigned.iter_mut().flatten();
@@ -172,39 +174,43 @@ impl<const N: usize> Assignment<N> {
         Ok(())
     }
 
-    /// The PDOs, in the order in which they are assigned.
+    /// Returns the PDOs in the order of the assignment.
     pub fn pdos(&self) -> impl Iterator<Item = AssignedPdo> + '_ {
         self.assigned.iter().copied().flatten()
     }
 
-    /// The PDO with this index, where it is assigned.
+    /// Returns the PDO with this index, or `None` if it isn't assigned.
     #[must_use]
     pub fn find(&self, index: u16) -> Option<AssignedPdo> {
         self.pdos().find(|assigned| assigned.pdo.index == index)
     }
 
-    /// Length in bits of the data of a sync manager.
+    /// Returns the length of a sync manager's process data in bits.
     #[must_use]
     pub fn bits(&self, sync_manager: u8) -> u32 {
         bits_of(&self.assigned, sync_manager)
     }
 
-    /// Length in bytes of the data of a sync manager, the last one perhaps not full.
+    /// Returns the length of a sync manager's process data in bytes, rounded up.
     #[must_use]
     pub fn bytes(&self, sync_manager: u8) -> usize {
         self.bits(sync_manager).div_ceil(8) as usize
     }
 
-    /// What a master writes in Pre-Operational before it asks for Safe-Operational: what the description asks for on the
-    /// changes of state IP and PS, then the [`commands`](Self::commands) of the assignment.
+    /// Returns the commands to send in Pre-Operational before the request for Safe-Operational.
+    ///
+    /// These are the device's own commands for the transitions IP and PS, then the [`commands`](Self::commands) of the
+    /// assignment.
     pub fn startup(&self) -> impl Iterator<Item = StartupCommand> + '_ {
         let commands =
             [Transition::IP, Transition::PS].into_iter().flat_map(|transition| self.device.init_commands(transition));
         commands.chain(self.commands().map(|write| StartupCommand::of_write(Transition::PS, write)))
     }
 
-    /// The writes that set the assignment up in Pre-Operational: clear the assignment, write each mapping that can be
-    /// changed, write the assignment (ETG.1000.6 5.6.7.4). What the device lets nobody write is left out.
+    /// Returns the SDO writes that configure the assignment in Pre-Operational (ETG.1000.6 5.6.7.4).
+    ///
+    /// They clear the assignment, write all mappings that aren't fixed, then write the assignment. Writes to
+    /// read-only objects are left out.
     pub fn commands(&self) -> impl Iterator<Item = SdoWrite> + '_ {
         let coe = self.device.mailbox.coe;
         let assigns = coe.is_some_and(|coe| coe.pdo_assign);
@@ -223,27 +229,28 @@ impl<const N: usize> Assignment<N> {
     }
 }
 
-/// Length in bits of those of `assigned` that are on this sync manager.
+/// Returns the total length in bits of the PDOs that are assigned to a sync manager.
 fn bits_of(assigned: &[Option<AssignedPdo>], sync_manager: u8) -> u32 {
     let pdos = assigned.iter().flatten().filter(|assigned| assigned.sync_manager == sync_manager);
     pdos.fold(0, |bits, assigned| bits.saturating_add(assigned.bits))
 }
 
 impl super::SyncManager {
-    /// Whether it carries process data.
+    /// Returns whether the sync manager carries process data.
     #[must_use]
     pub const fn carries_data(&self) -> bool {
         matches!(self.purpose, super::SyncManagerPurpose::Outputs | super::SyncManagerPurpose::Inputs)
     }
 
-    /// Index of the object that holds the PDOs assigned to it.
+    /// Returns the index of the object that lists the assigned PDOs.
     #[must_use]
     pub const fn assignment(&self) -> u16 {
         ASSIGN + self.number as u16
     }
 }
 
-/// Clear, entries, count. The indices of mapped objects that depend on the place of their module grow.
+/// Returns the writes of a mapping: clear, entries, count. `growth` is added to the indices of slot-dependent
+/// objects.
 pub(super) fn mapping_writes(
     index: u16,
     mapping: &'static [crate::MappedEntry],
@@ -257,7 +264,7 @@ pub(super) fn mapping_writes(
     core::iter::once(SdoWrite::new_u8(index, 0, 0)).chain(entries).chain(core::iter::once(count))
 }
 
-/// Entries and count of an assignment object; nothing where no PDO is assigned.
+/// Returns the writes of an assignment object: entries, then count. Empty if no PDO is assigned.
 pub(super) fn assignment_writes<I: Iterator<Item = u16>>(
     object: u16,
     indices: impl Fn() -> I,
@@ -296,7 +303,7 @@ mod tests {
         assert_eq!(one, AssignmentError::TooMany);
     }
 
-    /// A mapping of one's own: the status word and a gap of 5 bits, or a `LONG` one of 50.
+    /// A custom mapping: the statusword and a gap of 5 bits, or of 50 if `LONG`.
     struct Custom<const INDEX: u16, const LONG: bool>;
 
     impl<const INDEX: u16, const LONG: bool> Pdo for Custom<INDEX, LONG> {
@@ -343,7 +350,7 @@ mod tests {
             [
                 SdoWrite::new_u8(0x1C12, 0, 0),
                 SdoWrite::new_u8(0x1C13, 0, 0),
-                // 0x1600 is fixed; 0x1A00 isn't.
+                // 0x1600 is fixed, 0x1A00 is not.
                 SdoWrite::new_u8(0x1A00, 0, 0),
                 SdoWrite::new_u32(0x1A00, 1, 0x6041_0010),
                 SdoWrite::new_u8(0x1A00, 0, 1),
@@ -373,7 +380,7 @@ mod tests {
         static CUSTOM: Device = Device { mailbox: Mailbox { coe: Some(COE), ..Mailbox::NONE }, ..DRIVE };
         let assignment = Assignment::<8>::by_default(&CUSTOM).unwrap();
         let commands: Vec<_> = assignment.startup().map(|command| (command.object.index, command.transition)).collect();
-        // Of the assignment, nothing can be written.
+        // This device allows no writes to the assignment.
         assert_eq!(commands, [(0x2001, Transition::IP), (0x6060, Transition::PS)]);
         let assignment = Assignment::<8>::by_default(&DRIVE).unwrap();
         assert_eq!(assignment.startup().count(), assignment.commands().count());

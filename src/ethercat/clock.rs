@@ -1,41 +1,42 @@
 //! Distributed clocks.
 
-/// A mode of operation of the distributed clocks.
+/// An operation mode of the distributed clocks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct ClockMode {
-    /// Its name.
+    /// Name of the mode.
     pub name: &'static str,
-    /// What it does; may be empty.
+    /// Description; may be empty.
     pub description: &'static str,
-    /// Value of the register 0x0980: which units are active. 0 = no distributed clock.
+    /// Value of register 0x0980, which activates the sync and latch units. 0 disables the distributed clock.
     pub assign_activate: u16,
-    /// Cycle of Sync0.
+    /// Cycle time of Sync0.
     pub cycle_sync0: ClockTime,
-    /// Shift of Sync0.
+    /// Shift time of Sync0.
     pub shift_sync0: ClockTime,
-    /// Cycle of Sync1.
+    /// Cycle time of Sync1.
     pub cycle_sync1: ClockTime,
-    /// Shift of Sync1.
+    /// Shift time of Sync1.
     pub shift_sync1: ClockTime,
 }
 
-/// A time of a clock mode.
+/// A time of a clock mode: a constant plus an optional multiple or fraction of the cycle time.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct ClockTime {
-    /// The time in ns, to which the part that follows from the cycle is added.
+    /// Constant part in ns.
     pub nanoseconds: i32,
-    /// Times the cycle; a negative number divides it. 0 = the time doesn't depend on the cycle.
+    /// Factor of the cycle time. A negative factor divides the cycle time by its absolute value; 0 means no
+    /// dependency.
     pub factor: i32,
 }
 
 impl ClockTime {
-    /// A time.
+    /// Creates a time from its two parts.
     #[must_use]
     pub const fn new(nanoseconds: i32, factor: i32) -> Self {
         Self { nanoseconds, factor }
     }
 
-    /// The time in ns for a cycle of `cycle` ns. For Sync1, `cycle` is that of Sync0.
+    /// Returns the time in ns for a cycle time of `cycle` ns. For Sync1, pass the cycle time of Sync0.
     #[must_use]
     pub const fn of_cycle(self, cycle: u32) -> i64 {
         let part = match self.factor {

@@ -1,30 +1,30 @@
-//! What the index of an object or PDO of a module grows with.
+//! Object and PDO indices that depend on the slot of a module.
 
-/// What an index of a module grows with (`DependOnSlot` and `DependOnSlotGroup` of ETG.2000).
+/// What the index of a module's object or PDO depends on (`DependOnSlot` and `DependOnSlotGroup` of ETG.2000).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum DependsOn {
-    /// It is the same in every slot.
+    /// The index is the same in every slot.
     #[default]
     Nothing,
-    /// The number of the slot.
+    /// The index increases with the slot number.
     Slot,
-    /// The number of the slot group.
+    /// The index increases with the slot group number.
     SlotGroup,
-    /// Both numbers.
+    /// The index increases with both numbers.
     Both,
 }
 
-/// What the indices of a module grow by at its place.
+/// Offsets that are added to the indices of a module in its slot.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Growth {
-    /// Those that depend on the slot.
+    /// Offset of indices that depend on the slot.
     pub slot: u16,
-    /// Those that depend on the slot group.
+    /// Offset of indices that depend on the slot group.
     pub group: u16,
 }
 
 impl Growth {
-    /// What an index that depends on this grows by.
+    /// Returns the offset of an index with this dependency.
     pub const fn of(self, depends_on: DependsOn) -> u16 {
         match depends_on {
             DependsOn::Nothing => 0,

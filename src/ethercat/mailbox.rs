@@ -1,8 +1,8 @@
-//! The mailbox, and what a master sends to it at start-up.
+//! The mailbox protocols of a slave and its initialization commands.
 
 use super::depends_on::DependsOn;
 
-/// A change of state of the slave (ETG.1000.6 6.4).
+/// A state transition of the slave (ETG.1000.6 6.4).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[repr(u8)]
 pub enum Transition {
@@ -20,15 +20,15 @@ pub enum Transition {
     OS = 32,
 }
 
-/// A set of changes of state.
+/// A set of state transitions.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct Transitions(u8);
 
 impl Transitions {
-    /// No change.
+    /// The empty set.
     pub const NONE: Transitions = Transitions(0);
 
-    /// The set of these changes.
+    /// Creates a set from a list.
     #[must_use]
     pub const fn of(list: &[Transition]) -> Self {
         let mut bits = 0;
@@ -40,64 +40,64 @@ impl Transitions {
         Self(bits)
     }
 
-    /// Whether `transition` is in the set.
+    /// Returns whether `transition` is in the set.
     #[must_use]
     pub const fn contains(self, transition: Transition) -> bool {
         self.0 & transition as u8 != 0
     }
 }
 
-/// A value that a master writes to an object on a change of state (InitCmd of ETG.2000).
+/// A value that the master writes to an object during a state transition (`InitCmd` of ETG.2000).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct InitCommand {
-    /// On which changes of state.
+    /// The transitions during which the value is written.
     pub transitions: Transitions,
     /// Index of the object.
     pub index: u16,
     /// Sub-index of the object.
     pub sub_index: u8,
-    /// Whether all sub-indices are written at once.
+    /// Whether complete access is used: one transfer for all sub-indices.
     pub complete_access: bool,
-    /// What the index grows with, where a module brings the command along.
+    /// What the index depends on, if the command belongs to a module.
     pub depends_on: DependsOn,
-    /// The bytes.
+    /// Bytes of the value.
     pub data: &'static [u8],
 }
 
-/// CAN application protocol over EtherCAT: what of it the slave supports.
+/// Capabilities of CANopen over EtherCAT (CoE).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Coe {
     /// Whether the SDO information service is supported.
     pub sdo_info: bool,
-    /// Whether the assignment of PDOs may be written.
+    /// Whether the PDO assignment is writable.
     pub pdo_assign: bool,
-    /// Whether the mapping of PDOs may be written.
+    /// Whether PDO mappings are writable.
     pub pdo_config: bool,
-    /// Whether all sub-indices may be transferred at once.
+    /// Whether complete access is supported.
     pub complete_access: bool,
-    /// What a master writes at start-up.
+    /// Initialization commands of the device.
     pub init_commands: &'static [InitCommand],
 }
 
-/// The protocols of the mailbox.
+/// The mailbox protocols that a slave supports.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Mailbox {
-    /// CAN application protocol over EtherCAT.
+    /// CANopen over EtherCAT (CoE).
     pub coe: Option<Coe>,
-    /// ADS over EtherCAT.
+    /// ADS over EtherCAT (AoE).
     pub aoe: bool,
-    /// Ethernet over EtherCAT.
+    /// Ethernet over EtherCAT (EoE).
     pub eoe: bool,
-    /// File access over EtherCAT.
+    /// File access over EtherCAT (FoE).
     pub foe: bool,
-    /// Servo profile over EtherCAT.
+    /// Servo drive profile over EtherCAT (SoE).
     pub soe: bool,
-    /// Vendor-specific protocol over EtherCAT.
+    /// Vendor-specific protocol over EtherCAT (VoE).
     pub voe: bool,
 }
 
 impl Mailbox {
-    /// No mailbox.
+    /// A slave without mailbox.
     pub const NONE: Mailbox = Mailbox { coe: None, aoe: false, eoe: false, foe: false, soe: false, voe: false };
 }
 

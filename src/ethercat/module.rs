@@ -1,111 +1,111 @@
-//! Slots of a modular device, and modules.
+//! Modules and slots of a modular device.
 
 use super::depends_on::DependsOn;
 use super::mailbox::{InitCommand, Transitions};
 use super::pdo::PdoInfo;
 
-/// How the slots of a modular device are counted, and what fits into them (ETG.5001.1).
+/// The slots of a modular device and the modules for them (ETG.5001.1).
 #[derive(Clone, Copy, Debug)]
 pub struct Slots {
-    /// The slots, in order. Their numbers start at 0; each takes as many numbers as its greatest count of modules.
+    /// The slots in order. Slot numbers start at 0; each entry takes as many numbers as its maximum count of modules.
     pub slots: &'static [Slot],
-    /// The modules that fit into one of them.
+    /// The available modules.
     pub modules: &'static [&'static Module],
-    /// Groups of modules, in the order of the process image; empty = all modules by slot.
+    /// Groups of modules in the order of the process image. If empty, modules are ordered by slot.
     pub pdo_groups: &'static [PdoGroup],
-    /// On which changes of state a master writes the ident numbers of the modules to 0xF030; none where it doesn't.
+    /// Transitions during which the master writes the module idents to 0xF030. Empty if it doesn't write them.
     pub download_idents: Transitions,
 }
 
-/// A place for modules.
+/// A slot, or a row of similar slots.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Slot {
-    /// Its name.
+    /// Name of the slot.
     pub name: &'static str,
-    /// Least number of modules in it.
+    /// Minimum number of modules.
     pub min: u16,
-    /// Greatest number of modules in it.
+    /// Maximum number of modules.
     pub max: u16,
-    /// What fits; empty = every module.
+    /// The modules that are allowed; if empty, all are.
     pub fits: &'static [Fit],
-    /// Ident number of the module that is there by default.
+    /// Ident of the default module.
     pub default: Option<u32>,
-    /// What indices grow by from slot to slot.
+    /// Index increments per slot.
     pub increments: Increments,
-    /// The group that it belongs to, where there is one.
+    /// The slot group, if the slot belongs to one.
     pub group: Option<SlotGroup>,
 }
 
-/// The group that a slot belongs to.
+/// A slot group.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SlotGroup {
-    /// Its number.
+    /// Number of the group.
     pub number: u16,
-    /// What indices grow by from slot group to slot group.
+    /// Index increments per slot group.
     pub increments: Increments,
 }
 
-/// What indices grow by.
+/// Index increments.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Increments {
-    /// Those of a module's objects.
+    /// Increment for the objects of a module.
     pub index: u16,
-    /// Those of a module's PDOs.
+    /// Increment for the PDOs of a module.
     pub pdo: u16,
 }
 
-/// What fits into a slot.
+/// A rule for the modules that a slot accepts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Fit {
-    /// The module with this ident number.
+    /// The module with this ident.
     Ident(u32),
     /// Every module of this class.
     Class(&'static str),
 }
 
-/// Modules whose process data stand one after the other.
+/// A group of modules whose process data are contiguous.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PdoGroup {
-    /// The data of the group begin at a multiple of so many bytes; 0 = at the next bit.
+    /// Alignment of the group's process data in bytes; 0 = no alignment.
     pub alignment: u16,
-    /// Index of the RxPDO that fills the gap in front of the group, where there is one.
+    /// Index of the padding RxPDO in front of the group, if there is one.
     pub rx_pdo: Option<u16>,
-    /// Index of the TxPDO that fills the gap in front of the group, where there is one.
+    /// Index of the padding TxPDO in front of the group, if there is one.
     pub tx_pdo: Option<u16>,
 }
 
-/// A module. Indices that depend on its place are those of slot 0 and slot group 0.
+/// A module. Slot-dependent indices are given for slot 0 and slot group 0.
 #[derive(Clone, Copy, Debug)]
 pub struct Module {
-    /// Ident number.
+    /// Module ident.
     pub ident: u32,
-    /// Its name.
+    /// Name of the module.
     pub name: &'static str,
-    /// The class by which slots name it; may be empty.
+    /// Module class, which slots refer to; may be empty.
     pub class: &'static str,
-    /// Position of its group among those of the device.
+    /// Position of the module's group in [`Slots::pdo_groups`].
     pub pdo_group: u16,
-    /// Its PDOs, those of the outputs first.
+    /// PDOs of the module, outputs first.
     pub pdos: &'static [PdoInfo],
-    /// What a master writes at start-up.
+    /// Initialization commands of the module.
     pub init_commands: &'static [InitCommand],
-    /// Which of its objects grow with its place, by index; all others are the same in every slot.
+    /// Ranges of slot-dependent objects. Other objects have the same index in every slot.
     pub objects: &'static [SlotObjects],
 }
 
-/// Objects of a module whose indices grow with its place.
+/// A range of objects whose indices depend on the slot or slot group.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SlotObjects {
-    /// Index of the first one.
+    /// First index.
     pub first: u16,
-    /// Index of the last one.
+    /// Last index.
     pub last: u16,
-    /// What they grow with.
+    /// What the indices depend on.
     pub depends_on: DependsOn,
 }
 
 impl Increments {
-    /// Of objects and of PDOs.
+    /// Creates increments for objects and PDOs.
     #[must_use]
     pub const fn new(index: u16, pdo: u16) -> Self {
         Self { index, pdo }
@@ -113,7 +113,7 @@ impl Increments {
 }
 
 impl SlotGroup {
-    /// The group with this number.
+    /// Creates a slot group.
     #[must_use]
     pub const fn new(number: u16, increments: Increments) -> Self {
         Self { number, increments }
@@ -121,7 +121,7 @@ impl SlotGroup {
 }
 
 impl SlotObjects {
-    /// Those from `first` to `last`.
+    /// Creates a range from `first` to `last`, inclusive.
     #[must_use]
     pub const fn new(first: u16, last: u16, depends_on: DependsOn) -> Self {
         Self { first, last, depends_on }
@@ -129,7 +129,7 @@ impl SlotObjects {
 }
 
 impl Module {
-    /// What the index of an object grows with.
+    /// Returns what the index of an object depends on.
     #[must_use]
     pub fn depends_on(&self, index: u16) -> DependsOn {
         let range = self.objects.iter().find(|range| (range.first..=range.last).contains(&index));
@@ -138,7 +138,7 @@ impl Module {
 }
 
 impl Slot {
-    /// Whether `module` fits.
+    /// Returns whether the slot accepts `module`.
     #[must_use]
     pub fn takes(&self, module: &Module) -> bool {
         let fits = |fit: &Fit| match fit {

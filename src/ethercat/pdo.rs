@@ -1,9 +1,9 @@
-//! What a master has to know of a PDO.
+//! Description of a PDO.
 
 use super::depends_on::DependsOn;
 use crate::pdo::MappedEntry;
 
-/// Direction of process data, seen from the master.
+/// Direction of process data, as seen by the master.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Direction {
     /// Master to slave: an RxPDO.
@@ -12,45 +12,45 @@ pub enum Direction {
     Input,
 }
 
-/// A PDO as the description has it.
+/// A PDO of the device description.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PdoInfo {
-    /// Index of its mapping object.
+    /// Index of the mapping object.
     pub index: u16,
-    /// Its direction.
+    /// Direction of the PDO.
     pub direction: Direction,
     /// Length in bits.
     pub bits: u32,
-    /// The sync manager to which it is assigned by default; `None` for a PDO that is assigned on demand.
+    /// The default sync manager; `None` if the PDO is not assigned by default.
     pub sync_manager: Option<u8>,
-    /// Sync managers to which it can't be assigned.
+    /// Sync managers that the PDO must not be assigned to.
     pub excluded_sync_managers: &'static [u8],
-    /// Whether the mapping can't be changed.
+    /// Whether the mapping is read-only.
     pub fixed: bool,
-    /// Whether it has to be assigned.
+    /// Whether the PDO must be assigned.
     pub mandatory: bool,
-    /// What its index grows with.
+    /// What the index of the PDO depends on.
     pub depends_on: DependsOn,
-    /// PDOs that can't be assigned together with this one.
+    /// Indices of PDOs that must not be assigned together with this one.
     pub excludes: &'static [u16],
-    /// What it carries. Each entry says itself whether its index grows with the slot.
+    /// The mapped entries. Each entry has its own slot dependency.
     pub mapping: &'static [MappedEntry],
 }
 
 impl PdoInfo {
-    /// Whether the two can't be assigned together.
+    /// Returns whether the two PDOs exclude each other.
     #[must_use]
     pub fn conflicts_with(&self, other: &PdoInfo) -> bool {
         self.excludes.contains(&other.index) || other.excludes.contains(&self.index)
     }
 
-    /// Whether a mapping object can hold the mapping: it has 254 sub-indices, and 8 bits for the length of an entry.
+    /// Returns whether the mapping fits into a mapping object: at most 254 entries of at most 255 bits.
     #[must_use]
     pub fn is_writable(&self) -> bool {
         self.holds(self.mapping)
     }
 
-    /// Whether the mapping object can hold `mapping`.
+    /// Returns whether `mapping` fits into the mapping object.
     pub(super) fn holds(&self, mapping: &[MappedEntry]) -> bool {
         !self.fixed && mapping.len() <= 254 && mapping.iter().all(|entry| entry.bits <= 255)
     }

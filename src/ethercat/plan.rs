@@ -1,4 +1,4 @@
-//! Modules in slots, the process image that they make, and the commands that set it up.
+//! Slot plans: which modules are plugged, the resulting process image, and the commands that configure it.
 
 use core::fmt;
 
@@ -11,16 +11,16 @@ use super::startup::StartupCommand;
 use super::{Device, SyncManager};
 use crate::pdo::{MappedEntry, SdoWrite};
 
-/// Object of the configured module ident list (ETG.5001.1).
+/// Index of the configured module ident list (ETG.5001.1).
 const MODULE_IDENTS: u16 = 0xF030;
 
-/// Which module is in which slot of a modular device with at most `N` slots.
+/// The modules in the slots of a modular device with at most `N` slots.
 ///
 /// ```ignore
 /// let mut plan = SlotPlan::<16>::new(&coupler::DEVICE)?;
 /// plan.plug(0, &modules::eight_inputs::MODULE)?;
 /// plan.check()?;
-/// let placed = plan.pdo(0, 0x1A00);                     // where the inputs of slot 0 are
+/// let placed = plan.pdo(0, 0x1A00);                      // position of the inputs of slot 0
 /// configure(&mut client, plan.startup())?;               // in Pre-Operational
 /// ```
 #[derive(Clone, Copy, Debug)]
@@ -29,40 +29,40 @@ pub struct SlotPlan<const N: usize> {
     modules: [Option<&'static Module>; N],
 }
 
-/// Why a module can't be plugged, or a plan isn't complete.
+/// Reasons why a module can't be plugged or a plan is invalid.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum PlanError {
-    /// The device has no slots, or more than the plan has room for.
+    /// The device has no slots, or more than `N`.
     Slots,
-    /// There is no slot with this number.
+    /// The slot number doesn't exist.
     NoSuchSlot(u16),
-    /// There is a module in the slot.
+    /// The slot already has a module.
     Taken(u16),
-    /// The module with this ident number doesn't fit into the slot.
+    /// The slot doesn't accept the module.
     DoesNotFit {
         /// Number of the slot.
         slot: u16,
-        /// Ident number of the module.
+        /// Ident of the module.
         ident: u32,
     },
-    /// A slot has fewer modules than it has to have; this is the first one that may be added.
+    /// A slot has fewer modules than its minimum. The value is the first free slot number.
     Empty(u16),
-    /// A list of the device has no room for so many: PDOs of a sync manager (0x1C10 and the following), modules (0xF030), or parts
-    /// of the gap in front of a group of modules.
+    /// A list object has too few sub-indices: an assignment (0x1C10 and following), the module idents (0xF030), or
+    /// the mapping of a padding PDO.
     TooMany {
-        /// Index of the list.
+        /// Index of the list object.
         index: u16,
-        /// How many there are.
+        /// Required number of entries.
         count: usize,
     },
-    /// The data of a sync manager are longer than it can be.
+    /// The process data exceed the maximum length of the sync manager.
     TooLong {
         /// Number of the sync manager.
         sync_manager: u8,
         /// Length of the data in bytes.
         bytes: usize,
-        /// Greatest length in bytes.
+        /// Maximum length in bytes.
         max: usize,
     },
 }
@@ -70,14 +70,14 @@ pub enum PlanError {
 impl fmt::Display for PlanError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            PlanError::Slots => f.write_str("the device has no slots, or more than the plan has room for"),
-            PlanError::NoSuchSlot(slot) => write!(f, "there is no slot {slot}"),
-            PlanError::Taken(slot) => write!(f, "there is a module in slot {slot}"),
-            PlanError::DoesNotFit { slot, ident } => write!(f, "module {ident:#010X} doesn't fit into slot {slot}"),
-            PlanError::Empty(slot) => write!(f, "slot {slot} has to have a module"),
-            PlanError::TooMany { index, count } => write!(f, "{index:#06X} has no room for {count} entries"),
+            PlanError::Slots => f.write_str("the device has no slots, or more than the plan can hold"),
+            PlanError::NoSuchSlot(slot) => write!(f, "slot {slot} doesn't exist"),
+            PlanError::Taken(slot) => write!(f, "slot {slot} already has a module"),
+            PlanError::DoesNotFit { slot, ident } => write!(f, "slot {slot} doesn't accept module {ident:#010X}"),
+            PlanError::Empty(slot) => write!(f, "slot {slot} requires a module"),
+            PlanError::TooMany { index, count } => write!(f, "object {index:#06X} can't hold {count} entries"),
             PlanError::TooLong { sync_manager, bytes, max } => {
-                write!(f, "the data of sync manager {sync_manager} have {bytes} bytes, and at most {max} fit")
+                write!(f, "sync manager {sync_manager} has {bytes} bytes of process data; the maximum is {max}")
             }
         }
     }
@@ -85,16 +85,16 @@ impl fmt::Display for PlanError {
 
 impl core::error::Error for PlanError {}
 
-/// A PDO of a modular device, with its offset in the process image of its sync manager.
+/// A PDO of a modular device and its position in the process image of its sync manager.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SlotPdo {
-    /// The slot of its module; `None` for a PDO of the device itself.
+    /// Slot of the module; `None` if the PDO belongs to the device itself.
     pub slot: Option<u16>,
-    /// Its index with what the slot adds.
+    /// Index of the PDO, including the offset of the slot.
     pub index: u16,
     /// Number of the sync manager.
     pub sync_manager: u8,
-    /// Its first bit, counted from the first of the sync manager's data.
+    /// Bit offset in the process data of the sync manager.
     pub bit: u32,
     /// Length in bits.
     pub bits: u32,
@@ -103,18 +103,18 @@ pub struct SlotPdo {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Content {
-    /// A PDO, and what the indices of the objects that it maps grow by where they depend on its place.
+    /// A PDO, and the index offsets of the slot-dependent objects that it maps.
     Pdo(&'static PdoInfo, Growth),
-    /// Room in front of a group of modules.
+    /// Padding in front of a group of modules.
     Gap,
 }
 
 impl<const N: usize> SlotPlan<N> {
-    /// A plan with no module in any slot.
+    /// Creates a plan with empty slots.
     ///
     /// # Errors
     ///
-    /// [`PlanError::Slots`] where the device has none, or more than `N`.
+    /// [`PlanError::Slots`] if the device has no slots or more than `N`.
     pub fn new(device: &'static Device) -> Result<Self, PlanError> {
         let plan = Self { device, modules: [None; N] };
         let count: usize = plan.slots().iter().map(|slot| usize::from(slot.max)).sum();
@@ -124,11 +124,11 @@ impl<const N: usize> SlotPlan<N> {
         }
     }
 
-    /// A plan with the modules that are there by default.
+    /// Creates a plan with the default modules.
     ///
     /// # Errors
     ///
-    /// As [`SlotPlan::new`] and [`SlotPlan::plug`].
+    /// The errors of [`SlotPlan::new`] and [`SlotPlan::plug`].
     pub fn by_default(device: &'static Device) -> Result<Self, PlanError> {
         let mut plan = Self::new(device)?;
         for number in 0..plan.count() {
@@ -141,11 +141,11 @@ impl<const N: usize> SlotPlan<N> {
         Ok(plan)
     }
 
-    /// Puts `module` into the slot with this number, counted from 0.
+    /// Plugs `module` into a slot. Slot numbers start at 0.
     ///
     /// # Errors
     ///
-    /// Why it can't be plugged there.
+    /// [`PlanError::NoSuchSlot`], [`PlanError::DoesNotFit`] or [`PlanError::Taken`].
     pub fn plug(&mut self, slot: u16, module: &'static Module) -> Result<(), PlanError> {
         let group = self.slot(slot).ok_or(PlanError::NoSuchSlot(slot))?;
         if !group.takes(module) {
@@ -161,22 +161,23 @@ impl<const N: usize> SlotPlan<N> {
         }
     }
 
-    /// Takes the module out of a slot.
+    /// Removes the module from a slot and returns it.
     pub fn unplug(&mut self, slot: u16) -> Option<&'static Module> {
         self.modules.get_mut(usize::from(slot))?.take()
     }
 
-    /// The module in a slot.
+    /// Returns the module in a slot.
     #[must_use]
     pub fn module(&self, slot: u16) -> Option<&'static Module> {
         self.modules.get(usize::from(slot)).copied().flatten()
     }
 
-    /// Whether every slot has as many modules as it has to have, and the data fit into their sync managers.
+    /// Checks that every slot has its minimum of modules and that all data fit into their sync managers and list
+    /// objects.
     ///
     /// # Errors
     ///
-    /// What is missing or too long.
+    /// [`PlanError::Empty`], [`PlanError::TooLong`] or [`PlanError::TooMany`].
     pub fn check(&self) -> Result<(), PlanError> {
         let mut first = 0;
         for slot in self.slots() {
@@ -198,16 +199,16 @@ impl<const N: usize> SlotPlan<N> {
         room_for(MODULE_IDENTS, self.plugged().last().map_or(0, |(_, slot)| usize::from(slot) + 1))
     }
 
-    /// What the index of an object of the module in a slot grows by there; `index` is the one that the description has.
-    /// `None` where there is no module in the slot.
+    /// Returns the offset that a slot adds to the index of an object of its module. `index` is the one for slot 0.
+    /// Returns `None` if the slot is empty.
     #[must_use]
     pub fn index_offset(&self, slot: u16, index: u16) -> Option<u16> {
         let depends_on = self.module(slot)?.depends_on(index);
         Some(self.objects(slot).of(depends_on))
     }
 
-    /// The PDOs of a sync manager, in the order of its data: those of the device, then those of the modules, group by
-    /// group and slot by slot.
+    /// Returns the PDOs of a sync manager in the order of the process image: PDOs of the device, then PDOs of the
+    /// modules by group and slot.
     pub fn pdos(&self, sync_manager: u8) -> impl Iterator<Item = SlotPdo> + '_ {
         let manager = self.device.sync_manager(sync_manager);
         let pdos = manager.into_iter().flat_map(move |manager| {
@@ -218,7 +219,7 @@ impl<const N: usize> SlotPlan<N> {
         });
         let mut bit: u32 = 0;
         pdos.filter_map(move |(slot, index, content, bits)| {
-            // What a gap carries is the alignment; its length follows from where it stands.
+            // For a gap, `bits` holds the alignment; the length depends on its offset.
             let bits = if content == Content::Gap { bit.next_multiple_of(bits.max(1)) - bit } else { bits };
             let placed = SlotPdo { slot, index, sync_manager, bit, bits, content };
             bit = bit.saturating_add(bits);
@@ -226,7 +227,7 @@ impl<const N: usize> SlotPlan<N> {
         })
     }
 
-    /// A module's PDO; `index` is that of slot 0, as the description has it.
+    /// Returns a PDO of the module in a slot. `index` is the one for slot 0, as in the device description.
     #[must_use]
     pub fn pdo(&self, slot: u16, index: u16) -> Option<SlotPdo> {
         let is_it = |placed: &SlotPdo| match placed.content {
@@ -236,21 +237,21 @@ impl<const N: usize> SlotPlan<N> {
         self.device.sync_managers.iter().find_map(|manager| self.pdos(manager.number).find(is_it))
     }
 
-    /// Length in bytes of the data of a sync manager, the last one perhaps not full.
+    /// Returns the length of a sync manager's process data in bytes, rounded up.
     #[must_use]
     pub fn bytes(&self, sync_manager: u8) -> usize {
         let end = self.pdos(sync_manager).last().map_or(0, |placed| placed.bit + placed.bits);
         end.div_ceil(8) as usize
     }
 
-    /// What a master writes in Pre-Operational before it asks for Safe-Operational: the commands of the changes of state
-    /// IP and PS.
+    /// Returns the commands to send in Pre-Operational before the request for Safe-Operational: those of the
+    /// transitions IP and PS.
     pub fn startup(&self) -> impl Iterator<Item = StartupCommand> + '_ {
         self.commands(Transition::IP).chain(self.commands(Transition::PS))
     }
 
-    /// The commands of a change of state, in order: the list of modules, the commands of the device, those of the
-    /// modules, and the mapping and assignment of PDOs.
+    /// Returns the commands of a transition in order: module idents, commands of the device, commands of the modules,
+    /// then PDO mappings and assignment.
     pub fn commands(&self, transition: Transition) -> impl Iterator<Item = StartupCommand> + '_ {
         let of_write = move |write| StartupCommand::of_write(transition, write);
         let downloads = self.device.slots.is_some_and(|slots| slots.download_idents.contains(transition));
@@ -266,11 +267,11 @@ impl<const N: usize> SlotPlan<N> {
         idents.chain(of_device).chain(modules).chain(assignment)
     }
 
-    /// Hands every command of a change of state to `visit`, in the order of [`commands`](Self::commands).
+    /// Calls `visit` for each command of a transition, in the order of [`commands`](Self::commands).
     ///
     /// # Errors
     ///
-    /// The first error of `visit`, after which nothing more is handed over.
+    /// The first error of `visit`, which ends the iteration.
     pub fn try_for_each_command<E>(
         &self,
         transition: Transition,
@@ -291,7 +292,7 @@ impl<const N: usize> SlotPlan<N> {
         self.slots().iter().map(|slot| slot.max).fold(0, u16::saturating_add)
     }
 
-    /// The slot that this number belongs to.
+    /// Returns the slot entry that a slot number belongs to.
     fn slot(&self, number: u16) -> Option<&'static Slot> {
         let mut first: u16 = 0;
         self.slots().iter().find(|slot| {
@@ -305,13 +306,13 @@ impl<const N: usize> SlotPlan<N> {
         self.modules.iter().zip(0..).filter_map(|(module, slot)| Some(((*module)?, slot)))
     }
 
-    /// The groups of modules; one for all where the device has none.
+    /// Returns the groups of modules; a single `None` if the device has no groups.
     fn groups(&self) -> impl Iterator<Item = Option<u16>> {
         let count = self.device.slots.map_or(0, |slots| slots.pdo_groups.len()) as u16;
         (count == 0).then_some(None).into_iter().chain((0..count).map(Some))
     }
 
-    /// What a group of modules adds to a sync manager's data.
+    /// Returns the PDOs of one group in a sync manager, with the padding in front of them.
     fn group(
         &self,
         manager: &'static SyncManager,
@@ -320,7 +321,7 @@ impl<const N: usize> SlotPlan<N> {
         let rules = group.and_then(|group| self.device.slots?.pdo_groups.get(usize::from(group)));
         let is_member = move |module: &Module| match group {
             None => true,
-            // A module that names no existing group goes with the last one.
+            // A module with an invalid group number belongs to the last group.
             Some(group) => usize::from(module.pdo_group).min(self.last_group()) == usize::from(group),
         };
         let members = self.plugged().filter(move |(module, _)| is_member(module));
@@ -333,7 +334,7 @@ impl<const N: usize> SlotPlan<N> {
             let index = if outputs { rules.rx_pdo } else { rules.tx_pdo };
             (None, index.unwrap_or(0), Content::Gap, u32::from(rules.alignment) * 8)
         });
-        // A group without any data needs no gap in front of it.
+        // A group without process data needs no padding.
         let mut pdos = pdos.peekable();
         let gap = gap.filter(|_| pdos.peek().is_some());
         gap.into_iter().chain(pdos)
@@ -348,12 +349,12 @@ impl<const N: usize> SlotPlan<N> {
         (Some(slot), pdo.index.wrapping_add(shift), Content::Pdo(pdo, self.objects(slot)), pdo.bits)
     }
 
-    /// What the indices of objects grow by in a slot.
+    /// Returns the offsets of object indices in a slot.
     fn objects(&self, slot: u16) -> Growth {
         self.growth(slot, |increments| increments.index)
     }
 
-    /// The number of the slot, and that of its group, times their increments.
+    /// Returns the numbers of the slot and its group, multiplied by their increments.
     fn growth(&self, slot: u16, increment: impl Fn(Increments) -> u16) -> Growth {
         let Some(place) = self.slot(slot) else { return Growth::default() };
         let group = place.group.map_or(0, |group| increment(group.increments).wrapping_mul(group.number));
@@ -361,7 +362,7 @@ impl<const N: usize> SlotPlan<N> {
     }
 
     fn idents(&self) -> impl Iterator<Item = SdoWrite> + '_ {
-        // `check` refuses more.
+        // `check` rejects plans with more modules.
         let last = self.plugged().last().map_or(0, |(_, slot)| slot + 1).min(u16::from(u8::MAX)) as u8;
         let ident = |slot: u16| self.module(slot).map_or(0, |module| module.ident);
         let entries = (0..last).map(move |slot| SdoWrite::new_u32(MODULE_IDENTS, slot + 1, ident(u16::from(slot))));
@@ -386,7 +387,7 @@ impl<const N: usize> SlotPlan<N> {
 }
 
 impl SlotPdo {
-    /// The writes of its mapping, where that can be changed; a gap's follows from its length.
+    /// Returns the writes of the mapping if it is writable. The mapping of a gap follows from its length.
     fn mapping(&self) -> impl Iterator<Item = SdoWrite> {
         let (index, bits) = (self.index, self.bits);
         let writes = match self.content {
@@ -400,7 +401,7 @@ impl SlotPdo {
     }
 }
 
-/// The mapping of a gap: an entry has 255 bits at most.
+/// Returns the writes that map a gap, in entries of at most 255 bits.
 fn gap_writes(index: u16, bits: u32) -> impl Iterator<Item = SdoWrite> {
     const MOST: u32 = u8::MAX as u32;
     let count = bits.div_ceil(MOST).min(MOST);
@@ -411,7 +412,7 @@ fn gap_writes(index: u16, bits: u32) -> impl Iterator<Item = SdoWrite> {
     count_of(0).chain((0..count).map(entry)).chain(count_of(count))
 }
 
-/// Whether the sub-indices of a list are enough.
+/// Checks that a list object has enough sub-indices.
 fn room_for(index: u16, count: usize) -> Result<(), PlanError> {
     if count > usize::from(u8::MAX) {
         return Err(PlanError::TooMany { index, count });

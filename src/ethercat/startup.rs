@@ -1,4 +1,4 @@
-//! The commands of a start-up list.
+//! Start-up commands.
 
 use super::depends_on::Growth;
 use super::mailbox::{InitCommand, Transition};
@@ -7,36 +7,36 @@ use crate::client::{AsyncClient, Client};
 use crate::error::Error;
 use crate::pdo::SdoWrite;
 
-/// A value to be written to an object on a change of state.
+/// A value that the master writes to an object during a state transition.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct StartupCommand {
-    /// On which change of state.
+    /// The transition.
     pub transition: Transition,
-    /// Where it is written.
+    /// The object to write.
     pub object: Object,
-    /// Whether all sub-indices are written at once, from `object` on.
+    /// Whether complete access is used: all sub-indices from `object` on in one transfer.
     pub complete_access: bool,
-    /// What is written.
+    /// The value.
     pub data: StartupData,
 }
 
-/// The bytes of a [`StartupCommand`].
+/// The value of a [`StartupCommand`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum StartupData {
-    /// A number of at most 8 bytes.
+    /// An integer of at most 8 bytes.
     Number(SdoWrite),
-    /// Bytes of the description.
+    /// Bytes from the device description.
     Bytes(&'static [u8]),
 }
 
 impl StartupCommand {
-    /// A write of a number.
+    /// Creates a command from an SDO write.
     #[must_use]
     pub const fn of_write(transition: Transition, write: SdoWrite) -> Self {
         Self { transition, object: write.object(), complete_access: false, data: StartupData::Number(write) }
     }
 
-    /// What a description asks for, at the place of its module.
+    /// Creates a command from an initialization command. `growth` is added to a slot-dependent index.
     pub(super) fn of_init(command: &InitCommand, transition: Transition, growth: Growth) -> Self {
         let index = command.index.wrapping_add(growth.of(command.depends_on));
         Self {
@@ -47,7 +47,7 @@ impl StartupCommand {
         }
     }
 
-    /// The bytes to be written.
+    /// Returns the bytes to write.
     #[must_use]
     pub const fn data(&self) -> &[u8] {
         match &self.data {
@@ -56,28 +56,31 @@ impl StartupCommand {
         }
     }
 
-    /// Writes it through a client of CANopen over EtherCAT. Complete access has to be asked for by the client's own
-    /// means: of such a command, nothing but the bytes is sent.
+    /// Writes the value through a CoE client.
+    ///
+    /// [`Client`] has no complete access. For a command with complete access, only the bytes are sent; use the
+    /// client's own functions for it instead.
     ///
     /// # Errors
     ///
-    /// Those of the client.
+    /// The errors of the client.
     pub fn send<C: Client<Bus = CoE>>(&self, client: &mut C) -> Result<(), Error<C::Error>> {
         client.write(self.object, self.data())
     }
 
-    /// Writes it without blocking.
+    /// Writes the value through an asynchronous CoE client, as [`send`](Self::send) does.
     ///
     /// # Errors
     ///
-    /// Those of the client.
+    /// The errors of the client.
     pub async fn send_async<C: AsyncClient<Bus = CoE>>(&self, client: &mut C) -> Result<(), Error<C::Error>> {
         client.write(self.object, self.data()).await
     }
 }
 
-/// Sends a start-up list, such as that of an [`Assignment`](super::Assignment) or a [`SlotPlan`](super::SlotPlan), while
-/// the slave is in Pre-Operational. Commands with complete access go out as [`StartupCommand::send`] says.
+/// Sends start-up commands, such as those of an [`Assignment`](super::Assignment) or a [`SlotPlan`](super::SlotPlan).
+///
+/// The slave must be in Pre-Operational. For commands with complete access, see [`StartupCommand::send`].
 ///
 /// ```
 /// use lexibus::ethercat::{configure, Assignment};
@@ -90,7 +93,7 @@ impl StartupCommand {
 ///
 /// # Errors
 ///
-/// The first error of the client, after which nothing more is sent.
+/// The first error of the client. The remaining commands are not sent.
 pub fn configure<C: Client<Bus = CoE>>(
     client: &mut C,
     commands: impl IntoIterator<Item = StartupCommand>,
@@ -98,11 +101,11 @@ pub fn configure<C: Client<Bus = CoE>>(
     commands.into_iter().try_for_each(|command| command.send(client))
 }
 
-/// Sends a start-up list without blocking, as [`configure`] does.
+/// Sends start-up commands through an asynchronous client, as [`configure`] does.
 ///
 /// # Errors
 ///
-/// The first error of the client, after which nothing more is sent.
+/// The first error of the client. The remaining commands are not sent.
 pub async fn configure_async<C: AsyncClient<Bus = CoE>>(
     client: &mut C,
     commands: impl IntoIterator<Item = StartupCommand>,

@@ -1,6 +1,6 @@
-//! Sync managers and FMMUs (ETG.1000.4 6.6, 6.7).
+//! Sync managers (ETG.1000.4 6.7) and FMMUs (ETG.1000.4 6.6).
 
-/// What a sync manager is for.
+/// Purpose of a sync manager.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum SyncManagerPurpose {
     /// Mailbox, master to slave.
@@ -13,49 +13,49 @@ pub enum SyncManagerPurpose {
     Inputs,
 }
 
-/// A sync manager with its settings by default.
+/// A sync manager and its default settings.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct SyncManager {
-    /// Its number.
+    /// Number of the sync manager.
     pub number: u8,
-    /// What it is for.
+    /// Purpose.
     pub purpose: SyncManagerPurpose,
-    /// First address in the memory of the slave controller.
+    /// Start address in the memory of the slave controller.
     pub start_address: u16,
-    /// Length in bytes by default; 0 where it follows from the assigned PDOs.
+    /// Default length in bytes; 0 if it depends on the assigned PDOs.
     pub default_size: u16,
-    /// Least length in bytes, where there is one.
+    /// Minimum length in bytes.
     pub min_size: Option<u16>,
-    /// Greatest length in bytes, where there is one.
+    /// Maximum length in bytes.
     pub max_size: Option<u16>,
-    /// The control register.
+    /// Value of the control register.
     pub control: u8,
-    /// Whether it is enabled.
+    /// Whether the sync manager is enabled.
     pub enable: bool,
-    /// Whether it is enabled in Op only.
+    /// Whether it is enabled only in Operational.
     pub op_only: bool,
 }
 
-/// What an FMMU maps.
+/// Purpose of an FMMU.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum FmmuPurpose {
     /// Process data, master to slave.
     Outputs,
     /// Process data, slave to master.
     Inputs,
-    /// The state of the mailbox.
+    /// Mailbox state.
     MailboxState,
-    /// Something that the description doesn't tell.
+    /// Unknown: the device description doesn't say.
     Other,
 }
 
-/// A fieldbus memory management unit.
+/// A fieldbus memory management unit (FMMU).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Fmmu {
-    /// What it maps.
+    /// Purpose.
     pub purpose: FmmuPurpose,
-    /// The sync manager that it maps, where given.
+    /// The sync manager that it maps, if known.
     pub sync_manager: Option<u8>,
-    /// Whether it is enabled in Op only.
+    /// Whether it is enabled only in Operational.
     pub op_only: bool,
 }

@@ -1,4 +1,4 @@
-//! Sends a message and takes the reply.
+//! Calls: sending a message and receiving its reply.
 
 use core::error;
 use core::fmt;
@@ -6,48 +6,49 @@ use core::fmt;
 use super::{Message, Reader, Reply, Selector};
 use crate::error::Error;
 
-/// The number of the device that messages are for.
+/// The station address of the device that messages are sent to.
 pub trait Station {
-    /// The number; 0 in a protocol without numbers of devices.
+    /// Returns the station address; 0 for protocols without station addresses.
     fn station(&self) -> u32;
 }
 
-/// What sends messages to one device. [`Parameters`](crate::Parameters) is one, over an [`Exchange`](crate::Exchange).
+/// A client that sends messages to one device, such as [`Parameters`](crate::Parameters) over an
+/// [`Exchange`](crate::Exchange).
 pub trait MessageClient {
-    /// What can go wrong on the line.
+    /// Communication error of the client.
     type Error;
 
-    /// Sends a message and returns the reply, which stays in the client's buffer.
+    /// Sends a message and returns the reply, which borrows the client's buffer.
     ///
     /// # Errors
     ///
-    /// [`Failure::Refused`] where the device refuses with a message of its own, [`Failure::Error`] otherwise.
+    /// [`Failure::Refused`] if the device answers with a refusal, otherwise [`Failure::Error`].
     fn call<M: Message>(&mut self, message: &M) -> Answer<M::Reply<'_>, Self::Error, M>;
 }
 
-/// What sends messages to one device without blocking. The same rules as for [`MessageClient`].
+/// An asynchronous client that sends messages to one device. The counterpart of [`MessageClient`].
 #[allow(async_fn_in_trait)]
 pub trait AsyncMessageClient {
-    /// What can go wrong on the line.
+    /// Communication error of the client.
     type Error;
 
     /// Sends a message and returns the reply, as [`MessageClient::call`] does.
     ///
     /// # Errors
     ///
-    /// The same as of [`MessageClient::call`].
+    /// The errors of [`MessageClient::call`].
     async fn call<M: Message>(&mut self, message: &M) -> Answer<M::Reply<'_>, Self::Error, M>;
 }
 
-/// What comes of a message `M`: `T`, or why not. `E` is the client's own error.
+/// The result of sending a message `M`: a reply `T` or a [`Failure`]. `E` is the client's own error.
 pub type Answer<T, E, M> = Result<T, Failure<E, <M as Message>::Refusal>>;
 
-/// Why a message has no reply. `E` is the client's own error, `R` what the device says where it refuses.
+/// Reasons why a message has no reply. `E` is the client's own error, `R` the refusal of the device.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Failure<E, R> {
-    /// The device refused.
+    /// The device refused the request.
     Refused(R),
-    /// Something else went wrong.
+    /// Any other error.
     Error(Error<E>),
 }
 
@@ -58,7 +59,7 @@ impl<E, R, F: Into<Error<E>>> From<F> for Failure<E, R> {
 }
 
 impl<E, R> Failure<E, R> {
-    /// The same without what the device said.
+    /// Converts the failure into an [`Error`], without the content of the refusal.
     pub fn into_error(self) -> Error<E> {
         match self {
             Self::Refused(_) => Error::Refused,
@@ -85,7 +86,7 @@ impl<E: error::Error, R: fmt::Debug> error::Error for Failure<E, R> {
     }
 }
 
-/// The reply to `request`, or the device's refusal.
+/// Parses `reply` as a reply to `request` or as a refusal.
 pub(crate) fn answer<'r, E, M: Message>(request: &[u8], reply: &'r [u8]) -> Answer<M::Reply<'r>, E, M> {
     let refusal = || M::Refusal::read(request, &mut Reader::new(reply));
     if !<M::Reply<'r> as Reply<'r>>::IS_ANYTHING {
@@ -99,17 +100,17 @@ pub(crate) fn answer<'r, E, M: Message>(request: &[u8], reply: &'r [u8]) -> Answ
     }
 }
 
-/// A message that is ready to be sent through a client. The methods that end in `_async` don't block.
+/// A message and the client to send it through.
 #[derive(Debug)]
 #[must_use = "nothing is sent before `send` or `send_async`"]
 pub struct Call<'c, C, M> {
     client: &'c mut C,
-    /// What is sent.
+    /// The message to send.
     pub message: M,
 }
 
 impl<'c, C, M: Message> Call<'c, C, M> {
-    /// `message` through `client`.
+    /// Creates a call that sends `message` through `client`.
     pub fn new(client: &'c mut C, message: M) -> Self {
         Self { client, message }
     }
@@ -130,18 +131,19 @@ macro_rules! calls {
             ///
             /// # Errors
             ///
-            /// [`Failure::Refused`] where the device refuses, [`Failure::Error`] where a field is outside its limits, the line
-            /// fails, or the reply is another one.
+            /// - [`Failure::Refused`] if the device refuses the request.
+            /// - [`Failure::Error`] if a field is out of range, if the communication fails, or if the reply belongs
+            ///   to another request.
             pub $($async)? fn $send(self) -> Answer<M::Reply<'c>, C::Error, M> {
                 self.client.call(&self.message)$(.$await)?
             }
 
-            /// Sends the message, and gives the device that has the messages whose meaning it decides. As long as that is in
-            /// use, no other message of the kind can be sent.
+            /// Sends the message and returns the device with the messages whose meaning it selects. The returned
+            /// device borrows the client, so no other selection can be sent while it is in use.
             ///
             /// # Errors
             ///
-            /// The same as of [`send`](Self::send).
+            /// The errors of [`send`](Self::send).
             pub $($async)? fn $select(self) -> Answer<M::Device<&'c mut C>, C::Error, M>
             where
                 M: Selector,

@@ -1,4 +1,4 @@
-//! Fields that occur several times.
+//! Repeated fields.
 
 use core::iter::FusedIterator;
 
@@ -8,23 +8,23 @@ use crate::bus::Parameter;
 use crate::error::Error;
 use crate::value_error::{LengthError, OutOfRange};
 
-/// Fields that occur several times: one occurrence.
+/// One occurrence of a group of repeated fields.
 pub trait Group: Copy {
-    /// How many bytes it takes.
+    /// Length in bytes.
     const LENGTH: usize;
 
-    /// Writes it.
+    /// Writes the fields.
     ///
     /// # Errors
     ///
-    /// Where a field is outside its limits, or there is no room.
+    /// [`WriteError::OutOfRange`] if a field is out of range, [`WriteError::Length`] if the buffer is too short.
     fn write(&self, to: &mut Writer<'_>) -> Result<(), WriteError>;
 
-    /// Reads it; `None` where the data are something else.
+    /// Reads the fields; returns `None` if the data don't match.
     fn read(from: &mut Reader<'_>) -> Option<Self>;
 }
 
-/// Occurrences of a [`Group`]: a slice where a program sends them, and bytes where it received them.
+/// A list of [`Group`]s. Stores a slice for sending, and undecoded bytes after receiving.
 #[derive(Clone, Copy, Debug)]
 pub struct List<'a, G> {
     source: Source<'a, G>,
@@ -37,7 +37,7 @@ enum Source<'a, G> {
 }
 
 impl<G: Copy> Source<'_, G> {
-    /// Takes the next one; `read` reads one that was received.
+    /// Removes and returns the first group. `read` decodes it if the list was received.
     fn take_next(&mut self, read: impl FnOnce(&mut Reader<'_>) -> Option<G>) -> Option<G> {
         match self {
             Source::Sent(groups) => {
@@ -56,7 +56,7 @@ impl<G: Copy> Source<'_, G> {
 }
 
 impl<'a, G: Group> List<'a, G> {
-    /// The occurrences in `bytes`; `None` where these aren't whole, or contain something else.
+    /// Creates a list from received bytes. Returns `None` unless they are a whole number of valid groups.
     #[must_use]
     pub fn received(bytes: &'a [u8]) -> Option<Self> {
         let mut whole = bytes.chunks(G::LENGTH.max(1));
@@ -64,7 +64,7 @@ impl<'a, G: Group> List<'a, G> {
         is_list.then_some(Self { source: Source::Received(bytes) })
     }
 
-    /// How many there are.
+    /// Returns the number of groups.
     #[must_use]
     pub fn len(&self) -> usize {
         match self.source {
@@ -73,23 +73,23 @@ impl<'a, G: Group> List<'a, G> {
         }
     }
 
-    /// Whether there are none.
+    /// Returns whether the list is empty.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
 
-    /// Each of them.
+    /// Returns an iterator over the groups.
     #[must_use]
     pub fn iter(&self) -> ListIter<'a, G> {
         ListIter { source: self.source }
     }
 
-    /// Writes all of them.
+    /// Writes all groups.
     ///
     /// # Errors
     ///
-    /// Where a field is outside its limits, or there is no room.
+    /// [`WriteError::OutOfRange`] if a field is out of range, [`WriteError::Length`] if the buffer is too short.
     pub fn write(&self, to: &mut Writer<'_>) -> Result<(), WriteError> {
         self.iter().try_for_each(|group| group.write(to))
     }
@@ -122,7 +122,7 @@ impl<G: Group + PartialEq> PartialEq for List<'_, G> {
     }
 }
 
-/// The occurrences of a [`List`].
+/// An iterator over the groups of a [`List`].
 #[derive(Clone, Debug)]
 pub struct ListIter<'a, G> {
     source: Source<'a, G>,
@@ -138,27 +138,28 @@ impl<G: Group> Iterator for ListIter<'_, G> {
 
 impl<G: Group> FusedIterator for ListIter<'_, G> {}
 
-/// Parameters with their values, each as long as the parameter's type: a slice where a program sends them, and bytes where it
-/// received them.
+/// A list of parameters and their values. Stores a slice for sending, and undecoded bytes after receiving.
+///
+/// The length of a value depends on the type of its parameter.
 #[derive(Clone, Copy, Debug)]
 pub struct Settings<'a> {
     source: Source<'a, Setting>,
     rule: SettingsRule,
 }
 
-/// How settings stand in a message.
+/// The encoding of parameters in a message.
 #[derive(Clone, Copy, Debug)]
 pub struct SettingsRule {
-    /// Length of a parameter's number in bits.
+    /// Length of a parameter number in bits.
     pub code_bits: u32,
-    /// Order of the bytes of values: see [`Reader::value`].
+    /// Byte order of values; see [`Reader::value`].
     pub order: &'static [u8],
-    /// The parameters, in ascending order: first and last number, and how many bytes the value of each has.
+    /// Ranges of parameters in ascending order: first number, last number, length of a value in bytes.
     pub lengths: &'static [(u32, u32, u8)],
 }
 
 impl SettingsRule {
-    /// The length of a parameter's value in bytes; `None` where there is no such parameter.
+    /// Returns the length of a parameter's value in bytes, or `None` if the parameter doesn't exist.
     #[must_use]
     pub fn length(&self, parameter: Parameter) -> Option<usize> {
         let behind = self.lengths.partition_point(|(first, ..)| *first <= parameter.0);
@@ -166,11 +167,11 @@ impl SettingsRule {
         (parameter.0 <= *last).then_some((*length).into())
     }
 
-    /// Whether a parameter with its value is one of these.
+    /// Returns whether the parameter of `setting` exists.
     ///
     /// # Errors
     ///
-    /// [`LengthError`] where the parameter's values have another length.
+    /// [`LengthError`] if the value has another length than the parameter's type.
     pub fn takes(&self, setting: &Setting) -> Result<bool, LengthError> {
         match self.length(setting.parameter) {
             None => Ok(false),
@@ -179,11 +180,12 @@ impl SettingsRule {
         }
     }
 
-    /// Writes a parameter's number.
+    /// Writes a parameter number.
     ///
     /// # Errors
     ///
-    /// Where it has more bits, or there is no room for it.
+    /// [`WriteError::OutOfRange`] if the number has more bits than the field, [`WriteError::Length`] if the buffer is
+    /// too short.
     pub fn write_code(&self, parameter: Parameter, to: &mut Writer<'_>) -> Result<(), WriteError> {
         match self.code_bits < 32 && parameter.0 >> self.code_bits != 0 {
             true => Err(OutOfRange.into()),
@@ -191,16 +193,17 @@ impl SettingsRule {
         }
     }
 
-    /// Reads a parameter's number; `None` where the data are something else.
+    /// Reads a parameter number; returns `None` if the data are too short.
     pub fn read_code(&self, from: &mut Reader<'_>) -> Option<Parameter> {
         from.number(self.code_bits)?.try_into().ok().map(Parameter)
     }
 
-    /// Writes a parameter and its value.
+    /// Writes a parameter number and a value.
     ///
     /// # Errors
     ///
-    /// Where the number has more bits, the parameter's values have another length, or there is no room.
+    /// [`WriteError::OutOfRange`] if the number has more bits than the field. [`WriteError::Length`] if the value has
+    /// another length than the parameter's type, or if the buffer is too short.
     pub fn write(&self, setting: &Setting, to: &mut Writer<'_>) -> Result<(), WriteError> {
         self.takes(setting)?;
         self.put(setting, to)
@@ -211,43 +214,43 @@ impl SettingsRule {
         to.value(self.order, setting.value())
     }
 
-    /// Reads a parameter and its value; `None` where the data are something else, or there is no such parameter.
+    /// Reads a parameter number and a value; returns `None` if the parameter doesn't exist or the data are too short.
     pub fn read(&self, from: &mut Reader<'_>) -> Option<Setting> {
         let parameter = self.read_code(from)?;
         let length = self.length(parameter)?;
         Some(Setting::new(parameter, from.value(self.order, length)?, length))
     }
 
-    /// Reads a parameter and its value, which is all up to the last `tail` bytes.
+    /// Reads a parameter number and a value that extends to the last `tail` bytes.
     pub fn read_to(&self, from: &mut Reader<'_>, tail: usize) -> Option<Setting> {
         let parameter = self.read_code(from)?;
         let length = from.left().checked_sub(tail)?;
         Some(Setting::new(parameter, from.value(self.order, length)?, length))
     }
 
-    /// Writes a parameter's number, and zeros in place of its value.
+    /// Writes a parameter number and zeros instead of the value.
     ///
     /// # Errors
     ///
-    /// [`WriteError::NoMessage`] where there is no such parameter; where there is no room.
+    /// [`WriteError::NoMessage`] if the parameter doesn't exist, [`WriteError::Length`] if the buffer is too short.
     pub fn write_blank(&self, parameter: Parameter, to: &mut Writer<'_>) -> Result<(), WriteError> {
         let length = self.length(parameter).ok_or(WriteError::NoMessage)?;
         self.write_code(parameter, to)?;
         to.padding(length)
     }
 
-    /// Reads a parameter's number, and what stands in place of its value.
+    /// Reads a parameter number and skips the value.
     pub fn read_blank(&self, from: &mut Reader<'_>) -> Option<Parameter> {
         let parameter = self.read_code(from)?;
         from.skip(self.length(parameter)?)?;
         Some(parameter)
     }
 
-    /// Copies a value that a message carries alone.
+    /// Copies a received value into `value`, in little-endian byte order.
     ///
     /// # Errors
     ///
-    /// [`Error::Length`] where it has another length than `value`.
+    /// [`Error::Length`] if the lengths differ.
     pub fn copy<E>(&self, bytes: &[u8], value: &mut [u8]) -> Result<usize, Error<E>> {
         let found =
             Reader::new(bytes).value(self.order, bytes.len()).ok_or(LengthError::new(value.len(), bytes.len()))?;
@@ -256,13 +259,13 @@ impl SettingsRule {
 }
 
 impl<'a> Settings<'a> {
-    /// Those that are sent.
+    /// Creates a list for sending.
     #[must_use]
     pub const fn sent(settings: &'a [Setting], rule: SettingsRule) -> Self {
         Self { source: Source::Sent(settings), rule }
     }
 
-    /// Those in `bytes`; `None` where these aren't whole, or name another parameter.
+    /// Creates a list from received bytes. Returns `None` if they are incomplete or contain an unknown parameter.
     #[must_use]
     pub fn received(bytes: &'a [u8], rule: SettingsRule) -> Option<Self> {
         let settings = Self { source: Source::Received(bytes), rule };
@@ -271,18 +274,19 @@ impl<'a> Settings<'a> {
         matches!(all.source, Source::Received([])).then_some(settings)
     }
 
-    /// Each of them.
+    /// Returns an iterator over the parameters and values.
     #[must_use]
     pub const fn iter(&self) -> SettingsIter<'a> {
         SettingsIter { source: self.source, rule: self.rule }
     }
 
-    /// Writes all of them.
+    /// Writes all parameters and values.
     ///
     /// # Errors
     ///
-    /// [`WriteError::NoMessage`] where there is no such parameter: nobody could tell where the next one begins. Where a parameter's
-    /// values have another length, or there is no room.
+    /// - [`WriteError::NoMessage`] if a parameter doesn't exist: the device couldn't locate the next one.
+    /// - [`WriteError::Length`] if a value has another length than the parameter's type, or if the buffer is too
+    ///   short.
     pub fn write(&self, to: &mut Writer<'_>) -> Result<(), WriteError> {
         self.iter().try_for_each(|setting| match self.rule.takes(&setting)? {
             true => self.rule.put(&setting, to),
@@ -306,7 +310,7 @@ impl PartialEq for Settings<'_> {
     }
 }
 
-/// Each of [`Settings`].
+/// An iterator over [`Settings`].
 #[derive(Clone, Debug)]
 pub struct SettingsIter<'a> {
     source: Source<'a, Setting>,
@@ -377,7 +381,7 @@ mod tests {
         assert_eq!(RULE.takes(&setting(0x105, &[1, 2])), Ok(true));
         assert_eq!(RULE.takes(&setting(0x10C, &[1, 2])), Err(LengthError::new(4, 2)));
         assert_eq!(RULE.takes(&setting(0x106, &[1, 2])), Ok(false));
-        // What the device would take for something else isn't sent.
+        // Settings that the device would misread are not sent.
         let written = |settings: &[Setting]| Settings::sent(settings, RULE).write(&mut Writer::new(&mut [0; 16]));
         assert_eq!(written(&[setting(0x106, &[1, 2])]), Err(WriteError::NoMessage));
         assert_eq!(written(&[setting(0x10C, &[1, 2])]), Err(LengthError::new(4, 2).into()));

@@ -1,17 +1,17 @@
-//! What a device does with a message in each of its states.
+//! Reactions of a device to a message, by state.
 
-/// What happens to a message. `S` is the type of the device's states.
+/// A reaction to a message. `S` is the type of the device's states.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Outcome<S: 'static> {
-    /// The device refuses it.
+    /// The device refuses the message.
     Refused,
-    /// It is carried out, and the state stays.
+    /// The device executes the message and stays in its state.
     Unchanged,
-    /// It leads to the first of these states, which leads by itself to the next.
+    /// The device enters the first of these states, then passes to the following ones automatically.
     States(&'static [S]),
 }
 
-/// What happens to a message in one state: one of these.
+/// The possible reactions to a message in one state.
 #[derive(Clone, Copy, Debug)]
 pub struct StateOutcomes<S: 'static> {
     state: S,
@@ -19,15 +19,14 @@ pub struct StateOutcomes<S: 'static> {
 }
 
 impl<S> StateOutcomes<S> {
-    /// What happens in `state`; nothing where the description doesn't say.
+    /// Creates the reactions for `state`; an empty list if the device description doesn't state them.
     #[must_use]
     pub const fn new(state: S, outcomes: &'static [Outcome<S>]) -> Self {
         Self { state, outcomes }
     }
 }
 
-/// What happens to a message in each state of a device: the message's row in the table of commands and states. A constant of
-/// generated messages.
+/// The possible reactions to a message in each state of a device. Generated messages have it as a constant.
 ///
 /// ```
 /// use lexibus::message::{Outcome, Outcomes, StateOutcomes};
@@ -47,14 +46,14 @@ impl<S> StateOutcomes<S> {
 ///
 /// assert_eq!(JOG.accepts(State::Alarm), Some(false));
 /// assert_eq!(JOG.accepts(State::Stopped), Some(true));
-/// // What a device does there depends on more than the state.
+/// // In this state, the reaction depends on more than the state.
 /// assert_eq!((JOG.accepts(State::Jogging), JOG.of(State::Jogging).len()), (None, 2));
 /// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Outcomes<S: 'static>(&'static [StateOutcomes<S>]);
 
 impl<S> Outcomes<S> {
-    /// A row of the table of commands and states.
+    /// Creates a row of the table of commands and states.
     #[must_use]
     pub const fn new(states: &'static [StateOutcomes<S>]) -> Self {
         Self(states)
@@ -62,13 +61,14 @@ impl<S> Outcomes<S> {
 }
 
 impl<S: PartialEq> Outcomes<S> {
-    /// What happens in `state`: one of these. Nothing where the description doesn't say.
+    /// Returns the possible reactions in `state`. Empty if the device description doesn't state them.
     #[must_use]
     pub fn of(&self, state: S) -> &'static [Outcome<S>] {
         self.0.iter().find(|row| row.state == state).map_or(&[], |row| row.outcomes)
     }
 
-    /// Whether the device accepts the message in `state`; `None` where the description doesn't say, or it depends.
+    /// Returns whether the device accepts the message in `state`; `None` if that is unknown or depends on more than
+    /// the state.
     #[must_use]
     pub fn accepts(&self, state: S) -> Option<bool> {
         let outcomes = self.of(state);

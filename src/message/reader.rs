@@ -1,18 +1,21 @@
-//! Reads the data of a message.
+//! Decoding of message data.
 
-/// Reads fields one after the other. Numbers are big-endian where no order of bytes is given, and parts of a byte follow each
-/// other from the most significant bit on. Each method has `None` where the data are shorter, or other than they should be.
+/// Reads the fields of a message in order.
+///
+/// Numbers are big-endian unless a byte order is given. Bit fields start at the most significant bit. All methods
+/// return `None` if the data are too short or don't match.
 #[derive(Clone, Copy, Debug)]
 pub struct Reader<'r> {
     data: &'r [u8],
-    /// How many bits are read.
+    /// Number of bits read.
     bits: usize,
 }
 
-/// The significance of the byte at `at` of a value of `length` bytes: 0 is the least significant one.
+/// Returns the significance of the byte at position `at` of a value of `length` bytes: 0 is the least significant
+/// byte.
 ///
-/// `order` is that of the longest values, the most significant byte being 0. A shorter one has its low bytes in this order, and
-/// a longer one, or one for which there is no order, is big-endian.
+/// `order` lists the bytes of the longest values in wire order; 0 is the most significant byte. Shorter values have
+/// their low bytes in this order. Values are big-endian if they are longer or `order` is empty.
 pub(super) fn significance(order: &[u8], length: usize, at: usize) -> usize {
     let big_endian = length.saturating_sub(1).saturating_sub(at);
     let Some(missing) = order.len().checked_sub(length) else { return big_endian };
@@ -22,19 +25,19 @@ pub(super) fn significance(order: &[u8], length: usize, at: usize) -> usize {
 }
 
 impl<'r> Reader<'r> {
-    /// Reads from the start of `data`.
+    /// Creates a reader at the start of `data`.
     #[must_use]
     pub const fn new(data: &'r [u8]) -> Self {
         Self { data, bits: 0 }
     }
 
-    /// How many bytes are left; one of which a part was read doesn't count.
+    /// Returns the number of unread bytes, without a partly read one.
     #[must_use]
     pub fn left(&self) -> usize {
         self.data.len().saturating_sub(self.bits.div_ceil(8))
     }
 
-    /// Reads so many bytes.
+    /// Reads `count` bytes.
     pub fn bytes(&mut self, count: usize) -> Option<&'r [u8]> {
         let start = self.bits.div_ceil(8);
         let bytes = self.data.get(start..start.checked_add(count)?)?;
@@ -42,44 +45,45 @@ impl<'r> Reader<'r> {
         Some(bytes)
     }
 
-    /// Reads bytes whose meaning doesn't matter.
+    /// Skips `count` bytes.
     pub fn skip(&mut self, count: usize) -> Option<()> {
         self.bytes(count).map(|_| ())
     }
 
-    /// Reads bytes that have to be these.
+    /// Reads bytes that must equal `expected`.
     pub fn constant(&mut self, expected: &[u8]) -> Option<()> {
         (self.bytes(expected.len())? == expected).then_some(())
     }
 
-    /// Reads bytes that have to be those of the request from `first` on.
+    /// Reads `count` bytes that must equal those of the request from `first` on.
     pub fn echo(&mut self, request: &[u8], first: usize, count: usize) -> Option<()> {
         self.constant(request.get(first..first.checked_add(count)?)?)
     }
 
-    /// Reads bytes that have to be those of the request from `first` on, as far as it has them.
+    /// Reads `count` bytes and compares them with those of the request from `first` on, as far as the request
+    /// reaches.
     pub fn copy(&mut self, request: &[u8], first: usize, count: usize) -> Option<()> {
         let expected = request.get(first..).unwrap_or_default();
         self.bytes(count)?.iter().zip(expected).all(|(byte, expected)| byte == expected).then_some(())
     }
 
-    /// Reads bits that have to be these.
+    /// Reads a number of `width` bits that must equal `expected`.
     pub fn fixed(&mut self, width: u32, expected: u64) -> Option<()> {
         (self.number(width)? == expected).then_some(())
     }
 
-    /// Reads a number in this order of bytes that has to be this.
+    /// Reads a number in the byte order `order` that must equal `expected`.
     pub fn fixed_in(&mut self, order: &[u8], expected: u64) -> Option<()> {
         (self.ordered(order)? == expected).then_some(())
     }
 
-    /// Whether `length` is the number of all bytes from `first` on.
+    /// Checks that `length` is the number of bytes from `first` to the end of the data.
     pub fn counted(&self, first: usize, length: u64) -> Option<()> {
         let rest = self.data.len().checked_sub(first)?;
         (u64::try_from(rest) == Ok(length)).then_some(())
     }
 
-    /// Reads a number of `width` bits, 64 at most, the most significant first.
+    /// Reads a big-endian number of `width` bits, at most 64.
     pub fn number(&mut self, width: u32) -> Option<u64> {
         let (mut left, mut number) = (width.min(64), 0_u64);
         while left > 0 {
@@ -94,7 +98,7 @@ impl<'r> Reader<'r> {
         Some(number)
     }
 
-    /// Reads a number in this order of bytes, of which the most significant one has number 0.
+    /// Reads a number in the byte order `order`, in which 0 is the most significant byte.
     pub fn ordered(&mut self, order: &[u8]) -> Option<u64> {
         let bytes = self.bytes(order.len())?;
         let last = order.len().saturating_sub(1);
@@ -105,10 +109,10 @@ impl<'r> Reader<'r> {
         Some(number)
     }
 
-    /// Reads a value of `length` bytes, 8 at most, in an order of bytes; its least significant byte comes first then.
+    /// Reads a value of `length` bytes, at most 8. Returns it in little-endian byte order.
     ///
-    /// `order` is that of the longest values, the most significant byte being 0. A shorter one has its low bytes in this order,
-    /// and a longer one, or one for which there is no order, is big-endian.
+    /// `order` lists the bytes of the longest values in wire order; 0 is the most significant byte. Shorter values
+    /// have their low bytes in this order. Values are big-endian if they are longer or `order` is empty.
     pub fn value(&mut self, order: &[u8], length: usize) -> Option<[u8; 8]> {
         let mut value = [0; 8];
         let bytes = self.bytes(length)?;
@@ -118,12 +122,12 @@ impl<'r> Reader<'r> {
         Some(value)
     }
 
-    /// All that is left but for the last `tail` bytes.
+    /// Reads all bytes except the last `tail`.
     pub fn but(&mut self, tail: usize) -> Option<&'r [u8]> {
         self.bytes(self.left().checked_sub(tail)?)
     }
 
-    /// Whether all is read.
+    /// Checks that all data have been read.
     pub fn end(&self) -> Option<()> {
         (self.bits == self.data.len() * 8).then_some(())
     }
@@ -153,7 +157,7 @@ mod tests {
         assert_eq!(of(&[3, 2, 1, 0], 2)[..2], [0, 1]);
         assert_eq!(of(&[], 4), [3, 2, 1, 0]);
         assert_eq!(of(&[1, 0], 4), [3, 2, 1, 0]);
-        // No order at all.
+        // An empty order.
         assert_eq!(of(&[5, 9], 2)[..2], [1, 0]);
     }
 

@@ -1,4 +1,4 @@
-//! Physical numbers of fields.
+//! Physical values of message fields.
 
 use core::fmt;
 use core::marker::PhantomData;
@@ -6,7 +6,9 @@ use core::marker::PhantomData;
 use crate::quantity::Quantity;
 use crate::value_error::OutOfRange;
 
-/// How a field of a message relates to a physical number: a constant of generated messages, in units that its documentation has.
+/// The scale of a message field: converts between raw and physical values. Generated messages have it as a constant.
+///
+/// The documentation of the constant names the unit.
 ///
 /// ```
 /// use lexibus::message::Scale;
@@ -22,7 +24,7 @@ use crate::value_error::OutOfRange;
 pub struct Scale<Q>(PhantomData<Q>);
 
 impl<Q> Scale<Q> {
-    /// The scale of `Q`.
+    /// Creates the scale of the quantity `Q`.
     #[must_use]
     #[allow(clippy::new_without_default)]
     pub const fn new() -> Self {
@@ -31,7 +33,7 @@ impl<Q> Scale<Q> {
 }
 
 impl<Q: Quantity> Scale<Q> {
-    /// The physical number.
+    /// Converts a raw value to the physical value.
     #[must_use]
     pub fn physical(self, raw: Q::Native) -> Q::Physical
     where
@@ -40,11 +42,11 @@ impl<Q: Quantity> Scale<Q> {
         Q::physical(raw, ())
     }
 
-    /// The nearest raw number.
+    /// Converts a physical value to the nearest raw value.
     ///
     /// # Errors
     ///
-    /// [`OutOfRange`] where there is no such number.
+    /// [`OutOfRange`] if the type can't represent the raw value.
     pub fn raw(self, physical: f64) -> Result<Q::Native, OutOfRange>
     where
         Q: Quantity<Other = ()>,
@@ -52,7 +54,7 @@ impl<Q: Quantity> Scale<Q> {
         Q::raw(physical, ())
     }
 
-    /// The physical number, where it depends on another one.
+    /// Converts a raw value to the physical value, with a scale that depends on the value `other`.
     #[must_use]
     pub fn physical_by(self, raw: Q::Native, other: f64) -> Q::Physical
     where
@@ -61,11 +63,11 @@ impl<Q: Quantity> Scale<Q> {
         Q::physical(raw, other)
     }
 
-    /// The nearest raw number, where it depends on another one.
+    /// Converts a physical value to the nearest raw value, with a scale that depends on the value `other`.
     ///
     /// # Errors
     ///
-    /// [`OutOfRange`] where there is no such number.
+    /// [`OutOfRange`] if the type can't represent the raw value.
     pub fn raw_by(self, physical: f64, other: f64) -> Result<Q::Native, OutOfRange>
     where
         Q: Quantity<Other = f64>,

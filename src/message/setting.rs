@@ -1,4 +1,4 @@
-//! A parameter with its value, for messages that carry several.
+//! A parameter and its value, for messages that carry several.
 
 use crate::access::Writable;
 use crate::bus::{Parameter, Serial};
@@ -8,7 +8,7 @@ use crate::location::On;
 use crate::value::Fixed;
 use crate::value_error::{LengthError, OutOfRange};
 
-/// The number of a parameter, and a value for it.
+/// A parameter number and a value.
 ///
 /// ```
 /// use lexibus::message::Setting;
@@ -26,24 +26,24 @@ use crate::value_error::{LengthError, OutOfRange};
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Setting {
-    /// The parameter.
+    /// Number of the parameter.
     pub parameter: Parameter,
     value: [u8; 8],
     length: u8,
 }
 
 impl Setting {
-    /// A value of `length` bytes, 8 at most, the least significant first. Further bytes are cut off.
+    /// Creates a setting from the first `length` bytes of a little-endian value. `length` is limited to 8.
     #[must_use]
     pub fn new(parameter: Parameter, value: [u8; 8], length: usize) -> Self {
         let length = length.min(8);
         let mut bytes = [0; 8];
         bytes[..length].copy_from_slice(&value[..length]);
-        // 8 at most.
+        // `length` is at most 8.
         Self { parameter, value: bytes, length: length as u8 }
     }
 
-    /// The value of these bytes; `None` for more than 8.
+    /// Creates a setting from little-endian bytes; returns `None` for more than 8.
     #[must_use]
     pub fn of(parameter: Parameter, bytes: &[u8]) -> Option<Self> {
         let mut value = [0; 8];
@@ -51,7 +51,7 @@ impl Setting {
         Some(Self::new(parameter, value, bytes.len()))
     }
 
-    /// The bytes of the value, the least significant first.
+    /// Returns the value in little-endian byte order.
     #[must_use]
     pub fn value(&self) -> &[u8] {
         self.value.get(..self.length.into()).unwrap_or_default()
@@ -59,11 +59,11 @@ impl Setting {
 }
 
 impl<V: Fixed, A: Writable, L: On<Serial, Route = Parameter>> Item<V, A, L> {
-    /// The parameter with a value, for a message that carries several.
+    /// Creates a setting of this parameter, for a message that carries several.
     ///
     /// # Errors
     ///
-    /// [`OutOfRange`] where the value is outside the item's range or doesn't fit its type.
+    /// [`OutOfRange`] if the value is outside the parameter's range or doesn't fit its type.
     pub fn setting(&self, value: V::Native) -> Result<Setting, OutOfRange> {
         if !V::in_range(value, self.range()) {
             return Err(OutOfRange);
@@ -75,11 +75,11 @@ impl<V: Fixed, A: Writable, L: On<Serial, Route = Parameter>> Item<V, A, L> {
 }
 
 impl Setting {
-    /// Copies the value of a parameter, for a client.
+    /// Copies the value into `value`.
     ///
     /// # Errors
     ///
-    /// [`Error::UnexpectedReply`] where it is another parameter's, [`Error::Length`] where it has another length than `value`.
+    /// [`Error::UnexpectedReply`] if the setting is for another parameter, [`Error::Length`] if the lengths differ.
     pub fn copy<E>(&self, parameter: Parameter, value: &mut [u8]) -> Result<usize, Error<E>> {
         match self.parameter == parameter {
             true => copy(self.value(), value),
@@ -87,7 +87,7 @@ impl Setting {
         }
     }
 
-    /// The value as that of `item`; `None` where it is another parameter's, or has another length.
+    /// Returns the value as the type of `item`; `None` if the setting is for another parameter or the length differs.
     #[must_use]
     pub fn value_of<V: Fixed, A, L: On<Serial, Route = Parameter>>(&self, item: &Item<V, A, L>) -> Option<V::Native> {
         (item.location().route() == self.parameter).then(|| V::decode(self.value()).ok())?

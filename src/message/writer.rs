@@ -1,4 +1,4 @@
-//! Writes the data of a message.
+//! Encoding of message data.
 
 use core::error;
 use core::fmt;
@@ -9,24 +9,25 @@ use crate::range::Range;
 use crate::value::Fixed;
 use crate::value_error::{LengthError, OutOfRange};
 
-/// Writes fields one after the other. Numbers are big-endian where no order of bytes is given, and parts of a byte follow each
-/// other from the most significant bit on.
+/// Writes the fields of a message in order.
+///
+/// Numbers are big-endian unless a byte order is given. Bit fields start at the most significant bit.
 #[derive(Debug)]
 pub struct Writer<'b> {
     data: &'b mut [u8],
-    /// How many bits are written.
+    /// Number of bits written.
     bits: usize,
 }
 
-/// Why a message can't be written. Nothing was sent.
+/// Reasons why a message can't be encoded. Nothing has been sent.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum WriteError {
-    /// A field is outside its limits.
+    /// A field is out of range.
     OutOfRange(OutOfRange),
-    /// The data are longer than there is room for, or than the protocol allows.
+    /// The data exceed the buffer or the maximum length of the protocol.
     Length(LengthError),
-    /// The protocol has no message that does this to the parameter.
+    /// The protocol has no message for this access to the parameter.
     NoMessage,
 }
 
@@ -57,11 +58,11 @@ impl fmt::Display for WriteError {
 
 impl error::Error for WriteError {}
 
-/// Whether a field's value is within its limits.
+/// Checks that the value of a field is within its limits.
 ///
 /// # Errors
 ///
-/// [`OutOfRange`] where it isn't.
+/// [`WriteError::OutOfRange`] if it isn't.
 #[inline]
 pub fn check<V: Fixed>(value: V::Native, range: &Range<V::Native>) -> Result<(), WriteError> {
     match V::in_range(value, range) {
@@ -71,30 +72,30 @@ pub fn check<V: Fixed>(value: V::Native, range: &Range<V::Native>) -> Result<(),
 }
 
 impl<'b> Writer<'b> {
-    /// Writes to the start of `data`.
+    /// Creates a writer at the start of `data`.
     pub fn new(data: &'b mut [u8]) -> Self {
         Self { data, bits: 0 }
     }
 
-    /// What is written.
+    /// Returns the bytes written so far.
     #[must_use]
     pub fn written(&self) -> &[u8] {
         self.data.get(..self.len()).unwrap_or_default()
     }
 
-    /// How many bytes are written.
+    /// Returns the number of bytes written.
     #[must_use]
     pub const fn len(&self) -> usize {
         self.bits.div_ceil(8)
     }
 
-    /// Whether nothing is written.
+    /// Returns whether nothing has been written.
     #[must_use]
     pub const fn is_empty(&self) -> bool {
         self.bits == 0
     }
 
-    /// The room for so many bytes more.
+    /// Reserves the next `count` bytes.
     fn room(&mut self, count: usize) -> Result<&mut [u8], WriteError> {
         let (start, length) = (self.len(), self.data.len());
         let room = self.data.get_mut(start..start.saturating_add(count));
@@ -107,27 +108,27 @@ impl<'b> Writer<'b> {
     ///
     /// # Errors
     ///
-    /// Where there is no room for them.
+    /// [`WriteError::Length`] if the buffer is too short.
     pub fn bytes(&mut self, bytes: &[u8]) -> Result<(), WriteError> {
         self.room(bytes.len())?.copy_from_slice(bytes);
         Ok(())
     }
 
-    /// Writes bytes without meaning: 0.
+    /// Writes `count` padding bytes of value 0.
     ///
     /// # Errors
     ///
-    /// Where there is no room for them.
+    /// [`WriteError::Length`] if the buffer is too short.
     pub fn padding(&mut self, count: usize) -> Result<(), WriteError> {
         self.room(count)?.fill(0);
         Ok(())
     }
 
-    /// Writes the low `width` bits of a number, 64 at most, the most significant first.
+    /// Writes the low `width` bits of a number, at most 64, in big-endian order.
     ///
     /// # Errors
     ///
-    /// Where there is no room for them.
+    /// [`WriteError::Length`] if the buffer is too short.
     pub fn number(&mut self, width: u32, number: u64) -> Result<(), WriteError> {
         let mut left = width.min(64);
         while left > 0 {
@@ -144,11 +145,11 @@ impl<'b> Writer<'b> {
         Ok(())
     }
 
-    /// Writes a number in this order of bytes, of which the most significant one has number 0.
+    /// Writes a number in the byte order `order`, in which 0 is the most significant byte.
     ///
     /// # Errors
     ///
-    /// Where there is no room for it.
+    /// [`WriteError::Length`] if the buffer is too short.
     pub fn ordered(&mut self, order: &[u8], number: u64) -> Result<(), WriteError> {
         let last = order.len().saturating_sub(1);
         let room = self.room(order.len())?;
@@ -158,12 +159,11 @@ impl<'b> Writer<'b> {
         Ok(())
     }
 
-    /// Writes a value, whose least significant byte comes first, in this order of bytes: see
-    /// [`Reader::value`](super::Reader::value).
+    /// Writes a little-endian value in the byte order `order`; see [`Reader::value`](super::Reader::value).
     ///
     /// # Errors
     ///
-    /// Where there is no room for it.
+    /// [`WriteError::Length`] if the buffer is too short.
     pub fn value(&mut self, order: &[u8], value: &[u8]) -> Result<(), WriteError> {
         let room = self.room(value.len())?;
         for (at, to) in room.iter_mut().enumerate() {
@@ -177,17 +177,17 @@ impl<'b> Writer<'b> {
     ///
     /// # Errors
     ///
-    /// Where there is no room for them, or the request is shorter.
+    /// [`WriteError::Length`] if the buffer or the request is too short.
     pub fn echo(&mut self, request: &[u8], first: usize, count: usize) -> Result<(), WriteError> {
         self.bytes(part(request, first, count)?)
     }
 
-    /// Whether the bytes from `at` on are `count` bytes of the request, from `first` on: a reply about another parameter is no reply
-    /// to it.
+    /// Checks that the `count` bytes written at `at` equal those of the request at `first`: a reply must name the
+    /// parameter of its request.
     ///
     /// # Errors
     ///
-    /// [`OutOfRange`] where they differ, [`LengthError`] where the request is shorter.
+    /// [`WriteError::OutOfRange`] if they differ, [`WriteError::Length`] if the request is too short.
     pub fn same(&self, at: usize, request: &[u8], first: usize, count: usize) -> Result<(), WriteError> {
         let expected = part(request, first, count)?;
         match self.written().get(at..at.saturating_add(count)) == Some(expected) {
@@ -196,11 +196,11 @@ impl<'b> Writer<'b> {
         }
     }
 
-    /// Writes how many bytes there are from `first` on over the bytes from `at` on, in this order.
+    /// Overwrites the length field at `at` with the number of bytes from `first` on, in the byte order `order`.
     ///
     /// # Errors
     ///
-    /// Where the number has more bytes than that.
+    /// [`WriteError::OutOfRange`] if the number doesn't fit the field.
     pub fn length(&mut self, at: usize, order: &[u8], first: usize) -> Result<(), WriteError> {
         let (length, bits) = (self.len().saturating_sub(first) as u64, self.bits);
         let room = 8 * order.len() as u32;
@@ -213,11 +213,11 @@ impl<'b> Writer<'b> {
         written
     }
 
-    /// Writes `count` bytes of the request, from `first` on, and 0 for those that it lacks.
+    /// Writes `count` bytes of the request from `first` on, padded with 0 if the request is shorter.
     ///
     /// # Errors
     ///
-    /// Where there is no room for them.
+    /// [`WriteError::Length`] if the buffer is too short.
     pub fn copy(&mut self, request: &[u8], first: usize, count: usize) -> Result<(), WriteError> {
         let copied = request.get(first..).unwrap_or_default();
         self.room(count)?
@@ -228,7 +228,7 @@ impl<'b> Writer<'b> {
     }
 }
 
-/// `count` bytes of the request, from `first` on.
+/// Returns `count` bytes of the request, from `first` on.
 fn part(request: &[u8], first: usize, count: usize) -> Result<&[u8], LengthError> {
     let end = first.saturating_add(count);
     request.get(first..end).ok_or(LengthError::new(end, request.len()))

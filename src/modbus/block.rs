@@ -1,4 +1,4 @@
-//! Items that are read together.
+//! Blocks of items that are read together.
 
 use crate::access::Readable;
 use crate::bus::Modbus;
@@ -9,27 +9,27 @@ use crate::route::Direct;
 use crate::value::{byte_len, Fixed};
 use crate::value_error::LengthError;
 
-/// What can be read as a part of a [`Block`]: an [`Item`] that can be read, is a register or a bit of Modbus, and has a type
-/// of a fixed size.
+/// An item that can be part of a [`Block`]: a readable [`Item`] with a Modbus register or bit and a type of fixed
+/// size.
 #[diagnostic::on_unimplemented(
-    message = "`{Self}` can't be read in a block of Modbus",
-    label = "an item of a block can be read, is on Modbus, and is no text"
+    message = "`{Self}` can't be read in a Modbus block",
+    label = "expected a readable Modbus item of fixed size"
 )]
 pub trait BlockItem {
-    /// The value.
+    /// Type of the value.
     type Native: Copy;
 
-    /// How many bytes the value takes, 8 at most.
+    /// Length of the value in bytes, at most 8.
     const LENGTH: usize;
 
-    /// Where it is.
+    /// Returns the register.
     fn register(&self) -> Register;
 
-    /// The value of these bytes, the least significant first.
+    /// Decodes a value from little-endian bytes.
     ///
     /// # Errors
     ///
-    /// [`LengthError`] where they aren't as many as the value takes.
+    /// [`LengthError`] if the number of bytes isn't the length of the value.
     fn decode(&self, bytes: &[u8]) -> Result<Self::Native, LengthError>;
 }
 
@@ -61,33 +61,34 @@ impl<T: BlockItem> BlockItem for &T {
     }
 }
 
-/// `N` values that are read together: a tuple of up to 12 items, or an array of items.
+/// `N` items that are read together: a tuple of up to 12 items, or an array of items.
 ///
-/// The result of a tuple is the tuple of the values, that of an array an array, in the same order, whatever the order of the
-/// addresses. Values are those of [`Accessor::read`](crate::Accessor::read); [`Item::physical`] scales them.
+/// A tuple of items gives a tuple of values, an array of items an array of values, in the same order. The order of
+/// the addresses doesn't matter. Values are raw, as from [`Accessor::read`](crate::Accessor::read); use
+/// [`Item::physical`] to scale them.
 #[diagnostic::on_unimplemented(
-    message = "`{Self}` is no block of Modbus",
-    label = "a block is a tuple of up to 12 items that can be read on Modbus, or an array of such items"
+    message = "`{Self}` is not a Modbus block",
+    label = "expected a tuple of up to 12 readable Modbus items, or an array of them"
 )]
 pub trait Block<const N: usize> {
-    /// The values.
+    /// Type of the values.
     type Values;
 
-    /// How many bytes each value takes, 8 at most.
+    /// Length of each value in bytes, at most 8.
     const LENGTHS: [usize; N];
 
-    /// Where each value is.
+    /// Returns the register of each item.
     fn registers(&self) -> [Register; N];
 
-    /// The values, of as many of the bytes as each takes.
+    /// Decodes the values. Each one uses as many of its 8 bytes as it needs.
     ///
     /// # Errors
     ///
-    /// [`LengthError`] where a value doesn't take as many bytes as it says.
+    /// [`LengthError`] if a value needs another number of bytes than its item declares.
     fn values(&self, bytes: &[[u8; 8]; N]) -> Result<Self::Values, LengthError>;
 }
 
-/// An array of no items can't be read: [`LengthError`].
+/// Reading an empty array is a [`LengthError`].
 impl<T: BlockItem, const N: usize> Block<N> for [T; N] {
     type Values = [T::Native; N];
 
@@ -107,7 +108,7 @@ impl<T: BlockItem, const N: usize> Block<N> for [T; N] {
     }
 }
 
-/// The value of the bytes that it takes.
+/// Decodes one value from the first bytes.
 fn value<T: BlockItem>(item: &T, bytes: &[u8; 8]) -> Result<T::Native, LengthError> {
     item.decode(&bytes[..T::LENGTH.min(8)])
 }

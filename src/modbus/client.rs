@@ -1,4 +1,4 @@
-//! Clients that read blocks.
+//! Clients that read blocks of items.
 
 use core::future::Future;
 use core::time::Duration;
@@ -12,8 +12,8 @@ use crate::error::Error;
 
 /// A client that reads several items at once.
 ///
-/// Blocks are read through [`Client::read`], for any number of registers or bits, so there is nothing to implement. A
-/// client that knows the device's [`Limits`] says so:
+/// The provided methods use [`Client::read`]. Implement [`limits`](Self::limits) if you know the [`Limits`] of the
+/// device:
 ///
 /// ```
 /// # use lexibus::{Client, Error, Modbus, Register};
@@ -34,18 +34,20 @@ use crate::error::Error;
 /// }
 /// ```
 pub trait RegisterClient: Client<Bus = Modbus> {
-    /// Which requests the device takes.
+    /// Returns the limits of the device's requests; by default [`Limits::STANDARD`].
     fn limits(&self) -> &Limits {
         &Limits::STANDARD
     }
 
-    /// Reads items with as few requests as the device allows; the [module](super) says what goes together. An item that the
-    /// device doesn't have makes its request fail, with all that it asks for.
+    /// Reads items with as few requests as the device allows. The [module documentation](super) explains what one
+    /// request can read. A request fails as a whole if the device lacks one of its items.
     ///
     /// # Errors
     ///
-    /// Those of [`Client::read`], and [`Error::Length`] where an item is longer than the device reads at once (nothing is
-    /// sent then), or has another number of registers than its type takes.
+    /// - The errors of [`Client::read`].
+    /// - [`Error::Length`] if an item is longer than one request may read; nothing is sent then. Also if an item's
+    ///   type has
+    ///   another length than its registers.
     fn read_block<const N: usize, B: Block<N>>(&mut self, block: B) -> Result<B::Values, Error<Self::Error>>
     where
         Self: Sized,
@@ -60,10 +62,10 @@ pub trait RegisterClient: Client<Bus = Modbus> {
     }
 }
 
-/// A client that reads several items at once without blocking. The same rules as for [`RegisterClient`].
+/// An asynchronous client that reads several items at once. The counterpart of [`RegisterClient`].
 #[allow(async_fn_in_trait)]
 pub trait AsyncRegisterClient: AsyncClient<Bus = Modbus> {
-    /// Which requests the device takes.
+    /// Returns the limits of the device's requests.
     fn limits(&self) -> &Limits {
         &Limits::STANDARD
     }
@@ -72,7 +74,7 @@ pub trait AsyncRegisterClient: AsyncClient<Bus = Modbus> {
     ///
     /// # Errors
     ///
-    /// The same as of [`RegisterClient::read_block`].
+    /// The errors of [`RegisterClient::read_block`].
     async fn read_block_async<const N: usize, B: Block<N>>(&mut self, block: B) -> Result<B::Values, Error<Self::Error>>
     where
         Self: Sized,

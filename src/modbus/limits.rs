@@ -1,13 +1,13 @@
-//! Which requests a device takes.
+//! Limits of a device's requests.
 
 use crate::register::RegisterTable;
 
-/// Which requests a device takes, table by table. Generated bindings have it as `MODBUS`.
+/// The requests that a device supports, per table. Generated bindings have the constant `MODBUS`.
 ///
 /// ```
 /// use lexibus::modbus::{Limits, Span, TableLimits};
 ///
-/// // Functions 3 and 6 only, 8 registers at once, and nothing at address 4:
+/// // Functions 3 and 6 only, at most 8 registers per read request, no register at address 4:
 /// const MODBUS: Limits = Limits {
 ///     holding: TableLimits {
 ///         functions: &[3, 6],
@@ -31,42 +31,43 @@ pub struct Limits {
     pub discrete: TableLimits,
 }
 
-/// Which requests a table takes.
+/// The requests that a device supports for one table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct TableLimits {
-    /// Numbers of the functions; empty where the description doesn't say, and all that the table has are meant.
+    /// Supported function codes. Empty if the device description doesn't list them: all functions of the table are
+    /// assumed.
     pub functions: &'static [u8],
-    /// The greatest number of registers, or bits, that one request reads.
+    /// Maximum number of registers or bits in a read request.
     pub max_read: u16,
-    /// The greatest number of registers, or bits, that one request writes.
+    /// Maximum number of registers or bits in a write request.
     pub max_write: u16,
-    /// Whether a value that is longer than one request is read and written in several, one after the other. The device, or
-    /// who reads it, may see one half of the new value then and one half of the old one.
+    /// Whether a value that exceeds one request is transferred in several. Such a transfer isn't atomic: the device
+    /// or the reader may see parts of the old and the new value.
     pub split: bool,
-    /// Addresses that can be read along with their neighbours: the description has them, every model has them, and reading
-    /// them changes nothing.
+    /// Addresses that a request may include together with their neighbors. They exist on every model, and reading
+    /// them has no side effects.
     pub readable: &'static [Span],
 }
 
-/// Addresses of a table that follow each other.
+/// A range of consecutive addresses of a table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Span {
-    /// The first one.
+    /// First address.
     pub first: u16,
-    /// The last one.
+    /// Last address.
     pub last: u16,
-    /// How many registers of 16 bits each stands for, as in [`Register`](crate::Register).
+    /// Number of 16-bit registers per address, as in [`Register`](crate::Register).
     pub words_per_address: u8,
 }
 
 impl Span {
-    /// Addresses that stand for a register, or a bit, each.
+    /// Creates a range with one register or bit per address.
     #[must_use]
     pub const fn new(first: u16, last: u16) -> Self {
         Self { first, last, words_per_address: 1 }
     }
 
-    /// The same addresses where each stands for so many registers.
+    /// Sets the number of registers per address.
     #[must_use]
     pub const fn words_per_address(self, words: u8) -> Self {
         Self { words_per_address: words, ..self }
@@ -74,29 +75,29 @@ impl Span {
 }
 
 impl TableLimits {
-    /// Holding registers as the specification of Modbus has them: 125 are read at once, 123 written.
+    /// Limits of holding registers in the Modbus specification: 125 per read request, 123 per write request.
     pub const HOLDING: Self = Self::standard(125, 123);
 
-    /// Input registers as the specification has them: 125 are read at once.
+    /// Limit of input registers in the Modbus specification: 125 per read request.
     pub const INPUT: Self = Self::standard(125, 0);
 
-    /// Coils as the specification has them: 2000 are read at once, 1968 written.
+    /// Limits of coils in the Modbus specification: 2000 per read request, 1968 per write request.
     pub const COIL: Self = Self::standard(2000, 1968);
 
-    /// Discrete inputs as the specification has them: 2000 are read at once.
+    /// Limit of discrete inputs in the Modbus specification: 2000 per read request.
     pub const DISCRETE: Self = Self::standard(2000, 0);
 
     const fn standard(max_read: u16, max_write: u16) -> Self {
         Self { functions: &[], max_read, max_write, split: false, readable: &[] }
     }
 
-    /// Whether the table takes this function, or the description doesn't say which ones it takes.
+    /// Returns whether the table supports a function. True if the device description doesn't list functions.
     #[must_use]
     pub const fn takes(&self, function: u8) -> bool {
         self.functions.is_empty() || self.names(function)
     }
 
-    /// Whether the description says that the table takes this function.
+    /// Returns whether the device description lists a function for the table.
     #[must_use]
     pub const fn names(&self, function: u8) -> bool {
         let mut at = 0;
@@ -111,7 +112,7 @@ impl TableLimits {
 }
 
 impl Limits {
-    /// What the specification of Modbus allows (MODBUS Application Protocol V1.1b3, 6.1 to 6.12).
+    /// The limits of the Modbus specification (MODBUS Application Protocol V1.1b3, 6.1 to 6.12).
     pub const STANDARD: Self = Self {
         holding: TableLimits::HOLDING,
         input: TableLimits::INPUT,
@@ -119,7 +120,7 @@ impl Limits {
         discrete: TableLimits::DISCRETE,
     };
 
-    /// What is known of a table.
+    /// Returns the limits of a table.
     #[must_use]
     pub const fn of(&self, table: RegisterTable) -> &TableLimits {
         match table {
@@ -130,15 +131,15 @@ impl Limits {
         }
     }
 
-    /// The greatest number of registers, or bits, that one request reads from a table: what the device allows, and never
-    /// more than the specification does.
+    /// Returns the maximum number of registers or bits in a read request: the limit of the device or of the
+    /// specification, whichever is lower.
     #[must_use]
     pub const fn max_read(&self, table: RegisterTable) -> u16 {
         smaller(self.of(table).max_read, Self::STANDARD.of(table).max_read)
     }
 
-    /// The greatest number of registers, or bits, that one request writes to a table: what the device allows, and never
-    /// more than the specification does.
+    /// Returns the maximum number of registers or bits in a write request: the limit of the device or of the
+    /// specification, whichever is lower.
     #[must_use]
     pub const fn max_write(&self, table: RegisterTable) -> u16 {
         smaller(self.of(table).max_write, Self::STANDARD.of(table).max_write)
@@ -146,7 +147,7 @@ impl Limits {
 }
 
 impl Default for Limits {
-    /// [`Limits::STANDARD`].
+    /// Returns [`Limits::STANDARD`].
     fn default() -> Self {
         Self::STANDARD
     }

@@ -1,19 +1,19 @@
-//! Several values of a device on Modbus at once, and which requests a device takes.
+//! Reading several Modbus values at once, and the limits of a device's requests.
 //!
-//! Registers are read one after the other with [`Item::at`](crate::Item::at). What a cycle needs is better read together:
-//! [`RegisterClient::read_block`] asks for any number of values with as few requests as the device allows.
+//! [`Item::at`](crate::Item::at) reads one value per request. For cyclic reads, use [`RegisterClient::read_block`]:
+//! it reads any number of values with as few requests as the device allows.
 //!
 //! ```
 //! use lexibus::modbus::RegisterClient;
 //! use lexibus::{Client, Error, Flags, Item, Modbus, OnModbus, Register, Ro};
 //!
-//! // What the compiler emits for three registers of a drive:
+//! // Generated code for three registers of a drive:
 //! type RegisterItem<V> = Item<V, Ro, OnModbus>;
 //! const STATUS: RegisterItem<u16> = RegisterItem::register(Register::holding(10), "Status", Flags::NONE);
 //! const SPEED: RegisterItem<i16> = RegisterItem::register(Register::holding(11), "Speed", Flags::NONE);
 //! const POSITION: RegisterItem<i32> = RegisterItem::register(Register::low_first(12, 2), "Position", Flags::NONE);
 //!
-//! // A client for a test: the device's registers, and how many requests it got.
+//! // A test client: the registers of the device and the number of requests.
 //! struct Registers([u16; 16], usize);
 //!
 //! impl Client for Registers {
@@ -42,12 +42,12 @@
 //! # Ok::<(), Error<core::convert::Infallible>>(())
 //! ```
 //!
-//! # What is read together
+//! # What one request reads
 //!
-//! Values in one table, at addresses that follow each other. Addresses between them are read along where the [`Limits`] of
-//! the device say that they can be read; generated bindings have these as `MODBUS`. One request never asks for more than the
-//! device gives, and never for an address that nobody described. The values of one request are of one moment, as far as the
-//! device keeps its registers together; those of two requests aren't. [`Plan`] tells, as a constant, how many it takes.
+//! One request reads values of the same table at consecutive addresses. Addresses between them are included if the
+//! [`Limits`] of the device allow it; generated bindings have these as `MODBUS`. A request never exceeds the device's
+//! limit and never includes an undescribed address. The values of one request are consistent as far as the device
+//! updates its registers together; the values of two requests aren't. [`Plan`] computes the requests as a constant.
 
 mod block;
 mod client;

@@ -1,4 +1,4 @@
-//! Which requests read several registers.
+//! Planning of read requests.
 
 use core::ops::Range;
 
@@ -6,13 +6,15 @@ use super::limits::Limits;
 use crate::register::{Register, RegisterTable, WordOrder};
 use crate::value_error::LengthError;
 
-/// The fewest requests that read `N` items, computed without allocation and, for constant items, by the compiler.
+/// The minimum number of requests that read `N` items.
+///
+/// The plan needs no allocation. For constant items, the compiler computes it.
 ///
 /// ```
 /// use lexibus::modbus::{Limits, Plan};
 /// use lexibus::Register;
 ///
-/// // What a cycle needs is of one moment only if it is one request:
+/// // The values of a cycle are consistent only if one request reads them:
 /// const CYCLE: [Register; 3] = [Register::low_first(12, 2), Register::holding(10), Register::holding(11)];
 /// const _: () = assert!(matches!(Plan::new(CYCLE, &Limits::STANDARD), Ok(plan) if plan.len() == 1));
 ///
@@ -21,23 +23,23 @@ use crate::value_error::LengthError;
 /// # Ok::<(), lexibus::LengthError>(())
 /// ```
 ///
-/// Of an item, `location().modbus` is the register.
+/// The register of an item is in `location().modbus`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Plan<const N: usize> {
-    /// The first `len` are requests.
+    /// The first `len` entries are the requests.
     requests: [Register; N],
-    /// The request that has the item; `N` before it is known.
+    /// Position of each item's request; `N` while unknown.
     request_of: [usize; N],
     len: usize,
 }
 
 impl<const N: usize> Plan<N> {
-    /// The requests that read these items from a device with these limits.
+    /// Plans the requests for a device with these limits.
     ///
     /// # Errors
     ///
-    /// [`LengthError`], in bytes, where one request can't read an item: it has more registers than the device gives at once,
-    /// and may not be [split](super::TableLimits::split), or none at all.
+    /// [`LengthError`], in bytes, if an item has no registers, or if it exceeds one request and may not be
+    /// [split](super::TableLimits::split).
     pub const fn new(items: [Register; N], limits: &Limits) -> Result<Self, LengthError> {
         let mut at = 0;
         while at < N {
@@ -65,31 +67,32 @@ impl<const N: usize> Plan<N> {
         Ok(plan)
     }
 
-    /// The requests. One for a single item is the item's own register; any other is for words as they follow each other,
-    /// in [`WordOrder::LowFirst`], or for bits.
+    /// Returns the requests. The request for a single item is the item's own register. Requests for several items
+    /// return bits or words in address order ([`WordOrder::LowFirst`]).
     #[must_use]
     pub const fn requests(&self) -> &[Register] {
         self.requests.split_at(self.len).0
     }
 
-    /// How many requests there are.
+    /// Returns the number of requests.
     #[must_use]
     pub const fn len(&self) -> usize {
         self.len
     }
 
-    /// Whether there is nothing to read.
+    /// Returns whether there are no requests.
     #[must_use]
     pub const fn is_empty(&self) -> bool {
         self.len == 0
     }
 
-    /// For each item, the position of its request.
+    /// Returns the position of each item's request.
     pub(super) const fn request_of(&self) -> &[usize; N] {
         &self.request_of
     }
 
-    /// The first item that has no request yet, and of those that could share one with it, the one with the lowest address.
+    /// Returns the item at which the next request begins: of the items compatible with the first unassigned one, the
+    /// one with the lowest address.
     const fn leftmost(&self, items: &[Register; N]) -> Option<usize> {
         let (mut at, mut found) = (0, N);
         while at < N {
@@ -107,13 +110,13 @@ impl<const N: usize> Plan<N> {
         }
     }
 
-    /// Where the request ends that begins with item `first`: as far as other items reach, over addresses that can be read,
-    /// within the limit.
+    /// Returns the end address of the request that begins with item `first`: it includes further items over readable
+    /// addresses, up to the limit.
     const fn reach(&self, items: &[Register; N], first: usize, limits: &Limits) -> u32 {
         let start = items[first];
         let max = limits.max_read(start.table);
         if start.count > max {
-            // What is read in pieces is read alone.
+            // Items that are split are read alone.
             return start.address as u32;
         }
         let last = start.address as u32 + (max / start.step()) as u32;
@@ -140,7 +143,7 @@ impl<const N: usize> Plan<N> {
     }
 }
 
-/// Whether one request can read the item, or several may.
+/// Checks that the item can be read with one request, or with several if it may be split.
 const fn check(item: &Register, limits: &Limits) -> Result<(), LengthError> {
     let max = limits.max_read(item.table);
     if item.count == 0 || item.count > max && !limits.of(item.table).split {
@@ -149,9 +152,9 @@ const fn check(item: &Register, limits: &Limits) -> Result<(), LengthError> {
     Ok(())
 }
 
-/// What reads from the address of `first` up to `end`.
+/// Returns the request for the addresses from `first` up to `end`, exclusive.
 const fn joined(first: &Register, end: u32) -> Register {
-    // What is joined is within the limit, so it fits.
+    // The request is within the limit, so the count fits.
     let count = (end - first.address as u32) as u16 * first.step();
     Register {
         order: WordOrder::LowFirst,
@@ -160,17 +163,17 @@ const fn joined(first: &Register, end: u32) -> Register {
     }
 }
 
-/// The first address behind an item.
+/// Returns the address after an item.
 const fn end_of(item: &Register) -> u32 {
     item.address as u32 + item.addresses() as u32
 }
 
-/// Whether one request can read both, as far as the kind of their addresses goes.
+/// Returns whether two items have the same table and the same number of registers per address.
 const fn is_alike(one: &Register, other: &Register) -> bool {
     one.table as u8 == other.table as u8 && one.step() == other.step()
 }
 
-/// Whether all these addresses are of items, or such that can be read along.
+/// Returns whether all these addresses belong to items or to readable spans.
 const fn is_known(items: &[Register], kind: &Register, addresses: Range<u32>, limits: &Limits) -> bool {
     let spans = limits.of(kind.table).readable;
     let mut address = addresses.start;
@@ -200,7 +203,7 @@ const fn is_known(items: &[Register], kind: &Register, addresses: Range<u32>, li
     true
 }
 
-/// How many bytes so many registers, or bits, take.
+/// Returns the length of a number of registers or bits in bytes.
 pub(super) const fn bytes(table: RegisterTable, count: u16) -> usize {
     match table {
         RegisterTable::Coil | RegisterTable::DiscreteInput => count.div_ceil(8) as usize,
@@ -221,7 +224,7 @@ mod tests {
         Limits { holding, ..Limits::STANDARD }
     }
 
-    /// Address and count of each request.
+    /// Asserts the address and count of each request.
     #[track_caller]
     fn requests<const N: usize>(items: [Register; N], limits: Limits, expected: &[(u16, u16)]) {
         let plan = Plan::new(items, &limits).unwrap();
@@ -257,9 +260,9 @@ mod tests {
         requests([at(20, 1), at(9, 1)], limits(HOLDING), &[(9, 12)]);
         requests([at(22, 1), at(10, 1)], limits(HOLDING), &[(10, 1), (22, 1)]);
         requests([at(10, 1), at(30, 1)], limits(HOLDING), &[(10, 1), (30, 1)]);
-        // Other items fill what nothing is known of.
+        // Other items fill the gap of undescribed addresses.
         requests([at(10, 1), at(30, 1), at(21, 9)], limits(HOLDING), &[(10, 21)]);
-        // They do even if they are too long to come along.
+        // Even an item that is too long for the same request fills it.
         let narrow = TableLimits { max_read: 12, ..HOLDING };
         requests([at(19, 1), at(30, 1), at(20, 11)], limits(narrow), &[(19, 12)]);
         requests([at(19, 1), at(30, 1), at(20, 12)], limits(narrow), &[(19, 12), (20, 12)]);
@@ -272,7 +275,7 @@ mod tests {
         requests([at(0, 2), at(2, 3), at(3, 1)], limits(narrow), &[(0, 4), (2, 3)]);
         assert_eq!(Plan::new([at(0, 1), at(2, 5)], &limits(narrow)), Err(LengthError::new(8, 10)));
         assert_eq!(Plan::new([at(0, 0)], &limits(narrow)), Err(LengthError::new(8, 0)));
-        // Read in pieces, and alone.
+        // A split item is read alone.
         requests(
             [at(2, 5), at(2, 1), at(7, 1)],
             limits(TableLimits { split: true, ..narrow }),
@@ -283,7 +286,7 @@ mod tests {
     #[test]
     fn registers_of_32_bits() {
         let wide = |address, count| at(address, count).words_per_address(2);
-        // Three registers, six words; and the lower half of one, which is its only word, if it is read alone.
+        // Three registers of two words; and a single word, which is the lower half of a register and is read alone.
         requests([wide(0x8002, 2), wide(0x8000, 2), wide(0x8001, 1)], Limits::STANDARD, &[(0x8000, 6)]);
         requests([wide(0x8002, 1), wide(0x8000, 1)], Limits::STANDARD, &[(0x8000, 1), (0x8002, 1)]);
         requests([wide(0x8002, 2), at(0x8001, 1)], Limits::STANDARD, &[(0x8002, 2), (0x8001, 1)]);

@@ -1,4 +1,4 @@
-//! What a block needs between its first request and its last answer.
+//! The state of a block between its first request and its last response.
 
 use super::block::Block;
 use super::limits::Limits;
@@ -7,15 +7,15 @@ use crate::bits;
 use crate::register::{Register, RegisterTable};
 use crate::value_error::LengthError;
 
-/// Bytes of the longest answer: 125 registers, or 2000 bits.
+/// Length of the longest response in bytes: 125 registers or 2000 bits.
 pub(super) const MAX_BYTES: usize = 250;
 
-/// A block that is being read.
+/// A block while it is being read.
 pub(super) struct Reading<const N: usize> {
     items: [Register; N],
     lengths: [usize; N],
     plan: Plan<N>,
-    /// How many requests were answered.
+    /// Number of requests that have been answered.
     answered: usize,
     values: [[u8; 8]; N],
 }
@@ -27,7 +27,7 @@ impl<const N: usize> Reading<N> {
         Ok(Self { items, lengths, plan: Plan::new(items, limits)?, answered: 0, values: [[0; 8]; N] })
     }
 
-    /// What is to be read next, and how many bytes a client gives for it.
+    /// Returns the next request and the length of its response in bytes.
     pub(super) fn request(&self) -> Option<(Register, usize)> {
         let request = self.plan.requests().get(self.answered)?;
         let length = match self.only_item() {
@@ -37,7 +37,7 @@ impl<const N: usize> Reading<N> {
         Some((*request, length))
     }
 
-    /// Takes the values out of an answer to that request, which says how many bytes it has.
+    /// Decodes the response to the current request. `length` is the number of bytes that the client reported.
     pub(super) fn answered(&mut self, answer: &[u8], length: usize) -> Result<(), LengthError> {
         if length != answer.len() {
             return Err(LengthError::new(answer.len(), length));
@@ -56,19 +56,19 @@ impl<const N: usize> Reading<N> {
         Ok(())
     }
 
-    /// The bytes of each value, once there is no further request.
+    /// Returns the bytes of each value after the last response.
     pub(super) fn values(&self) -> &[[u8; 8]; N] {
         &self.values
     }
 
-    /// The item that has the request for itself. It is read as if there were no block.
+    /// Returns the item of the current request if it has only one. It is read as without a block.
     fn only_item(&self) -> Option<usize> {
         let mut items = (0..N).filter(|&at| self.plan.request_of()[at] == self.answered);
         items.next().filter(|_| items.next().is_none())
     }
 }
 
-/// Puts the value of one item to `value`, which it fills.
+/// Extracts the value of one item into `value`, which it must fill.
 fn take(answer: &[u8], request: &Register, item: &Register, value: &mut [u8]) -> Result<(), LengthError> {
     let first = usize::from(item.address.saturating_sub(request.address)) * usize::from(item.step());
     let length = match item.table {
@@ -86,7 +86,7 @@ fn take(answer: &[u8], request: &Register, item: &Register, value: &mut [u8]) ->
     }
 }
 
-/// Puts the value that begins with word `first` of an answer to `value`, and returns how many bytes it has.
+/// Extracts the value that begins with word `first` of a response, and returns its length in bytes.
 fn take_words(answer: &[u8], first: usize, item: &Register, value: &mut [u8]) -> Result<usize, LengthError> {
     let mut words = [0; MAX_BYTES / 2];
     for (word, pair) in words.iter_mut().zip(answer.chunks_exact(2)) {

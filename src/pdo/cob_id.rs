@@ -1,11 +1,11 @@
-//! The identifier of a communication object.
+//! COB-IDs of PDOs.
 
 use crate::node_id::NodeId;
 
-/// The COB-ID of a PDO (CiA 301 7.5.2.35 and 7.5.2.37), which may depend on the device's node-ID.
+/// The COB-ID of a PDO (CiA 301 7.5.2.35 and 7.5.2.37), which may depend on the node-ID.
 ///
-/// Bits 0 to 28 hold the CAN-ID, bit 29 says that it has 29 bits, bit 30 of a TPDO that no remote request is answered,
-/// and bit 31 that the PDO isn't used.
+/// Bits 0 to 28 are the CAN-ID. Bit 29 selects a 29-bit CAN-ID. Bit 30 of a TPDO disallows remote requests. Bit 31
+/// disables the PDO.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct CobId {
     base: u32,
@@ -13,19 +13,19 @@ pub struct CobId {
 }
 
 impl CobId {
-    /// The same COB-ID on every device.
+    /// Creates a COB-ID that doesn't depend on the node-ID.
     #[must_use]
     pub const fn fixed(cob_id: u32) -> Self {
         Self { base: cob_id, add_node: false }
     }
 
-    /// `base` plus the node-ID.
+    /// Creates a COB-ID that is the sum of `base` and the node-ID.
     #[must_use]
     pub const fn from_node(base: u32) -> Self {
         Self { base, add_node: true }
     }
 
-    /// The COB-ID on the device with the given node-ID. A sum beyond 32 bits wraps around.
+    /// Returns the COB-ID for a node-ID. The sum wraps around at 32 bits.
     #[must_use]
     pub const fn resolve(self, node: NodeId) -> u32 {
         if self.add_node {
@@ -35,14 +35,14 @@ impl CobId {
         }
     }
 
-    /// Whether the PDO is used: bit 31 is clear.
+    /// Returns whether the PDO is enabled: bit 31 is 0.
     #[must_use]
     pub const fn is_valid(self) -> bool {
         self.base >> 31 == 0
     }
 }
 
-/// Whether a PDO must not have this CAN-ID (CiA 301 7.3.5): those of NMT, SDOs and heartbeats, and reserved ones.
+/// Returns whether a CAN-ID is restricted for PDOs (CiA 301 7.3.5): those of NMT, SDO, heartbeat, and reserved ones.
 #[cfg(any(feature = "canopen", feature = "std"))]
 pub(crate) const fn is_restricted(can_id: u32) -> bool {
     matches!(can_id, 0..=0x7F | 0x101..=0x180 | 0x581..=0x5FF | 0x601..=0x67F | 0x6E0..=0x6FF | 0x701..)

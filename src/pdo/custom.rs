@@ -1,4 +1,4 @@
-//! Mappings of one's own: which PDOs can be mapped anew, what can be mapped into them, and what has to hold.
+//! Custom mappings: traits for remappable PDOs and mappable objects, and the checks of [`pdo!`](crate::pdo!).
 
 use core::marker::PhantomData;
 
@@ -7,66 +7,66 @@ pub use super::field::{Fields, Frame};
 use super::mapping::MappedEntry;
 use super::sdo_write::SdoWrite;
 
-/// A PDO whose mapping can be changed; generated code implements it.
+/// A PDO with a writable mapping. Generated code implements it.
 pub trait Remappable {
-    /// [`Rpdo`] or [`Tpdo`].
+    /// Direction of the PDO: [`Rpdo`] or [`Tpdo`].
     type Direction;
 
-    /// What kind of identifier it has: a [`CobId`], [`NoCobId`] where there is none by default, or [`OnEtherCat`].
+    /// The default COB-ID: [`CobId`], [`NoCobId`] if there is none, or [`OnEtherCat`].
     type CobId: Identifier;
 
-    /// The identifier by default (CiA 301 7.5.2.35); one that says "not used" where there is none.
+    /// The default COB-ID (CiA 301 7.5.2.35); a disabled one if there is none.
     const COB_ID: CobId = CobId::fixed(0x8000_0000);
 
     /// Index of the mapping object.
     const INDEX: u16;
 
-    /// How many entries the mapping object holds at most.
+    /// Maximum number of entries in the mapping object.
     const ENTRIES: usize;
 
-    /// How many bits the PDO has at most: 64 on CANopen, what the sync manager takes on EtherCAT.
+    /// Maximum length in bits: 64 on CANopen, the length of the sync manager on EtherCAT.
     const MAX_BITS: u32 = 64;
 
-    /// The smallest unit of mapping in bits (`Granularity` of CiA 306).
+    /// Granularity of the mapping in bits (`Granularity` of CiA 306).
     const GRANULARITY: u32 = 1;
 
-    /// Which data types may stand for a gap as dummy entries (`DummyUsage` of CiA 306): bit 5 is that of UNSIGNED8,
-    /// 0x0005. On EtherCAT a gap needs none.
+    /// Data types allowed as dummy entries (`DummyUsage` of CiA 306), one bit per type: bit 5 is UNSIGNED8, 0x0005.
+    /// Gaps on EtherCAT need no dummy entries.
     const DUMMIES: u32 = 0;
 
-    /// Entries that can't be taken out of the mapping (`Fixed` of an entry, ETG.2000).
+    /// Entries that must stay in the mapping (`Fixed` of an entry, ETG.2000).
     const KEPT: &'static [MappedEntry] = &[];
 
-    /// Index of the communication object; `None` where nobody may write the identifier, and on EtherCAT.
+    /// Index of the communication object; `None` if the COB-ID is read-only, and on EtherCAT.
     const COMMUNICATION: Option<u16> = None;
 
-    /// The writes that set the timing up as it is by default.
+    /// Writes that set the default transmission type and timers.
     const TIMING: &'static [SdoWrite] = &[];
 }
 
-/// The direction of a PDO that the device receives.
+/// Direction of a PDO that the device receives.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Rpdo {}
 
-/// The direction of a PDO that the device transmits.
+/// Direction of a PDO that the device transmits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Tpdo {}
 
-/// Both directions: of an object that can be mapped into any PDO.
+/// Both directions: for an object that any PDO can map.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum AnyPdo {}
 
-/// Stands for the default identifier of a CANopen PDO that has none.
+/// Marks a CANopen PDO without a default COB-ID.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum NoCobId {}
 
-/// Stands for the default identifier of a PDO that is on EtherCAT alone, where PDOs have none.
+/// Marks a PDO that exists only on EtherCAT and so has no COB-ID.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum OnEtherCat {}
 
-/// What can be mapped: a field of type `F`, into PDOs of the direction `D`, as the entry `WORD` of a mapping object.
+/// An object that can be mapped: a field of type `F` in PDOs of direction `D`, with the mapping entry `WORD`.
 ///
-/// Generated code has a type alias for everything that can be mapped, in its module `mappable`.
+/// The generated module `mappable` has a type alias for each such object.
 pub struct Mappable<F, D, const WORD: u32>(PhantomData<fn() -> (F, D)>);
 
 /// The field and the mapping entry of a [`Mappable`].
@@ -74,7 +74,8 @@ pub trait Mapped {
     /// The type of the field.
     type Field;
 
-    /// The entry as the mapping object holds it: index, sub-index and bits, from the highest byte to the lowest.
+    /// Mapping entry as in the mapping object: index, sub-index and length in bits, from the most significant byte
+    /// down.
     const WORD: u32;
 
     /// Length in bits.
@@ -86,14 +87,14 @@ impl<F, D, const WORD: u32> Mapped for Mappable<F, D, WORD> {
     const WORD: u32 = WORD;
 }
 
-/// Implemented by what can be mapped into PDOs of the direction `D`.
+/// An object that PDOs of direction `D` can map.
 #[diagnostic::on_unimplemented(
-    message = "this object can't be mapped here: the direction of the PDO is `{D}`",
-    label = "the device lets it be mapped in the other direction only",
-    note = "an `Rpdo` is received by the device, a `Tpdo` transmitted"
+    message = "this object can't be mapped into a PDO of direction `{D}`",
+    label = "the device allows it only in the other direction",
+    note = "the device receives an `Rpdo` and transmits a `Tpdo`"
 )]
 pub trait MappableInto<D> {
-    /// There is nothing more to it.
+    /// Evaluated to require the trait at compile time.
     const HOLDS: () = ();
 }
 
@@ -102,30 +103,30 @@ impl<F, const WORD: u32> MappableInto<Tpdo> for Mappable<F, Tpdo, WORD> {}
 impl<F, const WORD: u32> MappableInto<Rpdo> for Mappable<F, AnyPdo, WORD> {}
 impl<F, const WORD: u32> MappableInto<Tpdo> for Mappable<F, AnyPdo, WORD> {}
 
-/// Implemented by [`CobId`]. The lifetime says nothing: it lets a method demand of a type what may not hold.
+/// Implemented by [`CobId`] only. Because of the lifetime, rustc checks the bound only when the method is called.
 #[diagnostic::on_unimplemented(
-    message = "this PDO has no identifier by default",
-    label = "no COB-ID is known",
-    note = "on CANopen, choose one: `configuration_as(cob_id)`; on EtherCAT, where there are none, call `mapping_writes()`"
+    message = "this PDO has no default COB-ID",
+    label = "the default COB-ID is unknown",
+    note = "on CANopen, pass a COB-ID to `configuration_as(cob_id)`; on EtherCAT, call `mapping_writes()`"
 )]
 pub trait IsCobId<'a> {}
 
 impl IsCobId<'_> for CobId {}
 
-/// Implemented by what stands for the identifier of a PDO on CANopen. The lifetime says nothing.
+/// Implemented by the markers of CANopen PDOs. The lifetime has the same purpose as in [`IsCobId`].
 #[diagnostic::on_unimplemented(
-    message = "this PDO is on EtherCAT, where PDOs have no identifier",
-    label = "not on CANopen",
-    note = "call `mapping_writes()` for what Pre-Operational needs"
+    message = "this is an EtherCAT PDO, which has no COB-ID",
+    label = "not a CANopen PDO",
+    note = "call `mapping_writes()` for the writes in Pre-Operational"
 )]
 pub trait IsOnCanOpen<'a> {}
 
 impl IsOnCanOpen<'_> for CobId {}
 impl IsOnCanOpen<'_> for NoCobId {}
 
-/// [`CobId`], [`NoCobId`] or [`OnEtherCat`].
+/// Kinds of default COB-ID: [`CobId`], [`NoCobId`] or [`OnEtherCat`].
 pub trait Identifier {
-    /// Whether only a dummy entry makes a gap.
+    /// Whether a gap needs a dummy entry.
     const NEEDS_DUMMIES: bool;
 }
 
@@ -141,50 +142,50 @@ impl Identifier for OnEtherCat {
     const NEEDS_DUMMIES: bool = false;
 }
 
-/// Whether a check of [`pdo!`](crate::pdo!) holds.
+/// The result of a check as a type.
 pub struct Check<const HOLDS: bool>;
 
-/// Implemented where the bits of an entry are a multiple of the granularity.
+/// Implemented by [`Check<true>`](Check): the length of the entry is a multiple of the granularity.
 #[diagnostic::on_unimplemented(
-    message = "this object can't be mapped: its bits are no multiple of the granularity",
-    label = "not a multiple of what the device maps"
+    message = "this object can't be mapped: its length is not a multiple of the granularity",
+    label = "not a multiple of the device's mapping granularity"
 )]
 pub trait FitsGranularity {
-    /// There is nothing more to it.
+    /// Evaluated to require the trait at compile time.
     const HOLDS: () = ();
 }
 
 impl FitsGranularity for Check<true> {}
 
-/// What [`pdo!`](crate::pdo!) asks the compiler.
+/// Checks that [`pdo!`](crate::pdo!) makes at compile time.
 pub mod check {
     use super::{MappedEntry, Remappable};
 
-    /// Whether `bits` are a multiple of the PDO's granularity.
+    /// Returns whether `bits` is a multiple of the PDO's granularity.
     #[must_use]
     pub const fn is_multiple<P: Remappable>(bits: u32) -> bool {
         P::GRANULARITY == 0 || bits % P::GRANULARITY == 0
     }
 
-    /// Whether the device has an entry for every gap.
+    /// Returns whether the device can map every gap.
     #[must_use]
     pub const fn has_gaps(mapping: &[MappedEntry]) -> bool {
         !contains(mapping, 0)
     }
 
-    /// Whether a mapping has no more entries than the device holds.
+    /// Returns whether the mapping has no more entries than the mapping object can hold.
     #[must_use]
     pub const fn fits_entries<P: Remappable>(mapping: &[MappedEntry]) -> bool {
         mapping.len() <= P::ENTRIES && mapping.len() <= u8::MAX as usize
     }
 
-    /// Whether a mapping has no more bits than the PDO.
+    /// Returns whether the mapping has no more bits than the PDO can have.
     #[must_use]
     pub const fn fits_bits<P: Remappable>(mapping: &[MappedEntry]) -> bool {
         super::bits(mapping) <= P::MAX_BITS
     }
 
-    /// Whether a mapping has all entries that the device doesn't give up.
+    /// Returns whether the mapping contains all fixed entries.
     #[must_use]
     pub const fn keeps_fixed<P: Remappable>(mapping: &[MappedEntry]) -> bool {
         let mut at = 0;
@@ -209,7 +210,7 @@ pub mod check {
     }
 }
 
-/// The entry for a gap of `bits` bits, as the mapping object holds it: a dummy entry, or padding on EtherCAT; 0 where
+/// Returns the mapping entry for a gap of `bits` bits: a dummy entry on CANopen, padding on EtherCAT. Returns 0 if
 /// the device has no such entry.
 #[must_use]
 pub const fn gap<P: Remappable>(bits: u32) -> u32 {
@@ -226,7 +227,7 @@ pub const fn gap<P: Remappable>(bits: u32) -> u32 {
     0
 }
 
-/// Length in bits of the basic type with this code (CiA 301 7.4.7); 0 where it has none.
+/// Returns the length in bits of a basic data type (CiA 301 7.4.7); 0 if the type has no fixed length.
 const fn bits_of_type(code: u32) -> u32 {
     match code {
         0x01 => 1,
@@ -242,7 +243,7 @@ const fn bits_of_type(code: u32) -> u32 {
     }
 }
 
-/// Entries as the mapping object holds them.
+/// Decodes mapping entries.
 #[must_use]
 pub const fn entries<const N: usize>(words: [u32; N]) -> [MappedEntry; N] {
     let mut out = [MappedEntry::from_word(0); N];
@@ -254,7 +255,7 @@ pub const fn entries<const N: usize>(words: [u32; N]) -> [MappedEntry; N] {
     out
 }
 
-/// Length of a mapping in bits.
+/// Returns the length of a mapping in bits.
 #[must_use]
 pub const fn bits(mapping: &[MappedEntry]) -> u32 {
     let (mut bits, mut at) = (0u32, 0);
@@ -265,22 +266,24 @@ pub const fn bits(mapping: &[MappedEntry]) -> u32 {
     bits
 }
 
-/// Clear, entries, count: the writes that change a mapping of `N` less 2 entries. The PDO has to be off meanwhile (CANopen),
-/// or the device in Pre-Operational (EtherCAT).
+/// Returns the writes that change the mapping: clear, entries, count. `N` is the number of entries plus 2.
+///
+/// While they are sent, a CANopen PDO must be disabled, and an EtherCAT device must be in Pre-Operational.
 #[must_use]
 pub const fn mapping_writes<P: Remappable, const N: usize>(mapping: &[MappedEntry]) -> [SdoWrite; N] {
     let clear = SdoWrite::new_u8(P::INDEX, 0, 0);
     put_mapping::<P, N>([clear; N], 0, mapping)
 }
 
-/// How many writes [`configuration`] has.
+/// Returns the number of writes in [`configuration`].
 #[must_use]
 pub const fn configuration_len<P: Remappable>(mapping: &[MappedEntry]) -> usize {
     let identifier = if P::COMMUNICATION.is_some() { 2 } else { 0 };
     identifier + mapping.len() + 2 + P::TIMING.len()
 }
 
-/// Disable, clear, map, count, timing, enable (CiA 301 7.5.2.36). What the device lets nobody write is left out.
+/// Returns the writes that configure a CANopen PDO (CiA 301 7.5.2.36): disable, clear, map, count, timing, enable.
+/// Read-only parameters are left out.
 #[must_use]
 pub const fn configuration<P: Remappable, const N: usize>(mapping: &[MappedEntry], cob_id: u32) -> [SdoWrite; N] {
     let mut out = [SdoWrite::new_u8(P::INDEX, 0, 0); N];
@@ -302,7 +305,8 @@ pub const fn configuration<P: Remappable, const N: usize>(mapping: &[MappedEntry
     out
 }
 
-/// `out` with the writes of a mapping from `first` on; where they begin, `out` has the write that clears.
+/// Puts the writes of a mapping into `out` from `first` on. `out` already has the write at `first`, which clears the
+/// mapping.
 const fn put_mapping<P: Remappable, const N: usize>(
     mut out: [SdoWrite; N],
     first: usize,

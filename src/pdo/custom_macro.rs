@@ -1,26 +1,25 @@
 //! The macro `pdo!`.
 //!
-//! It is a declarative one, so that it needs no feature and runs no code on the build machine. Generated code has what it
-//! looks up by name: `remappable` the PDOs, `mappable` the objects. A name that isn't there can't be mapped, and rustc says
-//! so at the name; what two things don't agree on is a trait that isn't implemented, and what all of them don't is a constant
-//! that panics.
+//! A declarative macro needs no cargo feature and runs no code on the build machine. It looks up names in generated
+//! code: PDOs in the module `remappable`, objects in `mappable`. rustc reports an unknown name at its position.
+//! Conflicts between two parts are unimplemented traits; conflicts of the whole mapping are constants that panic.
 
-/// A mapping of one's own: a struct for a PDO whose mapping the device lets anyone change, checked while it is compiled.
+/// Declares a custom mapping: a struct for a PDO with a writable mapping. The mapping is checked at compile time.
 ///
 /// ```
 /// use lexibus::NodeId;
 /// use lexibus_drives::demo_drive::{self, types::Controlword};
 ///
 /// lexibus::pdo! {
-///     /// Cyclic set-points.
+///     /// Cyclic setpoints.
 ///     #[derive(Clone, Copy, Debug, PartialEq)]
 ///     pub struct Fast: demo_drive::pdo::RxPdo2 { controlword, profile_velocity }
 /// }
 ///
 /// lexibus::pdo! {
-///     /// What comes back.
+///     /// Cyclic actual values.
 ///     pub struct Feedback: demo_drive::pdo::TxPdo2 {
-///         /// Under a name of one's own: an entry of an array.
+///         /// An entry of an array, with a custom field name.
 ///         pressure: analogue_inputs::input_2,
 ///         position: position_actual_value,
 ///     }
@@ -38,29 +37,39 @@
 /// # Ok::<(), lexibus::LengthError>(())
 /// ```
 ///
-/// The path is that of the PDO's struct in `pdo`, through the module of its device; a PDO that is empty by default is named
-/// in the same way. Fields are called as the accessors: `controlword`, or `analogue_inputs::input_2` for an entry of
-/// an array or a record, behind a name for the field. They have the types of the values. `_: 8` is a gap of 8 bits: a dummy
-/// entry on CANopen (CiA 301 7.4.9.2), which the device has to have, and padding on EtherCAT. Attributes of the struct
-/// and its fields are passed on; nothing is derived that isn't asked for.
+/// The path names the PDO's struct in `pdo`, through the module of its device. PDOs without a default mapping are
+/// named the same way.
 ///
-/// # What it makes
+/// A field has the name and value type of an accessor, such as `controlword`. For an entry of an array or a record,
+/// write a field name and the path of the entry: `pressure: analogue_inputs::input_2`. `_: 8` is a gap of 8 bits:
+/// padding on EtherCAT, a dummy entry on CANopen (CiA 301 7.4.9.2). The device must support that dummy entry.
 ///
-/// As the structs of generated code: `BITS`, `LEN`, `COB_ID`, `pack`, `unpack`, an implementation of [`Pdo`](crate::Pdo), and
+/// Attributes of the struct and its fields are kept. Derive the traits that you need.
 ///
-/// - on CANopen `configuration(node_id)` and `configuration_as(cob_id)`, the writes that set the device up;
-/// - `mapping_writes()`, those of the mapping alone: what EtherCAT needs in Pre-Operational while the PDO isn't assigned.
-///   [`Assignment::with_mapping`](crate::ethercat::Assignment::with_mapping) has them at their place in the assignment.
+/// # Generated items
 ///
-/// # What the compiler checks
+/// The same as for generated PDOs: `BITS`, `LEN`, `COB_ID`, `pack`, `unpack` and an implementation of
+/// [`Pdo`](crate::Pdo). In addition:
 ///
-/// The PDO can be mapped anew, and each object exists and can be mapped (`cannot find type … in module …::mappable`) in its
-/// direction; the bits of each are a multiple of the granularity; there are dummy entries for all gaps, no more entries than
-/// the mapping object has, and no more bits than 64 on CANopen or than the sync manager takes on EtherCAT; and entries that the
-/// device keeps are there (`Fixed`, ETG.2000).
+/// - `configuration(node_id)` and `configuration_as(cob_id)` return the writes that configure a CANopen device.
+/// - `mapping_writes()` returns only the writes of the mapping. On EtherCAT, send them in Pre-Operational while the
+///   PDO isn't
+///   assigned. [`Assignment::with_mapping`](crate::ethercat::Assignment::with_mapping) includes them in the
+///   assignment.
 ///
-/// An object can be mapped where the description says so, or maps it by default. A description that says too
-/// little is corrected by an overlay, with `pdo = "rx"`, `"tx"` or `"both"`.
+/// # Compile-time checks
+///
+/// - The mapping of the PDO is writable.
+/// - Each object exists and can be mapped in the PDO's direction (`cannot find type … in module …::mappable`).
+/// - The length of each object is a multiple of the granularity.
+/// - A dummy entry exists for each gap.
+/// - The mapping has no more entries than the mapping object, and no more bits than allowed: 64 on CANopen, the
+///   length of
+///   the sync manager on EtherCAT.
+/// - All fixed entries are included (`Fixed`, ETG.2000).
+///
+/// An object can be mapped if the device description says so or maps it by default. If the description is incomplete,
+/// use an overlay to set `pdo = "rx"`, `"tx"` or `"both"`.
 ///
 /// A mapping of more than 60 documented fields may need `#![recursion_limit = "256"]`.
 #[macro_export]
@@ -72,7 +81,7 @@ macro_rules! pdo {
         $crate::pdo!(@path [$(#[$attribute])* $visibility] $name [::] [$($segment)+] { $($body)* });
     };
 
-    // The path to the device is what stands in front of `pdo::Name`.
+    // The path to the device precedes `pdo::Name`.
     (@path $head:tt $name:ident [$($device:tt)+] [pdo $pdo:ident] $body:tt) => {
         $crate::pdo!(@path $head $name [$($device)+] { $($device)+ remappable::$pdo } $body);
     };
@@ -84,13 +93,13 @@ macro_rules! pdo {
     };
     (@path $head:tt $name:ident [$($device:tt)*] [$($rest:ident)*] $body:tt) => {
         ::core::compile_error!(::core::concat!(
-            "expected the path of a PDO that leads through its device, as `drive::pdo::RxPdo1`; found `",
+            "expected the full path of a PDO, such as `drive::pdo::RxPdo1`; found `",
             ::core::stringify!($($device)* $($rest)::*), "`"
         ));
     };
 
-    // Entries one by one: `[fields] [words of the mapping] [bits so far] [attributes of the next field] { rest }`. A field is
-    // a `tt` and not an `ident`, or errors would point to the whole call.
+    // Entries one by one: `[fields] [mapping words] [bits so far] [attributes of the next field] { rest }`. A field
+    // is a `tt` because errors at an `ident` would point to the whole call.
     (@entries $head:tt $name:ident $device:tt $path:ty, $fields:tt $words:tt $bits:tt [$($attributes:tt)*]
         { #[$one:meta] #[$two:meta] #[$three:meta] #[$four:meta] $($rest:tt)* }
     ) => {
@@ -151,10 +160,10 @@ macro_rules! pdo {
             pub const BITS: u32 = $crate::pdo::custom::bits(<Self as $crate::Pdo>::MAPPING);
             /// Length in bytes.
             pub const LEN: usize = Self::BITS.div_ceil(8) as usize;
-            /// The identifier by default (CiA 301 7.5.2.35).
+            /// The default COB-ID (CiA 301 7.5.2.35).
             pub const COB_ID: $crate::CobId = <$path as $crate::pdo::Remappable>::COB_ID;
 
-            /// The bytes of a frame; padding is zero.
+            /// Returns the bytes of the PDO; padding is 0.
             #[inline]
             #[must_use]
             pub fn pack(&self) -> [u8; Self::LEN] {
@@ -163,11 +172,11 @@ macro_rules! pdo {
                     .into_bytes()
             }
 
-            /// The fields of a frame. Bytes behind the mapped ones are not looked at.
+            /// Decodes the fields. Bytes after the mapped ones are ignored.
             ///
             /// # Errors
             ///
-            /// When `data` has fewer bytes than the PDO.
+            /// `LengthError` if `data` is shorter than the PDO.
             #[inline]
             pub fn unpack(data: &[u8]) -> ::core::result::Result<Self, $crate::LengthError> {
                 match $crate::pdo::custom::Fields::<{ Self::LEN }>::new(data) {
@@ -181,8 +190,10 @@ macro_rules! pdo {
                 }
             }
 
-            /// The writes that map the PDO, and nothing else: clear, map, count. On EtherCAT they belong into
-            /// Pre-Operational, with the PDO not assigned; on CANopen the PDO has to be off meanwhile.
+            /// Returns the writes of the mapping only: clear, map, count.
+            ///
+            /// On EtherCAT, send them in Pre-Operational while the PDO is not assigned. On CANopen, the PDO must be
+            /// disabled.
             #[must_use]
             pub const fn mapping_writes() -> [$crate::SdoWrite; <Self as $crate::Pdo>::MAPPING.len() + 2] {
                 $crate::pdo::custom::mapping_writes::<$path, { <Self as $crate::Pdo>::MAPPING.len() + 2 }>(
@@ -190,7 +201,7 @@ macro_rules! pdo {
                 )
             }
 
-            /// The writes that set the PDO up in a CANopen device with its default identifier, and switch it on.
+            /// Returns the writes that configure and enable the PDO in a CANopen device, with its default COB-ID.
             #[must_use]
             pub const fn configuration(
                 node_id: $crate::NodeId,
@@ -204,8 +215,8 @@ macro_rules! pdo {
                 >(<Self as $crate::Pdo>::MAPPING, Self::COB_ID.resolve(node_id))
             }
 
-            /// The writes that set the PDO up in a CANopen device with the identifier `cob_id`: disable, clear, map,
-            /// count, timing, enable. What the device lets nobody write is left out.
+            /// Returns the writes that configure the PDO in a CANopen device with the given COB-ID: disable, clear,
+            /// map, count, timing, enable. Read-only parameters are left out.
             #[must_use]
             pub const fn configuration_as(
                 cob_id: u32,
@@ -220,7 +231,7 @@ macro_rules! pdo {
             }
         }
 
-        // An alias with the name of the field: what the compiler has to say of it points to the field.
+        // An alias with the name of the field makes compiler errors point to the field.
         $(
             #[allow(non_camel_case_types)]
             const _: () = {
@@ -244,27 +255,24 @@ macro_rules! pdo {
             ::core::assert!(
                 $crate::pdo::custom::check::has_gaps(mapping),
                 ::core::concat!(
-                    "`", ::core::stringify!($name), "` has a gap `_` that the device can't map: it has no dummy entry ",
-                    "of that many bits for this PDO, or for such a PDO none at all"
+                    "`", ::core::stringify!($name), "` has a gap `_` that can't be mapped: ",
+                    "the device has no dummy entry of that length for this PDO"
                 )
             );
             ::core::assert!(
                 $crate::pdo::custom::check::fits_entries::<$path>(mapping),
-                ::core::concat!("`", ::core::stringify!($name), "` has more entries than the device maps into this PDO")
+                ::core::concat!("`", ::core::stringify!($name), "` has more entries than this PDO can have")
             );
             ::core::assert!(
                 $crate::pdo::custom::check::fits_bits::<$path>(mapping),
                 ::core::concat!(
-                    "`", ::core::stringify!($name), "` has more bits than this PDO can have: 64 on CANopen, what the ",
-                    "sync manager takes on EtherCAT"
+                    "`", ::core::stringify!($name), "` has more bits than this PDO can have: 64 on CANopen, ",
+                    "the length of the sync manager on EtherCAT"
                 )
             );
             ::core::assert!(
                 $crate::pdo::custom::check::keeps_fixed::<$path>(mapping),
-                ::core::concat!(
-                    "`", ::core::stringify!($name), "` leaves out an entry that the device doesn't let anyone take out ",
-                    "of this PDO"
-                )
+                ::core::concat!("`", ::core::stringify!($name), "` lacks a fixed entry of this PDO")
             );
         };
     };
@@ -281,7 +289,7 @@ macro_rules! pdo {
     };
     (@entries $head:tt $name:ident $device:tt $path:ty, $fields:tt $words:tt $bits:tt $attributes:tt { $($rest:tt)* }) => {
         ::core::compile_error!(::core::concat!(
-            "expected `field`, `field: name` or `field: object::entry`, or a gap `_: 8`, with commas in between; found `",
+            "expected `field`, `field: name` or `field: object::entry`, or a gap `_: 8`, separated by commas; found `",
             ::core::stringify!($($rest)*), "`"
         ));
     };

@@ -1,4 +1,4 @@
-//! What a PDO carries.
+//! PDO mappings.
 
 use crate::bus::Object;
 use crate::ethercat::DependsOn;
@@ -6,63 +6,64 @@ use crate::ethercat::DependsOn;
 /// One entry of a PDO mapping (CiA 301 7.5.2.36 and 7.5.2.38).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct MappedEntry {
-    /// The index of the mapped object.
+    /// Index of the mapped object.
     pub index: u16,
-    /// The sub-index of the mapped entry.
+    /// Sub-index of the mapped object.
     pub sub_index: u8,
-    /// What the index grows with, in a module of an EtherCAT slave.
+    /// What the index depends on, in a module of an EtherCAT slave.
     pub depends_on: DependsOn,
-    /// How many bits it takes. A mapping object holds at most 255; a fixed mapping may have longer entries.
+    /// Length in bits. At most 255 in a mapping object; a fixed mapping may have longer entries.
     pub bits: u32,
 }
 
 impl MappedEntry {
-    /// An entry.
+    /// Creates an entry.
     #[must_use]
     pub const fn new(index: u16, sub_index: u8, bits: u32) -> Self {
         Self::depending_on(index, sub_index, bits, DependsOn::Nothing)
     }
 
-    /// An entry whose index grows with the slot of its module; `index` is that of slot 0.
+    /// Creates an entry whose index depends on the slot of its module. `index` is the one for slot 0.
     #[must_use]
     pub const fn in_slot(index: u16, sub_index: u8, bits: u32) -> Self {
         Self::depending_on(index, sub_index, bits, DependsOn::Slot)
     }
 
-    /// An entry whose index grows with the place of its module.
+    /// Creates an entry whose index depends on the slot or slot group of its module.
     #[must_use]
     pub const fn depending_on(index: u16, sub_index: u8, bits: u32, depends_on: DependsOn) -> Self {
         Self { index, sub_index, depends_on, bits }
     }
 
-    /// The entry as the mapping object holds it: index, sub-index and bits, from the highest byte to the lowest.
+    /// Returns the entry as in the mapping object: index, sub-index and length in bits, from the most significant
+    /// byte down.
     #[must_use]
     pub const fn word(self) -> u32 {
         (self.index as u32) << 16 | (self.sub_index as u32) << 8 | self.bits & 0xFF
     }
 
-    /// The entry that a mapping object holds.
+    /// Creates an entry from its representation in a mapping object.
     #[must_use]
     pub const fn from_word(word: u32) -> Self {
         Self::new((word >> 16) as u16, (word >> 8) as u8, word & 0xFF)
     }
 
-    /// The mapped object.
+    /// Returns the mapped object.
     #[must_use]
     pub const fn object(self) -> Object {
         Object { index: self.index, sub_index: self.sub_index }
     }
 }
 
-/// A PDO with a known layout; implemented by generated code and by mappings of one's own.
+/// A PDO with a known layout. Implemented by generated code and by [`pdo!`](crate::pdo!).
 pub trait Pdo {
-    /// The index of its mapping object, 0x1600 to 0x17FF or 0x1A00 to 0x1BFF.
+    /// Index of the mapping object, 0x1600 to 0x17FF or 0x1A00 to 0x1BFF.
     const INDEX: u16;
 
-    /// What it carries, in the order of the bits.
+    /// Mapped entries, in the order of the bits.
     const MAPPING: &'static [MappedEntry];
 
-    /// How many bytes it takes.
+    /// Length in bytes.
     const LEN: usize;
 }
 

@@ -1,11 +1,11 @@
-//! One step of a configuration.
+//! SDO writes of a configuration.
 
 use super::word::to_bytes;
 use crate::bus::{Bus, Object};
 use crate::client::{AsyncClient, Client};
 use crate::error::Error;
 
-/// A value of at most 8 bytes to be written to an object, as a step of a PDO's configuration.
+/// A write of at most 8 bytes to an object, as one step of a configuration.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct SdoWrite {
     object: Object,
@@ -14,19 +14,19 @@ pub struct SdoWrite {
 }
 
 impl SdoWrite {
-    /// Writes an UNSIGNED8.
+    /// Creates a write of an UNSIGNED8.
     #[must_use]
     pub const fn new_u8(index: u16, sub_index: u8, value: u8) -> Self {
         Self::new(index, sub_index, value as u64, 1)
     }
 
-    /// Writes an UNSIGNED16.
+    /// Creates a write of an UNSIGNED16.
     #[must_use]
     pub const fn new_u16(index: u16, sub_index: u8, value: u16) -> Self {
         Self::new(index, sub_index, value as u64, 2)
     }
 
-    /// Writes an UNSIGNED32.
+    /// Creates a write of an UNSIGNED32.
     #[must_use]
     pub const fn new_u32(index: u16, sub_index: u8, value: u32) -> Self {
         Self::new(index, sub_index, value as u64, 4)
@@ -36,23 +36,23 @@ impl SdoWrite {
         Self { object: Object { index, sub_index }, data: to_bytes(value), len }
     }
 
-    /// Where it is written.
+    /// Returns the object to write.
     #[must_use]
     pub const fn object(&self) -> Object {
         self.object
     }
 
-    /// The bytes to be written.
+    /// Returns the bytes to write.
     #[must_use]
     pub const fn data(&self) -> &[u8] {
         self.data.split_at(self.len as usize).0
     }
 
-    /// Writes it through a client of CANopen, or of CANopen over EtherCAT.
+    /// Writes the value through a CANopen or CoE client.
     ///
     /// # Errors
     ///
-    /// Those of the client.
+    /// The errors of the client.
     pub fn send<C: Client>(&self, client: &mut C) -> Result<(), Error<C::Error>>
     where
         C::Bus: Bus<Address = Object>,
@@ -60,11 +60,11 @@ impl SdoWrite {
         client.write(self.object, self.data())
     }
 
-    /// Writes it without blocking.
+    /// Writes the value through an asynchronous client, as [`send`](Self::send) does.
     ///
     /// # Errors
     ///
-    /// Those of the client.
+    /// The errors of the client.
     pub async fn send_async<C: AsyncClient>(&self, client: &mut C) -> Result<(), Error<C::Error>>
     where
         C::Bus: Bus<Address = Object>,

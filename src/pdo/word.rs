@@ -1,6 +1,6 @@
-//! Words of 64 bits, with which a PDO of at most 8 bytes is packed and unpacked.
+//! 64-bit words, used to pack and unpack PDOs of at most 8 bytes.
 
-/// A word whose low `bits` bits are set; all of them from 64 on.
+/// Returns a word with the low `bits` bits set; all bits if `bits` is 64 or more.
 #[must_use]
 #[inline]
 pub const fn mask(bits: u32) -> u64 {
@@ -11,7 +11,7 @@ pub const fn mask(bits: u32) -> u64 {
     }
 }
 
-/// The low `N` bytes of `word`, the least significant first. Bytes beyond the eighth are 0.
+/// Returns the low `N` bytes of `word` in little-endian order. Bytes after the eighth are 0.
 #[must_use]
 #[inline]
 pub const fn to_bytes<const N: usize>(word: u64) -> [u8; N] {
@@ -25,7 +25,7 @@ pub const fn to_bytes<const N: usize>(word: u64) -> [u8; N] {
     out
 }
 
-/// The first 8 bytes of `data` as a word, the least significant first. Missing bytes are 0.
+/// Returns the first 8 bytes of `data` as a little-endian word. Missing bytes are 0.
 #[must_use]
 #[inline]
 pub const fn from_bytes(data: &[u8]) -> u64 {
@@ -41,7 +41,7 @@ pub const fn from_bytes(data: &[u8]) -> u64 {
     u64::from_le_bytes(bytes)
 }
 
-/// The low `bits` bits of `raw` as a number in two's complement. 0 where `bits` is 0, all of `raw` from 64 on.
+/// Sign-extends the low `bits` bits of `raw`. Returns 0 if `bits` is 0, and all of `raw` if `bits` is 64 or more.
 #[must_use]
 #[inline]
 pub const fn sign_extend(raw: u64, bits: u32) -> i64 {

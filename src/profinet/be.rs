@@ -1,13 +1,13 @@
 //! Big-endian fields of a byte string.
 //!
-//! A field that is no whole number of bytes is a part of a big-endian number: of the bytes that it touches, where bit 0
-//! is the lowest bit of the last one. Reading beyond the end of the data gives 0; writing there does nothing.
+//! A bit field is part of the big-endian number made of the bytes that it touches. Bit 0 is the least significant bit
+//! of the last of these bytes. Reads beyond the end of the data return 0; writes there have no effect.
 
 use crate::pdo::{mask, sign_extend};
 use crate::time::{TimeDifference, TimeOfDay};
 use crate::value_error::LengthError;
 
-/// The `N` bytes from `at` on, or zeros where the data has fewer.
+/// Returns the `N` bytes from `at` on, or zeros if the data are too short.
 #[must_use]
 #[inline]
 pub const fn bytes<const N: usize>(data: &[u8], at: usize) -> [u8; N] {
@@ -19,11 +19,11 @@ pub const fn bytes<const N: usize>(data: &[u8], at: usize) -> [u8; N] {
     [0; N]
 }
 
-/// The first `N` bytes.
+/// Returns the first `N` bytes.
 ///
 /// # Errors
 ///
-/// When the data has fewer.
+/// [`LengthError`] if the data are shorter.
 #[inline]
 pub const fn chunk<const N: usize>(data: &[u8]) -> Result<&[u8; N], LengthError> {
     match data.first_chunk() {
@@ -32,22 +32,22 @@ pub const fn chunk<const N: usize>(data: &[u8]) -> Result<&[u8; N], LengthError>
     }
 }
 
-/// The first `N` bytes, to be written.
+/// Returns the first `N` bytes for writing.
 ///
 /// # Errors
 ///
-/// When the data has fewer.
+/// [`LengthError`] if the data are shorter.
 #[inline]
 pub fn chunk_mut<const N: usize>(data: &mut [u8]) -> Result<&mut [u8; N], LengthError> {
     let error = LengthError::new(N, data.len());
     data.first_chunk_mut().ok_or(error)
 }
 
-/// Puts `bytes` at the start of the data and returns them there.
+/// Writes `bytes` to the start of the data and returns the written part.
 ///
 /// # Errors
 ///
-/// When the data has fewer bytes.
+/// [`LengthError`] if the data are shorter.
 #[inline]
 pub fn write<'d>(data: &'d mut [u8], bytes: &[u8]) -> Result<&'d [u8], LengthError> {
     let error = LengthError::new(bytes.len(), data.len());
@@ -56,7 +56,7 @@ pub fn write<'d>(data: &'d mut [u8], bytes: &[u8]) -> Result<&'d [u8], LengthErr
     Ok(to)
 }
 
-/// Puts `bytes` at `at`.
+/// Writes `bytes` at offset `at`.
 #[inline]
 pub fn put(data: &mut [u8], at: usize, bytes: &[u8]) {
     if let Some(to) = data.get_mut(at..).and_then(|rest| rest.get_mut(..bytes.len())) {
@@ -64,7 +64,7 @@ pub fn put(data: &mut [u8], at: usize, bytes: &[u8]) {
     }
 }
 
-/// Sets or clears one bit of the byte at `at`; bit 0 is its lowest.
+/// Sets or clears a bit of the byte at `at`; bit 0 is the least significant one.
 #[inline]
 pub fn put_bit(data: &mut [u8], at: usize, bit: u32, value: bool) {
     if let Some(byte) = data.get_mut(at) {
@@ -73,7 +73,7 @@ pub fn put_bit(data: &mut [u8], at: usize, bit: u32, value: bool) {
     }
 }
 
-/// How many bytes a field of `width` bits touches that leaves `shift` bits below it free; at most 8.
+/// Returns the number of bytes that a field of `width` bits at bit offset `shift` touches, at most 8.
 const fn touched(shift: u32, width: u32) -> usize {
     let bytes = shift.saturating_add(width).div_ceil(8);
     if bytes > 8 {
@@ -83,7 +83,7 @@ const fn touched(shift: u32, width: u32) -> usize {
     }
 }
 
-/// How many bits of a field are in a ninth byte, which is only touched if it doesn't begin with one.
+/// Returns the number of a field's bits in a ninth byte, if it reaches that far.
 const fn in_ninth(shift: u32, width: u32) -> Option<u32> {
     if shift < 8 && width <= 64 && shift + width > 64 {
         Some(8 - shift)
@@ -92,7 +92,7 @@ const fn in_ninth(shift: u32, width: u32) -> Option<u32> {
     }
 }
 
-/// The number of `width` bits, 1 to 64, in the bytes from `at` on, with `shift` bits below it.
+/// Reads an unsigned number of `width` bits, 1 to 64, at bit offset `shift` of the bytes from `at` on.
 #[must_use]
 #[inline]
 pub const fn number(data: &[u8], at: usize, shift: u32, width: u32) -> u64 {
@@ -111,14 +111,14 @@ pub const fn number(data: &[u8], at: usize, shift: u32, width: u32) -> u64 {
 
 macro_rules! bits {
     ($($unsigned:ident $u:ty, $signed:ident $i:ty;)*) => {$(
-        /// The [`number`] as an unsigned integer of Rust's own; bits beyond its width are cut off.
+        /// Reads a [`number`] as an unsigned integer; bits beyond the integer's width are discarded.
         #[must_use]
         #[inline]
         pub const fn $unsigned(data: &[u8], at: usize, shift: u32, width: u32) -> $u {
             number(data, at, shift, width) as $u
         }
 
-        /// The [`number`] as a signed integer of Rust's own, in two's complement; bits beyond its width are cut off.
+        /// Reads a [`number`] as a signed integer in two's complement; bits beyond the integer's width are discarded.
         #[must_use]
         #[inline]
         pub const fn $signed(data: &[u8], at: usize, shift: u32, width: u32) -> $i {
@@ -134,7 +134,8 @@ bits! {
     bits_u64 u64, bits_i64 i64;
 }
 
-/// Puts the low `width` bits of `value` into the bytes from `at` on, and leaves the `shift` bits below as they are.
+/// Writes the low `width` bits of `value` at bit offset `shift` of the bytes from `at` on. Other bits keep their
+/// value.
 #[inline]
 pub fn put_number(data: &mut [u8], at: usize, shift: u32, width: u32, value: u64) {
     if let Some(low) = in_ninth(shift, width) {
@@ -156,8 +157,8 @@ pub fn put_number(data: &mut [u8], at: usize, shift: u32, width: u32, value: u64
     }
 }
 
-/// "TimeOfDay with date indication" of IEC 61158-6: milliseconds in 28 bits of 4 bytes, then days since 1984 in 2
-/// bytes.
+/// Reads a "TimeOfDay with date indication" (IEC 61158-6): milliseconds in the low 28 bits of 4 bytes, then days
+/// since 1984 in 2 bytes.
 #[must_use]
 #[inline]
 pub const fn time_of_day(data: &[u8], at: usize) -> TimeOfDay {
@@ -165,14 +166,14 @@ pub const fn time_of_day(data: &[u8], at: usize) -> TimeOfDay {
     TimeOfDay::new(u32::from_be_bytes([a & 0x0F, b, c, d]), u16::from_be_bytes([high, low]))
 }
 
-/// The bytes of [`time_of_day`].
+/// Encodes a [`time_of_day`].
 #[must_use]
 #[inline]
 pub const fn from_time_of_day(time: TimeOfDay) -> [u8; 6] {
     from_time(time.milliseconds, time.days)
 }
 
-/// "TimeDifference with date indication" of IEC 61158-6: milliseconds in 4 bytes, then days in 2 bytes.
+/// Reads a "TimeDifference with date indication" (IEC 61158-6): milliseconds in 4 bytes, then days in 2 bytes.
 #[must_use]
 #[inline]
 pub const fn time_difference(data: &[u8], at: usize) -> TimeDifference {
@@ -180,7 +181,7 @@ pub const fn time_difference(data: &[u8], at: usize) -> TimeDifference {
     TimeDifference::new(u32::from_be_bytes([a & 0x0F, b, c, d]), u16::from_be_bytes([high, low]))
 }
 
-/// The bytes of [`time_difference`].
+/// Encodes a [`time_difference`].
 #[must_use]
 #[inline]
 pub const fn from_time_difference(time: TimeDifference) -> [u8; 6] {
@@ -229,7 +230,7 @@ mod tests {
         assert_eq!(data, [0b1111_0101, 0x7F]);
     }
 
-    /// The number of these bits, bit by bit.
+    /// Reference implementation of [`number`], bit by bit.
     fn slowly(data: &[u8], at: usize, shift: u32, width: u32) -> u64 {
         let last = at + ((shift + width).div_ceil(8) as usize) - 1;
         (0..width).fold(0, |number, bit| {

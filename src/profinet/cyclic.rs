@@ -1,4 +1,4 @@
-//! Items in the process image of one submodule.
+//! Access to items in the process image of a submodule.
 
 use core::time::Duration;
 
@@ -11,27 +11,31 @@ use crate::error::Error;
 use crate::image_field::ImageField;
 use crate::value_error::LengthError;
 
-/// How long a cycle takes at least, as long as something is waited for.
+/// Minimum time between two cycles during [`Cyclic::wait`](crate::Client::wait).
 const CYCLE: Duration = Duration::from_millis(1);
 
-/// The fields of one submodule's data as a [`Client`] of [`ProcessImage`], or an [`AsyncClient`], over an [`ImageClient`] `I`.
+/// A client for items in the cyclic data of one submodule.
 ///
-/// `O` and `N` are the frames of outputs and inputs: arrays, vectors or borrowed bytes. Outputs keep what was written last; their
-/// statuses are the caller's, as by [`Plan::set_status`](super::Plan::set_status). Every access exchanges them once: what is written
-/// has gone out when the access ends, and what is read is as new as the client's inputs. A program with a cycle of its own turns
-/// that off with [`by_hand`](Self::by_hand), so that several fields go out together with [`cycle`](Self::cycle).
+/// It is a [`Client`] or an [`AsyncClient`] of [`ProcessImage`] over an [`ImageClient`] `I`. `O` and `N` hold the
+/// output and input frames: arrays, vectors or borrowed bytes.
+///
+/// Outputs keep the last written values. The caller sets their status, for example with
+/// [`Plan::set_status`](super::Plan::set_status). Each access exchanges the frames once: written data have been sent
+/// when the access ends, and read data are from that exchange. A program with its own cycle calls
+/// [`by_hand`](Self::by_hand) to exchange the frames only with [`cycle`](Self::cycle); several fields then go out
+/// together.
 ///
 /// ```
 /// use lexibus::profinet::{Cyclic, ImageClient, SubmoduleIo, IoSpan, IoStatus};
 /// use lexibus::{Error, Flags, ImageField, Initial, Item, OnImage, Range, Ro, Wo};
 ///
-/// // What the compiler emits for two fields of an image:
+/// // Generated code for two fields of a process image:
 /// const TARGET: Item<i32, Wo, OnImage> =
 ///     Item::new(OnImage::field(ImageField::output(24, 32)), "Target", Range::Full, Initial::Unknown, "", Flags::NONE);
 /// const ACTUAL: Item<i32, Ro, OnImage> =
 ///     Item::new(OnImage::field(ImageField::input(24, 32)), "Actual", Range::Full, Initial::Unknown, "", Flags::NONE);
 ///
-/// /// A drive that is always where it should be: 32 bytes each way, and their provider status.
+/// /// A drive without following error: 32 bytes in each direction, and their provider status.
 /// struct Quick;
 ///
 /// impl ImageClient for Quick {
@@ -62,39 +66,39 @@ pub struct Cyclic<I, O, N> {
 }
 
 impl<I, O: AsRef<[u8]> + AsMut<[u8]>, N: AsRef<[u8]> + AsMut<[u8]>> Cyclic<I, O, N> {
-    /// The submodule whose data are at `submodule`, in the frames that `image` exchanges.
+    /// Creates a client for the data at `submodule` in the frames that `image` exchanges.
     pub const fn new(image: I, submodule: SubmoduleIo, outputs: O, inputs: N) -> Self {
         Self { image, submodule, outputs, inputs, is_by_hand: false }
     }
 
-    /// The same, where no access exchanges anything, but what has to wait: the caller calls [`cycle`](Self::cycle) or
-    /// [`cycle_async`](Self::cycle_async).
+    /// Turns off the exchange with each access. The caller must call [`cycle`](Self::cycle) or
+    /// [`cycle_async`](Self::cycle_async). Accesses that wait still exchange frames.
     #[must_use]
     pub fn by_hand(self) -> Self {
         Self { is_by_hand: true, ..self }
     }
 
-    /// What exchanges the frames.
+    /// Returns the image client.
     pub fn image(&mut self) -> &mut I {
         &mut self.image
     }
 
-    /// The frame of outputs, as it goes out next.
+    /// Returns the output frame for the next cycle.
     pub fn outputs(&mut self) -> &mut [u8] {
         self.outputs.as_mut()
     }
 
-    /// The frame of inputs, as it came last.
+    /// Returns the input frame of the last cycle.
     pub fn inputs(&self) -> &[u8] {
         self.inputs.as_ref()
     }
 
-    /// Gives back what exchanges the frames.
+    /// Returns the image client and drops `self`.
     pub fn into_image(self) -> I {
         self.image
     }
 
-    /// Reads a field of the frames as they are.
+    /// Reads a field of the current frames.
     fn get<E>(&self, field: ImageField, buffer: &mut [u8]) -> Result<usize, Error<E>> {
         let (span, frame) = match field.is_output {
             true => (self.submodule.outputs, self.outputs.as_ref()),
@@ -108,7 +112,7 @@ impl<I, O: AsRef<[u8]> + AsMut<[u8]>, N: AsRef<[u8]> + AsMut<[u8]>> Cyclic<I, O,
         Ok(field.get(data, buffer)?)
     }
 
-    /// Writes a field of the outputs, before they go out.
+    /// Writes a field of the output frame.
     fn put<E>(&mut self, field: ImageField, data: &[u8]) -> Result<(), Error<E>> {
         if !field.is_output {
             return Err(Error::Abort(AbortCode::READ_ONLY));
@@ -121,7 +125,7 @@ fn span_of(span: Option<IoSpan>) -> Result<IoSpan, LengthError> {
     span.ok_or(LengthError::new(1, 0))
 }
 
-/// The next step of a time that has to pass with cycles in between.
+/// Returns the next step of a waiting time, at most [`CYCLE`].
 fn step(left: &mut Duration) -> Option<Duration> {
     let step = (*left).min(CYCLE);
     *left -= step;
@@ -131,11 +135,11 @@ fn step(left: &mut Duration) -> Option<Duration> {
 macro_rules! clients {
     ($ImageClient:ident $Client:ident: $cycle:ident $($async:ident $await:ident)?) => {
         impl<I: $ImageClient, O: AsRef<[u8]> + AsMut<[u8]>, N: AsRef<[u8]> + AsMut<[u8]>> Cyclic<I, O, N> {
-            /// Sends the outputs, and takes the inputs.
+            /// Sends the outputs and receives the inputs.
             ///
             /// # Errors
             ///
-            /// Those of [`ImageClient::cycle`].
+            /// The errors of [`ImageClient::cycle`].
             pub $($async)? fn $cycle(&mut self) -> Result<(), Error<I::Error>> {
                 self.image.cycle(self.outputs.as_ref(), self.inputs.as_mut())$(.$await)?
             }
@@ -160,7 +164,7 @@ macro_rules! clients {
                 self.$cycle()$(.$await)?
             }
 
-            /// Both go out in the same cycle.
+            /// Sends both values in the same cycle.
             $($async)? fn write_both(&mut self, writes: [Write<'_, ProcessImage>; 2]) -> Result<(), Error<I::Error>> {
                 writes.into_iter().try_for_each(|(field, data)| self.put(field, data))?;
                 if self.is_by_hand {
@@ -169,7 +173,7 @@ macro_rules! clients {
                 self.$cycle()$(.$await)?
             }
 
-            /// Cycles go on meanwhile.
+            /// Continues to exchange frames while waiting.
             $($async)? fn wait(&mut self, time: Duration) -> Result<(), Error<I::Error>> {
                 let mut left = time;
                 self.$cycle()$(.$await)??;

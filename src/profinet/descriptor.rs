@@ -1,34 +1,34 @@
-//! What a device consists of, as constant data.
+//! Device description as constant data.
 
-/// A device access point: the head of a device, and what can be plugged into it.
+/// A device access point (DAP): the head of a device, with the modules that it supports.
 #[derive(Clone, Copy, Debug)]
 pub struct Dap {
-    /// Number of the vendor.
+    /// Vendor ID.
     pub vendor_id: u16,
-    /// Number that tells the devices of a vendor apart.
+    /// Device ID, assigned by the vendor.
     pub device_id: u16,
-    /// The slot that it is in.
+    /// Slot of the device access point.
     pub slot: u16,
-    /// Its ident number, name and submodules.
+    /// Ident number, name and submodules of the device access point.
     pub module: Module,
-    /// Slots that there are, by first and last number of each range.
+    /// Available slots, as ranges of first and last number.
     pub slots: &'static [(u16, u16)],
-    /// Modules that can be plugged in.
+    /// Supported modules.
     pub modules: &'static [ModuleUse],
-    /// Greatest length of the cyclic data.
+    /// Maximum lengths of the cyclic data.
     pub max_lengths: IoLengths,
-    /// Greatest length of a record in bytes.
+    /// Maximum length of a record in bytes.
     pub max_record_size: u32,
 }
 
-/// Greatest lengths of cyclic data in bytes, provider and consumer status included; `None` where there is no limit.
+/// Maximum lengths of cyclic data in bytes, including provider and consumer status. `None` = unlimited.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct IoLengths {
     /// Inputs.
     pub input: Option<u16>,
     /// Outputs.
     pub output: Option<u16>,
-    /// Both together.
+    /// Inputs and outputs together.
     pub data: Option<u16>,
 }
 
@@ -37,25 +37,25 @@ pub struct IoLengths {
 pub struct Module {
     /// Module ident number.
     pub ident: u32,
-    /// Its name.
+    /// Name of the module.
     pub name: &'static str,
-    /// Submodules that it has, and those that can be plugged into it.
+    /// Built-in and pluggable submodules.
     pub submodules: &'static [SubmoduleUse],
-    /// Subslots that there are, by first and last number of each range; empty = those of its submodules.
+    /// Available subslots, as ranges of first and last number. If empty, those of the submodules.
     pub subslots: &'static [(u16, u16)],
 }
 
-/// A module that a device may have, and where.
+/// A module that a device supports, and its slots.
 #[derive(Clone, Copy, Debug)]
 pub struct ModuleUse {
     /// The module.
     pub module: &'static Module,
-    /// The slots.
+    /// The slots for the module.
     pub places: Places,
 }
 
 impl ModuleUse {
-    /// `module` in these slots.
+    /// Creates an entry for `module` in these slots.
     #[must_use]
     pub const fn new(module: &'static Module, places: Places) -> Self {
         Self { module, places }
@@ -67,74 +67,74 @@ impl ModuleUse {
 pub struct Submodule {
     /// Submodule ident number.
     pub ident: u32,
-    /// Number of the application process (API): 0, or that of a profile, such as 0x3A00 for PROFIdrive.
+    /// Application process identifier (API): 0, or the number of a profile, such as 0x3A00 for PROFIdrive.
     pub api: u32,
-    /// Its name.
+    /// Name of the submodule.
     pub name: &'static str,
-    /// Length of its inputs in bytes, an F message trailer included; `None` where it has none.
+    /// Length of the inputs in bytes, including an F-message trailer. `None` if there are no inputs.
     pub input_len: Option<u16>,
-    /// Length of its outputs in bytes, an F message trailer included; `None` where it has none.
+    /// Length of the outputs in bytes, including an F-message trailer. `None` if there are no outputs.
     pub output_len: Option<u16>,
     /// Length of the provider status (IOPS) in bytes.
     pub provider_len: u8,
     /// Length of the consumer status (IOCS) in bytes.
     pub consumer_len: u8,
-    /// Its parameter records with their defaults, in the order of transfer.
+    /// Parameter records with default values, in the order of transfer.
     pub records: &'static [Record],
 }
 
-/// A submodule that a module may have, and where.
+/// A submodule that a module supports, and its subslots.
 #[derive(Clone, Copy, Debug)]
 pub struct SubmoduleUse {
     /// The submodule.
     pub submodule: &'static Submodule,
-    /// The subslots.
+    /// The subslots for the submodule.
     pub places: Places,
 }
 
 impl SubmoduleUse {
-    /// `submodule` in these subslots.
+    /// Creates an entry for `submodule` in these subslots.
     #[must_use]
     pub const fn new(submodule: &'static Submodule, places: Places) -> Self {
         Self { submodule, places }
     }
 }
 
-/// A parameter record with its defaults.
+/// A parameter record with default values.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Record {
-    /// Its index.
+    /// Index of the record.
     pub index: u16,
-    /// Its place among the records of its submodule at start-up; 0 = any.
+    /// Position among the start-up records of the submodule; 0 = any.
     pub transfer_sequence: u16,
-    /// Its name.
+    /// Name of the record.
     pub name: &'static str,
-    /// Its bytes by default.
+    /// Default content.
     pub data: &'static [u8],
 }
 
 impl Record {
-    /// A record.
+    /// Creates a record.
     #[must_use]
     pub const fn new(index: u16, transfer_sequence: u16, name: &'static str, data: &'static [u8]) -> Self {
         Self { index, transfer_sequence, name, data }
     }
 }
 
-/// Where something may be or has to be plugged: slots of a module, subslots of a submodule, each by first and last
-/// number of a range. All empty means anywhere.
+/// The slots of a module, or the subslots of a submodule, as ranges of first and last number. If all are empty, any
+/// slot is allowed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Places {
-    /// Where it may be.
+    /// Where it may be plugged.
     pub allowed: &'static [(u16, u16)],
-    /// Where it always is.
+    /// Where it is built in.
     pub fixed: &'static [(u16, u16)],
-    /// Where it is unless somebody chooses otherwise.
+    /// Where it is plugged by default.
     pub used: &'static [(u16, u16)],
 }
 
 impl Places {
-    /// Places of each kind.
+    /// Creates the three lists.
     #[must_use]
     pub const fn new(
         allowed: &'static [(u16, u16)],
@@ -144,33 +144,33 @@ impl Places {
         Self { allowed, fixed, used }
     }
 
-    /// Always in these places.
+    /// Creates fixed slots only.
     #[must_use]
     pub const fn fixed(fixed: &'static [(u16, u16)]) -> Self {
         Self::new(&[], fixed, &[])
     }
 
-    /// At will in these places.
+    /// Creates allowed slots only.
     #[must_use]
     pub const fn allowed(allowed: &'static [(u16, u16)]) -> Self {
         Self::new(allowed, &[], &[])
     }
 
-    /// Whether it may be, or is, at `place`.
+    /// Returns whether the slot or subslot is allowed or fixed.
     #[must_use]
     pub const fn fits(&self, place: u16) -> bool {
         let anywhere = self.allowed.is_empty() && self.fixed.is_empty() && self.used.is_empty();
         anywhere || contains(self.allowed, place) || contains(self.fixed, place) || contains(self.used, place)
     }
 
-    /// Whether it is always at `place`.
+    /// Returns whether the slot or subslot is fixed.
     #[must_use]
     pub const fn is_fixed(&self, place: u16) -> bool {
         contains(self.fixed, place)
     }
 }
 
-/// Whether `number` lies in one of the ranges.
+/// Returns whether one of the ranges contains `number`.
 pub(super) const fn contains(ranges: &[(u16, u16)], number: u16) -> bool {
     let mut at = 0;
     while at < ranges.len() {
@@ -182,7 +182,7 @@ pub(super) const fn contains(ranges: &[(u16, u16)], number: u16) -> bool {
     false
 }
 
-/// Each number of the ranges.
+/// Returns all numbers of the ranges.
 pub(super) fn numbers(ranges: &'static [(u16, u16)]) -> impl Iterator<Item = u16> {
     ranges.iter().flat_map(|&(first, last)| first..=last)
 }

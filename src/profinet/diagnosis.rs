@@ -1,36 +1,36 @@
-//! Diagnosis of channels (ChannelDiagnosisData, ExtChannelDiagnosisData, QualifiedChannelDiagnosisData of IEC
+//! Channel diagnosis (ChannelDiagnosisData, ExtChannelDiagnosisData and QualifiedChannelDiagnosisData of IEC
 //! 61158-6-10).
 
 use super::be::bytes;
 
-/// What the description of a device says about a channel error type.
+/// Description of a channel error type.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ChannelError {
-    /// The application process (API) whose profile defines it; 0 for those that aren't a profile's.
+    /// Application process identifier (API) of the profile that defines the type; 0 if no profile does.
     pub api: u32,
-    /// The error type.
+    /// Channel error type.
     pub error_type: u16,
-    /// Its name.
+    /// Name of the error.
     pub name: &'static str,
-    /// Cause and remedy; empty where the description gives none.
+    /// Cause and remedy; may be empty.
     pub help: &'static str,
-    /// More precise errors, by extended error type.
+    /// Descriptions by extended error type.
     pub extended: &'static [ExtendedError],
 }
 
-/// What the description of a device says about an extended error type.
+/// Description of an extended channel error type.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ExtendedError {
-    /// The extended error type.
+    /// Extended channel error type.
     pub error_type: u16,
-    /// Its name.
+    /// Name of the error.
     pub name: &'static str,
-    /// Cause and remedy; empty where the description gives none.
+    /// Cause and remedy; may be empty.
     pub help: &'static str,
 }
 
 impl ChannelError {
-    /// An error type that isn't a profile's.
+    /// Creates an error type that no profile defines.
     #[must_use]
     pub const fn new(
         error_type: u16,
@@ -41,7 +41,7 @@ impl ChannelError {
         Self::of_profile(0, error_type, name, help, extended)
     }
 
-    /// An error type as the profile of this application process defines it.
+    /// Creates an error type of the profile with this application process identifier.
     #[must_use]
     pub const fn of_profile(
         api: u32,
@@ -53,8 +53,10 @@ impl ChannelError {
         Self { api, error_type, name, help, extended }
     }
 
-    /// What this type means in a submodule of this application process: as its profile says, else as the device says of
-    /// all. `errors` are in ascending order of API and type.
+    /// Returns the description of an error type in a submodule with this application process identifier.
+    ///
+    /// An error type of the profile takes precedence over the device's general one. `errors` must be sorted by API
+    /// and type.
     #[must_use]
     pub fn find(errors: &'static [ChannelError], api: u32, error_type: u16) -> Option<&'static ChannelError> {
         let find = |api| {
@@ -64,7 +66,7 @@ impl ChannelError {
         find(api).or_else(|| find(0))
     }
 
-    /// The more precise error with this extended type.
+    /// Returns the description of an extended error type.
     #[must_use]
     pub fn extended(&self, error_type: u16) -> Option<&'static ExtendedError> {
         let at = self.extended.binary_search_by_key(&error_type, |error| error.error_type).ok()?;
@@ -73,30 +75,30 @@ impl ChannelError {
 }
 
 impl ExtendedError {
-    /// An extended error type.
+    /// Creates an extended error type.
     #[must_use]
     pub const fn new(error_type: u16, name: &'static str, help: &'static str) -> Self {
         Self { error_type, name, help }
     }
 }
 
-/// How a block of diagnosis is coded (UserStructureIdentifier).
+/// The structure of a diagnosis block (UserStructureIdentifier).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum UserStructure {
-    /// 0x0000 to 0x7FFF: as the vendor says.
+    /// 0x0000 to 0x7FFF: vendor-specific.
     Manufacturer(u16),
-    /// 0x8000: channel diagnosis, 6 bytes each.
+    /// 0x8000: channel diagnosis, 6 bytes per channel.
     Channel,
-    /// 0x8002: extended channel diagnosis, 12 bytes each.
+    /// 0x8002: extended channel diagnosis, 12 bytes per channel.
     ExtendedChannel,
-    /// 0x8003: qualified channel diagnosis, 16 bytes each.
+    /// 0x8003: qualified channel diagnosis, 16 bytes per channel.
     QualifiedChannel,
-    /// Another one, of a profile or reserved.
+    /// Another structure, defined by a profile or reserved.
     Other(u16),
 }
 
 impl UserStructure {
-    /// The structure with this identifier.
+    /// Returns the structure with this identifier.
     #[must_use]
     pub const fn from_identifier(identifier: u16) -> Self {
         match identifier {
@@ -108,7 +110,7 @@ impl UserStructure {
         }
     }
 
-    /// Length in bytes of one channel's diagnosis; `None` for the structures that aren't about channels.
+    /// Returns the length of one channel's diagnosis in bytes; `None` for structures without channels.
     #[must_use]
     pub const fn channel_len(self) -> Option<usize> {
         match self {
@@ -124,13 +126,13 @@ impl UserStructure {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct ChannelDiagnosis {
-    /// The channel, 0 to 0x7FFF; 0x8000 for the submodule as a whole.
+    /// Channel number, 0 to 0x7FFF; 0x8000 for the whole submodule.
     pub channel: u16,
-    /// What the diagnosis is about, and whether it appears or disappears.
+    /// Properties of the channel and of the diagnosis.
     pub properties: ChannelProperties,
-    /// The error type.
+    /// Channel error type.
     pub error_type: u16,
-    /// The extended error type with its value, where the block has them.
+    /// Extended error type and its value, in extended and qualified diagnosis.
     pub extended: Option<ExtendedDiagnosis>,
 }
 
@@ -138,24 +140,24 @@ pub struct ChannelDiagnosis {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct ExtendedDiagnosis {
-    /// The extended error type.
+    /// Extended channel error type.
     pub error_type: u16,
-    /// A value whose meaning depends on the error.
+    /// Additional value; its meaning depends on the error.
     pub add_value: u32,
-    /// The qualifier, a bit for each severity, in qualified diagnosis.
+    /// Qualifier, with one bit per severity, in qualified diagnosis.
     pub qualifier: Option<u32>,
 }
 
 impl ChannelDiagnosis {
-    /// Reads each diagnosis of a block that is coded in this way. An incomplete one at the end is left out, and there
-    /// is none in a block of another structure.
+    /// Decodes a diagnosis block. Ignores an incomplete diagnosis at the end. Returns none for a structure without
+    /// channels.
     #[must_use]
     pub const fn decode(structure: UserStructure, data: &[u8]) -> ChannelDiagnoses<'_> {
         ChannelDiagnoses { structure, data }
     }
 }
 
-/// The diagnoses of a block.
+/// An iterator over the diagnoses of a block.
 #[derive(Clone, Debug)]
 pub struct ChannelDiagnoses<'d> {
     structure: UserStructure,
@@ -184,14 +186,14 @@ impl Iterator for ChannelDiagnoses<'_> {
     }
 }
 
-/// What a diagnosis is about (ChannelProperties).
+/// Properties of a channel and its diagnosis (ChannelProperties).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct ChannelProperties(pub u16);
 
 impl ChannelProperties {
-    /// Width of the channel in bits (bits 0 to 7): 1 to 64; `None` for the submodule as a whole, and where it isn't
-    /// said.
+    /// Returns the width of the channel in bits (bits 0 to 7): 1 to 64. `None` if it is unspecified or the diagnosis
+    /// is for the whole submodule.
     #[must_use]
     pub const fn bits(self) -> Option<u8> {
         match self.0 & 0xFF {
@@ -200,13 +202,13 @@ impl ChannelProperties {
         }
     }
 
-    /// Whether the diagnosis is about a group of channels (bit 8).
+    /// Returns whether the diagnosis is for a group of channels (bit 8).
     #[must_use]
     pub const fn is_accumulative(self) -> bool {
         self.0 & 0x0100 != 0
     }
 
-    /// How urgent it is (bits 9 and 10).
+    /// Returns the severity (bits 9 and 10).
     #[must_use]
     pub const fn maintenance(self) -> Maintenance {
         match self.0 >> 9 & 3 {
@@ -217,7 +219,7 @@ impl ChannelProperties {
         }
     }
 
-    /// Whether it appears or disappears (bits 11 and 12).
+    /// Returns whether the diagnosis appears or disappears (bits 11 and 12).
     #[must_use]
     pub const fn specifier(self) -> ChannelSpecifier {
         match self.0 >> 11 & 3 {
@@ -228,7 +230,7 @@ impl ChannelProperties {
         }
     }
 
-    /// Direction of the channel (bits 13 to 15).
+    /// Returns the direction of the channel (bits 13 to 15).
     #[must_use]
     pub const fn direction(self) -> ChannelDirection {
         match self.0 >> 13 {
@@ -241,42 +243,42 @@ impl ChannelProperties {
     }
 }
 
-/// How urgent a diagnosis is.
+/// Severity of a diagnosis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Maintenance {
     /// A fault.
     Fault,
     /// Maintenance is required.
     Required,
-    /// Maintenance is demanded, which is more urgent.
+    /// Maintenance is demanded: more urgent than required.
     Demanded,
-    /// As the qualifier says.
+    /// The qualifier states the severity.
     Qualified,
 }
 
 /// Whether a diagnosis appears or disappears.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum ChannelSpecifier {
-    /// All of the channel disappear.
+    /// All diagnoses of the channel disappear.
     AllDisappear,
-    /// It appears.
+    /// The diagnosis appears.
     Appears,
-    /// It disappears, and there is no other one.
+    /// The diagnosis disappears; none remains on the channel.
     Disappears,
-    /// It disappears, and others of the channel remain.
+    /// The diagnosis disappears; others remain on the channel.
     DisappearsOthersRemain,
 }
 
 /// Direction of a channel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum ChannelDirection {
-    /// As the vendor says.
+    /// Vendor-specific.
     Manufacturer,
     /// An input.
     Input,
     /// An output.
     Output,
-    /// An input and output.
+    /// Both input and output.
     Both,
     /// Reserved.
     Reserved(u8),

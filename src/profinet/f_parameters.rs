@@ -1,11 +1,11 @@
-//! The F-parameter record of PROFIsafe.
+//! F-parameters of PROFIsafe.
 //!
-//! Its layout and its checksum F_Par_CRC (polynomial 0x4EAB, start value 0, over F_iPar_CRC and then everything else)
-//! were checked against the defaults that GSDML files of several vendors give.
+//! The checksum F_Par_CRC has the polynomial 0x4EAB and the start value 0. It covers F_iPar_CRC, then all other
+//! fields. Layout and checksum match the default values in the GSDML files of several vendors.
 
 use crate::value_error::LengthError;
 
-/// Puts a few bytes at `$at` of an array, in a constant too.
+/// Writes bytes at offset `$at` of an array; works in constants.
 macro_rules! push {
     ($record:ident, $at:ident, $bytes:expr) => {
         let bytes = $bytes;
@@ -28,17 +28,17 @@ pub enum Sil {
     Sil2,
     /// SIL 3.
     Sil3,
-    /// None.
+    /// No SIL.
     NoSil,
 }
 
-/// Length of the CRC in an F message trailer (F_CRC_Length).
+/// Length of the CRC in an F-message trailer (F_CRC_Length).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum FCrcLength {
     /// 3 bytes.
     ThreeBytes,
-    /// 2 bytes, of the obsolete first version.
+    /// 2 bytes, as in the obsolete first version.
     TwoBytes,
     /// 4 bytes.
     FourBytes,
@@ -46,7 +46,7 @@ pub enum FCrcLength {
     Reserved,
 }
 
-/// What becomes passive on a fault (F_Passivation).
+/// Unit that is passivated after a fault (F_Passivation).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum FPassivation {
@@ -60,40 +60,40 @@ pub enum FPassivation {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct FParameters {
-    /// F_Check_iPar: whether the checksum of the i-parameters takes part in the messages'.
+    /// F_Check_iPar: whether the checksum of the i-parameters is included in the CRC of messages.
     pub check_i_par: bool,
     /// F_SIL.
     pub sil: Sil,
     /// F_CRC_Length.
     pub crc_length: FCrcLength,
-    /// The bit of F_CRC_Seed; clear for `CRC-Seed24/32`.
+    /// F_CRC_Seed; false for `CRC-Seed24/32`.
     pub crc_seed: bool,
     /// F_Passivation.
     pub passivation: FPassivation,
-    /// F_Block_ID, 0 to 7: bit 0 says that there is an F_iPar_CRC, bit 1 that there is an F_WD_Time_2.
+    /// F_Block_ID, 0 to 7. Bit 0: the record has F_iPar_CRC. Bit 1: the record has F_WD_Time_2.
     pub block_id: u8,
     /// F_Par_Version, 0 to 3: 1 for PROFIsafe V2.
     pub par_version: u8,
-    /// F_Source_Add: address of the F-host.
+    /// F_Source_Add: address of the F-Host.
     pub source_address: u16,
-    /// F_Dest_Add: address of the F-device.
+    /// F_Dest_Add: address of the F-Device.
     pub destination_address: u16,
     /// F_WD_Time in ms.
     pub watchdog_time: u16,
-    /// F_WD_Time_2 in ms, where the block has it.
+    /// F_WD_Time_2 in ms, if the record has it.
     pub watchdog_time_2: u16,
-    /// F_iPar_CRC: checksum of the i-parameters, where the block has it.
+    /// F_iPar_CRC: checksum of the i-parameters, if the record has it.
     pub i_par_crc: u32,
 }
 
 impl FParameters {
-    /// Length of the record in bytes, 10 to 16; it depends on F_Block_ID.
+    /// Returns the length of the record in bytes, 10 to 16. It depends on F_Block_ID.
     #[must_use]
     pub const fn len(&self) -> usize {
         10 + if self.has_i_par_crc() { 4 } else { 0 } + if self.has_watchdog_time_2() { 2 } else { 0 }
     }
 
-    /// Never: a record has at least 10 bytes.
+    /// Returns false: a record has at least 10 bytes.
     #[must_use]
     pub const fn is_empty(&self) -> bool {
         false
@@ -107,7 +107,7 @@ impl FParameters {
         self.block_id & 2 != 0
     }
 
-    /// F_Prm_Flag1: F_Check_iPar, F_SIL, F_CRC_Length and F_CRC_Seed, from bit 1 up.
+    /// Returns F_Prm_Flag1: F_Check_iPar, F_SIL, F_CRC_Length and F_CRC_Seed, from bit 1 upwards.
     #[must_use]
     pub const fn flag1(&self) -> u8 {
         (self.check_i_par as u8) << 1
@@ -116,13 +116,13 @@ impl FParameters {
             | (self.crc_seed as u8) << 6
     }
 
-    /// F_Prm_Flag2: F_Passivation in bit 0, F_Block_ID in bits 3 to 5, F_Par_Version in bits 6 and 7.
+    /// Returns F_Prm_Flag2: F_Passivation in bit 0, F_Block_ID in bits 3 to 5, F_Par_Version in bits 6 and 7.
     #[must_use]
     pub const fn flag2(&self) -> u8 {
         self.passivation as u8 | (self.block_id & 7) << 3 | (self.par_version & 3) << 6
     }
 
-    /// F_Par_CRC; `None` where the block has an F_WD_Time_2, whose part in it is not known here.
+    /// Returns F_Par_CRC. `None` if the record has F_WD_Time_2: its position in the checksum is unknown.
     #[must_use]
     pub const fn crc(&self) -> Option<u16> {
         if self.has_watchdog_time_2() {
@@ -138,17 +138,17 @@ impl FParameters {
         Some(crc16(crc, &self.watchdog_time.to_be_bytes()))
     }
 
-    /// Writes the record with `crc` as its F_Par_CRC to `data` and returns its bytes.
+    /// Writes the record with `crc` as F_Par_CRC to `data` and returns the written bytes.
     ///
     /// # Errors
     ///
-    /// When `data` has fewer than [`FParameters::len`] bytes.
+    /// [`LengthError`] if `data` has fewer than [`FParameters::len`] bytes.
     pub fn encode_with_crc<'b>(&self, crc: u16, data: &'b mut [u8]) -> Result<&'b [u8], LengthError> {
         let (record, len) = self.record(crc);
         super::be::write(data, record.split_at(len).0)
     }
 
-    /// The longest record, of which the second number of bytes count.
+    /// Returns the record in a buffer of maximum length, and its actual length.
     pub(super) const fn record(&self, crc: u16) -> ([u8; 16], usize) {
         let mut record = [0; 16];
         let mut at = 0;
@@ -166,11 +166,11 @@ impl FParameters {
         (record, at)
     }
 
-    /// The parameters of a record that was read from the device, and its F_Par_CRC.
+    /// Decodes a record. Returns the parameters and F_Par_CRC.
     ///
     /// # Errors
     ///
-    /// When `data` has fewer bytes than the F_Block_ID in it needs.
+    /// [`LengthError`] if `data` is shorter than F_Block_ID requires.
     pub fn decode(data: &[u8]) -> Result<(Self, u16), LengthError> {
         let [flag1, flag2] = super::be::bytes(data, 0);
         let word = |at| u16::from_be_bytes(super::be::bytes(data, at));
@@ -221,7 +221,7 @@ impl FParameters {
     }
 }
 
-/// A CRC of 16 bits with the polynomial 0x4EAB, continued over `data`.
+/// Updates a 16-bit CRC with the polynomial 0x4EAB.
 const fn crc16(crc: u16, data: &[u8]) -> u16 {
     let (mut crc, mut at) = (crc, 0);
     while at < data.len() {
@@ -259,7 +259,7 @@ pub(super) mod tests {
     fn every_flag_is_read_as_it_is_written() {
         for (flag1, flag2) in (0..=u8::MAX).flat_map(|flag1| (0..=u8::MAX).map(move |flag2| (flag1, flag2))) {
             let parameters = FParameters::from_flags(flag1, flag2);
-            // Bits 0 and 7 of the first, and 1 and 2 of the second, mean nothing.
+            // Bits 0 and 7 of the first byte and bits 1 and 2 of the second are unused.
             assert_eq!((parameters.flag1(), parameters.flag2()), (flag1 & 0x7E, flag2 & 0xF9));
             let mut data = [0; 16];
             let written = parameters.encode_with_crc(0x1234, &mut data).unwrap();

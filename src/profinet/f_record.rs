@@ -1,4 +1,4 @@
-//! What a device allows of the F-parameters of PROFIsafe, and the record that carries them.
+//! The F-parameter record of a submodule and the allowed values.
 
 use super::f_parameters::FParameters;
 use super::record::{check, NotAllowed};
@@ -33,7 +33,7 @@ pub enum FField {
 }
 
 impl FField {
-    /// Its name in GSDML.
+    /// Returns the name in GSDML.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
@@ -53,42 +53,42 @@ impl FField {
     }
 }
 
-/// What one F-parameter may be.
+/// The allowed values of an F-parameter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct FLimit {
     /// The parameter.
     pub field: FField,
-    /// First and last value of each range, as they stand in the record.
+    /// Allowed ranges of first and last value, encoded as in the record.
     pub allowed: &'static [(u32, u32)],
 }
 
 impl FLimit {
-    /// The values that `field` may have.
+    /// Creates the allowed values of `field`.
     #[must_use]
     pub const fn new(field: FField, allowed: &'static [(u32, u32)]) -> Self {
         Self { field, allowed }
     }
 }
 
-/// The F-parameter record of a submodule, of `LEN` bytes.
+/// The F-parameter record of a submodule, with a length of `LEN` bytes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct FRecord<const LEN: usize> {
-    /// The record's index.
+    /// Index of the record.
     pub index: u16,
-    /// Its place among the records of its submodule at start-up; 0 = any.
+    /// Position among the start-up records of the submodule; 0 = any.
     pub transfer_sequence: u16,
-    /// The parameters that a device is shipped with.
+    /// Default values.
     pub default: FParameters,
-    /// What may be changed, and how. A parameter that isn't listed may have any value.
+    /// Allowed values. A parameter that isn't listed may have any value.
     pub limits: &'static [FLimit],
 }
 
 impl<const LEN: usize> FRecord<LEN> {
-    /// Checks the parameters against what the device allows.
+    /// Checks that all parameters have allowed values.
     ///
     /// # Errors
     ///
-    /// When one has a value that isn't allowed.
+    /// [`NotAllowed`] for the first parameter that hasn't.
     pub fn check(&self, parameters: &FParameters) -> Result<(), NotAllowed> {
         if parameters.len() != LEN || parameters.block_id > 7 {
             return Err(NotAllowed { field: FField::BlockId.name() });
@@ -102,12 +102,12 @@ impl<const LEN: usize> FRecord<LEN> {
         })
     }
 
-    /// The record's bytes, with its F_Par_CRC.
+    /// Encodes the record, including F_Par_CRC.
     ///
     /// # Errors
     ///
-    /// When a parameter has a value that isn't allowed, or the block has an F_WD_Time_2: then the caller has to know
-    /// the checksum, and to use [`FParameters::encode_with_crc`].
+    /// [`NotAllowed`] if a parameter has a value that isn't allowed. Also if the record has F_WD_Time_2, because the
+    /// checksum can't be computed; use [`FParameters::encode_with_crc`] then.
     pub fn encode(&self, parameters: &FParameters) -> Result<[u8; LEN], NotAllowed> {
         self.check(parameters)?;
         let refused = NotAllowed { field: FField::BlockId.name() };
@@ -115,7 +115,7 @@ impl<const LEN: usize> FRecord<LEN> {
         Ok(Self::bytes(parameters, crc))
     }
 
-    /// The record's bytes by default, with its F_Par_CRC; that is 0 where the block has an F_WD_Time_2.
+    /// Returns the default record, including F_Par_CRC; the CRC is 0 if the record has F_WD_Time_2.
     #[must_use]
     pub const fn default_bytes(&self) -> [u8; LEN] {
         match self.default.crc() {

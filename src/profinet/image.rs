@@ -1,4 +1,4 @@
-//! Where the data of each submodule are in the frames of a device, and what carries these.
+//! Process image: the layout of frames and the clients that exchange them.
 
 use core::time::Duration;
 
@@ -8,16 +8,16 @@ use crate::client::sleep;
 use crate::error::Error;
 use crate::value_error::LengthError;
 
-/// Exchanges the process image of one device with it, waiting for each cycle.
+/// A client that exchanges the process image of one device and blocks during a cycle.
 ///
-/// A frame of outputs or inputs is what an IOCR carries: the data objects with their provider status, and the consumer status
-/// of what goes the other way. [`Plan::layout`] says where each of them is.
+/// A frame is the content of an IOCR: data of submodules with their provider status, and the
+/// consumer status of the opposite direction. [`Plan::layout`] returns their offsets.
 ///
 /// ```
 /// use lexibus::profinet::ImageClient;
 /// use lexibus::{Error, LengthError};
 ///
-/// /// A device that sends back what it gets.
+/// /// A device that returns its outputs as inputs.
 /// struct Mirror;
 ///
 /// impl ImageClient for Mirror {
@@ -38,36 +38,39 @@ use crate::value_error::LengthError;
 /// # Ok::<(), Error<core::convert::Infallible>>(())
 /// ```
 pub trait ImageClient {
-    /// What can go wrong on the bus.
+    /// Communication error of the client.
     type Error;
 
-    /// Sends `outputs` in the next frame, and fills `inputs` with what the device sent last.
+    /// Sends `outputs` in the next cycle and fills `inputs` with the last received frame.
     ///
-    /// Both are as long as [`Plan::lengths`] says. A library that has its own cycle copies, and doesn't wait.
+    /// [`Plan::lengths`] returns the lengths of both. A library with its own cycle copies the data and returns at
+    /// once.
     ///
     /// # Errors
     ///
-    /// [`Error::Client`] where the bus fails, or the device is gone, [`Error::Length`] where a frame has another length.
+    /// [`Error::Client`] if the bus fails or the device is disconnected, [`Error::Length`] if a frame has another
+    /// length.
     fn cycle(&mut self, outputs: &[u8], inputs: &mut [u8]) -> Result<(), Error<Self::Error>>;
 
-    /// Waits so long, as [`Client::wait`](crate::Client::wait) does. [`Cyclic`](super::Cyclic) calls it between two cycles of an
-    /// access that takes time, with at most 1 ms.
+    /// Waits, as [`Client::wait`](crate::Client::wait) does.
+    ///
+    /// [`Cyclic`](super::Cyclic) calls it with at most 1 ms between two cycles of an access that takes time.
     ///
     /// # Errors
     ///
-    /// [`Error::NoClock`] where there is no clock: unless said otherwise, without the feature `std`.
+    /// [`Error::NoClock`] if there is no clock: the default implementation needs the feature `std`.
     fn wait(&mut self, time: Duration) -> Result<(), Error<Self::Error>> {
         sleep(time)
     }
 }
 
-/// Exchanges the process image of one device with it without blocking. The same rules as for [`ImageClient`].
+/// An asynchronous client that exchanges the process image of one device. The counterpart of [`ImageClient`].
 ///
 /// ```
 /// use lexibus::profinet::AsyncImageClient;
 /// use lexibus::Error;
 ///
-/// /// A device whose data never are valid.
+/// /// A device whose data are always invalid.
 /// struct Bad;
 ///
 /// impl AsyncImageClient for Bad {
@@ -81,21 +84,21 @@ pub trait ImageClient {
 /// ```
 #[allow(async_fn_in_trait)]
 pub trait AsyncImageClient {
-    /// What can go wrong on the bus.
+    /// Communication error of the client.
     type Error;
 
     /// Sends `outputs` and fills `inputs`, as [`ImageClient::cycle`] does.
     ///
     /// # Errors
     ///
-    /// The same as of [`ImageClient::cycle`].
+    /// The errors of [`ImageClient::cycle`].
     async fn cycle(&mut self, outputs: &[u8], inputs: &mut [u8]) -> Result<(), Error<Self::Error>>;
 
-    /// Waits so long, as [`AsyncClient::wait`](crate::AsyncClient::wait) does.
+    /// Waits, as [`AsyncClient::wait`](crate::AsyncClient::wait) does.
     ///
     /// # Errors
     ///
-    /// [`Error::NoClock`] where there is no clock: always, unless said otherwise.
+    /// [`Error::NoClock`] always, in the default implementation.
     async fn wait(&mut self, time: Duration) -> Result<(), Error<Self::Error>> {
         let _ = time;
         Err(Error::NoClock)
@@ -121,12 +124,12 @@ macro_rules! borrowed {
 borrowed! { ImageClient }
 borrowed! { AsyncImageClient async await }
 
-/// Some bytes of a frame.
+/// A range of bytes in a frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct IoSpan {
-    /// Where they begin: bytes from the start of the frame.
+    /// Offset from the start of the frame in bytes.
     pub offset: usize,
-    /// How many they are.
+    /// Length in bytes.
     pub length: usize,
 }
 
@@ -142,28 +145,28 @@ impl IoSpan {
     }
 }
 
-/// Where the data and the status of one submodule are.
+/// The positions of one submodule's data and status in the frames.
 ///
-/// `None` where the submodule doesn't have it: then reading and writing fail, as beyond the end of a frame.
+/// A position is `None` if the submodule has no such data. Access to it fails like access beyond the end of a frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct SubmoduleIo {
     /// Slot.
     pub slot: u16,
     /// Subslot.
     pub subslot: u16,
-    /// Data and provider status of the inputs, in the frame of inputs. No data, and a status, where the submodule has no data at
-    /// all.
+    /// Inputs with provider status, in the input frame. Only the status if the submodule has neither inputs nor
+    /// outputs.
     pub inputs: Option<IoSpan>,
-    /// Data and provider status of the outputs, in the frame of outputs.
+    /// Outputs with provider status, in the output frame.
     pub outputs: Option<IoSpan>,
-    /// The controller's status of the inputs (IOCS), in the frame of outputs.
+    /// Consumer status (IOCS) of the inputs, set by the controller in the output frame.
     pub inputs_consumer: Option<IoSpan>,
-    /// The device's status of the outputs (IOCS), in the frame of inputs.
+    /// Consumer status (IOCS) of the outputs, set by the device in the input frame.
     pub outputs_consumer: Option<IoSpan>,
 }
 
 impl SubmoduleIo {
-    /// The same as the device has it, which reads outputs and writes inputs: for simulated ones.
+    /// Swaps the directions: a simulated device reads outputs and writes inputs.
     #[must_use]
     pub const fn of_device(self) -> Self {
         Self {
@@ -175,36 +178,38 @@ impl SubmoduleIo {
         }
     }
 
-    /// The inputs `T` of the submodule and their provider status, in the frame of inputs.
+    /// Reads the inputs `T` of the submodule and their provider status from the input frame.
     ///
     /// # Errors
     ///
-    /// When the submodule has inputs of another length, or the frame is too short.
+    /// [`LengthError`] if the inputs have another length than `T`, or if the frame is too short.
     pub fn read<T: IoData>(&self, inputs: &[u8]) -> Result<WithStatus<T>, LengthError> {
         WithStatus::read(object::<T>(self.inputs)?.of(inputs)?)
     }
 
-    /// Writes the outputs `T` of the submodule with their provider status to the frame of outputs.
+    /// Writes the outputs `T` of the submodule and their provider status to the output frame.
     ///
     /// # Errors
     ///
-    /// When the submodule has outputs of another length, or the frame is too short.
+    /// [`LengthError`] if the outputs have another length than `T`, or if the frame is too short.
     pub fn write<T: IoData>(&self, outputs: &mut [u8], data: T, provider: IoStatus) -> Result<(), LengthError> {
         WithStatus { data, provider }.write(object::<T>(self.outputs)?.of_mut(outputs)?)
     }
 
-    /// What the device says of the outputs that it got, in the frame of inputs; [`IoStatus::BAD`] where there are none.
+    /// Returns the device's consumer status of the outputs from the input frame; [`IoStatus::BAD`] if there are no
+    /// outputs.
     #[must_use]
     pub fn consumer(&self, inputs: &[u8]) -> IoStatus {
         let status = self.outputs_consumer.and_then(|span| span.of(inputs).ok());
         IoStatus::from_bytes(status.unwrap_or_default())
     }
 
-    /// Writes what the controller says of the inputs that it got to the frame of outputs.
+    /// Writes the controller's consumer status of the inputs to the output frame. Has no effect if the submodule has
+    /// no inputs.
     ///
     /// # Errors
     ///
-    /// When the frame is too short. Nothing happens where the submodule has no inputs.
+    /// [`LengthError`] if the frame is too short.
     pub fn set_consumer(&self, outputs: &mut [u8], status: IoStatus) -> Result<(), LengthError> {
         if let Some(span) = self.inputs_consumer {
             status.write(span.of_mut(outputs)?);
@@ -213,13 +218,13 @@ impl SubmoduleIo {
     }
 }
 
-/// The span of a `T`, if it is as long as that.
+/// Returns the span if it has the length of `T`.
 fn object<T: IoData>(span: Option<IoSpan>) -> Result<IoSpan, LengthError> {
     let error = LengthError::new(WithStatus::<T>::LEN, span.map_or(0, |span| span.length));
     span.filter(|span| span.length == WithStatus::<T>::LEN).ok_or(error)
 }
 
-/// The next `length` bytes of a frame.
+/// Returns the next `length` bytes of a frame.
 fn take(end: &mut usize, length: usize) -> Option<IoSpan> {
     let span = IoSpan { offset: *end, length };
     *end += length;
@@ -227,10 +232,10 @@ fn take(end: &mut usize, length: usize) -> Option<IoSpan> {
 }
 
 impl<const N: usize> Plan<N> {
-    /// Where the data and the status of each submodule are in the frames, by slot and subslot.
+    /// Returns the positions of all data and status in the frames, ordered by slot and subslot.
     ///
-    /// A controller chooses the places and tells the device when it connects. These follow one another without a gap, and
-    /// are as long together as [`Plan::lengths`] says.
+    /// The controller chooses the positions and sends them to the device when it connects. This layout has no gaps;
+    /// its lengths are [`Plan::lengths`].
     pub fn layout(&self) -> impl Iterator<Item = SubmoduleIo> + '_ {
         self.expected().scan((0, 0), |(inputs, outputs), submodule| {
             let (provider, consumer) = (usize::from(submodule.provider_len), usize::from(submodule.consumer_len));
@@ -254,17 +259,17 @@ impl<const N: usize> Plan<N> {
         })
     }
 
-    /// Where the data and the status of the submodule in `subslot` of `slot` are; `None` where there is none.
+    /// Returns the positions of one submodule's data and status; `None` if the subslot is empty.
     #[must_use]
     pub fn submodule_io(&self, slot: u16, subslot: u16) -> Option<SubmoduleIo> {
         self.layout().find(|io| (io.slot, io.subslot) == (slot, subslot))
     }
 
-    /// Writes `status` as the provider status of all outputs, and as the consumer status of all inputs, to the frame of outputs.
+    /// Writes `status` to the output frame as provider status of all outputs and consumer status of all inputs.
     ///
     /// # Errors
     ///
-    /// When the frame is too short.
+    /// [`LengthError`] if the frame is too short.
     pub fn set_status(&self, outputs: &mut [u8], status: IoStatus) -> Result<(), LengthError> {
         for (io, submodule) in self.layout().zip(self.expected()) {
             io.set_consumer(outputs, status)?;

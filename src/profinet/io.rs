@@ -1,34 +1,34 @@
-//! Cyclic data of a submodule, and the status beside it.
+//! Cyclic data of a submodule and their status.
 
 use crate::value_error::LengthError;
 
-/// The inputs or outputs of one submodule, as a struct of its fields. Implemented by generated code.
+/// The inputs or outputs of a submodule as a struct. Implemented by generated code.
 pub trait IoData: Sized {
     /// Length of the user data in bytes.
     const LEN: usize;
 
-    /// Length in bytes of the F message trailer behind the user data (PROFIsafe); 0 where there is none.
+    /// Length in bytes of the F-message trailer after the user data (PROFIsafe); 0 if there is none.
     const TRAILER_LEN: usize;
 
-    /// Length in bytes of the provider status behind that.
+    /// Length in bytes of the provider status after data and trailer.
     const STATUS_LEN: usize;
 
-    /// The fields of the user data. Bytes behind the last field are not looked at.
+    /// Decodes the user data. Bytes after the last field are ignored.
     ///
     /// # Errors
     ///
-    /// When `data` has fewer than [`IoData::LEN`] bytes.
+    /// [`LengthError`] if `data` has fewer than [`IoData::LEN`] bytes.
     fn unpack(data: &[u8]) -> Result<Self, LengthError>;
 
-    /// Writes the fields to the first [`IoData::LEN`] bytes of `data`. What no field covers becomes 0.
+    /// Writes the fields to the first [`IoData::LEN`] bytes of `data`. Bits without a field become 0.
     ///
     /// # Errors
     ///
-    /// When `data` has fewer bytes than that.
+    /// [`LengthError`] if `data` has fewer than [`IoData::LEN`] bytes.
     fn pack_into(&self, data: &mut [u8]) -> Result<(), LengthError>;
 }
 
-/// The status of one submodule's data: what its provider says of them (IOPS), or what their consumer does (IOCS).
+/// The status of a submodule's data, set by their provider (IOPS) or consumer (IOCS).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -38,22 +38,22 @@ impl IoStatus {
     /// The data are valid.
     pub const GOOD: Self = Self(0x80);
 
-    /// The data are not valid, and the subslot itself says so.
+    /// The data are invalid, as reported by the subslot.
     pub const BAD: Self = Self(0x00);
 
-    /// Whether the data are valid: bit 7.
+    /// Returns whether the data are valid (bit 7).
     #[must_use]
     pub const fn is_good(self) -> bool {
         self.0 & 0x80 != 0
     }
 
-    /// Who found the data invalid (bits 5 and 6): 0 the subslot, 1 the slot, 2 the device, 3 the controller.
+    /// Returns what reports invalid data (bits 5 and 6): 0 subslot, 1 slot, 2 device, 3 controller.
     #[must_use]
     pub const fn instance(self) -> u8 {
         self.0 >> 5 & 3
     }
 
-    /// The status that stands in `bytes`: that of the first byte, or [`IoStatus::BAD`] where there is none.
+    /// Returns the status in the first byte; [`IoStatus::BAD`] if `bytes` is empty.
     #[must_use]
     pub const fn from_bytes(bytes: &[u8]) -> Self {
         match bytes.first() {
@@ -62,7 +62,7 @@ impl IoStatus {
         }
     }
 
-    /// Writes the status to all of `bytes`. Each but the last says in bit 0 that another one follows.
+    /// Writes the status to all of `bytes`. Bit 0 of every byte except the last one means that another byte follows.
     pub fn write(self, bytes: &mut [u8]) {
         let last = bytes.len().saturating_sub(1);
         for (place, byte) in bytes.iter_mut().enumerate() {
@@ -71,23 +71,23 @@ impl IoStatus {
     }
 }
 
-/// The parts of the data that one submodule has in a frame.
+/// The parts of a submodule's data in a frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct IoObject<'a> {
     /// User data.
     pub data: &'a [u8],
-    /// F message trailer; empty where the submodule isn't a safe one.
+    /// F-message trailer; empty if the submodule isn't a safety submodule.
     pub trailer: &'a [u8],
     /// Provider status.
     pub status: &'a [u8],
 }
 
 impl<'a> IoObject<'a> {
-    /// The parts of `object`, which begins with the user data of `T`.
+    /// Splits `object`, which begins with the user data of `T`.
     ///
     /// # Errors
     ///
-    /// When `object` has too few bytes for data, trailer and status.
+    /// [`LengthError`] if `object` is too short for data, trailer and status.
     pub fn of<T: IoData>(object: &'a [u8]) -> Result<Self, LengthError> {
         let actual = object.len();
         let split = |part: &'a [u8], at| part.split_at_checked(at).ok_or(too_short::<T>(actual));
@@ -97,30 +97,30 @@ impl<'a> IoObject<'a> {
         Ok(Self { data, trailer, status })
     }
 
-    /// The provider status.
+    /// Returns the provider status.
     #[must_use]
     pub const fn provider(&self) -> IoStatus {
         IoStatus::from_bytes(self.status)
     }
 }
 
-/// The parts of the data that one submodule has in a frame, to be written.
+/// The parts of a submodule's data in a frame, for writing.
 #[derive(Debug, PartialEq, Eq)]
 pub struct IoObjectMut<'a> {
     /// User data.
     pub data: &'a mut [u8],
-    /// F message trailer; empty where the submodule isn't a safe one.
+    /// F-message trailer; empty if the submodule isn't a safety submodule.
     pub trailer: &'a mut [u8],
     /// Provider status.
     pub status: &'a mut [u8],
 }
 
 impl<'a> IoObjectMut<'a> {
-    /// The parts of `object`, which begins with the user data of `T`.
+    /// Splits `object`, which begins with the user data of `T`.
     ///
     /// # Errors
     ///
-    /// When `object` has too few bytes for data, trailer and status.
+    /// [`LengthError`] if `object` is too short for data, trailer and status.
     pub fn of<T: IoData>(object: &'a mut [u8]) -> Result<Self, LengthError> {
         let error = too_short::<T>(object.len());
         let (data, rest) = object.split_at_mut_checked(T::LEN).ok_or(error)?;
@@ -134,35 +134,35 @@ const fn too_short<T: IoData>(actual: usize) -> LengthError {
     LengthError::new(T::LEN + T::TRAILER_LEN + T::STATUS_LEN, actual)
 }
 
-/// User data with their provider status, which stands right behind them in a frame.
+/// User data with the provider status that follows them in a frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct WithStatus<T> {
-    /// The data.
+    /// User data.
     pub data: T,
-    /// What their provider says of them.
+    /// Provider status (IOPS).
     pub provider: IoStatus,
 }
 
 impl<T: IoData> WithStatus<T> {
-    /// Length in bytes of data, F message trailer and status.
+    /// Length in bytes of data, F-message trailer and status.
     pub const LEN: usize = T::LEN + T::TRAILER_LEN + T::STATUS_LEN;
 
-    /// The data and status at the start of `object`.
+    /// Reads data and status from the start of `object`.
     ///
     /// # Errors
     ///
-    /// When `object` has fewer than [`WithStatus::LEN`] bytes.
+    /// [`LengthError`] if `object` has fewer than [`WithStatus::LEN`] bytes.
     pub fn read(object: &[u8]) -> Result<Self, LengthError> {
         let parts = IoObject::of::<T>(object)?;
         Ok(Self { data: T::unpack(parts.data)?, provider: parts.provider() })
     }
 
-    /// Writes data and status to the start of `object`. An F message trailer between them is left to the safety layer.
+    /// Writes data and status to the start of `object`. Leaves the F-message trailer to the safety layer.
     ///
     /// # Errors
     ///
-    /// When `object` has fewer than [`WithStatus::LEN`] bytes.
+    /// [`LengthError`] if `object` has fewer than [`WithStatus::LEN`] bytes.
     pub fn write(&self, object: &mut [u8]) -> Result<(), LengthError> {
         let parts = IoObjectMut::of::<T>(object)?;
         self.data.pack_into(parts.data)?;
@@ -171,24 +171,24 @@ impl<T: IoData> WithStatus<T> {
     }
 }
 
-/// The F message trailer of a PROFIsafe message: the status byte (of inputs) or control byte (of outputs), then a CRC
-/// of 3 or 4 bytes.
+/// The F-message trailer (PROFIsafe): the status byte of inputs or the control byte of outputs, then a CRC of 3 or 4
+/// bytes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct FTrailer {
     /// Status byte of inputs, control byte of outputs.
     pub status: u8,
-    /// CRC2, in its low 24 or all 32 bits.
+    /// CRC2, in the low 24 bits or all 32 bits.
     pub crc: u32,
 }
 
 impl FTrailer {
-    /// The trailer that stands in `bytes`.
+    /// Decodes a trailer.
     ///
     /// # Errors
     ///
-    /// When there are neither 4 nor 5 bytes.
+    /// [`LengthError`] unless there are 4 or 5 bytes.
     pub const fn from_bytes(bytes: &[u8]) -> Result<Self, LengthError> {
         match *bytes {
             [status, a, b, c] => Ok(Self { status, crc: u32::from_be_bytes([0, a, b, c]) }),
@@ -201,7 +201,7 @@ impl FTrailer {
     ///
     /// # Errors
     ///
-    /// When there are neither 4 nor 5 bytes.
+    /// [`LengthError`] unless there are 4 or 5 bytes.
     pub fn write(self, bytes: &mut [u8]) -> Result<(), LengthError> {
         let [a, b, c, d] = self.crc.to_be_bytes();
         match bytes {
@@ -217,7 +217,7 @@ impl FTrailer {
 mod tests {
     use super::*;
 
-    /// Two bytes of user data, a trailer of four, one byte of status.
+    /// A struct with 2 bytes of user data, 4 bytes of trailer and 1 byte of status.
     #[derive(Debug, PartialEq)]
     struct Safe(u16);
 

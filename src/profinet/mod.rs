@@ -1,22 +1,26 @@
-//! PROFINET IO: data of submodules with their status, parameter records, diagnosis, and the plan of what is plugged
-//! where.
+//! PROFINET IO: cyclic data with status, parameter records, diagnosis, and plans of modules in slots.
 //!
-//! Bindings generated from a GSDML file build on this module. [`Dap`], [`Module`] and [`Submodule`] describe a device
-//! as constant data; a [`Plan`] puts modules into its slots and yields the expected configuration and the start-up
-//! records. What the bindings generate per submodule (structs of inputs, outputs and parameter records) implements
-//! [`IoData`] and [`RecordData`]. Numbers are big-endian throughout.
+//! Bindings generated from a GSDML file build on this module:
 //!
-//! Inputs go from the device to the controller, outputs from the controller to the device.
+//! - [`Dap`], [`Module`] and [`Submodule`] describe a device as constants.
+//! - A [`Plan`] assigns modules to slots. It returns the expected configuration and the start-up records.
+//! - The generated structs for inputs, outputs and records of a submodule implement [`IoData`] and [`RecordData`].
 //!
-//! A controller library carries the bytes: an adapter to it implements [`RecordClient`] for records and [`ImageClient`] for the
-//! process image (or [`AsyncRecordClient`] and [`AsyncImageClient`]). On the one stand [`RecordAccess`], for records as structs and
-//! items within them, and [`parameter_access`], for the parameters of PROFIdrive; [`Plan::layout`] says where the data of a
-//! submodule are in the other, and [`Cyclic`] reads and writes items in them.
+//! All numbers are big-endian. Inputs go from the device to the controller, outputs from the controller to the
+//! device.
+//!
+//! The bytes are transferred by a controller library. Its adapter implements [`RecordClient`] for records and
+//! [`ImageClient`] for the process image, or [`AsyncRecordClient`] and [`AsyncImageClient`].
+//!
+//! - On top of a record client, [`RecordAccess`] reads and writes records as structs and items in records, and
+//!   [`parameter_access`] accesses PROFIdrive parameters.
+//! - On top of an image client, [`Cyclic`] reads and writes items in the data of a submodule. [`Plan::layout`]
+//!   returns the offsets of these data.
 //!
 //! ```
 //! use lexibus::profinet::{Dap, IoLengths, Module, ModuleUse, Places, Plan, PlanError, Submodule, SubmoduleUse};
 //!
-//! // What the compiler emits for a device with one kind of module, of four bytes of inputs, for slots 1 to 3:
+//! // Generated code for a device with one type of module, which has 4 bytes of inputs and fits slots 1 to 3:
 //! static COUNTER: Submodule = Submodule {
 //!     ident: 0x31,
 //!     api: 0,

@@ -1,7 +1,7 @@
-//! Base mode parameter access of PROFIdrive: requests and responses in the records 0xB02E and 0xB02F.
+//! Base mode parameter access of PROFIdrive, through the records 0xB02E and 0xB02F.
 //!
-//! A request reads or changes up to [`MAX_PARAMETERS`] parameters of one axis. It is written to the record; reading the same
-//! record gives the response, as soon as the drive has one. [`ParameterAccess`] does that over any
+//! A request reads or changes up to [`MAX_PARAMETERS`] parameters of one axis. The controller writes the request to
+//! the record and reads the response from the same record. [`ParameterAccess`] does both over any
 //! [`RecordClient`](super::RecordClient):
 //!
 //! ```
@@ -9,7 +9,7 @@
 //! use lexibus::profinet::RecordClient;
 //! use lexibus::Error;
 //!
-//! /// Sets two elements of an array of axis 1, from subindex 0 on, and says which telegram is selected (PNU 922).
+//! /// Sets two array elements of axis 1, from subindex 0 on, and returns the selected telegram (PNU 922).
 //! fn set_up<C: RecordClient>(client: C) -> Result<u16, Error<C::Error>> {
 //!     let mut parameters = ParameterAccess::new(client, 1, 1);
 //!     parameters.write_array(1, 2100, 0, &[15_u16, 30])?;
@@ -17,7 +17,7 @@
 //! }
 //! ```
 //!
-//! [`read_request`], [`change_request`] and [`Response`] are what it is made of: bytes in, bytes out.
+//! To encode requests and decode responses yourself, use [`read_request`], [`change_request`] and [`Response`]:
 //!
 //! ```
 //! use lexibus::profinet::parameter_access::{read_request, Answer, ParameterAddress, Response};

@@ -1,4 +1,4 @@
-//! The plan of what is plugged where.
+//! Plans of modules and submodules in their slots.
 
 mod records;
 
@@ -9,19 +9,19 @@ use core::fmt;
 
 use super::descriptor::{contains, numbers, Dap, Module, Submodule, SubmoduleUse};
 
-/// What is plugged into a device: at most `N` submodules, those of the device access point included.
+/// The submodules plugged into a device: at most `N`, including those of the device access point.
 ///
-/// It checks each step against the device's description, and yields what a controller expects of the device
-/// ([`Plan::expected`]) and sends to it at start-up ([`Plan::records`]).
+/// The plan checks each step against the device description. It returns the configuration that the controller expects
+/// ([`Plan::expected`]) and the start-up records ([`Plan::records`]).
 #[derive(Clone, Copy, Debug)]
 pub struct Plan<const N: usize> {
     dap: &'static Dap,
-    /// By slot and subslot; those from `len` on are empty.
+    /// Sorted by slot and subslot. Entries from `len` on are empty.
     entries: [Option<Entry>; N],
     len: usize,
 }
 
-/// A submodule in its place, or a module that has none yet.
+/// A plugged submodule, or a module without submodules.
 #[derive(Clone, Copy, Debug)]
 struct Entry {
     slot: u16,
@@ -31,22 +31,22 @@ struct Entry {
     is_fixed: bool,
 }
 
-/// What a controller expects in one subslot.
+/// The expected configuration of a subslot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Expected {
     /// Slot.
     pub slot: u16,
     /// Subslot.
     pub subslot: u16,
-    /// Number of the application process (API).
+    /// Application process identifier (API).
     pub api: u32,
     /// Module ident number.
     pub module_ident: u32,
     /// Submodule ident number.
     pub submodule_ident: u32,
-    /// Length of the inputs in bytes; `None` where there are none.
+    /// Length of the inputs in bytes; `None` if there are no inputs.
     pub input_len: Option<u16>,
-    /// Length of the outputs in bytes; `None` where there are none.
+    /// Length of the outputs in bytes; `None` if there are no outputs.
     pub output_len: Option<u16>,
     /// Length of the provider status (IOPS) in bytes.
     pub provider_len: u8,
@@ -54,39 +54,39 @@ pub struct Expected {
     pub consumer_len: u8,
 }
 
-/// Why something can't be plugged, pulled or replaced.
+/// Reasons why a step of a plan is invalid.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum PlanError {
-    /// The device has no such slot.
+    /// The device doesn't have the slot.
     NoSuchSlot,
-    /// There is a module in the slot already.
+    /// The slot already has a module.
     SlotTaken,
     /// The module in the slot can't be removed.
     FixedModule,
-    /// The device doesn't take this module, or not in this slot.
+    /// The device doesn't support the module, or not in this slot.
     ModuleNotAllowed,
-    /// There is no module in the slot.
+    /// The slot is empty.
     EmptySlot,
-    /// The module has no such subslot.
+    /// The module doesn't have the subslot.
     NoSuchSubslot,
-    /// There is a submodule in the subslot already.
+    /// The subslot already has a submodule.
     SubslotTaken,
     /// The submodule in the subslot can't be removed.
     FixedSubmodule,
-    /// The module doesn't take this submodule, or not in this subslot.
+    /// The module doesn't support the submodule, or not in this subslot.
     SubmoduleNotAllowed,
-    /// The plan has no room for a further submodule: `N` is too small.
+    /// The number of submodules exceeds `N`.
     Full,
-    /// The inputs would be longer than the device can send.
+    /// The inputs exceed the device's maximum length.
     InputsTooLong,
-    /// The outputs would be longer than the device can receive.
+    /// The outputs exceed the device's maximum length.
     OutputsTooLong,
-    /// Inputs and outputs together would be longer than the device can handle.
+    /// Inputs and outputs together exceed the device's maximum length.
     DataTooLong,
-    /// No submodule of the plan has such a record.
+    /// The plan has no such record.
     NoSuchRecord,
-    /// The record has another length.
+    /// The replacement has another length than the record.
     RecordLength,
 }
 
@@ -94,20 +94,20 @@ impl fmt::Display for PlanError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Self::NoSuchSlot => "the device has no such slot",
-            Self::SlotTaken => "there is a module in the slot already",
+            Self::SlotTaken => "the slot already has a module",
             Self::FixedModule => "the module in the slot can't be removed",
             Self::ModuleNotAllowed => "the module isn't allowed in this slot",
-            Self::EmptySlot => "there is no module in the slot",
+            Self::EmptySlot => "the slot is empty",
             Self::NoSuchSubslot => "the module has no such subslot",
-            Self::SubslotTaken => "there is a submodule in the subslot already",
+            Self::SubslotTaken => "the subslot already has a submodule",
             Self::FixedSubmodule => "the submodule in the subslot can't be removed",
             Self::SubmoduleNotAllowed => "the submodule isn't allowed in this subslot",
-            Self::Full => "the plan has no room for a further submodule",
-            Self::InputsTooLong => "the inputs are longer than the device can send",
-            Self::OutputsTooLong => "the outputs are longer than the device can receive",
-            Self::DataTooLong => "inputs and outputs are longer than the device can handle",
-            Self::NoSuchRecord => "no submodule of the plan has such a record",
-            Self::RecordLength => "the record has another length",
+            Self::Full => "too many submodules for the plan",
+            Self::InputsTooLong => "the inputs exceed the device's maximum length",
+            Self::OutputsTooLong => "the outputs exceed the device's maximum length",
+            Self::DataTooLong => "inputs and outputs together exceed the device's maximum length",
+            Self::NoSuchRecord => "the plan has no such record",
+            Self::RecordLength => "the data don't have the length of the record",
         })
     }
 }
@@ -115,11 +115,12 @@ impl fmt::Display for PlanError {
 impl error::Error for PlanError {}
 
 impl<const N: usize> Plan<N> {
-    /// The device access point with what is always in it.
+    /// Creates a plan with the device access point and its fixed modules and submodules.
     ///
     /// # Errors
     ///
-    /// When that is more than `N` submodules, or more data than the device can handle.
+    /// [`PlanError::Full`] if there are more than `N` submodules, or an error for data that exceed the maximum
+    /// length.
     pub fn new(dap: &'static Dap) -> Result<Self, PlanError> {
         let mut plan = Self { dap, entries: [None; N], len: 0 };
         plan.add_module(dap.slot, &dap.module, true)?;
@@ -132,12 +133,11 @@ impl<const N: usize> Plan<N> {
         Ok(plan)
     }
 
-    /// The same with the modules and submodules that are in it unless somebody chooses otherwise (`UsedInSlots` of
-    /// GSDML).
+    /// Creates a plan that also contains the modules and submodules plugged by default (`UsedInSlots` of GSDML).
     ///
     /// # Errors
     ///
-    /// As [`Plan::new`].
+    /// The errors of [`Plan::new`].
     pub fn with_defaults(dap: &'static Dap) -> Result<Self, PlanError> {
         let mut plan = Self::new(dap)?;
         for usage in dap.modules {
@@ -154,12 +154,12 @@ impl<const N: usize> Plan<N> {
         Ok(plan)
     }
 
-    /// Plugs `module` with its own submodules into `slot`.
+    /// Plugs `module` with its fixed submodules into `slot`.
     ///
     /// # Errors
     ///
-    /// When there is no such slot, it is taken, the module isn't allowed there, or there is no room for it. The plan is
-    /// then as it was.
+    /// See [`PlanError`]: the slot doesn't exist or is taken, the module isn't allowed there, or there are too many
+    /// submodules or data. The plan is then unchanged.
     pub fn plug(&mut self, slot: u16, module: &'static Module) -> Result<(), PlanError> {
         if let Some(entry) = self.used().find(|entry| entry.slot == slot) {
             return Err(if self.is_fixed_module(slot, entry.module) {
@@ -179,11 +179,11 @@ impl<const N: usize> Plan<N> {
         added.inspect_err(|_| self.retain(|entry| entry.slot != slot))
     }
 
-    /// Takes the module in `slot` out, with its submodules.
+    /// Removes the module in `slot` and its submodules.
     ///
     /// # Errors
     ///
-    /// When there is none, or it can't be removed.
+    /// [`PlanError::EmptySlot`] or [`PlanError::FixedModule`].
     pub fn unplug(&mut self, slot: u16) -> Result<(), PlanError> {
         let module = self.module(slot).ok_or(PlanError::EmptySlot)?;
         if self.is_fixed_module(slot, module) {
@@ -197,8 +197,8 @@ impl<const N: usize> Plan<N> {
     ///
     /// # Errors
     ///
-    /// When the slot is empty, there is no such subslot, it is taken, the submodule isn't allowed there, or there is no
-    /// room for it. The plan is then as it was.
+    /// See [`PlanError`]: the slot is empty, the subslot doesn't exist or is taken, the submodule isn't allowed
+    /// there, or there are too many submodules or data. The plan is then unchanged.
     pub fn plug_submodule(&mut self, slot: u16, subslot: u16, submodule: &'static Submodule) -> Result<(), PlanError> {
         let module = self.module(slot).ok_or(PlanError::EmptySlot)?;
         if let Some(there) = self.submodules().find(|(entry, _)| entry.slot == slot && entry.subslot == subslot) {
@@ -219,11 +219,11 @@ impl<const N: usize> Plan<N> {
         self.check_lengths().inspect_err(|_| self.remove(slot, subslot))
     }
 
-    /// Takes the submodule in `subslot` of `slot` out.
+    /// Removes the submodule in `subslot` of `slot`.
     ///
     /// # Errors
     ///
-    /// When there is none, or it can't be removed.
+    /// See [`PlanError`]: the subslot is empty, or the submodule can't be removed.
     pub fn unplug_submodule(&mut self, slot: u16, subslot: u16) -> Result<(), PlanError> {
         let at = self.submodules().find(|(entry, _)| entry.slot == slot && entry.subslot == subslot);
         if at.ok_or(PlanError::NoSuchSubslot)?.0.is_fixed {
@@ -233,25 +233,25 @@ impl<const N: usize> Plan<N> {
         Ok(())
     }
 
-    /// The device access point.
+    /// Returns the device access point.
     #[must_use]
     pub const fn dap(&self) -> &'static Dap {
         self.dap
     }
 
-    /// The module in `slot`.
+    /// Returns the module in `slot`.
     #[must_use]
     pub fn module(&self, slot: u16) -> Option<&'static Module> {
         self.used().find(|entry| entry.slot == slot).map(|entry| entry.module)
     }
 
-    /// The submodule in `subslot` of `slot`.
+    /// Returns the submodule in `subslot` of `slot`.
     #[must_use]
     pub fn submodule(&self, slot: u16, subslot: u16) -> Option<&'static Submodule> {
         self.used().find(|entry| entry.slot == slot && entry.subslot == subslot)?.submodule
     }
 
-    /// What a controller expects, by slot and subslot. A slot whose module has no submodule yet isn't there.
+    /// Returns the expected configuration, ordered by slot and subslot. Modules without submodules are left out.
     pub fn expected(&self) -> impl Iterator<Item = Expected> + '_ {
         self.submodules().map(|(entry, submodule)| Expected {
             slot: entry.slot,
@@ -266,10 +266,10 @@ impl<const N: usize> Plan<N> {
         })
     }
 
-    /// Length in bytes of the inputs and of the outputs, provider and consumer status included.
+    /// Returns the lengths of the input frame and of the output frame in bytes.
     ///
-    /// Data stand with their provider status on the one side, and their consumer status on the other. A submodule
-    /// without data counts as one with inputs of no length.
+    /// A frame contains the data of its direction with their provider status, and the consumer status of the other
+    /// direction. A submodule without data counts as having inputs of length 0.
     #[must_use]
     pub fn lengths(&self) -> (u32, u32) {
         self.submodules().fold((0, 0), |(inputs, outputs), (_, submodule)| {
@@ -313,7 +313,7 @@ impl<const N: usize> Plan<N> {
         self.used().filter_map(|entry| Some((entry, entry.submodule?)))
     }
 
-    /// Adds a module with the submodules that are always in it; the slot is empty.
+    /// Adds a module with its fixed submodules to an empty slot.
     fn add_module(&mut self, slot: u16, module: &'static Module, is_fixed: bool) -> Result<(), PlanError> {
         if self.module(slot).is_some() {
             return Ok(());
@@ -341,7 +341,7 @@ impl<const N: usize> Plan<N> {
         Ok(())
     }
 
-    /// Puts an entry in its place by slot and subslot. The first submodule of a module takes the place of the module's.
+    /// Inserts an entry in order. The first submodule of a module replaces the module's own entry.
     fn insert(&mut self, entry: Entry) -> Result<(), PlanError> {
         let is_bare = |other: &&mut Entry| other.slot == entry.slot && other.submodule.is_none();
         if let Some(bare) = self.entries.iter_mut().flatten().find(is_bare) {
@@ -357,7 +357,7 @@ impl<const N: usize> Plan<N> {
         Ok(())
     }
 
-    /// Removes a submodule, and leaves its module even where it was the last one.
+    /// Removes a submodule. After the last one, the module itself remains as an entry.
     fn remove(&mut self, slot: u16, subslot: u16) {
         let of_slot = self.used().filter(|entry| entry.slot == slot).count();
         if of_slot > 1 {

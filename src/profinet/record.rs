@@ -6,39 +6,40 @@ use core::fmt;
 use crate::from::from;
 use crate::value_error::LengthError;
 
-/// A parameter record as a struct of its fields. Implemented by generated code.
+/// A parameter record as a struct. Implemented by generated code.
 pub trait RecordData: Sized {
-    /// The record's index.
+    /// Index of the record.
     const INDEX: u16;
 
-    /// Its length in bytes.
+    /// Length in bytes.
     const LEN: usize;
 
-    /// Its place among the records of its submodule at start-up; 0 = any.
+    /// Position among the start-up records of the submodule; 0 = any.
     const TRANSFER_SEQUENCE: u16;
 
-    /// The fields of a record that was read from the device.
+    /// Decodes a record.
     ///
     /// # Errors
     ///
-    /// When `data` has fewer than [`RecordData::LEN`] bytes.
+    /// [`LengthError`] if `data` has fewer than [`RecordData::LEN`] bytes.
     fn decode(data: &[u8]) -> Result<Self, LengthError>;
 
-    /// Writes the record to the first [`RecordData::LEN`] bytes of `data` and returns these.
+    /// Writes the record to the first [`RecordData::LEN`] bytes of `data` and returns them.
     ///
     /// # Errors
     ///
-    /// When a field has a value that isn't allowed, or `data` has fewer bytes. It is then left as it was.
+    /// [`RecordError::NotAllowed`] if a field has a value that isn't allowed, [`RecordError::Length`] if `data` is
+    /// too short. `data` is then unchanged.
     fn encode_into<'b>(&self, data: &'b mut [u8]) -> Result<&'b [u8], RecordError>;
 }
 
-/// Why a record isn't written.
+/// Reasons why a record can't be encoded.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum RecordError {
     /// A field has a value that isn't allowed.
     NotAllowed(NotAllowed),
-    /// There are too few bytes for the record.
+    /// The buffer is too short.
     Length(LengthError),
 }
 
@@ -58,10 +59,10 @@ from! {
     LengthError => RecordError::Length;
 }
 
-/// A field of a record has a value that the description of the device doesn't allow.
+/// A field of a record has a value that the device description doesn't allow.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct NotAllowed {
-    /// What the description calls the field.
+    /// Name of the field in the device description.
     pub field: &'static str,
 }
 
@@ -73,11 +74,11 @@ impl fmt::Display for NotAllowed {
 
 impl error::Error for NotAllowed {}
 
-/// Checks that `value` lies in one of the `allowed` ranges, whose limits belong to them.
+/// Checks that `value` is in one of the `allowed` ranges, limits included.
 ///
 /// # Errors
 ///
-/// When it doesn't.
+/// [`NotAllowed`] if it isn't.
 pub fn check<T: PartialOrd>(field: &'static str, value: T, allowed: &[(T, T)]) -> Result<(), NotAllowed> {
     if allowed.iter().any(|(first, last)| *first <= value && value <= *last) {
         Ok(())

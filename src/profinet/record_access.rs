@@ -1,4 +1,4 @@
-//! Typed records and items, through a record client.
+//! Typed access to records and items over a record client.
 
 use super::record::RecordData;
 use super::record_client::{AsyncRecordClient, RecordAddress, RecordClient, SubmoduleAddress};
@@ -7,15 +7,15 @@ use crate::client::{AsyncClient, Client};
 use crate::error::Error;
 use crate::value_error::LengthError;
 
-/// Reads and writes records as structs, and items that are parts of records.
+/// Reads and writes records as structs, and items in records.
 ///
-/// `N` is the length of the longest record in bytes, for which it has a buffer.
+/// `N` is the size of the buffer in bytes: at least the length of the longest record.
 ///
 /// ```
 /// use lexibus::profinet::{RecordAccess, RecordClient, RecordData, SubmoduleAddress};
 /// use lexibus::Error;
 ///
-/// /// Any generated record, read, changed and written back.
+/// /// Reads a generated record, changes it and writes it back.
 /// fn change<C: RecordClient, T: RecordData>(client: C, change: impl FnOnce(&mut T)) -> Result<(), Error<C::Error>> {
 ///     let mut records = RecordAccess::<_, 64>::new(client);
 ///     let input = SubmoduleAddress::new(0, 2, 1);
@@ -25,11 +25,11 @@ use crate::value_error::LengthError;
 /// }
 /// ```
 ///
-/// It is a [`Client`] where `C` is a [`RecordClient`], and an [`AsyncClient`] where it is an [`AsyncRecordClient`]. An item is
-/// at most a part of a record: who writes it reads the record first and writes all of it; nobody else should write it meanwhile. A
-/// text is read as far as the caller's buffer goes.
+/// `RecordAccess` is a [`Client`] if `C` is a [`RecordClient`], and an [`AsyncClient`] if `C` is an
+/// [`AsyncRecordClient`]. To write an item, it reads the record and writes the whole record back. No other program
+/// may write the record in between. A text is read up to the length of the caller's buffer.
 ///
-/// What doesn't fit into the buffer doesn't compile:
+/// A record that exceeds the buffer is a compile-time error:
 ///
 /// ```compile_fail,E0080
 /// use lexibus::profinet::{FRecord, RecordAccess, RecordClient, RecordData, SubmoduleAddress};
@@ -60,27 +60,27 @@ pub struct RecordAccess<C, const N: usize> {
 }
 
 impl<C, const N: usize> RecordAccess<C, N> {
-    /// The device that `client` talks to.
+    /// Creates an access to the device that `client` talks to.
     pub const fn new(client: C) -> Self {
         Self { client, buffer: [0; N] }
     }
 
-    /// The client.
+    /// Returns the client.
     pub fn client(&mut self) -> &mut C {
         &mut self.client
     }
 
-    /// Gives the client back.
+    /// Returns the client and drops `self`.
     pub fn into_client(self) -> C {
         self.client
     }
 
-    /// The first `length` bytes of the buffer, which a client says it filled.
+    /// Returns the first `length` bytes of the buffer. `length` is what the client reported.
     fn filled(&self, length: usize) -> Result<&[u8], LengthError> {
         self.buffer.get(..length).ok_or(LengthError::new(N, length))
     }
 
-    /// The value of an item in the record of this length.
+    /// Reads an item from the record of this length in the buffer.
     fn part(&self, length: usize, place: Record, value: &mut [u8]) -> Result<usize, LengthError> {
         let at = usize::from(place.offset);
         let rest = self.filled(length)?.get(at..).unwrap_or_default();
@@ -91,7 +91,7 @@ impl<C, const N: usize> RecordAccess<C, N> {
         Ok(count)
     }
 
-    /// Puts the value of an item into the record of this length.
+    /// Replaces an item in the record of this length in the buffer.
     fn replace(&mut self, length: usize, place: Record, value: &[u8]) -> Result<&[u8], LengthError> {
         self.filled(length)?;
         let at = usize::from(place.offset);
@@ -103,7 +103,7 @@ impl<C, const N: usize> RecordAccess<C, N> {
     }
 }
 
-/// Copies a value between a record and what a client deals in, where a number has its least significant byte first.
+/// Copies a value between a big-endian record and a little-endian client buffer. Byte strings keep their order.
 fn copy(to: &mut [u8], from: &[u8], is_bytes: bool) {
     to.iter_mut().zip(from).for_each(|(to, from)| *to = *from);
     if !is_bytes {
@@ -111,7 +111,7 @@ fn copy(to: &mut [u8], from: &[u8], is_bytes: bool) {
     }
 }
 
-/// Holds at compile time.
+/// A compile-time check of the record length.
 struct Fits<T, const N: usize>(core::marker::PhantomData<T>);
 
 impl<T: RecordData, const N: usize> Fits<T, N> {
@@ -131,7 +131,8 @@ macro_rules! access {
             ///
             /// # Errors
             ///
-            /// Those of [`RecordClient::read_record`], and [`Error::Length`] where the device's record is shorter than `T`.
+            /// The errors of [`RecordClient::read_record`], and [`Error::Length`] if the device's record is shorter
+            /// than `T`.
             pub $($async)? fn $read<T: RecordData>(&mut self, submodule: SubmoduleAddress) -> Result<T, Error<C::Error>> {
                 let () = Fits::<T, N>::CHECKED;
                 let length = self.client.read_record(submodule.record(T::INDEX), &mut self.buffer)$(.$await)??;
@@ -142,8 +143,8 @@ macro_rules! access {
             ///
             /// # Errors
             ///
-            /// [`Error::NotAllowed`] where a field has a value that isn't allowed; nothing was sent then. Else those of
-            /// [`RecordClient::write_record`].
+            /// [`Error::NotAllowed`] if a field has a value that isn't allowed; nothing is sent then. Otherwise the
+            /// errors of [`RecordClient::write_record`].
             pub $($async)? fn $write<T: RecordData>(
                 &mut self,
                 submodule: SubmoduleAddress,

@@ -1,12 +1,12 @@
-//! What carries records: implemented by adapters to controller libraries.
+//! Record clients, implemented by adapters to controller libraries.
 
 use super::plan::{Plan, RecordWrite};
 use crate::error::Error;
 
-/// Where a submodule is.
+/// Address of a submodule.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct SubmoduleAddress {
-    /// Number of the application process (API).
+    /// Application process identifier (API).
     pub api: u32,
     /// Slot.
     pub slot: u16,
@@ -15,34 +15,34 @@ pub struct SubmoduleAddress {
 }
 
 impl SubmoduleAddress {
-    /// The submodule in `subslot` of `slot`.
+    /// Creates the address of the submodule in `subslot` of `slot`.
     #[must_use]
     pub const fn new(api: u32, slot: u16, subslot: u16) -> Self {
         Self { api, slot, subslot }
     }
 
-    /// The record `index` of the submodule.
+    /// Returns the address of the submodule's record `index`.
     #[must_use]
     pub const fn record(self, index: u16) -> RecordAddress {
         RecordAddress { api: self.api, slot: self.slot, subslot: self.subslot, index }
     }
 }
 
-/// Where a record is.
+/// Address of a record.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct RecordAddress {
-    /// Number of the application process (API).
+    /// Application process identifier (API).
     pub api: u32,
     /// Slot.
     pub slot: u16,
     /// Subslot.
     pub subslot: u16,
-    /// The record's index.
+    /// Index of the record.
     pub index: u16,
 }
 
 impl RecordWrite<'_> {
-    /// Where the record is.
+    /// Returns the address of the record.
     #[must_use]
     pub const fn address(&self) -> RecordAddress {
         RecordAddress { api: self.api, slot: self.slot, subslot: self.subslot, index: self.index }
@@ -50,17 +50,17 @@ impl RecordWrite<'_> {
 }
 
 impl<const N: usize> Plan<N> {
-    /// The address of the submodule in `subslot` of `slot`; `None` where there is none.
+    /// Returns the address of the submodule in `subslot` of `slot`; `None` if the subslot is empty.
     #[must_use]
     pub fn address(&self, slot: u16, subslot: u16) -> Option<SubmoduleAddress> {
         self.submodule(slot, subslot).map(|submodule| SubmoduleAddress::new(submodule.api, slot, subslot))
     }
 }
 
-/// Reads and writes the records of one device, waiting for each answer.
+/// A client that reads and writes records of one device and blocks until the response.
 ///
-/// What stands on it: [`RecordAccess`](super::RecordAccess) for typed records,
-/// [`ParameterAccess`](super::parameter_access::ParameterAccess) for the parameters of PROFIdrive.
+/// [`RecordAccess`](super::RecordAccess) uses it for typed records,
+/// [`ParameterAccess`](super::parameter_access::ParameterAccess) for PROFIdrive parameters.
 ///
 /// ```
 /// use std::collections::HashMap;
@@ -68,7 +68,7 @@ impl<const N: usize> Plan<N> {
 /// use lexibus::profinet::{PnioStatus, RecordAccess, RecordAddress, RecordClient, SubmoduleAddress};
 /// use lexibus::{Error, LengthError};
 ///
-/// /// A device in memory.
+/// /// A simulated device.
 /// struct Memory(HashMap<RecordAddress, Vec<u8>>);
 ///
 /// impl RecordClient for Memory {
@@ -95,40 +95,39 @@ impl<const N: usize> Plan<N> {
 /// # Ok::<(), Error<PnioStatus>>(())
 /// ```
 pub trait RecordClient {
-    /// What can go wrong on the bus, the status with which the device refuses included ([`PnioStatus`](super::PnioStatus)).
+    /// Communication error of the client, including refusals of the device ([`PnioStatus`](super::PnioStatus)).
     type Error;
 
-    /// Reads the record at `address` to the start of `buffer` and returns its length in bytes.
+    /// Reads the record at `address` into `buffer` and returns the length of the record in bytes.
     ///
-    /// Where the record is longer than `buffer`, return its length (what is in the buffer then doesn't matter) or an
-    /// error.
+    /// If the record is longer than `buffer`, implementations return its length or an error. The content of `buffer`
+    /// is then unspecified.
     ///
     /// # Errors
     ///
-    /// [`Error::Client`] where the bus fails or the device refuses, [`Error::Length`] where the record is too long.
+    /// [`Error::Client`] if the bus fails or the device refuses, [`Error::Length`] if the record is too long.
     fn read_record(&mut self, address: RecordAddress, buffer: &mut [u8]) -> Result<usize, Error<Self::Error>>;
 
-    /// Writes `data` as the record at `address`.
+    /// Writes `data` to the record at `address`.
     ///
     /// # Errors
     ///
-    /// The same as of [`read_record`](Self::read_record).
+    /// The errors of [`read_record`](Self::read_record).
     fn write_record(&mut self, address: RecordAddress, data: &[u8]) -> Result<(), Error<Self::Error>>;
 
-    /// Whether an error of [`read_record`](Self::read_record) says that the answer isn't there yet
-    /// ([`PnioStatus::is_busy`](super::PnioStatus::is_busy)), so that reading again will help. Nothing does, unless said
-    /// otherwise.
+    /// Returns whether an error of [`read_record`](Self::read_record) means that the response isn't available yet
+    /// ([`PnioStatus::is_busy`](super::PnioStatus::is_busy)). Returns false by default.
     fn is_busy(&self, error: &Self::Error) -> bool {
         let _ = error;
         false
     }
 
-    /// Called before a record is read again that wasn't there yet: the place to sleep for some milliseconds. Returns at
-    /// once, unless said otherwise.
+    /// Called before another attempt to read a record. Implementations may sleep for some milliseconds; the default
+    /// returns immediately.
     fn pause(&mut self) {}
 }
 
-/// Reads and writes the records of one device without blocking. The same rules as for [`RecordClient`].
+/// An asynchronous client that reads and writes records of one device. The counterpart of [`RecordClient`].
 ///
 /// ```
 /// use lexibus::profinet::{AsyncRecordClient, PnioStatus, RecordAddress};
@@ -151,30 +150,30 @@ pub trait RecordClient {
 /// ```
 #[allow(async_fn_in_trait)]
 pub trait AsyncRecordClient {
-    /// What can go wrong on the bus, the status with which the device refuses included.
+    /// Communication error of the client, including refusals of the device.
     type Error;
 
     /// Reads the record at `address`, as [`RecordClient::read_record`] does.
     ///
     /// # Errors
     ///
-    /// The same as of [`RecordClient::read_record`].
+    /// The errors of [`RecordClient::read_record`].
     async fn read_record(&mut self, address: RecordAddress, buffer: &mut [u8]) -> Result<usize, Error<Self::Error>>;
 
-    /// Writes `data` as the record at `address`.
+    /// Writes `data` to the record at `address`.
     ///
     /// # Errors
     ///
-    /// The same as of [`RecordClient::read_record`].
+    /// The errors of [`RecordClient::read_record`].
     async fn write_record(&mut self, address: RecordAddress, data: &[u8]) -> Result<(), Error<Self::Error>>;
 
-    /// Whether an error says that the answer isn't there yet, as [`RecordClient::is_busy`] does.
+    /// Returns whether an error means that the response isn't available yet, as [`RecordClient::is_busy`] does.
     fn is_busy(&self, error: &Self::Error) -> bool {
         let _ = error;
         false
     }
 
-    /// Called before a record is read again that wasn't there yet, as [`RecordClient::pause`] is.
+    /// Called before another attempt to read a record, as [`RecordClient::pause`] is.
     async fn pause(&mut self) {}
 }
 

@@ -1,13 +1,13 @@
-//! Why a device refused a record.
+//! Status of a refused record access.
 
 use core::error;
 use core::fmt;
 
-/// The PNIO status of a record that wasn't read or written (IEC 61158-6-10): error code, error decode, error code 1 and error
-/// code 2, the first in the uppermost byte.
+/// The PNIO status of a failed record access (IEC 61158-6-10): error code, error decode, error code 1 and error code
+/// 2, from the most significant byte down.
 ///
-/// Controller libraries hand it out as one number of 32 bits, or as four bytes. A [`RecordClient`](super::RecordClient) may
-/// have it as its error, or in it.
+/// Controller libraries return it as a 32-bit number or as four bytes. A [`RecordClient`](super::RecordClient) may
+/// use it as its error type or as a part of it.
 ///
 /// ```
 /// use lexibus::profinet::PnioStatus;
@@ -20,38 +20,39 @@ use core::fmt;
 pub struct PnioStatus(pub u32);
 
 impl PnioStatus {
-    /// What was asked for: 0xDE to read a record, 0xDF to write one.
+    /// Returns the error code, which identifies the service: 0xDE for a record read, 0xDF for a record write.
     #[must_use]
     pub const fn error_code(self) -> u8 {
         self.0.to_be_bytes()[0]
     }
 
-    /// What the rest is about: 0x80 to read or write a record, 0x81 all other services.
+    /// Returns the error decode, which defines the meaning of the error codes: 0x80 for record access, 0x81 for other
+    /// services.
     #[must_use]
     pub const fn error_decode(self) -> u8 {
         self.0.to_be_bytes()[1]
     }
 
-    /// The reason.
+    /// Returns error code 1, the reason.
     #[must_use]
     pub const fn error_code_1(self) -> u8 {
         self.0.to_be_bytes()[2]
     }
 
-    /// More about the reason, where the device says more.
+    /// Returns error code 2, a detail of the reason.
     #[must_use]
     pub const fn error_code_2(self) -> u8 {
         self.0.to_be_bytes()[3]
     }
 
-    /// Whether the device says that it can't answer yet: it is busy, a resource of it is, or the state isn't the right one, which
-    /// is what a drive says whose answer to a parameter request isn't there yet.
+    /// Returns whether the device can't answer yet: it is busy, a resource is busy, or there is a state conflict.
+    /// Drives report a state conflict while the response to a parameter request isn't available.
     #[must_use]
     pub const fn is_busy(self) -> bool {
         self.error_decode() == 0x80 && matches!(self.error_code_1(), 0xA7 | 0xB5 | 0xC2)
     }
 
-    /// What the reason means, as far as it has a meaning for every device.
+    /// Returns the meaning of error code 1, if it is the same for all devices.
     #[must_use]
     pub const fn text(self) -> Option<&'static str> {
         if self.error_decode() != 0x80 {

@@ -1,10 +1,11 @@
-//! Code that must not compile, and what rustc says about it.
+//! Code that must not compile, and the error messages of rustc.
 //!
-//! The messages are those of one rustc version. After a change of it, run with `TRYBUILD=overwrite` and review the difference.
+//! The messages depend on the version of rustc. After an update, run with `TRYBUILD=overwrite` and review the
+//! changes.
 
 use std::process::Command;
 
-/// The compiler whose messages `cases` has.
+/// The version of rustc for the messages in `cases`.
 const COMPILER: &str = "rustc 1.95.";
 
 #[test]

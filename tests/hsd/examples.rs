@@ -1,4 +1,4 @@
-//! The worked examples of the manual, through the bindings. The lines are those of the manual's text.
+//! The worked examples of the manual. Comments name its sections.
 
 use lexibus::codes::CodeTable;
 use lexibus::message::{Message, Reader, Reply, Writer};
@@ -7,7 +7,7 @@ use lexibus_drives::hsd::machine::Machine;
 use lexibus_drives::hsd::messages::*;
 use lexibus_drives::hsd::{codes, models, objects, types};
 
-/// The machine of the examples; those of positioning have 500 counts a turn.
+/// The machine of the examples. The examples for positioning have 500 counts per turn.
 const MACHINE: Machine = Machine { screw_pitch: 0.32, counts_per_turn: 800.0 };
 
 fn sent(message: &impl Message) -> Vec<u8> {
@@ -17,31 +17,31 @@ fn sent(message: &impl Message) -> Vec<u8> {
     to.written().to_vec()
 }
 
-/// What the null request is answered in L665 and L676.
+/// The reply to the null request in section 3.11, examples 1 and 2.
 const ANSWER: [u8; 6] = [0x01, 0x02, 0x10, 0xAB, 0x09, 0xC1];
 
 #[test]
 fn positions() {
-    // L359-369. The text has 6766.8176 mm, the formula 6780.8465 mm, which gives the printed bytes.
+    // Section 3.6. The text has 6766.8176 mm, the formula 6780.8465 mm; the printed bytes follow from the formula.
     let position = MACHINE.mm_to_count(6780.8465) as i32;
     assert_eq!((position, sent(&CmdMazz { position })), (16_952_116, vec![1, 0x01, 0xAB, 0x34, 0x01, 0x02]));
-    // L544-550, L605-615: 1798046 counts; Q3 is printed as 0x01 with the value, which is 0x001B6F9E.
+    // Sections 3.9 and 3.10: 1798046 counts. The manual prints 0x01 for Q3, but the value is 0x001B6F9E.
     let machine = Machine { counts_per_turn: 500.0, ..MACHINE };
     let target = machine.mm_to_count(1150.75) as i32;
     assert_eq!((target, sent(&CmdTraj { target })), (1_798_046, vec![1, 0x02, 0x6F, 0x9E, 0x00, 0x1B]));
-    // L572-584, L605-623: the same target, and 468.75 rpm, truncated.
+    // Section 3.10: the same target, and 468.75 rpm truncated.
     let speed = machine.mm_per_min_to_rpm(150.0) as u16;
     let data = sent(&CmdTrajVel { target, speed });
     assert_eq!((speed, data), (0x01D4, vec![1, 0x00, 0xC8, 0x00, 0x6F, 0x9E, 0x00, 0x1B, 0x01, 0xD4]));
-    // L662-672: the theoretical position.
+    // Section 3.11, example 1: theoretical position.
     let poll = sent(&PollTheoreticalPosition);
     let reply = PollTheoreticalPositionReply::read(&poll, &mut Reader::new(&ANSWER)).expect("a reply");
     assert_eq!(reply.theoretical_position, 163_647_659);
     assert!((MACHINE.count_to_mm(reply.theoretical_position.into()) - 65_459.063_6).abs() < 1e-4);
 }
 
-/// L531-532, L592-593: from 1000 on, targets may be -67107863 to 67109863. Only the motor knows where it is: both messages carry any
-/// target, and what the motor says of one that is too far has its name.
+/// Sections 3.9 and 3.10: from position 1000, targets from -67107863 to 67109863 are allowed. Only the motor knows
+/// its position, so both messages accept any target. The alarm for a target out of range has a name.
 #[test]
 fn the_limit_of_a_way_is_the_motors() {
     let ends = [1000 - 0x03FF_FFFF, 1000 + 0x03FF_FFFF];
@@ -64,7 +64,7 @@ fn the_limit_of_a_way_is_the_motors() {
 
 #[test]
 fn acceleration_in_steps() {
-    // L1949: 430 mm/s² are 1343.75 turns/s², of which the steps of 78.125 leave 17, 425 mm/s².
+    // "Quantizzazione SM137": 430 mm/s² are 1343.75 turns/s². That is 17 steps of 78.125, which are 425 mm/s².
     let wanted = MACHINE.mm_per_s2_to_rev_per_s2(430.0);
     let steps = (wanted / 78.125).trunc();
     assert!((wanted - 1343.75).abs() < 1e-9);
@@ -74,14 +74,14 @@ fn acceleration_in_steps() {
 
 #[test]
 fn speeds() {
-    // L496-502: -185 mm/min (the text lacks the sign) are -578.125 rpm, truncated.
+    // Section 3.8: -185 mm/min are -578.125 rpm, truncated. The text lacks the sign.
     let speed = MACHINE.mm_per_min_to_rpm(-185.0) as i16;
     assert_eq!((speed, sent(&CmdJogN { speed })), (-578, vec![1, 0x08, 0xE0, 0x00, 0xFD, 0xBE]));
-    // L1425-1433: the same as a fraction of 8000 rpm.
+    // Section 5.3: the same speed as a fraction of 8000 rpm.
     let base = models::sm137_rev_c::SPEED_BASE;
     let speed = CmdJog::SPEED.raw_by(MACHINE.mm_per_min_to_rpm(-185.0), base).expect("within the base");
     assert_eq!((speed, sent(&CmdJog { speed })), (-2368, vec![1, 0x08, 0x40, 0x00, 0xF6, 0xC0]));
-    // L672-682: both speeds, in mm/min.
+    // Section 3.11, example 2: both speeds in mm/min.
     let poll = sent(&PollSpeeds);
     let reply = PollSpeedsReply::read(&poll, &mut Reader::new(&ANSWER)).expect("a reply");
     let mm_per_min = |rpm| MACHINE.rpm_to_mm_per_min(rpm);
@@ -92,16 +92,16 @@ fn speeds() {
 
 #[test]
 fn override_version_and_status() {
-    // L732: 90 % is 0x005A.
+    // Section 4.2: 90 % is 0x005A.
     assert_eq!(sent(&CmdSetOverr { r#override: 90 }), [1, 0x08, 0xD0, 0x00, 0x00, 0x5A]);
-    // L1185: 0x0067 is version 103.
+    // Section 4.16: 0x0067 is version 103.
     let request = sent(&CmdGetVer);
     let reply = CmdGetVerReply::read(&request, &mut Reader::new(&[1, 0x02, 0x80, 0x00, 0x00, 0x67]));
     assert_eq!(reply.map(|reply| reply.version), Some(103));
     assert!(reply.is_some_and(|reply| reply.status == types::BitStato::new().with_command_complete(true)));
 }
 
-/// A motor whose parameters all have the value that was written last.
+/// A motor that returns the last written value for all parameters.
 struct Last(Vec<u8>);
 
 impl Client for Last {
@@ -121,10 +121,10 @@ impl Client for Last {
 
 #[test]
 fn fractions() {
-    // L1705-1708: 200 of 32768 of 8000 rpm are 48.8 rpm.
+    // Section 6.1.2, step 1: 200 / 32768 of 8000 rpm is 48.8 rpm.
     let rpm = objects::RESERVED1.physical_by(200, models::sm137_rev_b::SPEED_BASE);
     assert!((rpm - 48.8).abs() < 0.05, "{rpm}");
-    // L1880: 5 A are 14482 of the base of 11.313 A (11.3137 A in L1938).
+    // Appendix A, notation Q15: 5 A are 14482 for the current base of 11.313 A. The table of bases has 11.3137 A.
     let mut client = Last(Vec::new());
     let base = models::sm137_rev_b::CURRENT_BASE;
     objects::MAXTORQUE.at(&mut client).write_scaled_by(5.0, base).expect("within the base");
@@ -134,11 +134,11 @@ fn fractions() {
 
 #[test]
 fn mantissa_and_exponent() {
-    // L1792-1795: 20480 and 3, as the gain of the position controller is delivered, are 5.
+    // Appendix A: the default gain of the position controller, 20480 and 3, is 5.
     assert_eq!(objects::KPOSPIMANT.physical_by(20_480, 3.0), 5.0);
     assert_eq!(objects::KPOSPIMANT.mantissa_and_exponent(5.0, 0..=6), Ok((20_480, 3)));
     assert_eq!(objects::KPOSPIMANT.mantissa_and_exponent(64.0, 0..=6), Err(OutOfRange));
-    // L1892-1896: 15.5 in two ways.
+    // Appendix A, notation ME15: two representations of 15.5.
     assert_eq!(
         [(31_744, 4.0), (15_872, 5.0)].map(|(own, power)| objects::KVELPIMANT.physical_by(own, power)),
         [15.5; 2]
@@ -152,7 +152,7 @@ fn mantissa_and_exponent() {
 
 #[test]
 fn gains_of_a_controller() {
-    // L1919-1929: Kp 0.5, Ki 0.08, 15 %. The other two controllers have the same notation.
+    // Appendix A, gains of PI controllers: Kp 0.5, Ki 0.08, 15 %. The other two controllers use the same notation.
     let (sum, correction) = (0.5 + 0.08, 0.08 / (0.5 + 0.08));
     for mantissa in [objects::KIQDPIMANT, objects::KVELPIMANT, objects::KPOSPIMANT] {
         assert_eq!(mantissa.mantissa_and_exponent(sum, 0..=6), Ok((19_005, 0)), "{}", mantissa.name());

@@ -1,4 +1,4 @@
-//! A real serial client talks to a simulated motor over a pseudo-terminal.
+//! A serial client and a simulated motor on a pseudo-terminal.
 
 use std::io::{Read, Write};
 use std::thread;
@@ -17,7 +17,7 @@ use super::motor::Motor;
 
 type Line = SerialLine<FromStd<TTYPort>, lexibus::framing::Delimited, 140>;
 
-/// Answers until the other end is closed. In front of each answer the line has some noise.
+/// Answers requests until the other end is closed. Noise precedes each reply.
 fn serve(mut port: TTYPort) {
     let (mut motor, mut decoder, mut data) = (Motor::default(), FRAMING.decoder(), [0; MAX_DATA]);
     let mut byte = [0];
@@ -34,7 +34,7 @@ fn serve(mut port: TTYPort) {
     }
 }
 
-/// A line to a motor, which waits so long for what comes.
+/// Connects a motor to a serial line whose client has the timeout `patience`.
 fn served(patience: Duration) -> TTYPort {
     let (mut near, mut far) = TTYPort::pair().expect("a pseudo-terminal");
     near.set_timeout(patience).expect("a time limit");
@@ -48,7 +48,7 @@ fn motor(node: u32) -> HsdMotor<Parameters<Line, Protocol, MAX_DATA>> {
     HsdMotor::on(SerialLine::new(FromStd::new(near), messages::FRAMING), node)
 }
 
-/// The sample of docs/src/serial.md, line by line.
+/// The sample in docs/src/serial.md. The test compares the text of this function with it.
 #[test]
 fn the_sample_of_the_documentation() -> Result<(), Box<dyn std::error::Error>> {
     let port = served(Duration::from_secs(5));
@@ -99,7 +99,7 @@ fn parameters_one_by_one_and_together() {
 fn refusals_and_silence() {
     let mut refusing = motor(5);
     assert!(matches!(refusing.cmd_reg().send(), Err(Failure::Refused(CmdNack { node: 5, .. }))));
-    // Nobody has this number.
+    // No motor has this number.
     let reply = motor(6).cmd_get_ver().send().map(|reply| reply.version);
     assert!(matches!(reply, Err(Failure::Error(Error::Client(_)))), "{reply:?}");
 }

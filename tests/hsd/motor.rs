@@ -1,4 +1,4 @@
-//! A simulated motor: what it does with the requests that the tests send.
+//! A simulated motor that answers the requests of the tests.
 
 use std::collections::BTreeMap;
 
@@ -7,7 +7,7 @@ use lexibus::Parameter;
 use lexibus_drives::hsd::messages::*;
 use lexibus_drives::hsd::types::{BitStato, State};
 
-/// A motor that reaches a target at the second poll.
+/// A motor that reaches its target at the second poll.
 #[derive(Default)]
 pub struct Motor {
     parameters: BTreeMap<u32, Setting>,
@@ -17,7 +17,7 @@ pub struct Motor {
     polls: u32,
 }
 
-/// What the null request is answered with.
+/// The content of the reply to the null request.
 #[derive(Clone, Copy, Default, PartialEq)]
 enum Selected {
     #[default]
@@ -30,7 +30,7 @@ impl Motor {
         BitStato::new().with_command_complete(self.position == self.target)
     }
 
-    /// Carries out a request to node 5 and writes the reply; nothing to another one, or to what is no request.
+    /// Executes a request to node 5 and writes the reply. Writes nothing for other nodes or invalid requests.
     pub fn answer(&mut self, request: &[u8], to: &mut Writer<'_>) -> Result<(), WriteError> {
         let Some((5, own)) = Request::parse(request) else { return Ok(()) };
         match own {

@@ -1,4 +1,4 @@
-//! Every request and reply from its type to its frame and back, whole and damaged.
+//! Encoding and decoding of all requests and replies, intact and damaged.
 
 use std::collections::BTreeSet;
 use std::convert::Infallible;
@@ -19,7 +19,7 @@ use super::{found, found_in_pieces, framed};
 
 const NODE: u32 = 5;
 
-/// The data of a request.
+/// Returns the data of a request.
 fn sent(message: &impl Message) -> Vec<u8> {
     let mut data = [0; MAX_DATA];
     let mut to = Writer::new(&mut data);
@@ -34,7 +34,8 @@ fn answered<'r>(reply: &impl Reply<'r>, request: &[u8]) -> Vec<u8> {
     to.written().to_vec()
 }
 
-/// Holds a packet against itself: as bytes and back, in two pieces, after noise, and with what has to be escaped anywhere in it.
+/// Checks that a packet can be decoded: in two pieces, after noise, and with bytes that need an escape at any
+/// position.
 fn framing_holds(data: &[u8]) {
     let frame = framed(data);
     let whole = [Ok(data.to_vec())];
@@ -42,7 +43,7 @@ fn framing_holds(data: &[u8]) {
         let (first, second) = frame.split_at(at);
         assert_eq!(found_in_pieces(&[first, second]), whole, "broken at {at}");
         assert_eq!(answer_in_pieces(first, second), data, "broken at {at}");
-        // The end of the packet before, of which nobody saw the start.
+        // The rest of a previous packet whose start is missing.
         assert_eq!(found(&[second, &frame].concat()).last(), Some(&Ok(data.to_vec())), "from {at} on");
     }
     for (place, special) in (0..data.len()).flat_map(|place| SPECIAL.map(|special| (place, special))) {
@@ -52,10 +53,10 @@ fn framing_holds(data: &[u8]) {
     }
 }
 
-/// What is escaped, and what it becomes.
+/// Escaped bytes and their replacements.
 const SPECIAL: [u8; 6] = [0x02, 0x03, 0x1B, 0xFD, 0xFC, 0xE4];
 
-/// A line that has the answer in two pieces, with a wait between them.
+/// A line that receives the reply in two pieces, with a wait in between.
 struct Pieces<'a> {
     now: &'a [u8],
     later: Option<&'a [u8]>,
@@ -92,14 +93,14 @@ impl embedded_io_async::Write for Pieces<'_> {
     }
 }
 
-/// Nobody has to be woken: both polls are the test's.
+/// Does nothing: the test itself polls twice.
 struct Silent;
 
 impl Wake for Silent {
     fn wake(self: Arc<Self>) {}
 }
 
-/// What a client gets that has to wait between two pieces of the answer.
+/// Returns the reply that a client receives in two pieces.
 fn answer_in_pieces(first: &[u8], second: &[u8]) -> Vec<u8> {
     let pieces = Pieces { now: first, later: Some(second) };
     let mut line = SerialLine::<_, _, 140>::new(pieces, FRAMING);
@@ -117,7 +118,7 @@ fn answer_in_pieces(first: &[u8], second: &[u8]) -> Vec<u8> {
     reply[..length].to_vec()
 }
 
-/// One bit is wrong: the packet is lost or found as it was, never as another one, and the next one is found.
+/// Checks all single-bit errors: the packet is lost or unchanged, never another one, and the next packet is decoded.
 fn damage_is_found(data: &[u8]) {
     let (frame, next) = (framed(data), framed(&[9, 8, 0]));
     for bit in 0..8 * frame.len() {
@@ -130,8 +131,8 @@ fn damage_is_found(data: &[u8]) {
     }
 }
 
-/// A request and its reply go there and come back, whole and damaged. `length` is that of the reply's packet as the manual
-/// counts it: with start, check and end, without escapes. Returns the name.
+/// Encodes and decodes a request and its reply, intact and damaged, and returns the name of the request. `length` is
+/// the packet length of the reply in the manual: with start, checksum and end, without escapes.
 fn exchanged<'r, M, R>(request: M, reply: R, length: usize) -> &'static str
 where
     M: for<'q> Received<'q> + Debug + PartialEq,
@@ -159,7 +160,7 @@ fn setting(parameter: u32, value: &[u8]) -> Setting {
     Setting::of(Parameter(parameter), value).expect("eight bytes at most")
 }
 
-/// The 36 named requests, and the null one in its four meanings.
+/// The 36 named requests, and the null request with its four meanings.
 #[test]
 #[rustfmt::skip]
 fn every_packet_goes_there_and_comes_back() {
@@ -203,7 +204,7 @@ fn every_packet_goes_there_and_comes_back() {
     seen.insert(exchanged(CmdJog { speed: -2368 }, CmdJogReply { status: done() }, 9));
     seen.insert(exchanged(CmdAzzElWait { method: 0 }, CmdAzzElWaitReply { status: done() }, 9));
     seen.insert(exchanged(CmdSample { variable_1: 1, variable_2: 4 }, CmdSampleReply { status: done() }, 9));
-    // What borrows from the packet.
+    // Messages that borrow from the packet.
     let settings = [setting(0x0105, &[150, 0]), setting(0x011C, &[1, 2, 3, 0x1B])];
     let request = CmdChgParN { settings: Settings::sent(&settings, PARAMETER) };
     let data = sent(&request);
@@ -225,7 +226,7 @@ fn every_packet_goes_there_and_comes_back() {
     assert_eq!(seen.len(), 36 + 4, "{seen:?}");
 }
 
-/// The refusal comes instead of each reply but those of the null request, and isn't taken for one.
+/// A refusal can replace every reply except those to the null request. It isn't decoded as such a reply.
 #[test]
 fn refusals() {
     let jog = sent(&CmdJogN { speed: -578 });
@@ -235,7 +236,7 @@ fn refusals() {
     framing_holds(&data);
     assert_eq!(CmdNack::read(&jog, &mut Reader::new(&data)), Some(refusal));
     assert_eq!(CmdJogNReply::read(&jog, &mut Reader::new(&data)), None);
-    // A position that begins so is no refusal: the null request can't be refused.
+    // A position with the same byte isn't a refusal: a motor can't refuse the null request.
     let poll = sent(&PollPosition);
     let position = PollPositionReply { status: done(), real_position: 0x0000_B000 };
     let data = answered(&position, &poll);
@@ -245,7 +246,7 @@ fn refusals() {
     never(PollSpeeds);
 }
 
-/// Escapes at every position of a packet of every length.
+/// Packets of all lengths with a byte to escape at every position.
 #[test]
 fn special_bytes_anywhere() {
     for length in 1..=MAX_DATA {
@@ -260,7 +261,7 @@ fn special_bytes_anywhere() {
     }
 }
 
-/// 68 bytes of data (L185) have room for 16 parameters of 16 bits, 10 of 32 bits, and 15 samples.
+/// 68 bytes of data (section 2.3) hold 16 parameters of 16 bits, 10 parameters of 32 bits, or 15 samples.
 #[test]
 fn the_longest_packets() {
     let (short, long) = (setting(0x0105, &[2, 3]), setting(0x011C, &[0x1B, 2, 3, 0x1B]));
@@ -290,12 +291,12 @@ fn the_longest_packets() {
     let reply = CmdGetSampReply { status: done(), entries: List::from(&entries) };
     let refused = reply.write(&request, &mut Writer::new(&mut [0; 2 * MAX_DATA]));
     assert_eq!(refused, Err(too_many));
-    // Nothing but bytes that are escaped: twice the data and the check, begin and end.
+    // Only escaped bytes: twice the data and checksum, plus start and end.
     assert_eq!(framed(&[0x1B; MAX_DATA]).len(), 1 + 2 * MAX_DATA + 1 + 1);
     assert_eq!(framed(&[[0x1B; MAX_DATA - 1].as_slice(), &[0xFF]].concat()).len(), 139);
 }
 
-/// Frames as they follow from the rules of L156 to L185; the manual prints none with its check.
+/// Frames according to sections 2.1 to 2.3. The manual prints none with its checksum.
 #[test]
 fn frames_on_the_wire() {
     fn holds(data: &[u8], frame: &[u8]) {

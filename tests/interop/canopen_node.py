@@ -1,7 +1,7 @@
-"""A node of the library `canopen`, made of an EDS: python canopen_node.py TTY EDS NODE-ID.
+"""A node of the library `canopen` with an EDS: python canopen_node.py TTY EDS NODE-ID.
 
-It is on the CAN bus that python-can's `slcan` interface speaks to over a serial line. What the test tells it to set and asks
-it for (talk.py) goes through the encoders and decoders of the library, never through code of the test.
+The CAN bus is a serial line with python-can's `slcan` interface. The library's own encoders and decoders convert the values of the
+test's commands (talk.py).
 """
 
 import logging
@@ -38,7 +38,7 @@ STATUSWORD = 0x6041
 
 
 def to_json(variable, value):
-    """A value as the library decoded it. The library leaves times and byte strings as bytes."""
+    """Converts a value of the library to JSON. The library doesn't decode times and byte strings."""
     if variable.data_type == datatypes.TIME_OF_DAY:
         milliseconds, days = timestamp.TIME_OF_DAY_STRUCT.unpack(value)
         return (EPOCH + timedelta(days=days, milliseconds=milliseconds)).isoformat(timespec="milliseconds")
@@ -49,7 +49,7 @@ def to_json(variable, value):
 
 
 def from_json(variable, value):
-    """The opposite."""
+    """Converts a value from JSON."""
     if variable.data_type == datatypes.TIME_OF_DAY:
         value = datetime.fromisoformat(value) - EPOCH
     elif variable.data_type == datatypes.TIME_DIFFERENCE:
@@ -63,7 +63,7 @@ def from_json(variable, value):
 
 
 class Node:
-    """The node, and what the test may have it do."""
+    """The node and the commands of the test."""
 
     def __init__(self, tty, eds, node_id):
         self.network = canopen.Network()
@@ -77,10 +77,10 @@ class Node:
         self.node.nmt.state = "INITIALISING"
         self.node.nmt.state = "PRE-OPERATIONAL"
 
-    # What the library leaves to the device: these refuse as CiA 301 wants it.
+    # Checks that the library leaves to the device. They refuse writes according to CiA 301.
 
     def check_limits(self, od, data, **_):
-        """Limits of the EDS, as the library read them. It reads those of integers of 8, 16, 32 and 64 bits."""
+        """Checks limits. The library reads those of 8, 16, 32 and 64-bit integers from the EDS."""
         if od.data_type not in NUMBER_TYPES:
             return
         value = od.decode_raw(data)
@@ -90,7 +90,7 @@ class Node:
             raise SdoAbortedError(TOO_LOW)
 
     def check_pdo(self, index, subindex, od, data, **_):
-        """The order in which a PDO is mapped (CiA 301 7.5.2.36): disable, clear, map, count, enable."""
+        """Checks the order of PDO configuration (CiA 301 7.5.2.36): disable, clear, map, count, enable."""
         is_communication = 0x1400 <= index < 0x1600 or 0x1800 <= index < 0x1A00
         is_mapping = 0x1600 <= index < 0x1800 or 0x1A00 <= index < 0x1C00
         if is_communication and subindex == 1:
@@ -118,7 +118,7 @@ class Node:
             raise SdoAbortedError(PDO_LENGTH)
 
     def control(self, index, od, data, **_):
-        """The state machine of a drive, by the library's tables of it."""
+        """Executes the state machine of a drive, using the library's tables."""
         if index != CONTROLWORD:
             return
         command = od.decode_raw(data) & 0x8F
@@ -140,23 +140,23 @@ class Node:
             raise SdoAbortedError(NO_OBJECT) from None
 
     def number(self, index, subindex):
-        """What the node holds there, as a number."""
+        """Returns the value of an object as a number."""
         return self.variable(index, subindex).decode_raw(self.node.get_data(index, subindex))
 
     # Commands.
 
     def get(self, index, sub=0):
-        """What the node holds at an object."""
+        """Returns the value of an object."""
         variable = self.variable(index, sub)
         return to_json(variable, variable.decode_raw(self.node.get_data(index, sub)))
 
     def set(self, index, value, sub=0):
-        """Has the node hold a value at an object, whatever a bus may do."""
+        """Sets the value of an object, regardless of its access rights."""
         variable = self.variable(index, sub)
         self.node.set_data(index, sub, variable.encode_raw(from_json(variable, value)))
 
     def drive(self, state):
-        """Has the drive be in a state; the other bits of the Statusword are set."""
+        """Sets the state of the drive. All other bits of the statusword become 1."""
         mask, value = State402.SW_MASK[state]
         self.set(STATUSWORD, 0xFFFF & ~mask | value)
 
@@ -165,7 +165,7 @@ class Node:
         return [variable.min, variable.max]
 
     def pdo(self, direction, number):
-        """Has the node use the PDO as it is configured in its objects; gives its parameters."""
+        """Applies the PDO configuration in the node's objects and returns the parameters of the PDO."""
         pdo = {"rx": self.node.rpdo, "tx": self.node.tpdo}[direction][number]
         pdo.read()
         if direction == "rx" and number not in self.received:
@@ -180,11 +180,11 @@ class Node:
         }
 
     def receive(self, number):
-        """The values of the next RPDO that came, or comes."""
+        """Returns the values of the next RPDO. Waits for it if none is pending."""
         return self.received[number].get(timeout=TIMEOUT)
 
     def load(self, number, values):
-        """Puts these values into a TPDO."""
+        """Sets the values of a TPDO."""
         for entry, value in zip(self.node.tpdo[number], values, strict=True):
             entry.raw = from_json(entry.od, value)
 
@@ -193,7 +193,7 @@ class Node:
         self.node.tpdo[number].transmit()
 
     def on_sync(self, *_):
-        """Sends the TPDOs that are sent at every SYNC."""
+        """Sends the TPDOs that are triggered by every SYNC."""
         for pdo in self.node.tpdo.values():
             if pdo.enabled and pdo.trans_type == 1:
                 pdo.transmit()

@@ -1,5 +1,5 @@
-//! Generated accessors and PDOs against programs that nobody of this project wrote: a node of the Python library `canopen`,
-//! and servers of `pymodbus`. What runs here, and how, is in `README.md`.
+//! Generated accessors and PDOs against independent implementations: a node of the Python library `canopen` and
+//! servers of `pymodbus`. `README.md` explains the tests.
 #![cfg(unix)]
 
 mod canopen;
@@ -11,7 +11,7 @@ mod slcan;
 use std::future::Future;
 use std::time::Duration;
 
-/// What `work` gives, which may take a minute.
+/// Runs `work` for at most a minute.
 fn block_on<T>(work: impl Future<Output = T>) -> T {
     let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build().expect("a runtime");
     runtime.block_on(async { tokio::time::timeout(Duration::from_secs(60), work).await.expect("in time") })

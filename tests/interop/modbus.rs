@@ -1,6 +1,6 @@
-//! Servers of `pymodbus`, over TCP and over RTU, with blocking clients and others.
+//! Servers of `pymodbus`, over TCP and RTU, with blocking and asynchronous clients.
 //!
-//! Each scenario is written once, in a macro, for the four ways to the server.
+//! Each scenario is a macro, which is used for all four combinations.
 
 use std::net::SocketAddr;
 use std::time::Duration;
@@ -16,7 +16,7 @@ use crate::pty::Cable;
 use crate::python::{python, Script};
 
 lexibus::dictionary! {
-    /// The server.
+    /// The bindings of the server's registers.
     mod registers = "tests/interop/registers.toml";
 }
 
@@ -24,42 +24,42 @@ use registers::objects::{COILS, HIGH_I16, HIGH_U16, HIGH_U32, INPUT_U32, LOW_F32
 use registers::types::{Mode, Status, StatusDirection as Direction};
 use registers::Registers;
 
-/// How long anything may take: Python is slow on a busy machine.
+/// Timeout of a request. Python is slow on a busy machine.
 const PATIENCE: Duration = Duration::from_secs(20);
 
-/// The number of the server.
+/// The server's unit ID.
 const DEVICE: Slave = Slave(1);
 
-/// RTU wants silence between frames, which depends on this.
+/// Bit rate. RTU derives the silence between frames from it.
 const BAUD: u32 = 115_200;
 
 type Error = lexibus::Error<ModbusError>;
 
 impl Script {
-    /// What lies at a place of the server, as the library decodes it.
+    /// Returns a value of the server, decoded by the library.
     fn at(&mut self, name: &str) -> Value {
         self.ask(json!({ "do": "get", "name": name }))
     }
 
-    /// Puts a value to a place of the server, as the library encodes it.
+    /// Sets a value of the server, encoded by the library.
     fn put(&mut self, name: &str, value: Value) {
         self.ask(json!({ "do": "set", "name": name, "value": value }));
     }
 
-    /// The functions of the requests since this was asked last.
+    /// Returns the function codes of the requests since the last call.
     fn functions(&mut self) -> Value {
         self.ask(json!({ "do": "functions" }))
     }
 }
 
-/// A server over TCP.
+/// Starts a server over TCP.
 fn over_tcp() -> Option<(Script, SocketAddr)> {
     let (script, port) = Script::start(python()?, "modbus_server.py", &["tcp"]);
     let port = port.as_u64().and_then(|port| port.try_into().ok()).expect("a port");
     Some((script, SocketAddr::from(([127, 0, 0, 1], port))))
 }
 
-/// A server at one end of a serial line; its other end.
+/// Starts a server at one end of a serial line. The client uses the other end.
 fn over_rtu() -> Option<(Script, Cable)> {
     let python = python()?;
     let cable = Cable::open();
@@ -67,7 +67,7 @@ fn over_rtu() -> Option<(Script, Cable)> {
     Some((script, cable))
 }
 
-/// `$way` calls a method of an accessor, and waits for what it gives.
+/// Calls a method of an accessor; `$way` is a macro that waits for the result.
 macro_rules! blocking {
     ($client:expr, read_block $block:expr) => {
         $client.read_block($block)
@@ -110,7 +110,7 @@ macro_rules! awaited {
     };
 }
 
-/// Both directions: what is written lies there, and what lies there is read.
+/// Checks both directions: writes a value and looks at the server, sets a value on the server and reads it.
 macro_rules! exchange {
     ($way:ident, $script:ident, $device:ident, $($place:ident: [$($value:expr),*];)*) => {$(
         $(
@@ -124,7 +124,7 @@ macro_rules! exchange {
     )*};
 }
 
-/// The same of texts.
+/// Checks texts in both directions.
 macro_rules! exchange_texts {
     ($way:ident, $script:ident, $device:ident, $($place:ident)*) => {$(
         for text in ["a", "bc", "def", "nineteen characters", "exactly 20 letters, "] {
@@ -195,7 +195,7 @@ macro_rules! parts_and_meanings {
         $script.put("status", json!(0b0110));
         let status = $way!($device.status(), read)?;
         assert_eq!((status.running(), status.fault(), status.direction()), (false, true, Direction::Forward));
-        // What lies behind three words stays.
+        // Data after the three words must not change.
         $script.put("words_305", json!(0x1111_2222_3333_4444_u64));
         assert_eq!($way!($device.three_words(), read)?, 0x1111_2222_3333);
         $way!($device.three_words(), write 0xFEDC_BA98_7654)?;
@@ -232,7 +232,7 @@ macro_rules! other_tables {
     };
 }
 
-/// What the server refuses is its exception.
+/// Checks that refusals arrive as exceptions.
 macro_rules! refusals {
     ($way:ident, $script:ident, $device:ident) => {
         let refused: [Result<(), Error>; 5] = [
@@ -249,12 +249,12 @@ macro_rules! refusals {
             );
             assert!(is_exception, "{refused:?}");
         }
-        // The next request is answered as ever.
+        // The next request still works.
         assert_eq!($way!($device.protected(), read)?, 0);
     };
 }
 
-/// Which functions ask for it.
+/// Checks the function code of each access.
 macro_rules! functions {
     ($way:ident, $script:ident, $device:ident) => {
         $script.functions();
@@ -271,7 +271,7 @@ macro_rules! functions {
     };
 }
 
-/// Items side by side, read in one request for each table.
+/// Checks that adjacent items are read with one request per table.
 macro_rules! blocks {
     ($way:ident, $script:ident, $device:ident) => {
         $script.put("high_u16", json!(0xA55A));
@@ -290,7 +290,7 @@ macro_rules! blocks {
         let functions = $script.functions();
         let mut functions: Vec<u64> = functions.as_array().into_iter().flatten().filter_map(Value::as_u64).collect();
         functions.sort_unstable();
-        // The coils don't follow each other.
+        // The coils are not adjacent.
         assert_eq!(functions, [1, 1, 3, 4]);
     };
 }
@@ -347,7 +347,7 @@ fn rtu_not_blocking() -> Result<(), Error> {
     })
 }
 
-/// A device that knows function 16 only.
+/// A device that supports only function 16.
 #[test]
 fn single_registers_by_function_16() -> Result<(), Error> {
     let Some((mut script, address)) = over_tcp() else { return Ok(()) };

@@ -1,7 +1,7 @@
 """A server of `pymodbus`: python modbus_server.py tcp, or python modbus_server.py rtu TTY.
 
-What lies where is said here once more, by hand: the test compares it with what Lexibus makes of `registers.toml`. What the
-test sets and asks for (talk.py) goes through the library's own conversion of numbers to registers.
+The table below describes the registers a second time, by hand; the test compares it with the bindings of `registers.toml`. The
+library's own functions convert numbers to registers for the commands of the test (talk.py).
 """
 
 import asyncio
@@ -22,13 +22,13 @@ DEVICE = 1
 
 TYPES = ModbusClientMixin.DATATYPE
 
-# The functions that read and set each table.
+# Function codes that read and write each table.
 HOLDING = (3, 16)
 INPUT = (4, 4)
 COIL = (1, 15)
 DISCRETE = (2, 2)
 
-# Name: table, address on the wire, type, number of registers or bits, word order, whether bytes are swapped.
+# Name: table, wire address, type, number of registers or bits, word order, whether bytes are swapped.
 PLACES = {
     "high_u16": (HOLDING, 0, TYPES.UINT16, 1, "big", False),
     "high_i16": (HOLDING, 1, TYPES.INT16, 1, "big", False),
@@ -47,7 +47,7 @@ PLACES = {
     "low_u64": (HOLDING, 108, TYPES.UINT64, 4, "little", False),
     "low_i64": (HOLDING, 112, TYPES.INT64, 4, "little", False),
     "low_f64": (HOLDING, 116, TYPES.FLOAT64, 4, "little", False),
-    # The order is that of the words of a number. A text begins in its first register.
+    # The word order applies to numbers only: a text always begins in its first register.
     "low_text": (HOLDING, 120, TYPES.STRING, 10, "big", False),
     "swapped_u16": (HOLDING, 200, TYPES.UINT16, 1, "big", True),
     "swapped_u32": (HOLDING, 202, TYPES.UINT32, 2, "big", True),
@@ -59,7 +59,7 @@ PLACES = {
     "mode": (HOLDING, 302, TYPES.UINT16, 1, "big", False),
     "status": (HOLDING, 303, TYPES.UINT16, 1, "big", False),
     "temperature": (HOLDING, 304, TYPES.INT16, 1, "big", False),
-    # The last of these is written by none: it shows that three words are.
+    # The accessor writes only the first three of these words. The test checks that the last one is unchanged.
     "words_305": (HOLDING, 305, TYPES.UINT64, 4, "big", False),
     "input_i16": (INPUT, 0, TYPES.INT16, 1, "big", False),
     "input_u32": (INPUT, 1, TYPES.UINT32, 2, "big", False),
@@ -69,7 +69,7 @@ PLACES = {
     "discretes": (DISCRETE, 0, None, 40, None, False),
 }
 
-# The registers that are there; the last one before the gap is 398, and 349 can't be written.
+# The existing registers. Register 349 is read-only, and 398 is the last one before a gap.
 MEMORY = (
     [SimData(0, values=[False] * 64, datatype=DataType.BITS)],
     [SimData(0, values=[False] * 64, datatype=DataType.BITS)],
@@ -87,7 +87,7 @@ def swapped(registers, swap):
 
 
 class Server:
-    """The server in a thread of its own, and what the test may ask of it."""
+    """The server, in a separate thread, and the commands of the test."""
 
     def __init__(self, bus, *tty):
         self.requests = []
@@ -119,7 +119,7 @@ class Server:
     # Commands.
 
     def get(self, name):
-        """The value at a place; of coils and discrete inputs, the numbers of those that are set."""
+        """Returns a value; for coils and discrete inputs, a list of the bits that are set."""
         (reading, _), address, data_type, count, order, swap = PLACES[name]
         held = self.wait(self.server.async_getValues(DEVICE, reading, address, count))
         if data_type is None:
@@ -137,7 +137,7 @@ class Server:
         self.wait(self.server.async_setValues(DEVICE, setting, address, held))
 
     def functions(self):
-        """The functions of the requests that came since this was asked last."""
+        """Returns the function codes of the requests since the last call."""
         requests, self.requests = self.requests, []
         return requests
 

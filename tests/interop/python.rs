@@ -1,4 +1,4 @@
-//! A script in Python that the tests talk to.
+//! Python scripts that the tests start and control.
 
 use std::io::{BufRead, BufReader, Read, Write};
 use std::path::{Path, PathBuf};
@@ -13,19 +13,19 @@ use serde_json::Value;
 #[path = "../support/python.rs"]
 mod finder;
 
-/// How long an answer may take: Python starts slowly on a busy machine.
+/// Timeout of an answer. Python starts slowly on a busy machine.
 const PATIENCE: Duration = Duration::from_secs(60);
 
 /// The folder of these tests.
 const FOLDER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/interop");
 
-/// A Python with what the scripts import; looked for once.
+/// Returns a Python with the libraries of the scripts. Searches for it once.
 pub fn python() -> Option<&'static Path> {
     static PYTHON: OnceLock<Option<PathBuf>> = OnceLock::new();
     PYTHON.get_or_init(|| finder::with(&["canopen", "pymodbus", "serial"])).as_deref()
 }
 
-/// A script that runs, and answers commands. It is ended when this is dropped.
+/// A running script that answers commands. Dropping it stops the script.
 pub struct Script {
     child: Child,
     commands: ChildStdin,
@@ -34,7 +34,7 @@ pub struct Script {
 }
 
 impl Script {
-    /// Runs `script` of this folder, until it is ready. Gives what it says of itself then.
+    /// Starts `script` and waits until it is ready. Also returns the script's first message.
     pub fn start(python: &Path, script: &str, arguments: &[&str]) -> (Self, Value) {
         let mut child = Command::new(python)
             .arg(Path::new(FOLDER).join(script))
@@ -60,7 +60,7 @@ impl Script {
         (script, ready["ready"].take())
     }
 
-    /// What the script answers to a command.
+    /// Sends a command and returns the answer.
     pub fn ask(&mut self, command: Value) -> Value {
         writeln!(self.commands, "{command}").expect("the script reads");
         let mut answer = self.answer();

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Puts the Python that the tests in this folder talk to into target/python, with the libraries of requirements.txt in
-# the versions that are pinned there. Does nothing where all of them are there already.
+# Creates a virtual environment for the Python scripts of these tests in target/python, with the libraries and versions in
+# requirements.txt. Does nothing if they are already installed.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 python=target/python/bin/python

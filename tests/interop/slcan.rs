@@ -1,4 +1,4 @@
-//! A CAN interface behind a serial line, by the protocol `slcan` of Lawicel: `t6058…` and a carriage return is a frame.
+//! A CAN interface with the Lawicel `slcan` protocol on a serial line: a frame is `t6058…` and a carriage return.
 
 use std::collections::VecDeque;
 use std::fmt::Write as _;
@@ -12,13 +12,13 @@ use tokio_serial::SerialStream;
 
 use crate::pty::Pty;
 
-/// The adapter and the bus behind it, on a line: a [`Pty`] blocks, a [`SerialStream`] doesn't.
+/// The CAN adapter and its serial line. A [`Pty`] blocks, a [`SerialStream`] doesn't.
 pub struct Slcan<L> {
     line: L,
     received: Received,
 }
 
-/// What has come and nobody has looked at: a piece of a line, and frames.
+/// Received but unprocessed data: an incomplete line, and frames.
 #[derive(Default)]
 struct Received {
     bytes: Vec<u8>,
@@ -46,7 +46,7 @@ impl Received {
     }
 }
 
-/// The frame of a line; `None` where it is one of the commands that set the adapter up.
+/// Parses a line as a frame; returns `None` for a setup command of the adapter.
 fn frame(line: &[u8]) -> io::Result<Option<CanFrame>> {
     let wrong = || io::Error::new(io::ErrorKind::InvalidData, format!("no frame: {}", line.escape_ascii()));
     let digits = match line {
@@ -62,7 +62,7 @@ fn frame(line: &[u8]) -> io::Result<Option<CanFrame>> {
     CanFrame::new(id, &data).map(Some).ok_or_else(wrong)
 }
 
-/// The line of a frame.
+/// Formats a frame as a line.
 fn line(frame: &CanFrame) -> String {
     let mut line = format!("t{:03X}{}", frame.id(), frame.data().len());
     frame.data().iter().for_each(|byte| write!(line, "{byte:02X}").expect("memory"));

@@ -1,6 +1,6 @@
-"""How the scripts of this folder talk to the test: a line of JSON is a command, a line of JSON is its answer.
+"""Communication of these scripts with a test: one line of JSON per command, one line of JSON per answer.
 
-The script ends when the test closes its standard input, which happens however the test ends.
+The script ends when its standard input is closed. That happens at the end of the test, even after a failure.
 """
 
 import json
@@ -12,12 +12,12 @@ def say(answer):
 
 
 def serve(commands, ready=True):
-    """Runs commands until there are no more: `{"do": NAME, ARGUMENT: …}` calls the function `commands[NAME]`. What the test
-    has to know beforehand is `ready`."""
+    """Executes commands until the end of the input: `{"do": NAME, ARGUMENT: …}` calls the function `commands[NAME]`. `ready` is
+    the first message to the test."""
     say({"ready": ready})
     for line in sys.stdin:
         command = json.loads(line)
         try:
             say({"ok": commands[command.pop("do")](**command)})
-        except Exception as error:  # The test shows it.
+        except Exception as error:  # The test reports it.
             say({"error": f"{type(error).__name__}: {error}"})

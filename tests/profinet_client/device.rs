@@ -1,4 +1,4 @@
-//! A simulated device, blocking and not.
+//! A simulated device for blocking and asynchronous clients.
 
 use std::collections::HashMap;
 
@@ -9,7 +9,7 @@ use lexibus::Error;
 pub const INVALID_INDEX: PnioStatus = PnioStatus(0xDE80_B000);
 pub const STATE_CONFLICT: PnioStatus = PnioStatus(0xDE80_B500);
 
-/// A device in memory: its records, and what a drive would do with those of parameters.
+/// A device with records in memory and a drive behind its parameter records.
 #[derive(Default)]
 pub struct Device {
     pub records: HashMap<RecordAddress, Vec<u8>>,
@@ -18,14 +18,14 @@ pub struct Device {
     pub pauses: u32,
 }
 
-/// Parameters by axis, number and subindex, with format and bytes; a limit of 3000 for parameter 100.
+/// Parameters by axis, number and subindex, with format and bytes. Parameter 100 has a maximum of 3000.
 #[derive(Default)]
 pub struct Drive {
     pub values: HashMap<(u8, u16, u16), (Format, Vec<u8>)>,
     pub response: Vec<u8>,
-    /// So often the response isn't there yet.
+    /// Number of reads until the response is available.
     pub delay: u32,
-    /// Whether it is an empty record meanwhile, and no error.
+    /// Whether the record is empty until then. Otherwise reads return an error.
     pub is_empty: bool,
 }
 
@@ -110,7 +110,7 @@ impl RecordClient for Device {
             LOCAL | GLOBAL => &self.drive.response,
             _ => self.records.get(&address).ok_or(Error::Client(INVALID_INDEX))?,
         };
-        // What is too long is cut: its length says so.
+        // A record that exceeds the buffer is truncated; the returned length reveals it.
         buffer.iter_mut().zip(data).for_each(|(to, from)| *to = *from);
         Ok(data.len())
     }
@@ -133,7 +133,7 @@ impl RecordClient for Device {
     }
 }
 
-/// The same without blocking.
+/// The asynchronous client.
 pub struct Async(pub Device);
 
 impl AsyncRecordClient for Async {

@@ -1,5 +1,5 @@
-//! A controller's side of PROFINET with a simulated device: typed records, items within records, process images, and
-//! parameters of PROFIdrive.
+//! The controller side of PROFINET with a simulated device: typed records, items in records, process images and
+//! PROFIdrive parameters.
 #![cfg(feature = "macros")]
 
 mod device;
@@ -21,7 +21,7 @@ lexibus::dictionary! {
 }
 
 lexibus::dictionary! {
-    /// A servo drive that follows PROFIdrive.
+    /// A servo drive with the PROFIdrive profile.
     pub mod drive = "tests/data/drive.gsdml.xml";
 }
 
@@ -46,7 +46,7 @@ fn records_as_structs() {
     let address = INPUTS.record(InputFilterRecord::INDEX);
     assert_eq!(device.writes, [(address, FILTER_BYTES.to_vec())], "what isn't allowed isn't sent");
 
-    // A device whose record is too short, and one whose is too long for the buffer.
+    // A record that is too short, and one that exceeds the buffer.
     for (length, expected) in [(8, 9), (17, 16)] {
         device.records.insert(address, vec![0; length]);
         let read = RecordAccess::<_, 16>::new(&mut device).read::<InputFilterRecord>(INPUTS);
@@ -118,7 +118,7 @@ fn start_up_records_have_their_addresses() {
 fn places_in_the_frames() {
     let mut plan = Plan::<8>::new(&safe::DAP).unwrap();
     plan.plug(2, &safe::modules::safe_inputs::MODULE).unwrap();
-    // Head, interface and port have a provider status each, and get a consumer status each.
+    // Head, interface and port have a provider status and a consumer status each.
     let span = |offset, length| Some(IoSpan { offset, length });
     let module = plan.submodule_io(2, 1).unwrap();
     let place = SubmoduleIo {
@@ -175,7 +175,7 @@ fn layouts_are_as_long_as_a_plan_says() {
     }
 }
 
-/// A device that sends back what it gets.
+/// A device that returns its outputs as inputs.
 struct Mirror;
 
 impl ImageClient for Mirror {

@@ -1,4 +1,4 @@
-//! Parameters of PROFIdrive.
+//! Access to PROFIdrive parameters.
 
 use lexibus::profinet::parameter_access::{
     change_request, read_request, Answer, Change, ErrorNumber, Format, ParameterAccess, ParameterAddress,
@@ -136,7 +136,7 @@ fn responses_that_take_their_time() {
     }
 }
 
-/// A client whose errors are never those of a busy device.
+/// A client that never reports a busy device.
 struct Strict(Device);
 
 impl RecordClient for Strict {

@@ -1,4 +1,4 @@
-//! A node that expects requests by SDO, one after the other, and has an answer to each.
+//! A simulated node that expects a sequence of SDO requests and answers each of them.
 
 use std::collections::VecDeque;
 use std::convert::Infallible;
@@ -7,15 +7,15 @@ use std::time::Duration;
 use lexibus::clients::canopen::{CanFrame, CanPort, Node};
 use lexibus::NodeId;
 
-/// The requests that are still to come, with their answers.
+/// The remaining requests with their responses.
 pub struct Script {
     left: VecDeque<([u8; 8], [u8; 8])>,
-    /// Whether the next request was sent, so that its answer comes.
+    /// Whether the next request has been sent and awaits its response.
     is_asked: bool,
 }
 
 impl Script {
-    /// Whether all that is expected was sent and answered.
+    /// Returns whether all expected requests have been sent and answered.
     #[allow(dead_code)]
     pub fn is_done(&self) -> bool {
         self.left.is_empty()
@@ -47,7 +47,7 @@ impl CanPort for Script {
     }
 }
 
-/// Node 5, which expects these requests.
+/// Returns a client of node 5, which expects these requests.
 pub fn node(script: &[([u8; 8], [u8; 8])]) -> Node<Script> {
     let script = Script { left: script.iter().copied().collect(), is_asked: false };
     Node::new(script, NodeId::new(5).expect("a node-ID"))

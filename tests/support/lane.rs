@@ -1,15 +1,15 @@
-//! The two lanes of the tests. The fast lane runs on every change and samples what takes long. The full lane (`tests/full.sh`)
-//! runs everything.
+//! The fast and the full lane of tests. The fast lane runs for every change and only samples slow tests. The full
+//! lane (`tests/full.sh`) runs everything.
 
 // Each test program uses a part of this module.
 #![allow(dead_code)]
 
-/// Whether the full lane runs: `LEXIBUS_LANE=full`.
+/// Returns whether the full lane runs: `LEXIBUS_LANE=full`.
 pub fn is_full() -> bool {
     std::env::var_os("LEXIBUS_LANE").is_some_and(|lane| lane == "full")
 }
 
-/// Whether to skip a test that only the full lane runs; says so if it is.
+/// Returns whether to skip a test of the full lane, and prints a message if so.
 pub fn skips(test: &str) -> bool {
     if !is_full() {
         println!("skipped: {test} is part of the full lane (tests/full.sh)");
@@ -17,8 +17,8 @@ pub fn skips(test: &str) -> bool {
     !is_full()
 }
 
-/// How many things a test has to find at least, if it finds `full` in the whole corpus. The sample has an eighth of the files,
-/// and smaller ones.
+/// Returns the minimum number of results for a test that has `full` results for the whole corpus. The sample has an
+/// eighth of the files, and smaller ones.
 pub fn at_least(full: usize) -> usize {
     if is_full() {
         full

@@ -1,4 +1,4 @@
-//! A device on Modbus for tests and examples: registers behind a server of `tokio-modbus` on 127.0.0.1.
+//! A simulated Modbus device for tests and examples: registers behind a `tokio-modbus` server on 127.0.0.1.
 
 use std::collections::BTreeMap;
 use std::future::{ready, Ready};
@@ -13,29 +13,29 @@ use tokio::sync::oneshot;
 use tokio_modbus::server::{rtu_over_tcp, tcp, Service};
 use tokio_modbus::{ExceptionCode, Request, Response};
 
-/// What the registers of a device are kept in. A bit is a word, 0 or 1.
+/// The registers of a device. Bits are words of value 0 or 1.
 pub trait Registers: Send + 'static {
-    /// The words, or bits, from an address on.
+    /// Reads words or bits from an address on.
     ///
     /// # Errors
     ///
-    /// What the device answers instead.
+    /// The exception that the device returns.
     fn read_words(&mut self, table: RegisterTable, address: u16, count: u16) -> Result<Vec<u16>, ExceptionCode>;
 
-    /// Takes words, or bits, from an address on.
+    /// Writes words or bits from an address on.
     ///
     /// # Errors
     ///
-    /// What the device answers instead.
+    /// The exception that the device returns.
     fn write_words(&mut self, table: RegisterTable, address: u16, words: &[u16]) -> Result<(), ExceptionCode>;
 }
 
-/// Registers in memory. Those that nobody put there don't exist.
+/// Registers in memory. Only registers with a value exist.
 #[derive(Debug, Default)]
 pub struct Map(BTreeMap<(RegisterTable, u16), u16>);
 
 impl Map {
-    /// Registers, or bits, with these words from an address on.
+    /// Adds registers or bits with these words from an address on.
     #[must_use]
     pub fn with(mut self, table: RegisterTable, address: u16, words: &[u16]) -> Self {
         self.0.extend((address..).map(|address| (table, address)).zip(words.iter().copied()));
@@ -58,7 +58,7 @@ impl Registers for Map {
     }
 }
 
-/// A device, and the requests that it got.
+/// A device and the requests that it has received.
 #[derive(Debug)]
 pub struct Device<S> {
     shared: Arc<Mutex<(S, Vec<String>)>>,
@@ -71,17 +71,17 @@ impl<S> Clone for Device<S> {
 }
 
 impl<S: Registers> Device<S> {
-    /// A device with these registers.
+    /// Creates a device with these registers.
     pub fn new(registers: S) -> Self {
         Self { shared: Arc::new(Mutex::new((registers, Vec::new()))) }
     }
 
-    /// The requests since they were last asked for.
+    /// Returns the requests since the last call.
     pub fn requests(&self) -> Vec<String> {
         std::mem::take(&mut self.lock().1)
     }
 
-    /// The registers.
+    /// Calls `look` with the registers.
     pub fn with<T>(&self, look: impl FnOnce(&mut S) -> T) -> T {
         look(&mut self.lock().0)
     }
@@ -145,16 +145,16 @@ impl<S: Registers> Service for Device<S> {
     }
 }
 
-/// How frames travel over the connection.
+/// The framing of the connection.
 #[derive(Clone, Copy, Debug)]
 pub enum Framing {
     /// Modbus TCP.
     Tcp,
-    /// The frames of Modbus RTU.
+    /// Modbus RTU.
     Rtu,
 }
 
-/// A server on a free port of 127.0.0.1. It ends when it is dropped.
+/// A server on a free port of 127.0.0.1. It stops when it is dropped.
 #[derive(Debug)]
 pub struct Server {
     address: SocketAddr,
@@ -163,11 +163,11 @@ pub struct Server {
 }
 
 impl Server {
-    /// Serves a device.
+    /// Starts a server for a device.
     ///
     /// # Errors
     ///
-    /// Where there is no port, or no runtime.
+    /// The error of the port or of the runtime.
     pub fn start<S: Registers>(device: &Device<S>, framing: Framing) -> io::Result<Self> {
         let runtime = tokio::runtime::Builder::new_current_thread().enable_io().build()?;
         let listener = runtime.block_on(TcpListener::bind("127.0.0.1:0"))?;
@@ -191,7 +191,7 @@ impl Server {
         Ok(Self { address, stop: Some(stop), thread: Some(thread) })
     }
 
-    /// Where it is.
+    /// Returns the address of the server.
     #[must_use]
     pub fn address(&self) -> SocketAddr {
         self.address
@@ -200,7 +200,7 @@ impl Server {
 
 impl Drop for Server {
     fn drop(&mut self) {
-        // Both fail only if the thread has ended already.
+        // Both calls fail only if the thread has already ended.
         if let Some(stop) = self.stop.take() {
             let _ = stop.send(());
         }

@@ -1,11 +1,11 @@
-//! Futures that are ready at once, polled with no runtime.
+//! Futures that are ready at once, polled without a runtime.
 
 use std::future::Future;
 use std::pin::pin;
 use std::sync::Arc;
 use std::task::{Context, Poll, Wake};
 
-/// What a future gives that never has to wait.
+/// Returns the result of a future that is ready at once.
 pub fn now<F: Future>(future: F) -> F::Output {
     struct Silent;
     impl Wake for Silent {

@@ -3,13 +3,14 @@
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// A Python that can import `modules`; `None`, with a message, if there is none.
+/// Returns a Python that can import `modules`; `None`, with a message, if there is none.
 ///
-/// It is the first that exists of the one that `LEXIBUS_PYTHON` names, that of `tests/interop/setup.sh`, and `python3`.
+/// The first that exists is used: the one named by `LEXIBUS_PYTHON`, the one installed by `tests/interop/setup.sh`,
+/// `python3`.
 ///
 /// # Panics
 ///
-/// If `LEXIBUS_PYTHON` names one that lacks a module.
+/// Panics if the Python named by `LEXIBUS_PYTHON` lacks a module.
 pub fn with(modules: &[&str]) -> Option<PathBuf> {
     let named = std::env::var_os("LEXIBUS_PYTHON").map(PathBuf::from);
     let installed = || {

@@ -1,6 +1,6 @@
-//! Bytes from a number, the same for every version of every crate.
+//! Reproducible pseudo-random bytes, independent of crate versions.
 
-/// As many bytes of the stream of a seed: xorshift64*.
+/// Returns `count` bytes from a seed (xorshift64*).
 pub fn bytes(seed: u64, count: usize) -> Vec<u8> {
     let mut state = (seed + 1).wrapping_mul(0x9E37_79B9_7F4A_7C15);
     let mut next = || {

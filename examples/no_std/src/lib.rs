@@ -1,7 +1,7 @@
-//! What both binaries stand on: a CAN controller of sorts, and expedited SDO transfers over it.
+//! Common code of both programs: a simulated CAN controller and expedited SDO transfers.
 //!
-//! Frames of 8 bytes go out through the standard output, and replies come in through the standard input. This is the only
-//! place with `unsafe` code: there is no C library to do the calls of the system.
+//! Frames of 8 bytes are sent through the standard output; replies arrive through the standard input. Only this crate
+//! has `unsafe` code, for system calls without a C library.
 
 #![no_std]
 
@@ -9,7 +9,7 @@ mod linux;
 
 pub use linux::{exchange, exit};
 
-/// Calls a function of type `fn() -> u8` where the program starts, and exits with what it returns.
+/// Defines the start of the program: calls a function of type `fn() -> u8` and exits with its result.
 #[macro_export]
 macro_rules! entry {
     ($main:path) => {
@@ -17,12 +17,12 @@ macro_rules! entry {
             $crate::exit($main())
         }
 
-        // The stack is aligned to 16 bytes here, and a call keeps it as functions expect it.
+        // The stack is aligned to 16 bytes here; a call gives functions the alignment that they expect.
         core::arch::global_asm!(".globl _start", "_start:", "call {}", sym start);
     };
 }
 
-/// A request of an SDO download of at most 4 bytes, or an upload (CiA 301 7.2.4.3.3 and 7.2.4.3.5).
+/// Returns an SDO request: a download of at most 4 bytes, or an upload (CiA 301 7.2.4.3.3 and 7.2.4.3.5).
 #[must_use]
 pub fn request(command: u8, index: u16, sub_index: u8, data: &[u8]) -> [u8; 8] {
     let [low, high] = index.to_le_bytes();

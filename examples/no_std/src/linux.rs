@@ -1,4 +1,4 @@
-//! Three calls of Linux on x86-64.
+//! Three system calls of Linux on x86-64.
 
 use core::arch::asm;
 
@@ -6,7 +6,7 @@ const READ: usize = 0;
 const WRITE: usize = 1;
 const EXIT: usize = 60;
 
-/// Sends a frame and waits for the reply; zeros where there is none.
+/// Sends a frame and returns the reply; zeros if there is none.
 #[inline(never)]
 pub fn exchange(request: &[u8; 8]) -> [u8; 8] {
     let mut reply = [0; 8];
@@ -15,7 +15,7 @@ pub fn exchange(request: &[u8; 8]) -> [u8; 8] {
     reply
 }
 
-/// Ends the program.
+/// Exits the program.
 pub fn exit(code: u8) -> ! {
     loop {
         call(EXIT, code.into(), 0, 0);
@@ -23,8 +23,8 @@ pub fn exit(code: u8) -> ! {
 }
 
 fn call(number: usize, first: usize, second: usize, third: usize) {
-    // SAFETY: the kernel changes these three registers, and memory only at the addresses that it is given, which are
-    // those of buffers of the given length.
+    // SAFETY: the kernel changes only these three registers, and the memory of the passed buffers within their
+    // length.
     unsafe {
         asm!(
             "syscall",

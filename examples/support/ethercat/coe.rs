@@ -1,20 +1,20 @@
-//! The SDO server behind the mailbox (ETG.1000.6 5.6.2): expedited, normal and segmented transfers, complete access.
+//! The SDO server of the mailbox (ETG.1000.6 5.6.2): expedited, normal and segmented transfers, complete access.
 
 use lexibus::{AbortCode, Emergency};
 
 use super::objects::Dictionary;
 
-/// Bytes of the headers of mailbox and CoE, and of what begins a transfer.
+/// Lengths in bytes: the headers of mailbox and CoE, and the start of a transfer.
 const HEADERS: usize = 8;
 const INITIATE: usize = 16;
 
-/// A transfer of segments that has begun.
+/// A segmented transfer in progress.
 enum Transfer {
     Up { rest: Vec<u8>, toggle: bool },
     Down { index: u16, sub_index: u8, complete: bool, size: usize, data: Vec<u8>, toggle: bool },
 }
 
-/// What the server remembers between two messages.
+/// State of the server between two messages.
 #[derive(Default)]
 pub struct Server {
     transfer: Option<Transfer>,
@@ -22,7 +22,7 @@ pub struct Server {
 }
 
 impl Server {
-    /// The answer to a message, of at most `room` bytes; none where it is no SDO request.
+    /// Returns the response to a message, with a length of at most `room` bytes; `None` if it isn't an SDO request.
     pub fn answer(&mut self, message: &[u8], room: usize, objects: &mut dyn Dictionary) -> Option<Vec<u8>> {
         let length = usize::from(u16::from_le_bytes([*message.first()?, *message.get(1)?]));
         let body = message.get(6..6 + length)?;
@@ -49,7 +49,7 @@ impl Server {
         })
     }
 
-    /// A message of CoE.
+    /// Returns a CoE message.
     fn message(&mut self, service: u8, sdo: &[u8]) -> Vec<u8> {
         self.counter = self.counter % 7 + 1;
         let mut bytes = ((sdo.len() + 2) as u16).to_le_bytes().to_vec();
@@ -58,7 +58,7 @@ impl Server {
         bytes
     }
 
-    /// An emergency message.
+    /// Returns an emergency message.
     pub fn emergency(&mut self, emergency: Emergency) -> Vec<u8> {
         self.message(1, &emergency.to_bytes())
     }
@@ -155,7 +155,7 @@ fn store(objects: &mut dyn Dictionary, index: u16, sub_index: u8, complete: bool
     }
 }
 
-/// The entries from `from` on, one behind the other; sub-index 0 takes two bytes.
+/// Reads the entries from `from` on for complete access. Sub-index 0 takes two bytes.
 fn read_all(objects: &mut dyn Dictionary, index: u16, from: u8) -> Result<Vec<u8>, u32> {
     let last = *objects.read(index, 0)?.first().ok_or(AbortCode::GENERAL.0)?;
     let mut all = Vec::new();
@@ -168,7 +168,8 @@ fn read_all(objects: &mut dyn Dictionary, index: u16, from: u8) -> Result<Vec<u8
     Ok(all)
 }
 
-/// The entries of a list whose count is sub-index 0: it goes first as 0, and last as what it is to be.
+/// Writes the entries of a list for complete access. The count in sub-index 0 is set to 0 first and to its value
+/// last.
 fn write_all(objects: &mut dyn Dictionary, index: u16, from: u8, data: &[u8]) -> Result<(), u32> {
     if from != 0 {
         return Err(AbortCode::UNSUPPORTED_ACCESS.0);

@@ -1,8 +1,8 @@
-//! The slave controller: 64 KiB of memory, the first 4 KiB of which are registers (ETG.1000.4 6).
+//! The slave controller: 64 KiB of memory, including 4 KiB of registers (ETG.1000.4 6).
 
 use std::ops::Range;
 
-/// The registers that are used by name.
+/// Register addresses.
 const STATION: usize = 0x0010;
 const AL_CONTROL: usize = 0x0120;
 const AL_STATUS: usize = 0x0130;
@@ -16,14 +16,14 @@ const PORT_TIMES: usize = 0x0900;
 const SYSTEM_TIME: usize = 0x0910;
 const RECEIVE_TIME: usize = 0x0918;
 
-/// The bit of a mailbox that is full, in the state of its sync manager.
+/// Bit in the status of a mailbox sync manager: the mailbox is full.
 const FULL: u8 = 0x08;
 
-/// Nanoseconds that a frame takes in this segment, and from one SubDevice to the next.
+/// Time in ns that a frame needs in this segment, and from one SubDevice to the next.
 const FRAME: u64 = 10_000;
 const HOP: u64 = 500;
 
-/// What a sync manager is set to.
+/// Settings of a sync manager.
 pub struct Manager {
     pub range: Range<usize>,
     pub enabled: bool,
@@ -39,22 +39,22 @@ pub struct Controller {
     time: u64,
     position: u64,
     count: u64,
-    /// What the master wrote to AL control since the firmware last looked.
+    /// The last write to AL control that the firmware hasn't processed yet.
     pub request: Option<u8>,
-    /// Whether process data went through since the firmware last looked.
+    /// Whether process data have been exchanged since the firmware last ran.
     pub exchanged: bool,
 }
 
 impl Controller {
     pub fn new(eeprom: Vec<u8>) -> Self {
         let mut memory = vec![0; 0x1_0000];
-        // Type, revision, build; 8 FMMUs, 8 sync managers, 8 KiB; two ports of Ethernet; clocks of 64 bits.
+        // Type, revision, build; 8 FMMUs, 8 sync managers, 8 KiB; two Ethernet ports; 64-bit clocks.
         memory[..10].copy_from_slice(&[0x11, 0, 1, 0, 8, 8, 8, 0x0F, 0x0C, 0]);
         memory[AL_STATUS] = 1;
         Self { memory, eeprom, time: 0, position: 0, count: 1, request: None, exchanged: false }
     }
 
-    /// The place in the segment, which makes the ports that have a link.
+    /// Sets the position in the segment, which determines the ports with a link.
     pub fn connect(&mut self, position: usize, count: usize) {
         (self.position, self.count) = (position as u64, count as u64);
         let is_last = position + 1 == count;
@@ -65,7 +65,7 @@ impl Controller {
         self.word(STATION)
     }
 
-    /// The state that the master sees, with the error flag and the reason.
+    /// Sets AL status, with the error flag and the AL status code.
     pub fn show_state(&mut self, state: u8, code: u16) {
         self.memory[AL_STATUS] = if code == 0 { state } else { state | 0x10 };
         self.memory[AL_CODE..][..2].copy_from_slice(&code.to_le_bytes());
@@ -88,14 +88,14 @@ impl Controller {
         }
     }
 
-    /// The mailbox that an access from `address` on goes to.
+    /// Returns the mailbox that contains the address.
     fn mailbox(&self, address: usize) -> Option<Manager> {
         (0..8)
             .map(|number| self.manager(number))
             .find(|own| own.enabled && own.is_mailbox && own.range.contains(&address))
     }
 
-    /// What the master reads; `None` where nothing answers.
+    /// Handles a read of the master; returns `None` without a working counter increment.
     pub fn read(&mut self, address: u16, length: usize) -> Option<Vec<u8>> {
         let range = usize::from(address)..usize::from(address) + length;
         if range.contains(&SYSTEM_TIME) {
@@ -113,7 +113,7 @@ impl Controller {
         self.memory.get(range).map(<[u8]>::to_vec)
     }
 
-    /// What the master writes; `false` where nothing takes it.
+    /// Handles a write of the master; returns `false` without a working counter increment.
     pub fn write(&mut self, address: u16, data: &[u8]) -> bool {
         let range = usize::from(address)..usize::from(address) + data.len();
         if range.end > self.memory.len() {
@@ -136,7 +136,7 @@ impl Controller {
         true
     }
 
-    /// What follows from a write to registers.
+    /// Executes the side effects of a write to registers.
     fn written(&mut self, range: &Range<usize>) {
         if range.contains(&AL_CONTROL) {
             self.request = Some(self.memory[AL_CONTROL]);
@@ -150,24 +150,24 @@ impl Controller {
         for number in 0..8 {
             let own = self.manager(number);
             if range.contains(&(own.state + 1)) {
-                // A sync manager that is set up again is empty.
+                // Reconfiguring a sync manager empties it.
                 self.memory[own.state] = 0;
             }
         }
     }
 
-    /// A command to the EEPROM: it is done at once.
+    /// Executes an EEPROM command without delay.
     fn run_eeprom(&mut self) {
         let at = 2 * usize::from(self.word(EEPROM_ADDRESS));
         if self.memory[EEPROM_CONTROL + 1] & 0x01 != 0 {
-            // Where the EEPROM ends, there are ones.
+            // Beyond its end, the EEPROM reads as ones.
             let bytes = (at..at + 4).map(|at| self.eeprom.get(at).copied().unwrap_or(0xFF));
             self.memory[EEPROM_DATA..][..4].iter_mut().zip(bytes).for_each(|(to, from)| *to = from);
         }
         self.memory[EEPROM_CONTROL..][..2].fill(0);
     }
 
-    /// Times at which a frame passed the ports: on the way out, and on the way back.
+    /// Latches the receive times of the ports, for both directions of a frame.
     fn latch(&mut self) {
         let out = self.time + self.position * HOP;
         let back = self.time + (2 * self.count - self.position) * HOP;
@@ -177,7 +177,7 @@ impl Controller {
         self.memory[RECEIVE_TIME..][..8].copy_from_slice(&out.to_le_bytes());
     }
 
-    /// Data with a logical address, which FMMUs map to memory. Returns what it adds to the working counter.
+    /// Handles data with a logical address, which FMMUs map to memory. Returns the increment of the working counter.
     pub fn logical(&mut self, address: u32, data: &mut [u8], reads: bool, writes: bool) -> u16 {
         let (mut read, mut written) = (false, false);
         let sent = data.to_vec();
@@ -200,7 +200,7 @@ impl Controller {
         u16::from(read) + u16::from(written) * if counts_twice { 2 } else { 1 }
     }
 
-    /// The firmware takes what the master put into a mailbox.
+    /// Takes a message of the master from a mailbox.
     pub fn take(&mut self, manager: &Manager) -> Option<Vec<u8>> {
         let full = manager.enabled && self.memory[manager.state] & FULL != 0;
         full.then(|| {
@@ -209,7 +209,7 @@ impl Controller {
         })
     }
 
-    /// The firmware puts a message into a mailbox; `false` where there is another one.
+    /// Puts a message into a mailbox; returns `false` if the mailbox is full.
     pub fn put(&mut self, manager: &Manager, message: &[u8]) -> bool {
         let free = manager.enabled && self.memory[manager.state] & FULL == 0;
         if free {
@@ -219,7 +219,7 @@ impl Controller {
         free
     }
 
-    /// The data of a sync manager.
+    /// Returns the data of a sync manager.
     pub fn load(&self, manager: &Manager) -> Vec<u8> {
         self.memory[manager.range.clone()].to_vec()
     }
@@ -230,19 +230,19 @@ impl Controller {
         room.iter_mut().zip(bytes).for_each(|(to, from)| *to = from);
     }
 
-    /// A frame has passed.
+    /// Advances the time by one frame.
     pub fn tick(&mut self) {
         self.time += FRAME;
     }
 }
 
-/// What the master can change of the registers.
+/// Returns whether the master can write a register.
 fn is_writable(at: usize) -> bool {
     let is_state = (MANAGERS..MANAGERS + 0x80).contains(&at) && at % 8 == 5;
     !matches!(at, 0..=0x0F | 0x0110..=0x011F | 0x0130..=0x013F | 0x0900..=0x091F) && !is_state
 }
 
-/// A fieldbus memory management unit; only whole bytes.
+/// A fieldbus memory management unit (FMMU), for whole bytes only.
 struct Fmmu {
     logical: u32,
     length: u32,

@@ -1,16 +1,16 @@
-//! An EtherCAT segment in this process: SubDevices made from their generated descriptions, which answer the frames of
-//! `ethercrab` without any network.
+//! A simulated EtherCAT segment. SubDevices are created from generated descriptions and answer frames of `ethercrab`
+//! without a network.
 //!
-//! | file | what it is |
+//! | module | content |
 //! |---|---|
-//! | `segment` | takes frames, and passes their datagrams through the SubDevices |
-//! | `controller` | the memory and the registers of a slave controller: sync managers, FMMUs, EEPROM interface, clock |
-//! | `eeprom` | what stands in the EEPROM |
-//! | `subdevice` | the firmware: state machine, mailbox, process data |
-//! | `coe` | the SDO server behind the mailbox |
-//! | `pdos` | the objects that configure PDOs, and the way between objects and process data |
-//! | `objects` | what a device's application provides: its objects, such as those of `lexibus::sim::Device` |
-//! | `servo` | the application of the demo servo |
+//! | `segment` | frames, and the path of their datagrams through the SubDevices |
+//! | `controller` | memory and registers of a slave controller: sync managers, FMMUs, EEPROM interface, clock |
+//! | `eeprom` | content of the EEPROM |
+//! | `subdevice` | firmware: state machine, mailbox, process data |
+//! | `coe` | SDO server of the mailbox |
+//! | `pdos` | PDO configuration objects, and the copy between objects and process data |
+//! | `objects` | interface to the objects of an application, such as those of `lexibus::sim::Device` |
+//! | `servo` | application of the demo servo |
 
 mod coe;
 mod controller;

@@ -1,4 +1,4 @@
-//! The objects of a device.
+//! Access to the objects of a device.
 
 use std::cell::RefCell;
 use std::rc::Rc;
@@ -6,25 +6,24 @@ use std::rc::Rc;
 use lexibus::sim::{Device, Fault};
 use lexibus::{AbortCode, Client, CoE, Emergency, Error, Object};
 
-/// What the application of a device provides. Values are bytes, the least significant first; errors are the abort codes of
-/// SDO transfers.
+/// The objects of an application. Values are little-endian bytes; errors are SDO abort codes.
 pub trait Dictionary {
-    /// The value of an entry.
+    /// Returns the value of an entry.
     fn read(&mut self, index: u16, sub_index: u8) -> Result<Vec<u8>, u32>;
 
-    /// Changes the value of an entry.
+    /// Sets the value of an entry.
     fn write(&mut self, index: u16, sub_index: u8, data: &[u8]) -> Result<(), u32>;
 
-    /// The application runs once, between outputs and inputs. `operational` where the outputs count.
+    /// Runs the application once, between outputs and inputs. The outputs are valid only if `operational` is true.
     fn cycle(&mut self, _operational: bool) {}
 
-    /// The emergency messages that wait to be sent.
+    /// Returns the pending emergency messages.
     fn emergencies(&mut self) -> Vec<Emergency> {
         Vec::new()
     }
 }
 
-/// A device that a test looks into while the segment runs.
+/// A device that a test can inspect while the segment runs.
 impl<D: Dictionary> Dictionary for Rc<RefCell<D>> {
     fn read(&mut self, index: u16, sub_index: u8) -> Result<Vec<u8>, u32> {
         self.borrow_mut().read(index, sub_index)
@@ -43,7 +42,7 @@ impl<D: Dictionary> Dictionary for Rc<RefCell<D>> {
     }
 }
 
-/// A simulated device, accessed as over its mailbox.
+/// A simulated device, accessed like over its mailbox.
 impl Dictionary for Device {
     fn read(&mut self, index: u16, sub_index: u8) -> Result<Vec<u8>, u32> {
         let object = Object::new(index, sub_index);

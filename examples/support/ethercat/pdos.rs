@@ -1,5 +1,5 @@
-//! The objects that configure PDOs, 0x1600 to 0x1BFF and 0x1C10 on (ETG.1000.6 5.6.7.4), and the way between the objects
-//! that are mapped and the data of a sync manager.
+//! PDO configuration objects, 0x1600 to 0x1BFF and 0x1C10 onwards (ETG.1000.6 5.6.7.4), and the copy between mapped
+//! objects and process data.
 
 use std::collections::BTreeMap;
 
@@ -8,14 +8,14 @@ use lexibus::{AbortCode, MappedEntry};
 
 use super::objects::Dictionary;
 
-/// The abort code for a sub-index that can be written only while sub-index 0 is 0 (ETG.1000.6 table 41).
+/// Abort code for a sub-index that is writable only while sub-index 0 is 0 (ETG.1000.6 table 41).
 const COUNT_IS_NOT_ZERO: u32 = 0x0601_0003;
 
-/// An object of this kind: its entries, and how many of them count.
+/// A list object: its entries and the value of sub-index 0.
 struct List {
     count: usize,
     entries: Vec<u32>,
-    /// Bytes of an entry.
+    /// Length of an entry in bytes.
     width: usize,
     writable: bool,
 }
@@ -30,14 +30,14 @@ impl List {
     }
 }
 
-/// What a device maps and assigns.
+/// The PDO mappings and assignments of a device.
 pub struct Pdos {
     device: &'static Device,
     lists: BTreeMap<u16, List>,
 }
 
 impl Pdos {
-    /// As it is after power-on.
+    /// Creates the configuration after power-on.
     pub fn new(device: &'static Device) -> Self {
         let coe = device.mailbox.coe;
         let (assigns, configures) = (coe.is_some_and(|coe| coe.pdo_assign), coe.is_some_and(|coe| coe.pdo_config));
@@ -70,7 +70,7 @@ impl Pdos {
         }
     }
 
-    /// `is_mappable` tells whether an entry exists.
+    /// Writes an entry. `is_mappable` returns whether an object exists.
     pub fn write(
         &mut self,
         index: u16,
@@ -104,7 +104,7 @@ impl Pdos {
         Ok(())
     }
 
-    /// So many entries count from now on.
+    /// Sets the count of a list (sub-index 0).
     fn count(&mut self, index: u16, count: usize) -> Result<(), u32> {
         let device = self.device;
         let list = self.lists.get_mut(&index).ok_or(AbortCode::NO_OBJECT.0)?;
@@ -120,7 +120,7 @@ impl Pdos {
         Ok(())
     }
 
-    /// What is mapped into a sync manager, in the order of its data.
+    /// Returns the entries mapped into a sync manager, in the order of its data.
     fn mapped(&self, manager: u8) -> impl Iterator<Item = (Option<Direction>, MappedEntry)> + '_ {
         let valid = |index: u16| self.lists.get(&index).map_or(&[][..], List::valid);
         let assigned = valid(0x1C10 + u16::from(manager)).iter();
@@ -130,12 +130,12 @@ impl Pdos {
         })
     }
 
-    /// Bytes of the data of a sync manager.
+    /// Returns the length of a sync manager's process data in bytes.
     pub fn bytes(&self, manager: u8) -> usize {
         self.mapped(manager).map(|(_, entry)| entry.bits as usize).sum::<usize>().div_ceil(8)
     }
 
-    /// From objects to the data of a sync manager.
+    /// Copies objects to the process data of a sync manager.
     pub fn gather(&self, manager: u8, objects: &mut dyn Dictionary) -> Vec<u8> {
         let mut data = vec![0; self.bytes(manager)];
         let mut at = 0;
@@ -149,7 +149,7 @@ impl Pdos {
         data
     }
 
-    /// From the data of a sync manager to objects. What is out of its range isn't taken.
+    /// Copies the process data of a sync manager to objects. Ignores values that are out of range.
     pub fn scatter(&self, manager: u8, data: &[u8], objects: &mut dyn Dictionary) {
         let mut at = 0;
         for (direction, entry) in self.mapped(manager) {

@@ -9,21 +9,21 @@ use ethercrab::{PduRx, PduTx};
 use super::controller::Controller;
 use super::subdevice::SubDevice;
 
-/// Bytes in front of the datagrams: the header of Ethernet, the header of EtherCAT.
+/// Lengths of headers in bytes: Ethernet, EtherCAT.
 const ETHERNET: usize = 14;
 const HEADERS: usize = ETHERNET + 2;
 
-/// Bytes of a datagram in front of its data, and behind them.
+/// Bytes of a datagram before and after its data.
 const DATAGRAM: usize = 10;
 const COUNTER: usize = 2;
 
-/// SubDevices in a row.
+/// A line of SubDevices.
 pub struct Segment {
     subdevices: Vec<SubDevice>,
 }
 
 impl Segment {
-    /// SubDevices in the order in which frames reach them.
+    /// Creates a segment of SubDevices, in the order in which frames reach them.
     pub fn new(mut subdevices: Vec<SubDevice>) -> Self {
         let count = subdevices.len();
         for (position, subdevice) in subdevices.iter_mut().enumerate() {
@@ -32,8 +32,8 @@ impl Segment {
         Self { subdevices }
     }
 
-    /// Carries frames between the master and the SubDevices until the master gives its storage back. To be polled beside
-    /// the master.
+    /// Transfers frames between the master and the SubDevices until the master drops its storage. Run it concurrently
+    /// with the master.
     pub async fn run(&mut self, mut tx: PduTx<'_>, mut rx: PduRx<'_>) -> Result<(), Error> {
         poll_fn(|context| {
             tx.replace_waker(context.waker());
@@ -55,9 +55,9 @@ impl Segment {
         .await
     }
 
-    /// Takes a frame through all SubDevices and back.
+    /// Passes a frame through all SubDevices.
     fn pass(&mut self, frame: &mut [u8]) {
-        // The first SubDevice marks the sender's address, by which the master tells what comes back.
+        // The first SubDevice sets this bit of the source address; the master recognizes returning frames by it.
         frame[6] |= 0x02;
         let mut datagrams = frame.get_mut(HEADERS..).unwrap_or_default();
         while datagrams.len() >= DATAGRAM + COUNTER {
@@ -92,7 +92,7 @@ fn address32(head: &[u8]) -> u32 {
     u32::from_le_bytes([head[2], head[3], head[4], head[5]])
 }
 
-/// A datagram that addresses SubDevices, by position, by station address or all of them. Returns what it adds to the working
+/// Handles a datagram with a position address, a station address or a broadcast. Returns the increment of the working
 /// counter.
 fn physical(controller: &mut Controller, command: u8, head: &mut [u8], data: &mut [u8]) -> u16 {
     let device = u16::from_le_bytes([head[2], head[3]]);
@@ -112,7 +112,7 @@ fn physical(controller: &mut Controller, command: u8, head: &mut [u8], data: &mu
             let sent = data.to_vec();
             read_or(controller, register, data) + 2 * write(controller, register, &sent)
         }
-        // Read by one, written by all others.
+        // Read by the addressed SubDevice, written by all others.
         13 | 14 if is_meant => read(controller, register, data),
         13 | 14 => write(controller, register, data),
         _ => 0,
@@ -125,7 +125,7 @@ fn read(controller: &mut Controller, register: u16, data: &mut [u8]) -> u16 {
     1
 }
 
-/// What all SubDevices have is put together bit by bit.
+/// Handles a broadcast read: combines the data of all SubDevices with OR.
 fn read_or(controller: &mut Controller, register: u16, data: &mut [u8]) -> u16 {
     let Some(bytes) = controller.read(register, data.len()) else { return 0 };
     data.iter_mut().zip(bytes).for_each(|(to, from)| *to |= from);

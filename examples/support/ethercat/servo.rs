@@ -1,17 +1,17 @@
-//! The application of the demo servo: the state machine of CiA 402, and a position that follows its target at once.
+//! Application of the demo servo: the CiA 402 state machine, and a position that follows its target immediately.
 
 use lexibus::sim::{Device, ItemAddress};
 use lexibus::{AbortCode, Emergency, Object};
 
 use super::objects::Dictionary;
-// The bindings of whatever program simulates the servo.
+// The bindings of the program that simulates the servo.
 use crate::servo::types::{Controlword, Statusword};
 use crate::servo::{objects, ENTRIES};
 
-/// The error code of a sensor (IEC 61800-7-201).
+/// Error code of a sensor fault (IEC 61800-7-201).
 const SENSOR_FAULT: u16 = 0x7300;
 
-/// The states of CiA 402 that this drive has.
+/// The CiA 402 states of this drive.
 #[derive(Clone, Copy, PartialEq)]
 enum State {
     SwitchOnDisabled,
@@ -23,19 +23,19 @@ enum State {
 
 /// The demo servo.
 pub struct Servo {
-    /// Its objects.
+    /// Objects of the servo.
     pub device: Device,
     state: State,
     last_controlword: Controlword,
 }
 
 impl Servo {
-    /// A servo that was just switched on.
+    /// Creates a servo after power-on.
     pub fn new() -> Self {
         Self { device: Device::new(ENTRIES), state: State::SwitchOnDisabled, last_controlword: Controlword::new() }
     }
 
-    /// A fault: the drive stops, and tells so.
+    /// Enters the fault state and reports the error code.
     pub fn trip(&mut self, code: u16) -> Result<(), AbortCode> {
         self.state = State::Fault;
         self.device.emit_emergency(code, 0x21, [0; 5]);
@@ -93,7 +93,7 @@ impl Dictionary for Servo {
         self.device.write(index, sub_index, data)?;
         let is_encoder_offset = objects::ENCODER_OFFSET.object() == Some(Object::new(index, sub_index));
         if is_encoder_offset && self.state == State::OperationEnabled {
-            // The position jumps under the controller.
+            // The write makes the actual position jump.
             self.trip(SENSOR_FAULT).map_err(|code| code.0)?;
         }
         Ok(())

@@ -1,4 +1,4 @@
-//! The firmware of a SubDevice: its state machine (ETG.1000.6 6.4), its mailbox and its process data.
+//! Firmware of a SubDevice: its state machine (ETG.1000.6 6.4), mailbox and process data.
 
 use std::collections::VecDeque;
 
@@ -11,33 +11,33 @@ use super::eeprom;
 use super::objects::Dictionary;
 use super::pdos::Pdos;
 
-/// The states.
+/// Values of AL control and AL status.
 const INIT: u8 = 1;
 const PRE_OP: u8 = 2;
 const SAFE_OP: u8 = 4;
 const OP: u8 = 8;
 
-/// Why a change of state is refused (ETG.1000.6 table 11).
+/// AL status codes for refused transitions (ETG.1000.6 table 11).
 const INVALID_CHANGE: u16 = 0x0011;
 const UNKNOWN_STATE: u16 = 0x0012;
 const INVALID_MAILBOX: u16 = 0x0016;
 const INVALID_OUTPUTS: u16 = 0x001D;
 const INVALID_INPUTS: u16 = 0x001E;
 
-/// A SubDevice.
+/// A simulated SubDevice.
 pub struct SubDevice {
     pub(super) controller: Controller,
     device: &'static Device,
     objects: Box<dyn Dictionary>,
     pdos: Pdos,
     server: Server,
-    /// Messages that wait for the mailbox to the master.
+    /// Messages waiting for the mailbox to the master.
     messages: VecDeque<Vec<u8>>,
     state: u8,
 }
 
 impl SubDevice {
-    /// A device that was just switched on: its description, and its objects beside those that configure PDOs.
+    /// Creates a device after power-on. `objects` are its objects without those for PDO configuration.
     pub fn new(device: &'static Device, objects: impl Dictionary + 'static) -> Self {
         Self {
             controller: Controller::new(eeprom::of(device)),
@@ -50,7 +50,7 @@ impl SubDevice {
         }
     }
 
-    /// What the firmware does between two frames.
+    /// Runs the firmware once, between two frames.
     pub(super) fn run(&mut self) {
         self.controller.tick();
         if let Some(request) = self.controller.request.take() {
@@ -82,7 +82,7 @@ impl SubDevice {
         }
     }
 
-    /// Whether the mailboxes are where the description has them.
+    /// Checks that the mailboxes have the settings of the device description.
     fn check_mailbox(&self) -> u16 {
         let purposes = [SyncManagerPurpose::MailboxOut, SyncManagerPurpose::MailboxIn];
         let mut mailboxes = self.device.sync_managers.iter().filter(|own| purposes.contains(&own.purpose));
@@ -100,7 +100,7 @@ impl SubDevice {
         }
     }
 
-    /// Whether the sync managers are as long as what is assigned to them.
+    /// Checks that the sync managers have the lengths of the assigned PDOs.
     fn check_process_data(&self) -> u16 {
         let wrong = self.device.sync_managers.iter().filter(|own| own.carries_data()).find(|own| {
             let set = self.controller.manager(own.number);
@@ -137,7 +137,7 @@ impl SubDevice {
         }
     }
 
-    /// Outputs to the application, and its inputs back.
+    /// Passes outputs to the application and fetches its inputs.
     fn exchange(&mut self) {
         if !matches!(self.state, SAFE_OP | OP) {
             return;
@@ -158,7 +158,7 @@ impl SubDevice {
     }
 }
 
-/// All objects of a device.
+/// All objects of a device, including those for PDO configuration.
 struct Objects<'d> {
     pdos: &'d mut Pdos,
     own: &'d mut dyn Dictionary,

@@ -1,4 +1,4 @@
-//! Tests of the plans of slots.
+//! Tests of slot plans.
 
 use std::vec::Vec;
 
@@ -22,7 +22,7 @@ fn places(plan: &SlotPlan<8>, manager: u8) -> Vec<(Option<u16>, u16, u32, u32)> 
 fn indices_grow_with_the_slot() {
     let plan = plan();
     assert_eq!(places(&plan, 2), [(Some(0), 0x1600, 0, 12)]);
-    // The coupler's own status comes first; the second group begins at a byte.
+    // The coupler's status comes first; the second group is aligned to a byte.
     assert_eq!(
         places(&plan, 3),
         [(None, 0x1AFF, 0, 4), (None, 0x1AF0, 4, 4), (Some(1), 0x1A04, 8, 8), (Some(3), 0x1A0C, 16, 8)]
@@ -47,7 +47,7 @@ fn lists_of_the_device_have_room_for_255() {
     }
     assert_eq!(room_for(0xF030, 255), Ok(()));
     let many = room_for(0xF030, 256).unwrap_err();
-    assert_eq!(std::format!("{many}"), "0xF030 has no room for 256 entries");
+    assert_eq!(std::format!("{many}"), "object 0xF030 can't hold 256 entries");
 }
 
 #[test]
@@ -100,16 +100,16 @@ fn commands_set_up_modules_and_process_data() {
         (0xF030, 3, &[0, 0, 0, 0]),
         (0xF030, 4, &[1, 0, 0, 0]),
         (0xF030, 0, &[4]),
-        // The modules' own commands, at the index of their slot.
+        // Initialization commands of the modules, at the indices of their slots.
         (0x8010, 2, &[0x0A, 0]),
         (0x8030, 2, &[0x0A, 0]),
         (0x1C12, 0, &[0]),
         (0x1C13, 0, &[0]),
-        // The gap in front of the second group.
+        // The padding in front of the second group.
         (0x1AF0, 0, &[0]),
         (0x1AF0, 1, &[4, 0, 0, 0]),
         (0x1AF0, 0, &[1]),
-        // What an entry maps grows where the entry says so.
+        // Only the index of the slot-dependent entry changes.
         (0x1A04, 0, &[0]),
         (0x1A04, 1, &[7, 1, 0x10, 0x60]),
         (0x1A04, 2, &[1, 2, 0x00, 0xF1]),

@@ -1,4 +1,4 @@
-//! Requests and responses over a record client.
+//! Parameter access over a record client.
 
 use super::error::ParameterError;
 use super::format::ParameterValue;
@@ -7,34 +7,35 @@ use super::response::Response;
 use crate::error::Error;
 use crate::profinet::record_client::{AsyncRecordClient, RecordAddress, RecordClient, SubmoduleAddress};
 
-/// The record for parameters of the axis whose submodule it belongs to.
+/// Index of the record for parameters of the axis that the submodule belongs to.
 pub const LOCAL: u16 = 0xB02E;
 
-/// The record for parameters of any axis.
+/// Index of the record for parameters of any axis.
 pub const GLOBAL: u16 = 0xB02F;
 
-/// Number of the application process (API) of PROFIdrive.
+/// Application process identifier (API) of PROFIdrive.
 pub const API: u32 = 0x3A00;
 
-/// How long requests and responses of the calls of [`ParameterAccess`] for one parameter are at most, in bytes: what fits into
-/// the parameter channel of every drive.
+/// Maximum length in bytes of requests and responses in [`ParameterAccess`] calls for one parameter: the length of
+/// the parameter channel that every drive supports.
 pub const BLOCK_LEN: usize = 240;
 
-/// How often a response is read where nothing else is said.
+/// Default for the number of attempts to read a response.
 const POLLS: u32 = 200;
 
-/// Reads and changes parameters of a drive, through a submodule that has a record for it. The methods that end in `_async` don't
-/// block.
+/// Reads and changes drive parameters through a submodule with a parameter record. The methods that end in `_async`
+/// don't block.
 ///
-/// A call writes a request and reads the response until the drive has one: as long as the record is empty, or the client says
-/// that the device is busy ([`RecordClient::is_busy`]), at most so many times ([`with_polls`](Self::with_polls)), with
-/// [`RecordClient::pause`] in between. A drive works at one request at a time.
+/// A call writes a request, then reads the response until the drive has one. It reads again if the record is empty or
+/// if the client reports that the device is busy ([`RecordClient::is_busy`]), with [`RecordClient::pause`] in
+/// between. [`with_polls`](Self::with_polls) limits the number of attempts. A drive processes one request at a time.
 ///
 /// # Errors
 ///
-/// Each call fails as the client does. When there is no response after the last time, that is the client's error, or
-/// [`Error::Timeout`] where the record was empty. [`Error::ParameterAccess`] is what the drive refuses, and what its response
-/// lacks; [`Error::Length`] says that a request or a response has too few bytes, or more than the buffer.
+/// - The errors of the client. Also the last error of a busy device, if there is no response after the last attempt.
+/// - [`Error::Timeout`] if the record is still empty after the last attempt.
+/// - [`Error::ParameterAccess`] if the drive refuses the request or its response is invalid.
+/// - [`Error::Length`] if a request or a response is too short or exceeds the buffer.
 #[derive(Clone, Debug)]
 pub struct ParameterAccess<C> {
     client: C,
@@ -44,40 +45,40 @@ pub struct ParameterAccess<C> {
 }
 
 impl<C> ParameterAccess<C> {
-    /// Through the record [`LOCAL`] of the submodule in `subslot` of `slot`, which belongs to the application process of
-    /// PROFIdrive. In most drives the slot is that of the axis, and the subslot 1.
+    /// Uses the record [`LOCAL`] of a submodule that belongs to the PROFIdrive application process. In most drives,
+    /// the slot is that of the axis and the subslot is 1.
     pub const fn new(client: C, slot: u16, subslot: u16) -> Self {
         Self::with_record(client, SubmoduleAddress::new(API, slot, subslot).record(LOCAL))
     }
 
-    /// Through another record: [`GLOBAL`], that of another application process, or a vendor's own.
+    /// Uses another record: [`GLOBAL`], a vendor-specific one, or one with another API.
     pub const fn with_record(client: C, record: RecordAddress) -> Self {
         Self { client, record, polls: POLLS, reference: 0 }
     }
 
-    /// The same with another number of times that a response is read before that fails. 0 is taken for 1.
+    /// Sets the number of attempts to read a response. 0 counts as 1.
     #[must_use]
     pub fn with_polls(self, polls: u32) -> Self {
         Self { polls, ..self }
     }
 
-    /// The client.
+    /// Returns the client.
     pub fn client(&mut self) -> &mut C {
         &mut self.client
     }
 
-    /// Gives the client back.
+    /// Returns the client and drops `self`.
     pub fn into_client(self) -> C {
         self.client
     }
 
-    /// A reference for the next request: from 1 to 255, and then again.
+    /// Returns the reference for the next request. It cycles through 1 to 255.
     pub fn next_reference(&mut self) -> u8 {
         self.reference = self.reference.checked_add(1).unwrap_or(1);
         self.reference
     }
 
-    /// A request that reads values of one parameter.
+    /// Encodes a request that reads values of one parameter.
     fn reading<'b>(
         &mut self,
         buffer: &'b mut [u8],
@@ -87,7 +88,7 @@ impl<C> ParameterAccess<C> {
         read_request(buffer, self.next_reference(), axis, &[address])
     }
 
-    /// A request that changes values of one parameter.
+    /// Encodes a request that changes values of one parameter.
     fn changing<'b, T: ParameterValue + Copy>(
         &mut self,
         buffer: &'b mut [u8],
@@ -113,7 +114,7 @@ fn elements<T: ParameterValue>(values: &[T]) -> Result<u8, ParameterError> {
     u8::try_from(values.len()).ok().filter(|count| *count > 0).ok_or(ParameterError::Values(T::FORMAT))
 }
 
-/// The values of a response with one parameter.
+/// Copies the values of a response with one parameter.
 fn copy<T: ParameterValue>(response: &Response<'_>, to: &mut [T]) -> Result<(), ParameterError> {
     let values = response.values()?;
     for (place, to) in to.iter_mut().enumerate() {
@@ -122,7 +123,7 @@ fn copy<T: ParameterValue>(response: &Response<'_>, to: &mut [T]) -> Result<(), 
     Ok(())
 }
 
-/// What an attempt to read a response means: its length, or that there is none yet, with what to say after the last one.
+/// Evaluates an attempt to read a response: its length, or the error to return if this was the last attempt.
 fn response_length<E>(
     outcome: Result<usize, Error<E>>,
     is_busy: impl FnOnce(&E) -> bool,
@@ -135,7 +136,7 @@ fn response_length<E>(
     }
 }
 
-/// The response of `length` bytes in `buffer`.
+/// Decodes the response in the first `length` bytes of `buffer`.
 fn decoded<'b, E>(request: &[u8], buffer: &'b [u8], length: usize) -> Result<Response<'b>, Error<E>> {
     let data = buffer.get(..length).ok_or(crate::LengthError::new(buffer.len(), length))?;
     Ok(Response::decode(request, data)?)
@@ -147,7 +148,7 @@ macro_rules! calls {
         $($async:ident $await:ident)?
     ) => {
         impl<C: $RecordClient> ParameterAccess<C> {
-            /// Reads one value of a parameter of `axis`. The subindex of a parameter that is no array is 0.
+            /// Reads one value of a parameter of `axis`. For a parameter that isn't an array, `subindex` is 0.
             pub $($async)? fn $read<T: ParameterValue>(
                 &mut self,
                 axis: u8,
@@ -159,7 +160,7 @@ macro_rules! calls {
                 Ok(self.$request(request, &mut response)$(.$await)??.values()?.get(0)?)
             }
 
-            /// Reads values of an array, from `subindex` on, until `values` are full.
+            /// Reads array elements from `subindex` on until `values` is full.
             pub $($async)? fn $read_array<T: ParameterValue>(
                 &mut self,
                 axis: u8,
@@ -184,7 +185,7 @@ macro_rules! calls {
                 self.$write_array(axis, pnu, subindex, &[value])$(.$await)?
             }
 
-            /// Changes values of an array, from `subindex` on.
+            /// Changes array elements from `subindex` on.
             pub $($async)? fn $write_array<T: ParameterValue + Copy>(
                 &mut self,
                 axis: u8,
@@ -198,8 +199,9 @@ macro_rules! calls {
                 Ok(self.$request(request, &mut response)$(.$await)??.done()?)
             }
 
-            /// Sends any request, of [`read_request`] or [`change_request`] with the [next reference](Self::next_reference),
-            /// and returns the response, which is in `buffer` then. What the drive refuses is in the response.
+            /// Sends a request and returns the response, which borrows `buffer`. Create the request with
+            /// [`read_request`] or [`change_request`] and the [next reference](Self::next_reference). Refusals are
+            /// part of the response.
             pub $($async)? fn $request<'b>(
                 &mut self,
                 request: &[u8],

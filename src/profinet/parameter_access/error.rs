@@ -1,4 +1,4 @@
-//! What can go wrong with an access to parameters.
+//! Errors of parameter access.
 
 use core::error;
 use core::fmt;
@@ -6,58 +6,58 @@ use core::fmt;
 use super::format::Format;
 use crate::value_error::LengthError;
 
-/// Why an access to parameters failed.
+/// Reasons why a parameter access failed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum ParameterError {
     /// The drive refused a parameter.
     Refused(Refusal),
-    /// A request has 1 to [`MAX_PARAMETERS`](super::MAX_PARAMETERS) parameters, not so many.
+    /// The number of parameters isn't between 1 and [`MAX_PARAMETERS`](super::MAX_PARAMETERS).
     Count(usize),
-    /// The values of a change aren't a whole number of values of their format, or more than 255.
+    /// The bytes of a change aren't 1 to 255 values of their format.
     Values(Format),
-    /// A request has a reference from 1 to 255, or it is too short to be one.
+    /// The request has the reference 0 or fewer than four bytes.
     NoRequest,
-    /// The response is to another request.
+    /// The response belongs to another request.
     OtherReference {
-        /// The reference of the request.
+        /// Reference of the request.
         expected: u8,
-        /// The one of the response.
+        /// Reference of the response.
         actual: u8,
     },
-    /// The response is of another kind than the request: 0x01 and 0x81 are those to a reading one, 0x02 and 0x82 those to a
-    /// changing one.
+    /// The response ID doesn't match the request ID. A read request expects 0x01 or 0x81, a change request 0x02 or
+    /// 0x82.
     ResponseId(u8),
-    /// The response is about another axis.
+    /// The response is for another axis.
     OtherAxis {
-        /// The axis of the request.
+        /// Axis of the request.
         expected: u8,
-        /// The one of the response.
+        /// Axis of the response.
         actual: u8,
     },
-    /// The response has more parameters than the request, or fewer although none is refused.
+    /// The response has more parameters than the request, or fewer without a refusal.
     ParameterCount {
-        /// How many parameters the request has.
+        /// Number of parameters in the request.
         expected: u8,
-        /// How many the response has.
+        /// Number of parameters in the response.
         actual: u8,
     },
-    /// The drive sent a value in another format than it was asked for, or in one whose length isn't known.
+    /// A value has another format than requested, or one of unknown length.
     Format(Format),
-    /// The response has no such value.
+    /// The response doesn't contain the value.
     NoValue,
-    /// A request or a response has fewer bytes than it needs.
+    /// A request or response is too short.
     Length(LengthError),
 }
 
-/// What a drive says of a parameter that it didn't read or change.
+/// The drive's reason for refusing a parameter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Refusal {
-    /// The parameter's place in the request, from 0.
+    /// Position of the parameter in the request, from 0.
     pub parameter: u8,
-    /// Why.
+    /// Error number.
     pub number: ErrorNumber,
-    /// The second error value, where the drive sends one: for many numbers the first subindex that is concerned.
+    /// Second error value, if the drive sends one. For many error numbers, it is the first affected subindex.
     pub information: Option<u16>,
 }
 
@@ -66,22 +66,20 @@ impl fmt::Display for ParameterError {
         match self {
             Self::Refused(refusal) => refusal.fmt(f),
             Self::Count(count) => write!(f, "a request has 1 to {} parameters, not {count}", super::MAX_PARAMETERS),
-            Self::Values(format) => write!(f, "the bytes aren't 1 to 255 values of {format}"),
-            Self::NoRequest => {
-                f.write_str("a request begins with a reference from 1 to 255 and has four bytes at least")
-            }
+            Self::Values(format) => write!(f, "the bytes are not 1 to 255 values of {format}"),
+            Self::NoRequest => f.write_str("the request is shorter than four bytes, or its reference is 0"),
             Self::OtherReference { expected, actual } => {
-                write!(f, "the response has reference {actual}, the request {expected}")
+                write!(f, "the response has reference {actual}, expected {expected}")
             }
-            Self::ResponseId(id) => write!(f, "the response is of another kind than the request: {id:#04X}"),
+            Self::ResponseId(id) => write!(f, "the response ID {id:#04X} doesn't match the request"),
             Self::OtherAxis { expected, actual } => {
-                write!(f, "the response is about axis {actual}, the request about {expected}")
+                write!(f, "the response is for axis {actual}, expected {expected}")
             }
             Self::ParameterCount { expected, actual } => {
-                write!(f, "the response has {actual} parameters, the request {expected}")
+                write!(f, "the response has {actual} parameters, expected {expected}")
             }
-            Self::Format(format) => write!(f, "the drive sent a value of {format}"),
-            Self::NoValue => f.write_str("the response has no such value"),
+            Self::Format(format) => write!(f, "unexpected format of a value: {format}"),
+            Self::NoValue => f.write_str("the response doesn't contain the value"),
             Self::Length(error) => error.fmt(f),
         }
     }
@@ -89,10 +87,10 @@ impl fmt::Display for ParameterError {
 
 impl fmt::Display for Refusal {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        // The first is the only one, mostly.
+        // Most requests have one parameter, whose position needs no mention.
         match self.parameter {
             0 => f.write_str("the drive refused: ")?,
-            place => write!(f, "the drive refused the parameter at place {place} of the request: ")?,
+            place => write!(f, "the drive refused the parameter at position {place} of the request: ")?,
         }
         self.number.fmt(f)?;
         match self.information {
@@ -111,8 +109,7 @@ impl From<LengthError> for ParameterError {
     }
 }
 
-/// Why a drive refuses to read or change a parameter. Numbers up to 0x64 are those of PROFIdrive, further ones the
-/// vendor's.
+/// The error number of a refusal. Numbers up to 0x64 are defined by PROFIdrive, higher ones by the vendor.
 ///
 /// ```
 /// use lexibus::profinet::parameter_access::ErrorNumber;
@@ -131,7 +128,7 @@ macro_rules! numbers {
                 pub const $name: Self = Self($number);
             )*
 
-            /// What the number means; `None` where PROFIdrive gives it no meaning.
+            /// Returns the meaning of the number; `None` if PROFIdrive doesn't define it.
             #[must_use]
             pub const fn text(self) -> Option<&'static str> {
                 match self.0 {

@@ -1,10 +1,10 @@
-//! Formats of values, and the types of Rust that have them.
+//! Formats of parameter values and the corresponding Rust types.
 
 use core::fmt;
 
 use crate::value_error::LengthError;
 
-/// The format of a parameter's values, by its number: a data type of IEC 61158, one of PROFIdrive, or only a length.
+/// The format of a parameter value: the number of a data type of IEC 61158 or PROFIdrive, or of a mere length.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Format(pub u8);
 
@@ -16,7 +16,7 @@ macro_rules! formats {
                 pub const $name: Self = Self($number);
             )*
 
-            /// Its name; `None` where the number isn't that of a known one.
+            /// Returns the name; `None` for an unknown format.
             #[must_use]
             pub const fn name(self) -> Option<&'static str> {
                 match self.0 {
@@ -25,7 +25,8 @@ macro_rules! formats {
                 }
             }
 
-            /// How many bytes a value takes; `None` where that isn't known. Of a string, a value is one letter.
+            /// Returns the length of a value in bytes; `None` if it is unknown. For strings, a value is one
+            /// character.
             #[must_use]
             pub const fn size(self) -> Option<usize> {
                 match self.0 {
@@ -78,27 +79,29 @@ impl fmt::Display for Format {
     }
 }
 
-/// A type of Rust for values of parameters. A newtype implements it by handing over to its number.
+/// A Rust type for parameter values. A newtype can delegate to its inner type.
 pub trait ParameterValue: Sized {
-    /// The format in which it is written.
+    /// Format for writing.
     const FORMAT: Format;
 
-    /// Its bytes, the most significant one first.
+    /// Big-endian bytes of a value.
     type Bytes: AsRef<[u8]>;
 
-    /// Whether it can be read from values of this format: its own, others of the same number of bits with the same sign,
-    /// and those that only say a length.
+    /// Returns whether the type can read values of this format.
+    ///
+    /// A type can read its own format, formats of the same length and signedness, and formats that only define a
+    /// length.
     #[must_use]
     fn reads(format: Format) -> bool;
 
-    /// Its bytes.
+    /// Returns the big-endian bytes.
     fn to_bytes(self) -> Self::Bytes;
 
-    /// The value of these bytes.
+    /// Decodes a value from big-endian bytes.
     ///
     /// # Errors
     ///
-    /// When there are fewer bytes or more.
+    /// [`LengthError`] if the number of bytes isn't the length of the value.
     fn from_bytes(bytes: &[u8]) -> Result<Self, LengthError>;
 }
 
@@ -137,7 +140,7 @@ values! {
     f64 8: FLOAT64;
 }
 
-/// One byte, 0 or 1. Any other value than 0 is read as `true`.
+/// One byte. Writes 0 or 1; reads all values except 0 as `true`.
 impl ParameterValue for bool {
     const FORMAT: Format = Format::BOOLEAN;
     type Bytes = [u8; 1];

@@ -1,67 +1,67 @@
-//! What a controller sends.
+//! Encoding of requests.
 
 use super::error::ParameterError;
 use super::format::Format;
 use crate::value_error::LengthError;
 
-/// How many parameters a request has at most.
+/// Maximum number of parameters in a request.
 pub const MAX_PARAMETERS: usize = 39;
 
-/// The kind of a request that reads.
+/// Request ID of a read request.
 pub(super) const READ: u8 = 0x01;
-/// The kind of a request that changes.
+/// Request ID of a change request.
 pub(super) const CHANGE: u8 = 0x02;
-/// Length of what a request and its response begin with: reference, kind, axis, number of parameters.
+/// Length of the header of requests and responses: reference, ID, axis, number of parameters.
 pub(super) const HEADER_LEN: usize = 4;
-/// Length of a parameter's address.
+/// Length of a parameter address.
 const ADDRESS_LEN: usize = 6;
 
-/// What of a parameter is read or changed.
+/// The attribute of a parameter that is read or changed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Attribute {
-    /// Its values.
+    /// The value.
     #[default]
     Value = 0x10,
-    /// Elements of its description.
+    /// The parameter description.
     Description = 0x20,
-    /// Its texts.
+    /// The texts.
     Text = 0x30,
 }
 
-/// Which elements of a parameter are read or changed.
+/// The elements of a parameter that are read or changed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct ParameterAddress {
-    /// What of them.
+    /// Attribute.
     pub attribute: Attribute,
-    /// How many of them.
+    /// Number of elements.
     pub elements: u8,
-    /// Number of the parameter (PNU).
+    /// Parameter number (PNU).
     pub pnu: u16,
-    /// Subindex of the first one; 0 for a parameter that is no array.
+    /// Subindex of the first element; 0 for a parameter that isn't an array.
     pub subindex: u16,
 }
 
 impl ParameterAddress {
-    /// One value.
+    /// Creates the address of one value.
     #[must_use]
     pub const fn value(pnu: u16, subindex: u16) -> Self {
         Self::values(pnu, subindex, 1)
     }
 
-    /// The values of several elements of an array, from `subindex` on.
+    /// Creates the address of several array elements, from `subindex` on.
     #[must_use]
     pub const fn values(pnu: u16, subindex: u16, elements: u8) -> Self {
         Self { attribute: Attribute::Value, elements, pnu, subindex }
     }
 
-    /// The same elements of another attribute.
+    /// Changes the attribute.
     #[must_use]
     pub const fn of(self, attribute: Attribute) -> Self {
         Self { attribute, ..self }
     }
 }
 
-/// A parameter and what becomes of it.
+/// A change of a parameter.
 ///
 /// ```
 /// use lexibus::profinet::parameter_access::{Change, ParameterAddress, ParameterValue};
@@ -71,29 +71,31 @@ impl ParameterAddress {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Change<'v> {
-    /// The parameter.
+    /// Address of the parameter.
     pub address: ParameterAddress,
-    /// The format of the values.
+    /// Format of the values.
     pub format: Format,
-    /// The values, one after the other.
+    /// Encoded values.
     pub values: &'v [u8],
 }
 
 impl<'v> Change<'v> {
-    /// A change of `address` to `values`.
+    /// Creates a change of `address` to `values`.
     #[must_use]
     pub const fn new(address: ParameterAddress, format: Format, values: &'v [u8]) -> Self {
         Self { address, format, values }
     }
 }
 
-/// Puts a request that reads `parameters` of `axis` (also called drive object, DO-ID) to the start of `buffer` and returns it.
+/// Encodes a request that reads `parameters` of `axis` (the drive object number, DO-ID) into `buffer` and returns it.
 ///
-/// `reference` tells the request from others and comes back in the response.
+/// The response contains the same `reference`.
 ///
 /// # Errors
 ///
-/// When `reference` is 0, `parameters` are none or more than [`MAX_PARAMETERS`], or don't fit into `buffer`.
+/// - [`ParameterError::NoRequest`] if `reference` is 0.
+/// - [`ParameterError::Count`] if the number of parameters isn't between 1 and [`MAX_PARAMETERS`].
+/// - [`ParameterError::Length`] if `buffer` is too short.
 pub fn read_request<'b>(
     buffer: &'b mut [u8],
     reference: u8,
@@ -106,13 +108,15 @@ pub fn read_request<'b>(
     to.finish()
 }
 
-/// Puts a request that makes `changes` to parameters of `axis` (also called drive object, DO-ID) to the start of `buffer` and
+/// Encodes a request that makes `changes` to parameters of `axis` (the drive object number, DO-ID) into `buffer` and
 /// returns it.
 ///
 /// # Errors
 ///
-/// When `reference` is 0, `changes` are none or more than [`MAX_PARAMETERS`], or don't fit into `buffer`; when values aren't of
-/// their format.
+/// - [`ParameterError::NoRequest`] if `reference` is 0.
+/// - [`ParameterError::Count`] if the number of changes isn't between 1 and [`MAX_PARAMETERS`].
+/// - [`ParameterError::Values`] if the values don't match their format.
+/// - [`ParameterError::Length`] if `buffer` is too short.
 pub fn change_request<'b>(
     buffer: &'b mut [u8],
     reference: u8,
@@ -128,7 +132,7 @@ pub fn change_request<'b>(
     to.finish()
 }
 
-/// Writes as long as there is room, and counts on beyond it.
+/// A writer that keeps counting after the end of the buffer.
 struct Writer<'b> {
     buffer: &'b mut [u8],
     length: usize,

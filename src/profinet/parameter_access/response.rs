@@ -1,4 +1,4 @@
-//! What a drive sends.
+//! Decoding of responses.
 
 use super::error::{ErrorNumber, ParameterError, Refusal};
 use super::format::{Format, ParameterValue};
@@ -6,51 +6,53 @@ use super::request::{CHANGE, HEADER_LEN};
 use crate::profinet::be;
 use crate::value_error::LengthError;
 
-/// Set in the kind of a response where at least one parameter is refused.
+/// Bit of the response ID that is set if the drive refused at least one parameter.
 const NEGATIVE: u8 = 0x80;
 
-/// The response to a request: it has been looked through, and all that is in it can be read.
+/// A decoded response. Its structure has been checked.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Response<'r> {
-    /// How many parameters it has.
+    /// Number of parameters.
     count: u8,
     is_negative: bool,
     parameters: &'r [u8],
 }
 
-/// What a drive says of one parameter.
+/// The drive's answer for one parameter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Answer<'r> {
-    /// It is changed, or it has no values.
+    /// The parameter has been changed or has no values.
     Done,
-    /// Its values.
+    /// The values of the parameter.
     Values(Values<'r>),
-    /// It is refused.
+    /// The drive refused the parameter.
     Refused(Refusal),
 }
 
 /// The values of a parameter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Values<'r> {
-    /// Their format.
+    /// Format of the values.
     pub format: Format,
-    /// How many they are; of a string, how many letters.
+    /// Number of values; for strings, the number of characters.
     pub count: u8,
-    /// Their bytes, one value after the other.
+    /// Encoded values.
     pub bytes: &'r [u8],
 }
 
 impl<'r> Response<'r> {
-    /// The response to `request` that is at the start of `data`. Bytes behind it are not looked at.
+    /// Decodes the response to `request` at the start of `data`. Bytes after it are ignored.
     ///
-    /// A drive whose response would get too long leaves parameters at the end out, and refuses the first of them: fewer
-    /// parameters than the request has are only an error where none is refused.
+    /// If a response would become too long, a drive refuses one parameter and omits the following ones. A response
+    /// with too few parameters is an error only if none is refused.
     ///
     /// # Errors
     ///
-    /// When the response is to another request, about another axis, of another kind, or has another number of parameters;
-    /// when it ends too early. A parameter whose values have a format of unknown length has all that follows, and may
-    /// only be the last. A refusal has to have a number.
+    /// - [`ParameterError::OtherReference`], [`ParameterError::OtherAxis`], [`ParameterError::ResponseId`] or
+    ///   [`ParameterError::ParameterCount`] if the response doesn't belong to the request.
+    /// - [`ParameterError::Length`] if it is incomplete.
+    /// - [`ParameterError::Format`] if a parameter other than the last one has a format of unknown length.
+    /// - [`ParameterError::NoValue`] if a refusal has no error number.
     pub fn decode(request: &[u8], data: &'r [u8]) -> Result<Self, ParameterError> {
         let [own_reference, own_id, own_axis, own_count] =
             *be::chunk(request).map_err(|_| ParameterError::NoRequest)?;
@@ -68,7 +70,7 @@ impl<'r> Response<'r> {
         if count > own_count || count == 0 || (count < own_count && !is_negative) {
             return Err(ParameterError::ParameterCount { expected: own_count, actual: count });
         }
-        // A change that was made is confirmed by the first four bytes alone.
+        // The response to a successful change consists of the header only.
         let is_bare = id == CHANGE;
         let parameters = if is_bare { &[] } else { data.get(HEADER_LEN..).unwrap_or_default() };
         let response = Self { count, is_negative, parameters };
@@ -78,12 +80,12 @@ impl<'r> Response<'r> {
         Ok(response)
     }
 
-    /// Whether every parameter can be read.
+    /// Checks that all parameters can be decoded.
     fn check(&self, length: usize) -> Result<(), ParameterError> {
         let mut rest = self.parameters;
         for left in (0..self.count).rev() {
             let (values, behind) = Values::split(rest).map_err(|missing| {
-                // What is missing counts from the end of the response.
+                // `missing` counts from the end of the response.
                 LengthError::new(length + missing, length)
             })?;
             if values.format.size().is_none() && left > 0 {
@@ -97,25 +99,25 @@ impl<'r> Response<'r> {
         Ok(())
     }
 
-    /// How many parameters the response has.
+    /// Returns the number of parameters.
     #[must_use]
     pub const fn count(&self) -> u8 {
         self.count
     }
 
-    /// Whether the drive refused a parameter at least.
+    /// Returns whether the drive refused at least one parameter.
     #[must_use]
     pub const fn is_negative(&self) -> bool {
         self.is_negative
     }
 
-    /// What the drive says of each parameter, in the order of the request.
+    /// Returns the answers in the order of the request.
     #[must_use]
     pub const fn answers(&self) -> Answers<'r> {
         Answers { rest: self.parameters, next: 0, count: self.count }
     }
 
-    /// The first parameter that the drive refused.
+    /// Returns the first refusal.
     #[must_use]
     pub fn refusal(&self) -> Option<Refusal> {
         self.answers().find_map(|answer| match answer {
@@ -124,11 +126,11 @@ impl<'r> Response<'r> {
         })
     }
 
-    /// The values of the first parameter.
+    /// Returns the values of the first parameter.
     ///
     /// # Errors
     ///
-    /// When the drive refused it, or sent none.
+    /// [`ParameterError::Refused`] if the drive refused it, [`ParameterError::NoValue`] if there are none.
     pub fn values(&self) -> Result<Values<'r>, ParameterError> {
         match self.answers().next() {
             Some(Answer::Values(values)) => Ok(values),
@@ -137,15 +139,15 @@ impl<'r> Response<'r> {
         }
     }
 
-    /// That the drive refused nothing.
+    /// Checks that the drive refused no parameter.
     ///
     /// # Errors
     ///
-    /// When it did: the first refusal.
+    /// [`ParameterError::Refused`] with the first refusal.
     pub fn done(&self) -> Result<(), ParameterError> {
         match self.refusal() {
             Some(refusal) => Err(ParameterError::Refused(refusal)),
-            // The drive says that it refused one, and not which.
+            // The response reports a refusal but doesn't contain it.
             None if self.is_negative => Err(ParameterError::NoValue),
             None => Ok(()),
         }
@@ -153,22 +155,23 @@ impl<'r> Response<'r> {
 }
 
 impl<'r> Values<'r> {
-    /// The values at the start of `data`, and what follows them; how many bytes are missing as an error.
+    /// Splits the first values off `data`. If they are incomplete, returns the number of missing bytes as an error.
     fn split(data: &'r [u8]) -> Result<(Self, &'r [u8]), usize> {
         let Some((&[format, count], rest)) = data.split_first_chunk() else { return Err(2 - data.len()) };
         let format = Format(format);
         let length = format.size().map_or(rest.len(), |size| size * usize::from(count));
         let (bytes, rest) = rest.split_at_checked(length).ok_or_else(|| length - rest.len())?;
-        // The byte that makes their number even is no part of them. At the end of a response it may be missing.
+        // An odd length is followed by a padding byte, which may be missing at the end of a response.
         let rest = rest.get(length % 2..).unwrap_or_default();
         Ok((Self { format, count, bytes }, rest))
     }
 
-    /// The value at `place`, from 0.
+    /// Returns the value at position `place`, from 0.
     ///
     /// # Errors
     ///
-    /// When the values have a format that isn't that of a `T`, or there are too few.
+    /// [`ParameterError::Format`] if `T` can't read the format, [`ParameterError::NoValue`] if there are too few
+    /// values.
     pub fn get<T: ParameterValue>(&self, place: usize) -> Result<T, ParameterError> {
         if !T::reads(self.format) {
             return Err(ParameterError::Format(self.format));
@@ -178,7 +181,7 @@ impl<'r> Values<'r> {
         Ok(T::from_bytes(value)?)
     }
 
-    /// What a drive says of the parameter with this place in the request.
+    /// Converts the values to the answer for the parameter at this position in the request.
     fn answer(self, parameter: u8) -> Answer<'r> {
         match self.format {
             Format::ZERO => Answer::Done,
@@ -197,7 +200,7 @@ impl<'r> Values<'r> {
     }
 }
 
-/// What a drive says of each parameter of a request; made by [`Response::answers`].
+/// An iterator over the answers of a [`Response`].
 #[derive(Clone, Debug)]
 pub struct Answers<'r> {
     rest: &'r [u8],
@@ -211,7 +214,7 @@ impl<'r> Iterator for Answers<'r> {
     fn next(&mut self) -> Option<Answer<'r>> {
         let parameter = self.next;
         self.next = parameter.checked_add(1).filter(|next| *next <= self.count)?;
-        // A change that was made has nothing more.
+        // The response to a successful change has no values.
         let Ok((values, rest)) = Values::split(self.rest) else { return Some(Answer::Done) };
         self.rest = rest;
         Some(values.answer(parameter))

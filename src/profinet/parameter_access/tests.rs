@@ -34,7 +34,7 @@ fn requests_that_change_have_all_addresses_first() {
         &[0x10, 1, 0x01, 0x23, 0x00, 0x04],
         &[0x10, 3, 0x00, 0x02, 0x00, 0x00],
         &[0x06, 1, 0x05, 0xDC],
-        // Three values, and a byte that makes their number even.
+        // Three values and a padding byte.
         &[0x01, 3, 1, 0, 1, 0],
     ];
     assert_eq!(change(&changes), request.concat());
@@ -76,10 +76,10 @@ fn requests_that_there_are_not() {
     assert_eq!(changing(Format(11), &[1, 2]), Err(ParameterError::Values(Format(11))));
     assert_eq!(changing(Format::BYTE, &[0; 255]), Ok(10 + 2 + 256));
     let error = changing(Format(11), &[1, 2]).unwrap_err();
-    assert_eq!(error.to_string(), "the bytes aren't 1 to 255 values of format 11 (unknown)");
+    assert_eq!(error.to_string(), "the bytes are not 1 to 255 values of format 11 (unknown)");
 }
 
-/// The response to a request that reads three parameters: a double word, a string of five letters, a refusal with a
+/// The response to a request for three parameters: a double word, a string of five characters, and a refusal with a
 /// subindex.
 const MIXED: [u8; 26] = [
     7, 0x81, 2, 3, 0x43, 1, 0x12, 0x34, 0x56, 0x78, 0x09, 5, b'm', b'o', b't', b'o', b'r', 0, 0x44, 2, 0x00, 0x03,
@@ -101,7 +101,7 @@ fn responses_with_several_parameters() {
     let refusal = Refusal { parameter: 2, number: ErrorNumber::NO_SUBINDEX, information: Some(9) };
     assert_eq!(answers[2], Answer::Refused(refusal));
     assert_eq!((response.refusal(), response.done()), (Some(refusal), Err(ParameterError::Refused(refusal))));
-    let text = "the drive refused the parameter at place 2 of the request: 0x0003: there is no such subindex (9)";
+    let text = "the drive refused the parameter at position 2 of the request: 0x0003: there is no such subindex (9)";
     assert_eq!(refusal.to_string(), text);
 }
 
@@ -111,13 +111,13 @@ fn changes_that_were_made_and_not() {
     let request = change(&[Change::new(ONE, Format::WORD, &value); 2]);
     let made = Response::decode(&request, &[7, 0x02, 2, 2]).unwrap();
     assert_eq!((made.done(), made.answers().count()), (Ok(()), 2));
-    // The first is changed, the second beyond a limit.
+    // The first parameter is changed, the second exceeds a limit.
     let half = [7, 0x82, 2, 2, 0x40, 0, 0x44, 1, 0x00, 0x02];
     let half = Response::decode(&request, &half).unwrap();
     let refusal = Refusal { parameter: 1, number: ErrorNumber::LIMITS, information: None };
     assert_eq!(half.answers().collect::<Vec<_>>(), [Answer::Done, Answer::Refused(refusal)]);
     assert_eq!(half.done(), Err(ParameterError::Refused(refusal)));
-    // A refusal that says not what, nor why.
+    // A refusal without parameter and reason.
     let silent = Response::decode(&request, &[7, 0x82, 2, 1, 0x40, 0]).unwrap();
     assert_eq!(silent.done(), Err(ParameterError::NoValue));
     assert_eq!(Response::decode(&request, &[7, 0x82, 2, 1, 0x44, 0]), Err(ParameterError::NoValue));
@@ -133,7 +133,7 @@ fn every_response_that_ends_too_early_says_so() {
         assert!(error.actual == length && error.expected > length && error.expected <= 24, "{error:?}");
     }
     assert!(Response::decode(&request, &MIXED[..24]).is_ok());
-    // Only the byte that makes the number even is missing.
+    // Only the padding byte is missing.
     assert!(Response::decode(&read(&[ONE]), &[7, 1, 2, 1, 0x05, 1, 9]).is_ok());
 }
 
@@ -151,14 +151,14 @@ fn responses_to_something_else() {
     for actual in [0, 1, 3] {
         assert_eq!(refused([7, 0x01, 2, actual]), Err(ParameterError::ParameterCount { expected: 2, actual }));
     }
-    // A response that would get too long is cut, and refuses.
+    // A response that would become too long is truncated and contains a refusal.
     assert_eq!(refused([7, 0x81, 2, 1]), Ok(()));
     assert_eq!(Response::decode(&[1, 2, 3], &MIXED), Err(ParameterError::NoRequest));
 }
 
 #[test]
 fn formats_of_unknown_length() {
-    // Twelve bytes of something: the last parameter has all of it.
+    // Twelve bytes of unknown format: they all belong to the last parameter.
     let data = [7, 1, 2, 2, 0x42, 1, 0, 9, 12, 2, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12];
     let response = Response::decode(&read(&[ONE, ONE]), &data).unwrap();
     let Some(Answer::Values(time)) = response.answers().nth(1) else { panic!() };
@@ -183,7 +183,7 @@ fn values_of_other_formats_of_the_same_kind() {
     assert_eq!((Format(113), Format(124)), (Format::N2, Format::X4));
 }
 
-/// Bytes that look like chance, the same each time.
+/// Returns pseudo-random bytes from a seed.
 fn noise(seed: &mut u32) -> u8 {
     *seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
     (*seed >> 24) as u8

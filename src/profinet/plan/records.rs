@@ -1,46 +1,45 @@
-//! The records that a controller sends at start-up.
+//! Start-up records.
 
 use super::{Plan, PlanError};
 use crate::profinet::descriptor;
 
-/// A record to be written.
+/// A record to write.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct RecordWrite<'r> {
-    /// Number of the application process (API).
+    /// Application process identifier (API).
     pub api: u32,
     /// Slot.
     pub slot: u16,
     /// Subslot.
     pub subslot: u16,
-    /// The record's index.
+    /// Index of the record.
     pub index: u16,
-    /// What to write.
+    /// Content of the record.
     pub data: &'r [u8],
 }
 
-/// Bytes for a record of a plan, in place of its defaults.
+/// Content that replaces the default content of a record in a plan.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Replacement<'r> {
     /// Slot.
     pub slot: u16,
     /// Subslot.
     pub subslot: u16,
-    /// The record's index.
+    /// Index of the record.
     pub index: u16,
-    /// What to write.
+    /// Content of the record.
     pub data: &'r [u8],
 }
 
 impl<'r> Replacement<'r> {
-    /// `data` for the record `index` of the submodule in `subslot` of `slot`.
+    /// Creates a replacement for the record `index` of the submodule in `subslot` of `slot`.
     #[must_use]
     pub const fn new(slot: u16, subslot: u16, index: u16, data: &'r [u8]) -> Self {
         Self { slot, subslot, index, data }
     }
 }
 
-/// Start-up records in the order of transfer: by slot and subslot, and within a submodule as its description orders
-/// them.
+/// An iterator over start-up records in the order of transfer: by slot, subslot, and transfer sequence.
 #[derive(Clone, Debug)]
 pub struct Records<'r, const N: usize> {
     plan: Plan<N>,
@@ -50,17 +49,17 @@ pub struct Records<'r, const N: usize> {
 }
 
 impl<const N: usize> Plan<N> {
-    /// The records that a controller sends at start-up, with their defaults.
+    /// Returns the start-up records with their default content.
     #[must_use]
     pub fn records(&self) -> Records<'static, N> {
         Records { plan: *self, replacements: &[], entry: 0, record: 0 }
     }
 
-    /// The same with some of them replaced.
+    /// Returns the start-up records with some of them replaced.
     ///
     /// # Errors
     ///
-    /// When a replacement belongs to no record of the plan, or has another length.
+    /// [`PlanError::NoSuchRecord`] if the plan has no such record, [`PlanError::RecordLength`] if the lengths differ.
     pub fn records_with<'r>(&self, replacements: &'r [Replacement<'r>]) -> Result<Records<'r, N>, PlanError> {
         for replacement in replacements {
             let submodule = self.submodule(replacement.slot, replacement.subslot).ok_or(PlanError::NoSuchRecord)?;

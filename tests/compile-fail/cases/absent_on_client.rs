@@ -1,4 +1,4 @@
-//! Of a device that is on several buses, an item that isn't on the client's.
+//! An item of a device with several buses can't be read through a client of a bus that the item isn't on.
 
 use lexibus::{Client, Flags, Item, Modbus, OnCanOpenAndCoE, OnCanOpenCoEAndModbus, Register, Ro};
 

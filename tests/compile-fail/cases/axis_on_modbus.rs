@@ -1,4 +1,4 @@
-//! Rules of further axes are about objects, not about registers.
+//! Rules for further axes apply to objects, not to registers.
 
 use lexibus::{Axes, Axis, Client, Flags, Item, Modbus, OnCanOpenCoEAndModbus, Register, Ro};
 

@@ -1,4 +1,4 @@
-//! What can't be read in a block of Modbus: what nobody can read, and what is elsewhere.
+//! Items that can't be part of a Modbus block: write-only items, and items on other buses.
 
 use lexibus::modbus::RegisterClient;
 use lexibus::{Flags, Item, OnCanOpen, OnModbus, Register, Ro, Wo};

@@ -1,5 +1,5 @@
-//! What the Eco has on some of its buses only: the image's following error isn't a register, an error code of EtherCAT isn't on
-//! CANopen, and the address that saves on Modbus is no object.
+//! Items that the Eco has only on some buses. The following error of the image isn't a register, an EtherCAT error
+//! code isn't on CANopen, and the address that saves on Modbus isn't an object.
 
 use lexibus::{CanOpen, Client, CoE, Modbus};
 use lexibus_drives::eco::{objects, Eco};

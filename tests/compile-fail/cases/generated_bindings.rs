@@ -1,4 +1,4 @@
-//! The names of a drive's own bindings, and what they refuse.
+//! Names in the generated bindings of a drive, and the operations that they reject.
 
 use lexibus::{CanOpen, Client, Error, Object};
 use lexibus_drives::demo_drive::DemoDrive;

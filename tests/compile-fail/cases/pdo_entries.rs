@@ -1,4 +1,4 @@
-//! Objects that the device maps, but not into this PDO.
+//! Objects that the device can map, but not into this PDO.
 
 #[allow(non_camel_case_types)]
 mod device {

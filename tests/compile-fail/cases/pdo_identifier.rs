@@ -1,4 +1,4 @@
-//! A configuration of CANopen for PDOs that have no identifier.
+//! CANopen configuration of PDOs without a COB-ID.
 
 #[allow(non_camel_case_types)]
 mod device {

@@ -1,4 +1,4 @@
-//! Mappings that no PDO of the device takes.
+//! Mappings that exceed the capabilities of their PDO.
 
 use lexibus_drives::{demo_drive, vector_step};
 

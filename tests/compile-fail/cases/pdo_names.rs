@@ -1,4 +1,4 @@
-//! Objects and PDOs that can't be mapped: one that doesn't exist, one that the device doesn't map, a PDO that it doesn't have.
+//! Names that can't be mapped: an unknown object, an object that can't be mapped, an unknown PDO.
 
 lexibus::pdo! {
     pub struct Misspelt: lexibus_drives::demo_drive::pdo::RxPdo2 {

@@ -1,4 +1,4 @@
-//! What isn't a mapping.
+//! Syntax errors in mappings.
 
 use lexibus_drives::demo_drive;
 use lexibus_drives::demo_drive::pdo;

@@ -1,4 +1,5 @@
-//! What a request means only after another one isn't there before, and no other one can be sent meanwhile.
+//! A poll is unavailable before its selection is sent, and another selection can't be sent while the device is in
+//! use.
 
 use lexibus::message::MessageClient;
 use lexibus_drives::hsd::HsdMotor;

@@ -1,5 +1,5 @@
-//! What a bus lacks: a field that the device only gets can't be read, and one that it only sends can't be written; a window is
-//! only on its bus, and no part of a block.
+//! Operations that a bus lacks: reading an output-only field, writing an input-only field, using a window on another
+//! bus or in a block.
 
 use lexibus::modbus::RegisterClient;
 use lexibus::profinet::{Cyclic, ImageClient};

@@ -1,4 +1,4 @@
-//! Code that was generated for another version of the interface.
+//! Code generated for another version of the interface.
 
 const _: () = lexibus::interface::assert_version(lexibus::interface::VERSION + 1);
 

@@ -1,4 +1,4 @@
-//! A node of the library `canopen`, made of an EDS that Lexibus exported, on a CAN bus that is a pseudo-terminal.
+//! A node of the library `canopen` on a CAN bus over a pseudo-terminal. The node uses an EDS exported by Lexibus.
 
 mod demo_drive;
 mod network;
@@ -23,37 +23,38 @@ use crate::python::{python, Script};
 use crate::slcan::Slcan;
 
 lexibus::dictionary! {
-    /// The node that has an object of every type.
+    /// A node with an object of each data type.
     mod all_types = "tests/interop/all-types.toml";
 }
 
-/// How long a frame may take: Python is slow on a busy machine.
+/// Timeout of a frame. Python is slow on a busy machine.
 pub const PATIENCE: Duration = Duration::from_secs(10);
 
-/// The number of the node.
+/// The node-ID.
 pub const NODE: u8 = 5;
 
-/// The client of the node; what comes while an answer is waited for is kept.
+/// The client of the node. It buffers other frames that arrive while it waits for a response.
 pub type Node = canopen::Node<Buffered<Slcan<Pty>, 64>>;
 
-/// The same without blocking.
+/// The asynchronous client of the node.
 pub type AsyncNode = canopen::Node<Buffered<Slcan<SerialStream>, 64>>;
 
-/// What can go wrong on the way to it.
+/// Error of the client.
 pub type Error = lexibus::Error<std::io::Error>;
 
 pub fn node_id() -> NodeId {
     NodeId::new(NODE).expect("a node-ID")
 }
 
-/// A node, made of the EDS of the description in `file`; `test` names the test that has it. `None` where there is no Python.
+/// Starts a node with the EDS of the description in `file`, and returns its client. `test` is the name of the test.
+/// Returns `None` if Python is missing.
 pub fn start(test: &str, file: &str) -> Option<(Script, Node)> {
     let line = Pty::open();
     let script = run(test, file, line.path())?;
     Some((script, client(line)))
 }
 
-/// The same for a client that doesn't block. The cable has to last as long as it. In a runtime of `tokio`.
+/// Starts a node with an asynchronous client. The cable must outlive the client. Requires a `tokio` runtime.
 pub fn start_async(test: &str, file: &str) -> Option<(Script, AsyncNode, Cable)> {
     let cable = Cable::open();
     let [near, far] = cable.ends();
@@ -73,11 +74,11 @@ fn run(test: &str, file: &str, tty: &str) -> Option<Script> {
     Some(script)
 }
 
-/// The exported EDS, in a file of this test's own.
+/// Exports the EDS to a temporary file of this test.
 fn exported(test: &str, file: &str) -> PathBuf {
     let source = Source::read(&Path::new(env!("CARGO_MANIFEST_DIR")).join(file)).expect("a description");
     let compilation = check(source, &Options::default());
-    let catalog = compilation.catalog.expect("a catalogue");
+    let catalog = compilation.catalog.expect("a catalog");
     let eds = export(&catalog, &catalog.devices[0], Flavour::Eds).expect("a CANopen device");
     let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("interop-{test}.eds"));
     std::fs::write(&path, eds.text).expect("a temporary file");
@@ -85,12 +86,12 @@ fn exported(test: &str, file: &str) -> PathBuf {
 }
 
 impl Script {
-    /// What the node holds at an object, as the library decodes it.
+    /// Returns the value of an object, decoded by the library.
     pub fn get(&mut self, index: u16, sub: u8) -> Value {
         self.ask(json!({ "do": "get", "index": index, "sub": sub }))
     }
 
-    /// Has the node hold a value at an object, as the library encodes it.
+    /// Sets the value of an object, encoded by the library.
     pub fn set(&mut self, index: u16, sub: u8, value: Value) {
         self.ask(json!({ "do": "set", "index": index, "sub": sub, "value": value }));
     }

@@ -1,4 +1,4 @@
-//! What isn't a transfer: the node's state, its heartbeat and its emergency messages.
+//! Services other than SDO transfers: NMT states, heartbeat and emergency messages.
 
 use lexibus::clients::canopen::{NmtCommand, NmtState};
 use lexibus::Emergency;
@@ -16,7 +16,7 @@ fn states_and_heartbeat() -> Result<(), Error> {
     let Some((mut script, node)) = start("heartbeat", FILE) else { return Ok(()) };
     let mut device = AllTypes::new(node);
     assert_eq!(device.client().heartbeat(PATIENCE)?, Some(NmtState::BootUp));
-    // Off by default.
+    // The heartbeat is disabled by default.
     assert_eq!(device.heartbeat_time().read()?, 0);
     device.heartbeat_time().write(20)?;
     for (command, state, name) in [
@@ -25,13 +25,14 @@ fn states_and_heartbeat() -> Result<(), Error> {
         (NmtCommand::Stop, NmtState::Stopped, "STOPPED"),
         (NmtCommand::EnterPreOperational, NmtState::PreOperational, "PRE-OPERATIONAL"),
     ] {
-        // One to another node isn't meant.
+        // The node ignores commands for other nodes.
         device.client().send(&NmtCommand::Start.frame(NodeId::new(NODE + 1)))?;
         device.client().nmt(command)?;
-        // An answer to what was sent later: the node has seen the command. (This library answers while it is stopped, too.)
+        // An SDO response proves that the node has processed the command. This library also answers while it is
+        // stopped.
         assert_eq!(device.heartbeat_time().read()?, 20);
         assert_eq!(script.ask(json!({ "do": "state" })), name);
-        // Heartbeats of before are forgotten.
+        // Discard older heartbeats.
         device.client().port().clear();
         device.client().wait_for(state, PATIENCE)?;
     }
@@ -40,7 +41,7 @@ fn states_and_heartbeat() -> Result<(), Error> {
     Ok(())
 }
 
-/// Two that come during a transfer are there after it.
+/// Emergency messages that arrive during a transfer are available after it.
 #[test]
 fn emergencies() -> Result<(), Error> {
     let Some((mut script, node)) = start("emergency", FILE) else { return Ok(()) };

@@ -1,4 +1,4 @@
-//! The same node through accessors that don't block: transfers of each kind, states, PDOs.
+//! The same node through asynchronous accessors: all kinds of transfers, NMT states, PDOs.
 
 use lexibus::clients::canopen::{AsyncCanPort, NmtCommand, NmtState};
 use lexibus::{AbortCode, Int};

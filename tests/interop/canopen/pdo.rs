@@ -1,4 +1,4 @@
-//! PDOs of generated structs: the node takes their configuration, and both sides see the same values in a frame.
+//! Generated PDO structs: the node accepts their configuration, and both sides decode the same values from a frame.
 
 use lexibus::clients::canopen::{CanFrame, CanPort};
 use lexibus::{AbortCode, Int, Pdo, SdoWrite, Uint};
@@ -11,12 +11,12 @@ use crate::python::Script;
 
 const FILE: &str = "tests/interop/all-types.toml";
 
-/// What the library uses a PDO with, after it read the objects of the node.
+/// Returns the PDO parameters that the library has read from the node's objects.
 pub fn used(script: &mut Script, direction: &str, number: u32) -> Value {
     script.ask(json!({ "do": "pdo", "direction": direction, "number": number }))
 }
 
-/// What it uses when it is configured for a struct.
+/// Returns the PDO parameters of a struct.
 pub fn expected<P: Pdo>(cob_id: u32, transmission_type: u8) -> Value {
     let entry = |entry: &lexibus::MappedEntry| json!([entry.index, entry.sub_index, entry.bits]);
     let bits: u32 = P::MAPPING.iter().map(|entry| entry.bits).sum();
@@ -24,12 +24,12 @@ pub fn expected<P: Pdo>(cob_id: u32, transmission_type: u8) -> Value {
     json!({ "cob_id": cob_id, "enabled": true, "type": transmission_type, "bits": bits, "entries": entries })
 }
 
-/// Writes the steps one after the other.
+/// Sends the writes of a configuration.
 pub fn configure(node: &mut Node, steps: impl IntoIterator<Item = SdoWrite>) -> Result<(), Error> {
     steps.into_iter().try_for_each(|step| step.send(node))
 }
 
-/// A frame with the identifier `id`.
+/// Creates a frame with the CAN-ID `id`.
 pub fn frame(id: u32, data: &[u8]) -> CanFrame {
     CanFrame::new(id as u16, data).expect("a frame")
 }
@@ -39,7 +39,7 @@ pub fn receive(node: &mut Node, id: u32) -> CanFrame {
     received.unwrap_or_else(|| panic!("no frame with the identifier {id:#x}"))
 }
 
-/// Configures an RPDO, sends it, and compares the values that the library decodes.
+/// Configures an RPDO, sends it, and checks the values decoded by the library.
 macro_rules! received {
     ($script:ident, $node:ident, $number:literal by $configuration:expr, at $id:expr, $pdo:ident $fields:tt, $values:tt) => {
         configure(&mut $node, $configuration)?;
@@ -50,7 +50,7 @@ macro_rules! received {
     };
 }
 
-/// Configures a TPDO, has the library send it, and compares what comes out of the frame.
+/// Configures a TPDO, lets the library send it, and checks the decoded values.
 macro_rules! transmitted {
     ($script:ident, $node:ident, $number:literal by $configuration:expr, at $id:expr, $pdo:ident $fields:tt, $values:tt) => {
         configure(&mut $node, $configuration)?;
@@ -100,7 +100,7 @@ fn received_pdos() -> Result<(), Error> {
         RxPdo4 { real64: -0.1 },
         [-0.1]
     );
-    // These have no identifier of their own.
+    // These PDOs have no default COB-ID.
     received!(
         script, node, 5 by RxPdo5::configuration_as(0x321), at 0x321,
         RxPdo5 { unsigned64: 0xFEDC_BA98_7654_3210 },
@@ -176,7 +176,8 @@ fn transmitted_pdos() -> Result<(), Error> {
     Ok(())
 }
 
-/// The node checks the order of the steps, and what is mapped: without a step, or in another order, it refuses.
+/// The node checks the order of the writes and the mapped objects. It rejects a configuration with missing or
+/// reordered writes.
 #[test]
 fn another_order_is_refused() -> Result<(), Error> {
     let Some((script, mut node)) = start("order", FILE) else { return Ok(()) };
@@ -194,7 +195,7 @@ fn another_order_is_refused() -> Result<(), Error> {
     SdoWrite::new_u32(0x1603, 2, 0x2005_0008).send(&mut node)?;
     assert_aborted(SdoWrite::new_u8(0x1603, 0, 2).send(&mut node), AbortCode::PDO_LENGTH);
     configure(&mut node, RxPdo4::configuration(node_id()))?;
-    // An identifier isn't changed while it is in use.
+    // The COB-ID of an enabled PDO can't be changed.
     let moved = SdoWrite::new_u32(0x1403, 1, 0x321);
     assert_aborted(moved.send(&mut node), AbortCode::DEVICE_STATE);
     drop(script);

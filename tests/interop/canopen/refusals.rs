@@ -1,7 +1,7 @@
-//! What the node refuses arrives as the abort code that it sent, and what the accessor refuses isn't sent.
+//! Refusals of the node arrive as its abort codes. Values refused by the accessor are not sent.
 //!
-//! The library itself checks rights, lengths and whether an object exists; limits are checked by the script, with those that the
-//! library read from the exported EDS.
+//! The library checks access rights, lengths and the existence of objects. The script checks limits, which the
+//! library has read from the exported EDS.
 
 use lexibus::{AbortCode, Fixed, Item, OnCanOpen, Rw};
 use serde_json::json;
@@ -11,7 +11,7 @@ use super::{start, Error, Node};
 
 const FILE: &str = "tests/interop/all-types.toml";
 
-/// An object as somebody sees it who knows nothing of its rights and limits.
+/// An item without the access rights and limits of its object.
 pub type Naive<V> = Item<V, Rw, OnCanOpen>;
 
 pub const fn naive<V: Fixed>(index: u16, sub_index: u8) -> Naive<V> {
@@ -27,7 +27,7 @@ pub fn assert_aborted<T: std::fmt::Debug>(result: Result<T, Error>, code: AbortC
 fn values_out_of_range() -> Result<(), Error> {
     let Some((mut script, node)) = start("out-of-range", FILE) else { return Ok(()) };
     let mut device = AllTypes::new(node);
-    // The limits went through the EDS.
+    // The EDS contains the limits.
     assert_eq!(script.ask(json!({ "do": "limits", "index": 0x2203 })), json!([-100, 200]));
     assert_eq!(script.ask(json!({ "do": "limits", "index": 0x2204 })), json!([10, 0xFFFF_FFF0_u32]));
     for value in [-100, 200] {
@@ -38,17 +38,17 @@ fn values_out_of_range() -> Result<(), Error> {
         device.limited_unsigned().write(value)?;
         assert_eq!(script.get(0x2204, 0), value);
     }
-    // The accessor sends nothing.
+    // The accessor rejects the values without sending them.
     assert!(matches!(device.limited_signed().write(-101), Err(Error::OutOfRange(_))));
     assert!(matches!(device.limited_unsigned().write(9), Err(Error::OutOfRange(_))));
-    // The device refuses what somebody else sends.
+    // The device rejects the same values.
     let signed: Naive<i16> = naive(0x2203, 0);
     let unsigned: Naive<u32> = naive(0x2204, 0);
     assert_aborted(signed.at(device.client()).write(-101), AbortCode::TOO_LOW);
     assert_aborted(signed.at(device.client()).write(201), AbortCode::TOO_HIGH);
     assert_aborted(unsigned.at(device.client()).write(9), AbortCode::TOO_LOW);
     assert_aborted(unsigned.at(device.client()).write(u32::MAX), AbortCode::TOO_HIGH);
-    // What it held, it still holds.
+    // The values are unchanged.
     assert_eq!(device.limited_signed().read()?, 200);
     assert_eq!(device.limited_unsigned().read()?, 0xFFFF_FFF0);
     Ok(())
@@ -62,11 +62,11 @@ fn rights() -> Result<(), Error> {
     assert_eq!(device.measured().read()?, -5);
     device.password().write(0xC0DE_CAFE)?;
     assert_eq!(script.get(0x2202, 0), 0xC0DE_CAFE_u32);
-    // Accessors for these don't compile.
+    // The accessors of these items have no such methods.
     assert_aborted(naive::<u16>(0x2200, 0).at(device.client()).write(1), AbortCode::READ_ONLY);
     assert_aborted(naive::<i32>(0x2201, 0).at(device.client()).write(1), AbortCode::READ_ONLY);
     assert_aborted(naive::<u32>(0x2202, 0).at(device.client()).read(), AbortCode::WRITE_ONLY);
-    // After its last segment, for that is when this library looks.
+    // The abort follows the last segment, because this library checks access rights at the end.
     let text = lexibus::Object { index: 0x1008, sub_index: 0 };
     let written = lexibus::Client::write(device.client(), text, b"something longer than a frame");
     assert_aborted(written, AbortCode::READ_ONLY);
@@ -97,7 +97,7 @@ fn lengths() -> Result<(), Error> {
     script.set(0x2007, 0, json!(0x1234_5678));
     let short = naive::<u16>(0x2007, 0).at(device.client()).read();
     assert!(matches!(short, Err(Error::Length(error)) if (error.expected, error.actual) == (2, 4)), "{short:?}");
-    // A text that has no room in the buffer, and the transfer after it.
+    // A text that exceeds the buffer. The next transfer works.
     script.set(0x2009, 0, json!("a text of thirty letters, say."));
     let long = device.visible_string().read_into(&mut [0; 10]).map(str::len);
     assert!(matches!(long, Err(Error::Length(error)) if (error.expected, error.actual) == (10, 30)), "{long:?}");

@@ -1,4 +1,4 @@
-//! Values of every data type, written through accessors and decoded by the library, and the other way round.
+//! Values of every data type in both directions: through an accessor, and decoded or encoded by the library.
 
 use lexibus::{TimeDifference, TimeOfDay};
 use serde_json::{json, Value};
@@ -8,7 +8,7 @@ use super::{start, Error};
 
 const FILE: &str = "tests/interop/all-types.toml";
 
-/// What the node calls `$json` is `$value` for the accessor, in both directions.
+/// Checks that `$json` on the node is `$value` for the accessor, in both directions.
 macro_rules! exchange {
     ($script:ident, $device:ident, $($accessor:ident at $index:literal: [$($value:expr => $json:expr),* $(,)?];)*) => {$(
         $(
@@ -85,7 +85,7 @@ fn integers_of_odd_widths() -> Result<(), Error> {
 fn floating_point_and_times() -> Result<(), Error> {
     let Some((mut script, node)) = start("floats", FILE) else { return Ok(()) };
     let mut device = AllTypes::new(node);
-    // 8 January 2024 is day 14617 after 1 January 1984; the last day that can be said is 6 June 2163.
+    // 8 January 2024 is day 14617 after 1 January 1984. The last possible date is 6 June 2163.
     let afternoon = ((15 * 60 + 4) * 60 + 5) * 1000 + 678;
     exchange! { script, device,
         real32 at 0x2008: [0.0 => 0.0, -1.5 => -1.5, 16_777_215.0 => 16_777_215.0, f32::MAX => f64::from(f32::MAX)];
@@ -103,12 +103,12 @@ fn floating_point_and_times() -> Result<(), Error> {
     Ok(())
 }
 
-/// A text of `length` letters.
+/// Returns a text of `length` letters.
 fn letters(length: usize) -> String {
     ('!'..='~').cycle().take(length).collect()
 }
 
-/// Lengths at which the number of segments changes, and the first that isn't sent at once.
+/// Lengths around changes of the number of segments, and the first length without an expedited transfer.
 const LENGTHS: [usize; 11] = [1, 3, 4, 5, 7, 8, 14, 15, 127, 300, 399];
 
 #[test]
@@ -144,7 +144,7 @@ fn unicode_strings_in_segments() -> Result<(), Error> {
     Ok(())
 }
 
-/// `data` as the script writes it.
+/// Formats `data` like the script.
 fn hex(data: &[u8]) -> Value {
     data.iter().map(|byte| format!("{byte:02x}")).collect::<String>().into()
 }
@@ -155,7 +155,7 @@ fn bytes_in_segments() -> Result<(), Error> {
     let mut device = AllTypes::new(node);
     let mut buffer = [0; 512];
     for length in LENGTHS {
-        // All bytes are meant, zeros at the end, too.
+        // All bytes count, including zeros at the end.
         let data: Vec<u8> = (0..length).rev().map(|at| at as u8).collect();
         let back: Vec<u8> = data.iter().map(|byte| !byte).collect();
         device.octet_string().write(&data)?;

@@ -1,4 +1,4 @@
-//! Devices with an object dictionary, registers or messages, and modules of theirs.
+//! Devices with an object dictionary, registers or messages, and their modules.
 
 use lexibus_codegen::ir::{
     Binding, Catalog, CompactString, Device, Format, Graphic, Group, ModbusTable, Module, ModuleId, ModuleUse,
@@ -15,7 +15,7 @@ use super::profinet::identity;
 use super::settings;
 use super::types;
 
-/// The devices of an EDS, an XDD, an ESI or a register table, and their modules.
+/// Returns the devices of an EDS, an XDD, an ESI or a register table, and their modules.
 pub fn catalog(b: &mut Bytes<'_>, format: Format) -> Catalog {
     let is_ethercat = format == Format::Esi;
     let modules = if format == Format::Table { Vec::new() } else { b.few(2, 3, |b| module(b, is_ethercat)) };
@@ -39,10 +39,10 @@ fn device(b: &mut Bytes<'_>, format: Format, modules: usize) -> Device {
         _ => &[ObjectBuses::CANOPEN],
     };
     let around = Around { types: &types, given: &given_names, images: &images, spaces: &spaces, buses, is_table };
-    // Chapters have no index, and stand in front of what has one.
+    // Chapters have no index and precede the groups that have one.
     let mut groups = if is_table { b.list(3, |b| items::chapter(b, &around)) } else { Vec::new() };
     groups.extend(items::objects(b, &around, 12));
-    // An EDS has no PDOs but those that its objects describe.
+    // The PDOs of an EDS follow from its objects; it doesn't declare any.
     let has_declared = is_table || is_ethercat;
     if !has_declared {
         let objects = items::pdo_objects(b, &groups);
@@ -90,7 +90,7 @@ fn device(b: &mut Bytes<'_>, format: Format, modules: usize) -> Device {
     }
 }
 
-/// The device with what only register tables say.
+/// Adds facts that only register tables contain.
 fn with_behaviour(b: &mut Bytes<'_>, device: Device) -> Device {
     let of_items = |group: &Group| group.items.iter().map(|item| item.name.clone()).collect::<Vec<_>>();
     let items: Vec<CompactString> = device.groups.iter().flat_map(of_items).collect();
@@ -119,7 +119,7 @@ fn modbus(b: &mut Bytes<'_>) -> ModbusTable {
     }
 }
 
-/// A module of a modular slave, or of a bus coupler on CANopen.
+/// Returns a module of a modular EtherCAT slave or of a CANopen bus coupler.
 fn module(b: &mut Bytes<'_>, is_ethercat: bool) -> Module {
     let types = types::definitions(b, 5);
     let buses: &[ObjectBuses] = if is_ethercat { &[ObjectBuses::COE] } else { &[ObjectBuses::CANOPEN] };
@@ -149,12 +149,12 @@ fn module(b: &mut Bytes<'_>, is_ethercat: bool) -> Module {
         init_commands: b.few(3, 2, settings::init_command),
         profiles: b.few(4, 2, |b| b.pick(&[402, 0])),
         extensions: names::extensions(b),
-        // What PROFINET says of modules stands in `profinet`.
+        // `profinet` creates modules for PROFINET.
         ..Module::default()
     }
 }
 
-/// Entries that each module adds to an object.
+/// Returns entries that each module adds to an object.
 fn sub_extension(b: &mut Bytes<'_>, around: &Around<'_>) -> SubExtension {
     let index = b.within(0x2000..=0x2020);
     let binding = Binding::Object { buses: b.pick(around.buses), index, sub_index: 1 };

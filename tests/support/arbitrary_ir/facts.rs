@@ -1,4 +1,4 @@
-//! What items, bits and messages have beside their type: quantities, conditions, availability, behaviour, variants.
+//! Facts of items, bits and messages other than their type: quantities, conditions, availability, behavior, variants.
 
 use lexibus_codegen::ir::{
     Access, Availability, Behaviour, Condition, Conversion, ItemVariant, MachineUnit, Quantity, Srdo, Storage, Type,
@@ -11,7 +11,7 @@ use super::names;
 use super::types;
 use super::values;
 
-/// Access of any kind.
+/// Returns any access rights.
 pub fn access(b: &mut Bytes<'_>) -> Access {
     b.pick(&[
         Access::ReadWrite,
@@ -43,7 +43,7 @@ pub fn availability(b: &mut Bytes<'_>) -> Availability {
     }
 }
 
-/// Unit and scale. The names are those of numbers that are given.
+/// Returns a unit and a scale. The scale may depend on the numbers named in `given`.
 pub fn quantity(b: &mut Bytes<'_>, given: &[lexibus_codegen::ir::CompactString]) -> Quantity {
     Quantity {
         unit: names::unit(b),
@@ -97,7 +97,7 @@ pub fn behaviour(b: &mut Bytes<'_>) -> Behaviour {
     }
 }
 
-/// What differs of an item of this type on some models or buses.
+/// Returns the differences of an item of this type on some models or buses.
 pub fn variant(b: &mut Bytes<'_>, ty: Type) -> ItemVariant {
     ItemVariant {
         models: b.list(1, names::model),

@@ -1,4 +1,4 @@
-//! Items, and the groups that they stand in: objects, chapters and images.
+//! Items and their groups: objects, chapters and images.
 
 use lexibus_codegen::ir::{
     Binding, Category, CompactString, Configured, Group, GroupKind, ImageBinding, IndirectBinding, Item, Mappable,
@@ -11,27 +11,27 @@ use super::names;
 use super::types;
 use super::values;
 
-/// What items of a device refer to, and where they can be.
+/// Elements of a device that its items can refer to.
 pub struct Around<'d> {
     pub types: &'d [TypeDef],
-    /// The names of numbers that are given.
+    /// Names of the given numbers that scales may depend on.
     pub given: &'d [CompactString],
-    /// The names of process images.
+    /// Names of process images.
     pub images: &'d [CompactString],
-    /// The names of parameter spaces.
+    /// Names of parameter spaces.
     pub spaces: &'d [CompactString],
-    /// The buses of its objects.
+    /// Buses of the objects.
     pub buses: &'d [ObjectBuses],
-    /// Whether it may be on any bus.
+    /// Whether items may be on any bus.
     pub is_table: bool,
 }
 
-/// On both.
+/// CANopen and EtherCAT.
 pub const BOTH: ObjectBuses = ObjectBuses { canopen: true, coe: true };
 
 const NOWHERE: ObjectBuses = ObjectBuses { canopen: false, coe: false };
 
-/// An item that is found there.
+/// Returns an item with this binding.
 pub fn item(b: &mut Bytes<'_>, around: &Around<'_>, binding: Binding) -> Item {
     let ty = types::any(b, around.types.len());
     let base = types::base(around.types, ty);
@@ -74,7 +74,7 @@ pub fn item(b: &mut Bytes<'_>, around: &Around<'_>, binding: Binding) -> Item {
     }
 }
 
-/// The objects of a dictionary, in ascending order.
+/// Returns the objects of a dictionary, in ascending order.
 pub fn objects(b: &mut Bytes<'_>, around: &Around<'_>, most: usize) -> Vec<Group> {
     const KNOWN: [u16; 9] = [0x1000, 0x1018, 0x1600, 0x1A00, 0x6040, 0x6041, 0x6060, 0x607A, 0x20];
     let mut indices = b.list(most, |b| if b.one_in(3) { b.pick(&KNOWN) } else { b.within(0x2000..=0x2020) });
@@ -126,7 +126,7 @@ fn object(b: &mut Bytes<'_>, around: &Around<'_>, index: u16) -> Group {
     }
 }
 
-/// The objects of PDOs: communication parameters and mapping, of which the passes make PDOs.
+/// Returns the communication parameters and mappings of PDOs. The passes make PDOs of them.
 pub fn pdo_objects(b: &mut Bytes<'_>, dictionary: &[Group]) -> Vec<Group> {
     let mut numbers = b.list(4, |b| b.pick(&[0x1400, 0x1401, 0x1402, 0x15FF, 0x1800, 0x1801]));
     numbers.sort_unstable();
@@ -158,7 +158,7 @@ fn communication(b: &mut Bytes<'_>, sub: u8) -> (u8, Value) {
     }
 }
 
-/// The word that maps an object that there is, mostly with its length.
+/// Returns a mapping entry of an existing object, usually with the correct length.
 fn mapping(b: &mut Bytes<'_>, sub: u8, dictionary: &[Group]) -> (u8, Value) {
     let items: Vec<&Item> = dictionary.iter().flat_map(|group| &group.items).collect();
     if items.is_empty() || b.one_in(6) {
@@ -170,7 +170,7 @@ fn mapping(b: &mut Bytes<'_>, sub: u8, dictionary: &[Group]) -> (u8, Value) {
     (32, Value::Int(i128::from(index) << 16 | i128::from(sub) << 8 | i128::from(bits)))
 }
 
-/// A chapter of a manual, or the fields of an image, whose items may be on any bus.
+/// Returns a chapter of a manual or the fields of an image. Their items may be on any bus.
 pub fn chapter(b: &mut Bytes<'_>, around: &Around<'_>) -> Group {
     let kind = if b.one_in(4) { GroupKind::Image { length: b.within(0..=40) } } else { GroupKind::Chapter };
     let items = b.list(9, |b| {
@@ -258,7 +258,7 @@ fn window_side(b: &mut Bytes<'_>) -> WindowSide {
     }
 }
 
-/// A value of a message: an item that is found nowhere else.
+/// Returns an item that exists only as a value of a message.
 pub fn unbound(b: &mut Bytes<'_>, around: &Around<'_>) -> Item {
     let mut item = item(b, around, Binding::canopen(0, 0));
     item.bindings.clear();

@@ -1,4 +1,4 @@
-//! State machines, procedures, tables of codes, and other facts of a device that items take part in.
+//! State machines, procedures, code tables and other facts that involve several items.
 
 use lexibus_codegen::ir::{
     AxisRange, AxisRule, AxisStep, CodeRow, CodeTable, CommandOutcomes, CompactString, Composite, Direction,
@@ -12,7 +12,7 @@ use super::names;
 use super::profinet::identity;
 use super::values;
 
-/// A machine whose items go by one of these names.
+/// Returns a state machine that uses some of these items.
 pub fn machine(b: &mut Bytes<'_>, items: &[CompactString], types: &[CompactString]) -> StateMachine {
     let (states, commands) = (b.list(6, pattern), b.list(6, pattern));
     let [state_names, command_names]: [Vec<CompactString>; 2] =
@@ -63,9 +63,9 @@ fn outcomes(b: &mut Bytes<'_>, states: &[CompactString]) -> CommandOutcomes {
     }
 }
 
-/// A procedure that uses items, and messages, of these names.
+/// Returns a procedure that uses some of these items and messages.
 pub fn procedure(b: &mut Bytes<'_>, items: &[CompactString], messages: &[CompactString]) -> Procedure {
-    // Those that are nothing but writes become constants.
+    // A procedure that consists only of writes becomes a constant.
     let writes = b.one_in(2);
     let steps = b.list(5, |b| {
         let item = names::of(b, items).into();

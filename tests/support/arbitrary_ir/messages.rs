@@ -1,4 +1,4 @@
-//! A serial protocol: requests and replies, spaces of parameters, and frames.
+//! Serial protocols: requests and replies, parameter spaces and framing.
 
 use lexibus_codegen::ir::{
     CompactString, Completion, Framing, Message, MessageExample, MessageField, MessageValue, ParameterSpace, Value,
@@ -11,7 +11,7 @@ use super::items::{unbound, Around};
 use super::names;
 use super::values;
 
-/// The messages of a device.
+/// Returns the messages of a device.
 pub fn messages(b: &mut Bytes<'_>, around: &Around<'_>, most: usize) -> Vec<Message> {
     let mut messages: Vec<Message> = Vec::new();
     for _ in 0..b.within(0..=most) {
@@ -62,7 +62,7 @@ pub fn example(b: &mut Bytes<'_>) -> MessageExample {
     MessageExample { request, reply, documentation: names::documentation(b), ..MessageExample::default() }
 }
 
-/// The names of the values of a frame.
+/// Returns the names of the values in a frame.
 fn fields(frame: &[MessageField]) -> Vec<CompactString> {
     let name = |field: &MessageField| match field {
         MessageField::Value(value) => Some(value.item.name.clone()),
@@ -71,7 +71,7 @@ fn fields(frame: &[MessageField]) -> Vec<CompactString> {
     frame.iter().filter_map(name).collect()
 }
 
-/// The fields of a request, or of the reply to one.
+/// Returns the fields of a request, or of the reply to `request`.
 fn frame(b: &mut Bytes<'_>, around: &Around<'_>, request: Option<&[MessageField]>) -> Vec<MessageField> {
     let asked = request.map(fields).unwrap_or_default();
     let mut frame: Vec<MessageField> = Vec::new();
@@ -96,7 +96,7 @@ fn frame(b: &mut Bytes<'_>, around: &Around<'_>, request: Option<&[MessageField]
     frame
 }
 
-/// Bits that make a byte together, mostly.
+/// Returns bit fields that usually add up to a byte.
 fn bits(b: &mut Bytes<'_>) -> [MessageField; 2] {
     let first = b.within(1..=7);
     let last = if b.one_in(8) { 1 } else { 8 - first };
@@ -111,7 +111,7 @@ fn value(b: &mut Bytes<'_>, around: &Around<'_>, before: &[CompactString]) -> Me
     MessageField::Value(Box::new(MessageValue { item, byte_order, counts }))
 }
 
-/// The number of a parameter, mostly with its value.
+/// Returns a parameter number, usually with a value.
 fn parameter(b: &mut Bytes<'_>, around: &Around<'_>) -> Vec<MessageField> {
     let space = names::of(b, around.spaces);
     let code = MessageField::ItemCode { space: space.clone(), bits: b.pick(&[8, 16, 32, 12, 33]) };
@@ -127,7 +127,7 @@ fn parameter(b: &mut Bytes<'_>, around: &Around<'_>) -> Vec<MessageField> {
     }
 }
 
-/// Fields that are repeated, with or without their number in front.
+/// Returns a repeated group of fields, with or without a preceding count.
 fn repeat(b: &mut Bytes<'_>, around: &Around<'_>) -> Vec<MessageField> {
     let count = unbound(b, around);
     let max = b.maybe(2, |b| b.within(0..=9));
@@ -141,7 +141,7 @@ fn repeat(b: &mut Bytes<'_>, around: &Around<'_>) -> Vec<MessageField> {
     vec![count, MessageField::Repeat { count: Some(name), max, fields }]
 }
 
-/// A space of parameters that these messages carry.
+/// Returns a parameter space that these messages access.
 pub fn space(b: &mut Bytes<'_>, name: CompactString, messages: &[CompactString]) -> ParameterSpace {
     ParameterSpace {
         name,
@@ -154,7 +154,7 @@ pub fn space(b: &mut Bytes<'_>, name: CompactString, messages: &[CompactString])
     }
 }
 
-/// Frames; the number of the device is a field of this name.
+/// Returns a framing. One of the fields is the station address.
 pub fn framing(b: &mut Bytes<'_>, messages: &[Message]) -> Framing {
     let requested: Vec<CompactString> = messages.iter().flat_map(|own| fields(&own.request)).collect();
     Framing {

@@ -1,6 +1,7 @@
-//! Catalogues made of any bytes, which have all that the IR can say, under names that clash with whatever they can.
+//! Arbitrary catalogs made from bytes. They use all features of the IR, with names that conflict as often as
+//! possible.
 //!
-//! Two crates have this module: the test of generated code, and the fuzz target `ir`.
+//! Two crates use this module: the test of generated code and the fuzz target `ir`.
 
 pub mod bytes;
 mod devices;
@@ -22,7 +23,7 @@ use lexibus_codegen::source::Source;
 
 use bytes::Bytes;
 
-/// What a front end would hand on had it read these bytes: as yet without a check.
+/// Returns a catalog as a front end would, before any check.
 pub fn catalog(b: &mut Bytes<'_>) -> Catalog {
     const FORMATS: [Format; 10] = [
         Format::Table,
@@ -48,7 +49,7 @@ pub fn catalog(b: &mut Bytes<'_>) -> Catalog {
     catalog
 }
 
-/// A catalogue of `bytes`, after all passes.
+/// Returns a catalog after all passes.
 pub fn compilation(bytes: &[u8], options: &Options) -> Compilation {
     let catalog = catalog(&mut Bytes::new(bytes));
     let format = catalog.files.first().map(|file| file.format);

@@ -1,4 +1,4 @@
-//! Names and texts: ordinary ones, and those that clash with Rust, with generated code or with one another.
+//! Names and texts: ordinary ones, and those that conflict with Rust, with generated code or with each other.
 
 use lexibus_codegen::ir::{
     Bus, Buses, CiteUnit, CompactString, Documentation, Doubt, Doubts, Extension, Extensions, Fact, FactOrigin,
@@ -8,7 +8,7 @@ use lexibus_codegen::source::Origin;
 
 use super::bytes::Bytes;
 
-/// So few that elements often share one, and that what refers to another often finds it.
+/// A short list, so that elements often share a name and references often resolve.
 const ORDINARY: [&str; 12] = [
     "Speed",
     "target position",
@@ -24,7 +24,7 @@ const ORDINARY: [&str; 12] = [
     "Maximum of the torque, in 0.1 %",
 ];
 
-/// Keywords, what the prelude and generated code name, methods, and what is no name at all.
+/// Keywords, names in the prelude and in generated code, methods, and invalid names.
 const ODD: [&str; 142] = [
     "",
     " ",
@@ -170,7 +170,7 @@ const ODD: [&str; 142] = [
     "station",
 ];
 
-/// Texts that would leave comments and strings, if they could.
+/// Texts that end comments or strings unless they are escaped.
 const TEXTS: [&str; 14] = [
     "It turns.",
     "",
@@ -190,7 +190,7 @@ const TEXTS: [&str; 14] = [
 
 const LANGUAGES: [&str; 3] = ["de", "ja", "zh-\""];
 
-/// A name; often that of something else, too.
+/// Returns a name, often one that other elements also have.
 pub fn name(b: &mut Bytes<'_>) -> CompactString {
     match b.within(0..=9) {
         0..=4 => b.pick(&ORDINARY).into(),
@@ -199,7 +199,7 @@ pub fn name(b: &mut Bytes<'_>) -> CompactString {
     }
 }
 
-/// A name of those that are given, or any.
+/// Returns one of the given names, or any name.
 pub fn of(b: &mut Bytes<'_>, given: &[CompactString]) -> CompactString {
     if given.is_empty() || b.one_in(12) {
         name(b)
@@ -212,12 +212,12 @@ pub fn text(b: &mut Bytes<'_>) -> CompactString {
     b.pick(&TEXTS).into()
 }
 
-/// A symbol of a unit.
+/// Returns a unit symbol.
 pub fn unit(b: &mut Bytes<'_>) -> CompactString {
     b.pick(&["rpm", "mm/s²", "%", "", "0.1 A", "\"", "°C", "in use", "{}", "1"]).into()
 }
 
-/// An item of a window.
+/// Returns the name of an item of a window.
 pub fn of_window(b: &mut Bytes<'_>) -> CompactString {
     if b.one_in(40) {
         name(b)
@@ -226,17 +226,17 @@ pub fn of_window(b: &mut Bytes<'_>) -> CompactString {
     }
 }
 
-/// A version of firmware.
+/// Returns a firmware version.
 pub fn version(b: &mut Bytes<'_>) -> CompactString {
     b.pick(&["1.0", "2.10", "", "V3\"", "*/"]).into()
 }
 
-/// Where a file is said to be.
+/// Returns the path of a file.
 pub fn path(b: &mut Bytes<'_>) -> CompactString {
     b.pick(&["drive.eds", "", "../../x", "/etc/x", "C:\\x\"", "x\n[1018]"]).into()
 }
 
-/// A model of a device.
+/// Returns a device model.
 pub fn model(b: &mut Bytes<'_>) -> CompactString {
     b.pick(&["A1", "B*", "*", "type", "", "Some"]).into()
 }
@@ -258,7 +258,7 @@ fn fact_origin(b: &mut Bytes<'_>) -> FactOrigin {
     }
 }
 
-/// The facts that don't come from a description.
+/// Returns the origins of facts that the device description doesn't contain.
 pub fn origins(b: &mut Bytes<'_>) -> FactOrigins {
     FactOrigins(b.few(4, 3, |b| (b.pick(&Fact::ALL), fact_origin(b))).into_iter().collect())
 }
@@ -305,7 +305,7 @@ pub fn extensions(b: &mut Bytes<'_>) -> Extensions {
     b.few(16, 2, |b| Extension { key: name(b), value: text(b), span: Default::default() }).into()
 }
 
-/// Attributes as a source spells them: their names are those of XML, and no two are the same.
+/// Returns attributes as spelled in a source: unique XML names.
 pub fn attributes(b: &mut Bytes<'_>) -> Vec<(CompactString, CompactString)> {
     let mut list = b.few(8, 2, |b| (b.pick(&["SubstituteLength", "type", "_1", "Größe", "x-y.z"]).into(), text(b)));
     list.sort();

@@ -13,7 +13,7 @@ use super::types;
 
 const DIRECTIONS: [Direction; 2] = [Direction::Receive, Direction::Transmit];
 
-/// The process data of what has these objects and types.
+/// Returns process data for these objects and types.
 pub fn data(b: &mut Bytes<'_>, groups: &[Group], types: &[TypeDef], is_ethercat: bool) -> ProcessData {
     let mut pdos = Vec::new();
     for direction in DIRECTIONS {
@@ -43,7 +43,7 @@ fn pdo(
     let own = Pdo::new(direction, index);
     Pdo {
         name: names::name(b),
-        // CANopen counts PDOs from 1.
+        // CANopen numbers PDOs from 1.
         number: if is_ethercat { own.number } else { own.number + 1 },
         communication: b.maybe(2, |b| communication(b, index)),
         entries,
@@ -86,7 +86,7 @@ fn communication(b: &mut Bytes<'_>, mapping: u16) -> PdoCommunication {
     }
 }
 
-/// An entry of an object that there is, of one that there isn't, or padding.
+/// Returns an entry of an existing or missing object, or padding.
 fn entry(b: &mut Bytes<'_>, groups: &[Group], types: &[TypeDef]) -> PdoEntry {
     let objects: Vec<&Group> = groups.iter().filter(|own| own.index().is_some() && !own.items.is_empty()).collect();
     let mut entry = match b.within(0..=7) {
@@ -143,7 +143,7 @@ fn sync_managers(b: &mut Bytes<'_>) -> Vec<SyncManager> {
         .collect()
 }
 
-/// An image of this name, whose fields mostly follow each other and lie within it.
+/// Returns an image with this name. Its fields usually are contiguous and fit into it.
 pub fn image(b: &mut Bytes<'_>, name: CompactString, types: &[TypeDef], least: u32) -> ProcessImage {
     let mut next = 0;
     let fields = b.list(9, |b| {

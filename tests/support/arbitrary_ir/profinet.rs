@@ -1,4 +1,4 @@
-//! PROFINET: device access points, modules, submodules, their records, and diagnosis.
+//! PROFINET: device access points, modules, submodules, records and diagnosis.
 
 use lexibus_codegen::ir::{
     Access, Binding, Catalog, CompactString, Device, Direction, FParameter, FParameters, Family, Graphic, Group,
@@ -16,7 +16,7 @@ use super::process;
 use super::types;
 use super::values;
 
-/// The devices of one GSDML, and all that can be plugged into them.
+/// Returns the devices of a GSDML file, with their modules and submodules.
 pub fn catalog(b: &mut Bytes<'_>) -> Catalog {
     let types = types::definitions(b, 8);
     let submodules = b.list(5, |b| submodule(b, &types));
@@ -38,7 +38,7 @@ pub fn catalog(b: &mut Bytes<'_>) -> Catalog {
         }),
         graphics: b.few(4, 2, |b| Graphic { id: names::name(b), file: names::path(b) }),
         extensions: names::extensions(b),
-        // `arbitrary_ir` adds them.
+        // Added by `arbitrary_ir`.
         files: Vec::new(),
     }
 }
@@ -199,7 +199,7 @@ fn io_data(b: &mut Bytes<'_>, types: &[TypeDef], direction: Direction) -> IoData
     }
 }
 
-/// A record whose fields mostly follow each other and lie within it.
+/// Returns a record. Its fields usually are contiguous and fit into it.
 fn record(b: &mut Bytes<'_>, types: &[TypeDef]) -> Group {
     let index = b.within(0..=3);
     let around = Around { types, given: &[], images: &[], spaces: &[], buses: &[], is_table: false };
@@ -276,7 +276,7 @@ fn unit_diagnosis(b: &mut Bytes<'_>, types: &[TypeDef]) -> UnitDiagnosis {
     }
 }
 
-/// A type that may be an enumeration.
+/// Returns a type that may be an enumeration.
 fn enumeration(b: &mut Bytes<'_>, types: &[TypeDef]) -> Option<TypeId> {
     let Type::Named(id) = types::any(b, types.len()) else { return None };
     Some(id)

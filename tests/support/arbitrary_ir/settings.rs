@@ -1,4 +1,4 @@
-//! What a device says of itself beside its items: its file's header, and what it can on its bus.
+//! Facts of a device other than its items: the header of its file and its capabilities on the bus.
 
 use lexibus_codegen::ir::{
     CanOpenSettings, CanOpenSpans, ClockMode, ClockSyncManager, ClockTime, Coe, Commissioning, DistributedClocks,
@@ -10,7 +10,7 @@ use lexibus_codegen::source::Origin;
 use super::bytes::Bytes;
 use super::names;
 
-/// What a file says of itself.
+/// Returns the header of a file.
 pub fn header(b: &mut Bytes<'_>) -> Header {
     Header {
         file_name: names::path(b),

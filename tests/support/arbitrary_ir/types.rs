@@ -1,4 +1,4 @@
-//! Types that a device defines, and types of values.
+//! Type definitions of a device, and types of values.
 
 use lexibus_codegen::ir::{
     Access, BitFieldEntry, BitMeaning, EnumValue, Field, Scale, Shape, TimeFormat, Trigger, Type, TypeDef, TypeId, Zone,
@@ -10,7 +10,7 @@ use super::facts::{availability, condition};
 use super::names;
 use super::values;
 
-/// Widths that Rust or the runtime has types for, and some that neither has.
+/// Widths with a type in Rust or in the runtime, and some without.
 const WIDTHS: [u8; 18] = [8, 16, 32, 64, 8, 16, 32, 24, 40, 48, 56, 1, 2, 5, 12, 15, 17, 63];
 
 const TIMES: [TimeFormat; 8] = [
@@ -24,7 +24,7 @@ const TIMES: [TimeFormat; 8] = [
     TimeFormat::TimeStampDifferenceShort,
 ];
 
-/// An integer type.
+/// Returns an integer type.
 pub fn integer(b: &mut Bytes<'_>) -> Type {
     let bits = b.pick(&WIDTHS);
     if b.one_in(3) {
@@ -34,7 +34,7 @@ pub fn integer(b: &mut Bytes<'_>) -> Type {
     }
 }
 
-/// A type that no device has to define.
+/// Returns a type that needs no definition.
 pub fn basic(b: &mut Bytes<'_>) -> Type {
     let length = |b: &mut Bytes<'_>| b.maybe(2, |b| b.within(0..=40));
     match b.within(0..=19) {
@@ -52,7 +52,7 @@ pub fn basic(b: &mut Bytes<'_>) -> Type {
     }
 }
 
-/// A basic type, or one of those that are defined.
+/// Returns a basic type or one of the defined types.
 pub fn any(b: &mut Bytes<'_>, defined: usize) -> Type {
     if defined > 0 && b.one_in(2) {
         Type::Named(TypeId(b.within(0..=defined as u32 - 1)))
@@ -61,7 +61,7 @@ pub fn any(b: &mut Bytes<'_>, defined: usize) -> Type {
     }
 }
 
-/// The basic type below, where there is one.
+/// Returns the underlying basic type.
 pub fn base(types: &[TypeDef], mut ty: Type) -> Type {
     for _ in 0..8 {
         let Type::Named(id) = ty else { return ty };
@@ -74,7 +74,7 @@ pub fn base(types: &[TypeDef], mut ty: Type) -> Type {
     Type::Opaque(None)
 }
 
-/// The types of a device. Each is made of earlier ones.
+/// Returns the type definitions of a device. Each one may use the previous ones.
 pub fn definitions(b: &mut Bytes<'_>, most: usize) -> Vec<TypeDef> {
     let mut types: Vec<TypeDef> = Vec::new();
     for _ in 0..b.within(0..=most) {
@@ -103,7 +103,7 @@ fn shape(b: &mut Bytes<'_>, types: &[TypeDef]) -> Shape {
     }
 }
 
-/// An integer, seldom a truth value or by another name.
+/// Returns an integer type; rarely BOOLEAN or an alias.
 fn below(b: &mut Bytes<'_>, types: &[TypeDef]) -> Type {
     let aliases = || types.iter().zip(0..).filter(|(own, _)| matches!(own.shape, Shape::Alias(_)));
     match b.within(0..=11) {
@@ -123,7 +123,7 @@ fn record_field(b: &mut Bytes<'_>, defined: usize) -> Field {
     }
 }
 
-/// A value of an enumeration, with much of what may be said of it.
+/// Returns a value of an enumeration, with many facts.
 pub fn values_of_enumeration(b: &mut Bytes<'_>) -> EnumValue {
     let value = values::number(b);
     EnumValue {
@@ -141,7 +141,7 @@ fn bit_fields(b: &mut Bytes<'_>, types: &[TypeDef], width: u32) -> Vec<BitFieldE
     let mut next = 0_u8;
     b.list(9, |b| {
         let bits = b.pick(&[1, 1, 1, 1, 2, 3, 4, 8, 16, 32]);
-        // Most follow each other; some share bits with others, or aren't within the integer.
+        // Most bit fields are contiguous; some overlap or exceed the integer.
         let offset = if b.one_in(6) { b.within(0..=63) } else { next };
         next = offset.saturating_add(bits).min(u8::try_from(width).unwrap_or(64));
         bit_field(b, types, offset, bits)
@@ -177,7 +177,7 @@ fn bit_field(b: &mut Bytes<'_>, types: &[TypeDef], offset: u8, bits: u8) -> BitF
     }
 }
 
-/// A scale of any kind.
+/// Returns any scale.
 pub fn scale(b: &mut Bytes<'_>) -> Scale {
     match b.within(0..=7) {
         0..=2 => Scale::Linear { factor: values::real(b), offset: if b.one_in(3) { values::real(b) } else { 0.0 } },

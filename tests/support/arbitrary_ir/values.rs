@@ -1,11 +1,11 @@
-//! Values, and limits of them.
+//! Values and limits.
 
 use lexibus_codegen::ir::{Limits, Type, Value};
 
 use super::bytes::Bytes;
 use super::names;
 
-/// An integer: mostly a small one, else one at the end of a type.
+/// Returns an integer, usually a small one, otherwise one at the limit of a type.
 pub fn number(b: &mut Bytes<'_>) -> i128 {
     match b.within(0..=7) {
         0..=3 => b.within(0..=9),
@@ -16,7 +16,7 @@ pub fn number(b: &mut Bytes<'_>) -> i128 {
     }
 }
 
-/// A real number.
+/// Returns a floating-point number.
 pub fn real(b: &mut Bytes<'_>) -> f64 {
     const REALS: [f64; 16] = [
         1.0,
@@ -42,7 +42,7 @@ pub fn real(b: &mut Bytes<'_>) -> f64 {
     }
 }
 
-/// A value: mostly one that the type has.
+/// Returns a value, usually one that the type can represent.
 pub fn of(b: &mut Bytes<'_>, ty: Type) -> Value {
     if b.one_in(8) {
         return any(b);
@@ -66,7 +66,7 @@ fn within(b: &mut Bytes<'_>, ty: Type) -> i128 {
     }
 }
 
-/// A value of any kind.
+/// Returns a value of any kind.
 pub fn any(b: &mut Bytes<'_>) -> Value {
     match b.within(0..=7) {
         0 => Value::Bool(b.any()),
@@ -79,7 +79,7 @@ pub fn any(b: &mut Bytes<'_>) -> Value {
     }
 }
 
-/// Limits, mostly in their order.
+/// Returns limits, usually in order.
 pub fn limits(b: &mut Bytes<'_>, ty: Type) -> Limits {
     if b.one_in(2) {
         return Limits::default();

@@ -1,4 +1,4 @@
-//! The same frames, written by hand, without Lexibus.
+//! The same program without Lexibus: frames written by hand.
 
 #![no_std]
 #![no_main]

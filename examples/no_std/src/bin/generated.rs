@@ -7,7 +7,7 @@ use lexibus::{AbortCode, CanOpen, Client, Error, Object};
 use lexibus_drives::vector_step::types::ModesOfOperation;
 use lexibus_drives::vector_step::VectorStep;
 
-/// Expedited SDO transfers: what a program writes that has no client of its bus library.
+/// A client for expedited SDO transfers: code for a program whose CAN library has no client.
 struct Sdo;
 
 impl Client for Sdo {
