@@ -1,4 +1,4 @@
-//! The register table format. `dictionaries/README.md` explains the keys to authors of tables; editors show the doc comments.
+//! The register table format. `dictionaries/README.md` explains the keys to authors of tables. The doc comments become descriptions in the schema.
 
 use std::fmt;
 
@@ -8,7 +8,7 @@ use super::read::{self, Mistake, Node, Read};
 use super::schema;
 use super::tree::cited;
 
-/// The key of a field: its name, or the text after `=`.
+/// Key of a field: its name, or the text after `=`.
 macro_rules! key {
     ($field:ident) => {
         stringify!($field)
@@ -18,8 +18,8 @@ macro_rules! key {
     };
 }
 
-/// Tables of the format, with what reads them: every key may be absent, and there are no others. A field whose name can't be that of its
-/// key has the key behind `=`. Keys that many tables have are named after the table.
+/// Declares tables of the format with their readers. Every key is optional, and unknown keys are errors. A field whose key is not a valid
+/// name has the key after `=`. Names after the table select groups of common keys.
 macro_rules! tables {
     ($(
         $(#[$attribute:meta])*
@@ -37,16 +37,16 @@ pub(super) trait Documented {
 
 /// Tables with citations.
 pub(super) trait Cited {
-    /// Pages or lines as one text.
+    /// Returns the pages or lines as one text.
     fn cited(&self) -> Option<String>;
 }
 
-/// Tables with doubts.
+/// Tables with ambiguities.
 pub(super) trait Doubted: Cited {
     fn doubt_tables(&self) -> [Option<&OneOrMany<DoubtTable>>; 2];
 }
 
-/// What a table has in words, by its groups of keys.
+/// Implements the traits of a table's key groups.
 macro_rules! words {
     ($name:ident doc) => {
         impl Documented for $name {
@@ -72,53 +72,53 @@ macro_rules! words {
     ($name:ident $group:ident) => {};
 }
 
-/// One table: adds the keys that many tables have, one group after the other.
+/// Expands one table: adds its groups of common keys one by one.
 macro_rules! table {
     ({ meaning $($group:ident)* } $attributes:tt $name:ident { $($fields:tt)* }) => {
         table! { { $($group)* } $attributes $name {
             $($fields)*
-            /// What the bits mean: a name of `[bits]`, or the bits themselves.
+            /// Meaning of the bits: a name of `[bits]`, or the definition.
             #[cfg_attr(test, schemars(transform = schema::keys(schema::BITS)))]
             pub bits: Option<At<TextOr<BitEntries>>>,
-            /// What the values mean: a name of `[enums]`, or the values themselves.
+            /// Meaning of the values: a name of `[enums]`, or the definition.
             #[cfg_attr(test, schemars(transform = schema::keys(schema::VALUES)))]
             pub values = "enum": Option<At<TextOr<ValueEntries>>>,
-            /// A symbol, or a name of `[units]`.
+            /// Unit: a symbol, or a name of `[units]`.
             pub unit: Option<At<String>>,
-            /// physical = raw × scale + offset, in units of `unit`; or how the factor is found.
+            /// Scale factor (physical = raw × scale + offset), or the rule for it.
             pub scale: Option<At<Scaling>>,
-            /// The smallest value, raw.
+            /// Minimum raw value.
             pub min: Option<At<Literal>>,
-            /// The greatest value, raw.
+            /// Maximum raw value.
             pub max: Option<At<Literal>>,
-            /// Raw values that are no numbers, with their meaning.
+            /// Raw values that are not numbers, with their meaning.
             pub na: Option<Entries<String>>,
-            /// Numbers that the manual converts as an example; each is held against the scale.
+            /// Printed conversions, which are compared with the scale.
             pub conversions: Vec<At<ConversionTable>>,
         } }
     };
     ({ window $($group:ident)* } $attributes:tt $name:ident { $($fields:tt)* }) => {
         table! { { $($group)* } $attributes $name {
             $($fields)*
-            /// Models that have it; `*` stands for any letters.
+            /// Models that have it; `*` matches any characters.
             pub models: Option<Vec<At<String>>>,
             /// First firmware that has it.
             pub since: Option<String>,
-            /// First firmware that doesn't have it any more.
+            /// First firmware without it.
             pub until: Option<String>,
         } }
     };
     ({ orig $($group:ident)* } $attributes:tt $name:ident { $($fields:tt)* }) => {
         table! { { $($group)* } $attributes $name {
             $($fields)*
-            /// Its name or label in the manual's language.
+            /// Name or label in the manual's language.
             pub orig: Option<String>,
         } }
     };
     ({ doc $($group:ident)* } $attributes:tt $name:ident { $($fields:tt)* }) => {
         table! { { $($group)* } $attributes $name {
             $($fields)*
-            /// What it is, in your own words.
+            /// Description in your own words.
             pub doc: Option<String>,
         } }
     };
@@ -132,16 +132,16 @@ macro_rules! table {
     ({ doubt $($group:ident)* } $attributes:tt $name:ident { $($fields:tt)* }) => {
         table! { { $($group)* } $attributes $name {
             $($fields)*
-            /// A contradiction of the manual, and what was made of it.
+            /// Ambiguity in the manual, and the assumption.
             pub doubt: Option<OneOrMany<DoubtTable>>,
-            /// Several contradictions.
+            /// Several ambiguities.
             pub doubts: Option<OneOrMany<DoubtTable>>,
         } }
     };
     ({ allow $($group:ident)* } $attributes:tt $name:ident { $($fields:tt)* }) => {
         table! { { $($group)* } $attributes $name {
             $($fields)*
-            /// Findings that the doubt explains.
+            /// Diagnostics that the ambiguity explains; they are suppressed.
             pub allow: Option<Vec<At<String>>>,
         } }
     };
@@ -172,7 +172,7 @@ macro_rules! table {
     };
 }
 
-/// The values that a condition names, and the bits that it compares.
+/// Values of a condition, and the bits that it compares.
 #[derive(Clone, Debug)]
 #[cfg_attr(test, derive(schemars::JsonSchema), schemars(untagged))]
 pub enum ConditionValues {
@@ -188,10 +188,10 @@ impl Default for ConditionValues {
     }
 }
 
-/// Values of other items that have to be there, by the items' names.
+/// Required values of other items, by item name.
 pub type Conditions = Entries<ConditionValues>;
 
-/// The row of a field of an image or a message: what it has in common with rows.
+/// Row of an image or message field, with the keys that both have.
 macro_rules! field_row {
     ($field:ident) => {
         Row {
@@ -215,22 +215,22 @@ macro_rules! field_row {
 }
 pub(super) use field_row;
 
-/// A text that may be a list.
+/// Text, or a list of texts.
 pub type Words = OneOrMany<String>;
 
-/// Bits by their place: a name, what is said of them, or several meanings.
+/// Bits by position: a name, a definition, or several meanings.
 pub type BitEntries = Entries<OneOrMany<TextOr<BitTable>>>;
 
-/// Values by their number: a name, or what is said of them.
+/// Values by number: a name or a definition.
 pub type ValueEntries = Entries<TextOr<ValueTable>>;
 
-/// A number or a text.
+/// Number or text.
 #[derive(Clone, Debug)]
 #[cfg_attr(test, derive(schemars::JsonSchema), schemars(untagged))]
 pub enum NumberOrText {
-    /// A number.
+    /// Number.
     Number(i64),
-    /// A text.
+    /// Text.
     Text(String),
 }
 
@@ -243,67 +243,67 @@ impl fmt::Display for NumberOrText {
     }
 }
 
-/// `true`, `false` or a text.
+/// `true`, `false` or text.
 #[derive(Clone, Debug)]
 #[cfg_attr(test, derive(schemars::JsonSchema), schemars(untagged))]
 pub enum FlagOrText {
-    /// A truth value.
+    /// `true` or `false`.
     Flag(bool),
-    /// A text.
+    /// Text.
     Text(String),
 }
 
-/// A number, or how the number is found.
+/// Scale factor, or the rule for it.
 #[derive(Clone, Debug)]
 #[cfg_attr(test, derive(schemars::JsonSchema), schemars(untagged))]
 pub enum Scaling {
     /// physical = raw × factor.
     Factor(f64),
-    /// Anything else.
+    /// Another rule.
     Rule(Box<ScaleRule>),
 }
 
 tables! {
-    /// How a raw number becomes a physical one.
+    /// Rule that converts a raw value to a physical value.
     pub struct ScaleRule {
-        /// Physical units per count.
+        /// Physical value of 1 LSB.
         pub factor: Option<f64>,
-        /// The physical value of raw 0.
+        /// Physical value of raw 0.
         pub offset: Option<f64>,
-        /// The item whose value divides.
+        /// Item whose value divides.
         pub by: Option<At<String>>,
-        /// The item whose value multiplies.
+        /// Item whose value multiplies.
         pub times: Option<At<String>>,
-        /// physical = this / raw.
+        /// Numerator: physical = this / raw.
         pub reciprocal: Option<f64>,
         /// Number of fractional bits.
         pub fraction: Option<u8>,
-        /// The constant of the model that a fraction is one of.
+        /// Constant of the model that the fraction refers to.
         pub of: Option<At<String>>,
-        /// The item that holds the exponent.
+        /// Item with the exponent.
         pub exponent: Option<At<String>>,
-        /// What is raised to it: 10 where nothing else is said, or 2.
+        /// Base of the exponent: 10 (default) or 2.
         pub base: Option<u8>,
     }
 
-    /// A contradiction of the source, and what was made of it.
+    /// Ambiguity in the manual, and the assumption.
     pub struct DoubtTable {
-        /// What is printed, both sides.
+        /// Printed text; both sides of a contradiction.
         pub says: String,
-        /// What was chosen.
+        /// Assumption.
         pub chose: String,
-        /// Why.
+        /// Reason for the assumption.
         pub why: String,
-        /// Where it is printed.
+        /// Page or line of the ambiguity.
         pub cite: Option<OneOrMany<NumberOrText>>,
-        /// What a wrong choice leads to.
+        /// Result of a wrong assumption: `hazard`, `value` or `print`.
         #[cfg_attr(test, schemars(transform = schema::words(&["hazard", "value", "print"])))]
         pub severity: Option<At<String>>,
     }
 
-    /// What a master has to know of an EtherCAT slave beside its objects and PDOs.
+    /// Mailbox protocols and sync managers of an EtherCAT slave.
     pub struct EtherCatTable: cite doubt {
-        /// CAN application protocol over EtherCAT, and what it can.
+        /// CAN application protocol over EtherCAT, and its features.
         pub coe: Option<FlagOr<CoeTable>>,
         /// ADS over EtherCAT.
         pub aoe: bool,
@@ -313,54 +313,54 @@ tables! {
         pub foe: bool,
         /// Servo profile over EtherCAT.
         pub soe: bool,
-        /// A protocol of the vendor's over EtherCAT.
+        /// Vendor-specific protocol over EtherCAT.
         pub voe: bool,
-        /// Its sync managers.
+        /// Sync managers.
         pub sync_managers: Vec<At<SyncManagerTable>>,
     }
 
-    /// What the CAN application protocol of a slave can.
+    /// Features of a slave's CAN application protocol.
     pub struct CoeTable: cite {
-        /// It tells of its objects.
+        /// Whether the SDO information service is supported.
         pub sdo_info: bool,
-        /// The assignment of PDOs may be written (0x1C12, 0x1C13).
+        /// Whether the PDO assignment is writable (0x1C12, 0x1C13).
         pub pdo_assign: bool,
-        /// The mapping of PDOs may be written.
+        /// Whether the PDO mapping is writable.
         pub pdo_config: bool,
-        /// A master reads the assignment from the device.
+        /// Whether masters read the PDO assignment from the device.
         pub pdo_upload: bool,
-        /// All sub-indices may be transferred at once.
+        /// Whether complete access to all sub-indices is supported.
         pub complete_access: bool,
-        /// Values may be transferred in segments.
+        /// Whether segmented transfer is supported.
         pub segmented_sdo: bool,
     }
 
-    /// A sync manager.
+    /// Sync manager.
     pub struct SyncManagerTable: cite doubt {
-        /// Its number.
+        /// Number.
         pub number: Option<u8>,
-        /// `mailbox_out`, `mailbox_in`, `outputs` or `inputs`, seen from the master.
+        /// `mailbox_out`, `mailbox_in`, `outputs` or `inputs`, as seen from the master.
         #[cfg_attr(test, schemars(transform = schema::words(schema::PURPOSES)))]
         pub purpose: Option<At<String>>,
-        /// Its first address in the memory of the slave controller.
+        /// First address in the memory of the slave controller.
         pub start: Option<u16>,
-        /// Its length in bytes by default.
+        /// Default length in bytes.
         pub size: Option<u16>,
-        /// Its least length.
+        /// Minimum length in bytes.
         pub min: Option<u16>,
-        /// Its greatest length.
+        /// Maximum length in bytes.
         pub max: Option<u16>,
-        /// Its control byte.
+        /// Control byte.
         pub control: Option<u8>,
     }
 
-    /// The device that a table describes.
+    /// Device that a table describes.
     pub struct DeviceTable: orig doc cite doubt {
-        /// Name of the device; types of Rust are named after it.
+        /// Name of the device; Rust types are named after it.
         pub name: Option<At<String>>,
         /// Name of the vendor.
         pub vendor: Option<String>,
-        /// Number of the vendor (CiA, ETG).
+        /// Vendor ID (CiA, ETG).
         pub vendor_id: Option<u32>,
         /// Product code.
         pub product_code: Option<u32>,
@@ -371,9 +371,9 @@ tables! {
         /// `canopen`, `ethercat`, `modbus`, `profinet`, `serial`.
         #[cfg_attr(test, schemars(transform = schema::words(schema::BUSES)))]
         pub buses: Option<Vec<At<String>>>,
-        /// Numbers of device profiles that it follows.
+        /// Numbers of its device profiles.
         pub profiles: Vec<u32>,
-        /// The numbers that a node, or server, may have (`"1..90"`).
+        /// Node-ID range, or range of server addresses (`"1..90"`).
         #[cfg_attr(test, schemars(transform = schema::place("#(\\.\\.=?#)?")))]
         pub node_ids: Option<At<NumberOrText>>,
         /// CANopen bit rates in kbit/s.
@@ -384,66 +384,66 @@ tables! {
         pub tx_pdos: Option<u16>,
         /// Granularity of PDO mapping in bits.
         pub granularity: Option<u8>,
-        /// Whether it supports layer setting services.
+        /// Whether layer setting services (LSS) are supported.
         pub lss: bool,
     }
 
-    /// The manual that a table was transcribed from.
+    /// Manual that a table was transcribed from.
     pub struct ManualTable: doc {
-        /// Its title.
+        /// Title.
         pub title: Option<String>,
-        /// Its edition: number or date.
+        /// Edition: number or date.
         pub edition: Option<String>,
-        /// Its language (BCP 47).
+        /// Language (BCP 47).
         pub language: Option<String>,
-        /// What `cite` counts: `page` or `line`.
+        /// Unit of `cite`: `page` or `line`.
         #[cfg_attr(test, schemars(transform = schema::words(&["page", "line"])))]
         pub cites: Option<At<String>>,
-        /// Titles of its sections and tables, by the first page or line of each.
+        /// Titles of sections and tables, by first page or line.
         pub sections: Entries<String>,
     }
 
-    /// What an overlay applies to.
+    /// Devices of an overlay, and its reason.
     pub struct OverlayTable: doc {
-        /// The devices that it is for.
+        /// Devices to change.
         pub applies = "for": Option<AppliesTable>,
-        /// Why it is needed.
+        /// Reason for the overlay.
         pub why: Option<String>,
     }
 
-    /// The devices that an overlay is for; what isn't given fits any.
+    /// Devices that an overlay changes; omitted keys match any device.
     pub struct AppliesTable {
-        /// Number of the vendor.
+        /// Vendor ID.
         pub vendor_id: Option<u32>,
         /// Product code.
         pub product_code: Option<u32>,
         /// Revision number.
         pub revision: Option<u32>,
-        /// Name or order code; `*` stands for any letters.
+        /// Name or order code; `*` matches any characters.
         pub device: Option<String>,
-        /// The overlay is for modules (of GSDML also submodules) of this name, identifier or ident number instead.
+        /// Modules to change, by name, identifier or ident number; in GSDML also submodules.
         pub module: Option<String>,
     }
 
-    /// What a profile applies to.
+    /// Name, number and devices of a profile.
     pub struct ProfileTable: doc {
         /// Name of the profile.
         pub name: Option<String>,
         /// Number of the device profile.
         pub number: Option<u32>,
-        /// The object that shows that a device follows it.
+        /// Object that identifies devices with this profile.
         pub when: Option<At<NumberOrText>>,
-        /// The number of the API of submodules that follow it (PROFINET).
+        /// PROFINET: API number of submodules with this profile.
         pub api: Option<u32>,
-        /// The only buses on which devices follow it.
+        /// The only buses of the profile.
         pub buses: Option<Vec<At<String>>>,
-        /// What is added to indices from 0x6000 to 0x67FF for each further axis.
+        /// Index offset of each further axis, for 0x6000 to 0x67FF.
         pub axis_index: Option<u16>,
     }
 
-    /// A model, or a version of the firmware.
+    /// Model, or firmware version.
     pub struct ModelTable: orig doc cite doubt {
-        /// Its name.
+        /// Name.
         pub name: Option<At<String>>,
         /// Product code.
         pub product_code: Option<u32>,
@@ -451,150 +451,150 @@ tables! {
         pub revision: Option<u32>,
         /// Order code.
         pub order_code: Option<String>,
-        /// Constants of the model, such as the base of fractions.
+        /// Constants of the model, such as the reference of fractions.
         pub constants: Entries<Literal>,
     }
 
-    /// What the manual leaves open.
+    /// Choice that the manual leaves open.
     pub struct OptionTable: doc cite doubt {
-        /// The choices, and the value that each puts in place of `$name`.
+        /// Choices, each with the value that replaces `$name`.
         pub choices: Entries<Literal>,
-        /// The choice where nobody chooses.
+        /// Default choice.
         pub default: Option<At<String>>,
     }
 
-    /// What the number of a register means on each bus.
+    /// Meaning of a register number on each bus.
     pub struct SpaceTable: doc {
-        /// Number of bits that one number holds: 16 where nothing else is said, 1 of coils and discrete inputs.
+        /// Bits per number. Default: 1 for coils and discrete inputs, otherwise 16.
         pub bits: Option<u8>,
-        /// Whether a shorter value fills all bits of its numbers: with copies of its sign, or zeros where it has none.
+        /// Whether a shorter value fills all bits of its numbers, with sign extension or zeros.
         pub extend: bool,
-        /// Where its registers are on Modbus.
+        /// Modbus addresses.
         pub modbus: Option<ModbusRule>,
-        /// Which objects its registers are on CANopen.
+        /// CANopen objects.
         pub canopen: Option<ObjectRule>,
-        /// Which objects its registers are on EtherCAT (CoE).
+        /// EtherCAT objects (CoE).
         pub ethercat: Option<ObjectRule>,
-        /// The number is that of a parameter in a command protocol; a table names the messages that carry it.
+        /// Whether the number is a parameter number of a command protocol; a table names the messages that transfer it.
         pub parameter: Option<FlagOr<ParameterMessages>>,
-        /// The number is an address of an EtherCAT slave controller.
+        /// Whether the number is an address in the memory of an EtherCAT slave controller.
         pub esc: bool,
-        /// The value is reached through a window, or several: on other buses, or one to read and one to write.
+        /// Window through which the value is reached, or several windows.
         pub indirect: Option<OneOrMany<IndirectRule>>,
     }
 
-    /// The messages that carry the parameters of a space.
+    /// Messages that transfer the parameters of a space.
     pub struct ParameterMessages {
-        /// The message that reads a value.
+        /// Message that reads a value.
         pub read: Option<At<String>>,
-        /// The message that writes it.
+        /// Message that writes a value.
         pub write: Option<At<String>>,
-        /// The message that keeps values over power-off.
+        /// Message that stores values in non-volatile memory.
         pub store: Option<At<String>>,
-        /// Order of the bytes of a value of 32 bits, the most significant being `A`.
+        /// Byte order of a 32-bit value; `A` is the most significant byte.
         pub order: Option<At<String>>,
     }
 
-    /// Where the registers of a space are on Modbus.
+    /// Modbus addresses of the registers of a space.
     pub struct ModbusRule {
         /// `holding`, `input`, `coil` or `discrete`.
         #[cfg_attr(test, schemars(transform = schema::words(&["holding", "input", "coil", "discrete"])))]
         pub table: Option<At<String>>,
-        /// The number that the manual's table counts from.
+        /// First number in the manual.
         pub first: Option<i64>,
-        /// What is added to get the address on the wire.
+        /// Offset added to get the wire address.
         pub add: Option<i64>,
-        /// `high_first` or `low_first`: which word of a longer value comes first.
+        /// Word order of longer values: `high_first` or `low_first`.
         #[cfg_attr(test, schemars(transform = schema::words(&["high_first", "low_first"])))]
         pub order: Option<At<String>>,
-        /// Whether `order` is an assumption, because the manual gives no order for rows without one.
+        /// Whether `order` is an assumption because the manual states none.
         pub order_assumed: bool,
-        /// What the manual prints before each number: `R` for `R01`.
+        /// Printed prefix of each number: `R` for `R01`.
         pub prefix: Option<String>,
-        /// The minimum number of digits that the manual prints: 2 for `R01`.
+        /// Minimum number of printed digits: 2 for `R01`.
         pub digits: Option<u8>,
         /// Whether the bytes of a word are swapped.
         pub swap: bool,
-        /// Numbers of the functions that the device takes (`[3, 6, 16]`).
+        /// Supported function codes (`[3, 6, 16]`).
         pub functions: Option<At<Vec<u8>>>,
-        /// The greatest number of registers, or bits, that one request reads.
+        /// Maximum number of registers or bits that one request reads.
         pub max_read: Option<At<u16>>,
-        /// The greatest number that one request writes.
+        /// Maximum number of registers or bits that one request writes.
         pub max_write: Option<At<u16>>,
-        /// Whether a value that is longer than that may be read and written in several requests, one after the other.
+        /// Whether longer values are read and written in several requests.
         pub split: Option<bool>,
     }
 
-    /// Which object a register is.
+    /// Object of a register.
     pub struct ObjectRule {
-        /// What is added to the register's number.
+        /// Offset added to the register number to get the index.
         pub index: Option<At<i64>>,
-        /// The sub-index.
+        /// Sub-index.
         pub sub: Option<At<u8>>,
     }
 
-    /// How a value is reached through other items.
+    /// Window: access to a value through other items.
     pub struct IndirectRule {
-        /// The buses on which it is; all of those of its items where nothing is said.
+        /// Buses of the window. Default: all buses of its items.
         #[cfg_attr(test, schemars(transform = schema::words(schema::BUSES)))]
         pub buses: Option<Vec<At<String>>>,
-        /// The numbers that it takes: `"0x8000..0x8FFF"`; all where nothing is said.
+        /// Valid numbers, such as `"0x8000..0x8FFF"`. Default: all.
         pub numbers: Option<At<String>>,
-        /// What is added to the number of a row.
+        /// Offset added to the number of a row.
         pub add: Option<i64>,
-        /// The item that takes the number.
+        /// Item that takes the number.
         pub write_address: Option<At<String>>,
-        /// The item through which the value is read, or how.
+        /// Item through which the value is read, or a table.
         pub read: Option<At<TextOr<WindowTable>>>,
-        /// The item through which the value is written, or how.
+        /// Item through which the value is written, or a table.
         pub write: Option<At<TextOr<WindowTable>>>,
-        /// Whether the device sets the number to 0 once it is done; where nothing is said, the row of the item tells it.
+        /// Whether the device resets the number to 0 when done. Default: as in the row of the number item.
         pub clears: Option<bool>,
-        /// How many milliseconds the device needs, where it doesn't.
+        /// Time in ms that the device needs if it does not reset the number.
         pub wait: Option<u32>,
-        /// After how many milliseconds the device has set the number to 0.
+        /// Maximum time in ms until the device resets the number.
         pub timeout: Option<u32>,
-        /// The procedure that says in which order.
+        /// Procedure that describes the sequence.
         pub procedure: Option<At<String>>,
     }
 
-    /// One way through a window.
+    /// Reading or writing through a window.
     pub struct WindowTable {
-        /// The item that takes the number, where it isn't `write_address`.
+        /// Item that takes the number. Default: `write_address`.
         pub address: Option<At<String>>,
-        /// The item that has, or takes, the value.
+        /// Item with the value.
         pub value: Option<At<String>>,
-        /// What is written first: `address` or `value`.
+        /// First item to write: `address` or `value`.
         #[cfg_attr(test, schemars(transform = schema::words(&["address", "value"])))]
         pub first: Option<At<String>>,
-        /// Whether the device sets the number to 0 once it is done.
+        /// Whether the device resets the number to 0 when done.
         pub clears: Option<bool>,
-        /// How many milliseconds the device needs, where it doesn't.
+        /// Time in ms that the device needs if it does not reset the number.
         pub wait: Option<u32>,
-        /// After how many milliseconds the device has set the number to 0.
+        /// Maximum time in ms until the device resets the number.
         pub timeout: Option<u32>,
-        /// The procedure that says in which order.
+        /// Procedure that describes the sequence.
         pub procedure: Option<At<String>>,
     }
 
-    /// Rows that belong together.
+    /// Chapter: a group of rows.
     pub struct ChapterTable: orig doc cite doubt {
-        /// Its title.
+        /// Title.
         pub title: Option<String>,
-        /// The space of the rows' numbers.
+        /// Space of the register numbers.
         pub space: Option<At<String>>,
-        /// What rows have that don't say otherwise.
+        /// Default keys of rows.
         pub defaults: Option<At<Row>>,
-        /// Rows by name.
+        /// Registers by name.
         pub registers: Entries<Row>,
-        /// Rows by object (`0x6040`, `"0x1018:1"`, `"0x1400..0x1403:1"`).
+        /// Objects by index and sub-index (`0x6040`, `"0x1018:1"`, `"0x1400..0x1403:1"`).
         #[cfg_attr(test, schemars(transform = schema::keys(schema::OBJECTS)))]
         pub objects: Entries<Row>,
     }
 
     /// One item of the device.
     pub struct Row: meaning window orig doc cite doubt allow {
-        /// Number of the register, or numbers (`"63-64"`).
+        /// Register number, or range of numbers (`"63-64"`).
         #[cfg_attr(test, schemars(transform = schema::place("#( *[-–] *#)?")))]
         pub reg: Option<At<NumberOrText>>,
         /// Object and sub-index (`"0x2000:1"`).
@@ -602,512 +602,512 @@ tables! {
         pub obj: Option<At<NumberOrText>>,
         /// Address in the memory of an EtherCAT slave controller.
         pub esc: Option<At<u16>>,
-        /// What the slave itself may do with that memory, where the manual says: `ro`, `rw` or `wo`.
+        /// Access rights of the slave's processor to that memory: `ro`, `rw` or `wo`.
         #[cfg_attr(test, schemars(transform = schema::words(&["ro", "rw", "wo"])))]
         pub pdi: Option<At<String>>,
-        /// Length there, in bytes; of any other row what the manual prints, which is compared with the type.
+        /// Length in bytes at `esc`. Without `esc`: printed length, which is compared with the type.
         pub length: Option<At<u16>>,
         /// Name in an ASCII protocol.
         pub ascii: Option<String>,
-        /// Number of a parameter.
+        /// Parameter number.
         pub param: Option<At<u32>>,
-        /// The name of an object or sub-entry.
+        /// Name of an object or sub-entry.
         pub name: Option<At<String>>,
-        /// `var`, `array`, `record` or `domain`.
+        /// Object code: `var`, `array`, `record` or `domain`.
         #[cfg_attr(test, schemars(transform = schema::words(&["var", "array", "record", "domain"])))]
         pub code: Option<At<String>>,
-        /// `u16`, `i32`, `f32`, `bool`, `str(25)`, `bytes(6)`, `u16[10]`, …; `?` where the manual doesn't say.
+        /// Data type: `u16`, `i32`, `f32`, `bool`, `str(25)`, `bytes(6)`, `u16[10]`, …; `?` if the manual does not state it.
         #[cfg_attr(test, schemars(transform = schema::types))]
         pub ty = "type": Option<At<String>>,
-        /// `ro`, `rw`, `wo`, `const`, `rwr` or `rww`; `?` if the manual does not state it.
+        /// Access rights: `ro`, `rw`, `wo`, `const`, `rwr` or `rww`; `?` if the manual does not state them.
         #[cfg_attr(test, schemars(transform = schema::words(&["ro", "rw", "wo", "const", "rwr", "rww", "?"])))]
         pub access: Option<At<String>>,
-        /// `rx`, `tx`, `both` or `no`.
+        /// PDO direction, as seen from the device: `rx`, `tx`, `both` or `no`.
         #[cfg_attr(test, schemars(transform = schema::words(&["rx", "tx", "both", "no"])))]
         pub pdo: Option<At<String>>,
-        /// The value before anybody wrote it; a list where the row stands for several objects.
+        /// Default value; a list if the row describes several objects.
         pub default: Option<At<OneOrMany<Literal>>>,
-        /// The only value.
+        /// The only valid value.
         pub fixed: Option<At<Literal>>,
-        /// The only values, and ranges of them (`"3..7"`).
+        /// The only valid values, and ranges (`"3..7"`).
         pub allowed: Option<At<Vec<Literal>>>,
-        /// The physical value of raw 0.
+        /// Physical value of raw 0.
         pub offset: Option<f64>,
-        /// The device rounds to steps of so many counts.
+        /// Raw value to whose multiples the device rounds.
         pub step: Option<At<Literal>>,
-        /// What differs between models or buses.
+        /// Differences between models or buses.
         pub variants: Option<Vec<At<VariantTable>>>,
-        /// Kept over power-off: at once, not at all, or by this command.
+        /// Storage: `true` (non-volatile), `false` (volatile), or the command that stores the value.
         pub save: Option<FlagOrText>,
-        /// When a write takes effect, where not at once.
+        /// When a write takes effect, if not immediately.
         pub effective: Option<String>,
-        /// Writing is allowed while these items have one of these values.
+        /// Writable only while these items have one of these values.
         pub when: Option<Conditions>,
-        /// The only values that may be written, and ranges of them (`"3..7"`).
+        /// The only values that may be written, and ranges (`"3..7"`).
         pub writable: Option<At<Vec<Literal>>>,
-        /// The device clears it by itself.
+        /// Whether the device resets the value to 0.
         pub clears: Option<bool>,
-        /// It can be written once.
+        /// Whether it can be written only once.
         pub once: Option<bool>,
-        /// What else writing does.
+        /// Other effects of a write.
         pub effects: Option<Words>,
-        /// What replaces it from then on.
+        /// Replacement.
         pub replaced_by: Option<At<String>>,
-        /// Options that have to be fitted.
+        /// Required hardware or software options.
         pub needs: Option<Words>,
         /// The only buses on which it exists.
         #[cfg_attr(test, schemars(transform = schema::words(schema::BUSES)))]
         pub buses: Option<Vec<At<String>>>,
-        /// Whether each axis has its own.
+        /// Whether each axis has its own item.
         pub per_axis: Option<bool>,
-        /// The item that holds the upper half of the same number, of which this is the lower one.
+        /// Item with the upper half of the number; this is the lower half.
         pub upper: Option<At<String>>,
-        /// The item that is the same quantity in another scale; the defaults are compared.
+        /// Item with the same quantity in another scale; the defaults are compared.
         pub same_quantity: Option<At<String>>,
-        /// Another name of the same value.
+        /// Item with the same value at another address.
         pub same_as: Option<At<String>>,
-        /// Meant for the vendor or a tool.
+        /// Whether it is for the vendor or a tool only.
         pub hidden: Option<bool>,
-        /// So many of the same, or the item that holds how many are valid.
+        /// Number of repetitions, or the item with the number of valid ones.
         pub count: Option<At<NumberOrText>>,
-        /// The number of rows, where an item holds how many are valid.
+        /// Number of rows if `count` is an item.
         pub max_count: Option<u32>,
-        /// How many numbers lie between two of them.
+        /// Distance of the register numbers of two repetitions.
         pub stride: Option<u32>,
-        /// The bits of the register that the row is about (`"7-0"`).
+        /// Bits of the register that the row describes (`"7-0"`).
         #[cfg_attr(test, schemars(transform = schema::place(schema::BITS)))]
         pub part: Option<At<NumberOrText>>,
-        /// `high_first` or `low_first`.
+        /// Word order: `high_first` or `low_first`.
         #[cfg_attr(test, schemars(transform = schema::words(&["high_first", "low_first"])))]
         pub order: Option<At<String>>,
         /// Whether the bytes of a word are swapped.
         pub swap: Option<bool>,
-        /// The sub-index exists and means nothing.
+        /// Whether the sub-index exists without a meaning.
         pub reserved: Option<bool>,
-        /// It exists only at times.
+        /// Whether it does not always exist.
         pub optional: Option<bool>,
-        /// Where `doc` comes from, unless from the manual: `CiA 402, 17.3.7`, or `name` if it spells out the printed name.
+        /// Source of `doc` if not the manual: `CiA 402, 17.3.7`, or `name` if it spells out the printed name.
         pub doc_from: Option<At<String>>,
-        /// What another place of the manual says of it; it is compared.
+        /// Repetition elsewhere in the manual, which is compared with the row.
         pub summary: Option<At<OneOrMany<SummaryTable>>>,
-        /// In an overlay: why the row is needed.
+        /// In an overlay: reason for the row.
         pub why: Option<String>,
-        /// In an overlay: the object doesn't exist yet.
+        /// In an overlay: adds an object that does not exist yet.
         pub add: Option<bool>,
-        /// In an overlay: the object is taken away.
+        /// In an overlay: removes the object.
         pub remove: Option<bool>,
     }
 
-    /// What differs on some models or buses; what isn't given is as the row says.
+    /// Differences on some models or buses; omitted keys are as in the row.
     pub struct VariantTable: doc cite {
-        /// The models; `*` stands for any letters.
+        /// Models; `*` matches any characters.
         pub models: Option<Vec<At<String>>>,
-        /// The buses.
+        /// Buses.
         #[cfg_attr(test, schemars(transform = schema::words(schema::BUSES)))]
         pub buses: Option<Vec<At<String>>>,
-        /// The type of the value there, on buses where it has another width.
+        /// Integer type with another width on these buses.
         #[cfg_attr(test, schemars(transform = schema::types))]
         pub ty = "type": Option<At<String>>,
-        /// What may be done there, on buses that allow less.
+        /// Access rights on buses that allow less.
         #[cfg_attr(test, schemars(transform = schema::words(&["ro", "rw", "wo"])))]
         pub access: Option<At<String>>,
-        /// The only values, and ranges of them.
+        /// The only valid values, and ranges.
         pub allowed: Option<At<Vec<Literal>>>,
-        /// The value before anybody wrote it.
+        /// Default value.
         pub default: Option<At<Literal>>,
-        /// The smallest value, raw.
+        /// Minimum raw value.
         pub min: Option<At<Literal>>,
-        /// The greatest value, raw.
+        /// Maximum raw value.
         pub max: Option<At<Literal>>,
-        /// The device rounds to steps of so many counts.
+        /// Raw value to whose multiples the device rounds.
         pub step: Option<At<Literal>>,
-        /// physical = raw × scale; or how the factor is found.
+        /// Scale factor (physical = raw × scale), or the rule for it.
         pub scale: Option<At<Scaling>>,
     }
 
-    /// The value of another item, or of some of its bits.
+    /// Condition on some bits of an item.
     pub struct ConditionTable {
-        /// The bits that are compared.
+        /// Bits that are compared.
         pub mask: Option<u64>,
-        /// The value that they have; a list where there are several.
+        /// Value of the bits, or a list of values.
         pub value: Option<OneOrMany<Literal>>,
     }
 
-    /// What another place of the manual says of a row: an overview, a table of contents, the prose.
+    /// Repetition of a row elsewhere in the manual: an overview, a table of contents or the text.
     pub struct SummaryTable: cite {
-        /// The type that it says.
+        /// Printed data type.
         #[cfg_attr(test, schemars(transform = schema::types))]
         pub ty = "type": Option<At<String>>,
-        /// The access that it says.
+        /// Printed access rights.
         pub access: Option<At<String>>,
-        /// The direction of PDOs that it says.
+        /// Printed PDO direction.
         pub pdo: Option<At<String>>,
-        /// The object code that it says.
+        /// Printed object code.
         #[cfg_attr(test, schemars(transform = schema::words(&["var", "array", "record", "domain"])))]
         pub code: Option<At<String>>,
-        /// The name that it says.
+        /// Printed name.
         pub name: Option<At<String>>,
-        /// Number of sub-indices, with sub-index 0.
+        /// Number of sub-indices, including sub-index 0.
         pub subs: Option<At<u32>>,
         /// Length in bytes.
         pub length: Option<At<u32>>,
-        /// The least value that it says.
+        /// Printed minimum.
         pub min: Option<At<Literal>>,
-        /// The greatest value that it says.
+        /// Printed maximum.
         pub max: Option<At<Literal>>,
-        /// The default that it says.
+        /// Printed default value.
         pub default: Option<At<Literal>>,
     }
 
-    /// A unit with a scale.
+    /// Unit with a scale.
     pub struct UnitTable: doc {
-        /// The physical unit.
+        /// Symbol of the physical unit.
         pub symbol: Option<String>,
-        /// physical = raw × scale + offset.
+        /// Scale factor: physical = raw × scale + offset.
         pub scale: Option<At<Scaling>>,
-        /// The physical value of raw 0.
+        /// Physical value of raw 0.
         pub offset: Option<f64>,
-        /// What the physical number is in a unit of the machine.
+        /// Conversion to a machine unit.
         pub machine: Option<MachineUnitTable>,
-        /// How the manual writes it.
+        /// Unit as the manual prints it.
         pub orig: Option<String>,
     }
 
-    /// A unit of the machine: the physical number, multiplied and divided by numbers of `[given]`.
+    /// Machine unit: the physical value, multiplied and divided by numbers of `[given]`.
     pub struct MachineUnitTable {
-        /// Its symbol.
+        /// Symbol.
         pub unit: Option<At<String>>,
-        /// The numbers that multiply.
+        /// Numbers that multiply.
         pub times: Vec<At<String>>,
-        /// The numbers that divide.
+        /// Numbers that divide.
         pub over: Vec<At<String>>,
     }
 
-    /// A number that only whoever builds the machine knows.
+    /// Number that depends on the machine.
     pub struct GivenTable: doc cite doubt {
-        /// Symbol of its unit.
+        /// Symbol of the unit.
         pub unit: Option<At<String>>,
-        /// What it is on models that know it.
+        /// Value on models that have a fixed one.
         pub models: Entries<Literal>,
     }
 
-    /// Named values of an integer.
+    /// Enumeration: named values of an integer.
     pub struct EnumTable: orig doc cite doubt allow {
-        /// The integer, where rows don't tell.
+        /// Integer type; required only if no row implies it.
         #[cfg_attr(test, schemars(transform = schema::types))]
         pub base: Option<At<String>>,
-        /// Whether a device never has a value that isn't listed.
+        /// Whether the device never has an unlisted value.
         pub closed: bool,
-        /// The values, and ranges of values (`"3..7"`).
+        /// Values, and ranges of values (`"3..7"`).
         #[cfg_attr(test, schemars(transform = schema::keys(schema::VALUES)))]
         pub values: ValueEntries,
     }
 
-    /// A named value.
+    /// Named value.
     pub struct ValueTable: window orig doc cite doubt {
-        /// A short English phrase; the identifier is made of it.
+        /// Short English phrase, from which the identifier is derived.
         pub name: Option<String>,
-        /// `reserved` or `vendor`.
+        /// Zone of reserved or vendor-specific values: `reserved` or `vendor`.
         #[cfg_attr(test, schemars(transform = schema::words(&["reserved", "vendor"])))]
         pub zone: Option<At<String>>,
         /// The only buses on which it exists.
         #[cfg_attr(test, schemars(transform = schema::words(schema::BUSES)))]
         pub buses: Option<Vec<At<String>>>,
-        /// It exists while this item has one of these values.
+        /// It exists only while these items have one of these values.
         pub when: Option<Conditions>,
-        /// What replaces it from then on, in words.
+        /// Replacement, as text.
         pub replaced_by: Option<String>,
     }
 
     /// Named bits of an integer.
     pub struct BitsTable: orig doc cite doubt allow {
-        /// The integer, where rows don't tell.
+        /// Integer type; required only if no row implies it.
         #[cfg_attr(test, schemars(transform = schema::types))]
         pub base: Option<At<String>>,
-        /// The address of the byte with bits 0 to 7, where the manual counts the bits of each byte (`"0x221:3-2"`).
+        /// Address of the byte with bits 0 to 7, if the manual counts bits in each byte (`"0x221:3-2"`).
         pub address: Option<u32>,
-        /// The bits, and ranges of bits (`"3-2"`); a list where other items decide what they mean.
+        /// Bits, and ranges of bits (`"3-2"`); a list if other items select the meaning.
         #[cfg_attr(test, schemars(transform = schema::keys(schema::BITS_OF_BYTES)))]
         pub at: BitEntries,
     }
 
-    /// Bits with a meaning.
+    /// Meaning of bits.
     pub struct BitTable: window orig doc cite doubt {
-        /// A short English phrase; the identifier is made of it.
+        /// Short English phrase, from which the identifier is derived.
         pub name: Option<String>,
-        /// The meaning holds while the bit is 0.
+        /// Whether the name applies while the bit is 0.
         pub inverted: bool,
-        /// The bits are a number.
+        /// Whether the bits are a number.
         pub number: bool,
-        /// What the values of the bits mean.
+        /// Meaning of the values.
         #[cfg_attr(test, schemars(transform = schema::keys(schema::VALUES)))]
         pub values: Option<ValueEntries>,
-        /// The same, as a name of `[enums]`.
+        /// Meaning of the values, as a name of `[enums]`.
         pub enumeration = "enum": Option<At<String>>,
-        /// The bits mean nothing: a writer puts 0, 1, or `keep`s what was read.
+        /// The bits have no meaning; write 0, 1, or the value read (`keep`).
         pub reserved: Option<NumberOrText>,
-        /// `rising`, `falling`, `toggle` or `self_clearing`.
+        /// Edge or event that triggers the command: `rising`, `falling`, `toggle` or `self_clearing`.
         #[cfg_attr(test, schemars(transform = schema::words(schema::TRIGGERS)))]
         pub trigger: Option<At<String>>,
-        /// The bits mean this while this item has one of these values.
+        /// The meaning applies while these items have one of these values.
         pub when: Option<Conditions>,
-        /// `ro`, `rw` or `wo`, where it isn't as the row says.
+        /// Access rights, if they differ from the row.
         #[cfg_attr(test, schemars(transform = schema::words(&["ro", "rw", "wo", "const", "rwr", "rww"])))]
         pub access: Option<At<String>>,
-        /// What replaces it from then on, in words.
+        /// Replacement, as text.
         pub replaced_by: Option<String>,
     }
 
-    /// How the objects of further axes follow from those of the first.
+    /// Rules that derive the objects of further axes from the first axis.
     pub struct AxesTable: doc cite doubt {
         /// Number of axes.
         pub count: u8,
-        /// The models that have so many; `*` stands for any letters.
+        /// Models with this number of axes; `*` matches any characters.
         pub models: Option<Vec<At<String>>>,
-        /// The first rule that contains an object holds.
+        /// Rules; the first that contains an object applies.
         pub rules: Vec<At<AxisRuleTable>>,
     }
 
-    /// How to get to the object of the next axis.
+    /// Rule that derives the object of the next axis.
     pub struct AxisRuleTable {
-        /// The objects (`"0x6000..0x67FF"`).
+        /// Objects (`"0x6000..0x67FF"`).
         #[cfg_attr(test, schemars(transform = schema::place("#(\\.\\.=?#)?")))]
         pub objects: Option<At<NumberOrText>>,
-        /// What is added to the index.
+        /// Offset added to the index.
         pub index: Option<u16>,
-        /// `axis`: the sub-index is the number of the axis.
+        /// `axis`: the sub-index is the axis number.
         #[cfg_attr(test, schemars(transform = schema::words(&["axis"])))]
         pub sub: Option<String>,
-        /// What is added to the sub-index.
+        /// Offset added to the sub-index.
         pub sub_stride: Option<u8>,
     }
 
-    /// A process data object.
+    /// Process data object.
     pub struct PdoTable: doc cite doubt allow {
-        /// Index of its mapping object.
+        /// Index of the mapping object.
         pub index: Option<At<u16>>,
-        /// Its name.
+        /// Name.
         pub name: Option<String>,
-        /// `rx` or `tx`, seen from the device.
+        /// Direction as seen from the device: `rx` or `tx`.
         #[cfg_attr(test, schemars(transform = schema::words(&["rx", "tx"])))]
         pub direction: Option<At<String>>,
-        /// `"0x6040:0/16"`, `"item"`, `"pad/8"`, or `"? name/16"` (`"? name/i16"`, if signed) where the manual gives no object.
+        /// Entries: `"0x6040:0/16"`, `"item"`, `"pad/8"`, or `"? name/16"` (`"? name/i16"`) if the manual gives no object.
         pub entries: Vec<At<String>>,
-        /// Its length in bytes as the manual prints it; a list where several places do. It is compared with the entries.
+        /// Printed length in bytes, or a list of printed lengths; compared with the entries.
         pub length: Option<At<OneOrMany<u32>>>,
-        /// Its greatest length in bytes, where its mapping can be changed.
+        /// Maximum length in bytes of a variable mapping.
         pub max: Option<u16>,
-        /// Whether its entries can't be changed.
+        /// Whether the entries cannot be changed.
         pub fixed: bool,
-        /// Whether it has to be assigned.
+        /// Whether it must be assigned.
         pub mandatory: bool,
-        /// Number of the sync manager to which it is assigned by default.
+        /// Sync manager of the default assignment.
         pub sm: Option<At<u8>>,
         /// Whether it is assigned by default.
         pub default: bool,
-        /// PDOs that can't be assigned beside it (`0x1702`, `"0x1600..0x1603"`).
+        /// PDOs that cannot be assigned together with it (`0x1702`, `"0x1600..0x1603"`).
         pub excludes: Vec<NumberOrText>,
-        /// The only buses on which it carries this: `canopen`, `ethercat`.
+        /// The only buses with this mapping: `canopen`, `ethercat`.
         #[cfg_attr(test, schemars(transform = schema::words(schema::BUSES)))]
         pub buses: Option<Vec<At<String>>>,
     }
 
-    /// A fixed process image.
+    /// Fixed process image.
     pub struct ImageTable: doc cite doubt {
-        /// Its name.
+        /// Name.
         pub name: Option<String>,
-        /// `rx` or `tx`, seen from the device.
+        /// Direction as seen from the device: `rx` or `tx`.
         #[cfg_attr(test, schemars(transform = schema::words(&["rx", "tx"])))]
         pub direction: Option<At<String>>,
-        /// Its length in bytes.
+        /// Length in bytes.
         pub bytes: Option<u32>,
-        /// `big` (where nothing else is said) or `little`.
+        /// Byte order: `big` (default) or `little`.
         #[cfg_attr(test, schemars(transform = schema::words(&["big", "little"])))]
         pub order: Option<At<String>>,
-        /// Its fields, by the name of the item; what is no item of the table gets a `type`.
+        /// Fields by item name; a field that is not an item of the table needs a `type`.
         pub fields: Entries<ImageField>,
     }
 
-    /// A field of a process image; its key is the item.
+    /// Field of a process image; its key is the item.
     pub struct ImageField: meaning orig doc cite doubt {
         /// First byte.
         pub at: Option<u32>,
         /// First bit in that byte.
         pub bit: Option<u8>,
-        /// Its type, where it isn't that of the item.
+        /// Data type, if it differs from the item.
         #[cfg_attr(test, schemars(transform = schema::types))]
         pub ty = "type": Option<At<String>>,
     }
 
-    /// A table of codes.
+    /// Table of codes.
     pub struct CodesTable: doc cite {
-        /// Names of the columns beside code and meaning.
+        /// Names of further columns after code and meaning.
         pub columns: Vec<String>,
-        /// What the manual prints before each number: `F` for `F125`.
+        /// Printed prefix of each number: `F` for `F125`.
         pub prefix: Option<String>,
-        /// Whether no two codes have the same cells.
+        /// Whether all codes must have different cells.
         pub distinct: bool,
-        /// Findings that a doubt explains.
+        /// Diagnostics that an ambiguity explains; they are suppressed.
         pub allow: Option<Vec<At<String>>>,
-        /// The only buses on which the codes mean this.
+        /// The only buses with these codes.
         #[cfg_attr(test, schemars(transform = schema::words(schema::BUSES)))]
         pub buses: Option<Vec<At<String>>>,
-        /// The codes, and ranges of codes.
+        /// Codes, and ranges of codes.
         #[cfg_attr(test, schemars(transform = schema::keys(schema::VALUES)))]
         pub rows: Entries<TextOr<CodeTableRow>>,
     }
 
-    /// A code.
+    /// Code.
     pub struct CodeTableRow: window orig doc cite doubt {
-        /// Its name.
+        /// Name.
         pub name: Option<String>,
-        /// The other columns.
+        /// Cells of the further columns.
         pub cells: Vec<At<Literal>>,
     }
 
-    /// A state machine.
+    /// State machine.
     pub struct MachineTable: doc cite doubt {
-        /// The item that tells the state.
+        /// Item with the state.
         pub status: Option<At<String>>,
-        /// The item that commands it.
+        /// Item with the commands.
         pub control: Option<At<String>>,
-        /// States, by the bits of `status`; or the name of an enumeration whose values they are.
+        /// States as bit patterns of `status`, or the name of an enumeration.
         pub states: Option<At<TextOr<Entries<PatternTable>>>>,
-        /// The state after power-on.
+        /// State after power-on.
         pub initial: Option<At<String>>,
-        /// Commands, by the bits of `control`.
+        /// Commands as bit patterns of `control`.
         pub commands: Entries<PatternTable>,
-        /// From which state to which.
+        /// Transitions.
         pub transitions: Vec<At<TransitionTable>>,
-        /// What each command does in each state.
+        /// Outcome of each command in each state.
         pub matrix: Option<At<MatrixTable>>,
     }
 
-    /// What commands do in each state.
+    /// State-command matrix.
     pub struct MatrixTable: doc cite doubt {
-        /// The states of the columns.
+        /// States of the columns.
         pub states: Vec<At<String>>,
-        /// The notes that cells refer to.
+        /// Notes of cells.
         pub notes: Entries<String>,
-        /// The rows: messages or commands, each with a cell for every state.
+        /// Rows: messages or commands, each with one cell per state.
         pub rows: Entries<MatrixRow>,
     }
 
-    /// What a command does in each state.
+    /// Outcome of a command in each state.
     pub struct MatrixRow: doc cite doubt {
-        /// The messages or commands that the row is about, where its name is none; empty where nothing else describes it.
+        /// Messages or commands of the row, if its name is none; empty if it is not described elsewhere.
         pub commands: Option<Vec<At<String>>>,
-        /// For each state `same`, `refused`, `?`, or the state that follows (`"a > b"` where `b` follows `a` by itself);
-        /// several of these with `or` between them.
+        /// One outcome per state: `same`, `refused`, `?`, the next state, or `"a > b"` if `b` follows `a` automatically.
+        /// Several outcomes are separated by `or`.
         pub cells: Vec<At<TextOr<MatrixCell>>>,
-        /// Models that have it; `*` stands for any letters.
+        /// Models that have it; `*` matches any characters.
         pub models: Option<Vec<At<String>>>,
         /// First firmware that has it.
         pub since: Option<String>,
     }
 
-    /// A cell with more than an outcome.
+    /// Cell with more than an outcome.
     pub struct MatrixCell: cite {
-        /// What happens, as in a cell without more.
+        /// Outcome, as in a plain cell.
         pub to: Option<At<String>>,
-        /// A note of the table.
+        /// Note of the table.
         pub note: Option<At<NumberOrText>>,
-        /// On what it depends, in your own words.
+        /// Condition of the outcome, in your own words.
         pub doc: Option<String>,
     }
 
-    /// Bits that have to have a value.
+    /// Bit pattern.
     pub struct PatternTable: orig doc cite {
-        /// The bits that count.
+        /// Bits that are compared.
         pub mask: Option<u32>,
-        /// The value that they have.
+        /// Value of these bits.
         pub value: Option<u32>,
     }
 
-    /// From one state to another.
+    /// Transition between states.
     pub struct TransitionTable: doc cite {
-        /// Its number in the manual.
+        /// Number in the manual.
         pub number: Option<u16>,
-        /// The state that it leaves, or states; any where there is none.
+        /// State before, or a list of states. Default: any state.
         pub from: Option<At<OneOrMany<String>>>,
-        /// The state that it leads to.
+        /// State after.
         pub to: Option<At<String>>,
-        /// The command or the message that causes it; none where the device does.
+        /// Command or message that causes it; omitted for automatic transitions.
         pub command: Option<At<String>>,
     }
 
-    /// A sequence of steps.
+    /// Sequence of steps.
     pub struct ProcedureTable: orig doc cite doubt allow {
-        /// What its caller gives: names that steps write with `argument`.
+        /// Names of the caller's arguments, which steps write with `argument`.
         pub arguments: Vec<At<String>>,
-        /// The steps, in order.
+        /// Steps, in order.
         pub steps: Vec<At<StepTable>>,
     }
 
-    /// One number in several items.
+    /// Number that is split over several items.
     pub struct CompositeTable: orig doc cite doubt {
-        /// The items of its digits, the most significant one first.
+        /// Items with the digits, most significant first.
         pub parts: Vec<At<String>>,
-        /// What one digit is worth of the next; each is below it.
+        /// Radix: each part is less than this.
         pub base: Option<u16>,
-        /// The item that has the sign.
+        /// Item with the sign.
         pub sign: Option<At<String>>,
-        /// Its value below zero; otherwise it is 0.
+        /// Value of the sign item for negative numbers; otherwise it is 0.
         pub negative: Option<u16>,
-        /// The unit of the number.
+        /// Unit of the number.
         pub unit: Option<String>,
     }
 
-    /// A step.
+    /// Step.
     pub struct StepTable: doc {
-        /// The item that `value` or `argument` is written to.
+        /// Item to which `value` or `argument` is written.
         pub write: Option<At<String>>,
-        /// The item that is read: its value is what the procedure gives.
+        /// Item that is read; its value is the result of the procedure.
         pub read: Option<At<String>>,
-        /// The item that is waited for.
+        /// Item to wait for.
         pub wait: Option<At<String>>,
-        /// The only bits that are written, or waited for.
+        /// The only bits that are written or compared.
         pub mask: Option<At<u64>>,
-        /// The value that is written or waited for.
+        /// Value to write or to wait for.
         pub value: Option<Literal>,
-        /// The argument of the procedure that is written.
+        /// Argument of the procedure to write.
         pub argument: Option<At<String>>,
-        /// How many milliseconds the wait takes at most.
+        /// Timeout in ms.
         pub timeout: Option<At<u32>>,
-        /// Milliseconds.
+        /// Delay in ms.
         pub delay: Option<u32>,
-        /// The message that is sent.
+        /// Message to send.
         pub send: Option<At<String>>,
-        /// `rx` or `tx`: process data are exchanged once.
+        /// `rx` or `tx`: one exchange of process data.
         #[cfg_attr(test, schemars(transform = schema::words(&["rx", "tx"])))]
         pub exchange: Option<At<String>>,
-        /// What a person has to do.
+        /// Manual action.
         pub manual: Option<String>,
     }
 
-    /// A frame of Modbus that the manual prints: node, function and data, with or without the CRC.
+    /// Modbus frame that the manual prints: node, function code and data, with or without CRC.
     pub struct FrameTable: doc cite doubt {
-        /// The bytes of the request.
+        /// Bytes of the request.
         pub request: At<Vec<u8>>,
-        /// The bytes of the reply.
+        /// Bytes of the reply.
         pub reply: At<Vec<u8>>,
-        /// Findings that the doubts take upon themselves.
+        /// Diagnostics that the ambiguities explain; they are suppressed.
         pub allow: Option<Vec<At<String>>>,
     }
 
-    /// A number that the manual converts as an example.
+    /// Conversion that the manual prints.
     pub struct ConversionTable: doc cite {
-        /// The raw number.
+        /// Raw value.
         pub raw: Option<i64>,
-        /// The physical one.
+        /// Physical value.
         pub value: Option<f64>,
-        /// Its unit, where that is the machine's.
+        /// Unit of the physical value, if it is the machine unit.
         pub unit: Option<At<String>>,
-        /// Numbers of `[given]`, as the example has them.
+        /// Numbers of `[given]` in the example.
         pub given: Entries<f64>,
-        /// The model whose constants the example uses.
+        /// Model whose constants apply.
         pub model: Option<At<String>>,
-        /// The value of the item that the scale depends on.
+        /// Value of the item that the scale depends on.
         pub by: Option<f64>,
     }
 }
@@ -1115,173 +1115,173 @@ tables! {
 // Command protocols.
 #[cfg(feature = "messages")]
 tables! {
-    /// How frames are delimited and checked.
+    /// Delimiters and check of frames.
     pub struct FramingTable: doc cite doubt {
-        /// The byte that begins a frame.
+        /// First byte of a frame.
         pub start: Option<u8>,
-        /// The byte that ends it.
+        /// Last byte of a frame.
         pub end: Option<u8>,
-        /// The byte in front of one that is escaped.
+        /// Byte that precedes an escaped byte.
         pub escape: Option<u8>,
-        /// What an escaped byte is combined with by exclusive or.
+        /// Value that is XORed with an escaped byte.
         pub escape_xor: u8,
-        /// The bytes that are escaped.
+        /// Bytes that are escaped.
         pub escaped: Vec<u8>,
-        /// How the check is made.
+        /// Algorithm of the check.
         #[cfg_attr(test, schemars(transform = schema::words(schema::CHECKS)))]
         pub check: Option<At<String>>,
-        /// What the check begins with.
+        /// Initial value of the check.
         pub seed: u32,
-        /// The field of the messages from which on the check counts; else from the byte behind `start`.
+        /// First message field that the check covers. Default: the byte after `start`.
         pub check_from: Option<At<String>>,
         /// Whether the check is escaped, too.
         pub check_escaped: Option<bool>,
-        /// The greatest number of data bytes in a frame, without start, end, escapes and check.
+        /// Maximum number of data bytes per frame, without start, end, escapes and check.
         pub max_data: Option<u16>,
-        /// The field of requests with the number of the device for which they are.
+        /// Request field with the device address.
         pub address: Option<At<String>>,
     }
 
-    /// A request and its reply.
+    /// Request and its reply.
     pub struct MessageTable: window orig doc cite doubt allow {
-        /// Its name.
+        /// Name.
         pub name: Option<At<String>>,
-        /// What is sent.
+        /// Fields of the request.
         pub request: Vec<At<FieldTable>>,
-        /// What comes back.
+        /// Fields of the reply.
         pub reply: Vec<At<FieldTable>>,
-        /// `immediate`, `reply`, `{ poll = "item" }` or `{ delay = 100 }`.
+        /// When the order completes: `immediate`, `reply`, `{ poll = "item" }` or `{ delay = 100 }`.
         pub completion: Option<At<TextOr<CompletionTable>>>,
-        /// The states in which the device takes it.
+        /// States in which the device accepts the message.
         pub accepted_in: Vec<At<String>>,
-        /// Frames that the manual prints, byte for byte; they are held against the fields.
+        /// Frames that the manual prints; they are compared with the fields.
         pub examples: Vec<At<ExampleTable>>,
-        /// Items that have to have one of these values.
+        /// Required values of other items.
         pub when: Option<Conditions>,
-        /// About how many milliseconds a reply takes that comes late.
+        /// Approximate time in ms of a late reply.
         pub reply_time: Option<u32>,
-        /// The reply has this form after that message.
+        /// The reply has this form after this message.
         pub after: Option<At<String>>,
-        /// The reply has this form after power-on, too.
+        /// Whether the reply has this form after power-on, too.
         pub default: bool,
-        /// The message that comes where the device refuses.
+        /// Message that replaces the reply if the device refuses.
         pub error: Option<At<String>>,
-        /// What else it does.
+        /// Other effects.
         pub effects: Option<Words>,
-        /// What replaces it from then on.
+        /// Replacement.
         pub replaced_by: Option<At<String>>,
     }
 
-    /// A request and its reply as the manual prints them.
+    /// Printed request and reply.
     pub struct ExampleTable: doc cite doubt {
-        /// The bytes of the request.
+        /// Bytes of the request.
         pub request: At<Vec<u8>>,
-        /// The bytes of the reply.
+        /// Bytes of the reply.
         pub reply: At<Vec<u8>>,
     }
 
-    /// When an order is carried out.
+    /// When an order completes.
     pub struct CompletionTable {
-        /// When this item, or field of replies, says so; a bit stands behind a dot.
+        /// Item or reply field that indicates completion; a bit name follows after a dot.
         pub poll: Option<At<String>>,
-        /// The bits that count.
+        /// Bits that are compared.
         pub mask: Option<u64>,
-        /// The value that tells it; any but 0 where there is none.
+        /// Value that indicates completion. Default: any value except 0.
         pub value: Option<Literal>,
-        /// The reply tells it already: as long as the order isn't carried out, it has another value for certain.
+        /// Whether the reply to the order already shows the value: until the order completes, it has another value.
         pub in_reply: bool,
-        /// After so many milliseconds.
+        /// Delay in ms after which the order is complete.
         pub delay: Option<u32>,
     }
 
-    /// A field of a message.
+    /// Field of a message.
     pub struct FieldTable: meaning orig doc cite doubt {
-        /// The number that the manual gives to its first byte; numbers have to count on from field to field.
+        /// Printed number of the first byte; numbers must be contiguous from field to field.
         pub at: Option<At<u16>>,
-        /// Fixed bytes.
+        /// Constant bytes.
         pub bytes: Option<Vec<u8>>,
-        /// The only value: of a `field`, or else of bits, as many as the `type` has, that fill no whole bytes.
+        /// The only value of a `field`; without `field`, constant bits of a partial byte with the width of `type`.
         pub fixed: Option<At<Literal>>,
         /// Name of a value.
         pub field: Option<At<String>>,
-        /// Its type.
+        /// Data type.
         #[cfg_attr(test, schemars(transform = schema::types))]
         pub ty = "type": Option<At<String>>,
-        /// Order of its bytes, the most significant being `A`.
+        /// Byte order; `A` is the most significant byte.
         pub order: Option<At<String>>,
-        /// The physical value of raw 0.
+        /// Physical value of raw 0.
         pub offset: Option<f64>,
-        /// It is the number of bytes from this field of the frame to its end.
+        /// The value is the number of bytes from the named field to the end of the frame.
         pub counts: Option<At<String>>,
-        /// A copy of this field of the request; of some of its bytes with `part`.
+        /// Copy of this request field; with `part`, of some of its bytes.
         pub echo: Option<At<String>>,
-        /// The bytes of the field that come back (`"1..3"`), the first on the wire being 0.
+        /// Bytes of the echoed field (`"1..3"`); 0 is the first on the wire.
         pub part: Option<At<NumberOrText>>,
-        /// Bytes of the request (`"3..5"`), whatever they mean there, the first of its data being 0.
+        /// Copy of these request bytes (`"3..5"`); 0 is the first data byte.
         pub copy: Option<At<NumberOrText>>,
-        /// The code of an item in this space, of this `type`.
+        /// Number of an item in this space, with this `type`.
         pub code: Option<At<String>>,
-        /// The value of the item whose code stands in front, in this space.
+        /// Value of the preceding `code` of this space.
         pub value_of: Option<At<String>>,
-        /// As many zeros as the value has of the item whose code stands in front, in this space.
+        /// As many zero bytes as the value of the preceding `code` of this space has.
         pub zeros_for: Option<At<String>>,
-        /// So many bytes without meaning.
+        /// Number of bytes without meaning.
         pub pad: Option<u8>,
-        /// Fields that occur several times.
+        /// Repeated fields.
         pub repeat: Option<RepeatTable>,
-        /// All bytes that follow.
+        /// Whether the field is all following bytes.
         pub rest: bool,
     }
 
-    /// Fields that occur several times.
+    /// Repeated fields.
     pub struct RepeatTable {
-        /// The field that holds how often; up to the end where there is none.
+        /// Field with the number of repetitions. Default: to the end of the frame.
         pub count: Option<At<String>>,
-        /// How often at most.
+        /// Maximum number of repetitions.
         pub max: Option<u16>,
-        /// The fields.
+        /// Fields.
         pub fields: Vec<At<FieldTable>>,
     }
 }
 
 #[cfg(test)]
 tables! {
-    /// A register table, an overlay or a profile.
+    /// Register table, overlay or profile.
     pub struct Document {
-        /// Version of the format: 1.
+        /// Format version: 1.
         #[cfg_attr(test, schemars(extend("const" = 1)))]
         pub lexibus: Option<At<u32>>,
         /// The device that the table describes.
         pub device: Option<At<DeviceTable>>,
-        /// What the overlay applies to, and why.
+        /// Devices of the overlay, and its reason.
         pub overlay: Option<At<OverlayTable>>,
-        /// What the profile applies to.
+        /// Name, number and devices of the profile.
         pub profile: Option<At<ProfileTable>>,
-        /// The manual that it was transcribed from.
+        /// Manual that the table was transcribed from.
         pub manual: Option<At<ManualTable>>,
         /// Models of a family that share the table.
         pub models: Vec<At<ModelTable>>,
         /// Mailbox and sync managers of an EtherCAT slave.
         pub ethercat: Option<At<EtherCatTable>>,
-        /// What the manual leaves open.
+        /// Choice that the manual leaves open.
         pub options: Entries<OptionTable>,
-        /// What rows have that don't say otherwise.
+        /// Default keys of rows.
         pub defaults: Option<At<Row>>,
-        /// What the number of a register means on each bus.
+        /// Meaning of a register number on each bus.
         pub spaces: Entries<SpaceTable>,
         /// Rows, in the order of the manual.
         pub chapters: Vec<At<ChapterTable>>,
         /// Units with a scale, by name.
         pub units: Entries<UnitTable>,
-        /// Numbers that only whoever builds the machine knows, such as the pitch of a screw.
+        /// Numbers that depend on the machine, such as the pitch of a screw.
         pub given: Entries<GivenTable>,
         /// Named values.
         pub enums: Entries<EnumTable>,
         /// Named bits.
         pub bits: Entries<BitsTable>,
-        /// How the objects of further axes follow from those of the first.
+        /// Rules that derive the objects of further axes from the first axis.
         pub axes: Option<At<AxesTable>>,
-        /// Process data objects that don't follow from the defaults of mapping objects.
+        /// Process data objects that do not follow from the defaults of mapping objects.
         pub pdos: Vec<At<PdoTable>>,
         /// Fixed process images.
         pub images: Vec<At<ImageTable>>,
@@ -1297,9 +1297,9 @@ tables! {
         pub framing: Option<At<FramingTable>>,
         /// Requests and replies of a command protocol.
         pub messages: Vec<At<MessageTable>>,
-        /// Frames of Modbus that the manual prints.
+        /// Modbus frames that the manual prints.
         pub frames: Vec<At<FrameTable>>,
-        /// Contradictions that belong to no row.
+        /// Ambiguities that belong to no row.
         pub doubts: Vec<At<DoubtTable>>,
     }
 }
