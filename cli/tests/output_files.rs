@@ -70,7 +70,7 @@ fn a_pipe_is_no_input() {
     let folder = folder("input");
     let checked = shell(&folder, "mkfifo p.eds; $LEXIBUS check p.eds");
     assert_eq!(checked.status.code(), Some(1));
-    assert!(error(&checked).contains("can't read the file: it is no regular file"), "{}", error(&checked));
+    assert!(error(&checked).contains("can't read the file: it is not a regular file"), "{}", error(&checked));
     // A folder is searched for files, and a pipe in it is none.
     let searched = shell(&folder, "cp $DEMO .; $LEXIBUS check .");
     assert!(error(&searched).contains("1 file"), "{}", error(&searched));

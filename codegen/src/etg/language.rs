@@ -1,11 +1,11 @@
-//! Languages: the LcId of Windows that ETG.2000 uses, and the tags of BCP 47 that the IR has.
+//! Languages: the Windows LCIDs of ETG.2000 and the BCP 47 tags of the IR.
 
 use compact_str::{format_compact, CompactString};
 
-/// The language of a text without LcId.
+/// Language of a text without an LcId.
 pub const ENGLISH: u32 = 1033;
 
-/// Numbers and tags; of a language without a region, the first one is meant.
+/// LCIDs and tags. For a tag without a region, the first entry applies.
 const LANGUAGES: [(u32, &str); 23] = [
     (1028, "zh-TW"),
     (1029, "cs-CZ"),
@@ -32,7 +32,7 @@ const LANGUAGES: [(u32, &str); 23] = [
     (2070, "pt-PT"),
 ];
 
-/// How well a text serves as the name: 1033, then one that says no language, then any.
+/// Returns the rank of a text as the name, lower first: English (1033), then no language, then any other.
 pub fn rank(lcid: Option<u32>) -> u8 {
     match lcid {
         Some(ENGLISH) => 0,
@@ -41,7 +41,7 @@ pub fn rank(lcid: Option<u32>) -> u8 {
     }
 }
 
-/// The tag of a language.
+/// Returns the BCP 47 tag of a language.
 pub fn tag(lcid: Option<u32>) -> CompactString {
     let lcid = lcid.unwrap_or(ENGLISH);
     match LANGUAGES.iter().find(|(number, _)| *number == lcid) {
@@ -50,14 +50,14 @@ pub fn tag(lcid: Option<u32>) -> CompactString {
     }
 }
 
-/// The number of the language with this tag, or of its first region.
+/// Returns the LCID of the language with this tag, or of its first region.
 pub fn lcid(tag: &str) -> Option<u32> {
     if let Some(number) = tag.strip_prefix("lcid:") {
         return number.parse().ok();
     }
     let exact = LANGUAGES.iter().find(|(_, other)| other.eq_ignore_ascii_case(tag));
     let of_language = |other: &str| other.split('-').next().is_some_and(|language| language.eq_ignore_ascii_case(tag));
-    // Chinese without a region is written with simplified characters, Portuguese is Portugal's.
+    // Chinese without a region means simplified characters; Portuguese means Portugal.
     let region = match tag {
         "zh" => return Some(2052),
         "pt" => return Some(2070),

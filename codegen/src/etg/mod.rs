@@ -1,4 +1,4 @@
-//! Names and numbers of ETG.1000.6 and ETG.2000 that reading and writing a description have in common.
+//! Names and numbers of ETG.1000.6 and ETG.2000, for readers and writers of descriptions.
 
 pub mod language;
 pub mod type_name;

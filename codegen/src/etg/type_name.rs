@@ -1,30 +1,30 @@
-//! Names and numbers of basic types: those of ETG.1000.6, and the other names that real files have for them.
+//! Names and numbers of the basic types in ETG.1000.6, and other names in real files.
 
 use crate::ir::Type;
 
-/// What a name says about a type.
+/// Meaning of a basic type name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Basic {
-    /// It is this type.
+    /// A type.
     Type(Type),
-    /// So many single bits (BITARR8).
+    /// A number of single bits (BITARR8).
     Bits(u8),
-    /// `ARRAY [l..u] OF T`: lower bound, number of elements and type of an element.
+    /// An array `ARRAY [l..u] OF T`: lower bound, number of elements, and element type.
     Array(i32, u32, Type),
 }
 
-/// How a name departs from the tables of ETG.1000.6.
+/// How a name differs from the tables of ETG.1000.6.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Spelling {
-    /// Not at all.
+    /// The standard name.
     Standard,
-    /// It is another usual name of the type (UINT16).
+    /// Another common name of the type (UINT16).
     Alias,
-    /// It begins with the name of a type, or an alias of one (`UINT_hex`, `Uint16_hex`).
+    /// A name that begins with the name of a type or with an alias (`UINT_hex`, `Uint16_hex`).
     Prefix,
 }
 
-/// The basic type with this name.
+/// Returns the basic type with this name.
 pub fn basic(name: &str) -> Option<(Basic, Spelling)> {
     if let Some(ty) = standard(name) {
         return Some((Basic::Type(ty), Spelling::Standard));
@@ -63,7 +63,7 @@ fn standard(name: &str) -> Option<Type> {
     })
 }
 
-/// The name of a type in ETG.1000.6, or that of CiA 301 if it has none there.
+/// Returns the name of a type in ETG.1000.6, or in CiA 301 if ETG.1000.6 has none.
 pub fn name_of(ty: Type) -> String {
     const NAMES: [&str; 16] = [
         "BOOL",
@@ -86,7 +86,7 @@ pub fn name_of(ty: Type) -> String {
     NAMES.into_iter().find(|name| standard(name) == Some(ty)).map_or_else(|| ty.to_string(), str::to_owned)
 }
 
-/// Names with a number in them: BITn, BITARRn, INT24, STRING(n), ARRAY [l..u] OF T.
+/// Reads names that contain a number: BITn, BITARRn, INT24, STRING(n), ARRAY [l..u] OF T.
 fn with_parameter(name: &str) -> Option<Basic> {
     if let Some(bits) = name.strip_prefix("BITARR") {
         return width(bits).map(Basic::Bits);
@@ -104,7 +104,7 @@ fn with_parameter(name: &str) -> Option<Basic> {
     if let Some(length) = wide {
         return length_of(length).map(|length| Basic::Type(Type::UnicodeString(Some(length))));
     }
-    // Of the integers with a number in their name, the tables have those of other widths than 8, 16, 32 and 64.
+    // The tables list 8, 16, 32 and 64 bits under other names, so only the other widths are read here.
     if let Some(bits @ (24 | 40 | 48 | 56)) = name.strip_prefix("UINT").and_then(width) {
         return Some(Basic::Type(Type::Unsigned(bits)));
     }
@@ -119,7 +119,7 @@ fn width(digits: &str) -> Option<u8> {
     digits.parse().ok().filter(|bits| plain && (1..=64).contains(bits))
 }
 
-/// The number in `(12)`.
+/// Returns the number in parentheses, such as `(12)`.
 fn length_of(text: &str) -> Option<u32> {
     text.trim().strip_prefix('(')?.strip_suffix(')')?.trim().parse().ok()
 }
@@ -132,13 +132,13 @@ fn array(name: &str) -> Option<Basic> {
     let element = element.trim();
     let element = element.strip_prefix("OF").or_else(|| element.strip_prefix("of"))?.trim();
     Some(match (element, standard(element).or_else(|| alias(element))?) {
-        // That is how the tables write an octet string.
+        // ETG.1000.6 writes an octet string as an array of BYTE.
         ("BYTE", _) => Basic::Type(Type::OctetString(Some(count))),
         (_, ty) => Basic::Array(low, count, ty),
     })
 }
 
-/// Names of the same types in CiA 301, in C, and in any case.
+/// Returns the type with a common name of CiA 301 or C. Ignores case.
 fn alias(name: &str) -> Option<Type> {
     let upper = name.to_ascii_uppercase();
     let plain = upper.strip_suffix("_T").unwrap_or(&upper);
@@ -157,7 +157,7 @@ fn alias(name: &str) -> Option<Type> {
     })
 }
 
-/// The basic type with this number. Up to 0x1B the numbers are those of CiA 301; 0x20 and above are other types there.
+/// Returns the basic type with this number. Numbers up to 0x1B are those of CiA 301; numbers from 0x20 differ.
 pub fn by_code(code: u32) -> Option<Basic> {
     Some(match code {
         0x1D => Basic::Type(Type::OctetString(Some(16))),

@@ -1,15 +1,16 @@
-//! Units: a number that has a power of ten, a unit, and the unit that it is divided by (ETG.1004, CiA 303-2).
+//! Unit numbers: a power of ten, a unit, and a denominator unit (ETG.1004, CiA 303-2).
 
 use compact_str::{format_compact, CompactString};
 
-/// The unit with this number, as far as its parts are known; `own` has those that the dictionary defines.
-pub fn text(number: u32, own: &[(u32, CompactString)]) -> Option<CompactString> {
+/// Returns the text of the unit with this number, if its parts are known. `units` contains the units that the
+/// dictionary defines.
+pub fn text(number: u32, units: &[(u32, CompactString)]) -> Option<CompactString> {
     let [exponent, numerator, denominator, rest] = number.to_be_bytes();
     if rest != 0 {
         return None;
     }
     let symbol = |notation: u8| {
-        let defined = || own.iter().find(|(number, _)| *number == u32::from(notation));
+        let defined = || units.iter().find(|(number, _)| *number == u32::from(notation));
         symbol(notation).or_else(|| defined().map(|(_, symbol)| symbol.as_str()))
     };
     let numerator = match numerator {
@@ -25,7 +26,7 @@ pub fn text(number: u32, own: &[(u32, CompactString)]) -> Option<CompactString> 
     Some(text)
 }
 
-/// The number whose [`text`] is this one.
+/// Returns the number of the unit with the text `unit` (see [`text`]).
 pub fn number(unit: &str) -> Option<u32> {
     let units = || (1..=u8::MAX).filter(|notation| symbol(*notation).is_some());
     for exponent in -12i8..=9 {
@@ -42,7 +43,7 @@ pub fn number(unit: &str) -> Option<u32> {
     units().map(inverse).find(|(_, text)| text.as_deref() == Some(unit)).map(|(number, _)| number)
 }
 
-/// Units whose number is certain.
+/// Returns the symbol of a unit with a known notation index.
 fn symbol(notation: u8) -> Option<&'static str> {
     Some(match notation {
         0x01 => "m",
@@ -85,7 +86,7 @@ fn prefixed(exponent: i8, symbol: &str) -> CompactString {
         9 => "G",
         _ => "·",
     };
-    // Kilograms have a prefix already, and few write millidegrees.
+    // Kilograms already have a prefix, and millidegrees are unusual.
     let plain = symbol.starts_with(|letter: char| letter.is_ascii_alphabetic() || letter == 'Ω');
     match prefix {
         "" => symbol.into(),

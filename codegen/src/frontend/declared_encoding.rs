@@ -1,49 +1,51 @@
-//! What the XML declaration says of the encoding, held against the bytes.
+//! Checks the encoding in the XML declaration against the bytes of the file.
 
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
 use crate::source::{Encoding, FileId, Source, Span};
 
-/// What stands for bytes that are no letter.
+/// Replacement character for bytes that are invalid in the encoding.
 const REPLACEMENT: char = '\u{FFFD}';
 
-/// Reports bytes that aren't in the encoding that the declaration, or a byte order mark, promises.
+/// Reports bytes that are not in the encoding of the declaration or byte order mark.
 pub fn report(source: &Source, file: FileId, diagnostics: &mut Diagnostics) {
     let Some((message, read_as)) = mismatch(source) else { return };
     let is_meant = |letter: char| if read_as.is_some() { !letter.is_ascii() } else { letter == REPLACEMENT };
-    // Without any such character the encodings are the same. UTF-16 is another one from the first letter on.
+    // If the file has no such character, its bytes are the same in both encodings. UTF-16 differs from the first
+    // character on.
     let found = source.text().char_indices().find(|(_, letter)| is_meant(*letter));
     let found = found.or_else(|| source.text().char_indices().next().filter(|_| source.encoding() == Encoding::Utf16));
     let Some((at, letter)) = found else { return };
     let span = Span::new(file, at as u32, (at + letter.len_utf8()) as u32);
     let label = match read_as {
-        Some(read_as) => format!("the first such character; read as {read_as}"),
-        None => "the first of them; its bytes are lost".to_owned(),
+        Some(read_as) => format!("first such character; read as {read_as}"),
+        None => "first invalid byte sequence; its bytes are lost".to_owned(),
     };
     diagnostics.push(
         Diagnostic::new(&codes::WRONG_ENCODING, span, message)
             .label(label)
-            .help("declare the encoding that the file has: `<?xml version=\"1.0\" encoding=\"…\"?>`"),
+            .help("declare the actual encoding of the file: `<?xml version=\"1.0\" encoding=\"…\"?>`"),
     );
 }
 
-/// What is wrong, and as what the file was read; without that, some of its letters weren't read at all.
+/// Returns the message and the encoding that was used instead. The encoding is `None` if some bytes could not be
+/// decoded.
 fn mismatch(source: &Source) -> Option<(&'static str, Option<&'static str>)> {
-    const ANOTHER: &str = "the file declares another encoding";
-    // An encoding that isn't declared is UTF-8 (XML 1.0, 4.3.3).
+    const ANOTHER: &str = "the declared encoding is not that of the file";
+    // The default encoding is UTF-8 (XML 1.0, 4.3.3).
     let declared = source.declared_charset();
     let is_named = source.declared_encoding().is_some_and(|label| !label.is_empty());
     let is_unknown = is_named && declared.is_none();
     let is = |charset: &str| if is_named { declared == Some(charset) } else { charset == "UTF-8" };
-    let has_lost = || source.has_lost_bytes().then_some(("the file has bytes that are no letters", None));
+    let has_lost = || source.has_lost_bytes().then_some(("the file has bytes that are invalid in its encoding", None));
     match source.encoding() {
         Encoding::Windows1252 if source.has_wrong_mark() => {
-            Some(("the file begins with the mark of UTF-8, and isn't UTF-8", Some("Windows-1252")))
+            Some(("the file has a UTF-8 byte order mark but is not UTF-8", Some("Windows-1252")))
         }
         Encoding::Windows1252 if is_unknown => {
-            Some(("the file declares an encoding that can't be read here", Some("Windows-1252")))
+            Some(("the file declares an unsupported encoding", Some("Windows-1252")))
         }
         Encoding::Windows1252 if !is("windows-1252") => {
-            Some(("the file is neither UTF-8 nor of an encoding that it declares", Some("Windows-1252")))
+            Some(("the file is neither UTF-8 nor in the declared encoding", Some("Windows-1252")))
         }
         Encoding::Utf8 | Encoding::Utf8Bom if !is("UTF-8") => Some((ANOTHER, Some("UTF-8"))),
         Encoding::Utf16 if is_named && !is("UTF-16LE") && !is("UTF-16BE") => Some((ANOTHER, Some("UTF-16"))),

@@ -1,11 +1,12 @@
-//! How the content of a file shows its format. Only EDS and DCF, which share every section, go by the name.
+//! Detects the format of a file by its content. Only the file name distinguishes EDS from DCF, which share all
+//! sections.
 
 use crate::diagnostics::{codes, Diagnostic};
 use crate::ir::Format;
 use crate::source::{FileId, Source, Span};
 use crate::syntax::ini::{Document, Section};
 
-/// How much of a file is looked at to find its root element or first sections.
+/// Number of bytes in which the root element or the first sections are searched.
 pub const LOOK_AHEAD: usize = 64 * 1024;
 
 /// Recognizes a register table by the name of the file or its first key.
@@ -28,13 +29,13 @@ pub(super) fn xdd(source: &Source) -> Option<Format> {
     matches!(root_name(source)?, "ISO15745ProfileContainer" | "ISO15745Profile").then_some(Format::Xdd)
 }
 
-/// Recognizes an ESI file, also one that has only modules, a dictionary or diagnosis messages.
+/// Recognizes an ESI file, including files with only modules, a dictionary or diagnosis messages.
 pub(super) fn esi(source: &Source) -> Option<Format> {
     let roots = ["EtherCATInfo", "EtherCATInfoList", "EtherCATModule", "EtherCATDict", "EtherCATDiag"];
     roots.contains(&root_name(source)?).then_some(Format::Esi)
 }
 
-/// Recognizes an EDS or DCF file of CANopen.
+/// Recognizes an EDS or DCF file for CANopen.
 pub(super) fn eds(source: &Source) -> Option<Format> {
     if is_xml(source) {
         return None;
@@ -45,7 +46,7 @@ pub(super) fn eds(source: &Source) -> Option<Format> {
         Some("dcf") => Some(Format::Dcf),
         _ => None,
     };
-    // Nearly every file says in its first line what it is.
+    // The first line of nearly every file shows its format.
     if by_name.is_some() && starts_as_canopen(source.text()) {
         return by_name;
     }
@@ -65,7 +66,7 @@ pub(super) fn eds(source: &Source) -> Option<Format> {
     by_name.or_else(|| Some(if document.sections().iter().any(is_configuration) { Format::Dcf } else { Format::Eds }))
 }
 
-/// Returns the error for a file that no front end recognizes. It says what the file is instead.
+/// Returns the error for a file that no front end recognizes. The message names the format if it is known.
 pub(super) fn unknown(source: &Source, file: FileId) -> Diagnostic {
     let text = source.text();
     let start = text.trim_start();
@@ -77,10 +78,10 @@ pub(super) fn unknown(source: &Source, file: FileId) -> Diagnostic {
         return unknown_xml(start, Span::new(file, at, at));
     }
     match cip_section(&Document::parse(text, file)) {
-        Some(span) => Diagnostic::new(&codes::ETHERNET_IP_EDS, span, "this is an EtherNet/IP EDS, not a CANopen one")
-            .label("a section of ODVA's format")
-            .help("both kinds of file share the ending .eds and nothing else; ask the vendor for the CANopen EDS"),
-        None => unknown_format(Span::new(file, 0, 0), "this is no device description"),
+        Some(span) => Diagnostic::new(&codes::ETHERNET_IP_EDS, span, "this is an EtherNet/IP EDS, not a CANopen EDS")
+            .label("this section belongs to the EDS format of ODVA")
+            .help("ask the vendor for the CANopen EDS; the two formats share only the extension .eds"),
+        None => unknown_format(Span::new(file, 0, 0), "this is not a device description"),
     }
 }
 
@@ -97,14 +98,15 @@ fn unknown_xml(text: &str, span: Span) -> Diagnostic {
     let at = Span::new(span.file, start, start + root.len() as u32);
     match local_name(root) {
         "EtherCATConfig" => {
-            let message = "this is the configuration of an EtherCAT network (ENI), not the description of a device";
-            unknown_format(at, message).label("made by a master's tool from ESI files")
+            let message = "this is an EtherCAT network configuration (ENI), not a device description";
+            unknown_format(at, message).label("a configuration tool generates it from ESI files")
         }
         name if name.starts_with("EtherCAT") || name == "SscToolConfiguration" => {
-            let message = format!("this is no EtherCAT slave information: the root is <{name}>");
-            unknown_format(at, &message).label("expected EtherCATInfo or EtherCATInfoList")
+            let message = format!("this is not an ESI file: the root element is <{name}>");
+            unknown_format(at, &message).label("expected <EtherCATInfo> or <EtherCATInfoList>")
         }
-        other => unknown_format(at, &format!("<{other}> is the root of no device description")).label("here"),
+        other => unknown_format(at, &format!("<{other}> is not the root element of a device description"))
+            .label("unknown root element"),
     }
 }
 
@@ -122,19 +124,19 @@ fn local_name(name: &str) -> &str {
     name.rsplit(':').next().unwrap_or(name)
 }
 
-/// Whether an ISO 15745 profile is that of a PROFINET device: a CANopen XDD has the same root element.
+/// Returns whether an ISO 15745 profile describes a PROFINET device. A CANopen XDD has the same root element.
 fn is_gsdml(text: &str) -> bool {
     let head = head(text);
     ["/GSDML/", "GSDML-DeviceProfile", "<DeviceAccessPointList"].iter().any(|mark| head.contains(mark))
 }
 
-/// The start of a text.
+/// Returns the first [`LOOK_AHEAD`] bytes of a text.
 fn head(text: &str) -> &str {
     let end = (0..=LOOK_AHEAD.min(text.len())).rev().find(|&end| text.is_char_boundary(end)).unwrap_or(0);
     &text[..end]
 }
 
-/// Name of the first element, and where it stands.
+/// Returns the name of the first element and its byte offset.
 fn root_element(text: &str) -> Option<(&str, usize)> {
     let mut at = 0;
     let head = head(text);
@@ -154,7 +156,7 @@ fn root_element(text: &str) -> Option<(&str, usize)> {
     None
 }
 
-/// Sections of ODVA's EDS files, none of which CiA 306 has.
+/// Names of sections in EtherNet/IP EDS files that CiA 306 does not define.
 const CIP_SECTIONS: [&str; 9] = [
     "File",
     "Device",
@@ -167,14 +169,14 @@ const CIP_SECTIONS: [&str; 9] = [
     "ParamClass",
 ];
 
-/// Returns the place of the first section that only ODVA's format has.
+/// Returns the span of the first section that only EtherNet/IP EDS files have.
 fn cip_section(document: &Document<'_>) -> Option<Span> {
     let mut sections = document.sections().iter();
     let is_cip = |name: &str| CIP_SECTIONS.iter().any(|known| known.eq_ignore_ascii_case(name));
     sections.find(|&section| is_cip(document.name(section))).map(|section| document.name_span(section))
 }
 
-/// Whether the first section is one that only CANopen has.
+/// Returns whether the first section is one that only CANopen files have.
 fn starts_as_canopen(text: &str) -> bool {
     let mut lines = text.split(['\n', '\r']).take(200).map(str::trim_start);
     let header = lines.find_map(|line| line.strip_prefix('['));

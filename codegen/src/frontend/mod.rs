@@ -1,4 +1,4 @@
-//! Front ends: one folder a format, each turning syntax into IR and nothing else.
+//! Front ends: each format has a folder with a reader that converts its syntax to IR.
 
 #[cfg(any(feature = "eds", feature = "xdd"))]
 pub mod canopen;
@@ -15,7 +15,7 @@ mod read;
 pub mod table;
 #[cfg(feature = "xdd")]
 pub mod xdd;
-// Each format uses a part of the base.
+// Each format uses only a part of the reader base.
 #[cfg(feature = "xml")]
 #[cfg_attr(not(all(feature = "esi", feature = "gsdml", feature = "xdd")), allow(dead_code, unused_imports))]
 mod xml;

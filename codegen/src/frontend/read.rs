@@ -1,4 +1,4 @@
-//! The front ends: how each recognizes its files, and the function that reads them.
+//! The list of front ends and the function that reads a file with one of them.
 
 use std::path::PathBuf;
 
@@ -7,27 +7,27 @@ use crate::diagnostics::{codes, Diagnostic, Diagnostics};
 use crate::ir::{Catalog, Format};
 use crate::source::{FileId, References, Source, Span};
 
-/// What a file describes.
+/// Result of reading a file.
 pub(crate) struct Description {
     /// The format; `None` if it was not recognized.
     pub format: Option<Format>,
-    /// What it describes; `None` if it can't be used at all.
+    /// The devices and modules; `None` if the file can't be used.
     pub catalog: Option<Catalog>,
-    /// Files that it refers to.
+    /// Files that it refers to and that were read.
     pub others: Vec<Source>,
-    /// Where files were looked for that don't exist.
+    /// Paths of referenced files that don't exist.
     pub missing: Vec<PathBuf>,
 }
 
-/// What a front end reads.
-// Each front end uses a part of it.
+/// Input of a front end.
+// Each front end uses only some of the fields.
 #[cfg_attr(not(all(feature = "eds", feature = "esi", feature = "table")), allow(dead_code))]
 struct Input<'s> {
     source: &'s Source,
     file: FileId,
     /// Further names of `$NODEID` in formulas.
     node_id_aliases: &'s [String],
-    /// Choices of the options of a register table.
+    /// Chosen variants for the options of a register table.
     choices: &'s [(String, String)],
     /// Files that the source refers to.
     references: References<'s>,
@@ -35,17 +35,17 @@ struct Input<'s> {
 
 type Read = fn(&mut Input<'_>, &mut Diagnostics) -> Option<Catalog>;
 
-/// A front end in the order in which they are asked.
+/// A front end, with its feature and functions.
 struct FrontEnd {
-    /// Returns the format of a file of this front end.
+    /// Returns the format if the file belongs to this front end.
     recognize: fn(&Source) -> Option<Format>,
-    /// The cargo feature that includes it.
+    /// The cargo feature that enables it.
     feature: &'static str,
-    /// `None` without the feature.
+    /// The reader; `None` if the feature is disabled.
     read: Option<Read>,
 }
 
-/// Names a function of a front end, or `None` without its feature.
+/// Returns the reader of a front end, or `None` if its feature is disabled.
 macro_rules! with_feature {
     ($feature:literal, $read:expr) => {{
         #[cfg(feature = $feature)]
@@ -97,7 +97,8 @@ const FRONT_ENDS: &[FrontEnd] = &[
 ///
 /// # Errors
 ///
-/// One diagnostic: an EtherNet/IP EDS, an XML of another kind, or nothing that Lexibus reads.
+/// Returns one diagnostic if the file is an EtherNet/IP EDS, an unknown XML document, or another file that Lexibus
+/// can't read.
 pub fn format(source: &Source, file: FileId) -> Result<Format, Box<Diagnostic>> {
     recognized(source, file).map(|(format, _)| format)
 }
@@ -107,8 +108,8 @@ fn recognized(source: &Source, file: FileId) -> Result<(Format, &'static FrontEn
     found.ok_or_else(|| Box::new(detect::unknown(source, file)))
 }
 
-/// Reads a file by the front end of its format. `node_id_aliases` are further names of `$NODEID`, `choices` those of the options of a
-/// register table.
+/// Reads a file with the front end of its format. `node_id_aliases` are further names of `$NODEID`; `choices` selects
+/// variants for the options of a register table.
 pub(crate) fn read(
     source: &Source,
     node_id_aliases: &[String],
@@ -131,14 +132,14 @@ pub(crate) fn read(
             None
         }
     };
-    // A DCF differs from an EDS by the commissioning of the device, not by its file name.
+    // A DCF differs from an EDS by the commissioning section, not by its file name.
     let mut devices = catalog.iter().flat_map(|catalog| &catalog.devices);
     let is_configuration = format == Format::Eds && devices.any(|device| device.commissioning.is_some());
     let (others, missing) = input.references.into_files();
     Description { format: Some(if is_configuration { Format::Dcf } else { format }), catalog, others, missing }
 }
 
-/// Applies the overlay `source` to the devices or modules of `catalog` that it is for.
+/// Applies the overlay `source` to the devices or modules of `catalog` that it names.
 pub(crate) fn apply_overlay(source: &Source, file: FileId, catalog: &mut Catalog, diagnostics: &mut Diagnostics) {
     #[cfg(feature = "table")]
     super::table::overlay::apply(source, file, catalog, diagnostics);
@@ -149,7 +150,7 @@ pub(crate) fn apply_overlay(source: &Source, file: FileId, catalog: &mut Catalog
     }
 }
 
-/// The error for a file whose front end was left out of the build. `what` is what the feature reads.
+/// Returns the error for a file whose front end is disabled. `what` is what the feature reads.
 pub(crate) fn without_feature(feature: &str, what: &str, file: FileId) -> Diagnostic {
     let message = format!("`lexibus-codegen` was built without the feature `{feature}`, which reads {what}");
     let help = format!("add it to the dependency: `lexibus-codegen = {{ …, features = [\"{feature}\"] }}`");

@@ -1,4 +1,4 @@
-//! From bytes to text: byte order marks, UTF-8, what an XML declaration names, and Windows-1252.
+//! Decodes bytes to text. Handles byte order marks, UTF-8, encodings of XML declarations, and Windows-1252.
 
 use std::borrow::Cow;
 
@@ -7,10 +7,10 @@ use encoding_rs::{CoderResult, Encoding as Charset, UTF_16BE, UTF_16LE, UTF_8, W
 /// The byte order mark of UTF-8.
 const MARK: &[u8] = b"\xef\xbb\xbf";
 
-/// Bytes that any letter has room in.
+/// Number of bytes that is enough for any character.
 const ROOM: usize = 16;
 
-/// How a file's bytes were turned into text.
+/// How a file's bytes were decoded.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Encoding {
@@ -20,19 +20,19 @@ pub enum Encoding {
     /// UTF-8 that starts with a byte order mark.
     #[cfg_attr(feature = "serde", serde(rename = "utf-8-bom"))]
     Utf8Bom,
-    /// UTF-16, recognised by its byte order mark or by the zero bytes of its first characters.
+    /// UTF-16, recognized by its byte order mark or by the zero bytes of its first characters.
     #[cfg_attr(feature = "serde", serde(rename = "utf-16"))]
     Utf16,
-    /// Not UTF-8: every byte read as Windows-1252, which contains ISO 8859-1.
+    /// Not UTF-8: every byte was read as Windows-1252, which contains the printable characters of ISO 8859-1.
     #[cfg_attr(feature = "serde", serde(rename = "windows-1252"))]
     Windows1252,
-    /// Not UTF-8: another encoding that the XML declaration names (GB2312, Shift JIS).
+    /// Not UTF-8: the XML declaration names another encoding (GB2312, Shift JIS).
     #[cfg_attr(feature = "serde", serde(rename = "declared"))]
     Declared,
 }
 
 impl Encoding {
-    /// The name that `lexibus info` prints.
+    /// Returns the name that `lexibus info` prints.
     pub fn name(self) -> &'static str {
         match self {
             Encoding::Utf8 => "utf-8",
@@ -44,25 +44,25 @@ impl Encoding {
     }
 }
 
-/// What became of a file's bytes.
+/// Result of decoding a file's bytes.
 #[derive(Debug)]
 pub(super) struct Decoded {
     pub text: String,
     pub encoding: Encoding,
-    /// The bytes as read, if [`encode`] does not give them back.
+    /// The bytes as read, if [`encode`] does not reproduce them.
     pub original: Option<Vec<u8>>,
-    /// Whether some of them are no letters of the encoding.
+    /// Whether some bytes are invalid in the encoding.
     pub has_lost: bool,
 }
 
 impl Decoded {
-    /// The bytes as they were read.
+    /// Returns the bytes as read.
     pub fn bytes(&self) -> Cow<'_, [u8]> {
         self.original.as_deref().map_or_else(|| encode(&self.text, self.encoding), Cow::Borrowed)
     }
 }
 
-/// Reads bytes as text.
+/// Decodes bytes to text.
 pub(super) fn decode(mut bytes: Vec<u8>) -> Decoded {
     let decoded = |(text, has_lost), encoding, original| Decoded { text, encoding, original: Some(original), has_lost };
     if bytes.starts_with(MARK) {
@@ -79,7 +79,7 @@ pub(super) fn decode(mut bytes: Vec<u8>) -> Decoded {
             return decoded(text, Encoding::Utf16, bytes);
         }
     }
-    // Without a mark: the first two characters of XML (XML 1.0, appendix F).
+    // UTF-16 without a byte order mark starts with these two characters of XML (XML 1.0, appendix F).
     for (start, charset) in [(b"<\0?\0", UTF_16LE), (b"\0<\0?", UTF_16BE)] {
         if bytes.starts_with(start) {
             return decoded(with(charset, &bytes), Encoding::Utf16, bytes);
@@ -95,14 +95,14 @@ pub(super) fn decode(mut bytes: Vec<u8>) -> Decoded {
             if charset != WINDOWS_1252 {
                 return decoded(with(charset, &bytes), Encoding::Declared, bytes);
             }
-            // Each byte is a character, and each such character one byte.
+            // In Windows-1252, each byte is one character and each such character is one byte.
             let (text, has_lost) = with(WINDOWS_1252, &bytes);
             Decoded { text, encoding: Encoding::Windows1252, original: None, has_lost }
         }
     }
 }
 
-/// The bytes of a text in UTF-8, with or without a mark, or in Windows-1252.
+/// Encodes a text in UTF-8, with or without a byte order mark, or in Windows-1252.
 fn encode(text: &str, encoding: Encoding) -> Cow<'_, [u8]> {
     match encoding {
         Encoding::Utf8Bom => Cow::Owned([MARK, text.as_bytes()].concat()),
@@ -111,7 +111,7 @@ fn encode(text: &str, encoding: Encoding) -> Cow<'_, [u8]> {
     }
 }
 
-/// The encoding that an XML declaration at the start of `bytes` names.
+/// Returns the encoding name in the XML declaration at the start of `bytes`.
 pub(super) fn declared(bytes: &[u8]) -> Option<&str> {
     const LOOK_AHEAD: usize = 512;
     let head = bytes.trim_ascii_start().strip_prefix(b"<?xml")?;
@@ -124,15 +124,15 @@ pub(super) fn declared(bytes: &[u8]) -> Option<&str> {
     rest[1..].split_once(quote).map(|(label, _)| label.trim())
 }
 
-/// The encoding that goes by this name, as the WHATWG Encoding Standard calls it.
+/// Returns the encoding with this label, by its name in the WHATWG Encoding Standard.
 pub(super) fn charset(label: &str) -> Option<&'static str> {
     Charset::for_label(label.as_bytes()).map(Charset::name)
 }
 
-/// The text, and whether some bytes are no letters.
+/// Returns the decoded text, and whether some bytes are invalid in the encoding.
 fn with(charset: &'static Charset, bytes: &[u8]) -> (String, bool) {
     let mut decoder = charset.new_decoder_without_bom_handling();
-    // Most letters are as long as in UTF-8. Room for the longest text that there may be is three times the input.
+    // Most characters are as long as in UTF-8. In the worst case the text is three times as long as the input.
     let mut text = String::with_capacity(bytes.len() + bytes.len() / 32 + ROOM);
     let (mut rest, mut has_lost) = (bytes, false);
     loop {
@@ -152,7 +152,7 @@ mod tests {
 
     fn decode(bytes: Vec<u8>) -> (String, Encoding, Option<Vec<u8>>) {
         let Decoded { text, encoding, original, .. } = super::decode(bytes.clone());
-        // The bytes are kept, or follow from the text.
+        // The bytes are either kept or can be reproduced from the text.
         assert_eq!(original.as_deref().unwrap_or(&encode(&text, encoding)), bytes);
         (text, encoding, original)
     }

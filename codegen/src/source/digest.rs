@@ -1,4 +1,4 @@
-//! The SHA-256 of a file, computed when it is first asked for: only what is generated from a file has it.
+//! The SHA-256 of a file, computed on first use. Only generated code contains it.
 
 use std::fmt;
 use std::sync::{Arc, OnceLock};
@@ -7,7 +7,7 @@ use sha2::{Digest as _, Sha256};
 
 use super::decode::Decoded;
 
-/// What a source and its digest share.
+/// Content that a source and its digest share.
 #[derive(Debug)]
 pub(super) struct Content {
     pub decoded: Decoded,
@@ -19,7 +19,7 @@ impl Content {
         Arc::new(Content { decoded, sha256: OnceLock::new() })
     }
 
-    /// SHA-256 of the bytes as they were read, in lower-case hexadecimal.
+    /// Returns the SHA-256 of the bytes as read, in lower-case hexadecimal.
     pub fn sha256(&self) -> &str {
         self.sha256.get_or_init(|| {
             use fmt::Write;
@@ -32,7 +32,7 @@ impl Content {
     }
 }
 
-/// The SHA-256 of the bytes of a file, in lower-case hexadecimal.
+/// The SHA-256 of a file's bytes, in lower-case hexadecimal.
 #[derive(Clone, Debug)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(from = "String", into = "String"))]
@@ -49,7 +49,7 @@ impl Digest {
         Digest(Origin::File(Arc::clone(content)))
     }
 
-    /// The digits.
+    /// Returns the hexadecimal digits.
     pub fn as_str(&self) -> &str {
         match &self.0 {
             Origin::File(content) => content.sha256(),

@@ -1,7 +1,7 @@
-//! Files, encodings and spans: what every later stage points back to.
+//! Source files, encodings and spans. All later stages refer to them.
 //!
-//! A [`Source`] is one description file, decoded to UTF-8. A [`Span`] is a range of bytes of that decoded text, so
-//! that a diagnostic, however late it is raised, can quote the line that caused it.
+//! A [`Source`] is one description file, decoded to UTF-8. A [`Span`] is a range of bytes of the decoded text. A
+//! diagnostic of any stage can therefore quote the line that caused it.
 
 mod decode;
 mod digest;
@@ -25,29 +25,30 @@ use digest::Content;
 pub struct Source {
     name: String,
     content: Arc<Content>,
-    /// The folder in which files that it refers to are looked for.
+    /// Folder that contains the files that it refers to.
     folder: Option<PathBuf>,
     line_starts: OnceLock<Vec<u32>>,
-    /// Number of characters before each multiple of [`STRIDE`] bytes, so that a column in a long line is found at once.
+    /// Number of characters before each multiple of [`STRIDE`] bytes. It makes the column in a long line fast to
+    /// find.
     characters: OnceLock<Vec<u32>>,
 }
 
-/// Bytes between two counts of characters.
+/// Number of bytes between two entries of the character count.
 const STRIDE: usize = 1024;
 
-/// The largest input that is read: spans are 32-bit offsets.
+/// Maximum size of an input in bytes. Spans are 32-bit offsets.
 pub const MAX_INPUT_BYTES: usize = u32::MAX as usize / 4;
 
 fn too_large() -> std::io::Error {
-    let message = format!("the file has more than {MAX_INPUT_BYTES} bytes, which are the most that are read");
+    let message = format!("the file exceeds the maximum of {MAX_INPUT_BYTES} bytes");
     std::io::Error::new(std::io::ErrorKind::FileTooLarge, message)
 }
 
 impl Source {
-    /// Decodes `bytes`; `name` is what diagnostics call the file.
+    /// Decodes `bytes`; `name` is the file name in diagnostics.
     ///
-    /// Nothing is ever refused here: a byte sequence that isn't UTF-8 is read as Windows-1252, in which every byte
-    /// has a meaning, and [`Source::encoding`] tells so.
+    /// Decoding never fails. Bytes that are not UTF-8 are read as Windows-1252, in which every byte is a character.
+    /// [`Source::encoding`] returns the encoding that was used.
     pub fn new(name: impl Into<String>, bytes: Vec<u8>) -> Self {
         Source {
             name: name.into(),
@@ -62,19 +63,20 @@ impl Source {
     ///
     /// # Errors
     ///
-    /// What the operating system says, `FileTooLarge` above [`MAX_INPUT_BYTES`], or `InvalidInput` for a pipe or a device.
+    /// Returns the error of the operating system, `FileTooLarge` above [`MAX_INPUT_BYTES`], or `InvalidInput` for a
+    /// pipe or a device.
     pub fn read(path: &Path) -> std::io::Result<Self> {
         Source::read_from(path, path)
     }
 
-    /// Reads the file at `place`, which is called `path`.
-    fn read_from(place: &Path, path: &Path) -> std::io::Result<Self> {
+    /// Reads the file at `location`. Diagnostics call it `path`.
+    fn read_from(location: &Path, path: &Path) -> std::io::Result<Self> {
         // A pipe or a device may never end.
-        if crate::output::is_no_regular_file(place) {
-            return Err(std::io::Error::new(std::io::ErrorKind::InvalidInput, "it is no regular file"));
+        if crate::output::is_no_regular_file(location) {
+            return Err(std::io::Error::new(std::io::ErrorKind::InvalidInput, "it is not a regular file"));
         }
-        let file = std::fs::File::open(place)?;
-        // Room for all of it at once; what tells no length, or a wrong one, is read piece by piece.
+        let file = std::fs::File::open(location)?;
+        // Reserves memory for the whole file. A file with an unknown or wrong length is still read completely.
         let length = file.metadata().map_or(0, |metadata| metadata.len());
         if length > MAX_INPUT_BYTES as u64 {
             return Err(too_large());
@@ -88,76 +90,76 @@ impl Source {
         Ok(Source::new(path.to_string_lossy(), bytes).in_folder(folder))
     }
 
-    /// The same source, with files that it refers to in `folder`. [`Source::read`] takes the folder of the file.
+    /// Sets the folder of the files that the source refers to. [`Source::read`] sets it to the folder of the file.
     pub fn in_folder(mut self, folder: impl Into<PathBuf>) -> Self {
         self.folder = Some(folder.into());
         self
     }
 
-    /// The folder in which files that it refers to are looked for, where there is one.
+    /// Returns the folder of the files that the source refers to, if it is known.
     pub fn folder(&self) -> Option<&Path> {
         self.folder.as_deref()
     }
 
-    /// The encoding that an XML declaration names, as it spells it.
+    /// Returns the encoding name in the XML declaration, as written.
     pub fn declared_encoding(&self) -> Option<&str> {
         decode::declared(self.text().as_bytes())
     }
 
-    /// The encoding that the XML declaration names, as the WHATWG Encoding Standard calls it (`UTF-8`, `windows-1252`); `None`
-    /// where it names none, or one that can't be read.
+    /// Returns the encoding of the XML declaration by its name in the WHATWG Encoding Standard (`UTF-8`,
+    /// `windows-1252`). Returns `None` if the declaration names no encoding or an unsupported one.
     pub fn declared_charset(&self) -> Option<&'static str> {
         self.declared_encoding().and_then(decode::charset)
     }
 
-    /// The name that diagnostics show.
+    /// Returns the file name in diagnostics.
     pub fn name(&self) -> &str {
         &self.name
     }
 
-    /// The decoded text.
+    /// Returns the decoded text.
     pub fn text(&self) -> &str {
         &self.content.decoded.text
     }
 
-    /// How the bytes were decoded.
+    /// Returns how the bytes were decoded.
     pub fn encoding(&self) -> Encoding {
         self.content.decoded.encoding
     }
 
-    /// Whether some bytes were no letters of the encoding: U+FFFD stands for them.
+    /// Returns whether some bytes were invalid in the encoding. U+FFFD replaces them in the text.
     pub fn has_lost_bytes(&self) -> bool {
         self.content.decoded.has_lost
     }
 
-    /// The bytes as they were read.
+    /// Returns the bytes as read.
     pub fn bytes(&self) -> Cow<'_, [u8]> {
         self.content.decoded.bytes()
     }
 
-    /// Whether the file starts with the byte order mark of UTF-8 and is not UTF-8.
+    /// Returns whether the file starts with a UTF-8 byte order mark but is not UTF-8.
     pub fn has_wrong_mark(&self) -> bool {
         self.encoding() == Encoding::Windows1252 && self.content.decoded.original.is_some()
     }
 
-    /// SHA-256 of the bytes as they were read, in lower-case hexadecimal.
+    /// Returns the SHA-256 of the bytes as read, in lower-case hexadecimal.
     pub fn sha256(&self) -> &str {
         self.content.sha256()
     }
 
-    /// The same, computed when it is first asked for.
+    /// Returns the SHA-256 as a digest that is computed on first use.
     pub fn digest(&self) -> Digest {
         Digest::of(&self.content)
     }
 
-    /// The text of `span`, empty where the span lies outside of this source.
+    /// Returns the text of `span`, or an empty text if the span is outside this source.
     pub fn slice(&self, span: Span) -> &str {
         self.text().get(span.range()).unwrap_or("")
     }
 
-    /// Line and column of a byte offset into the text.
+    /// Returns line and column of a byte offset into the text.
     ///
-    /// CR LF, LF and a CR on its own each end a line.
+    /// CR LF, LF and a single CR each end a line.
     pub fn position(&self, offset: u32) -> Position {
         let line = self.line_at(offset);
         let start = self.line_starts()[line as usize - 1] as usize;
@@ -166,12 +168,12 @@ impl Source {
         Position { line, column: column + 1 }
     }
 
-    /// The line of [`Source::position`] alone, without counting characters.
+    /// Returns the line of [`Source::position`] without counting characters.
     pub fn line_at(&self, offset: u32) -> u32 {
         self.line_starts().partition_point(|&start| start <= offset).max(1) as u32
     }
 
-    /// Number of characters that begin before the byte `offset`.
+    /// Returns the number of characters that begin before the byte `offset`.
     fn characters_before(&self, offset: usize) -> u32 {
         let begins = |bytes: &[u8]| bytes.iter().filter(|&&byte| byte & 0xC0 != 0x80).count() as u32;
         let counts = self.characters.get_or_init(|| {
@@ -188,7 +190,7 @@ impl Source {
         counts[whole] + begins(&self.text().as_bytes()[whole * STRIDE..offset])
     }
 
-    /// The text of line `line` (counted from 1) without its line end.
+    /// Returns the text of line `line` (counted from 1) without its line end.
     pub fn line(&self, line: u32) -> &str {
         let starts = self.line_starts();
         let index = (line as usize).saturating_sub(1);

@@ -1,12 +1,12 @@
-//! Files that a description refers to.
+//! Reads files that a description refers to.
 
 use std::fmt;
 use std::path::{Component, Path, PathBuf};
 
 use super::{FileId, Source};
 
-/// The files that a description refers to, as far as they were read. Only files in the folder of the description or
-/// below it are read.
+/// The files that a description refers to and that were read. Only files in the folder of the description or below it
+/// are read.
 #[derive(Debug)]
 pub struct References<'a> {
     main: &'a Source,
@@ -14,16 +14,16 @@ pub struct References<'a> {
     missing: Vec<PathBuf>,
 }
 
-/// Why a file isn't read.
+/// Reason why a file is not read.
 #[derive(Debug)]
 pub enum Refusal {
-    /// The description wasn't read from a folder, but from memory.
+    /// The description was read from memory, not from a folder.
     NoFolder,
-    /// The name leads out of the folder of the description, or to another computer.
+    /// The name leads outside the folder of the description, or to another computer.
     Outside,
-    /// It is a folder, a pipe or a device.
+    /// The name belongs to a folder, a pipe or a device.
     NoFile,
-    /// Too many files are referred to.
+    /// The description refers to too many files.
     TooMany,
     /// The operating system can't read it.
     Unreadable(std::io::Error),
@@ -32,10 +32,10 @@ pub enum Refusal {
 impl fmt::Display for Refusal {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Refusal::NoFolder => f.write_str("the description wasn't read from a folder"),
-            Refusal::Outside => f.write_str("it isn't in the folder of the description"),
-            Refusal::NoFile => f.write_str("it is no file"),
-            Refusal::TooMany => write!(f, "more than {MAX_REFERENCES} files are referred to"),
+            Refusal::NoFolder => f.write_str("the description was not read from a folder"),
+            Refusal::Outside => f.write_str("it is not in the folder of the description"),
+            Refusal::NoFile => f.write_str("it is not a regular file"),
+            Refusal::TooMany => write!(f, "the description refers to more than {MAX_REFERENCES} files"),
             Refusal::Unreadable(error) => write!(f, "{error}"),
         }
     }
@@ -43,20 +43,20 @@ impl fmt::Display for Refusal {
 
 impl std::error::Error for Refusal {}
 
-/// Greatest number of files that one description may refer to.
+/// Maximum number of files that one description may refer to.
 pub const MAX_REFERENCES: usize = 64;
 
 impl<'a> References<'a> {
-    /// No file read yet that `main` refers to.
+    /// Creates an empty list of the files that `main` refers to.
     pub fn new(main: &'a Source) -> Self {
         References { main, read: Vec::new(), missing: Vec::new() }
     }
 
-    /// Opens the file called `name` in the description: a path relative to it, with `/` or `\\`.
+    /// Opens the file with the name `name`: a path relative to the description, with `/` or `\\`.
     ///
     /// # Errors
     ///
-    /// Why the file isn't read.
+    /// Returns the reason if the file is not read.
     pub fn open(&mut self, name: &str) -> Result<Source, Refusal> {
         let folder = self.main.folder().ok_or(Refusal::NoFolder)?;
         if self.read.len() >= MAX_REFERENCES {
@@ -68,7 +68,7 @@ impl<'a> References<'a> {
         if name.is_empty() || name.contains(':') || !inside {
             return Err(Refusal::Outside);
         }
-        // A link in the folder may lead anywhere: what counts is where the file lies.
+        // A link in the folder may lead anywhere. The location of its target decides.
         let path = folder.join(relative);
         let real = path.canonicalize().map_err(|error| {
             if error.kind() == std::io::ErrorKind::NotFound {
@@ -86,7 +86,7 @@ impl<'a> References<'a> {
         Source::read_from(&real, &path).map_err(Refusal::Unreadable)
     }
 
-    /// The number that the next file gets by [`References::add`].
+    /// Returns the number of the next file that [`References::add`] adds.
     pub fn next_file(&self) -> FileId {
         FileId(self.read.len() as u32 + 1)
     }
@@ -98,7 +98,7 @@ impl<'a> References<'a> {
         file
     }
 
-    /// The files, in the order of their numbers, and where files were looked for that aren't there.
+    /// Returns the files in the order of their numbers, and the paths of files that don't exist.
     pub fn into_files(self) -> (Vec<Source>, Vec<PathBuf>) {
         (self.read, self.missing)
     }
@@ -111,10 +111,10 @@ mod tests {
     #[test]
     fn only_files_below_the_folder_are_read() {
         let folder = std::env::temp_dir().join(format!("lexibus-references-{}", std::process::id()));
-        std::fs::create_dir_all(folder.join("own/Dicts")).unwrap();
+        std::fs::create_dir_all(folder.join("device/Dicts")).unwrap();
         std::fs::write(folder.join("secret.xml"), "s").unwrap();
-        std::fs::write(folder.join("own/Dicts/a b.xml"), "<x/>").unwrap();
-        let main = Source::new("main.xml", Vec::new()).in_folder(folder.join("own"));
+        std::fs::write(folder.join("device/Dicts/a b.xml"), "<x/>").unwrap();
+        let main = Source::new("main.xml", Vec::new()).in_folder(folder.join("device"));
         let mut references = References::new(&main);
         for name in ["Dicts/a b.xml", "./Dicts/a b.xml", "Dicts\\a b.xml", " Dicts/a b.xml "] {
             assert_eq!(references.open(name).unwrap().text(), "<x/>", "{name}");
@@ -123,15 +123,15 @@ mod tests {
             assert!(matches!(references.open(name), Err(Refusal::Outside)), "{name}");
         }
         assert!(matches!(references.open("none.xml"), Err(Refusal::Unreadable(_))));
-        assert_eq!(references.missing, [folder.join("own/none.xml")]);
+        assert_eq!(references.missing, [folder.join("device/none.xml")]);
         assert!(matches!(references.open("Dicts"), Err(Refusal::NoFile)));
         #[cfg(unix)]
         {
-            std::os::unix::fs::symlink(folder.join("secret.xml"), folder.join("own/link.xml")).unwrap();
+            std::os::unix::fs::symlink(folder.join("secret.xml"), folder.join("device/link.xml")).unwrap();
             assert!(matches!(references.open("link.xml"), Err(Refusal::Outside)));
-            std::os::unix::fs::symlink(&folder, folder.join("own/up")).unwrap();
+            std::os::unix::fs::symlink(&folder, folder.join("device/up")).unwrap();
             assert!(matches!(references.open("up/secret.xml"), Err(Refusal::Outside)));
-            std::os::unix::fs::symlink(folder.join("own/Dicts/a b.xml"), folder.join("own/within.xml")).unwrap();
+            std::os::unix::fs::symlink(folder.join("device/Dicts/a b.xml"), folder.join("device/within.xml")).unwrap();
             assert_eq!(references.open("within.xml").unwrap().text(), "<x/>");
         }
         std::fs::remove_dir_all(folder).unwrap();

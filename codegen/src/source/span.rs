@@ -2,12 +2,12 @@
 
 use std::ops::Range;
 
-/// Which file of a compilation: an index into its list of sources.
+/// Number of a file in a compilation: an index into its list of sources.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct FileId(pub u32);
 
-/// A range of bytes of a decoded source. The empty span at 0 stands for "nowhere in particular".
+/// A range of bytes of a decoded source. The empty span at 0 means "no position".
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Span {
@@ -15,27 +15,27 @@ pub struct Span {
     pub file: FileId,
     /// First byte.
     pub start: u32,
-    /// One past the last byte.
+    /// End of the range (exclusive).
     pub end: u32,
 }
 
 impl Span {
-    /// The span `start..end` of `file`.
+    /// Creates the span `start..end` of `file`.
     pub const fn new(file: FileId, start: u32, end: u32) -> Self {
         Span { file, start, end }
     }
 
-    /// The bytes as a range to index with.
+    /// Returns the bytes as a range for indexing.
     pub fn range(self) -> Range<usize> {
         self.start as usize..self.end as usize
     }
 
-    /// Whether this span points nowhere.
+    /// Returns whether the span is empty.
     pub fn is_empty(self) -> bool {
         self.start >= self.end
     }
 
-    /// This span where it points somewhere, else `other`.
+    /// Returns this span, or `other` if this one is empty.
     pub fn or(self, other: Span) -> Span {
         if self.is_empty() {
             other
@@ -45,24 +45,24 @@ impl Span {
     }
 }
 
-/// Where an element of the IR stands in its file.
+/// Position of an element of the IR in its file.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Origin {
-    /// The section header, element or row that declares the element.
+    /// Section header, element or row that declares the element.
     pub span: Span,
-    /// Its line, counted from 1; 0 where the element was derived and stands nowhere.
+    /// Line of the declaration, counted from 1; 0 if the element was derived.
     pub line: u32,
 }
 
 impl Origin {
-    /// Whether the compiler derived the element from others, so that it stands nowhere.
+    /// Returns whether the compiler derived the element from others, so that it has no position in a file.
     pub fn is_derived(&self) -> bool {
         self.line == 0
     }
 }
 
-/// Line and column, both counted from 1; the column counts characters.
+/// Line and column, both counted from 1. The column counts characters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Position {

@@ -1,9 +1,9 @@
-//! The lexer of EDS and DCF files.
+//! The lexer for EDS and DCF files.
 //!
-//! A [`Document`] knows where the sections of a text are; the lines of one are taken apart when they are asked for, without an
-//! allocation a line. What it keeps is a list of the sections, the comments above the first of them, and what is odd. All parts are
-//! spans into the text. What a line breaks of the grammar is noted as an [`Oddity`] and read all the same. Case, numbers and
-//! meaning are the front end's.
+//! A [`Document`] holds the list of sections, the comments above the first section, and the violations of the
+//! grammar. All parts are spans into the text. The lines of a section are split on request, without an allocation per
+//! line. Lines that violate the grammar are recorded as an [`Oddity`] and still read. The front end handles case,
+//! numbers and meaning.
 
 use std::cell::{Cell, RefCell};
 
@@ -15,13 +15,13 @@ use crate::source::{FileId, Span};
 pub struct Document<'a> {
     text: &'a str,
     file: FileId,
-    /// Where the text ends.
+    /// End of the text.
     end: usize,
     sections: Vec<Section>,
     preamble: Vec<Entry>,
-    /// What was noted so far.
+    /// Violations found so far.
     oddities: RefCell<Vec<(Oddity, Span)>>,
-    /// By section: whether what is odd in it was noted.
+    /// For each section: whether its violations were recorded.
     noted: Vec<Cell<bool>>,
 }
 
@@ -33,7 +33,7 @@ pub struct Section {
     pub line: u32,
     /// The lines below it.
     body: Range,
-    /// Where a comment stands behind the header; 0 = nowhere.
+    /// Offset of a comment after the header; 0 if there is none.
     comment: u32,
     number: u32,
 }
@@ -47,35 +47,35 @@ pub struct Entry {
     pub line: u32,
 }
 
-/// Bytes `start..end` of the text; without the file, to keep the lists small.
+/// Bytes `start..end` of the text. The file number is left out to keep the lists small.
 type Range = (u32, u32);
 
-/// What a line breaks of the grammar of CiA 306.
+/// A violation of the grammar of CiA 306.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Oddity {
-    /// A line that is no section, entry or comment.
+    /// A line that is not a section, entry or comment.
     Junk,
     /// An entry above the first section.
     EntryOutsideSection,
     /// A header without `]`.
     UnclosedHeader,
-    /// A header with something other than a comment behind it.
+    /// A header followed by text other than a comment.
     TextAfterHeader,
-    /// A header that doesn't start in the first column.
+    /// A header that does not start in the first column.
     IndentedHeader,
     /// A line that starts with `#`.
     HashLine,
-    /// A line of over 255 characters.
+    /// A line of more than 255 characters.
     LongLine,
 }
 
-/// The greatest number of characters in a line (CiA 306).
+/// Maximum number of characters in a line (CiA 306).
 const MAX_LINE: usize = 255;
 
 impl<'a> Document<'a> {
     /// Finds the sections of `text`.
     pub fn parse(text: &'a str, file: FileId) -> Self {
-        // An editor of old ends a text with Ctrl-Z, or fills the rest of a block with zeros.
+        // Old editors end a text with Ctrl-Z, or fill the last block with zeros.
         let end = text.trim_end_matches(['\u{1a}', '\0', '\r', '\n', ' ', '\t']).len();
         let mut document = Document {
             text,
@@ -92,39 +92,39 @@ impl<'a> Document<'a> {
         document
     }
 
-    /// The comments above the first section.
+    /// Returns the comments above the first section.
     pub fn preamble(&self) -> &[Entry] {
         &self.preamble
     }
 
-    /// All sections, in the order of the file.
+    /// Returns all sections in the order of the file.
     pub fn sections(&self) -> &[Section] {
         &self.sections
     }
 
-    /// Entries and comments of a section.
+    /// Returns the entries and comments of a section.
     pub fn entries(&self, section: &Section) -> Entries<'_> {
         let lines = Lines { at: section.body.0 as usize, end: section.body.1 as usize, line: section.line + 1 };
         Entries { document: self, lines, comment: section.comment, number: Some(section.number), odd: Vec::new() }
     }
 
-    /// Entries and comments of several sections, one after another.
+    /// Returns the entries and comments of several sections.
     pub fn entries_of<'s>(&'s self, sections: &'s [Section]) -> impl Iterator<Item = Entry> + 's {
         sections.iter().flat_map(|section| self.entries(section))
     }
 
-    /// Whether two places lie in the same section, with no header between them.
+    /// Returns whether two spans are in the same section, with no header between them.
     pub fn is_same_section(&self, one: Span, other: Span) -> bool {
         let above = |place: Span| self.sections.partition_point(|section| section.name.0 <= place.start);
         above(one) == above(other)
     }
 
-    /// Number of entries and comments in all sections.
+    /// Returns the number of entries and comments in all sections.
     pub fn entry_count(&self) -> usize {
         self.sections.iter().map(|section| self.entries(section).count()).sum()
     }
 
-    /// Every broken rule, in the order of the file.
+    /// Returns all violations of the grammar, in the order of the file.
     pub fn oddities(&self) -> Vec<(Oddity, Span)> {
         let left = self.sections.iter().zip(&self.noted).filter(|(_, noted)| !noted.get());
         left.for_each(|(section, _)| self.entries(section).for_each(drop));
@@ -133,32 +133,32 @@ impl<'a> Document<'a> {
         all
     }
 
-    /// Name of a section, without brackets and blanks around it.
+    /// Returns the name of a section, trimmed and without brackets.
     pub fn name(&self, section: &Section) -> &'a str {
         self.slice(section.name)
     }
 
-    /// Where the name of a section stands.
+    /// Returns the span of the name of a section.
     pub fn name_span(&self, section: &Section) -> Span {
         self.span(section.name)
     }
 
-    /// Key of an entry; the mark (`;`, or `#` behind a header) for a comment.
+    /// Returns the key of an entry. For a comment, it is the comment mark (`;`, or `#` after a header).
     pub fn key(&self, entry: &Entry) -> &'a str {
         self.slice(entry.key)
     }
 
-    /// Value of an entry without blanks around it; the text of a comment.
+    /// Returns the trimmed value of an entry, or the text of a comment.
     pub fn value(&self, entry: &Entry) -> &'a str {
         self.slice(entry.value)
     }
 
-    /// Where the key stands.
+    /// Returns the span of the key.
     pub fn key_span(&self, entry: &Entry) -> Span {
         self.span(entry.key)
     }
 
-    /// Where the value stands; for an empty value, the whole entry.
+    /// Returns the span of the value. For an empty value, it is the span of the whole entry.
     pub fn value_span(&self, entry: &Entry) -> Span {
         if entry.value.0 < entry.value.1 {
             self.span(entry.value)
@@ -167,13 +167,13 @@ impl<'a> Document<'a> {
         }
     }
 
-    /// The span of a part of the text.
+    /// Returns the span of a part of the text.
     pub fn span_of(&self, part: &str) -> Span {
         let start = (part.as_ptr() as usize).wrapping_sub(self.text.as_ptr() as usize) as u32;
         self.span((start, start.wrapping_add(part.len() as u32)))
     }
 
-    /// Whether the entry is a comment: a line of its own, or what stands behind a section header.
+    /// Returns whether the entry is a comment line, or a comment after a section header.
     pub fn is_comment(&self, entry: &Entry) -> bool {
         matches!(self.text.as_bytes()[entry.key.0 as usize], b';' | b'#')
     }
@@ -206,37 +206,37 @@ impl<'a> Document<'a> {
             if let Some(section) = self.sections.last_mut() {
                 section.body.1 = start as u32;
             }
-            self.header((start, bracket), end, line, below.at);
+            self.header(start, bracket, end, line, below.at);
             from = below.at.min(bytes.len());
         }
     }
 
-    /// The header in the line from `start` to `end`, with the section that begins at `body`.
-    fn header(&mut self, (start, first): (usize, usize), end: usize, line: u32, body: usize) {
+    /// Reads the header in the line from `start` to `end`. `bracket` is the offset of its `[`, `body` that of the next line.
+    fn header(&mut self, start: usize, bracket: usize, end: usize, line: u32, body: usize) {
         let bytes = self.text.as_bytes();
         let mut odd = Vec::new();
-        let (_, last) = trim(bytes, first, end);
+        let (_, last) = trim(bytes, bracket, end);
         if is_long(&self.text[start..end]) {
             odd.push((Oddity::LongLine, start, end));
         }
-        if first > start {
-            odd.push((Oddity::IndentedHeader, first, last));
+        if bracket > start {
+            odd.push((Oddity::IndentedHeader, bracket, last));
         }
         let mut comment = 0;
-        let name = match memchr::memchr(b']', &bytes[first..last]) {
+        let name = match memchr::memchr(b']', &bytes[bracket..last]) {
             Some(length) => {
-                let close = first + length;
+                let close = bracket + length;
                 let (rest, _) = trim(bytes, close + 1, last);
                 if rest < last && matches!(bytes[rest], b';' | b'#') {
                     comment = rest;
                 } else if rest < last {
                     odd.push((Oddity::TextAfterHeader, rest, last));
                 }
-                trim(bytes, first + 1, close)
+                trim(bytes, bracket + 1, close)
             }
             None => {
-                odd.push((Oddity::UnclosedHeader, first, last));
-                trim(bytes, first + 1, last)
+                odd.push((Oddity::UnclosedHeader, bracket, last));
+                trim(bytes, bracket + 1, last)
             }
         };
         self.note(&odd);
@@ -249,7 +249,7 @@ impl<'a> Document<'a> {
         });
     }
 
-    /// What stands above the first header. There are no entries there.
+    /// Returns the comments above the first header. Entries there are violations.
     fn above(&self) -> Vec<Entry> {
         let end = self.sections.first().map_or(self.end, |section| {
             let bracket = memchr::memrchr(b'[', &self.text.as_bytes()[..section.name.0 as usize]).unwrap_or(0);
@@ -271,7 +271,7 @@ impl<'a> Document<'a> {
     }
 }
 
-/// The lines of a part of the text, one after another.
+/// Iterator over the lines of a part of the text.
 #[derive(Clone, Debug)]
 struct Lines {
     at: usize,
@@ -279,11 +279,11 @@ struct Lines {
     line: u32,
 }
 
-/// A line without its end.
+/// A line without its line end.
 struct Line {
     start: usize,
     end: usize,
-    /// The first `=`.
+    /// Offset of the first `=`.
     equals: Option<usize>,
     number: u32,
 }
@@ -303,7 +303,7 @@ impl Lines {
     }
 }
 
-/// The end of the line that starts at `start`, and the first `=` in it.
+/// Returns the end of the line that starts at `start`, and the offset of its first `=`.
 #[inline]
 fn scan(bytes: &[u8], start: usize) -> (usize, Option<usize>) {
     let (mut at, mut equals) = (start, None);
@@ -331,14 +331,14 @@ fn scan(bytes: &[u8], start: usize) -> (usize, Option<usize>) {
     (bytes.len(), equals)
 }
 
-/// The entries and comments of a section, in the order of the file.
+/// Iterator over the entries and comments of a section, in the order of the file.
 #[derive(Clone, Debug)]
 pub struct Entries<'d> {
     document: &'d Document<'d>,
     lines: Lines,
     comment: u32,
     number: Option<u32>,
-    /// Noted when the last line was seen, so that nothing is noted twice.
+    /// Recorded after the last line was read, so that each violation is recorded once.
     odd: Vec<(Oddity, usize, usize)>,
 }
 
@@ -349,7 +349,7 @@ impl Iterator for Entries<'_> {
     fn next(&mut self) -> Option<Entry> {
         let bytes = &self.document.text.as_bytes()[..self.document.end];
         if self.comment > 0 {
-            if let Some(comment) = self.behind_header(bytes) {
+            if let Some(comment) = self.comment_after_header(bytes) {
                 return Some(comment);
             }
         }
@@ -364,9 +364,9 @@ impl Iterator for Entries<'_> {
 }
 
 impl Entries<'_> {
-    /// What stands behind the header.
+    /// Returns the comment after the header. Records any other text.
     #[cold]
-    fn behind_header(&mut self, bytes: &[u8]) -> Option<Entry> {
+    fn comment_after_header(&mut self, bytes: &[u8]) -> Option<Entry> {
         let first = std::mem::take(&mut self.comment) as usize;
         let end = memchr::memchr2(b'\n', b'\r', &bytes[first..]).map_or(bytes.len(), |length| first + length);
         let (first, last) = trim(bytes, first, end);
@@ -420,7 +420,7 @@ fn is_long(line: &str) -> bool {
     line.len() > MAX_LINE && line.chars().count() > MAX_LINE
 }
 
-/// How many lines end in `bytes`, with CR LF, LF, or a CR of its own if the text has any.
+/// Counts the line ends in `bytes`: CR LF, LF, and single CR if the text has any CR.
 fn line_ends(bytes: &[u8], has_returns: bool) -> u32 {
     let feeds = || memchr::memchr_iter(b'\n', bytes);
     if !has_returns {
@@ -430,13 +430,13 @@ fn line_ends(bytes: &[u8], has_returns: bool) -> u32 {
     (feeds().count() + memchr::memchr_iter(b'\r', bytes).count() - both) as u32
 }
 
-/// `start..end` without blanks and tabs at either end.
+/// Trims blanks and tabs from both ends of `start..end`.
 fn trim(bytes: &[u8], start: usize, end: usize) -> (usize, usize) {
     let start = start_of(bytes, start, end);
     (start, end_of(bytes, start, end))
 }
 
-/// The first byte in `start..end` that is no blank or tab.
+/// Returns the first byte in `start..end` that is not a blank or tab.
 #[inline]
 fn start_of(bytes: &[u8], mut start: usize, end: usize) -> usize {
     while start < end && matches!(bytes[start], b' ' | b'\t') {
@@ -445,7 +445,7 @@ fn start_of(bytes: &[u8], mut start: usize, end: usize) -> usize {
     start
 }
 
-/// The end of the last byte in `start..end` that is no blank or tab.
+/// Returns the end of the last byte in `start..end` that is not a blank or tab.
 #[inline]
 fn end_of(bytes: &[u8], start: usize, mut end: usize) -> usize {
     while start < end && matches!(bytes[end - 1], b' ' | b'\t') {

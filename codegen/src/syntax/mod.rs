@@ -1,4 +1,4 @@
-//! The two surface syntaxes of description files, without any knowledge of a bus.
+//! The two syntaxes of description files, INI and XML, independent of a bus.
 //!
 //! - [`ini`]: sections, keys and values of EDS and DCF files, each with its span.
 //! - [`xml`]: a cursor over the events of a document, with positions and the path of open elements.

@@ -1,29 +1,30 @@
-//! Eight bytes compared at once, for texts so short that setting up a search takes longer.
+//! Compares eight bytes at once. It is faster than a vectorized search for short texts.
 
 const ONES: u64 = u64::from_le_bytes([1; 8]);
 const HIGHS: u64 = ONES << 7;
 
-/// Eight bytes, the first one lowest.
+/// Returns eight bytes as a little-endian word.
 #[inline]
 pub(super) fn word(bytes: &[u8]) -> u64 {
     u64::from_le_bytes(bytes.try_into().unwrap_or_default())
 }
 
-/// The high bit of each byte of `word` that is `byte`, and perhaps of bytes after the first of these.
+/// Returns a mask with the high bit of each byte of `word` that equals `byte`. Bytes after the first match may be
+/// marked wrongly.
 #[inline]
 pub(super) fn equal(word: u64, byte: u8) -> u64 {
     let zeros = word ^ (ONES * u64::from(byte));
     zeros.wrapping_sub(ONES) & !zeros & HIGHS
 }
 
-/// The same for bytes that are less than `byte`, which is at most 0x80.
+/// Returns a mask with the high bit of each byte that is less than `byte`. `byte` is at most 0x80.
 #[inline]
 #[cfg_attr(not(feature = "xml"), allow(dead_code))]
 pub(super) fn less(word: u64, byte: u8) -> u64 {
     word.wrapping_sub(ONES * u64::from(byte)) & !word & HIGHS
 }
 
-/// The position of the first byte that a result of these marks.
+/// Returns the position of the first byte that a mask marks.
 #[inline]
 pub(super) fn first(marks: u64) -> usize {
     marks.trailing_zeros() as usize / 8

@@ -154,9 +154,9 @@ fn rejection(case: &Case) -> (&'static str, &'static str) {
     match case.class.as_str() {
         "negative (EtherNet/IP EDS)" => ("EDS001", "this is an EtherNet/IP EDS"),
         "negative/adjacent (POWERLINK XDD)" => ("XDD002", "POWERLINK"),
-        "negative (Xilinx constraints .xdc)" => ("IO002", "this is no device description"),
+        "negative (Xilinx constraints .xdc)" => ("IO002", "this is not a device description"),
         "bad/edge" if case.file.bytes.is_empty() => ("IO002", "the file is empty"),
-        "bad/edge (git symlink target text)" | "bad/edge" => ("EDS002", "this is no EDS"),
+        "bad/edge (git symlink target text)" | "bad/edge" => ("EDS002", "this is not an EDS"),
         other => panic!("{}: nothing is known of the class {other:?}", case.name()),
     }
 }

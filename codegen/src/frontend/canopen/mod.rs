@@ -1,5 +1,4 @@
-//! What EDS, DCF, XDD and XDC share: the number grammar, the conversion of text to typed values, what objects and
-//! networks have in common.
+//! Code that the EDS, DCF, XDD and XDC readers share: number grammar, typed values, objects and network settings.
 
 mod deftype;
 pub mod network;

@@ -1,28 +1,28 @@
-//! Settings of a CANopen device that EDS and XDD files limit alike.
+//! Checks settings of a CANopen device that EDS and XDD files share.
 
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
 use crate::source::Span;
 
-/// The code of the data type of a dummy entry: `Dummy0007`, in any case.
+/// Returns the data type code of a dummy entry such as `Dummy0007`. Ignores case.
 pub fn dummy_code(key: &str) -> Option<u8> {
     let digits = key.get(5..).filter(|_| key[..5].eq_ignore_ascii_case("Dummy"))?;
     let hexadecimal = digits.len() <= 4 && digits.bytes().all(|byte| byte.is_ascii_hexdigit());
     hexadecimal.then(|| u8::from_str_radix(digits, 16).ok()).flatten()
 }
 
-/// Reports a granularity of more bits than a PDO has.
+/// Reports a granularity above the 64 bits of a PDO.
 pub fn granularity(bits: u8, span: Span, diagnostics: &mut Diagnostics) {
     if bits > 64 {
-        let message = format!("a granularity of {bits} bits is more than a PDO has");
+        let message = format!("a granularity of {bits} bits exceeds the 64 bits of a PDO");
         diagnostics.push(Diagnostic::new(&codes::VALUE_NOT_ALLOWED, span, message).label("expected 0 to 64"));
     }
 }
 
-/// The node-ID `number`; one that no node can have is reported.
+/// Returns `number` as a node-ID. Reports a number outside 1 to 127.
 pub fn node_id(number: u32, span: Span, diagnostics: &mut Diagnostics) -> Option<u8> {
     let node_id = u8::try_from(number).ok().filter(|node_id| (1..=127).contains(node_id));
     if node_id.is_none() {
-        let message = format!("{number} is no node-ID");
+        let message = format!("{number} is not a node-ID");
         diagnostics.push(Diagnostic::new(&codes::VALUE_NOT_ALLOWED, span, message).label("expected 1 to 127"));
     }
     node_id

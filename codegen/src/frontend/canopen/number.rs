@@ -1,27 +1,27 @@
-//! Numbers and `$NODEID` formulas of CiA 306, and the spellings that real files have for them.
+//! Reads the numbers and `$NODEID` formulas of CiA 306, including nonstandard spellings in real files.
 
-/// What a text was read as.
+/// Result of reading a text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Number {
-    /// The reading.
+    /// The parsed value.
     pub parsed: Parsed,
-    /// How the text departs from the grammar.
+    /// Departure from the grammar.
     pub quirk: Option<Quirk>,
 }
 
 /// A number, a formula, or neither.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Parsed {
-    /// A number; `hex` tells whether it was written as a bit pattern (hexadecimal and without a sign).
+    /// A number.
     Int {
         /// Its value.
         value: i128,
-        /// Whether it is a bit pattern.
+        /// Whether it was written as a bit pattern: hexadecimal and without a sign.
         hex: bool,
     },
-    /// `$NODEID` plus this.
+    /// `$NODEID` plus this offset.
     NodeId(i128),
-    /// Text with a `$` that is no formula of the grammar.
+    /// Text with a `$` that is not a valid formula.
     UnknownFormula,
     /// Anything else.
     Text,
@@ -30,15 +30,15 @@ pub enum Parsed {
 /// A departure from the grammar.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Quirk {
-    /// A leading zero makes it octal, and decimal would be another number.
+    /// Octal because of a leading zero. In decimal it would be a different number.
     Octal,
-    /// A leading zero, but the number is the same in decimal or can't be octal.
+    /// A leading zero that does not change the value, or digits that can't be octal.
     LeadingZero,
-    /// `NNh`.
+    /// A hexadecimal suffix (`NNh`).
     HexSuffix,
-    /// A suffix of C (`U`, `L`, `UL`, `LL`, `ULL`).
+    /// A C suffix (`U`, `L`, `UL`, `LL`, `ULL`).
     CSuffix,
-    /// A formula that doesn't start with `$NODEID`.
+    /// A formula that does not start with `$NODEID`.
     ReversedNodeId,
 }
 
@@ -57,7 +57,7 @@ impl Number {
 
     const TEXT: Number = Number { parsed: Parsed::Text, quirk: None };
 
-    /// The value, where the text is a number.
+    /// Returns the value if the text is a number.
     pub fn int(self) -> Option<i128> {
         match self.parsed {
             Parsed::Int { value, .. } => Some(value),
@@ -66,7 +66,7 @@ impl Number {
     }
 }
 
-/// Reads `text`, which has no blanks around it. `aliases` are further names of `$NODEID`.
+/// Reads `text`, which must be trimmed. `aliases` are further names of `$NODEID`.
 pub fn parse(text: &str, aliases: &[String]) -> Number {
     if let Some(value) = plain(text).filter(|_| aliases.is_empty()) {
         return Number { parsed: Parsed::Int { value: value.into(), hex: is_plain_hex(text) }, quirk: None };
@@ -79,8 +79,9 @@ pub fn parse(text: &str, aliases: &[String]) -> Number {
     parse_number(text)
 }
 
-/// The value of a number in one of the forms that nearly all have, and of which there is nothing to report: decimal digits without a
-/// leading zero, perhaps with a sign, or `0x` and hexadecimal digits, at most 15 of them.
+/// Returns the value of a number in one of the usual forms, which need no diagnostic. These are decimal digits
+/// without a leading zero, with an optional minus sign, or `0x` and hexadecimal digits. A number has at most 15
+/// digits.
 #[inline]
 pub fn plain(text: &str) -> Option<i64> {
     let decimal = |digits: &[u8]| {
@@ -106,13 +107,13 @@ pub fn plain(text: &str) -> Option<i64> {
     }
 }
 
-/// Whether a plain number is hexadecimal.
+/// Returns whether a plain number is hexadecimal.
 #[inline]
 pub fn is_plain_hex(text: &str) -> bool {
     text.len() > 1 && text.starts_with('0')
 }
 
-/// Whether `text` has nothing but octal digits.
+/// Returns whether `text` consists of octal digits.
 pub fn is_octal(text: &str) -> bool {
     radix(text, 8).is_some()
 }
@@ -174,13 +175,13 @@ fn c_suffix(text: &str) -> Number {
     }
 }
 
-/// Digits only: no sign, no separator; at most what fits 120 bits.
+/// Reads digits without a sign or separator. Returns `None` if the value needs more than 120 bits.
 fn radix(digits: &str, radix: u32) -> Option<i128> {
     let bytes = digits.as_bytes();
     if bytes.is_empty() || bytes.len() > 40 {
         return None;
     }
-    // Nearly every number is this short, and arithmetic of 128 bits is slow.
+    // Nearly every number has at most 15 digits, and 128-bit arithmetic is slow.
     if bytes.len() <= 15 {
         let mut value = 0u64;
         for &byte in bytes {
@@ -199,7 +200,7 @@ fn radix(digits: &str, radix: u32) -> Option<i128> {
     Some(value)
 }
 
-/// A sum with one `$NODEID` (or an alias of it) among its terms.
+/// Reads a sum with one `$NODEID` (or an alias of it) among its terms.
 fn parse_formula(text: &str, aliases: &[String]) -> Option<Number> {
     let is_node_id = |term: &str| {
         term.eq_ignore_ascii_case("$NODEID") || aliases.iter().any(|alias| alias.eq_ignore_ascii_case(term))

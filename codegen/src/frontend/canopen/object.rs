@@ -1,4 +1,4 @@
-//! What EDS and XDD files say of an object in the same terms: object type, data type, number of sub-indices.
+//! Parts of an object that EDS and XDD files describe alike: object type, data type, number of sub-indices.
 
 use super::deftype::defined_type;
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
@@ -6,15 +6,15 @@ use crate::ir::{Access, Group, ObjectCode, Shape, Type, TypeDef};
 use crate::source::Span;
 use crate::text::brief;
 
-/// How a format calls the parts of an object.
+/// Names that a format uses for the parts of an object.
 pub struct Terms {
-    /// The key of the number of sub-indices.
+    /// Key of the number of sub-indices.
     pub sub_number: &'static str,
-    /// What describes a sub-index.
+    /// Name of the section or element that describes a sub-index.
     pub sub_object: &'static str,
-    /// The elements that describe sub-indices.
+    /// Plural name of these sections or elements.
     pub elements: &'static str,
-    /// How to write the object types of objects with sub-indices.
+    /// Help text: how to declare objects with sub-indices.
     pub records: &'static str,
 }
 
@@ -29,13 +29,13 @@ pub struct ObjectType<'t> {
 }
 
 impl ObjectType<'_> {
-    /// What a sub-index is: a VAR, or a DOMAIN.
+    /// Returns the object code of a sub-index: VAR or DOMAIN.
     pub fn of_sub_index(&self, terms: &Terms, diagnostics: &mut Diagnostics) -> ObjectCode {
         match self.number {
             Some(2) => return ObjectCode::Domain,
             Some(7) => {}
             _ => {
-                let message = format!("`{}` is no object type of a {}", self.text, terms.sub_object);
+                let message = format!("`{}` is not a valid object type of a {}", self.text, terms.sub_object);
                 let found = Diagnostic::new(&codes::UNKNOWN_OBJECT_TYPE, self.span, message);
                 diagnostics.push(found.label("read as VAR"));
             }
@@ -44,8 +44,8 @@ impl ObjectType<'_> {
     }
 }
 
-/// The object code of `index`: that of its object type, or what the sub-indices show if that is missing or impossible. `span` is
-/// marked if it is missing.
+/// Returns the object code of `index`. The sub-indices decide if the object type is missing or invalid. The
+/// diagnostic for a missing object type marks `span`.
 pub fn object_code(
     index: u16,
     given: Option<&ObjectType<'_>>,
@@ -59,13 +59,13 @@ pub fn object_code(
     match given.map(|given| given.number.and_then(ObjectCode::from_number)) {
         Some(Some(code)) if code != ObjectCode::Var => return code,
         Some(None) => {
-            let message = format!("`{}` is no object type", given.map_or("", |given| given.text));
+            let message = format!("`{}` is not a valid object type", given.map_or("", |given| given.text));
             let found = Diagnostic::new(&codes::UNKNOWN_OBJECT_TYPE, span, message);
             diagnostics.push(found.label(format!("read as {}", by_content.name())));
         }
         _ if has_subs => {
-            let message = format!("0x{index:04X} is a VAR and has sub-indices");
-            let found = Diagnostic::new(&codes::VAR_WITH_SUBS, span, message).label("treated as a RECORD");
+            let message = format!("0x{index:04X} is a VAR but has sub-indices");
+            let found = Diagnostic::new(&codes::VAR_WITH_SUBS, span, message).label("read as a RECORD");
             diagnostics.push(found.help(terms.records));
         }
         _ => {}
@@ -73,21 +73,21 @@ pub fn object_code(
     by_content
 }
 
-/// The data type with this code; `defined` has those of the file.
+/// Returns the data type with the code `code`. `defined` is the type that the file defines for this code.
 pub fn type_by_code(code: u32, span: Span, defined: Option<Type>, diagnostics: &mut Diagnostics) -> Type {
     if let Some(ty) = Type::from_cia301(code).or(defined) {
         return ty;
     }
     let (kind, message) = match code {
-        0x20..=0x23 => (&codes::COMPLEX_DATA_TYPE, format!("{code:#06x} is the type of a record, not of a value")),
+        0x20..=0x23 => (&codes::COMPLEX_DATA_TYPE, format!("{code:#06x} is a record type, not the type of a value")),
         0x0E | 0x17 | 0x1C..=0x1F => (&codes::COMPLEX_DATA_TYPE, format!("the data type {code:#06x} is reserved")),
-        _ => (&codes::UNKNOWN_DATA_TYPE, format!("{code:#06x} is no data type of CiA 301 or of this file")),
+        _ => (&codes::UNKNOWN_DATA_TYPE, format!("{code:#06x} is not a data type of CiA 301 or of this file")),
     };
     diagnostics.push(Diagnostic::new(kind, span, message).label("kept as raw bytes"));
     Type::Opaque(Some(code))
 }
 
-/// The access rights of an access type of CiA 306; anything else is reported.
+/// Returns the access rights of an access type of CiA 306. Reports any other text.
 pub fn access(text: &str, span: Span, diagnostics: &mut Diagnostics) -> Access {
     if let Some(access) = Access::from_cia306(text) {
         return access;
@@ -99,12 +99,13 @@ pub fn access(text: &str, span: Span, diagnostics: &mut Diagnostics) -> Access {
 
 /// Reports an unknown access type, which is read as `access`.
 pub fn unknown_access(text: &str, span: Span, access: Access, help: &str, diagnostics: &mut Diagnostics) {
-    let message = format!("`{}` is no access type", brief(text));
+    let message = format!("`{}` is not a valid access type", brief(text));
     let found = Diagnostic::new(&codes::UNKNOWN_ACCESS, span, message);
     diagnostics.push(found.label(format!("read as {}", access.name())).help(help));
 }
 
-/// Compares an announced number of sub-indices, given as `text`, with those that are described. Sub-index 0 counts, 0xFF does not.
+/// Compares the announced number of sub-indices, written as `text`, with the number of described ones. Sub-index 0
+/// counts, 0xFF does not.
 pub fn sub_number(
     group: &Group,
     announced: i128,
@@ -117,24 +118,24 @@ pub fn sub_number(
     let described = group.items.len() - structure;
     let Terms { sub_number, elements, .. } = terms;
     let found = if structure > 0 && announced == group.items.len() as i128 {
-        Diagnostic::new(&codes::STRUCTURE_ENTRY, span, format!("{sub_number} counts sub-index 0xFF"))
-            .label(format!("{described} without it"))
+        Diagnostic::new(&codes::STRUCTURE_ENTRY, span, format!("{sub_number} includes sub-index 0xFF"))
+            .label(format!("expected {described}"))
     } else if announced != described as i128 {
-        let message = format!("{sub_number} is {text}, but {described} sub-indices are described");
-        Diagnostic::new(&codes::SUB_NUMBER, span, message).label(format!("the {elements} that exist are used"))
+        let message = format!("{sub_number} is {text}, but the file describes {described} sub-indices");
+        Diagnostic::new(&codes::SUB_NUMBER, span, message).label(format!("the existing {elements} are used"))
     } else {
         return;
     };
     diagnostics.push(found.fix(described.to_string()));
 }
 
-/// The code and type that an object of the data type area defines, added to `types`: another name of a basic type, or a number of
-/// bits of unknown meaning.
+/// Adds the type that an object in the data type area defines to `types`, and returns its code and type. It is an
+/// alias of a basic type, or a number of bits of unknown meaning.
 pub fn define_type(group: &Group, types: &mut Vec<TypeDef>, diagnostics: &mut Diagnostics) -> Option<(u32, Type)> {
     let (index, code) = (group.index()?, group.object_code()?);
     if !matches!(code, ObjectCode::DefType | ObjectCode::DefStruct) {
         if index < 0x1000 && index > 0 {
-            let message = format!("0x{index:04X} lies in the area of data types and is a {}", code.name());
+            let message = format!("0x{index:04X} is in the data type area but is a {}", code.name());
             diagnostics.push(Diagnostic::new(&codes::TYPE_AREA_OBJECT, group.origin.span, message));
         }
         return None;

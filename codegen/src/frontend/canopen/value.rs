@@ -1,4 +1,4 @@
-//! From the text of a default, limit or configured value to a [`Value`] of the item's type.
+//! Converts the text of a default value, limit or configured value to a [`Value`] of the item's type.
 
 use super::number::{self, Number, Parsed, Quirk};
 use crate::diagnostics::{codes, Code, Diagnostic, Diagnostics};
@@ -6,25 +6,25 @@ use crate::ir::{CompactString, Type, Value};
 use crate::source::Span;
 use crate::text::brief;
 
-/// What a value is for, which decides how it is reported.
+/// Purpose of a value. It decides which diagnostics apply.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Role {
-    /// A default or a configured value.
+    /// A default value or a configured value.
     Value,
-    /// A limit: bit patterns of signed values are usual there.
+    /// A limit. Signed limits are often written as bit patterns.
     Limit,
 }
 
-/// Converts texts to values and reports what had to be repaired.
+/// Converts texts to values and reports repairs.
 pub struct Converter<'d> {
-    /// Where findings go.
+    /// Receives the diagnostics.
     pub diagnostics: &'d mut Diagnostics,
     /// Further names of `$NODEID`.
     pub aliases: &'d [String],
 }
 
 impl Converter<'_> {
-    /// Converts `text`, which stands at `span`, to a value of type `ty`; empty text is no value.
+    /// Converts `text` at `span` to a value of type `ty`. Returns `None` for empty text.
     pub fn value(&mut self, text: &str, span: Span, ty: Type, role: Role) -> Option<Value> {
         if text.is_empty() {
             return None;
@@ -37,7 +37,7 @@ impl Converter<'_> {
             Type::VisibleString(_) | Type::UnicodeString(_) => Value::Text(self.unquoted(text, span).into()),
             Type::OctetString(_) => self.octets(text, span),
             Type::Domain => {
-                self.report(&codes::DOMAIN_DEFAULT, span, "a domain can't have a value in the file", "kept as text");
+                self.report(&codes::DOMAIN_DEFAULT, span, "a DOMAIN can't have a value in the file", "kept as text");
                 raw(text)
             }
             Type::TimeOfDay | Type::TimeDifference => self.time(text, span, ty),
@@ -45,7 +45,8 @@ impl Converter<'_> {
         })
     }
 
-    /// The value of `text` if it is a plain number that fits the integer type, so that there is nothing to report.
+    /// Returns the value of `text` if it is a plain number that fits the integer type. Such a number needs no
+    /// diagnostic.
     #[inline]
     pub fn plain_integer(&self, text: &str, ty: Type) -> Option<Value> {
         let (Type::Integer(bits) | Type::Unsigned(bits)) = ty else { return None };
@@ -60,7 +61,7 @@ impl Converter<'_> {
         fits.then(|| Value::Int(value.into()))
     }
 
-    /// Reads a number and reports how it departs from the grammar; `None` (and a report) for what is none.
+    /// Reads a number and reports departures from the grammar. Reports any other text and returns `None`.
     pub fn number(&mut self, text: &str, span: Span) -> Option<Value> {
         let number = number::parse(text, self.aliases);
         self.quirk(number, text, span);
@@ -72,20 +73,20 @@ impl Converter<'_> {
                 None
             }
             Parsed::Text => {
-                let message = format!("`{text}` is no number");
+                let message = format!("`{text}` is not a number");
                 self.report(&codes::ILLEGAL_NUMBER, span, message, "expected a decimal or 0x number");
                 None
             }
         }
     }
 
-    /// Text without one pair of quotation marks around it.
+    /// Returns `text` without one surrounding pair of quotation marks.
     pub fn unquoted<'t>(&mut self, text: &'t str, span: Span) -> &'t str {
         let inside = |text: &'t str| text.strip_prefix('"')?.strip_suffix('"');
         let Some(inner) = inside(text) else { return text };
         let found = Diagnostic::new(&codes::QUOTED_VALUE, span, "the text is in quotation marks")
-            .label("one pair of marks was removed");
-        // Without one of two pairs, the text is in quotation marks again.
+            .label("one pair of quotation marks was removed");
+        // If two pairs surround the text, it is still in quotation marks after the fix.
         self.diagnostics.push(if inside(inner).is_some() {
             found.help("remove the quotation marks")
         } else {
@@ -108,7 +109,7 @@ impl Converter<'_> {
         }
     }
 
-    /// A number against the range of its type; the bits of a negative number are read as such.
+    /// Checks a number against the range of its type. A bit pattern with the sign bit becomes a negative number.
     fn fit(&mut self, value: i128, hex: bool, text: &str, span: Span, ty: Type, role: Role) -> Value {
         let Some((low, high)) = ty.integer_range() else { return Value::Int(value) };
         if (low..=high).contains(&value) {
@@ -123,7 +124,7 @@ impl Converter<'_> {
                     Diagnostic::new(
                         &codes::TWOS_COMPLEMENT,
                         span,
-                        format!("{text} is no {ty}, but its bits are {negative}"),
+                        format!("{text} is out of range for {ty}, but its bits are {negative}"),
                     )
                     .label(format!("read as {negative}"))
                     .fix(negative.to_string()),
@@ -134,53 +135,58 @@ impl Converter<'_> {
         self.report(
             &codes::OUT_OF_TYPE,
             span,
-            format!("{text} doesn't fit {ty}, which goes from {low} to {high}"),
-            "kept as it is",
+            format!("{text} is out of range for {ty} ({low} to {high})"),
+            "kept unchanged",
         );
         Value::Int(value)
     }
 
-    /// More hexadecimal digits than the type has: one was doubled, or the type is another.
+    /// Reports a number with more hexadecimal digits than the type has. A digit may be doubled, or the type may be
+    /// too short.
     fn digits(&mut self, text: &str, span: Span, ty: Type) {
         let digits = text.strip_prefix("0x").or_else(|| text.strip_prefix("0X"));
         let (Some(digits), Some(bits)) = (digits, ty.bits()) else { return };
         let needed = bits.div_ceil(4) as usize;
-        // Tools write every number with the digits of 32 bits. Who wants to know of these asks for it.
+        // Numbers with 2, 4, 8 or 16 digits are reported only on request, because many tools write all numbers with 8
+        // digits.
         let is_usual = matches!(digits.len(), 2 | 4 | 8 | 16) && !self.diagnostics.asks_for(&codes::HEX_DIGITS);
         if digits.len() > needed && !is_usual && digits.bytes().all(|byte| byte.is_ascii_hexdigit()) {
-            let message = format!("`{}` has {} digits, and {ty} has {needed}", brief(text), digits.len());
-            let found = Diagnostic::new(&codes::HEX_DIGITS, span, message).label("the number is used");
-            self.diagnostics
-                .push(found.help("compare it with the manual: a digit was doubled, or the type is a longer one"));
+            let message = format!("`{}` has {} digits, but {ty} has {needed}", brief(text), digits.len());
+            let found = Diagnostic::new(&codes::HEX_DIGITS, span, message).label("the number is used as written");
+            self.diagnostics.push(found.help("check the digits and the data type against the manual"));
         }
     }
 
-    /// A formula whose results, for the node-IDs 1 to 127, the type may not have.
+    /// Checks a formula for the node-IDs 1 to 127. Each result must fit the type.
     fn fit_formula(&mut self, offset: i128, text: &str, span: Span, ty: Type) -> Value {
         if let Some((low, high)) = ty.integer_range() {
             if offset + 1 < low || offset + 127 > high {
-                let message = format!("{text} doesn't fit {ty} for every node-ID from 1 to 127");
-                self.report(&codes::OUT_OF_TYPE, span, message, "kept as it is");
+                let message = format!("{text} does not fit {ty} for every node-ID from 1 to 127");
+                self.report(&codes::OUT_OF_TYPE, span, message, "kept unchanged");
             }
         }
         Value::NodeId(offset)
     }
 
-    /// `0.0` for an integer; any other text is kept.
+    /// Reads a number with a zero fraction, such as `0.0`, for an integer type. Keeps any other text.
     fn fraction(&mut self, text: &str, span: Span, ty: Type) -> Value {
         if let Some((whole, fraction)) = text.split_once('.') {
             if !fraction.is_empty() && fraction.bytes().all(|byte| byte == b'0') {
                 if let Some(value) = number::parse(whole, &[]).int() {
                     self.diagnostics.push(
-                        Diagnostic::new(&codes::REAL_FOR_INTEGER, span, format!("{text} was given for an {ty}"))
-                            .label(format!("read as {value}"))
-                            .fix(value.to_string()),
+                        Diagnostic::new(
+                            &codes::REAL_FOR_INTEGER,
+                            span,
+                            format!("{text} is a real number, but the type is {ty}"),
+                        )
+                        .label(format!("read as {value}"))
+                        .fix(value.to_string()),
                     );
                     return Value::Int(value);
                 }
             }
             if text.parse::<f64>().is_ok() {
-                let message = format!("{text} was given for an {ty}");
+                let message = format!("{text} is a real number, but the type is {ty}");
                 self.report(&codes::REAL_FOR_INTEGER, span, message, "kept as text");
                 return raw(text);
             }
@@ -201,7 +207,7 @@ impl Converter<'_> {
             Some(0) => Value::Bool(false),
             Some(1) => Value::Bool(true),
             Some(value) => {
-                self.report(&codes::OUT_OF_TYPE, span, format!("{text} is no BOOLEAN"), "expected 0 or 1");
+                self.report(&codes::OUT_OF_TYPE, span, format!("{text} is not a BOOLEAN"), "expected 0 or 1");
                 Value::Int(value)
             }
             None => self.illegal(text, span, Type::Boolean),
@@ -219,7 +225,7 @@ impl Converter<'_> {
         if let Some(value) = text.contains(',').then(|| finite(&text.replacen(',', ".", 1))).flatten() {
             let fix = text.replacen(',', ".", 1);
             self.diagnostics.push(
-                Diagnostic::new(&codes::DECIMAL_COMMA, span, format!("{text} has a decimal comma"))
+                Diagnostic::new(&codes::DECIMAL_COMMA, span, format!("{text} uses a decimal comma"))
                     .label(format!("read as {value}"))
                     .fix(fix),
             );
@@ -230,12 +236,13 @@ impl Converter<'_> {
                 self.unknown_formula(text, span);
                 raw(text)
             }
-            // No real number follows from a node-ID.
+            // A formula with the node-ID can't give a real number.
             _ => self.illegal(text, span, ty),
         }
     }
 
-    /// Exactly as many digits as the type has are its bits; any other count is the number itself.
+    /// Reads a hexadecimal number for a real type. It is the bit pattern if it has exactly the digits of the type,
+    /// else the number itself.
     fn real_bits(&mut self, digits: &str, text: &str, span: Span, bits: u32) -> Value {
         let ty = if bits == 32 { Type::Real32 } else { Type::Real64 };
         let Ok(pattern) = u64::from_str_radix(digits, 16) else { return self.illegal(text, span, ty) };
@@ -249,7 +256,7 @@ impl Converter<'_> {
         self.report(
             &codes::REAL_AS_HEX,
             span,
-            format!("{text} doesn't have the {} digits of a {ty}'s bits", bits / 4),
+            format!("{text} does not have the {} digits of a {ty} bit pattern", bits / 4),
             format!("read as the number {pattern}"),
         );
         Value::Real(pattern as f64)
@@ -267,14 +274,14 @@ impl Converter<'_> {
                 Value::Bytes(nibbles.chunks_exact(2).map(|pair| pair[0] << 4 | pair[1]).collect())
             }
             _ => {
-                let message = format!("`{text}` isn't made of pairs of hexadecimal digits");
+                let message = format!("`{text}` does not consist of pairs of hexadecimal digits");
                 self.report(&codes::BAD_OCTETS, span, message, "kept as text");
                 raw(text)
             }
         }
     }
 
-    /// A time as the number that its 48 bits make, the milliseconds in the lower 28.
+    /// Reads a time as a 48-bit number. The milliseconds are in the lower 28 bits.
     fn time(&mut self, text: &str, span: Span, ty: Type) -> Value {
         let number = number::parse(text, self.aliases);
         self.quirk(number, text, span);
@@ -283,7 +290,7 @@ impl Converter<'_> {
         match u16::try_from(days) {
             Ok(days) if milliseconds < 1 << 28 => Value::Time { milliseconds: milliseconds as u32, days },
             _ => {
-                let message = format!("{text} is no {ty}, which has 28 bits of milliseconds and 16 of days above 32");
+                let message = format!("{text} is not a {ty} (bits 0 to 27 are milliseconds, bits 32 to 47 are days)");
                 self.report(&codes::OUT_OF_TYPE, span, message, "kept as text");
                 raw(text)
             }
@@ -291,27 +298,27 @@ impl Converter<'_> {
     }
 
     fn illegal(&mut self, text: &str, span: Span, ty: Type) -> Value {
-        self.report(&codes::ILLEGAL_NUMBER, span, format!("`{text}` is no {ty}"), "kept as text");
+        self.report(&codes::ILLEGAL_NUMBER, span, format!("`{text}` is not a {ty}"), "kept as text");
         raw(text)
     }
 
     fn unknown_formula(&mut self, text: &str, span: Span) {
         self.diagnostics.push(
-            Diagnostic::new(&codes::UNKNOWN_FORMULA, span, format!("`{text}` is no formula of CiA 306"))
+            Diagnostic::new(&codes::UNKNOWN_FORMULA, span, format!("`{text}` is not a formula of CiA 306"))
                 .label("kept as text")
-                .help("a formula is $NODEID, or $NODEID+number; another name of the node-ID can be given as an alias"),
+                .help("write $NODEID or $NODEID+number, or declare the other name of the node-ID as an alias"),
         );
     }
 
-    /// Reports how a number departs from the grammar.
+    /// Reports the departure of a number from the grammar.
     pub fn quirk(&mut self, number: Number, text: &str, span: Span) {
         let Some(quirk) = number.quirk else { return };
         let (code, message): (&'static Code, String) = match quirk {
-            Quirk::Octal => (&codes::OCTAL_NUMBER, format!("{text} has a leading zero and so is octal")),
+            Quirk::Octal => (&codes::OCTAL_NUMBER, format!("{text} is octal because of its leading zero")),
             Quirk::LeadingZero => (&codes::LEADING_ZERO, format!("{text} has a leading zero")),
-            Quirk::HexSuffix => (&codes::HEX_SUFFIX, format!("{text} has the suffix of a hexadecimal number")),
-            Quirk::CSuffix => (&codes::TRAILING_TEXT, format!("{text} has a suffix of the language C")),
-            Quirk::ReversedNodeId => (&codes::REVERSED_NODEID, format!("`{text}` doesn't start with $NODEID")),
+            Quirk::HexSuffix => (&codes::HEX_SUFFIX, format!("{text} has a hexadecimal suffix")),
+            Quirk::CSuffix => (&codes::TRAILING_TEXT, format!("{text} has a C suffix")),
+            Quirk::ReversedNodeId => (&codes::REVERSED_NODEID, format!("`{text}` does not start with $NODEID")),
         };
         let fix = match number.parsed {
             Parsed::Int { value, hex: true } => format!("{value:#x}"),
@@ -332,11 +339,11 @@ fn raw(text: &str) -> Value {
     Value::Raw(CompactString::from(text))
 }
 
-/// A decimal real number; not the words that Rust also reads (`inf`, `nan`).
+/// Reads a finite decimal real number. Rejects the words that Rust also accepts (`inf`, `nan`).
 fn finite(text: &str) -> Option<f64> {
     let numeric = text.bytes().all(|byte| byte.is_ascii_digit() || matches!(byte, b'.' | b'-' | b'+' | b'e' | b'E'));
     let value = numeric.then(|| text.parse::<f64>().ok()).flatten().filter(|value| value.is_finite())?;
-    // A number too small for the type must not become zero in silence.
+    // Rejects a number other than zero that the type rounds to zero.
     let mantissa = text.split(['e', 'E']).next().unwrap_or(text);
     let is_zero = !mantissa.bytes().any(|byte| matches!(byte, b'1'..=b'9'));
     (value != 0.0 || is_zero).then_some(value)

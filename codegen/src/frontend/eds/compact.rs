@@ -1,4 +1,5 @@
-//! CompactSubObj: many equal sub-indices described at once, and the sections that refine single ones.
+//! CompactSubObj: expands a description of equal sub-indices, and applies the sections that refine single
+//! sub-indices.
 
 use super::keywords::{Raw, OF_A_VALUE};
 use super::lists;
@@ -10,7 +11,7 @@ use crate::ir::{Access, Binding, CompactString, Configured, Extensions, Group, I
 use crate::limits;
 use crate::syntax::ini::{Entry, Section};
 
-/// Adds the sub-indices 0 to `count` that the group doesn't describe one by one.
+/// Adds each sub-index from 0 to `count` that has no section.
 pub(super) fn expand(reader: &mut Reader<'_, '_>, group: &mut Group, raw: &Raw, count: u8) {
     let Some(index) = group.index() else { return };
     let is_first_beyond = reader.derived_items <= limits::MAX_DERIVED_ITEMS;
@@ -33,7 +34,7 @@ pub(super) fn expand(reader: &mut Reader<'_, '_>, group: &mut Group, raw: &Raw, 
         item.origin = raw.origin;
         group.items.push(item);
     }
-    // All elements share what the object says: it is read, and reported on, once.
+    // All elements share the keywords of the object. They are read and reported once.
     let template = reader.item(index, 1, raw, ObjectCode::Array);
     group.flags = template.flags;
     let bytes = copied(reader, raw, &template) + group.name.len();
@@ -50,14 +51,14 @@ pub(super) fn expand(reader: &mut Reader<'_, '_>, group: &mut Group, raw: &Raw, 
     group.items.sort_by_key(|item| item.object().map(|(_, sub)| sub));
 }
 
-/// Bytes of text that each element copies from what the object says.
+/// Returns the number of text bytes that each element copies from the object.
 fn copied(reader: &Reader<'_, '_>, raw: &Raw, template: &Item) -> usize {
     let values = OF_A_VALUE.iter().filter_map(|&key| raw.get(key)).map(|entry| reader.doc.value(entry).len());
     let kept = template.extensions.iter().map(|extension| extension.key.len() + extension.value.len());
     values.chain(kept).sum()
 }
 
-/// Applies `[xxxxName]`, `[xxxxValue]` and `[xxxxDenotation]`: their keys are decimal sub-indices.
+/// Applies `[xxxxName]`, `[xxxxValue]` and `[xxxxDenotation]`. Their keys are decimal sub-indices.
 pub(super) fn refine(reader: &mut Reader<'_, '_>, group: &mut Group, index: u16, sections: &[(Refinement, Section)]) {
     for (refinement, section) in sections {
         let extensions = &mut group.extensions;
@@ -93,7 +94,7 @@ fn nothing_to_refine(
             format!("0x{index:04X} has no sub-index {key}"),
         )
         .label("kept as an extension attribute")
-        .help("the keys of this section are sub-indices in decimal"),
+        .help("write the sub-index in decimal"),
     );
     reader.foreign(section, entry, extensions);
 }

@@ -1,18 +1,18 @@
-//! The sections about the file and the device as a whole.
+//! Reads the sections about the file and the device.
 
 use std::collections::BTreeMap;
 
 use super::lists::{self, Lists};
 use super::object::in_order_of_file;
 use super::reader::{Fixed, Reader};
-use super::sections::{Kind, List};
+use super::sections::{List, SectionKind};
 use crate::diagnostics::{codes, Diagnostic};
 use crate::frontend::canopen::{network, number};
 use crate::ir::{CanOpenSettings, Commissioning, CompactString, Device, DynamicChannel, Extension, Extensions, Header};
 use crate::syntax::ini::{Entry, Section};
 
-/// Fills `device` from its header sections and returns what the object lists say.
-pub(super) fn read(reader: &mut Reader<'_, '_>, header: &[(Kind, Section)], device: &mut Device) -> Lists {
+/// Fills `device` from its header sections and returns the object lists.
+pub(super) fn read(reader: &mut Reader<'_, '_>, header: &[(SectionKind, Section)], device: &mut Device) -> Lists {
     let header = by_kind(header);
     report_missing(reader, &header);
     let mut lists = Lists::default();
@@ -22,15 +22,15 @@ pub(super) fn read(reader: &mut Reader<'_, '_>, header: &[(Kind, Section)], devi
         reader.duplicate_sections(sections);
         let kept_before = device.extensions.len();
         match kind {
-            Kind::FileInfo => file_info(reader, sections, device),
-            Kind::DeviceInfo => device_info(reader, sections, device, &mut canopen),
-            Kind::DummyUsage => dummy_usage(reader, sections, device, &mut canopen),
-            Kind::Comments => comments(reader, sections, &mut device.header.comments, &mut device.extensions),
-            Kind::List(list) => lists.read(reader, *list, sections, device),
-            Kind::Commissioning => commissioning(reader, sections, device),
-            Kind::SupportedModules => Lists::supported_modules(reader, sections, device),
-            Kind::ConnectedModules => connected_modules(reader, sections, device),
-            Kind::DynamicChannels => dynamic_channels(reader, sections, device, &mut canopen),
+            SectionKind::FileInfo => file_info(reader, sections, device),
+            SectionKind::DeviceInfo => device_info(reader, sections, device, &mut canopen),
+            SectionKind::DummyUsage => dummy_usage(reader, sections, device, &mut canopen),
+            SectionKind::Comments => comments(reader, sections, &mut device.header.comments, &mut device.extensions),
+            SectionKind::List(list) => lists.read(reader, *list, sections, device),
+            SectionKind::Commissioning => commissioning(reader, sections, device),
+            SectionKind::SupportedModules => Lists::supported_modules(reader, sections, device),
+            SectionKind::ConnectedModules => connected_modules(reader, sections, device),
+            SectionKind::DynamicChannels => dynamic_channels(reader, sections, device, &mut canopen),
             _ => {}
         }
         reader.take_comments(&mut device.extensions);
@@ -42,9 +42,9 @@ pub(super) fn read(reader: &mut Reader<'_, '_>, header: &[(Kind, Section)], devi
     lists
 }
 
-/// The sections of each kind, which are one section that the file repeats, by where the first of them stands.
-fn by_kind(header: &[(Kind, Section)]) -> Vec<(Kind, Vec<Section>)> {
-    let mut kinds: Vec<(Kind, Vec<Section>)> = Vec::new();
+/// Groups the sections by kind, in the order of their first occurrence. A file may repeat a section.
+fn by_kind(header: &[(SectionKind, Section)]) -> Vec<(SectionKind, Vec<Section>)> {
+    let mut kinds: Vec<(SectionKind, Vec<Section>)> = Vec::new();
     for (kind, section) in header {
         match kinds.iter_mut().find(|(other, _)| other == kind) {
             Some((_, same)) => same.push(*section),
@@ -54,18 +54,18 @@ fn by_kind(header: &[(Kind, Section)]) -> Vec<(Kind, Vec<Section>)> {
     kinds
 }
 
-/// Puts the name of their section before the keys of extensions, as `section/key`.
-fn name_section(kind: Kind, extensions: &mut [Extension]) {
+/// Puts the section name before the keys of extensions, as `section/key`.
+fn name_section(kind: SectionKind, extensions: &mut [Extension]) {
     for extension in extensions.iter_mut() {
         extension.key = compact_str::format_compact!("{}/{}", kind.name(), extension.key);
     }
 }
 
-fn report_missing(reader: &mut Reader<'_, '_>, header: &[(Kind, Vec<Section>)]) {
+fn report_missing(reader: &mut Reader<'_, '_>, header: &[(SectionKind, Vec<Section>)]) {
     let mandatory = [
-        (Kind::FileInfo, "FileInfo"),
-        (Kind::DeviceInfo, "DeviceInfo"),
-        (Kind::List(List::Mandatory), "MandatoryObjects"),
+        (SectionKind::FileInfo, "FileInfo"),
+        (SectionKind::DeviceInfo, "DeviceInfo"),
+        (SectionKind::List(List::Mandatory), "MandatoryObjects"),
     ];
     for (kind, name) in mandatory {
         if !header.iter().any(|(other, _)| *other == kind) {
@@ -74,12 +74,12 @@ fn report_missing(reader: &mut Reader<'_, '_>, header: &[(Kind, Vec<Section>)]) 
     }
 }
 
-/// Finds `key` among `names` without regard to case.
+/// Finds `key` among `names`. Ignores case.
 fn position(names: &[&str], key: &str) -> Option<usize> {
     names.iter().position(|name| name.eq_ignore_ascii_case(key))
 }
 
-/// Reports keys that occur before in the same section; `seen` has a flag per known key.
+/// Reports a repeated key of a section. `seen` contains the earlier entry of each known key.
 fn once(reader: &mut Reader<'_, '_>, seen: &mut [Option<Entry>], which: usize, entry: &Entry) {
     if let Some(earlier) = seen[which].replace(*entry) {
         reader.duplicate_key(&earlier, entry);
@@ -126,7 +126,7 @@ fn file_info(reader: &mut Reader<'_, '_>, sections: &[Section], device: &mut Dev
     old_version(reader, sections, &device.header, seen[3].as_ref());
 }
 
-/// Reports which of the entries `mandatory` weren't seen.
+/// Reports each mandatory entry that is missing.
 fn missing(
     reader: &mut Reader<'_, '_>,
     sections: &[Section],
@@ -160,12 +160,12 @@ fn header_field(header: &mut Header, which: usize) -> &mut CompactString {
 
 fn header_format(reader: &mut Reader<'_, '_>, entry: &Entry, which: usize) {
     let expected = match which {
-        1 | 2 => "a whole number up to 255",
+        1 | 2 => "an integer up to 255",
         3 => "a version x.y, such as 4.0",
         5 | 8 => "a time hh:mm with AM or PM, such as 09:30AM",
         _ => "a date mm-dd-yyyy, such as 12-31-2020",
     };
-    let message = format!("{} isn't {expected}", FILE_INFO[which]);
+    let message = format!("{} is not {expected}", FILE_INFO[which]);
     let span = reader.doc.value_span(entry);
     reader.diagnostics.push(Diagnostic::new(&codes::HEADER_FORMAT, span, message).label("kept as text"));
 }
@@ -177,8 +177,10 @@ fn old_version(reader: &mut Reader<'_, '_>, sections: &[Section], header: &Heade
     };
     if version.parse::<f64>().is_ok_and(|version| version < 4.0) {
         let (message, span) = match entry.filter(|_| given) {
-            Some(entry) => (format!("the file is of EDS version {version}"), reader.doc.value_span(entry)),
-            None => ("the file has no EDSVersion, which means 3.0".to_owned(), reader.doc.name_span(&sections[0])),
+            Some(entry) => (format!("the file has EDS version {version}"), reader.doc.value_span(entry)),
+            None => {
+                ("the file has no EDSVersion, which means version 3.0".to_owned(), reader.doc.name_span(&sections[0]))
+            }
         };
         reader.diagnostics.push(Diagnostic::new(&codes::OLD_EDS_VERSION, span, message));
     }
@@ -274,7 +276,7 @@ fn device_info(reader: &mut Reader<'_, '_>, sections: &[Section], device: &mut D
     missing(reader, sections, &KEYS, &seen, &[0, 1, 3, 4]);
 }
 
-/// `BaudRate_250=1`; false for any other key.
+/// Reads a bit rate such as `BaudRate_250=1`. Returns false for any other key.
 fn bit_rate(
     reader: &mut Reader<'_, '_>,
     entry: &Entry,
@@ -296,7 +298,7 @@ fn bit_rate(
     true
 }
 
-/// Bits, from 1 to 64; not a flag, though some tools write it like one (E82).
+/// Reads the granularity in bits, from 1 to 64. It is a number, although some tools write it as a flag (E82).
 fn granularity(reader: &mut Reader<'_, '_>, entry: &Entry) -> Option<u8> {
     let value = reader.unsigned(entry, 0xFF)?;
     network::granularity(value as u8, reader.doc.value_span(entry), reader.diagnostics);
@@ -318,7 +320,7 @@ fn dummy_usage(reader: &mut Reader<'_, '_>, sections: &[Section], device: &mut D
     canopen.dummies = (0..=u8::MAX).filter(|&code| usage[usize::from(code)]).collect();
 }
 
-/// `LineN`, by number; a missing line is no line.
+/// Reads the entries `LineN` in the order of their numbers. Missing numbers add no line.
 pub(super) fn comments(
     reader: &mut Reader<'_, '_>,
     sections: &[Section],
@@ -332,7 +334,7 @@ pub(super) fn comments(
         let digits = key.get(4..).filter(|_| key[..4].eq_ignore_ascii_case("Line"));
         match digits.and_then(|digits| digits.parse::<u32>().ok()) {
             Some(number) => numbered.push((number, *entry)),
-            // How many lines there are is plain to see, and many files have it wrong.
+            // The number of lines is ignored because it is redundant and often wrong.
             None if key.eq_ignore_ascii_case("Lines") => {
                 if let Some(earlier) = count.replace(*entry) {
                     reader.duplicate_key(&earlier, entry);
@@ -354,7 +356,7 @@ fn commissioning(reader: &mut Reader<'_, '_>, sections: &[Section], device: &mut
     const KEYS: [&str; 7] =
         ["NodeID", "NodeName", "Baudrate", "NetNumber", "NetworkName", "CANopenManager", "LSS_SerialNumber"];
     let mut seen = [None; KEYS.len()];
-    let mut own = device.commissioning.take().unwrap_or_default();
+    let mut settings = device.commissioning.take().unwrap_or_default();
     for ref entry in reader.doc.entries_of(sections) {
         let Some(which) = position(&KEYS, reader.doc.key(entry)) else {
             reader.extension(entry, &mut device.extensions);
@@ -363,18 +365,18 @@ fn commissioning(reader: &mut Reader<'_, '_>, sections: &[Section], device: &mut
         once(reader, &mut seen, which, entry);
         let text = reader.doc.value(entry);
         match which {
-            0 => own.node_id = node_id(reader, entry),
-            1 => own.node_name = text.into(),
-            2 => own.bit_rate = reader.unsigned(entry, 0xFFFF).map(|rate| rate as u16),
-            3 => own.net_number = reader.u32_of(entry),
-            4 => own.network_name = text.into(),
-            5 => own.manager = reader.flag(entry),
-            _ => own.lss_serial_number = reader.u32_of(entry),
+            0 => settings.node_id = node_id(reader, entry),
+            1 => settings.node_name = text.into(),
+            2 => settings.bit_rate = reader.unsigned(entry, 0xFFFF).map(|rate| rate as u16),
+            3 => settings.net_number = reader.u32_of(entry),
+            4 => settings.network_name = text.into(),
+            5 => settings.manager = reader.flag(entry),
+            _ => settings.lss_serial_number = reader.u32_of(entry),
         }
     }
     missing(reader, sections, &KEYS, &seen, &[0, 2]);
-    device.identity.serial_number = own.lss_serial_number.filter(|&serial| serial != 0);
-    device.commissioning = Some(own);
+    device.identity.serial_number = settings.lss_serial_number.filter(|&serial| serial != 0);
+    device.commissioning = Some(settings);
 }
 
 fn node_id(reader: &mut Reader<'_, '_>, entry: &Entry) -> Option<u8> {
@@ -383,16 +385,16 @@ fn node_id(reader: &mut Reader<'_, '_>, entry: &Entry) -> Option<u8> {
 }
 
 fn connected_modules(reader: &mut Reader<'_, '_>, sections: &[Section], device: &mut Device) {
-    let mut own = device.commissioning.take().unwrap_or_else(|| Box::new(Commissioning::default()));
+    let mut settings = device.commissioning.take().unwrap_or_else(|| Box::new(Commissioning::default()));
     for entry in lists::numbered(reader, sections, "NrOfEntries", &mut device.extensions) {
         if let Some(module) = reader.unsigned(&entry, 0xFFFF) {
-            own.connected_modules.push(module as u16);
+            settings.connected_modules.push(module as u16);
         }
     }
-    device.commissioning = Some(own);
+    device.commissioning = Some(settings);
 }
 
-/// Segments `TypeN`, `DirN`, `RangeN`, `PPOffsetN` (CiA 302-4, CiA 306-2).
+/// Reads the segments `TypeN`, `DirN`, `RangeN`, `PPOffsetN` (CiA 302-4, CiA 306-2).
 fn dynamic_channels(
     reader: &mut Reader<'_, '_>,
     sections: &[Section],
@@ -436,7 +438,7 @@ fn dynamic_channel(reader: &mut Reader<'_, '_>, fields: &[Option<Entry>; 4]) -> 
     match offsets(text) {
         Some((offset, difference)) => (segment.offset, segment.difference) = (offset, difference),
         None => {
-            let message = format!("`{text}` is no offset");
+            let message = format!("`{text}` is not an offset");
             let label = "expected `offset` or `offset, difference`";
             reader.diagnostics.push(Diagnostic::new(&codes::ILLEGAL_NUMBER, span, message).label(label));
         }
@@ -444,7 +446,7 @@ fn dynamic_channel(reader: &mut Reader<'_, '_>, fields: &[Option<Entry>; 4]) -> 
     segment
 }
 
-/// `offset` or `offset, difference`.
+/// Reads `offset` or `offset, difference`.
 fn offsets(text: &str) -> Option<(i64, Option<i64>)> {
     let number = |text: &str| number::parse(text.trim(), &[]).int().and_then(|value| i64::try_from(value).ok());
     match text.split_once(',') {

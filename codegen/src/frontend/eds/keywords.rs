@@ -1,11 +1,11 @@
-//! The keywords of an object, and the entries of its sections sorted by them.
+//! The keywords of an object, and the entries of its sections by keyword.
 
 use super::reader::Reader;
 use crate::ir::Extensions;
 use crate::source::Origin;
 use crate::syntax::ini::{Entry, Section};
 
-/// The keywords of an object, by position in [`Raw`].
+/// A keyword of an object, and its position in [`Raw`].
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Key {
     ParameterName,
@@ -30,7 +30,7 @@ pub(super) enum Key {
 /// Number of keywords.
 const KEYS: usize = 17;
 
-/// The keyword that is spelt `key`, in any case. Length and first letter leave one candidate, or two.
+/// Returns the keyword with the spelling `key`. Ignores case. Length and first letter leave at most two candidates.
 fn keyword(key: &str) -> Option<Key> {
     let bytes = key.as_bytes();
     let (name, keyword) = match (bytes.len(), bytes.first()? | 0x20) {
@@ -56,7 +56,7 @@ fn keyword(key: &str) -> Option<Key> {
     (name == key || name.eq_ignore_ascii_case(key)).then_some(keyword)
 }
 
-/// Keywords of one value, which say nothing about an object whose values are its sub-indices.
+/// Keywords of a single value. They have no meaning for an object whose values are in its sub-indices.
 pub(super) const OF_A_VALUE: [Key; 12] = [
     Key::DataType,
     Key::AccessType,
@@ -72,13 +72,13 @@ pub(super) const OF_A_VALUE: [Key; 12] = [
     Key::InvertedSrad,
 ];
 
-/// Keywords of an object with sub-indices, which say nothing about one value.
+/// Keywords of an object with sub-indices. They have no meaning for a single value.
 pub(super) const OF_MANY_VALUES: [Key; 2] = [Key::SubNumber, Key::CompactSubObj];
 
-/// The entries of a section, sorted into the keywords of an object.
+/// The entries of a section by keyword.
 pub(super) struct Raw {
     fields: [Option<Entry>; KEYS],
-    /// The keywords that only an extension of sub-indices has.
+    /// Keywords that only a sub-index extension of a module has.
     pub(super) more: [Option<Entry>; 2],
     pub(super) extensions: Extensions,
     pub(super) origin: Origin,
@@ -91,12 +91,12 @@ impl Raw {
 }
 
 impl Reader<'_, '_> {
-    /// Sorts the entries of sections of the same name into keywords; of a repeated key the last value counts.
+    /// Assigns the entries of sections with the same name to keywords. The last value of a repeated key applies.
     pub(super) fn raw(&mut self, sections: &[Section]) -> Raw {
         self.raw_with(sections, &[])
     }
 
-    /// The same with up to two further keywords.
+    /// Works like [`raw`](Self::raw), with up to two further keywords.
     pub(super) fn raw_with(&mut self, sections: &[Section], more: &[&str]) -> Raw {
         let mut raw =
             Raw { fields: [None; KEYS], more: [None; 2], extensions: Extensions::new(), origin: Origin::default() };

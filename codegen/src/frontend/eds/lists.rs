@@ -1,4 +1,4 @@
-//! The object lists, and what they say of objects that exist or don't.
+//! Reads the object lists and compares them with the described objects.
 
 use super::reader::Reader;
 use super::sections::List;
@@ -7,7 +7,7 @@ use crate::ir::{Device, Extensions, Group};
 use crate::source::Span;
 use crate::syntax::ini::{Entry, Section};
 
-/// What the object lists announce.
+/// Contents of the object lists.
 #[derive(Default)]
 pub(super) struct Lists {
     listed: Vec<(u16, List, Span)>,
@@ -42,8 +42,8 @@ impl Lists {
     }
 }
 
-/// The entries `1=`, `2=` … of a list, of a repeated one the last, checked against the count that `count_key` gives. Sections of
-/// the same name are one list.
+/// Reads the numbered entries (`1=`, `2=` …) of a list and checks their number against `count_key`. Sections of the
+/// same name form one list. The last entry applies if a number is repeated.
 pub(super) fn numbered(
     reader: &mut Reader<'_, '_>,
     sections: &[Section],
@@ -60,10 +60,10 @@ pub(super) fn numbered(
         }
     };
     if let (Some(((number, entry), expected)), true) = (gap, agrees) {
-        let message = format!("the list goes on with {number}, but its next entry should be {expected}");
+        let message = format!("the next entry of the list is {number}, expected {expected}");
         reader.diagnostics.push(
             Diagnostic::new(&codes::LIST_COUNT, reader.doc.key_span(entry), message)
-                .label("the entries that exist are used")
+                .label("the existing entries are used")
                 .help(NO_GAP),
         );
     }
@@ -72,7 +72,8 @@ pub(super) fn numbered(
 
 const NO_GAP: &str = "number the entries from 1 without a gap";
 
-/// Every entry of a list whose keys are sub-indices, with its sub-index; the list may have gaps, but not `others`.
+/// Returns the entries of a list whose keys are sub-indices, each with its sub-index. The list may have gaps. Passes
+/// any other entry to `others`.
 pub(super) fn by_sub_index(
     reader: &mut Reader<'_, '_>,
     section: &Section,
@@ -87,8 +88,8 @@ pub(super) fn by_sub_index(
     entries
 }
 
-/// The entries whose keys are decimal numbers, sorted and without repetitions and empty ones, and the one with the key
-/// `count_key`. All `others` are passed on.
+/// Returns the entries with decimal keys in ascending order, and the entry with the key `count_key`. Empty entries
+/// and earlier duplicates are left out. Passes any other entry to `others`.
 fn by_number(
     reader: &mut Reader<'_, '_>,
     sections: &[Section],
@@ -114,7 +115,7 @@ fn by_number(
         for pair in entries.windows(2).filter(|pair| pair[0].0 == pair[1].0) {
             reader.duplicate_key(&pair[0].1, &pair[1].1);
         }
-        // The sort is stable, so that the last of equal ones is the file's last.
+        // The sort is stable. After the reversal, the last of several equal entries comes first.
         entries.reverse();
         entries.dedup_by_key(|&mut (number, _)| number);
         entries.reverse();
@@ -123,14 +124,14 @@ fn by_number(
     (entries, count)
 }
 
-/// Returns whether `entry` announces as many entries as there are; reports it if not. If the list has a gap, the number may be
-/// right and the numbering wrong, so no fix is suggested.
+/// Returns whether `entry` announces the correct number of entries; reports it if not. In a list with a gap the
+/// number may be right and the numbering wrong, so the diagnostic has no fix.
 pub(super) fn announced_count(reader: &mut Reader<'_, '_>, entry: &Entry, count: usize, has_gap: bool) -> bool {
     let Some(announced) = reader.unsigned(entry, 0xFFFF) else { return true };
     let (key, text, span) = (reader.doc.key(entry), reader.doc.value(entry), reader.doc.value_span(entry));
     if announced as usize != count {
-        let message = format!("{key} announces {announced} entries, but there are {count}");
-        let found = Diagnostic::new(&codes::LIST_COUNT, span, message).label("the entries that exist are used");
+        let message = format!("{key} announces {announced} entries, but the list has {count}");
+        let found = Diagnostic::new(&codes::LIST_COUNT, span, message).label("the existing entries are used");
         reader.diagnostics.push(if has_gap { found.help(NO_GAP) } else { found.fix(count.to_string()) });
         return false;
     }
@@ -145,21 +146,21 @@ pub(super) fn announced_count(reader: &mut Reader<'_, '_>, entry: &Entry, count:
     true
 }
 
-/// A set of indices, as bits.
+/// A set of indices, stored as bits.
 struct Indices {
-    /// The lowest index, divided by 64.
+    /// Lowest index, divided by 64.
     first: u16,
     words: Vec<u64>,
 }
 
 impl Indices {
-    /// An empty set with room for `all`.
+    /// Creates an empty set that can hold the indices `all`.
     fn new(all: impl Iterator<Item = u16> + Clone) -> Self {
         let first = all.clone().min().unwrap_or(0) / 64;
         Indices { first, words: vec![0; usize::from(all.max().unwrap_or(0) / 64 - first) + 1] }
     }
 
-    /// Adds `index`; whether it was new.
+    /// Adds `index`. Returns whether it was new.
     fn insert(&mut self, index: u16) -> bool {
         let word = (index / 64).checked_sub(self.first).and_then(|word| self.words.get_mut(usize::from(word)));
         let Some(word) = word else { return false };
@@ -174,7 +175,7 @@ impl Indices {
     }
 }
 
-/// Holds the lists and the objects of `device` against each other.
+/// Compares the object lists with the objects of `device`.
 pub(super) fn check(reader: &mut Reader<'_, '_>, lists: &Lists, device: &Device) {
     let indices = device.groups.iter().filter_map(Group::index);
     let mut described = Indices::new(indices.clone());
@@ -188,17 +189,17 @@ pub(super) fn check(reader: &mut Reader<'_, '_>, lists: &Lists, device: &Device)
             reader.diagnostics.push(Diagnostic::new(&codes::LISTED_TWICE, span, message));
         }
         if !described.contains(index) {
-            let message = format!("0x{index:04X} is listed, but there is no section [{index:04X}]");
-            reader.diagnostics.push(
-                Diagnostic::new(&codes::LISTED_NOT_DESCRIBED, span, message).label("nothing is known of this object"),
-            );
+            let message = format!("0x{index:04X} is listed, but the section [{index:04X}] is missing");
+            reader
+                .diagnostics
+                .push(Diagnostic::new(&codes::LISTED_NOT_DESCRIBED, span, message).label("the object is left out"));
         }
         let right = belongs(index);
         if right != Some(list) {
-            let message = format!("0x{index:04X} doesn't belong into this list");
+            let message = format!("0x{index:04X} does not belong in this list");
             let label = match right {
-                Some(right) => format!("it belongs into [{}]", right.name()),
-                None => "an object of the data type area belongs into none".to_owned(),
+                Some(right) => format!("it belongs in [{}]", right.name()),
+                None => "objects in the data type area belong in no list".to_owned(),
             };
             reader.diagnostics.push(Diagnostic::new(&codes::WRONG_LIST, span, message).label(label));
         }
@@ -206,7 +207,7 @@ pub(super) fn check(reader: &mut Reader<'_, '_>, lists: &Lists, device: &Device)
     not_listed(reader, lists, &listed, device);
     for (index, span) in std::mem::take(&mut reader.link_spans) {
         if !described.contains(index) {
-            let message = format!("the link leads to 0x{index:04X}, which isn't described");
+            let message = format!("the link refers to 0x{index:04X}, which the file does not describe");
             reader.diagnostics.push(Diagnostic::new(&codes::DANGLING_LINK, span, message));
         }
     }
@@ -216,9 +217,9 @@ fn not_listed(reader: &mut Reader<'_, '_>, lists: &Lists, listed: &Indices, devi
     if lists.listed.is_empty() {
         if let Some(group) = device.groups.first() {
             reader.diagnostics.push(
-                Diagnostic::new(&codes::NOT_LISTED, group.origin.span, "the file lists none of its objects")
-                    .label("the first object")
-                    .help("list them in [MandatoryObjects], [OptionalObjects] and [ManufacturerObjects]"),
+                Diagnostic::new(&codes::NOT_LISTED, group.origin.span, "the object lists of the file are empty")
+                    .label("first object")
+                    .help("list the objects in [MandatoryObjects], [OptionalObjects] and [ManufacturerObjects]"),
             );
         }
         return;
@@ -226,7 +227,7 @@ fn not_listed(reader: &mut Reader<'_, '_>, lists: &Lists, listed: &Indices, devi
     for group in &device.groups {
         let Some(index) = group.index().filter(|&index| index >= 0x1000) else { continue };
         if !listed.contains(index) {
-            let message = format!("0x{index:04X} is described, but in none of the object lists");
+            let message = format!("0x{index:04X} is described but not listed");
             reader.diagnostics.push(Diagnostic::new(&codes::NOT_LISTED, group.origin.span, message));
         }
     }
@@ -242,7 +243,7 @@ impl List {
     }
 }
 
-/// The list into which an index belongs; `None` below 0x1000, where data types are defined.
+/// Returns the list to which an index belongs; `None` below 0x1000, which is the data type area.
 fn belongs(index: u16) -> Option<List> {
     match index {
         0x0000..=0x0FFF => None,

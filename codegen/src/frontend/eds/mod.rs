@@ -1,15 +1,15 @@
-//! EDS and DCF files (CiA 306-1) to IR.
+//! Converts EDS and DCF files (CiA 306-1) to IR.
 //!
-//! [`read`] takes the sections of a file in one pass: those of the header fill the device at once, those of objects are
-//! sorted by index, so that an object sees all of its sections together, wherever they stand in the file.
+//! [`read`] processes the sections of a file in one pass. Header sections fill the device directly. The sections of
+//! objects are sorted by index first, because they may be anywhere in the file.
 //!
 //! | file | subject |
 //! |---|---|
-//! | `sections` | what a section is, by its name |
-//! | `reader` | reading single entries |
+//! | `sections` | kinds of sections by name |
+//! | `reader` | reads single entries |
 //! | `header` | `[FileInfo]`, `[DeviceInfo]`, `[DummyUsage]`, `[Comments]`, `[DeviceComissioning]`, `[DynamicChannels]` |
-//! | `lists` | the object lists, and what they say of objects that exist or don't |
-//! | `keywords` | the keywords of an object, and its entries sorted by them |
+//! | `lists` | the object lists, and their comparison with the objects |
+//! | `keywords` | the keywords of an object, and its entries by keyword |
 //! | `object` | an object and its sub-indices |
 //! | `compact` | CompactSubObj and the sections that refine it |
 //! | `modules` | modular devices |
@@ -33,11 +33,11 @@ use crate::source::{Encoding, FileId, Origin, Source, Span};
 use crate::syntax::ini::{Document, Oddity, Section};
 use object::ObjectSections;
 use reader::Reader;
-use sections::{classify, Kind, Refinement};
+use sections::{classify, Refinement, SectionKind};
 
-/// Reads the device that `source` describes. Everything that had to be repaired goes to `diagnostics`.
+/// Reads the device that `source` describes. Repairs are reported to `diagnostics`.
 ///
-/// Returns `None`, with an error, when there is no CANopen section at all.
+/// Returns `None`, with an error, if the file has no CANopen section.
 pub fn read(source: &Source, file: FileId, aliases: &[String], diagnostics: &mut Diagnostics) -> Option<Catalog> {
     let doc = Document::parse(source.text(), file);
     report_encoding(source, file, diagnostics);
@@ -58,12 +58,12 @@ pub fn read(source: &Source, file: FileId, aliases: &[String], diagnostics: &mut
     let sorted = Sorted::new(&mut reader);
     if sorted.is_empty() {
         reader.diagnostics.push(
-            Diagnostic::new(&codes::NOT_AN_EDS, Span::new(file, 0, 0), "this is no EDS: it has no section of CiA 306")
+            Diagnostic::new(&codes::NOT_AN_EDS, Span::new(file, 0, 0), "this is not an EDS: it has no section of CiA 306")
                 .help(
-                    "an EDS has [FileInfo], [DeviceInfo], object lists, and a section for each object, such as [1000]",
+                    "check that the file has [FileInfo], [DeviceInfo], object lists, and sections of objects such as [1000]",
                 ),
         );
-        // They may well be why.
+        // Syntax errors may be the reason for the missing sections.
         report_oddities(&doc, diagnostics);
         return None;
     }
@@ -81,18 +81,18 @@ pub fn read(source: &Source, file: FileId, aliases: &[String], diagnostics: &mut
     Some(Catalog::of_device(device, modules))
 }
 
-/// The rank of sections that refine an object, after those of its sub-indices.
+/// Rank of refining sections, which follow the sections of sub-indices.
 const REFINEMENT: u16 = 0x200;
 
-/// The sections of a file by what they are about.
+/// The sections of a file by subject.
 struct Sorted {
-    /// In the order of the file.
-    header: Vec<(Kind, Section)>,
-    /// Index, rank and section, by index, then object before sub-indices; the order of the file among equals.
+    /// Sections of the header, in the order of the file.
+    header: Vec<(SectionKind, Section)>,
+    /// Index, rank and section, sorted by index and rank. Equal entries keep the order of the file.
     objects: Vec<(u16, u16, u32)>,
-    /// By module.
+    /// Module number, part and section, sorted by module.
     modules: Vec<(u32, sections::ModulePart, Section)>,
-    /// In the order of the file.
+    /// Other sections, in the order of the file.
     unknown: Vec<Section>,
 }
 
@@ -109,11 +109,13 @@ impl Sorted {
                 illegal_name(reader, section, kind);
             }
             match kind {
-                Kind::Object(index) => sorted.objects.push((index, 0, number)),
-                Kind::Sub(index, sub) => sorted.objects.push((index, 1 + u16::from(sub), number)),
-                Kind::Refinement(index, _) | Kind::Links(index) => sorted.objects.push((index, REFINEMENT, number)),
-                Kind::Module(number, part) => sorted.modules.push((number, part, *section)),
-                Kind::Unknown => sorted.unknown.push(*section),
+                SectionKind::Object(index) => sorted.objects.push((index, 0, number)),
+                SectionKind::Sub(index, sub) => sorted.objects.push((index, 1 + u16::from(sub), number)),
+                SectionKind::Refinement(index, _) | SectionKind::Links(index) => {
+                    sorted.objects.push((index, REFINEMENT, number))
+                }
+                SectionKind::Module(number, part) => sorted.modules.push((number, part, *section)),
+                SectionKind::Unknown => sorted.unknown.push(*section),
                 _ => sorted.header.push((kind, *section)),
             }
         }
@@ -129,7 +131,7 @@ impl Sorted {
     }
 }
 
-/// Builds the objects, each from its run of sections.
+/// Builds the objects from the sorted sections.
 fn objects(reader: &mut Reader<'_, '_>, sorted: Vec<(u16, u16, u32)>, device: &mut Device) {
     let mut sections = ObjectSections::default();
     device.groups.reserve_exact(sorted.chunk_by(|one, other| one.0 == other.0).count());
@@ -142,7 +144,7 @@ fn objects(reader: &mut Reader<'_, '_>, sorted: Vec<(u16, u16, u32)>, device: &m
                 0 => sections.object.push(section),
                 1..REFINEMENT => sections.subs.push(((rank - 1) as u8, section)),
                 _ => match classify(reader.doc.name(&section)).0 {
-                    Kind::Refinement(_, refinement) => sections.refinements.push((refinement, section)),
+                    SectionKind::Refinement(_, refinement) => sections.refinements.push((refinement, section)),
                     _ => sections.links.push(section),
                 },
             }
@@ -154,21 +156,21 @@ fn objects(reader: &mut Reader<'_, '_>, sorted: Vec<(u16, u16, u32)>, device: &m
     }
 }
 
-fn illegal_name(reader: &mut Reader<'_, '_>, section: &Section, kind: Kind) {
+fn illegal_name(reader: &mut Reader<'_, '_>, section: &Section, kind: SectionKind) {
     let fix = match kind {
-        Kind::Object(index) => format!("{index:04X}"),
-        Kind::Sub(index, sub) => format!("{index:04X}sub{sub:X}"),
-        Kind::Refinement(index, Refinement::Name) => format!("{index:04X}Name"),
-        Kind::Refinement(index, Refinement::Value) => format!("{index:04X}Value"),
-        Kind::Refinement(index, Refinement::Denotation) => format!("{index:04X}Denotation"),
-        Kind::Links(index) => format!("{index:04X}ObjectLinks"),
+        SectionKind::Object(index) => format!("{index:04X}"),
+        SectionKind::Sub(index, sub) => format!("{index:04X}sub{sub:X}"),
+        SectionKind::Refinement(index, Refinement::Name) => format!("{index:04X}Name"),
+        SectionKind::Refinement(index, Refinement::Value) => format!("{index:04X}Value"),
+        SectionKind::Refinement(index, Refinement::Denotation) => format!("{index:04X}Denotation"),
+        SectionKind::Links(index) => format!("{index:04X}ObjectLinks"),
         _ => String::new(),
     };
     let name = reader.doc.name(section);
     let mut diagnostic = Diagnostic::new(
         &codes::ILLEGAL_SECTION_NAME,
         reader.doc.name_span(section),
-        format!("the section name `{name}` breaks the grammar of CiA 306"),
+        format!("the section name `{name}` violates the grammar of CiA 306"),
     );
     if !fix.is_empty() {
         diagnostic = diagnostic.label(format!("read as {fix}")).fix(fix);
@@ -176,18 +178,18 @@ fn illegal_name(reader: &mut Reader<'_, '_>, section: &Section, kind: Kind) {
     reader.diagnostics.push(diagnostic);
 }
 
-/// Keeps what no part of CiA 306 gives a meaning, as `section/key` extensions of the device.
+/// Keeps sections that CiA 306 does not define, as `section/key` extensions of the device.
 fn unknown_sections(reader: &mut Reader<'_, '_>, unknown: &[Section], device: &mut Device) {
     let mut seen: HashMap<String, &Section> = HashMap::new();
     for section in unknown {
         let name = reader.doc.name(section);
-        // [Tools] is CiA 306-1's own, and of no interest to anybody but the tools it names.
+        // CiA 306-1 defines [Tools]. It concerns only the tools that it names, so it is not reported.
         if !name.eq_ignore_ascii_case("Tools") {
             reader.diagnostics.push(
                 Diagnostic::new(
                     &codes::UNKNOWN_SECTION,
                     reader.doc.name_span(section),
-                    format!("CiA 306 knows no section [{name}]"),
+                    format!("CiA 306 does not define the section [{name}]"),
                 )
                 .label("kept as extension attributes of the device"),
             );
@@ -209,12 +211,12 @@ fn report_encoding(source: &Source, file: FileId, diagnostics: &mut Diagnostics)
     let (message, read_as) = match source.encoding() {
         Encoding::Utf8 | Encoding::Utf8Bom => return,
         Encoding::Utf16 => ("the file is UTF-16", "UTF-16"),
-        _ if source.has_wrong_mark() => ("the file has the mark of UTF-8, and isn't", "Windows-1252"),
+        _ if source.has_wrong_mark() => ("the file has a UTF-8 byte order mark but is not UTF-8", "Windows-1252"),
         Encoding::Windows1252 | Encoding::Declared => ("the file is neither ASCII nor UTF-8", "Windows-1252"),
     };
     let at = source.text().bytes().position(|byte| !byte.is_ascii());
     let (at, label) = match at {
-        Some(at) => (at, format!("the first such character; read as {read_as}")),
+        Some(at) => (at, format!("first such character; read as {read_as}")),
         None => (0, format!("read as {read_as}")),
     };
     let length = source.text()[at..].chars().next().map_or(0, char::len_utf8);
@@ -222,7 +224,7 @@ fn report_encoding(source: &Source, file: FileId, diagnostics: &mut Diagnostics)
     diagnostics.push(
         Diagnostic::new(&codes::NOT_UTF8, span, message)
             .label(label)
-            .help("CiA 306 allows ASCII only; UTF-8 is what most tools read"),
+            .help("convert the file to ASCII; most tools also read UTF-8"),
     );
 }
 
@@ -232,25 +234,28 @@ fn report_oddities(doc: &Document<'_>, diagnostics: &mut Diagnostics) {
     let mut hash_seen = false;
     for &(oddity, span) in &oddities {
         let (code, message, label) = match oddity {
-            Oddity::Junk => (&codes::JUNK_LINE, "this line has no meaning in an EDS", "skipped"),
+            Oddity::Junk => (&codes::JUNK_LINE, "this line is not a section, entry or comment", "skipped"),
             Oddity::EntryOutsideSection => {
-                (&codes::ENTRY_OUTSIDE_SECTION, "this entry stands above the first section", "skipped")
+                (&codes::ENTRY_OUTSIDE_SECTION, "this entry is above the first section", "skipped")
             }
             Oddity::UnclosedHeader => {
                 (&codes::MALFORMED_HEADER, "this section header has no `]`", "read up to the end of the line")
             }
-            Oddity::TextAfterHeader => (&codes::MALFORMED_HEADER, "text follows the section header", "skipped"),
+            Oddity::TextAfterHeader => (&codes::MALFORMED_HEADER, "there is text after the section header", "skipped"),
             Oddity::IndentedHeader => {
-                (&codes::INDENTED_HEADER, "this section header isn't in the first column", "read all the same")
+                (&codes::INDENTED_HEADER, "this section header is indented", "read as a section header")
             }
-            Oddity::LongLine => (&codes::LONG_LINE, "this line has over 255 characters", ""),
+            Oddity::LongLine => (&codes::LONG_LINE, "this line has more than 255 characters", ""),
             Oddity::HashLine if hash_seen => continue,
             Oddity::HashLine => {
                 hash_seen = true;
-                let message = format!("{hash_lines} line(s) start with `#`, which marks no comment in CiA 306");
+                let message = format!("{hash_lines} line(s) start with `#`, which does not start a comment in CiA 306");
                 let help = "start comment lines with `;`";
-                diagnostics
-                    .push(Diagnostic::new(&codes::HASH_COMMENT, span, message).label("the first; skipped").help(help));
+                diagnostics.push(
+                    Diagnostic::new(&codes::HASH_COMMENT, span, message)
+                        .label("first of these lines; all are skipped")
+                        .help(help),
+                );
                 continue;
             }
         };

@@ -1,4 +1,4 @@
-//! Modular devices: what plugged-in modules add to the dictionary (CiA 306, "modular devices").
+//! Modular devices: objects and sub-indices that modules add to the dictionary (CiA 306, "modular devices").
 
 use std::collections::BTreeMap;
 
@@ -14,7 +14,7 @@ use crate::ir::{Device, Group, Module, SubExtension};
 use crate::source::Span;
 use crate::syntax::ini::{Entry, Section};
 
-/// The sections of one module.
+/// The sections of a module.
 #[derive(Default)]
 struct Parts {
     info: Vec<Section>,
@@ -25,7 +25,7 @@ struct Parts {
     extensions: BTreeMap<u16, Vec<Section>>,
 }
 
-/// The modules that the sections describe. `sections` is sorted by module.
+/// Reads the modules. `sections` is sorted by module.
 pub(super) fn read(
     reader: &mut Reader<'_, '_>,
     sections: Vec<(u32, ModulePart, Section)>,
@@ -57,7 +57,7 @@ fn check_announced(reader: &mut Reader<'_, '_>, by_module: &BTreeMap<u32, Parts>
         return;
     };
     if announced as usize != described {
-        let message = format!("{announced} modules are announced, but {described} are described");
+        let message = format!("the file announces {announced} modules but describes {described}");
         reader.diagnostics.push(Diagnostic::new(&codes::UNRESOLVED_MODULE, span, message));
     }
 }
@@ -74,7 +74,7 @@ fn module(reader: &mut Reader<'_, '_>, number: u32, mut parts: Parts, device: &D
         if let Some(group) = reader.object(index, sections) {
             clash(reader, &group, device);
             if !fixed.contains_key(&index) {
-                let message = format!("0x{index:04X} isn't in [M{number}FixedObjects]");
+                let message = format!("0x{index:04X} is not in [M{number}FixedObjects]");
                 reader.diagnostics.push(Diagnostic::new(&codes::NOT_LISTED, group.origin.span, message));
             }
             module.fixed_objects.push(group);
@@ -87,7 +87,7 @@ fn module(reader: &mut Reader<'_, '_>, number: u32, mut parts: Parts, device: &D
         let extension = sub_extension(reader, index, sections);
         let origin = extension.template.origin.span;
         if !extends.contains_key(&index) {
-            let message = format!("0x{index:04X} isn't in [M{number}SubExtends]");
+            let message = format!("0x{index:04X} is not in [M{number}SubExtends]");
             reader.diagnostics.push(Diagnostic::new(&codes::SUB_EXTEND, origin, message));
         }
         extended_object(reader, index, origin, device);
@@ -123,7 +123,7 @@ fn info(reader: &mut Reader<'_, '_>, sections: &[Section], module: &mut Module) 
     }
 }
 
-/// The indices that a list announces, each with its entry.
+/// Returns the indices in a list, each with its entry.
 fn announced(reader: &mut Reader<'_, '_>, sections: &[Section], module: &mut Module) -> BTreeMap<u16, Entry> {
     reader.duplicate_sections(sections);
     let mut indices = BTreeMap::new();
@@ -148,28 +148,29 @@ fn missing(
     for (index, entry) in announced {
         if !exists(*index) {
             let span = reader.doc.value_span(entry);
-            let message = format!("there is no section {}", section_name(*index));
+            let message = format!("the section {} is missing", section_name(*index));
             reader.diagnostics.push(Diagnostic::new(&codes::UNRESOLVED_MODULE, span, message).label("announced here"));
         }
     }
 }
 
-/// Sub-indices can be added only to what has sub-indices.
+/// Reports an extension of a device object that has no sub-indices.
 fn extended_object(reader: &mut Reader<'_, '_>, index: u16, span: Span, device: &Device) {
     let Some(object) = device.object(index) else { return };
     if let Some(code) = object.object_code().filter(|code| !code.has_subs()) {
-        let message = format!("0x{index:04X} of the device is a {}, which has no sub-indices", code.name());
+        let message = format!("object 0x{index:04X} of the device is a {}, which has no sub-indices", code.name());
         reader.diagnostics.push(
-            Diagnostic::new(&codes::SUB_EXTEND, span, message).note_at(object.origin.span, "it is described here"),
+            Diagnostic::new(&codes::SUB_EXTEND, span, message)
+                .note_at(object.origin.span, "the device describes it here"),
         );
     }
 }
 
 fn clash(reader: &mut Reader<'_, '_>, group: &Group, device: &Device) {
-    let Some(own) = group.index().and_then(|index| device.object(index)) else { return };
+    let Some(object) = group.index().and_then(|index| device.object(index)) else { return };
     reader.diagnostics.push(
-        Diagnostic::new(&codes::MODULE_INDEX_CLASH, group.origin.span, "the device has this object already")
-            .note_at(own.origin.span, "it is described here"),
+        Diagnostic::new(&codes::MODULE_INDEX_CLASH, group.origin.span, "the device already has this object")
+            .note_at(object.origin.span, "the device describes it here"),
     );
 }
 
@@ -188,25 +189,26 @@ fn sub_extension(reader: &mut Reader<'_, '_>, index: u16, sections: &[Section]) 
     SubExtension { index, count, per, extends_object, template }
 }
 
-/// How many sub-indices a module adds; or none, and the number of bits that it adds to a common one.
+/// Returns the number of sub-indices that a module adds. If it is 0, the second value is the number of bits that the
+/// module adds to a common sub-index.
 fn sub_count(reader: &mut Reader<'_, '_>, raw: &Raw) -> (u16, Option<u16>) {
     let mut report = |span, message: String, label| {
-        let help = "Count is a number of sub-indices, or 0, `;` and a number of bits";
+        let help = "write the number of sub-indices, or `0;` and the number of bits";
         reader.diagnostics.push(Diagnostic::new(&codes::SUB_EXTEND, span, message).label(label).help(help));
     };
     let Some(entry) = raw.more[0].filter(|entry| !reader.doc.value(entry).is_empty()) else {
-        let message = "Count is missing: how many sub-indices does the module add?";
+        let message = "Count is missing";
         report(raw.origin.span, message.into(), "");
         return (0, None);
     };
     let (text, span) = (reader.doc.value(&entry), reader.doc.value_span(&entry));
     let Some((number, bits)) = count(text) else {
-        report(span, format!("`{text}` is no count of sub-indices"), "left out");
+        report(span, format!("`{text}` is not a valid Count"), "left out");
         return (0, None);
     };
     match (number, bits) {
         (0, None) => report(span, "the module adds no sub-index".into(), ""),
-        (1.., Some(_)) => report(span, format!("`{text}` is both a number of sub-indices and one of bits"), ""),
+        (1.., Some(_)) => report(span, format!("`{text}` declares both sub-indices and bits"), ""),
         _ => {}
     }
     (number, bits)
@@ -216,13 +218,13 @@ fn obj_extend(reader: &mut Reader<'_, '_>, entry: &Entry) -> bool {
     let (text, span) = reader.fixed(entry, Fixed::Number);
     let value = number::parse(text, &[]).int();
     if !text.is_empty() && !matches!(value, Some(0 | 1)) {
-        let message = format!("ObjExtend is `{text}`, neither 0 nor 1");
+        let message = format!("ObjExtend is `{text}`, expected 0 or 1");
         reader.diagnostics.push(Diagnostic::new(&codes::SUB_EXTEND, span, message).label("read as 0"));
     }
     value == Some(1)
 }
 
-/// `n`, or `n;m`.
+/// Reads `n` or `n;m`.
 fn count(text: &str) -> Option<(u16, Option<u16>)> {
     let number = |text: &str| number::parse(text.trim(), &[]).int().and_then(|value| u16::try_from(value).ok());
     match text.split_once(';') {

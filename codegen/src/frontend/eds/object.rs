@@ -1,4 +1,4 @@
-//! From the sections of an object to a [`Group`] with its items.
+//! Converts the sections of an object to a [`Group`] with its items.
 
 use super::compact;
 use super::keywords::{Key, Raw, OF_A_VALUE, OF_MANY_VALUES};
@@ -20,17 +20,17 @@ const TERMS: Terms = Terms {
     sub_number: "SubNumber",
     sub_object: "sub-index",
     elements: "sections",
-    records: "write ObjectType=0x9 for a RECORD, 0x8 for an ARRAY",
+    records: "write `ObjectType=0x9` for a RECORD, `ObjectType=0x8` for an ARRAY",
 };
 
-/// The sections about one object, collected from all over the file.
+/// The sections of an object, collected from the whole file.
 #[derive(Default)]
 pub(super) struct ObjectSections {
-    /// `[xxxx]`; several where the file repeats it.
+    /// `[xxxx]`; several if the file repeats it.
     pub object: Vec<Section>,
-    /// `[xxxxsubN]`, by sub-index.
+    /// `[xxxxsubN]` with the sub-index.
     pub subs: Vec<(u8, Section)>,
-    /// `[xxxxName]` and its like.
+    /// `[xxxxName]`, `[xxxxValue]` and `[xxxxDenotation]`.
     pub refinements: Vec<(Refinement, Section)>,
     /// `[xxxxObjectLinks]`
     pub links: Vec<Section>,
@@ -46,7 +46,7 @@ impl ObjectSections {
 }
 
 impl<'a> Reader<'a, '_> {
-    /// The object `index`, from everything that the file says about it.
+    /// Builds the object `index` from its sections.
     pub(super) fn object(&mut self, index: u16, sections: &mut ObjectSections) -> Option<Group> {
         if sections.object.is_empty() && sections.subs.is_empty() {
             self.refinement_without_object(index, sections);
@@ -64,10 +64,10 @@ impl<'a> Reader<'a, '_> {
                 Diagnostic::new(
                     &codes::ORPHAN_SUB,
                     group.origin.span,
-                    format!("[{index:04X}sub{sub:X}] has no object"),
+                    format!("[{index:04X}sub{sub:X}] belongs to no object"),
                 )
-                .label(format!("there is no section [{index:04X}]"))
-                .help("a RECORD was made to hold it; describe the object with ObjectType and SubNumber"),
+                .label(format!("the section [{index:04X}] is missing; read as part of a RECORD"))
+                .help("add the section of the object, with ObjectType and SubNumber"),
             );
         }
         self.name(raw.get(Key::ParameterName), &mut group.name, &mut group.name_at);
@@ -99,7 +99,7 @@ impl<'a> Reader<'a, '_> {
             self.subs(group, index, &sections.subs);
             let has_value = code == ObjectCode::Record && raw.get(Key::DataType).is_some() && group.sub(0).is_none();
             if has_value && compact.is_none() && self.is_var(&raw) {
-                self.own_value(group, index, &raw);
+                self.value_of_var(group, index, &raw);
             } else if compact.is_none() {
                 group.flags = self.flags(&raw);
                 self.unused(&raw, &OF_A_VALUE, &mut group.extensions);
@@ -114,7 +114,7 @@ impl<'a> Reader<'a, '_> {
             let mut item = self.item(index, 0, &raw, code);
             item.name = group.name.clone();
             item.at.name = group.name_at;
-            // The section is the object's, and so is what stands in it beside the value.
+            // The object has a single section, so the other entries are extensions of the object.
             group.extensions.append(&mut item.extensions);
             group.items = vec![item];
         }
@@ -122,7 +122,7 @@ impl<'a> Reader<'a, '_> {
         compact::refine(self, group, index, &sections.refinements);
     }
 
-    /// Keeps entries that mean nothing where they stand, unless they are empty or 0.
+    /// Keeps entries that have no meaning for this object, unless they are empty or 0.
     pub(super) fn unused(&mut self, raw: &Raw, keys: &[Key], extensions: &mut Extensions) {
         for &key in keys {
             let Some(entry) = raw.get(key) else { continue };
@@ -132,7 +132,7 @@ impl<'a> Reader<'a, '_> {
                 continue;
             }
             if self.diagnostics.wants(&codes::NOT_ALLOWED_ENTRY) {
-                let message = format!("{} has no meaning here", self.doc.key(entry));
+                let message = format!("{} has no meaning for this object", self.doc.key(entry));
                 self.diagnostics.push(
                     Diagnostic::new(&codes::NOT_ALLOWED_ENTRY, self.doc.key_span(entry), message)
                         .label("kept as an extension attribute"),
@@ -156,8 +156,8 @@ impl<'a> Reader<'a, '_> {
         self.peek_number(raw.get(Key::ObjectType)).is_none_or(|code| code == 7)
     }
 
-    /// A VAR that also has sub-indices, but no sub-index 0: its own value is that.
-    fn own_value(&mut self, group: &mut Group, index: u16, raw: &Raw) {
+    /// Adds sub-index 0 to a VAR that has sub-indices but no sub-index 0. Its value is that of the VAR.
+    fn value_of_var(&mut self, group: &mut Group, index: u16, raw: &Raw) {
         let mut item = self.item(index, 0, raw, ObjectCode::Var);
         item.name = group.name.clone();
         item.at.name = group.name_at;
@@ -187,7 +187,7 @@ impl<'a> Reader<'a, '_> {
         }
     }
 
-    /// ObjectType, if it is given.
+    /// Returns the ObjectType, if it is present.
     fn object_type(&mut self, raw: &Raw) -> Option<ObjectType<'a>> {
         let (text, span) = self.fixed(raw.get(Key::ObjectType)?, Fixed::Number);
         if text.is_empty() {
@@ -198,7 +198,7 @@ impl<'a> Reader<'a, '_> {
         Some(ObjectType { text, number: number.int(), span })
     }
 
-    /// What a sub-index is.
+    /// Returns the object code of a sub-index.
     pub(super) fn sub_code(&mut self, raw: &Raw) -> ObjectCode {
         let given = self.object_type(raw);
         given.map_or(ObjectCode::Var, |given| given.of_sub_index(&TERMS, self.diagnostics))
@@ -210,7 +210,7 @@ impl<'a> Reader<'a, '_> {
         object::object_code(index, given.as_ref(), span, has_subs, &TERMS, self.diagnostics)
     }
 
-    /// One value: a VAR, a DOMAIN, a sub-index. The name is the caller's.
+    /// Builds the item of a VAR, DOMAIN or sub-index. The caller sets the name.
     pub(super) fn item(&mut self, index: u16, sub: u8, raw: &Raw, code: ObjectCode) -> Item {
         let mut item = Item::new(Binding::canopen(index, sub));
         item.origin = raw.origin;
@@ -218,7 +218,7 @@ impl<'a> Reader<'a, '_> {
         item.ty = ty.unwrap_or(Type::Opaque(None));
         item.access = self.access(raw, code, &mut item);
         if ty.is_none() {
-            // Nobody can say which bytes to write.
+            // Without a data type it is unknown which bytes to write.
             item.access = Access::ReadOnly;
         }
         item.mappable = self.mappable(raw.get(Key::PdoMapping), item.access, &mut item);
@@ -239,7 +239,7 @@ impl<'a> Reader<'a, '_> {
         item
     }
 
-    /// What a DCF adds to an item.
+    /// Adds the configured value and other entries of a DCF to an item.
     fn configured(&mut self, raw: &Raw, item: &mut Item) {
         let keys = [Key::ParameterValue, Key::Denotation, Key::UploadFile, Key::DownloadFile];
         if keys.iter().all(|&key| raw.get(key).is_none()) {
@@ -259,7 +259,8 @@ impl<'a> Reader<'a, '_> {
         }
     }
 
-    /// The value of an entry; text is taken as a whole, anything else without a comment behind it.
+    /// Returns the value of an entry. Text types use the whole text; for other types a comment after the value is
+    /// removed.
     pub(super) fn typed(&mut self, entry: Option<&Entry>, ty: Type, role: Role) -> Option<Value> {
         let entry = entry?;
         let text = self.doc.value(entry);
@@ -275,7 +276,7 @@ impl<'a> Reader<'a, '_> {
         self.converter().value(text, span, ty, role)
     }
 
-    /// DataType; `None` where a value needs one and has none.
+    /// Returns the DataType. Returns `None` if it is missing and the value needs one.
     fn data_type(&mut self, raw: &Raw, code: ObjectCode, item: &mut Item) -> Option<Type> {
         let (text, span) = match raw.get(Key::DataType) {
             Some(entry) => self.fixed(entry, Fixed::Number),
@@ -285,13 +286,13 @@ impl<'a> Reader<'a, '_> {
         if text.is_empty() {
             return self.no_data_type(code, span);
         }
-        // What is no number was reported as that.
+        // A text that is not a number is reported by the converter.
         let plain = number::plain(text).map(|number| Value::Int(number.into()));
         let number = plain.or_else(|| self.converter().number(text, span))?;
         match number.as_int().and_then(|number| u32::try_from(number).ok()) {
             Some(number) => Some(self.type_by_code(number, span)),
             None => {
-                let message = format!("`{text}` is the code of no data type");
+                let message = format!("`{text}` is not the code of a data type");
                 self.diagnostics.push(
                     Diagnostic::new(&codes::UNKNOWN_DATA_TYPE, span, message)
                         .label("kept read-only, as raw bytes")
@@ -306,13 +307,13 @@ impl<'a> Reader<'a, '_> {
         let (kind, message) = match code {
             ObjectCode::Domain => return Some(Type::Domain),
             ObjectCode::DefType | ObjectCode::DefStruct | ObjectCode::Null => return Some(Type::Opaque(None)),
-            ObjectCode::Array => (&codes::COMPACT_WITHOUT_TYPE, "CompactSubObj is given without DataType"),
-            _ => (&codes::MISSING_DATA_TYPE, "there is no DataType"),
+            ObjectCode::Array => (&codes::COMPACT_WITHOUT_TYPE, "there is a CompactSubObj but no DataType"),
+            _ => (&codes::MISSING_DATA_TYPE, "DataType is missing"),
         };
         self.diagnostics.push(
             Diagnostic::new(kind, span, message)
                 .label("kept read-only, as raw bytes")
-                .help("add DataType= with the code of a basic type, such as 0x0007 for UNSIGNED32"),
+                .help("add a DataType with the code of a basic type, such as `DataType=0x0007` for UNSIGNED32"),
         );
         None
     }
@@ -333,7 +334,7 @@ impl<'a> Reader<'a, '_> {
                 ObjectCode::Domain => Access::ReadWrite,
                 ObjectCode::DefType | ObjectCode::DefStruct | ObjectCode::Null => Access::ReadOnly,
                 _ => {
-                    let message = "there is no AccessType";
+                    let message = "AccessType is missing";
                     self.diagnostics
                         .push(Diagnostic::new(&codes::MISSING_ACCESS, span, message).label("kept read-only"));
                     Access::ReadOnly
@@ -364,7 +365,7 @@ impl<'a> Reader<'a, '_> {
         is_mappable.then(|| Srdo { inverted: inverted.map(|address| ((address >> 8) as u16, address as u8)) })
     }
 
-    /// The number of sub-indices that CompactSubObj stands for.
+    /// Returns the number of sub-indices that CompactSubObj declares.
     fn compact_count(&mut self, raw: &Raw) -> Option<u8> {
         let entry = raw.get(Key::CompactSubObj)?;
         let (text, span) = self.fixed(entry, Fixed::Number);
@@ -373,7 +374,7 @@ impl<'a> Reader<'a, '_> {
         }
         let count = self.converter().number(text, span)?.as_int().unwrap_or(-1);
         if !(0..=254).contains(&count) {
-            let message = format!("CompactSubObj is {text}, and an object has 254 sub-indices at most");
+            let message = format!("CompactSubObj is {text}, but an object has at most 254 sub-indices");
             let label = if count > 0 { "read as 254" } else { "left out" };
             self.diagnostics.push(Diagnostic::new(&codes::VALUE_NOT_ALLOWED, span, message).label(label));
         }
@@ -391,8 +392,8 @@ impl<'a> Reader<'a, '_> {
         if compact.is_some() {
             if announced > 0 {
                 self.diagnostics.push(
-                    Diagnostic::new(&codes::COMPACT_AND_SUBS, span, "SubNumber is given beside CompactSubObj")
-                        .label("what is described stays, the compact description fills the gaps"),
+                    Diagnostic::new(&codes::COMPACT_AND_SUBS, span, "the object has both SubNumber and CompactSubObj")
+                        .label("described sub-indices are kept, CompactSubObj adds the others"),
                 );
             }
         } else {
@@ -402,7 +403,7 @@ impl<'a> Reader<'a, '_> {
 
     fn no_sub_number(&mut self, raw: &Raw, compact: Option<u8>) {
         if compact.is_none() && raw.origin.line > 0 && self.diagnostics.wants(&codes::MISSING_ENTRY) {
-            let message = "there is neither SubNumber nor CompactSubObj";
+            let message = "both SubNumber and CompactSubObj are missing";
             self.diagnostics.push(Diagnostic::new(&codes::MISSING_ENTRY, raw.origin.span, message));
         }
     }
@@ -422,17 +423,17 @@ impl<'a> Reader<'a, '_> {
         let all = sections.refinements.iter().map(|(_, section)| section).chain(&sections.links);
         for section in all {
             let span = self.doc.name_span(section);
-            let message = format!("[{}] belongs to an object that isn't described", self.doc.name(section));
+            let message = format!("[{}] belongs to an object that the file does not describe", self.doc.name(section));
             self.diagnostics.push(
                 Diagnostic::new(&codes::NAME_WITHOUT_SUB, span, message)
-                    .label(format!("there is no section [{index:04X}]; kept as extension attributes")),
+                    .label(format!("the section [{index:04X}] is missing; kept as extension attributes")),
             );
             self.orphan_sections.push(*section);
         }
     }
 }
 
-/// Extensions are collected by what they are; the IR has them as they stand in the file.
+/// Sorts extensions, which are collected by kind, into the order of the file.
 pub(super) fn in_order_of_file(extensions: &mut [Extension]) {
     extensions.sort_by_key(|extension| extension.span.start);
 }

@@ -1,4 +1,4 @@
-//! The state of reading one file, and the reading of single entries.
+//! State of reading a file, and functions that read single entries.
 
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
 use crate::frontend::canopen::number::{self, Parsed};
@@ -12,35 +12,36 @@ pub(super) struct Reader<'a, 'd> {
     pub doc: &'a Document<'a>,
     pub diagnostics: &'d mut Diagnostics,
     pub aliases: &'d [String],
-    /// Types that the file defines, by their code. Objects come in order of index, so that types come first.
+    /// Types that the file defines, by code. Objects are read in the order of their indices, so types come first.
     pub types: Vec<(u32, Type)>,
-    /// Targets of object links, checked once all objects are known.
+    /// Targets of object links. They are checked after all objects are read.
     pub link_spans: Vec<(u16, Span)>,
-    /// Sections that refine an object that doesn't exist; kept as extensions of the device.
+    /// Sections that refine a missing object. They are kept as extensions of the device.
     pub orphan_sections: Vec<Section>,
-    /// The number of modules that `[SupportedModules]` announces, and where.
+    /// Number of modules that `[SupportedModules]` announces, and its span.
     pub announced_modules: Option<(u32, Span)>,
-    /// How many items were made from CompactSubObj and CompactPDO.
+    /// Number of items created from CompactSubObj and CompactPDO.
     pub derived_items: usize,
-    /// Bytes of text that may still be copied into elements that have no lines of their own.
+    /// Remaining number of text bytes that may be copied into derived elements.
     pub copies_left: usize,
     pub copies_exceeded: bool,
-    /// Comments behind values, until the element that they belong to is complete and takes them.
+    /// Comments after values, until the element that they belong to is complete.
     pub comments: Extensions,
-    /// The first flag that is a hexadecimal number, and how many there are: tools write all or none so.
+    /// The first flag that is a hexadecimal number, and the number of such flags. They are reported once because
+    /// tools write all flags in the same way.
     pub hex_flags: Option<(Span, usize)>,
 }
 
-/// The form of a value that isn't free text, for what may follow it.
+/// Form of a value that is not free text. It decides which text may follow the value.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Fixed {
-    /// A number or an access type: a comment behind `;` is usual.
+    /// A number or an access type. A comment after `;` is common.
     Number,
-    /// 0 or 1, and nothing else.
+    /// A flag: 0 or 1 without further text.
     Flag,
 }
 
-/// The key under which the IR keeps comments.
+/// Key of comments in the IR.
 const COMMENT: CompactString = CompactString::const_new(";");
 
 fn repeated(later: Span, key: &str) -> Diagnostic {
@@ -52,7 +53,8 @@ impl<'a, 'd> Reader<'a, 'd> {
         Converter { diagnostics: self.diagnostics, aliases: self.aliases }
     }
 
-    /// The value of an entry of fixed form, without comments and quotation marks. A comment goes to `comments`.
+    /// Returns the value of an entry of fixed form without comments and quotation marks. Adds a comment to
+    /// `comments`.
     pub(super) fn fixed(&mut self, entry: &Entry, form: Fixed) -> (&'a str, Span) {
         let text = self.doc.value(entry);
         let span = self.doc.value_span(entry);
@@ -61,10 +63,10 @@ impl<'a, 'd> Reader<'a, 'd> {
         self.fixed_part(text, span, cut, form)
     }
 
-    /// [`fixed`](Self::fixed) for a text that has a mark at `mark`.
+    /// Works like [`fixed`](Self::fixed) for a text with a comment mark at offset `mark`.
     #[cold]
     fn fixed_part(&mut self, text: &'a str, span: Span, mark: usize, form: Fixed) -> (&'a str, Span) {
-        // What stands in quotation marks is no comment.
+        // A comment mark in quotation marks is part of the value.
         let quoted = text.starts_with('"').then(|| text[1..].find('"').map(|close| close + 2)).flatten();
         let from = quoted.unwrap_or(if text.as_bytes()[mark] == b'"' { text.len() } else { mark });
         let cut = text[from..].find([';', '#']).map(|at| from + at);
@@ -79,13 +81,13 @@ impl<'a, 'd> Reader<'a, 'd> {
 
     fn comment_behind(&mut self, text: &str, cut: usize, kept: &str, rest: Span, form: Fixed) {
         let found = match (text.as_bytes()[cut], form) {
-            (b'#', _) => Some((&codes::HASH_COMMENT, "a `#` comment follows the value")),
-            (_, Fixed::Flag) => Some((&codes::TRAILING_TEXT, "more text follows the value")),
-            // `;` is what a comment line starts with, and what most readers cut a number at.
+            (b'#', _) => Some((&codes::HASH_COMMENT, "there is a `#` comment after the value")),
+            (_, Fixed::Flag) => Some((&codes::TRAILING_TEXT, "there is text after the value")),
+            // A comment line starts with `;`, and most tools end a number there.
             _ => None,
         };
         if let Some((code, message)) = found {
-            // The blanks before the comment go with it.
+            // Also marks the blanks before the comment.
             let marked = Span::new(rest.file, rest.start - (cut - kept.len()) as u32, rest.end);
             self.diagnostics
                 .push(Diagnostic::new(code, marked, message).label(format!("the value is `{kept}`")).fix(""));
@@ -96,14 +98,14 @@ impl<'a, 'd> Reader<'a, 'd> {
         }
     }
 
-    /// Moves the comments read so far to the element that they belong to.
+    /// Moves the comments that were read to the element that they belong to.
     pub(super) fn take_comments(&mut self, extensions: &mut Extensions) {
         if !self.comments.is_empty() {
             extensions.append(&mut self.comments);
         }
     }
 
-    /// A flag: 0 or 1, or a word that can only mean one of them.
+    /// Reads a flag: 0, 1, or a word with the same meaning.
     pub(super) fn flag(&mut self, entry: &Entry) -> bool {
         match self.doc.value(entry) {
             "0" | "" => return false,
@@ -128,44 +130,44 @@ impl<'a, 'd> Reader<'a, 'd> {
         let key = self.doc.key(entry);
         let read_as = if value == Some(true) { "1" } else { "0" };
         self.diagnostics.push(
-            Diagnostic::new(&codes::NOT_BOOLEAN, span, format!("{key} is `{text}`, neither 0 nor 1"))
+            Diagnostic::new(&codes::NOT_BOOLEAN, span, format!("{key} is `{text}`, expected 0 or 1"))
                 .label(format!("read as {read_as}"))
                 .fix(read_as),
         );
         value.unwrap_or(false)
     }
 
-    /// One report for all flags that are hexadecimal numbers.
+    /// Reports all flags that are hexadecimal numbers in one diagnostic.
     pub(super) fn report_hex_flags(&mut self) {
         let Some((span, count)) = self.hex_flags.take() else { return };
         let message = match count {
-            1 => "a flag is a hexadecimal number, neither 0 nor 1".to_owned(),
-            _ => format!("{count} flags are hexadecimal numbers, neither 0 nor 1"),
+            1 => "a flag is a hexadecimal number instead of 0 or 1".to_owned(),
+            _ => format!("{count} flags are hexadecimal numbers instead of 0 or 1"),
         };
-        let label = if count == 1 { "read for what it means" } else { "the first; all are read for what they mean" };
+        let label = if count == 1 { "read as its value" } else { "first of these flags; all are read as their values" };
         self.diagnostics.push(Diagnostic::new(&codes::NOT_BOOLEAN, span, message).label(label));
     }
 
-    /// A number whose spelling nobody has to be told about here, because another reading of the same entry does.
+    /// Reads a number without reporting its spelling, which another reading of the same entry reports.
     pub(super) fn peek_number(&self, entry: Option<&Entry>) -> Option<i128> {
         let text = self.doc.value(entry?);
         let text = text.split([';', '#']).next().unwrap_or("").trim().trim_matches('"');
         number::parse(text, &[]).int()
     }
 
-    /// A number of 32 bits; anything else is reported. Empty is missing.
+    /// Reads a number of 32 bits and reports any other text. Returns `None` for an empty value.
     pub(super) fn u32_of(&mut self, entry: &Entry) -> Option<u32> {
         self.unsigned(entry, u32::MAX)
     }
 
-    /// A number up to `max`; anything else is reported. Empty is missing.
+    /// Reads a number up to `max` and reports any other text. Returns `None` for an empty value.
     pub(super) fn unsigned(&mut self, entry: &Entry, max: u32) -> Option<u32> {
         let (text, span) = self.fixed(entry, Fixed::Number);
         if text.is_empty() {
             return None;
         }
         let number = number::parse(text, &[]);
-        // `001` is 1 to everybody; `018` and `010` aren't the same number to all readers.
+        // All tools read `001` as 1. They differ for `018` and `010`.
         let harmless = number.quirk == Some(number::Quirk::LeadingZero) && number::is_octal(text);
         if !harmless {
             self.converter().quirk(number, text, span);
@@ -173,13 +175,13 @@ impl<'a, 'd> Reader<'a, 'd> {
         let value = number.int().and_then(|value| u32::try_from(value).ok()).filter(|&value| value <= max);
         if value.is_none() {
             let key = self.doc.key(entry);
-            let message = format!("{key} is `{text}`, which is no number from 0 to {max}");
+            let message = format!("{key} is `{text}`, expected a number from 0 to {max}");
             self.diagnostics.push(Diagnostic::new(&codes::ILLEGAL_NUMBER, span, message).label("left out"));
         }
         value
     }
 
-    /// The index that an entry of a list names; what is none is reported. Empty is missing.
+    /// Reads the index in an entry of a list and reports any other text. Returns `None` for an empty value.
     pub(super) fn index_of(&mut self, entry: &Entry) -> Option<u16> {
         let (text, span) = self.fixed(entry, Fixed::Number);
         if text.is_empty() {
@@ -189,28 +191,28 @@ impl<'a, 'd> Reader<'a, 'd> {
         self.converter().quirk(number, text, span);
         let index = number.int().and_then(|index| u16::try_from(index).ok());
         if index.is_none() {
-            let message = format!("`{text}` is no index");
+            let message = format!("`{text}` is not an index");
             self.diagnostics.push(
                 Diagnostic::new(&codes::ILLEGAL_NUMBER, span, message)
                     .label("left out")
-                    .help("an index is 0x1000 to 0xFFFF"),
+                    .help("write an index from 0x1000 to 0xFFFF"),
             );
         }
         index
     }
 
-    /// The decimal number that a key of a list is.
+    /// Returns the decimal number in the key of a list entry.
     pub(super) fn key_number(&self, entry: &Entry) -> Option<u32> {
         let key = self.doc.key(entry);
         (key.len() <= 9 && key.bytes().all(|byte| byte.is_ascii_digit())).then(|| key.parse().ok()).flatten()
     }
 
-    /// Where the value of an entry stands, if there is one.
+    /// Returns the span of the value of an entry; an empty span if there is no entry.
     pub(super) fn span_of(&self, entry: Option<&Entry>) -> Span {
         entry.map_or(Span::default(), |entry| self.doc.value_span(entry))
     }
 
-    /// Reads a name: free text, kept whole but for one pair of quotation marks around it.
+    /// Reads a name: free text without one surrounding pair of quotation marks.
     pub(super) fn name(&mut self, entry: Option<&Entry>, name: &mut CompactString, at: &mut Span) {
         let Some(entry) = entry else { return };
         let (text, span) = (self.doc.value(entry), self.doc.value_span(entry));
@@ -218,11 +220,11 @@ impl<'a, 'd> Reader<'a, 'd> {
         *at = span;
     }
 
-    /// Keeps an entry, or a comment that says something, that the IR has no field for.
+    /// Keeps an entry that has no field in the IR, or a comment with at least one letter or digit.
     pub(super) fn extension(&mut self, entry: &Entry, extensions: &mut Extensions) {
         let (key, value, span) = (self.doc.key(entry), self.doc.value(entry), self.doc.value_span(entry));
         if self.doc.is_comment(entry) {
-            // A line of dashes says nothing.
+            // A comment that is only a line of dashes is left out.
             if value.bytes().any(|byte| byte.is_ascii_alphanumeric() || !byte.is_ascii()) {
                 extensions.push(Extension { key: COMMENT, value: value.into(), span });
             }
@@ -234,11 +236,11 @@ impl<'a, 'd> Reader<'a, 'd> {
         if let Some(earlier) = known.into_iter().find(is_twice) {
             let earlier = earlier.span;
             self.diagnostics.push(
-                repeated(self.doc.key_span(entry), key).label("both are kept").note_at(earlier, "the first is here"),
+                repeated(self.doc.key_span(entry), key).label("both are kept").note_at(earlier, "first occurrence"),
             );
         }
         if self.diagnostics.wants(&codes::UNKNOWN_KEY) {
-            let message = format!("`{key}` is no key of CiA 306");
+            let message = format!("`{key}` is not a key of CiA 306");
             self.diagnostics.push(
                 Diagnostic::new(&codes::UNKNOWN_KEY, self.doc.key_span(entry), message)
                     .label("kept as an extension attribute"),
@@ -250,7 +252,7 @@ impl<'a, 'd> Reader<'a, 'd> {
     /// Reports that the file lacks a mandatory section.
     pub(super) fn missing_section(&mut self, name: &str) {
         let file = self.doc.sections().first().map_or(Span::default(), |first| self.doc.name_span(first)).file;
-        let message = format!("there is no section [{name}]");
+        let message = format!("the section [{name}] is missing");
         self.diagnostics.push(Diagnostic::new(&codes::MISSING_SECTION, Span::new(file, 0, 0), message));
     }
 
@@ -266,7 +268,7 @@ impl<'a, 'd> Reader<'a, 'd> {
 
     pub(super) fn duplicate_key(&mut self, earlier: &Entry, later: &Entry) {
         let found = repeated(self.doc.key_span(later), self.doc.key(later)).label("this value is used");
-        self.diagnostics.push(found.note_at(self.doc.value_span(earlier), "and this one is not"));
+        self.diagnostics.push(found.note_at(self.doc.value_span(earlier), "this value is ignored"));
     }
 
     pub(super) fn duplicate_sections(&mut self, same: &[Section]) {
@@ -278,10 +280,10 @@ impl<'a, 'd> Reader<'a, 'd> {
     pub(super) fn duplicate_section(&mut self, first: &Section, later: &Section, label: &str) {
         let message = format!("section [{}] occurs twice", self.doc.name(later));
         let found = Diagnostic::new(&codes::DUPLICATE_SECTION, self.doc.name_span(later), message).label(label);
-        self.diagnostics.push(found.note_at(self.doc.name_span(first), "the first is here"));
+        self.diagnostics.push(found.note_at(self.doc.name_span(first), "first occurrence"));
     }
 
-    /// Keeps an entry of a section that has no meaning, as `section/key`.
+    /// Keeps an entry of an undefined section as `section/key`.
     pub(super) fn foreign(&mut self, section: &Section, entry: &Entry, extensions: &mut Extensions) {
         let name = self.doc.name(section);
         let key = if self.doc.is_comment(entry) { ";" } else { self.doc.key(entry) };
@@ -292,18 +294,18 @@ impl<'a, 'd> Reader<'a, 'd> {
         }
     }
 
-    /// Whether another `bytes` of text may be copied. That they may not is told once.
+    /// Returns whether another `bytes` of text may be copied. Reports only the first refusal.
     pub(super) fn may_copy(&mut self, bytes: usize, span: Span) -> bool {
         if let Some(left) = self.copies_left.checked_sub(bytes) {
             self.copies_left = left;
             return true;
         }
         if !std::mem::replace(&mut self.copies_exceeded, true) {
-            let message = "copies of the same texts would make the description many times longer";
+            let message = "copied texts would exceed the size limit of the description";
             self.diagnostics.push(
                 Diagnostic::new(&codes::INPUT_TOO_LARGE, span, message)
-                    .label("what would be copied is left out from here on")
-                    .help("shorten the name of the section, or the texts of the object with CompactSubObj"),
+                    .label("further copies are left out")
+                    .help("shorten the name of the section, or the texts of the object that has CompactSubObj"),
             );
         }
         false
@@ -313,7 +315,7 @@ impl<'a, 'd> Reader<'a, 'd> {
         self.diagnostics.push(Diagnostic::new(
             &codes::INPUT_TOO_LARGE,
             span,
-            format!("more than {} sub-indices follow from CompactSubObj", limits::MAX_DERIVED_ITEMS),
+            format!("CompactSubObj adds more than {} sub-indices", limits::MAX_DERIVED_ITEMS),
         ));
     }
 

@@ -1,8 +1,8 @@
-//! What a section is, by its name (CiA 306, "section names").
+//! Classifies sections by their names (CiA 306, "section names").
 
-/// The meaning of a section's name.
+/// Kind of a section, by its name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Kind {
+pub(super) enum SectionKind {
     FileInfo,
     DeviceInfo,
     DummyUsage,
@@ -33,7 +33,7 @@ pub(super) enum List {
     Manufacturer,
 }
 
-/// What a `[xxxx…]` section says about the sub-indices of a compact object.
+/// Kind of a `[xxxx…]` section that refines the sub-indices of a compact object.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Refinement {
     Name,
@@ -41,7 +41,7 @@ pub(super) enum Refinement {
     Denotation,
 }
 
-/// A part of a module's description.
+/// Part of the description of a module.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum ModulePart {
     Info,
@@ -53,31 +53,31 @@ pub(super) enum ModulePart {
     SubExtension(u16),
 }
 
-const NAMED: [(&str, Kind); 12] = [
-    ("FileInfo", Kind::FileInfo),
-    ("DeviceInfo", Kind::DeviceInfo),
-    ("DummyUsage", Kind::DummyUsage),
-    ("Comments", Kind::Comments),
-    ("MandatoryObjects", Kind::List(List::Mandatory)),
-    ("OptionalObjects", Kind::List(List::Optional)),
-    ("ManufacturerObjects", Kind::List(List::Manufacturer)),
-    // The standard's own spelling, and the right one.
-    ("DeviceComissioning", Kind::Commissioning),
-    ("DeviceCommissioning", Kind::Commissioning),
-    ("SupportedModules", Kind::SupportedModules),
-    ("ConnectedModules", Kind::ConnectedModules),
-    ("DynamicChannels", Kind::DynamicChannels),
+const NAMED: [(&str, SectionKind); 12] = [
+    ("FileInfo", SectionKind::FileInfo),
+    ("DeviceInfo", SectionKind::DeviceInfo),
+    ("DummyUsage", SectionKind::DummyUsage),
+    ("Comments", SectionKind::Comments),
+    ("MandatoryObjects", SectionKind::List(List::Mandatory)),
+    ("OptionalObjects", SectionKind::List(List::Optional)),
+    ("ManufacturerObjects", SectionKind::List(List::Manufacturer)),
+    // The standard misspells this name. Both spellings are accepted.
+    ("DeviceComissioning", SectionKind::Commissioning),
+    ("DeviceCommissioning", SectionKind::Commissioning),
+    ("SupportedModules", SectionKind::SupportedModules),
+    ("ConnectedModules", SectionKind::ConnectedModules),
+    ("DynamicChannels", SectionKind::DynamicChannels),
 ];
 
-impl Kind {
-    /// The name of a section that there is once; empty for all others.
+impl SectionKind {
+    /// Returns the name of a section that occurs at most once; empty for other kinds.
     pub(super) fn name(self) -> &'static str {
         NAMED.iter().find(|(_, kind)| *kind == self).map_or("", |(name, _)| name)
     }
 }
 
-/// The meaning of `name`, and whether the name keeps to the grammar.
-pub(super) fn classify(name: &str) -> (Kind, bool) {
+/// Returns the kind of the section `name`, and whether the name conforms to the grammar.
+pub(super) fn classify(name: &str) -> (SectionKind, bool) {
     if let Some(found) = classify_object(name) {
         return found;
     }
@@ -87,20 +87,20 @@ pub(super) fn classify(name: &str) -> (Kind, bool) {
     if let Some(found) = classify_module(name) {
         return found;
     }
-    (Kind::Unknown, true)
+    (SectionKind::Unknown, true)
 }
 
-fn classify_object(name: &str) -> Option<(Kind, bool)> {
+fn classify_object(name: &str) -> Option<(SectionKind, bool)> {
     let (digits, prefixed) = match name.get(..2) {
         Some("0x" | "0X") => (&name[2..], true),
         _ => (name, false),
     };
     let mut length = digits.bytes().take_while(u8::is_ascii_hexdigit).count();
-    // `De` are digits, too.
+    // `De` are hexadecimal digits, too.
     if length == 6 && digits[4..].eq_ignore_ascii_case("Denotation") {
         length = 4;
     }
-    // `[DeviceInfo]` starts with hexadecimal digits, too: only four of them make an index, or more with leading zeros.
+    // `[DeviceInfo]` also starts with hexadecimal digits. An index has four digits, or more with leading zeros.
     if length == 0 || length > 8 {
         return None;
     }
@@ -108,26 +108,26 @@ fn classify_object(name: &str) -> Option<(Kind, bool)> {
     let legal = length == 4 && !prefixed;
     let rest = &digits[length..];
     if rest.is_empty() {
-        return Some((Kind::Object(index), legal));
+        return Some((SectionKind::Object(index), legal));
     }
     let word = rest.trim_start();
     if let Some(number) = strip_prefix_ignore_case(word, "sub") {
         let number = number.trim_start();
         let sub = hex_u8(number)?;
         let canonical = number.len() == 1 || !number.starts_with('0');
-        return Some((Kind::Sub(index, sub), legal && canonical && rest.len() == 3 + number.len()));
+        return Some((SectionKind::Sub(index, sub), legal && canonical && rest.len() == 3 + number.len()));
     }
     let kind = match () {
-        _ if word.eq_ignore_ascii_case("Name") => Kind::Refinement(index, Refinement::Name),
-        _ if word.eq_ignore_ascii_case("Value") => Kind::Refinement(index, Refinement::Value),
-        _ if word.eq_ignore_ascii_case("Denotation") => Kind::Refinement(index, Refinement::Denotation),
-        _ if word.eq_ignore_ascii_case("ObjectLinks") => Kind::Links(index),
+        _ if word.eq_ignore_ascii_case("Name") => SectionKind::Refinement(index, Refinement::Name),
+        _ if word.eq_ignore_ascii_case("Value") => SectionKind::Refinement(index, Refinement::Value),
+        _ if word.eq_ignore_ascii_case("Denotation") => SectionKind::Refinement(index, Refinement::Denotation),
+        _ if word.eq_ignore_ascii_case("ObjectLinks") => SectionKind::Links(index),
         _ => return None,
     };
     Some((kind, legal && word.len() == rest.len()))
 }
 
-fn classify_module(name: &str) -> Option<(Kind, bool)> {
+fn classify_module(name: &str) -> Option<(SectionKind, bool)> {
     let rest = strip_prefix_ignore_case(name, "M")?;
     let length = rest.bytes().take_while(u8::is_ascii_digit).count();
     let number: u32 = rest.get(..length)?.parse().ok()?;
@@ -144,14 +144,14 @@ fn classify_module(name: &str) -> Option<(Kind, bool)> {
                 None => (false, strip_prefix_ignore_case(word, "Fixed")?),
             };
             match (is_extension, classify_object(object)?) {
-                (true, (Kind::Object(index), legal)) => (ModulePart::SubExtension(index), legal),
-                (false, (Kind::Object(index), legal)) => (ModulePart::FixedObject(index), legal),
-                (false, (Kind::Sub(index, sub), legal)) => (ModulePart::FixedSub(index, sub), legal),
+                (true, (SectionKind::Object(index), legal)) => (ModulePart::SubExtension(index), legal),
+                (false, (SectionKind::Object(index), legal)) => (ModulePart::FixedObject(index), legal),
+                (false, (SectionKind::Sub(index, sub), legal)) => (ModulePart::FixedSub(index, sub), legal),
                 _ => return None,
             }
         }
     };
-    Some((Kind::Module(number, part), legal && canonical))
+    Some((SectionKind::Module(number, part), legal && canonical))
 }
 
 fn hex_u8(digits: &str) -> Option<u8> {
@@ -170,34 +170,34 @@ mod tests {
 
     #[test]
     fn objects_and_their_refinements() {
-        assert_eq!(classify("1A00"), (Kind::Object(0x1A00), true));
-        assert_eq!(classify("200a"), (Kind::Object(0x200A), true));
-        assert_eq!(classify("A0"), (Kind::Object(0xA0), false));
-        assert_eq!(classify("0x2000"), (Kind::Object(0x2000), false));
+        assert_eq!(classify("1A00"), (SectionKind::Object(0x1A00), true));
+        assert_eq!(classify("200a"), (SectionKind::Object(0x200A), true));
+        assert_eq!(classify("A0"), (SectionKind::Object(0xA0), false));
+        assert_eq!(classify("0x2000"), (SectionKind::Object(0x2000), false));
         for name in ["1018sub1", "1018Sub1", "1018SUB1"] {
-            assert_eq!(classify(name), (Kind::Sub(0x1018, 1), true));
+            assert_eq!(classify(name), (SectionKind::Sub(0x1018, 1), true));
         }
-        assert_eq!(classify("2000subFF"), (Kind::Sub(0x2000, 0xFF), true));
-        assert_eq!(classify("02000"), (Kind::Object(0x2000), false));
-        assert_eq!(classify("02000sub1"), (Kind::Sub(0x2000, 1), false));
+        assert_eq!(classify("2000subFF"), (SectionKind::Sub(0x2000, 0xFF), true));
+        assert_eq!(classify("02000"), (SectionKind::Object(0x2000), false));
+        assert_eq!(classify("02000sub1"), (SectionKind::Sub(0x2000, 1), false));
         for name in ["2000sub01", "1003sub00", "2000 sub1", "A0sub1"] {
             assert!(!classify(name).1, "{name}");
         }
-        assert_eq!(classify("2000Value"), (Kind::Refinement(0x2000, Refinement::Value), true));
-        assert_eq!(classify("2000Denotation"), (Kind::Refinement(0x2000, Refinement::Denotation), true));
-        assert_eq!(classify("2000 name"), (Kind::Refinement(0x2000, Refinement::Name), false));
-        assert_eq!(classify("2000objectlinks"), (Kind::Links(0x2000), true));
+        assert_eq!(classify("2000Value"), (SectionKind::Refinement(0x2000, Refinement::Value), true));
+        assert_eq!(classify("2000Denotation"), (SectionKind::Refinement(0x2000, Refinement::Denotation), true));
+        assert_eq!(classify("2000 name"), (SectionKind::Refinement(0x2000, Refinement::Name), false));
+        assert_eq!(classify("2000objectlinks"), (SectionKind::Links(0x2000), true));
     }
 
     #[test]
     fn other_sections() {
-        assert_eq!(classify("deviceinfo"), (Kind::DeviceInfo, true));
+        assert_eq!(classify("deviceinfo"), (SectionKind::DeviceInfo, true));
         assert_eq!(classify("DeviceComissioning"), classify("DeviceCommissioning"));
-        assert_eq!(classify("M1SubExt6000"), (Kind::Module(1, ModulePart::SubExtension(0x6000)), true));
-        assert_eq!(classify("M12Fixed1A00sub1"), (Kind::Module(12, ModulePart::FixedSub(0x1A00, 1)), true));
-        assert_eq!(classify("M01ModuleInfo"), (Kind::Module(1, ModulePart::Info), false));
+        assert_eq!(classify("M1SubExt6000"), (SectionKind::Module(1, ModulePart::SubExtension(0x6000)), true));
+        assert_eq!(classify("M12Fixed1A00sub1"), (SectionKind::Module(12, ModulePart::FixedSub(0x1A00, 1)), true));
+        assert_eq!(classify("M01ModuleInfo"), (SectionKind::Module(1, ModulePart::Info), false));
         for name in ["File", "Params", "", "2000sub100", "2000subx", "20000", "M", "Mx", "MComments", "M1Fixed", "ü"] {
-            assert_eq!(classify(name).0, Kind::Unknown, "{name}");
+            assert_eq!(classify(name).0, SectionKind::Unknown, "{name}");
         }
     }
 }

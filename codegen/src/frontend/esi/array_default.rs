@@ -1,4 +1,4 @@
-//! Default and limits of a whole array that its first element has.
+//! Splits the default value and limits of a whole array that its first element declares.
 
 use std::borrow::Cow;
 use std::collections::HashMap;
@@ -9,13 +9,14 @@ use super::object::RawSub;
 use super::types::Types;
 use crate::frontend::xml::Given;
 
-/// The default or a limit of a value.
+/// Selects the default value or a limit.
 type Target<'a> = for<'i> fn(&'i mut RawInfo<'a>) -> &'i mut Option<RawValue<'a>>;
 
-/// Takes them apart: the first element keeps its parts, and the others' parts come back by their position in `entries`.
+/// Splits the values between the elements. The first element keeps its part; the other parts are returned by their
+/// position in `entries`.
 ///
-/// `of_entry` has the sub-item of the object that each entry is described by.
-pub(super) fn take_apart<'a>(
+/// `of_entry` contains the position of each entry's sub-item in the object.
+pub(super) fn split<'a>(
     types: &mut Types<'_, 'a>,
     entries: &[Entry<'_, 'a>],
     of_entry: &[Option<usize>],
@@ -23,7 +24,7 @@ pub(super) fn take_apart<'a>(
 ) -> HashMap<usize, RawInfo<'a>> {
     let mut parts: HashMap<usize, RawInfo<'a>> = HashMap::new();
     for (first, entry) in entries.iter().enumerate().filter(|(_, entry)| entry.element == Some(1)) {
-        // The other elements, of which the object says nothing.
+        // Counts the following elements that have no sub-item in the object.
         let others = entries.iter().zip(of_entry).skip(first + 1);
         let others = others.take_while(|(other, sub)| std::ptr::eq(other.field, entry.field) && sub.is_none()).count();
         let Some(sub) = of_entry.get(first).copied().flatten().and_then(|at| subs.get_mut(at)) else { continue };
@@ -43,7 +44,8 @@ pub(super) fn take_apart<'a>(
     parts
 }
 
-/// The parts of `others` further elements, of so many digits each; none if the value is not that of a whole array.
+/// Returns the parts of `others` further elements with `digits` digits each. Returns none if the value is not that of
+/// a whole array.
 fn divide<'a>(whole: &mut RawValue<'a>, others: usize, digits: usize) -> Vec<RawValue<'a>> {
     let data = without_blanks(&whole.given);
     let text = data.text.as_ref();
@@ -55,7 +57,7 @@ fn divide<'a>(whole: &mut RawValue<'a>, others: usize, digits: usize) -> Vec<Raw
     (1..=others).map(|number| RawValue { form: Form::Data, given: part(&data, number, digits) }).collect()
 }
 
-/// Data may be wrapped over lines.
+/// Returns the text without blanks. Data may be wrapped over several lines.
 fn without_blanks<'a>(given: &Given<'a>) -> Given<'a> {
     let is_blank = |letter: char| letter.is_ascii_whitespace();
     let text = match given.text.contains(is_blank) {
@@ -65,7 +67,7 @@ fn without_blanks<'a>(given: &Given<'a>) -> Given<'a> {
     Given { text, span: given.span }
 }
 
-/// A part, with a place of its own where the text is as long as its place.
+/// Returns a part of the data. It has its own span if the data is not wrapped.
 fn part<'a>(whole: &Given<'a>, number: usize, digits: usize) -> Given<'a> {
     let range = number * digits..(number + 1) * digits;
     let is_verbatim = whole.text.len() == (whole.span.end - whole.span.start) as usize;
@@ -74,6 +76,6 @@ fn part<'a>(whole: &Given<'a>, number: usize, digits: usize) -> Given<'a> {
         Cow::Borrowed(text) => Cow::Borrowed(&text[range]),
         Cow::Owned(text) => Cow::Owned(text[range].to_owned()),
     };
-    let own = crate::source::Span { start, end: start + digits as u32, ..whole.span };
-    Given { text, span: if is_verbatim { own } else { whole.span } }
+    let part = crate::source::Span { start, end: start + digits as u32, ..whole.span };
+    Given { text, span: if is_verbatim { part } else { whole.span } }
 }

@@ -1,18 +1,18 @@
-//! What short references may add to a description: data types to objects, a vendor to devices, files to devices.
+//! Limits for copies that short references cause: data types in objects, vendors and files in devices.
 
 use crate::limits;
 
-/// What may still be added.
+/// Remaining number of items and bytes that may be added.
 #[derive(Debug)]
 pub(super) struct Budget {
-    /// Items that no element of their own describes.
+    /// Items that have no element in the file.
     items: usize,
     /// Bytes of text that are copied into items.
     bytes: usize,
     pub exceeded: bool,
 }
 
-/// What an addition costs.
+/// Cost of an addition.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Cost {
     pub items: usize,
@@ -21,14 +21,14 @@ pub(super) struct Cost {
 }
 
 impl Cost {
-    /// Of text alone.
+    /// Returns the cost of text without items.
     pub fn text(bytes: usize) -> Self {
         Cost { items: 0, bytes }
     }
 }
 
 impl Budget {
-    /// For a file of so many bytes.
+    /// Creates the budget for a file of `length` bytes.
     pub fn new(length: usize) -> Self {
         Budget {
             items: limits::MAX_DERIVED_ITEMS,
@@ -37,12 +37,12 @@ impl Budget {
         }
     }
 
-    /// Adds what a further file of so many bytes allows.
+    /// Extends the budget for a further file of `length` bytes.
     pub fn extend(&mut self, length: usize) {
         self.bytes = self.bytes.saturating_add(length.saturating_mul(limits::MAX_COPIES_PER_BYTE));
     }
 
-    /// Whether so much may still be added.
+    /// Returns whether the cost is within the budget, and subtracts it.
     pub fn take(&mut self, cost: Cost) -> bool {
         match (self.items.checked_sub(cost.items), self.bytes.checked_sub(cost.bytes)) {
             (Some(items), Some(bytes)) if !self.exceeded => {

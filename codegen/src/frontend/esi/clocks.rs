@@ -1,4 +1,4 @@
-//! Distributed clocks.
+//! Reads distributed clocks.
 
 use super::reader::Reader;
 use crate::frontend::xml::Read;
@@ -26,7 +26,7 @@ fn mode<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>) -> Read<ClockMode> {
             "Name" => mode.name = reader.text(&tag)?.compact(),
             "Desc" => mode.description = reader.text(&tag)?.compact(),
             "AssignActivate" => {
-                mode.assign_activate = reader.number(&tag, "value of a register")?.unwrap_or(0);
+                mode.assign_activate = reader.number(&tag, "register value")?.unwrap_or(0);
             }
             "CycleTimeSync0" => mode.cycle_sync0 = time(reader, &tag)?,
             "ShiftTimeSync0" => mode.shift_sync0 = time(reader, &tag)?,
@@ -52,11 +52,11 @@ fn time<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>) -> Read<ClockTime> {
 
 fn sync_manager<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>) -> Read<ClockSyncManager> {
     let [number] = reader.attributes(parent, ["No"])?;
-    let number = reader.int(&number, "number of a sync manager").unwrap_or(0);
+    let number = reader.int(&number, "sync manager number").unwrap_or(0);
     let mut manager = ClockSyncManager { number, ..ClockSyncManager::default() };
     while let Some(tag) = reader.child(parent)? {
         match tag.name {
-            "SyncType" => manager.sync_type = reader.number(&tag, "synchronisation type")?,
+            "SyncType" => manager.sync_type = reader.number(&tag, "synchronization type")?,
             "Pdo" => {
                 let [factor] = reader.attributes(&tag, ["OSFac"])?;
                 let factor = reader.int(&factor, "oversampling factor");

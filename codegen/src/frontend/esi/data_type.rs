@@ -1,4 +1,4 @@
-//! Data types as written, not yet resolved.
+//! Data types as written, before references are resolved.
 
 use compact_str::format_compact;
 
@@ -12,7 +12,7 @@ use crate::source::Origin;
 use crate::syntax::xml::Tag;
 use crate::text::brief;
 
-/// A DataType.
+/// A DataType element.
 #[derive(Default)]
 pub(super) struct RawType<'a> {
     pub name: Given<'a>,
@@ -27,7 +27,7 @@ pub(super) struct RawType<'a> {
     pub origin: Origin,
 }
 
-/// An ArrayInfo.
+/// An ArrayInfo element.
 #[derive(Default)]
 pub(super) struct Dimension {
     pub lower: i32,
@@ -35,7 +35,7 @@ pub(super) struct Dimension {
     pub origin: Origin,
 }
 
-/// A SubItem of a DataType.
+/// A SubItem element of a DataType.
 #[derive(Default)]
 pub(super) struct RawField<'a> {
     pub sub_index: Option<u16>,
@@ -47,7 +47,7 @@ pub(super) struct RawField<'a> {
     pub info: RawInfo<'a>,
     pub comment: Names<'a>,
     pub origin: Origin,
-    /// Bytes of text that every item made from it copies.
+    /// Bytes of text that are copied to each item of this sub-item.
     pub weight: usize,
 }
 
@@ -58,13 +58,13 @@ pub(super) fn read<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, raw: &mut 
     while let Some(tag) = reader.child(parent)? {
         match tag.name {
             "Name" => raw.name = reader.text(&tag)?,
-            "Index" => raw.code = reader.number(&tag, "number of a data type")?,
+            "Index" => raw.code = reader.number(&tag, "data type number")?,
             "BaseType" => raw.base = reader.text(&tag)?,
             "BitSize" => raw.bits = reader.number(&tag, "size in bits")?,
             "Comment" => reader.name(&tag, &mut raw.comment)?,
             "ArrayInfo" => raw.dimensions.push(dimension(reader, &tag)?),
             "SubItem" => {
-                // Filled in place: it is too large to be moved.
+                // The field is filled in place because it is large.
                 raw.fields.push(RawField::default());
                 if let Some(last) = raw.fields.last_mut() {
                     field(reader, &tag, last)?;
@@ -76,7 +76,7 @@ pub(super) fn read<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, raw: &mut 
             _ => reader.unknown(&tag)?,
         }
     }
-    // Those of a dictionary are told apart by the types that they are about.
+    // Extensions of a dictionary have the name of their data type as a prefix.
     for extension in reader.extensions.iter_mut().skip(start) {
         extension.key = format_compact!("{}/{}", brief(&raw.name.text), extension.key);
     }
@@ -115,20 +115,20 @@ fn field<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, raw: &mut RawField<'
     Ok(())
 }
 
-/// Reads a value of an enumeration: EnumInfo, or one of the lists of a diagnosis.
+/// Reads a value of an enumeration: EnumInfo, or an entry of a diagnosis list.
 pub(super) fn enum_value<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>) -> Read<Option<EnumValue>> {
     let (mut names, mut comment) = (Names::default(), Names::default());
     let mut value = None;
     while let Some(tag) = reader.child(parent)? {
         match tag.name {
             "Text" => reader.name(&tag, &mut names)?,
-            "Enum" => value = reader.number::<i128>(&tag, "value of an enumeration")?,
+            "Enum" => value = reader.number::<i128>(&tag, "enumeration value")?,
             "Comment" => reader.name(&tag, &mut comment)?,
             _ => reader.unknown(&tag)?,
         }
     }
     let Some(value) = value else {
-        reader.report(&codes::ESI_VALUE, parent.span, "this value of an enumeration has no number", "left out");
+        reader.report(&codes::ESI_VALUE, parent.span, "this enumeration value has no number", "left out");
         return Ok(None);
     };
     let (name, names, documentation) = (names.name(), names.others(), comment.documentation());

@@ -1,4 +1,4 @@
-//! What was read of a description, and what it leaves to other files.
+//! Contents of a description, and its references to other files.
 
 use std::collections::HashSet;
 
@@ -6,27 +6,27 @@ use crate::frontend::xml::Given;
 use crate::ir::{Catalog, CodeTable, PdoEntry};
 use crate::source::Span;
 
-/// What was read, and the files that it refers to.
+/// Contents of a description, and the files that it refers to.
 #[derive(Default)]
 pub(super) struct Description {
     pub catalog: Catalog,
     pub references: Vec<(Owner, Reference)>,
-    /// Types of entries that may be in those files.
+    /// Types of entries that may be in the referenced files.
     pub entry_types: Vec<(Owner, EntryType)>,
-    /// Those to whom such a file was not copied.
+    /// Devices and modules to which a referenced file was not copied.
     pub refused: HashSet<Owner>,
 }
 
 impl Description {
-    /// Notes what a device or module leaves to other files.
-    pub fn leave(&mut self, owner: Owner, elsewhere: Elsewhere) {
-        self.references.extend(elsewhere.files.into_iter().map(|file| (owner, file)));
-        self.catalog.code_tables.extend(elsewhere.messages);
-        self.entry_types.extend(elsewhere.types.into_iter().map(|ty| (owner, ty)));
+    /// Adds the unresolved references of a device or module.
+    pub fn add_other_files(&mut self, owner: Owner, other_files: OtherFiles) {
+        self.references.extend(other_files.files.into_iter().map(|file| (owner, file)));
+        self.catalog.code_tables.extend(other_files.messages);
+        self.entry_types.extend(other_files.types.into_iter().map(|ty| (owner, ty)));
     }
 }
 
-/// What a file is expected to contain.
+/// Expected content of a referenced file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(super) enum Target {
     /// Devices or modules (InfoReference).
@@ -37,7 +37,7 @@ pub(super) enum Target {
     Diagnosis,
 }
 
-/// To what the content of a file belongs.
+/// Element to which the content of a file belongs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(super) enum Owner {
     Catalog,
@@ -59,16 +59,16 @@ impl Reference {
     }
 }
 
-/// What a device or module leaves to other files.
+/// References of a device or module to other files.
 #[derive(Default)]
-pub(super) struct Elsewhere {
+pub(super) struct OtherFiles {
     pub files: Vec<Reference>,
     pub types: Vec<EntryType>,
-    /// Messages of a module, which are those of all.
+    /// Messages of a module. They apply to all modules.
     pub messages: Vec<CodeTable>,
 }
 
-/// The type of an entry of a PDO that the dictionary of its device does not have.
+/// Type of a PDO entry that is missing in the dictionary of the device.
 #[derive(Debug)]
 pub(super) struct EntryType {
     /// Span of the entry.

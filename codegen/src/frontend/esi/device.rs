@@ -1,6 +1,6 @@
-//! Devices.
+//! Reads devices.
 
-use super::description::Elsewhere;
+use super::description::OtherFiles;
 use super::lower::lower;
 use super::pdos::Pdos;
 use super::profile::Profiles;
@@ -11,7 +11,7 @@ use crate::frontend::xml::{Given, Read};
 use crate::ir::{Device, EtherCatSettings, SyncManager};
 use crate::syntax::xml::Tag;
 
-/// What is collected of a device until its end.
+/// Facts of a device that are collected until its end.
 #[derive(Default)]
 struct Parts<'a> {
     device: Device,
@@ -25,7 +25,7 @@ struct Parts<'a> {
 }
 
 /// Reads a Device, and the files that it refers to.
-pub(super) fn read<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>) -> Read<(Device, Elsewhere)> {
+pub(super) fn read<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>) -> Read<(Device, OtherFiles)> {
     let (mut parts, start) = (Parts::default(), reader.extensions.len());
     parts.device.origin = reader.origin(parent);
     let fields = reader.attributes(parent, ["Physics", "Invisible"])?;
@@ -36,7 +36,12 @@ pub(super) fn read<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>) -> Read<(D
         child(reader, &tag, &mut parts)?;
     }
     if !parts.has_type {
-        reader.report(&codes::MISSING_IDENTITY, parent.span, "this device has no Type", "it has no product code");
+        reader.report(
+            &codes::MISSING_IDENTITY,
+            parent.span,
+            "this device has no Type",
+            "the device has no product code",
+        );
     }
     parts.device.extensions = reader.extensions_since(start);
     Ok(finish(reader, parts))
@@ -84,7 +89,7 @@ fn device_type<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, device: &mut Devi
     identity.serial_number = reader.int(serial, "serial number");
     if product.is_empty() {
         let message = "this device has no product code";
-        reader.report(&codes::MISSING_IDENTITY, tag.span, message, "a master can't tell it from others");
+        reader.report(&codes::MISSING_IDENTITY, tag.span, message, "a master cannot identify the device");
     }
     let given = reader.content()?;
     identity.order_code = given.compact();
@@ -103,7 +108,7 @@ fn hide<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, settings: &mut EtherCatS
     Ok(())
 }
 
-fn finish(reader: &mut Reader<'_, '_>, parts: Parts<'_>) -> (Device, Elsewhere) {
+fn finish(reader: &mut Reader<'_, '_>, parts: Parts<'_>) -> (Device, OtherFiles) {
     let Parts { mut device, settings, names, comment, managers, pdos, mut profiles, .. } = parts;
     (device.name, device.names) = (names.name(), names.others());
     device.identity.product_name = device.name.clone();
@@ -111,8 +116,8 @@ fn finish(reader: &mut Reader<'_, '_>, parts: Parts<'_>) -> (Device, Elsewhere) 
     device.process_data.sync_managers = sync::settle(reader, managers, &pdos.list);
     device.profiles = profiles.numbers;
     device.code_tables = profiles.code_tables;
-    let lowered = lower(reader, profiles.dictionary, pdos, &mut device.process_data, &mut profiles.elsewhere);
+    let lowered = lower(reader, profiles.dictionary, pdos, &mut device.process_data, &mut profiles.other_files);
     (device.types, device.groups) = lowered;
     device.ethercat = Some(Box::new(settings));
-    (device, profiles.elsewhere)
+    (device, profiles.other_files)
 }

@@ -1,4 +1,4 @@
-//! What Info says of a device: time limits, ports, electrical data.
+//! Reads Info of a device: time limits, ports, electrical data.
 
 use super::reader::Reader;
 use crate::frontend::xml::Read;

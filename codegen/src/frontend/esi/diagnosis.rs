@@ -1,4 +1,4 @@
-//! Diagnosis messages.
+//! Reads diagnosis messages.
 
 use std::collections::{BTreeSet, HashMap};
 
@@ -13,10 +13,10 @@ use crate::ir::{Buses, CodeRow, CodeTable, Documentation, LocalText, SharedList,
 use crate::source::Span;
 use crate::syntax::xml::Tag;
 
-/// The flags of a message, in the order of the columns.
+/// Flags of a message, in the order of the columns.
 const COLUMNS: [&str; 4] = ["DiagClass", "DiagReset", "DiagReaction", "DiagType"];
 
-/// Reads DiagMessages: a table of the messages, and one of each list of numbers that their flags use.
+/// Reads DiagMessages: a table of the messages, and a table for each list of numbers that their flags use.
 pub(super) fn read<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>) -> Read<Vec<CodeTable>> {
     let origin = reader.origin(parent);
     let table = |name: &'static str, columns: &[&'static str]| CodeTable {
@@ -60,8 +60,7 @@ fn message<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>) -> Read<Option<Cod
         match tag.name {
             "TextId" => {
                 let given = reader.text(&tag)?;
-                number =
-                    reader.int::<i128>(&given, "number of a message").map(|code| (code, printed(&given.text, code)));
+                number = reader.int::<i128>(&given, "message number").map(|code| (code, printed(&given.text, code)));
             }
             "MessageText" => reader.name(&tag, &mut names)?,
             "Description" => paragraph(reader, &tag, &mut descriptions, 0)?,
@@ -91,7 +90,7 @@ fn message<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>) -> Read<Option<Cod
     Ok(Some(CodeRow { printed, printed_cells, code, last, name, names, availability, documentation, cells }))
 }
 
-/// A hexadecimal code (`#x8000`) in the notation of all outputs; empty for a decimal one.
+/// Returns a hexadecimal code (`#x8000`) in the notation of all outputs; empty for a decimal code.
 fn printed(text: &str, code: i128) -> CompactString {
     match text.trim_start().starts_with('#') {
         true => format!("0x{code:04X}").into(),
@@ -99,14 +98,14 @@ fn printed(text: &str, code: i128) -> CompactString {
     }
 }
 
-/// Behind how many other elements a text in another language still stands.
+/// Number of previous elements in which a text in another language is searched.
 const NEIGHBOURS: usize = 16;
 
-/// A title, and the text in the languages of the source.
+/// A title, and its text in the languages of the file.
 type Paragraph<'a> = (&'a str, Names<'a>);
 
 fn cause<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, paragraphs: &mut Vec<Paragraph<'a>>) -> Read<()> {
-    // The number of a cause only tells it from the others.
+    // The number of a cause has no meaning.
     reader.attributes(parent, ["Idx"])?;
     let first = paragraphs.len();
     while let Some(tag) = reader.child(parent)? {
@@ -126,17 +125,17 @@ fn paragraph<'a>(
 ) -> Read<()> {
     let mut names = Names::default();
     reader.name(tag, &mut names)?;
-    // Elements of one name are one text in several languages.
-    let is_other = |(title, own): &&mut Paragraph<'_>| *title == tag.name && !own.shares_language(&names);
+    // Several elements with the same name are one text in several languages.
+    let is_other = |(title, texts): &&mut Paragraph<'_>| *title == tag.name && !texts.shares_language(&names);
     let first = first.max(paragraphs.len().saturating_sub(NEIGHBOURS));
     match paragraphs.iter_mut().skip(first).find(is_other) {
-        Some((_, own)) => own.append(names),
+        Some((_, texts)) => texts.append(names),
         None => paragraphs.push((tag.name, names)),
     }
     Ok(())
 }
 
-/// The paragraphs as one text, and that in the other languages that any of them has.
+/// Joins the paragraphs into one text, and into one text for each other language.
 fn documentation(
     reader: &mut Reader<'_, '_>,
     paragraphs: &[Paragraph<'_>],
@@ -155,14 +154,15 @@ fn documentation(
     let others: Vec<_> = paragraphs.iter().map(|(_, names)| names.others()).collect();
     let languages: BTreeSet<&CompactString> = others.iter().flatten().map(|other| &other.language).collect();
     let by_language = |(_, names): &Paragraph<'_>| -> HashMap<CompactString, CompactString> {
-        names.all().map(|own| (own.language, own.text)).collect()
+        names.all().map(|local| (local.language, local.text)).collect()
     };
     let texts: Vec<_> = paragraphs.iter().map(by_language).collect();
-    // What a language doesn't have is in each of them.
+    // A paragraph without a translation is copied to each language.
     let affordable = reader.derive(Cost::text(languages.len().saturating_mul(text.len())), message);
     let in_language = |language: &CompactString| {
-        let own = texts.iter().zip(&main).map(|(own, main)| own.get(language).unwrap_or(main).clone());
-        LocalText { language: language.clone(), text: join(&own.collect::<Vec<_>>()).into() }
+        let paragraphs =
+            texts.iter().zip(&main).map(|(translations, main)| translations.get(language).unwrap_or(main).clone());
+        LocalText { language: language.clone(), text: join(&paragraphs.collect::<Vec<_>>()).into() }
     };
     let translations = languages.into_iter().filter(|_| affordable).map(in_language).collect();
     (!text.is_empty()).then(|| Box::new(Documentation { text, translations, ..Documentation::default() }))

@@ -9,19 +9,19 @@ use crate::ir::CompactString;
 use crate::source::Span;
 use crate::syntax::xml::Tag;
 
-/// What the dictionaries of one device or module say; data types may follow the objects that name them.
+/// Contents of the dictionaries of a device or module. Data types may be after the objects that use them.
 #[derive(Default)]
 pub(super) struct Dictionary<'a> {
     pub types: Vec<RawType<'a>>,
     pub objects: Vec<RawObject<'a>>,
     /// The sub-items of all objects.
     pub subs: Vec<RawSub<'a>>,
-    /// Symbols of units that it defines, by notation index.
+    /// Symbols of units that the dictionary defines, by notation index.
     pub units: Vec<(u32, CompactString)>,
 }
 
 impl<'a> Dictionary<'a> {
-    /// Reads a Dictionary, and adds it to what was read before.
+    /// Reads a Dictionary element and adds its contents.
     pub fn read(&mut self, reader: &mut Reader<'a, '_>, parent: &Tag<'a>) -> Read<()> {
         while let Some(list) = reader.child(parent)? {
             match list.name {

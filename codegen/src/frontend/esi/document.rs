@@ -1,7 +1,7 @@
-//! One file.
+//! Reads a file.
 
 use super::budget::Budget;
-use super::description::{Description, Elsewhere};
+use super::description::{Description, OtherFiles};
 use super::dictionary::Dictionary;
 use super::lower::lower;
 use super::pdos::Pdos;
@@ -16,7 +16,7 @@ use crate::source::{FileId, Source};
 use crate::syntax::xml::{Cursor, Tag};
 use crate::text::brief;
 
-/// Reads one file.
+/// Reads a file.
 pub(super) fn document(
     source: &Source,
     file: FileId,
@@ -37,7 +37,7 @@ pub(super) fn document(
         "EtherCATDict" => dictionary_only(&mut reader, &root, description)?,
         "EtherCATDiag" => messages_only(&mut reader, &root, description)?,
         name => {
-            let message = format!("<{}> is no root of a description of ETG.2000", brief(name));
+            let message = format!("<{}> is not the root element of an ESI file", brief(name));
             return Err(Box::new(Diagnostic::new(&codes::UNKNOWN_FORMAT, root.name_span(), message)));
         }
     }
@@ -46,7 +46,7 @@ pub(super) fn document(
     Ok(())
 }
 
-/// Whatever follows the root element is left out.
+/// Reports and ignores content after the root element.
 fn after_root(reader: &mut Reader<'_, '_>) {
     loop {
         match reader.cursor.read() {
@@ -54,15 +54,15 @@ fn after_root(reader: &mut Reader<'_, '_>) {
             Ok(None) => return,
             Err(error) => {
                 let found = error.into_diagnostic();
-                let message = format!("something follows the root element: {}", found.message);
-                reader.report(&codes::SECOND_ROOT, found.span, message, "left out from here on");
+                let message = format!("there is content after the root element: {}", found.message);
+                reader.report(&codes::SECOND_ROOT, found.span, message, "ignored from here on");
                 return;
             }
         }
     }
 }
 
-/// A dictionary without a device.
+/// Reads a dictionary without a device.
 fn dictionary_only<'a>(reader: &mut Reader<'a, '_>, root: &Tag<'a>, description: &mut Description) -> Read<()> {
     let origin = reader.origin(root);
     let mut device = Device { dictionary_only: true, origin, ..Device::default() };
@@ -71,14 +71,14 @@ fn dictionary_only<'a>(reader: &mut Reader<'a, '_>, root: &Tag<'a>, description:
     let mut dictionary = Dictionary::default();
     reader.each(root, "Dictionary", |reader, tag| dictionary.read(reader, tag))?;
     device.extensions = reader.extensions_since(0);
-    let lowered = lower(reader, dictionary, Pdos::default(), &mut device.process_data, &mut Elsewhere::default());
+    let lowered = lower(reader, dictionary, Pdos::default(), &mut device.process_data, &mut OtherFiles::default());
     (device.types, device.groups) = lowered;
     device.ethercat = Some(Box::default());
     description.catalog.devices.push(device);
     Ok(())
 }
 
-/// Diagnosis messages without a device.
+/// Reads diagnosis messages without a device.
 fn messages_only<'a>(reader: &mut Reader<'a, '_>, root: &Tag<'a>, description: &mut Description) -> Read<()> {
     let [version] = reader.attributes(root, ["Version"])?;
     reader.note("EtherCATDiag@Version", &version);

@@ -1,4 +1,4 @@
-//! Content of the EEPROM, and registers of the slave controller.
+//! Reads the contents of the EEPROM, and registers of the slave controller.
 
 use super::reader::Reader;
 use crate::frontend::xml::Read;
@@ -28,22 +28,22 @@ fn octets<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>) -> Read<Vec<u8>> {
     Ok(reader.octets(&given).unwrap_or_default())
 }
 
-/// A category: its number, and its content as bytes, text or number.
+/// Reads a category: its number, and its content as bytes, text or number.
 fn category<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>) -> Read<Option<(u16, Vec<u8>)>> {
     let [preserve] = reader.attributes(parent, ["PreserveOnlineData"])?;
     reader.note("Category@PreserveOnlineData", &preserve);
     let (mut number, mut data) = (None, Vec::new());
     while let Some(tag) = reader.child(parent)? {
         match tag.name {
-            "CatNo" => number = reader.number(&tag, "number of a category")?,
+            "CatNo" => number = reader.number(&tag, "category number")?,
             "Data" => data = octets(reader, &tag)?,
             "DataString" => data = reader.text(&tag)?.text.as_bytes().to_vec(),
             "DataUINT" => {
-                let value = reader.number::<u16>(&tag, "number of 16 bits")?;
+                let value = reader.number::<u16>(&tag, "16-bit number")?;
                 data = value.unwrap_or(0).to_le_bytes().to_vec();
             }
             "DataUDINT" => {
-                let value = reader.number::<u32>(&tag, "number of 32 bits")?;
+                let value = reader.number::<u32>(&tag, "32-bit number")?;
                 data = value.unwrap_or(0).to_le_bytes().to_vec();
             }
             _ => reader.unknown(&tag)?,
@@ -52,7 +52,7 @@ fn category<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>) -> Read<Option<(u
     Ok(number.map(|number| (number, data)))
 }
 
-/// Reads ESC: registers are called `Reg0108`, by their address.
+/// Reads ESC. The elements are named after register addresses, such as `Reg0108`.
 pub(super) fn registers<'a>(
     reader: &mut Reader<'a, '_>,
     parent: &Tag<'a>,
@@ -62,7 +62,7 @@ pub(super) fn registers<'a>(
         let address = tag.name.strip_prefix("Reg").filter(|digits| digits.len() == 4);
         match address.and_then(|digits| u16::from_str_radix(digits, 16).ok()) {
             Some(address) => {
-                let value = reader.number(&tag, "value of a register")?;
+                let value = reader.number(&tag, "register value")?;
                 settings.registers.extend(value.map(|value| (address, value)));
             }
             None if tag.name == "VendorSpecific" => reader.vendor_specific(&tag)?,

@@ -1,4 +1,4 @@
-//! The entries of an object: what its data type has, and which sub-item of the object belongs to which entry.
+//! Entries of an object: the values that its data type defines, and their sub-items in the object.
 
 use std::collections::HashMap;
 
@@ -10,22 +10,22 @@ use crate::diagnostics::{codes, Diagnostic};
 use crate::ir::Type;
 use crate::text::brief;
 
-/// Sub-indices that an object has room for, 0 included.
+/// Number of sub-indices of an object, including 0.
 const SUB_INDICES: u32 = 256;
 
-/// How many sub-indices that occur twice are told of one object.
-const MAX_TOLD: usize = 16;
+/// Maximum number of diagnostics about repeated sub-indices of an object.
+const MAX_REPORTED: usize = 16;
 
-/// A value of an object, as its data type describes it.
+/// A value of an object, as its data type defines it.
 pub(super) struct Entry<'t, 'a> {
     pub sub_index: u8,
     pub ty: Type,
     pub field: &'t RawField<'a>,
-    /// The number of the element, where the field is an array.
+    /// Number of the element if the field is an array.
     pub element: Option<u32>,
 }
 
-/// The entries of an object, each element of an array by itself, sorted by sub-index.
+/// Returns the entries of an object, sorted by sub-index. Each element of an array is an entry.
 pub(super) fn of_object<'t, 'a>(
     reader: &mut Reader<'_, '_>,
     types: &Types<'_, 'a>,
@@ -34,21 +34,22 @@ pub(super) fn of_object<'t, 'a>(
     record: &'t RawType<'a>,
 ) -> Vec<Entry<'t, 'a>> {
     let mut entries: Vec<Entry<'t, 'a>> = Vec::with_capacity(record.fields.len());
-    let (mut next, mut is_told) = (0u32, false);
+    let (mut next, mut is_reported) = (0u32, false);
     for (position, field) in record.fields.iter().enumerate() {
         let field_type = types.field(ty, position);
         let following = record.fields.get(position + 1).and_then(|field| field.sub_index);
         let (first, mut count, mut element) = span_of(types, field, field_type, next, following);
         if count > 1 && first.saturating_add(count) > SUB_INDICES {
-            let message = format!("there is no room for the {count} elements of `{}`", brief(&field.name.text));
-            reader.report(&codes::SUB_INDEX_RANGE, raw.origin.span, message, "kept as one value, an array");
+            let message = format!("the {count} elements of `{}` exceed the 255 sub-indices", brief(&field.name.text));
+            reader.report(&codes::SUB_INDEX_RANGE, raw.origin.span, message, "kept as a single array value");
             (count, element) = (1, field_type);
         }
         for number in 0..count {
             let Some(sub_index) = first.checked_add(number).and_then(|sub| u8::try_from(sub).ok()) else {
-                // A type may have any number of them, and any number of objects.
-                if !std::mem::replace(&mut is_told, true) {
-                    let message = "an object has at most 255 sub-indices besides 0";
+                // Only the first such field is reported, because a type may have many and may be used by many
+                // objects.
+                if !std::mem::replace(&mut is_reported, true) {
+                    let message = "an object has at most 255 sub-indices after sub-index 0";
                     reader.report(&codes::SUB_INDEX_RANGE, field.origin.span, message, "left out");
                 }
                 break;
@@ -61,7 +62,7 @@ pub(super) fn of_object<'t, 'a>(
     sorted(reader, raw, entries)
 }
 
-/// The first sub-index of a field, the number of its sub-indices, and their type.
+/// Returns the first sub-index of a field, the number of its sub-indices, and their type.
 fn span_of(
     types: &Types<'_, '_>,
     field: &RawField<'_>,
@@ -73,7 +74,7 @@ fn span_of(
     let given = field.sub_index.map(u32::from);
     let Some((element, lower, count)) = types.elements(ty) else { return single(given.unwrap_or(next)) };
     let first = given.unwrap_or_else(|| u32::try_from(lower).unwrap_or(0).max(next));
-    // A type of the tables that is called an array is one value, and so is one that leaves no room for its elements.
+    // An array type of ETG.1000.6 is a single value. So is an array whose elements would overlap the next field.
     let room = following.is_none_or(|following| u32::from(following) >= first.saturating_add(count));
     if field.ty.text.starts_with("ARRAY") || !room {
         return single(first);
@@ -90,17 +91,17 @@ fn sorted<'t, 'a>(
         return entries;
     }
     entries.sort_by_key(|entry| entry.sub_index);
-    let mut told = 0;
+    let mut reported = 0;
     entries.dedup_by(|later, earlier| {
         let twice = later.sub_index == earlier.sub_index;
-        told += usize::from(twice);
-        if twice && told <= MAX_TOLD {
+        reported += usize::from(twice);
+        if twice && reported <= MAX_REPORTED {
             let message = format!("sub-index 0x{:02X} occurs twice", later.sub_index);
             reader.diagnostics.push(
                 Diagnostic::new(&codes::ESI_DUPLICATE_OBJECT, later.field.origin.span, message)
-                    .label("left out")
-                    .note_at(earlier.field.origin.span, "this one is used")
-                    .note_at(raw.origin.span, "of this object"),
+                    .label("ignored")
+                    .note_at(earlier.field.origin.span, "this sub-item is used")
+                    .note_at(raw.origin.span, "object with this data type"),
             );
         }
         twice
@@ -108,19 +109,19 @@ fn sorted<'t, 'a>(
     entries
 }
 
-/// Which sub-item of an object belongs to which entry of its data type.
+/// Assignment of the sub-items of an object to the entries of its data type.
 pub(super) struct Matched {
-    /// The sub-item of each entry.
+    /// Sub-item of each entry.
     pub of_entry: Vec<Option<usize>>,
-    /// Sub-items that belong to none.
+    /// Sub-items without an entry.
     pub extra: Vec<usize>,
 }
 
-/// Matches by name if the names are those of the type and the type has each only once. Matches by position otherwise.
+/// Matches sub-items by name if all names occur in the type and are unique there. Otherwise matches them by position.
 pub(super) fn match_up(reader: &mut Reader<'_, '_>, entries: &[Entry<'_, '_>], subs: &[RawSub<'_>]) -> Matched {
     let mut matched = Matched { of_entry: vec![None; entries.len()], extra: Vec::new() };
     let named = |entry: &Entry<'_, '_>, sub: &RawSub<'_>| sub.name.text == entry.field.name.text;
-    // Elements of an array have no names of their own in the type.
+    // Elements of an array have no names in the data type.
     let fits = |(entry, sub): (&Entry<'_, '_>, &RawSub<'_>)| entry.element.is_some() || named(entry, sub);
     if entries.iter().zip(subs).all(fits) && subs.len() <= entries.len() {
         (0..subs.len()).zip(&mut matched.of_entry).for_each(|(at, place)| *place = Some(at));
@@ -133,7 +134,7 @@ pub(super) fn match_up(reader: &mut Reader<'_, '_>, entries: &[Entry<'_, '_>], s
         by_name.entry(entry.field.name.text.as_ref()).or_insert(at);
     }
     if by_name.len() < singles.len() && subs.len() == entries.len() {
-        // A repeated name matches several positions.
+        // With a repeated name, several positions are possible.
         return by_position(reader, entries, subs);
     }
     let mut next = 0;
@@ -157,13 +158,13 @@ pub(super) fn match_up(reader: &mut Reader<'_, '_>, entries: &[Entry<'_, '_>], s
     matched
 }
 
-/// Each sub-item of the object belongs to the entry at the same position.
+/// Matches each sub-item of the object with the entry at the same position.
 fn by_position(reader: &mut Reader<'_, '_>, entries: &[Entry<'_, '_>], subs: &[RawSub<'_>]) -> Matched {
     for (entry, sub) in entries.iter().zip(subs) {
         let (name, of_type) = (&sub.name.text, &entry.field.name.text);
         if entry.element.is_none() && name != of_type {
-            let message = format!("`{}` is called `{}` in the data type", brief(name), brief(of_type));
-            let label = format!("read as sub-index 0x{:02X}: the data type has a name twice", entry.sub_index);
+            let message = format!("the sub-item `{}` has the name `{}` in the data type", brief(name), brief(of_type));
+            let label = format!("read as sub-index 0x{:02X} because the data type repeats a name", entry.sub_index);
             mismatch(reader, entry, sub, message, label);
         }
     }
@@ -171,8 +172,8 @@ fn by_position(reader: &mut Reader<'_, '_>, entries: &[Entry<'_, '_>], subs: &[R
 }
 
 fn by_place_only(reader: &mut Reader<'_, '_>, entry: &Entry<'_, '_>, sub: &RawSub<'_>) {
-    let message = format!("the data type has no sub-item called `{}`", brief(&sub.name.text));
-    let label = format!("read as sub-index 0x{:02X}, by its position", entry.sub_index);
+    let message = format!("the data type has no sub-item `{}`", brief(&sub.name.text));
+    let label = format!("read as sub-index 0x{:02X} because of its position", entry.sub_index);
     mismatch(reader, entry, sub, message, label);
 }
 
@@ -180,6 +181,6 @@ fn mismatch(reader: &mut Reader<'_, '_>, entry: &Entry<'_, '_>, sub: &RawSub<'_>
     reader.diagnostics.push(
         Diagnostic::new(&codes::SUB_ITEM_MISMATCH, sub.name.span.or(sub.origin.span), message)
             .label(label)
-            .note_at(entry.field.name.span.or(entry.field.origin.span), "the sub-item of the data type"),
+            .note_at(entry.field.name.span.or(entry.field.origin.span), "sub-item of the data type"),
     );
 }

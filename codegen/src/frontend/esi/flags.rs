@@ -8,10 +8,10 @@ use crate::source::Span;
 use crate::syntax::xml::Tag;
 use crate::text::brief;
 
-/// What the element Flags says.
+/// Contents of the element Flags.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Flags {
-    /// Whether there is such an element.
+    /// Whether the element is present.
     pub given: bool,
     pub access: Option<Access>,
     pub access_at: Span,
@@ -20,7 +20,7 @@ pub(super) struct Flags {
     pub category: Option<Category>,
     pub backup: Option<bool>,
     pub setting: Option<bool>,
-    /// What few flags have.
+    /// Flags that are rarely used.
     pub more: Option<Box<MoreFlags>>,
 }
 
@@ -50,7 +50,7 @@ pub(super) fn read<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>) -> Read<Fl
                 let given = reader.text(&tag)?;
                 let text = given.text.to_ascii_lowercase();
                 if !matches!(text.as_str(), "" | "si" | "so" | "sio" | "sp") {
-                    unknown(reader, &given, "safety mapping", "kept as it is; expected si, so, sio or sp");
+                    unknown(reader, &given, "safety mapping", "kept unchanged; expected si, so, sio or sp");
                 }
                 flags.more().safety = (!text.is_empty()).then(|| text.into());
             }
@@ -91,7 +91,7 @@ fn access<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, flags: &mut Flags) -> 
     Ok(())
 }
 
-/// The states that `PreOP_SafeOP` names.
+/// Returns the states in a list such as `PreOP_SafeOP`.
 fn states(given: &Given<'_>) -> Vec<CompactString> {
     given.text.split('_').filter(|state| !state.is_empty()).map(CompactString::from).collect()
 }
@@ -109,7 +109,7 @@ fn category(reader: &mut Reader<'_, '_>, given: &Given<'_>) -> Option<Category> 
     }
 }
 
-/// R: a master's outputs may be mapped there, that is, it goes into an RxPDO; T: into a TxPDO.
+/// Reads the PDO mapping. R means that the item can be mapped into an RxPDO, T into a TxPDO.
 fn mapping(reader: &mut Reader<'_, '_>, given: &Given<'_>) -> Option<Mappable> {
     let mut mappable = Mappable::default();
     for letter in given.text.bytes() {
@@ -131,7 +131,7 @@ fn number_as_flag<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>) -> Read<Option
 }
 
 fn unknown(reader: &mut Reader<'_, '_>, given: &Given<'_>, what: &str, label: &str) {
-    let message = format!("`{}` is no {what} of ETG.2000", brief(&given.text));
+    let message = format!("`{}` is not a valid {what} of ETG.2000", brief(&given.text));
     reader.report(&codes::UNKNOWN_FLAG, given.span, message, label);
 }
 
@@ -140,43 +140,43 @@ impl Flags {
         self.more.get_or_insert_default()
     }
 
-    /// Bytes of texts that a copy takes: of what any number of items may have.
+    /// Returns the number of text bytes in a copy.
     pub fn weight(&self) -> usize {
         let Some(more) = self.more.as_deref() else { return 0 };
         let states = more.read_states.iter().chain(&more.write_states);
         states.chain(&more.safety).map(|text| size_of::<CompactString>() + text.len()).sum()
     }
 
-    /// The flags of a sub-item, those of its object where it doesn't say.
+    /// Returns the access rights of a sub-item; by default those of its object.
     pub fn access_or<'f>(&'f self, object: &'f Flags) -> (Option<Access>, Span) {
         let flags = if self.access.is_some() { self } else { object };
         (flags.access, flags.access_at)
     }
 
-    /// Into which PDOs a sub-item may be mapped. Flags of its own that say nothing about it mean that it may not; the
-    /// number of sub-items (sub-index 0) is never mapped.
+    /// Returns the PDOs into which a sub-item can be mapped. A sub-item with flags but without a mapping is not
+    /// mappable. A sub-item without flags has the mapping of its object, except sub-index 0, which is not mappable.
     pub fn mappable_or(&self, object: &Flags, sub_index: u8) -> (Mappable, Span) {
         let flags = if self.given || sub_index == 0 { self } else { object };
         (flags.mappable.unwrap_or_default(), flags.mappable_at)
     }
 
-    /// Storage, safety and states of a sub-item. Without flags it is stored as its object is; safety and states are those of the
-    /// object unless the sub-item has its own.
+    /// Returns storage, safety and states of a sub-item. Without flags, it has the storage of its object. By default,
+    /// it has the safety and states of its object.
     pub fn behaviour_or(&self, object: &Flags) -> Option<Box<Behaviour>> {
         let stored = if self.given { self } else { object };
         let (backup, setting) = (stored.backup.unwrap_or(false), stored.setting.unwrap_or(false));
-        let [own, of_object] = [self, object].map(|flags| flags.more.as_deref());
-        if own.or(of_object).is_none() && !backup && !setting {
+        let [item, object] = [self, object].map(|flags| flags.more.as_deref());
+        if item.or(object).is_none() && !backup && !setting {
             return None;
         }
-        let [own, of_object] = [own, of_object].map(|more| more.cloned().unwrap_or_default());
-        let or = |own: Vec<_>, other| if own.is_empty() { other } else { own };
+        let [item, object] = [item, object].map(|more| more.cloned().unwrap_or_default());
+        let or = |states: Vec<_>, default| if states.is_empty() { default } else { states };
         Some(Box::new(Behaviour {
             backup,
             setting,
-            safety: own.safety.or(of_object.safety),
-            read_states: or(own.read_states, of_object.read_states),
-            write_states: or(own.write_states, of_object.write_states),
+            safety: item.safety.or(object.safety),
+            read_states: or(item.read_states, object.read_states),
+            write_states: or(item.write_states, object.write_states),
             ..Behaviour::default()
         }))
     }

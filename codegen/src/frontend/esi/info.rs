@@ -1,4 +1,4 @@
-//! The vendor, groups, devices and modules of a file.
+//! Reads the vendor, groups, devices and modules of a file.
 
 use super::budget::Cost;
 use super::description::{Description, Owner, Reference, Target};
@@ -10,7 +10,7 @@ use crate::ir::{Extension, Family, Header, LocalText};
 use crate::source::Span;
 use crate::syntax::xml::Tag;
 
-/// What a file says about itself and its vendor.
+/// Header of a file and its vendor.
 #[derive(Default)]
 struct Vendor<'a> {
     id: Given<'a>,
@@ -55,21 +55,21 @@ fn read_list<'a>(reader: &mut Reader<'a, '_>, list: &Tag<'a>, description: &mut 
         }
         "Devices" => {
             reader.each(list, "Device", |reader, tag| {
-                let (device, elsewhere) = device::read(reader, tag)?;
-                description.leave(Owner::Device(description.catalog.devices.len()), elsewhere);
+                let (device, other_files) = device::read(reader, tag)?;
+                description.add_other_files(Owner::Device(description.catalog.devices.len()), other_files);
                 description.catalog.devices.push(device);
                 Ok(())
             })?;
         }
         "Modules" => {
             reader.each(list, "Module", |reader, tag| {
-                let (module, elsewhere) = modules::read(reader, tag)?;
-                description.leave(Owner::Module(description.catalog.modules.len()), elsewhere);
+                let (module, other_files) = modules::read(reader, tag)?;
+                description.add_other_files(Owner::Module(description.catalog.modules.len()), other_files);
                 description.catalog.modules.push(module);
                 Ok(())
             })?;
         }
-        // PDOs that name a template read it.
+        // The PDO templates in this list are read by the PDOs that use them.
         "Pdos" => reader.skip(list)?,
         _ => reader.unknown(list)?,
     }
@@ -98,7 +98,7 @@ fn read_vendor<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, vendor: &mut V
     Ok(())
 }
 
-/// Gives the devices and modules of a file its vendor, which may follow them.
+/// Sets the vendor of the devices and modules of a file. The vendor may be after them.
 fn identify(
     reader: &mut Reader<'_, '_>,
     root: Span,
@@ -107,11 +107,11 @@ fn identify(
     first_device: usize,
     first_module: usize,
 ) {
-    let id = reader.int(&vendor.id, "number of a vendor");
+    let id = reader.int(&vendor.id, "vendor ID");
     if vendor.id.is_empty() {
         let (message, label) = match vendor.seen {
-            true => ("the vendor has no number", "Id is empty or missing"),
-            false => ("nothing says who the vendor is", "there is no Vendor"),
+            true => ("the vendor has no ID", "<Id> is empty or missing"),
+            false => ("the file has no vendor", "<Vendor> is missing"),
         };
         reader.report(&codes::MISSING_IDENTITY, root, message, label);
     }
@@ -140,7 +140,7 @@ fn identify(
     }
 }
 
-/// Reads a Group: a family of devices.
+/// Reads a Group element: a family of devices.
 fn family<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, description: &mut Description) -> Read<()> {
     let fields = reader.attributes(parent, ["SortOrder", "ParentGroup"])?;
     let [order, above] = &fields;

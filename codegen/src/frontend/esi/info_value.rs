@@ -1,4 +1,4 @@
-//! Default, limits and unit of a value as written, and its properties.
+//! Default value, limits and unit of a value as written, and its properties.
 
 use compact_str::format_compact;
 
@@ -9,11 +9,11 @@ use crate::ir::Extension;
 use crate::syntax::xml::Tag;
 use crate::text::brief;
 
-/// Default, limits and unit of a value.
+/// Default value, limits and unit of a value.
 #[derive(Default)]
 pub(super) struct RawInfo<'a> {
     pub default: Option<RawValue<'a>>,
-    /// Limits, unit and the name for people, which few values have.
+    /// Limits, unit and display name, which few values have.
     pub more: Option<Box<MoreInfo<'a>>>,
 }
 
@@ -25,16 +25,16 @@ pub(super) struct MoreInfo<'a> {
     pub display: Names<'a>,
 }
 
-/// A value, and how it is written.
+/// A value and its notation.
 pub(super) struct RawValue<'a> {
     pub form: Form,
     pub given: Given<'a>,
 }
 
-/// How a value is written.
+/// Notation of a value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Form {
-    /// Its bytes in hexadecimal, in the order of memory.
+    /// Bytes in hexadecimal, in memory order.
     Data,
     /// A number.
     Number,
@@ -43,7 +43,7 @@ pub(super) enum Form {
 }
 
 impl<'a> RawInfo<'a> {
-    /// Bytes of its texts.
+    /// Returns the number of text bytes.
     pub fn weight(&self) -> usize {
         let length = |raw: &Option<RawValue<'a>>| raw.as_ref().map_or(0, |raw| raw.given.text.len());
         let of_more =
@@ -83,7 +83,7 @@ impl<'a> RawInfo<'a> {
         self.more.get_or_insert_default()
     }
 
-    /// Whether it has nothing.
+    /// Returns whether it has no default value and no other facts.
     pub fn is_empty(&self) -> bool {
         self.default.is_none() && self.more.is_none()
     }
@@ -94,7 +94,7 @@ pub(super) fn properties<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>) -> R
     reader.each(parent, "Property", property)
 }
 
-/// Keeps a Property under its own name.
+/// Keeps a Property under its name.
 pub(super) fn property<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>) -> Read<()> {
     let (mut name, mut value) = (Given::default(), Given::default());
     let mut description = Names::default();

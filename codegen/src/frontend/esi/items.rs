@@ -1,4 +1,4 @@
-//! From objects and their data types to groups and items.
+//! Converts objects and their data types to groups and items.
 
 use compact_str::{format_compact, CompactString};
 
@@ -20,7 +20,8 @@ use crate::frontend::xml::Given;
 use crate::ir::{Access, Binding, Group, GroupKind, Item, ObjectCode, Quantity, Type};
 use crate::text::brief;
 
-/// Turns the objects of a dictionary into groups, sorted by index. Types that only a name defines are added to `types`.
+/// Converts the objects of a dictionary to groups, sorted by index. Adds types that are only defined by their name to
+/// `types`.
 pub(super) fn build<'a>(
     reader: &mut Reader<'_, '_>,
     types: &mut Types<'_, 'a>,
@@ -40,13 +41,13 @@ pub(super) fn build<'a>(
             let message = format!("object 0x{index:04X} occurs twice");
             reader.diagnostics.push(
                 Diagnostic::new(&codes::ESI_DUPLICATE_OBJECT, object.origin.span, message)
-                    .label("left out")
-                    .note_at(first.origin.span, "this one is used"),
+                    .label("ignored")
+                    .note_at(first.origin.span, "this object is used"),
             );
             continue;
         }
-        let own = subs.get_mut(object.subs.clone()).unwrap_or_default();
-        groups.push(builder.object(reader, index, object, own));
+        let sub_items = subs.get_mut(object.subs.clone()).unwrap_or_default();
+        groups.push(builder.object(reader, index, object, sub_items));
     }
     groups
 }
@@ -101,7 +102,7 @@ impl<'t, 'a> Builder<'_, 't, 'a> {
         let size = self.types.bits(ty);
         match (size, raw.bits) {
             (Some(size), Some(bits)) if size != bits && reader.diagnostics.wants(&codes::BIT_SIZE) => {
-                let message = format!("BitSize is {bits}, but `{}` has {size} bits", brief(&raw.ty.text));
+                let message = format!("BitSize is {bits}, but the data type `{}` has {size} bits", brief(&raw.ty.text));
                 reader.report(&codes::BIT_SIZE, raw.bits_at, message, "the data type is used");
             }
             _ => {}
@@ -109,7 +110,7 @@ impl<'t, 'a> Builder<'_, 't, 'a> {
         ty
     }
 
-    /// An object that is one value.
+    /// Builds the item of an object with a single value.
     fn value(&mut self, reader: &mut Reader<'_, '_>, group: &Group, index: u16, raw: &RawObject<'a>, ty: Type) -> Item {
         let mut item = Item::new(Binding::coe(index, 0));
         item.name = group.name.clone();
@@ -122,7 +123,8 @@ impl<'t, 'a> Builder<'_, 't, 'a> {
         item
     }
 
-    /// An object of a record type: its entries with what the object says of each.
+    /// Builds the items of an object with a record type. Combines the entries of the type with the sub-items of the
+    /// object.
     fn record(
         &mut self,
         reader: &mut Reader<'_, '_>,
@@ -134,7 +136,7 @@ impl<'t, 'a> Builder<'_, 't, 'a> {
     ) -> ObjectCode {
         let entries = entries::of_object(reader, self.types, raw, ty, record);
         let mut matched = entries::match_up(reader, &entries, subs);
-        let mut parts = array_default::take_apart(self.types, &entries, &matched.of_entry, subs);
+        let mut parts = array_default::split(self.types, &entries, &matched.of_entry, subs);
         group.items.reserve_exact(entries.len() + matched.extra.len());
         let of_object = raw.flags.weight();
         for (position, entry) in entries.iter().enumerate() {
@@ -144,11 +146,11 @@ impl<'t, 'a> Builder<'_, 't, 'a> {
             if !reader.derive(cost, raw.origin.span) {
                 break;
             }
-            // Filled where it stands: it is too large to be moved about.
+            // The item is filled in place because it is large.
             group.items.push(Item::new(Binding::coe(raw.index.unwrap_or(0), entry.sub_index)));
             if let Some(item) = group.items.last_mut() {
                 let part = parts.remove(&position).unwrap_or_default();
-                self.entry(reader, raw, entry, (sub, part), item);
+                self.entry(reader, raw, entry, sub, part, item);
             }
         }
         matched.extra.sort_unstable();
@@ -163,7 +165,7 @@ impl<'t, 'a> Builder<'_, 't, 'a> {
         }
     }
 
-    /// What Info says of a record as a whole.
+    /// Keeps the Info of a record as a whole.
     fn keep_whole(&self, raw: &RawObject<'a>, group: &mut Group) {
         let more = raw.info.more.as_deref();
         let limits = more.into_iter().flat_map(|more| [("Min", more.min.as_ref()), ("Max", more.max.as_ref())]);
@@ -185,7 +187,8 @@ impl<'t, 'a> Builder<'_, 't, 'a> {
         reader: &mut Reader<'_, '_>,
         raw: &RawObject<'a>,
         entry: &Entry<'t, 'a>,
-        (sub, part): (Option<&mut RawSub<'a>>, RawInfo<'a>),
+        sub: Option<&mut RawSub<'a>>,
+        part: RawInfo<'a>,
         item: &mut Item,
     ) {
         let field = entry.field;
@@ -212,7 +215,8 @@ impl<'t, 'a> Builder<'_, 't, 'a> {
         }
     }
 
-    /// Sub-items of the object that its data type doesn't have: they follow the others, and are of the last one's type.
+    /// Adds the sub-items of an object that its data type lacks. They follow the other entries and have the type of
+    /// the last one.
     fn extra(
         &mut self,
         reader: &mut Reader<'_, '_>,
@@ -226,25 +230,25 @@ impl<'t, 'a> Builder<'_, 't, 'a> {
         for &at in extra {
             let Some(sub) = subs.get_mut(at) else { continue };
             let Ok(sub_index) = u8::try_from(next) else {
-                let message = "an object has at most 255 sub-indices besides 0";
+                let message = "an object has at most 255 sub-indices after sub-index 0";
                 reader.report(&codes::SUB_INDEX_RANGE, sub.origin.span, message, "left out");
                 continue;
             };
-            let message = format!("`{}` is no sub-item of the data type", brief(&sub.name.text));
-            let label = format!("taken as sub-index 0x{sub_index:02X}");
+            let message = format!("`{}` is not a sub-item of the data type", brief(&sub.name.text));
+            let label = format!("read as sub-index 0x{sub_index:02X}");
             reader.report(&codes::SUB_ITEM_MISMATCH, sub.name.span.or(sub.origin.span), message, label);
             let ty = last.filter(|entry| entry.sub_index > 0).map_or(Type::Opaque(None), |entry| entry.ty);
             let flags = last.filter(|entry| entry.sub_index > 0).map_or(&raw.flags, |entry| &entry.field.flags);
             if !reader.derive(Cost::text(flags.weight() + raw.flags.weight()), sub.origin.span) {
                 break;
             }
-            let item = self.plain(reader, (raw.index.unwrap_or(0), sub_index), ty, flags, &raw.flags, sub);
+            let item = self.plain(reader, Binding::coe(raw.index.unwrap_or(0), sub_index), ty, flags, &raw.flags, sub);
             group.items.push(item);
             next += 1;
         }
     }
 
-    /// Sub-items of an object whose type is none of a record: numbered in the order of the file.
+    /// Adds the sub-items of an object whose type is not a record. They are numbered in the order of the file.
     fn untyped(
         &mut self,
         reader: &mut Reader<'_, '_>,
@@ -253,69 +257,77 @@ impl<'t, 'a> Builder<'_, 't, 'a> {
         subs: &mut [RawSub<'a>],
     ) -> ObjectCode {
         let message = format!("the object has sub-items, but its type `{}` has none", brief(&raw.ty.text));
-        let label = "they are numbered from 0, and kept as raw bytes";
+        let label = "numbered from 0 and kept as raw bytes";
         reader.report(&codes::SUB_ITEM_MISMATCH, raw.ty.span.or(raw.origin.span), message, label);
         for (at, sub) in subs.iter_mut().enumerate() {
             let Ok(sub_index) = u8::try_from(at) else {
-                let message = "an object has at most 255 sub-indices besides 0";
-                reader.report(&codes::SUB_INDEX_RANGE, sub.origin.span, message, "those from here on are left out");
+                let message = "an object has at most 255 sub-indices after sub-index 0";
+                reader.report(
+                    &codes::SUB_INDEX_RANGE,
+                    sub.origin.span,
+                    message,
+                    "this and all later sub-items are left out",
+                );
                 break;
             };
             if !reader.derive(Cost::text(raw.flags.weight()), sub.origin.span) {
                 break;
             }
-            // Sub-index 0 is the number of the others wherever there are others.
+            // Sub-index 0 is the number of the other sub-indices.
             let ty = if sub_index == 0 { Type::Unsigned(8) } else { Type::Opaque(None) };
-            let item = self.plain(reader, (raw.index.unwrap_or(0), sub_index), ty, &raw.flags, &raw.flags, sub);
+            let item =
+                self.plain(reader, Binding::coe(raw.index.unwrap_or(0), sub_index), ty, &raw.flags, &raw.flags, sub);
             group.items.push(item);
         }
         self.keep_whole(raw, group);
         ObjectCode::Record
     }
 
-    /// An item that no field describes.
+    /// Builds an item that the data type does not define.
     fn plain(
         &mut self,
         reader: &mut Reader<'_, '_>,
-        (index, sub_index): (u16, u8),
+        binding: Binding,
         ty: Type,
         flags: &Flags,
         object: &Flags,
         sub: &mut RawSub<'a>,
     ) -> Item {
-        let mut item = Item::new(Binding::coe(index, sub_index));
+        let mut item = Item::new(binding);
+        let sub_index = item.object().map(|(_, sub_index)| sub_index);
         (item.name, item.at.name, item.origin) = (sub.name.compact(), sub.name.span, sub.origin);
         item.ty = ty;
         item.extensions = std::mem::take(&mut sub.extensions);
-        self.flags(&mut item, flags, object, Some(sub_index));
+        self.flags(&mut item, flags, object, sub_index);
         self.info(reader, &mut item, &sub.info, None);
         item
     }
 
-    /// Access and mapping; `sub_index` is that of an entry of a record.
-    fn flags(&self, item: &mut Item, own: &Flags, object: &Flags, sub_index: Option<u8>) {
-        let (access, at) = own.access_or(object);
+    /// Sets access and mapping. `sub_index` is `Some` for an entry of a record.
+    fn flags(&self, item: &mut Item, flags: &Flags, object: &Flags, sub_index: Option<u8>) {
+        let (access, at) = flags.access_or(object);
         (item.access, item.at.access) = (access.unwrap_or(Access::ReadOnly), at);
         (item.mappable, item.at.mappable) = match sub_index {
-            Some(sub_index) => own.mappable_or(object, sub_index),
-            None => (own.mappable.unwrap_or_default(), own.mappable_at),
+            Some(sub_index) => flags.mappable_or(object, sub_index),
+            None => (flags.mappable.unwrap_or_default(), flags.mappable_at),
         };
-        item.behaviour = own.behaviour_or(object);
+        item.behaviour = flags.behaviour_or(object);
     }
 
-    /// Default, limits, unit and name for people: what the object says counts before what the data type says.
-    fn info(&mut self, reader: &mut Reader<'_, '_>, item: &mut Item, own: &RawInfo<'a>, of_type: Option<&RawInfo<'a>>) {
+    /// Sets default value, limits, unit and display name. Facts of the object take precedence over those of the data
+    /// type.
+    fn info(&mut self, reader: &mut Reader<'_, '_>, item: &mut Item, raw: &RawInfo<'a>, of_type: Option<&RawInfo<'a>>) {
         let of_type = of_type.filter(|info| !info.is_empty());
-        if own.is_empty() && of_type.is_none() {
+        if raw.is_empty() && of_type.is_none() {
             return;
         }
         let base = self.types.underlying(item.ty);
-        let default = own.default.as_ref().or_else(|| of_type.and_then(|info| info.default.as_ref()));
+        let default = raw.default.as_ref().or_else(|| of_type.and_then(|info| info.default.as_ref()));
         if let Some(raw) = default {
             item.default = value::convert(reader, raw, base, Role::Default);
             item.at.default = raw.given.span;
         }
-        let more = [own.more.as_deref(), of_type.and_then(|info| info.more.as_deref())];
+        let more = [raw.more.as_deref(), of_type.and_then(|info| info.more.as_deref())];
         let mut more = more.into_iter().flatten().peekable();
         if more.peek().is_none() {
             return;
@@ -341,25 +353,25 @@ impl<'t, 'a> Builder<'_, 't, 'a> {
     fn unit(&self, reader: &mut Reader<'_, '_>, given: &Given<'_>) -> CompactString {
         let number = number::parse(&given.text).and_then(|number| u32::try_from(number.value).ok());
         match number {
-            // A unit of the file's own may have a long name.
+            // A unit that the file defines may have a long symbol.
             Some(number) => unit::text(number, self.units)
                 .filter(|text| reader.derive(Cost::text(text.len()), given.span))
                 .unwrap_or_else(|| given.compact()),
             None => {
-                reader.bad(given, "number of a unit", "kept as it is");
+                reader.bad(given, "unit number", "kept unchanged");
                 given.compact()
             }
         }
     }
 
-    /// Reports an object of which nothing says how it may be accessed.
+    /// Reports an object without access rights.
     fn access_given(&self, reader: &mut Reader<'_, '_>, group: &Group, flags: &Flags) {
         if flags.access.is_some() || !reader.diagnostics.wants(&codes::ESI_MISSING_ACCESS) {
             return;
         }
         let silent = group.items.iter().filter(|item| item.at.access.is_empty()).count();
         if silent > 0 {
-            let message = "nothing says how this object may be accessed";
+            let message = "the access rights of this object are not declared";
             let label = if silent == group.items.len() {
                 "read-only".to_owned()
             } else {

@@ -1,6 +1,6 @@
-//! From the dictionary and the PDOs of a device or module to types, groups and process data.
+//! Converts the dictionary and the PDOs of a device or module to types, groups and process data.
 
-use super::description::{Elsewhere, EntryType, Target};
+use super::description::{EntryType, OtherFiles, Target};
 use super::dictionary::Dictionary;
 use super::items;
 use super::pdos::Pdos;
@@ -11,22 +11,22 @@ use crate::etg::type_name;
 use crate::frontend::xml::Given;
 use crate::ir::{Group, PdoEntry, PdoEntryKind, ProcessData, Type, TypeDef};
 
-/// Lowers the data types and objects of a device or module, and the PDOs whose entries name such types.
+/// Lowers the data types and objects of a device or module, and the PDOs whose entries use these types.
 ///
-/// Types that may be in a file which `elsewhere` has are left to it.
+/// Types that may be in a file of `other_files` are resolved later.
 pub(super) fn lower<'a>(
     reader: &mut Reader<'_, '_>,
     dictionary: Dictionary<'a>,
     pdos: Pdos<'a>,
     data: &mut ProcessData,
-    elsewhere: &mut Elsewhere,
+    other_files: &mut OtherFiles,
 ) -> (Vec<TypeDef>, Vec<Group>) {
     let Dictionary { types: raw, objects, mut subs, units, .. } = dictionary;
     let mut types = Types::new(reader, &raw);
-    let has_files = elsewhere.files.iter().any(|file| file.target == Target::Dictionary);
+    let has_files = other_files.files.iter().any(|file| file.target == Target::Dictionary);
     pdos.finish(data, |given, entry| {
         if has_files && entry.kind != PdoEntryKind::Padding && !given.is_empty() && !types.knows(&given.text) {
-            elsewhere.types.push(EntryType::new(entry, given));
+            other_files.types.push(EntryType::new(entry, given));
             return Type::Opaque(None);
         }
         entry_type(reader, &mut types, given, entry)
@@ -35,7 +35,7 @@ pub(super) fn lower<'a>(
     (types.into_defs(), groups)
 }
 
-/// The type of an entry: the one that it names, or else as many bits as it has.
+/// Returns the type of an entry: the type that it names, or a type of its length in bits.
 fn entry_type(reader: &mut Reader<'_, '_>, types: &mut Types<'_, '_>, given: &Given<'_>, entry: &PdoEntry) -> Type {
     if given.is_empty() {
         return match u8::try_from(entry.bits) {
@@ -43,7 +43,7 @@ fn entry_type(reader: &mut Reader<'_, '_>, types: &mut Types<'_, '_>, given: &Gi
             _ => Type::Opaque(None),
         };
     }
-    // What padding is called doesn't matter.
+    // The type name of padding has no effect unless it is a basic type.
     if entry.kind == PdoEntryKind::Padding && type_name::basic(&given.text).is_none() {
         return Type::Opaque(None);
     }
@@ -52,7 +52,7 @@ fn entry_type(reader: &mut Reader<'_, '_>, types: &mut Types<'_, '_>, given: &Gi
     ty
 }
 
-/// Reports an entry that is longer or shorter than its type, which has so many bits.
+/// Reports an entry whose length differs from the length `bits` of its type.
 pub(super) fn check_length(diagnostics: &mut Diagnostics, entry: &PdoEntry, ty: &Given<'_>, bits: Option<u32>) {
     match bits {
         Some(bits)
@@ -60,7 +60,7 @@ pub(super) fn check_length(diagnostics: &mut Diagnostics, entry: &PdoEntry, ty: 
         {
             let message = format!("the entry has {} bits, but {} has {bits}", entry.bits, ty.text);
             diagnostics
-                .push(Diagnostic::new(&codes::ENTRY_LENGTH, ty.span, message).label("BitLen decides the layout"));
+                .push(Diagnostic::new(&codes::ENTRY_LENGTH, ty.span, message).label("BitLen is used for the layout"));
         }
         _ => {}
     }

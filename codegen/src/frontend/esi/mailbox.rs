@@ -1,4 +1,4 @@
-//! The mailbox: its protocols, and what a master sends at start-up.
+//! Reads the mailbox: its protocols, and the commands that a master sends at start-up.
 
 use super::reader::Reader;
 use super::slot_index::SlotIndex;
@@ -34,8 +34,8 @@ fn coe<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>) -> Read<Coe> {
     let [info, assign, config, upload, complete, segmented, history] =
         reader.attributes(parent, NAMES)?.map(|given| reader.flag(&given));
     let others = reader.extensions_since(start);
-    // Extensions are called `CoE@EdsFile`; here the element is known.
-    let own = |extension: Extension| {
+    // Extension keys have the form `CoE@EdsFile`. The attributes here need no element name.
+    let attribute = |extension: Extension| {
         let name = extension.key.rsplit('@').next().map(CompactString::from);
         (name.unwrap_or_default(), extension.value)
     };
@@ -47,7 +47,7 @@ fn coe<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>) -> Read<Coe> {
         complete_access: complete,
         segmented_sdo: segmented,
         diag_history: history,
-        attributes: others.into_iter().map(own).collect(),
+        attributes: others.into_iter().map(attribute).collect(),
         init_commands: Vec::new(),
     };
     while let Some(tag) = reader.child(parent)? {
@@ -68,7 +68,7 @@ fn protocol<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>) -> Read<Protocol>
             "InitCmd" => protocol.init_commands.push(init_command(reader, &tag)?),
             "DiagFile" => reader.note_text(&tag)?,
             "DiagMessages" => reader.keep(&tag)?,
-            // VoE may contain anything.
+            // VoE may contain any element.
             _ if parent.name == "VoE" => reader.keep(&tag)?,
             _ => reader.unknown(&tag)?,
         }
@@ -84,13 +84,13 @@ fn init_command<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>) -> Read<InitC
     command.fixed = reader.flag(fixed);
     command.complete_access = reader.flag(complete);
     command.overwritten_by_module = reader.flag(overwritten);
-    command.sub_index = reader.int(channel, "number of a channel").unwrap_or(0);
+    command.sub_index = reader.int(channel, "channel number").unwrap_or(0);
     while let Some(tag) = reader.child(parent)? {
         match tag.name {
             "Transition" => {
                 let given = reader.text(&tag)?;
                 if !matches!(given.text.as_ref(), "IP" | "PS" | "SO" | "SP" | "OP" | "OS") {
-                    reader.bad(&given, "change of state", "kept as it is; expected IP, PS, SO, SP, OP or OS");
+                    reader.bad(&given, "state transition", "kept unchanged; expected IP, PS, SO, SP, OP or OS");
                 }
                 command.transitions.push(given.compact());
             }
@@ -112,8 +112,8 @@ fn init_command<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>) -> Read<InitC
         }
     }
     if command.transitions.is_empty() {
-        let message = "nothing says when this command is sent";
-        reader.report(&codes::ESI_VALUE, parent.span, message, "kept without a change of state");
+        let message = "this command has no state transition";
+        reader.report(&codes::ESI_VALUE, parent.span, message, "kept without a state transition");
     }
     Ok(command)
 }

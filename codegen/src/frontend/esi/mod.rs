@@ -1,20 +1,20 @@
-//! EtherCAT slave information (ESI, ETG.2000) to IR.
+//! Converts EtherCAT slave information (ESI, ETG.2000) to IR.
 //!
-//! Elements are taken in any order, for real files keep to none: what depends on something that may stand further down
-//! (the objects on the data types, the devices on the vendor) is noted while the file is read, once, and settled when the
-//! element ends that has both. Data types, objects and PDOs belong to one device or module; files that a description
-//! refers to are read at the end.
+//! Elements may be in any order, because real files do not follow the schema. A file is read once. Facts that depend
+//! on later elements are collected and resolved at the end of the common parent element. Examples are the data types
+//! of objects and the vendor of devices. Data types, objects and PDOs belong to one device or module. Referenced
+//! files are read at the end.
 //!
 //! | file | subject |
 //! |---|---|
-//! | `read`, `document`, `references` | a description, one file of it, and the files that it refers to (`description`) |
+//! | `read`, `document`, `references` | a description, a single file, and the files that it refers to (`description`) |
 //! | `reader`, `text`, `number`, `slot_index` | the state of reading; texts, numbers and indices of ETG.2000 |
-//! | `budget` | bounds of what short references may add |
+//! | `budget` | limits for copies that short references cause |
 //! | `info` | the vendor, groups, lists of devices and modules |
 //! | `device`, `device_info`, `eeprom` | devices |
 //! | `sync`, `mailbox`, `clocks` | FMMUs and sync managers; the mailbox; distributed clocks |
 //! | `pdo`, `pdos`, `templates` | PDOs and their entries; PDO templates of old files |
-//! | `slots`, `modules` | slots, modules, and which fit where |
+//! | `slots`, `modules` | slots, and the modules that fit |
 //! | `profile`, `diagnosis` | profiles, diagnosis messages |
 //! | `dictionary` | dictionaries as written: `data_type`, `object`, `info_value`, `flags` |
 //! | `lower` | dictionaries and PDOs to the IR: `types`, `items`, `entries`, `value`, `array_default` |

@@ -1,10 +1,10 @@
-//! Modules, and which devices take them.
+//! Reads modules, and finds the slots into which they fit.
 
 use std::collections::{BTreeMap, HashMap};
 
 use compact_str::format_compact;
 
-use super::description::Elsewhere;
+use super::description::OtherFiles;
 use super::dictionary::missing_index;
 use super::lower::lower;
 use super::mailbox;
@@ -20,7 +20,7 @@ use crate::limits;
 use crate::syntax::xml::Tag;
 
 /// Reads a Module, and the files that it refers to.
-pub(super) fn read<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>) -> Read<(Module, Elsewhere)> {
+pub(super) fn read<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>) -> Read<(Module, OtherFiles)> {
     let start = reader.extensions.len();
     let mut module = Module { origin: reader.origin(parent), ..Module::default() };
     let [] = reader.attributes(parent, [])?;
@@ -44,35 +44,35 @@ pub(super) fn read<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>) -> Read<(M
         }
     }
     if !has_type {
-        missing_index(reader, parent.span, "this module has no Type, and so no ident number");
+        missing_index(reader, parent.span, "this module has no Type with an ident number");
     }
     (module.name, module.names) = (names.name(), names.others());
     module.profiles = profiles.numbers;
     module.extensions = reader.extensions_since(start);
-    let lowered = lower(reader, profiles.dictionary, pdos, &mut module.process_data, &mut profiles.elsewhere);
+    let lowered = lower(reader, profiles.dictionary, pdos, &mut module.process_data, &mut profiles.other_files);
     (module.types, module.groups) = lowered;
-    profiles.elsewhere.messages = profiles.code_tables;
-    Ok((module, profiles.elsewhere))
+    profiles.other_files.messages = profiles.code_tables;
+    Ok((module, profiles.other_files))
 }
 
 fn module_type<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, module: &mut Module) -> Read<()> {
     const NAMES: [&str; 3] = ["ModuleIdent", "ModuleClass", "ModulePdoGroup"];
     let fields = reader.attributes(tag, NAMES)?;
     let [ident, class, group] = &fields;
-    match reader.int(ident, "ident number of a module") {
+    match reader.int(ident, "module ident number") {
         Some(ident) => module.number = ident,
         None if ident.is_empty() => missing_index(reader, tag.span, "this module has no ident number"),
         None => {}
     }
     module.class = class.compact();
-    module.pdo_group = reader.int(group, "number of a group");
+    module.pdo_group = reader.int(group, "group number");
     let given = reader.content()?;
     module.id = given.compact();
     module.identity.order_code = given.compact();
     Ok(())
 }
 
-/// What a master sends when such a module is there. What its protocols support becomes extensions.
+/// Reads the start-up commands of a module. The supported protocols become extensions.
 fn settings<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, module: &mut Module) -> Read<()> {
     let mailbox = mailbox::read(reader, tag)?;
     let mut keep = |key: CompactString, value: &str| {
@@ -100,7 +100,7 @@ fn settings<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, module: &mut Module)
     Ok(())
 }
 
-/// Keeps what a mailbox has except CoE.
+/// Keeps the mailbox protocols except CoE.
 fn protocols(mailbox: &Mailbox, keep: &mut impl FnMut(CompactString, &str)) {
     let flags = [("DataLinkLayer", mailbox.data_link_layer), ("RealTimeMode", mailbox.real_time)];
     for (name, _) in flags.into_iter().filter(|(_, is_set)| *is_set) {
@@ -120,22 +120,22 @@ fn protocols(mailbox: &Mailbox, keep: &mut impl FnMut(CompactString, &str)) {
     }
 }
 
-/// Notes for every device with slots which modules of the catalogue fit where.
+/// Finds the modules of the catalog that fit into the slots of each device.
 pub(super) fn plug(catalog: &mut Catalog, diagnostics: &mut Diagnostics) {
     let Catalog { devices, modules, .. } = catalog;
     let known = Known::new(modules, diagnostics);
     let (mut left, mut is_reported) = (limits::MAX_MODULE_USES, false);
     for device in devices {
         if !known.plug(device, &mut left, &mut is_reported, diagnostics) {
-            let message = "the slots of all devices take too many modules";
+            let message = "too many modules fit into the slots of all devices";
             let diagnostic = Diagnostic::new(&codes::INPUT_TOO_LARGE, device.origin.span, message);
-            diagnostics.push(diagnostic.label("not resolved from this device on"));
+            diagnostics.push(diagnostic.label("this and later devices have no modules"));
             return;
         }
     }
 }
 
-/// The modules of a catalogue, by what slots name.
+/// The modules of a catalog by ident number and class.
 struct Known<'m> {
     by_ident: HashMap<u32, Vec<u32>>,
     by_class: HashMap<&'m CompactString, Vec<u32>>,
@@ -153,7 +153,7 @@ impl<'m> Known<'m> {
                 diagnostics.push(
                     Diagnostic::new(&codes::DUPLICATE_MODULE, module.origin.span, message)
                         .label("both are kept")
-                        .note_at(first.origin.span, "the first one"),
+                        .note_at(first.origin.span, "first module"),
                 );
             }
             same.push(at as u32);
@@ -164,7 +164,7 @@ impl<'m> Known<'m> {
         known
     }
 
-    /// False if more modules fit than are left.
+    /// Adds the modules that fit into the slots of a device. Returns false if there are more than `left`.
     fn plug(
         &self,
         device: &mut Device,
@@ -187,7 +187,7 @@ impl<'m> Known<'m> {
                 let Some(rest) = left.checked_sub(modules.len()) else { return false };
                 *left = rest;
                 for &module in modules {
-                    push_range(&mut places.entry(module).or_default().allowed, (slot.number, last));
+                    push_range(&mut places.entry(module).or_default().allowed, slot.number, last);
                 }
             }
             if missing > slot.fits.len() && !slot.fits.is_empty() {
@@ -200,8 +200,8 @@ impl<'m> Known<'m> {
     }
 }
 
-/// Adds slots to those where a module may be; adjacent ranges become one.
-fn push_range(numbers: &mut Numbers, (first, last): (u16, u16)) {
+/// Adds a range of slots. Merges it with the last range if they overlap or are adjacent.
+fn push_range(numbers: &mut Numbers, first: u16, last: u16) {
     match numbers.0.last_mut() {
         Some(range) if range.1 >= first => range.1 = range.1.max(last),
         Some(range) if range.1.checked_add(1) == Some(first) => range.1 = last,
@@ -209,12 +209,12 @@ fn push_range(numbers: &mut Numbers, (first, last): (u16, u16)) {
     }
 }
 
-/// The first such diagnostic of a file has the help.
+/// Reports a slot without a fitting module. The first such diagnostic of a file has a help text.
 fn nothing_fits(device: &Device, slot: u16, is_first: bool, diagnostics: &mut Diagnostics) {
     let message = format!("no module of this description fits into slot {slot}");
     let found = Diagnostic::new(&codes::NO_MODULE_FITS, device.origin.span, message).label("the slot stays empty");
     diagnostics.push(match is_first {
-        true => found.help("modules may be in a file of their own, which InfoReference names"),
+        true => found.help("check whether InfoReference names a file with the modules"),
         false => found,
     });
 }

@@ -1,4 +1,4 @@
-//! Numbers of ETG.2000 (HexDecValue), and the spellings that real files have for them.
+//! Reads the numbers of ETG.2000 (HexDecValue), including nonstandard spellings in real files.
 
 use super::reader::Reader;
 use crate::diagnostics::{codes, Diagnostic};
@@ -10,13 +10,13 @@ use crate::text::brief;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Number {
     pub value: i128,
-    /// Hexadecimal and without a sign.
+    /// Whether it is hexadecimal and without a sign.
     pub hex: bool,
     /// How it deviates from ETG.2000.
     pub fault: Option<Fault>,
 }
 
-/// A form that ETG.2000 does not have and real files do.
+/// A nonstandard notation that occurs in real files.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Fault {
     /// Hexadecimal digits without `#x`.
@@ -25,8 +25,8 @@ pub(super) enum Fault {
     TwoPrefixes,
 }
 
-/// Reads decimal digits with or without a sign, or hexadecimal ones after `#x` or `0x`, or after both. Digits of which one is a
-/// letter can only be hexadecimal.
+/// Reads decimal digits with an optional sign, or hexadecimal digits after `#x`, `0x` or both. Digits with a letter
+/// are hexadecimal.
 pub(super) fn parse(text: &str) -> Option<Number> {
     let bytes = text.as_bytes();
     if let Some(value) = decimal(bytes) {
@@ -44,7 +44,7 @@ pub(super) fn parse(text: &str) -> Option<Number> {
     hexadecimal(digits).map(|value| Number { value, hex: true, fault })
 }
 
-/// What follows a sign.
+/// Reads a number that may have a sign.
 fn signed(bytes: &[u8]) -> Option<i128> {
     match prefixed(bytes) {
         Some(digits) => hexadecimal(digits),
@@ -59,7 +59,7 @@ fn prefixed(bytes: &[u8]) -> Option<&[u8]> {
     }
 }
 
-/// At most 20 digits; a greater number has no place in any field.
+/// Reads decimal digits. A number with more than 64 bits fits no field and is rejected.
 fn decimal(digits: &[u8]) -> Option<u64> {
     if digits.is_empty() {
         return None;
@@ -74,7 +74,7 @@ fn decimal(digits: &[u8]) -> Option<u64> {
 }
 
 fn hexadecimal(digits: &[u8]) -> Option<i128> {
-    // Zeros in front say nothing.
+    // Leading zeros do not count.
     let zeros = digits.iter().take_while(|&&digit| digit == b'0').count();
     if digits.is_empty() || digits.len() - zeros > 16 {
         return None;
@@ -83,7 +83,7 @@ fn hexadecimal(digits: &[u8]) -> Option<i128> {
     Some(i128::from(value))
 }
 
-/// The value of a hexadecimal digit.
+/// Returns the value of a hexadecimal digit.
 pub(super) fn nibble(digit: u8) -> Option<u8> {
     match digit {
         b'0'..=b'9' => Some(digit - b'0'),
@@ -94,7 +94,7 @@ pub(super) fn nibble(digit: u8) -> Option<u8> {
 }
 
 impl<'a> Reader<'a, '_> {
-    /// A number, however it is written; what is none is left to the caller to report.
+    /// Reads a number in any notation and reports nonstandard notations. The caller reports other text.
     pub fn parse(&mut self, given: &Given<'_>) -> Option<Number> {
         let number = parse(&given.text)?;
         if let Some(fault) = number.fault {
@@ -113,7 +113,7 @@ impl<'a> Reader<'a, '_> {
         Some(number)
     }
 
-    /// A number that fits `T`; anything else is reported.
+    /// Reads a number that fits `T` and reports any other text.
     pub fn int<T: TryFrom<i128>>(&mut self, given: &Given<'_>, what: &str) -> Option<T> {
         if given.is_empty() {
             return None;
@@ -129,25 +129,25 @@ impl<'a> Reader<'a, '_> {
         value
     }
 
-    /// The number in an element.
+    /// Reads the number in an element.
     pub fn number<T: TryFrom<i128>>(&mut self, tag: &Tag<'a>, what: &str) -> Read<Option<T>> {
         let given = self.text(tag)?;
         Ok(self.int(&given, what))
     }
 
-    /// Pairs of hexadecimal digits, blanks between them allowed.
+    /// Reads pairs of hexadecimal digits with optional blanks.
     pub fn octets(&mut self, given: &Given<'_>) -> Option<Vec<u8>> {
         let digits = given.text.bytes().filter(|byte| !byte.is_ascii_whitespace());
         let count = digits.clone().count();
         let mut octets = Vec::with_capacity(count / 2 + 1);
         let mut high = None;
-        // Of an odd number of digits the first stands for a byte of its own.
+        // If the number of digits is odd, the first digit is a byte.
         if count % 2 == 1 {
             high = Some(0);
         }
         for digit in digits {
             let Some(digit) = nibble(digit) else {
-                self.bad(given, "row of hexadecimal digits", "left out");
+                self.bad(given, "string of hexadecimal digits", "left out");
                 return None;
             };
             match high.take() {
@@ -158,7 +158,7 @@ impl<'a> Reader<'a, '_> {
         if count % 2 == 1 {
             self.diagnostics.push(
                 Diagnostic::new(&codes::ODD_HEX, given.span, "the number of hexadecimal digits is odd")
-                    .label("a zero was put in front")
+                    .label("read with a leading zero")
                     .fix(format!("0{}", given.text)),
             );
         }

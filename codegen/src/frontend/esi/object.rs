@@ -1,4 +1,4 @@
-//! Objects as written, without their data types.
+//! Objects as written, with unresolved data types.
 
 use std::ops::Range;
 
@@ -10,7 +10,7 @@ use crate::ir::Extensions;
 use crate::source::{Origin, Span};
 use crate::syntax::xml::Tag;
 
-/// An Object.
+/// An Object element.
 #[derive(Default)]
 pub(super) struct RawObject<'a> {
     pub index: Option<u16>,
@@ -22,14 +22,14 @@ pub(super) struct RawObject<'a> {
     pub bits: Option<u32>,
     pub bits_at: Span,
     pub info: RawInfo<'a>,
-    /// Its sub-items, among those of the dictionary.
+    /// Range of its sub-items in the list of the dictionary.
     pub subs: Range<usize>,
     pub flags: Flags,
     pub extensions: Extensions,
     pub origin: Origin,
 }
 
-/// A SubItem of an object's Info.
+/// A SubItem element in the Info of an object.
 #[derive(Default)]
 pub(super) struct RawSub<'a> {
     pub name: Given<'a>,
@@ -38,7 +38,7 @@ pub(super) struct RawSub<'a> {
     pub origin: Origin,
 }
 
-/// Reads an Object, and adds its sub-items to `subs`.
+/// Reads an Object element and adds its sub-items to `subs`.
 pub(super) fn read<'a>(
     reader: &mut Reader<'a, '_>,
     parent: &Tag<'a>,
@@ -88,7 +88,7 @@ fn info<'a>(
 ) -> Read<()> {
     while let Some(tag) = reader.child(parent)? {
         if tag.name == "SubItem" {
-            // Filled in place: it is too large to be moved.
+            // The sub-item is filled in place because it is large.
             subs.push(RawSub::default());
             if let Some(last) = subs.last_mut() {
                 sub_item(reader, &tag, last)?;
@@ -111,7 +111,7 @@ fn sub_item<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, raw: &mut RawSub<
                     raw.info.read(reader, &inner)?;
                 }
             }
-            // Some files leave the Info around a single value out.
+            // Some files omit the Info element around a single value.
             _ => raw.info.read(reader, &tag)?,
         }
     }

@@ -1,4 +1,4 @@
-//! PDOs and their entries.
+//! Reads PDOs and their entries.
 
 use super::reader::{Names, Reader};
 use super::slot_index::SlotIndex;
@@ -7,16 +7,16 @@ use crate::frontend::xml::{Given, Read};
 use crate::ir::{Oversampling, Pdo, PdoEntry, PdoEntryKind};
 use crate::syntax::xml::Tag;
 
-/// What the elements of a PDO give, besides the fields of [`Pdo`].
+/// Contents of a PDO that are not fields of [`Pdo`].
 #[derive(Default)]
 pub(super) struct Content<'a> {
     pub index: Option<u16>,
     pub names: Names<'a>,
-    /// The type that each entry names.
+    /// Type name of each entry.
     pub types: Vec<Given<'a>>,
 }
 
-/// The template that a PDO names, and its channel.
+/// A reference of a PDO to a template, with its channel.
 pub(super) struct Reference<'a> {
     pub name: Given<'a>,
     pub channel: u16,
@@ -41,7 +41,7 @@ pub(super) fn content<'a>(
             "Name" => reader.name(&tag, &mut content.names)?,
             "Exclude" => pdo.excludes.extend(reader.number::<u16>(&tag, "index")?),
             "ExcludedSm" => {
-                pdo.excluded_sync_managers.extend(reader.number::<u8>(&tag, "number of a sync manager")?);
+                pdo.excluded_sync_managers.extend(reader.number::<u8>(&tag, "sync manager number")?);
             }
             "Entry" => {
                 let (entry, ty) = entry(reader, &tag, channel)?;
@@ -54,7 +54,7 @@ pub(super) fn content<'a>(
     Ok(content)
 }
 
-/// Reads the attributes of a PDO or a template. Returns the template that a PDO names.
+/// Reads the attributes of a PDO or a template. Returns the template to which a PDO refers.
 pub(super) fn attributes<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, pdo: &mut Pdo) -> Read<Option<Reference<'a>>> {
     const NAMES: [&str; 13] = [
         "Fixed",
@@ -76,19 +76,19 @@ pub(super) fn attributes<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, pdo: &m
     pdo.fixed = reader.flag(fixed);
     pdo.mandatory = reader.flag(mandatory);
     pdo.is_virtual = reader.flag(is_virtual);
-    pdo.sync_manager = reader.int(sm, "number of a sync manager");
-    pdo.sync_unit = reader.int(su, "number of a sync unit");
+    pdo.sync_manager = reader.int(sm, "sync manager number");
+    pdo.sync_unit = reader.int(su, "sync unit number");
     pdo.overwritten_by_module = reader.flag(overwritten);
     let oversampling = Oversampling {
         factor: reader.int(factor, "oversampling factor"),
         min: reader.int(min, "oversampling factor"),
         max: reader.int(max, "oversampling factor"),
-        index_increment: reader.int(increment, "increment of an index"),
+        index_increment: reader.int(increment, "index increment"),
     };
     if oversampling != Oversampling::default() {
         pdo.oversampling = Some(Box::new(oversampling));
     }
-    let channel_number = reader.int(channel, "number of a channel").unwrap_or(0);
+    let channel_number = reader.int(channel, "channel number").unwrap_or(0);
     let reference = || Reference { name: name.clone(), channel: channel_number, channel_given: channel.clone() };
     Ok((!name.is_empty()).then(reference))
 }
@@ -132,7 +132,7 @@ fn entry<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, channel: u16) -> Rea
     Ok((entry, ty))
 }
 
-/// The name of a type, with its scale and the order of its bytes, which have no place in the IR.
+/// Reads the name of a type. The IR has no fields for its scale and byte order.
 fn data_type<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>) -> Read<Given<'a>> {
     let [scale, swap] = reader.attributes(tag, ["DScale", "SwapData"])?;
     reader.note("DataType@DScale", &scale);

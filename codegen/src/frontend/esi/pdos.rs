@@ -1,4 +1,4 @@
-//! The PDOs of a device or module, and PDOs that name a template.
+//! Reads the PDOs of a device or module, including PDOs that refer to a template.
 
 use super::pdo::{self, Content, Reference};
 use super::reader::{Esi, Reader};
@@ -9,16 +9,16 @@ use crate::ir::{Direction, Pdo, PdoEntry, ProcessData, Type};
 use crate::syntax::xml::Tag;
 use crate::text::brief;
 
-/// The PDOs of a device or module. The types of their entries are known only once the dictionary was read.
+/// The PDOs of a device or module. The types of their entries are resolved after the dictionary was read.
 #[derive(Default)]
 pub(super) struct Pdos<'a> {
     pub list: Vec<Pdo>,
-    /// The type that each entry names, entry by entry and PDO by PDO.
+    /// Type name of each entry, in the order of PDOs and entries.
     types: Vec<Given<'a>>,
 }
 
 impl<'a> Pdos<'a> {
-    /// Reads a RxPdo or TxPdo.
+    /// Reads a RxPdo or TxPdo element.
     pub fn read(&mut self, reader: &mut Reader<'a, '_>, parent: &Tag<'a>) -> Read<()> {
         let direction = if parent.name == "RxPdo" { Direction::Receive } else { Direction::Transmit };
         let (origin, start) = (reader.origin(parent), reader.extensions.len());
@@ -35,7 +35,7 @@ impl<'a> Pdos<'a> {
         (pdo.mapping_index, pdo.number) = (numbered.mapping_index, numbered.number);
         (pdo.name, pdo.names) = (names.name(), names.others());
         pdo.extensions = reader.extensions_since(start);
-        // A missing template is reported already.
+        // A missing template is already reported.
         if has_template {
             check(reader, parent, &pdo, index.is_some());
         }
@@ -44,7 +44,7 @@ impl<'a> Pdos<'a> {
         Ok(())
     }
 
-    /// Adds the PDOs to `data`, RxPdos first, each with the types that `resolve` returns.
+    /// Adds the PDOs to `data`, RxPDOs first. `resolve` returns the type of each entry.
     pub fn finish(self, data: &mut ProcessData, mut resolve: impl FnMut(&Given<'a>, &PdoEntry) -> Type) {
         let mut list = self.list;
         let entries = list.iter_mut().flat_map(|pdo| &mut pdo.entries);
@@ -61,15 +61,15 @@ impl<'a> Pdos<'a> {
 fn check(reader: &mut Reader<'_, '_>, tag: &Tag<'_>, pdo: &Pdo, has_index: bool) {
     if !has_index {
         let message = format!("this {} has no index", tag.name);
-        reader.report(&codes::PDO_WITHOUT_INDEX, tag.span, message, "it can't be assigned to a sync manager");
+        reader.report(&codes::PDO_WITHOUT_INDEX, tag.span, message, "it cannot be assigned to a sync manager");
     }
     if pdo.name.is_empty() {
         let message = format!("this {} has no name", tag.name);
-        reader.report(&codes::UNNAMED_PDO, tag.span, message, "it goes by its index");
+        reader.report(&codes::UNNAMED_PDO, tag.span, message, "its index is used instead of a name");
     }
 }
 
-/// Completes a PDO with its template. Returns whether the file has the template; reports it if not.
+/// Completes a PDO from its template. Returns whether the file has the template; reports it if not.
 fn complete<'a>(
     reader: &mut Reader<'a, '_>,
     reference: &Reference<'a>,

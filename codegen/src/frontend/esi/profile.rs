@@ -1,8 +1,8 @@
-//! Profiles: their numbers, the dictionary and the diagnosis messages that belong to them.
+//! Reads profiles: their numbers, dictionaries and diagnosis messages.
 
 use std::collections::HashSet;
 
-use super::description::{Elsewhere, Reference, Target};
+use super::description::{OtherFiles, Reference, Target};
 use super::diagnosis;
 use super::dictionary::Dictionary;
 use super::reader::Reader;
@@ -10,16 +10,16 @@ use crate::frontend::xml::Read;
 use crate::ir::CodeTable;
 use crate::syntax::xml::Tag;
 
-/// What the profiles of a device or module say.
+/// Contents of the profiles of a device or module.
 #[derive(Default)]
 pub(super) struct Profiles<'a> {
-    /// Numbers, each once.
+    /// Numbers, without duplicates.
     pub numbers: Vec<u32>,
     seen: HashSet<u32>,
     pub dictionary: Dictionary<'a>,
     pub code_tables: Vec<CodeTable>,
-    /// Files that belong to the profiles, and what is left to them.
-    pub elsewhere: Elsewhere,
+    /// Referenced files of the profiles, and unresolved types.
+    pub other_files: OtherFiles,
 }
 
 impl<'a> Profiles<'a> {
@@ -44,12 +44,12 @@ impl<'a> Profiles<'a> {
     }
 
     fn number(&mut self, reader: &mut Reader<'a, '_>, tag: &Tag<'a>) -> Read<()> {
-        let number = reader.number(tag, "number of a profile")?;
+        let number = reader.number(tag, "profile number")?;
         self.numbers.extend(number.filter(|&number| self.seen.insert(number)));
         Ok(())
     }
 
-    /// A channel follows a profile of its own.
+    /// Reads the profile of a channel.
     fn channel(&mut self, reader: &mut Reader<'a, '_>, parent: &Tag<'a>) -> Read<()> {
         let fields = reader.attributes(parent, ["OverwrittenByModule", "ChannelGroup"])?;
         let [overwritten, group] = &fields;
@@ -69,7 +69,7 @@ impl<'a> Profiles<'a> {
         let given = reader.text(tag)?;
         if !given.is_empty() {
             reader.note(tag.name, &given);
-            self.elsewhere.files.push(Reference::new(&given, target));
+            self.other_files.files.push(Reference::new(&given, target));
         }
         Ok(())
     }

@@ -1,4 +1,4 @@
-//! A description with the files that it refers to.
+//! Reads a description and the files that it refers to.
 
 use super::budget::Budget;
 use super::description::Description;
@@ -8,10 +8,10 @@ use crate::diagnostics::Diagnostics;
 use crate::ir::Catalog;
 use crate::source::{FileId, References, Source};
 
-/// Reads the devices and modules that `source` describes, and the files that it refers to. Everything that had to be
-/// repaired goes to `diagnostics`.
+/// Reads the devices and modules that `source` describes, and the files that it refers to. Repairs are reported to
+/// `diagnostics`.
 ///
-/// Returns `None`, with one error, for a file that isn't well formed.
+/// Returns `None`, with one error, if the file is not well-formed.
 pub fn read(
     source: &Source,
     file: FileId,

@@ -1,4 +1,4 @@
-//! The state of reading one file.
+//! State of reading a file.
 
 use super::budget::{Budget, Cost};
 use super::templates::Templates;
@@ -13,7 +13,7 @@ pub(super) type Reader<'a, 'd> = xml::Reader<'a, 'd, Esi<'a, 'd>>;
 /// A text in several languages, each with its LcId if it has one.
 pub(super) type Names<'a> = xml::Names<'a, Lcid>;
 
-/// What the reader of ESI has beyond the base.
+/// State of the ESI reader.
 pub(super) struct Esi<'a, 'd> {
     pub budget: &'d mut Budget,
     pub templates: &'d Templates<'a>,
@@ -27,7 +27,7 @@ impl xml::Format for Esi<'_, '_> {
     const ENGLISH: (&'static str, &'static str) = ("LcId", "1033");
 }
 
-/// A language of Windows; none = English.
+/// A Windows language identifier; `None` means English.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Lcid(pub Option<u32>);
 
@@ -42,14 +42,14 @@ impl xml::Language for Lcid {
 }
 
 impl Reader<'_, '_> {
-    /// Whether so much may be added. The first addition that may not is reported.
+    /// Returns whether the cost is within the budget. Reports the first addition that is not.
     pub fn derive(&mut self, cost: Cost, span: Span) -> bool {
         if self.format.budget.take(cost) {
             return true;
         }
         if !std::mem::replace(&mut self.format.budget.exceeded, true) {
-            let message = "what is said once and counts for many would make the description many times longer";
-            let label = "it is left out from here on, and entries of objects with it";
+            let message = "copied facts would exceed the size limit of the description";
+            let label = "further copies and the object entries that need them are left out";
             self.report(&codes::INPUT_TOO_LARGE, span, message, label);
         }
         false

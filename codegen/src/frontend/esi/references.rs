@@ -1,4 +1,4 @@
-//! Files that a description refers to: further descriptions, dictionaries, diagnosis messages.
+//! Reads files that a description refers to: further descriptions, dictionaries, diagnosis messages.
 
 use std::collections::{HashMap, HashSet, VecDeque};
 use std::path::Path;
@@ -13,14 +13,14 @@ use crate::diagnostics::{codes, Diagnostic, Diagnostics};
 use crate::ir::{Catalog, CodeTable, Device, Extension, Group, Shape, Type, TypeDef, TypeId};
 use crate::source::{References, Source, Span};
 
-/// A file that was read, and what a copy of it costs.
+/// A file that was read, and the cost of a copy.
 struct Content {
     catalog: Catalog,
     dictionary: Cost,
     messages: Cost,
-    /// Whether it was copied: the first copy takes no more than the file itself.
+    /// Whether it was copied. The first copy is free because it is not larger than the file.
     is_copied: bool,
-    /// Who has it.
+    /// Elements that have a copy.
     owners: HashSet<(Owner, Target)>,
 }
 
@@ -34,7 +34,7 @@ impl Content {
     }
 }
 
-/// Reads the files that `description` refers to, and those that these refer to, each once.
+/// Reads all files that `description` refers to directly or indirectly, each once.
 pub(super) fn follow(
     main: &Source,
     description: &mut Description,
@@ -42,17 +42,18 @@ pub(super) fn follow(
     diagnostics: &mut Diagnostics,
     budget: &mut Budget,
 ) {
-    let own = Path::new(main.name()).file_name().map(|name| name.to_string_lossy().into_owned());
-    // The content of each file, as far as others need it; `None` for one that can't be used.
+    let main_name = Path::new(main.name()).file_name().map(|name| name.to_string_lossy().into_owned());
+    // Content of each file for later references; `None` if the file can't be used again.
     let mut files: HashMap<String, Option<Content>> = HashMap::new();
-    // Who refers to a file from a device wants the modules there; a mere list of files stands for the devices in them.
+    // A description with devices needs only the modules of referenced files. A description without devices is a list
+    // of files, and also needs their devices.
     let only_modules = !description.catalog.devices.is_empty();
     let mut is_reported = false;
     let mut queue: VecDeque<(Owner, Reference)> = std::mem::take(&mut description.references).into();
     while let Some((owner, reference)) = queue.pop_front() {
         let name = normal(&reference.name);
-        // A file that refers to itself says nothing new.
-        if Some(&name) == own.as_ref() {
+        // A reference of the main file to itself adds nothing.
+        if Some(&name) == main_name.as_ref() {
             continue;
         }
         if let Some(content) = files.get_mut(&name) {
@@ -86,15 +87,19 @@ pub(super) fn follow(
     entry_types(description, diagnostics);
 }
 
-/// Finds the types of entries among those that files brought along.
+/// Resolves the types of entries with the types of referenced files.
 fn entry_types(description: &mut Description, diagnostics: &mut Diagnostics) {
     let Description { catalog, entry_types, refused, .. } = description;
-    // What a file that wasn't copied says of them isn't known.
+    // The types of a file that was not copied are unknown.
     entry_types.retain(|(owner, _)| !refused.contains(owner));
     for of_owner in entry_types.chunk_by(|(one, _), (other, _)| one == other) {
         let found = match of_owner.first() {
-            Some((Owner::Device(at), _)) => catalog.devices.get_mut(*at).map(|own| (&own.types, &mut own.process_data)),
-            Some((Owner::Module(at), _)) => catalog.modules.get_mut(*at).map(|own| (&own.types, &mut own.process_data)),
+            Some((Owner::Device(at), _)) => {
+                catalog.devices.get_mut(*at).map(|device| (&device.types, &mut device.process_data))
+            }
+            Some((Owner::Module(at), _)) => {
+                catalog.modules.get_mut(*at).map(|module| (&module.types, &mut module.process_data))
+            }
             _ => None,
         };
         let Some((types, data)) = found else { continue };
@@ -102,32 +107,33 @@ fn entry_types(description: &mut Description, diagnostics: &mut Diagnostics) {
         for (at, def) in types.iter().enumerate() {
             by_name.entry(def.name.as_str()).or_insert((TypeId(at as u32), def));
         }
-        let waiting: HashMap<Span, &EntryType> = of_owner.iter().map(|(_, own)| (own.entry, own)).collect();
+        let waiting: HashMap<Span, &EntryType> =
+            of_owner.iter().map(|(_, entry_type)| (entry_type.entry, entry_type)).collect();
         for entry in data.pdos.iter_mut().flat_map(|pdo| &mut pdo.entries) {
-            let Some(own) = waiting.get(&entry.origin.span) else { continue };
-            let (ty, bits) = match by_name.get(own.name.text.as_ref()) {
+            let Some(entry_type) = waiting.get(&entry.origin.span) else { continue };
+            let (ty, bits) = match by_name.get(entry_type.name.text.as_ref()) {
                 Some((id, def)) => match def.shape {
                     Shape::Alias(ty) => (ty, def.bits),
                     _ => (Type::Named(*id), def.bits),
                 },
                 None => {
-                    let ty = guessed(diagnostics, &own.name);
+                    let ty = guessed(diagnostics, &entry_type.name);
                     (ty, ty.bits())
                 }
             };
             entry.ty = ty;
-            check_length(diagnostics, entry, &own.name, bits);
+            check_length(diagnostics, entry, &entry_type.name, bits);
         }
     }
 }
 
-/// The name of a file by which it is recognised.
+/// Returns the normalized name of a file, which identifies it.
 fn normal(name: &str) -> String {
     let name = name.trim().replace('\\', "/");
     name.trim_start_matches("./").to_owned()
 }
 
-/// Reads a file; its content, and its length in bytes.
+/// Reads a file. Returns its content and its length in bytes.
 fn open(
     reference: &Reference,
     is_reported: &mut bool,
@@ -138,12 +144,12 @@ fn open(
     let source = match references.open(&reference.name) {
         Ok(source) => source,
         Err(refusal) => {
-            let message = format!("the file `{}` wasn't read: {refusal}", reference.name);
+            let message = format!("the file `{}` was not read: {refusal}", reference.name);
             let found = Diagnostic::new(&codes::REFERENCED_FILE, reference.span, message);
-            let found = found.label("what it would add is missing");
-            // The first such diagnostic has the help.
+            let found = found.label("the content of the file is missing");
+            // Only the first such diagnostic has the help text.
             diagnostics.push(match std::mem::replace(is_reported, true) {
-                false => found.help("put the file in the folder of the description, under this name"),
+                false => found.help("put the file in the folder of the description"),
                 true => found,
             });
             return None;
@@ -155,10 +161,10 @@ fn open(
     let outcome = document(&source, references.next_file(), &mut read, diagnostics, budget);
     references.add(source);
     if let Err(stop) = outcome {
-        let message = format!("the file `{}` wasn't read: {}", reference.name, stop.message);
+        let message = format!("the file `{}` was not read: {}", reference.name, stop.message);
         diagnostics.push(
             Diagnostic::new(&codes::REFERENCED_FILE, reference.span, message)
-                .label("what it would add is missing")
+                .label("the content of the file is missing")
                 .note_at(stop.span, "reading ends here"),
         );
         return None;
@@ -166,7 +172,7 @@ fn open(
     Some((read, length))
 }
 
-/// Adds a further description; what it refers to itself.
+/// Adds a further description. Returns the references in it.
 fn join(description: &mut Description, read: Description) -> Vec<(Owner, Reference)> {
     let Description { catalog: mut other, references, entry_types, .. } = read;
     let catalog = &mut description.catalog;
@@ -185,7 +191,7 @@ fn join(description: &mut Description, read: Description) -> Vec<(Owner, Referen
     references.into_iter().map(|(owner, reference)| (moved(owner), reference)).collect()
 }
 
-/// Adds the dictionary or the messages of a file to what refers to it, once.
+/// Adds the dictionary or the messages of a file to the element that refers to it, once.
 fn attach(
     description: &mut Description,
     owner: Owner,
@@ -195,7 +201,7 @@ fn attach(
     budget: &mut Budget,
 ) {
     let is_dictionary = reference.target == Target::Dictionary;
-    // Messages of modules are those of all.
+    // Messages of a module apply to all modules.
     let owner = if is_dictionary || matches!(owner, Owner::Device(_)) { owner } else { Owner::Catalog };
     if !content.owners.insert((owner, reference.target)) {
         return;
@@ -205,7 +211,8 @@ fn attach(
     if !found {
         let what = if is_dictionary { "dictionary" } else { "diagnosis messages" };
         let message = format!("the file `{}` has no {what}", reference.name);
-        diagnostics.push(Diagnostic::new(&codes::REFERENCED_FILE, reference.span, message).label("it adds nothing"));
+        diagnostics
+            .push(Diagnostic::new(&codes::REFERENCED_FILE, reference.span, message).label("the file is ignored"));
         return;
     }
     let cost = if is_dictionary { content.dictionary } else { content.messages };
@@ -228,10 +235,10 @@ fn attach(
     }
     let target = match owner {
         Owner::Device(at) => {
-            catalog.devices.get_mut(at).map(|own| (&mut own.types, &mut own.groups, &mut own.extensions))
+            catalog.devices.get_mut(at).map(|device| (&mut device.types, &mut device.groups, &mut device.extensions))
         }
         Owner::Module(at) => {
-            catalog.modules.get_mut(at).map(|own| (&mut own.types, &mut own.groups, &mut own.extensions))
+            catalog.modules.get_mut(at).map(|module| (&mut module.types, &mut module.groups, &mut module.extensions))
         }
         Owner::Catalog => None,
     };
@@ -241,7 +248,7 @@ fn attach(
     }
 }
 
-/// What a copy of a dictionary adds: items and what types are made of, and bytes of a file of so many.
+/// Returns the cost of copying a dictionary from a file of `length` bytes. Items include the parts of types.
 fn cost_of(dictionary: &Device, length: usize) -> Cost {
     let parts = |shape: &Shape| match shape {
         Shape::Record(fields) => fields.len(),
@@ -258,28 +265,27 @@ fn cost_of(dictionary: &Device, length: usize) -> Cost {
     Cost { items, bytes: length + extensions * size_of::<Extension>() }
 }
 
-/// Whether so much may be copied: many devices may refer to one large file.
+/// Returns whether a file may be copied. The limit applies because many devices may refer to one large file.
 fn affordable(budget: &mut Budget, cost: Cost, reference: &Reference, diagnostics: &mut Diagnostics) -> bool {
     let affordable = budget.take(cost);
     if !affordable {
-        let message = "files that are referred to would make the description many times longer";
-        diagnostics.push(
-            Diagnostic::new(&codes::INPUT_TOO_LARGE, reference.span, message).label("this file isn't copied here"),
-        );
+        let message = "copies of referenced files would exceed the size limit of the description";
+        diagnostics
+            .push(Diagnostic::new(&codes::INPUT_TOO_LARGE, reference.span, message).label("this reference is ignored"));
     }
     affordable
 }
 
-/// Adds the types and objects of a dictionary to those of a device or module; its own objects come first.
+/// Adds the types and objects of a dictionary to those of a device or module. Existing objects take precedence.
 fn merge(types: &mut Vec<TypeDef>, groups: &mut Vec<Group>, dictionary: &Device, diagnostics: &mut Diagnostics) {
     let offset = types.len() as u32;
     types.extend(dictionary.types.iter().cloned().map(|mut def| {
         shift_shape(&mut def.shape, offset);
         def
     }));
-    let own = groups.len();
+    let existing = groups.len();
     groups.extend(dictionary.groups.iter().cloned());
-    for item in groups.iter_mut().skip(own).flat_map(|group| &mut group.items) {
+    for item in groups.iter_mut().skip(existing).flat_map(|group| &mut group.items) {
         shift(&mut item.ty, offset);
     }
     groups.sort_by_key(Group::index);
@@ -292,8 +298,8 @@ fn merge(types: &mut Vec<TypeDef>, groups: &mut Vec<Group>, dictionary: &Device,
                     later.origin.span,
                     format!("object 0x{index:04X} occurs twice"),
                 )
-                .label("left out")
-                .note_at(earlier.origin.span, "this one is used"),
+                .label("ignored")
+                .note_at(earlier.origin.span, "this object is used"),
             );
         }
         twice

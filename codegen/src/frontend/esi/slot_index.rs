@@ -1,19 +1,19 @@
-//! Indices that depend on the slot of a module, or on the channel of a PDO template.
+//! Indices that depend on the slot of a module or on the channel of a PDO template.
 
 use super::reader::Reader;
 use crate::diagnostics::codes;
 use crate::frontend::xml::{Given, Read};
 use crate::syntax::xml::Tag;
 
-/// An index, and what it grows with.
+/// An index, and the numbers on which it depends.
 #[derive(Default)]
 pub(super) struct SlotIndex<'a> {
     pub given: Given<'a>,
-    /// The slot.
+    /// Whether it depends on the slot.
     pub slot: bool,
-    /// The slot group.
+    /// Whether it depends on the slot group.
     pub group: bool,
-    /// The channel of a template, by this factor.
+    /// Factor for the channel of a template.
     pub factor: Given<'a>,
 }
 
@@ -25,17 +25,17 @@ impl<'a> SlotIndex<'a> {
         Ok(SlotIndex { given: reader.content()?, slot, group, factor })
     }
 
-    /// The index for a channel of a template: `index + factor * channel`.
+    /// Returns the index for a channel of a template: `index + factor * channel`.
     pub fn of_channel<T>(&self, reader: &mut Reader<'_, '_>, channel: u16, what: &str) -> Option<T>
     where
         T: TryFrom<i128> + Into<i128>,
     {
         let base: T = reader.int(&self.given, what)?;
-        let factor = reader.int::<i32>(&self.factor, "factor of channels").unwrap_or(0);
+        let factor = reader.int::<i32>(&self.factor, "channel factor").unwrap_or(0);
         let number = base.into() + i128::from(factor) * i128::from(channel);
         let value = T::try_from(number).ok();
         if value.is_none() {
-            let message = format!("the number of channel {channel} is {number}, which is too large or negative");
+            let message = format!("the index of channel {channel} is out of range: {number}");
             reader.report(&codes::ESI_VALUE, self.given.span, message, "left out");
         }
         value

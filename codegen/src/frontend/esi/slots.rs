@@ -1,22 +1,22 @@
-//! Slots of a modular device.
+//! Reads the slots of a modular device.
 
 use super::reader::{Names, Reader};
 use crate::frontend::xml::{Given, Read};
 use crate::ir::{CompactString, Extension, Fit, ModulePdoGroup, Slot, SlotRules};
 use crate::syntax::xml::Tag;
 
-/// Reads Slots. Slots are numbered from 0; one that takes several modules stands for as many.
+/// Reads Slots. Slots are numbered from 0. A slot element for several modules describes as many slots.
 pub(super) fn read<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, slots: &mut Vec<Slot>) -> Read<SlotRules> {
     let mut rules = rules(reader, parent)?;
     let first = slots.len();
-    // Increments that a slot gives itself are noted, so that 0 isn't taken for none.
-    let mut own = Vec::new();
+    // Missing increments of a slot are different from 0, so they are collected separately.
+    let mut slot_increments = Vec::new();
     while let Some(tag) = reader.child(parent)? {
         match tag.name {
             "Slot" => {
                 let (slot, increments) = slot(reader, &tag)?;
                 slots.push(slot);
-                own.push(increments);
+                slot_increments.push(increments);
             }
             "SlotGroupData" => group(reader, &tag, &mut rules)?,
             "ModulePdoGroup" => rules.pdo_groups.push(pdo_group(reader, &tag)?),
@@ -25,7 +25,7 @@ pub(super) fn read<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, slots: &mu
         }
     }
     let mut number = slots.get(..first).and_then(<[Slot]>::last).map_or(0, after);
-    for (slot, [index, pdo, group_index, group_pdo]) in slots.iter_mut().skip(first).zip(own) {
+    for (slot, [index, pdo, group_index, group_pdo]) in slots.iter_mut().skip(first).zip(slot_increments) {
         slot.number = number;
         slot.index_increment = index.unwrap_or(rules.index_increment);
         slot.pdo_increment = pdo.unwrap_or(rules.pdo_increment);
@@ -36,7 +36,7 @@ pub(super) fn read<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, slots: &mu
     Ok(rules)
 }
 
-/// The number of the slot behind this one.
+/// Returns the number of the slot after this one.
 fn after(slot: &Slot) -> u16 {
     slot.number.saturating_add(slot.instances.1.max(1))
 }
@@ -73,10 +73,10 @@ fn rules<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>) -> Read<SlotRules> {
 }
 
 fn increment(reader: &mut Reader<'_, '_>, given: &Given<'_>) -> Option<u16> {
-    reader.int(given, "increment of an index")
+    reader.int(given, "index increment")
 }
 
-/// The increments that a slot gives itself: for indices of objects and of PDOs, from slot to slot and from group to group.
+/// Increments that a slot declares: object index and PDO index per slot, then object index and PDO index per group.
 type Increments = [Option<u16>; 4];
 
 fn slot<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>) -> Read<(Slot, Increments)> {
@@ -96,11 +96,11 @@ fn slot<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>) -> Read<(Slot, Increm
     let [min, max, group, index, pdo, group_index, group_pdo, default, fallback, view] = &fields;
     reader.note("Slot@Fallback", fallback);
     reader.note("Slot@TreeView", view);
-    let least = reader.int(min, "number of modules").unwrap_or(0);
+    let min = reader.int(min, "number of modules").unwrap_or(0);
     let mut slot = Slot {
-        instances: (least, reader.int(max, "number of modules").unwrap_or(least.max(1))),
-        group: reader.int(group, "number of a slot group"),
-        default: reader.int(default, "ident number of a module").map(Fit::Ident),
+        instances: (min, reader.int(max, "number of modules").unwrap_or(min.max(1))),
+        group: reader.int(group, "slot group number"),
+        default: reader.int(default, "module ident number").map(Fit::Ident),
         ..Slot::default()
     };
     let increments = [index, pdo, group_index, group_pdo].map(|given| increment(reader, given));
@@ -122,7 +122,7 @@ fn module_ident<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, slot: &mut Slot)
     let [default] = reader.attributes(tag, ["Default"])?;
     let is_default = reader.int::<u32>(&default, "number").is_some_and(|value| value != 0);
     let given = reader.content()?;
-    if let Some(ident) = reader.int(&given, "ident number of a module") {
+    if let Some(ident) = reader.int(&given, "module ident number") {
         slot.fits.push(Fit::Ident(ident));
         if is_default {
             slot.default = Some(Fit::Ident(ident));
@@ -148,7 +148,7 @@ fn module_class<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, slot: &mut Sl
 
 fn group<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, rules: &mut SlotRules) -> Read<()> {
     let [number] = reader.attributes(parent, ["SlotGroup"])?;
-    let number = reader.int(&number, "number of a slot group").unwrap_or(0);
+    let number = reader.int(&number, "slot group number").unwrap_or(0);
     let mut names = Names::default();
     while let Some(tag) = reader.child(parent)? {
         match tag.name {
@@ -185,7 +185,7 @@ fn selection<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>) -> Read<(Compact
         match tag.name {
             "Name" => reader.name(&tag, &mut names)?,
             "ModuleIdent" => {
-                let ident: Option<u32> = reader.number(&tag, "ident number of a module")?;
+                let ident: Option<u32> = reader.number(&tag, "module ident number")?;
                 idents.extend(ident);
             }
             _ => reader.unknown(&tag)?,

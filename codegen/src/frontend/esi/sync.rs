@@ -1,4 +1,4 @@
-//! FMMUs, sync managers and sync units.
+//! Reads FMMUs, sync managers and sync units.
 
 use super::reader::Reader;
 use crate::diagnostics::codes;
@@ -12,8 +12,8 @@ pub(super) fn fmmu<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, settings: &mu
     let [op_only, sm, su] = reader.attributes(tag, ["OpOnly", "Sm", "Su"])?;
     let fmmu = Fmmu {
         op_only: reader.flag(&op_only),
-        sync_manager: reader.int(&sm, "number of a sync manager"),
-        sync_unit: reader.int(&su, "number of a sync unit"),
+        sync_manager: reader.int(&sm, "sync manager number"),
+        sync_unit: reader.int(&su, "sync unit number"),
         purpose: reader.content()?.compact(),
     };
     settings.fmmus.push(fmmu);
@@ -35,7 +35,7 @@ pub(super) fn sync_unit<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, settings
     Ok(())
 }
 
-/// Reads a Sm. What it is for is known only once all sync managers were read: see [`settle`].
+/// Reads an Sm element. Its purpose is determined after all sync managers were read; see [`settle`].
 pub(super) fn sync_manager<'a>(
     reader: &mut Reader<'a, '_>,
     tag: &Tag<'a>,
@@ -49,7 +49,7 @@ pub(super) fn sync_manager<'a>(
     let given = reader.content()?;
     let number = u8::try_from(list.len()).unwrap_or(u8::MAX);
     if list.len() > usize::from(number) {
-        reader.report(&codes::ESI_VALUE, tag.span, "no controller has so many sync managers", "left out");
+        reader.report(&codes::ESI_VALUE, tag.span, "the device has more than 256 sync managers", "left out");
         return Ok(());
     }
     let manager = SyncManager {
@@ -60,7 +60,7 @@ pub(super) fn sync_manager<'a>(
         default_size: reader.int(size, "size in bytes"),
         size_range: (reader.int(min, "size in bytes"), reader.int(max, "size in bytes")),
         control: reader.int(control, "control byte").unwrap_or(0),
-        // The lowest bit of the register's byte; the others mean something else.
+        // Bit 0 is the enable bit of the register; the other bits have other meanings.
         enable: reader.int::<u32>(enable, "value of the enable register").is_some_and(|value| value & 1 == 1),
         op_only: reader.flag(op_only),
         is_virtual: reader.flag(is_virtual),
@@ -70,18 +70,20 @@ pub(super) fn sync_manager<'a>(
     Ok(())
 }
 
-/// Settles the purpose of each sync manager: by its text, by the PDOs that name it, or by its control byte or position, in this order.
+/// Determines the purpose of each sync manager. The sources are, in this order: its text, the PDOs that name it, its
+/// control byte or position.
 pub(super) fn settle(
     reader: &mut Reader<'_, '_>,
     list: Vec<(SyncManager, Given<'_>)>,
     pdos: &[Pdo],
 ) -> Vec<SyncManager> {
     use SyncManagerPurpose::{Inputs, MailboxIn, MailboxOut, Outputs};
-    // With a mailbox there are four, and its two come first.
+    // A device with a mailbox has four sync managers. The first two are for the mailbox.
     let has_mailbox = list.len() >= 4;
     let mut managers = Vec::with_capacity(list.len());
     for (position, (mut manager, given)) in list.into_iter().enumerate() {
-        // Bits 0 and 1 of the control register are the mode (2 = mailbox), bits 2 and 3 the direction (1 = written).
+        // In the control register, bits 0 and 1 are the mode (2 = mailbox). Bits 2 and 3 are the direction (1 =
+        // written by the master).
         let (is_mailbox, is_written) = match manager.control {
             0 => (has_mailbox && position < 2, position == 0 || (has_mailbox && position == 2)),
             control => (control & 0b11 == 2, control & 0b1100 == 0b0100),
@@ -97,10 +99,11 @@ pub(super) fn settle(
         manager.purpose = by_text.or(by_pdos).unwrap_or(by_position);
         if by_text.is_none() {
             let message = match given.text.as_ref() {
-                "" => "nothing says what this sync manager is for".to_owned(),
-                text => format!("`{}` doesn't say what this sync manager is for", brief(text)),
+                "" => "this sync manager has no purpose".to_owned(),
+                text => format!("`{}` is not the purpose of a sync manager", brief(text)),
             };
-            let reason = if by_pdos.is_some() { "as the PDOs that name it" } else { "by its control byte or position" };
+            let reason =
+                if by_pdos.is_some() { "from the PDOs that name it" } else { "from its control byte or position" };
             let label = format!("read as {}, {reason}", manager.purpose.label());
             let span = given.span.or(manager.origin.span);
             reader.report(&codes::SYNC_MANAGER_PURPOSE, span, message, label);
@@ -110,7 +113,7 @@ pub(super) fn settle(
     managers
 }
 
-/// The direction of the PDOs that are assigned to a sync manager, if all have the same one.
+/// Returns the purpose that follows from the assigned PDOs, if all have the same direction.
 fn by_pdos(number: u8, pdos: &[Pdo]) -> Option<SyncManagerPurpose> {
     let mut directions = pdos.iter().filter(|pdo| pdo.sync_manager == Some(number)).map(|pdo| pdo.direction);
     let first = directions.next()?;

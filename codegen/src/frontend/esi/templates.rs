@@ -1,7 +1,8 @@
-//! PDO templates of old files: a `Pdo` of `Descriptions/Pdos` has a `RefName`, and PDOs of devices name it in `Ref`.
+//! PDO templates of old files. A `Pdo` in `Descriptions/Pdos` has a `RefName`, and PDOs of devices refer to it with
+//! `Ref`.
 //!
-//! `Chn` is the channel of the PDO, counted from 0. `ChnFac` is what an index or sub-index of the template grows by with each
-//! channel. A template is read again for each PDO that names it, because its numbers depend on the channel.
+//! `Chn` is the channel of the PDO, counted from 0. `ChnFac` is the increment of an index or sub-index per channel. A
+//! template is read again for each PDO that refers to it, because its numbers depend on the channel.
 
 use std::borrow::Cow;
 use std::cell::Cell;
@@ -12,7 +13,7 @@ use crate::diagnostics::Diagnostics;
 use crate::source::{FileId, Origin};
 use crate::syntax::xml::{Cursor, Error, Event};
 
-/// The templates of a file by name.
+/// Templates of a file by name.
 #[derive(Default)]
 pub(super) struct Templates<'a> {
     text: &'a str,
@@ -21,17 +22,18 @@ pub(super) struct Templates<'a> {
 
 pub(super) struct Template {
     pub origin: Origin,
-    /// Entries and bytes, which each use copies.
+    /// Entries and bytes that each use copies.
     pub cost: Cost,
-    /// Whether its diagnostics are reported already.
+    /// Whether the diagnostics of the template are already reported.
     pub used: Cell<bool>,
 }
 
 impl<'a> Templates<'a> {
-    /// Finds the templates of a file, which may follow the devices that name them. Faults are reported when the file is read.
+    /// Finds the templates of a file. They may be after the devices that use them. Errors are reported later, when
+    /// the file is read.
     pub fn of(text: &'a str, file: FileId) -> Self {
         let mut templates = Templates { text, by_name: HashMap::new() };
-        // New files have none.
+        // Newer files have no templates.
         if memchr::memmem::find(text.as_bytes(), b"RefName").is_some() {
             let _ = templates.find(file);
         }
@@ -57,12 +59,12 @@ impl<'a> Templates<'a> {
         Ok(())
     }
 
-    /// The template with this name.
+    /// Returns the template with this name.
     pub fn get(&self, name: &str) -> Option<&Template> {
         self.by_name.get(name)
     }
 
-    /// A cursor before a template.
+    /// Returns a cursor before a template.
     pub fn cursor(&self, template: &Template) -> Cursor<'a> {
         Cursor::resume(self.text, template.origin)
     }

@@ -1,4 +1,4 @@
-//! Elements that occur in many places: texts with a language, pictures, what a vendor adds.
+//! Reads common elements: texts with a language, images, vendor-specific elements.
 
 use compact_str::format_compact;
 
@@ -14,7 +14,7 @@ impl<'a> Reader<'a, '_> {
         let [given] = self.attributes(tag, ["LcId"])?;
         let lcid = number::parse(&given.text).and_then(|number| u32::try_from(number.value).ok());
         if lcid.is_none() && !given.is_empty() {
-            self.bad(&given, "number of a language", "read as if there were none");
+            self.bad(&given, "language identifier", "read as a text without a language");
         }
         let given = self.content()?;
         if !given.is_empty() {
@@ -30,8 +30,8 @@ impl<'a> Reader<'a, '_> {
         Ok(())
     }
 
-    /// Keeps of VendorSpecific its children with their attributes and texts. What is below them has a meaning only for the tool of the
-    /// vendor.
+    /// Keeps the children of VendorSpecific with their attributes and texts. Deeper elements have a meaning only for
+    /// the vendor's tool.
     pub fn vendor_specific(&mut self, tag: &Tag<'a>) -> Read<()> {
         while let Some(child) = self.child(tag)? {
             self.keep_attributes(&child)?;
@@ -52,7 +52,7 @@ impl<'a> Reader<'a, '_> {
         Ok(())
     }
 
-    /// Keeps the size of a picture that the file contains, or the name of one that it refers to.
+    /// Keeps the size of an embedded image, or the name of an image file.
     pub fn image(&mut self, tag: &Tag<'a>) -> Read<()> {
         let given = self.text(tag)?;
         let value = if tag.name.contains("Data") {

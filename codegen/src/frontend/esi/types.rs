@@ -1,4 +1,4 @@
-//! From the data types of a dictionary to types of the IR.
+//! Converts the data types of a dictionary to types of the IR.
 
 use std::collections::hash_map::Entry;
 use std::collections::HashMap;
@@ -16,35 +16,35 @@ use crate::limits;
 use crate::source::{Origin, Span};
 use crate::text::brief;
 
-/// The types of one device, module or dictionary.
+/// The types of a device, module or dictionary.
 #[derive(Default)]
 pub(super) struct Types<'t, 'a> {
     raw: &'t [RawType<'a>],
     by_name: HashMap<&'t str, u32>,
     links: Links,
-    /// What a reference to each data type means: an alias of a basic type is that type.
+    /// Type that a reference to each data type resolves to. Aliases of basic types are replaced by the basic type.
     meaning: Vec<Type>,
-    /// The types in the order of the file, and behind them those that only a name stands for.
+    /// Types in the order of the file, followed by types that are only defined by their name.
     defs: Vec<TypeDef>,
     made: HashMap<CompactString, Type>,
 }
 
-/// The positions of the data types that others name.
+/// References between data types, as positions.
 #[derive(Default)]
 struct Links {
     bases: Vec<Option<u32>>,
-    /// Those of all fields, type by type.
+    /// References of all fields, type by type.
     fields: Vec<Option<u32>>,
-    /// Where the fields of each type begin.
+    /// Position of the first field of each type.
     first: Vec<usize>,
-    /// Whether a type is made of itself, or of too many layers.
+    /// Whether a type contains itself or is nested too deeply.
     endless: Vec<bool>,
 }
 
 impl Links {
     fn new<'r>(raw: &'r [RawType<'_>], by_name: &HashMap<&str, u32>) -> Self {
         let mut links = Links::default();
-        // Neighbours often name the same type.
+        // Adjacent fields often have the same type.
         let mut last = ("", None);
         let mut find = |name: &'r str| {
             if last.0 != name {
@@ -54,16 +54,16 @@ impl Links {
         };
         for (at, ty) in raw.iter().enumerate() {
             let base = find(&ty.base.text);
-            // A type that names itself as its base says that it is the basic type of that name.
-            let own = base == Some(at as u32) && type_name::basic(&ty.name.text).is_some();
-            links.bases.push(base.filter(|_| !own));
+            // A basic type may name itself as its base.
+            let is_basic = base == Some(at as u32) && type_name::basic(&ty.name.text).is_some();
+            links.bases.push(base.filter(|_| !is_basic));
             links.first.push(links.fields.len());
             links.fields.extend(ty.fields.iter().map(|field| find(&field.ty.text)));
         }
         links
     }
 
-    /// The types of which a type is made.
+    /// Returns the positions of the types that a type consists of.
     fn parts(&self, at: usize) -> impl Iterator<Item = usize> + '_ {
         let start = self.first.get(at).copied().unwrap_or(0);
         let end = self.first.get(at + 1).copied().unwrap_or(self.fields.len());
@@ -75,14 +75,14 @@ impl Links {
         self.first.get(at).and_then(|first| self.fields.get(first + field).copied()).flatten()
     }
 
-    /// The types in an order in which each stands behind those that it is made of. Notes which are endless.
+    /// Returns the types in an order in which each type comes after its parts. Marks endless types.
     fn order(&mut self) -> Vec<usize> {
         let count = self.bases.len();
         let (mut waiting, mut depth) = (vec![0usize; count], vec![0usize; count]);
         let mut users: Vec<Vec<u32>> = vec![Vec::new(); count];
-        for (at, own) in waiting.iter_mut().enumerate() {
+        for (at, open) in waiting.iter_mut().enumerate() {
             for part in self.parts(at) {
-                *own += 1;
+                *open += 1;
                 if let Some(users) = users.get_mut(part) {
                     users.push(at as u32);
                 }
@@ -116,7 +116,7 @@ impl Links {
 }
 
 impl<'t, 'a> Types<'t, 'a> {
-    /// Lowers all of `raw`.
+    /// Lowers all data types of `raw`.
     pub fn new(reader: &mut Reader<'_, '_>, raw: &'t [RawType<'a>]) -> Self {
         let mut types = Types { raw, by_name: HashMap::with_capacity(raw.len()), ..Types::default() };
         for (at, ty) in raw.iter().enumerate() {
@@ -152,16 +152,21 @@ impl<'t, 'a> Types<'t, 'a> {
 
     fn note_name(&mut self, reader: &mut Reader<'_, '_>, at: usize, ty: &'t RawType<'a>) {
         if ty.name.is_empty() {
-            reader.report(&codes::ESI_VALUE, ty.origin.span, "this data type has no name", "nothing can refer to it");
+            reader.report(
+                &codes::ESI_VALUE,
+                ty.origin.span,
+                "this data type has no name",
+                "references to it are impossible",
+            );
             return;
         }
         let first = *self.by_name.entry(ty.name.text.as_ref()).or_insert(at as u32) as usize;
         if let Some(first) = self.raw.get(first).filter(|_| first != at) {
-            let message = format!("the data type `{}` is defined twice", brief(&ty.name.text));
+            let message = format!("the data type `{}` has two definitions", brief(&ty.name.text));
             reader.diagnostics.push(
                 Diagnostic::new(&codes::DUPLICATE_TYPE, ty.name.span, message)
-                    .label("references mean the first one")
-                    .note_at(first.name.span, "the first one"),
+                    .label("references resolve to the first definition")
+                    .note_at(first.name.span, "first definition"),
             );
         }
     }
@@ -178,7 +183,7 @@ impl<'t, 'a> Types<'t, 'a> {
         if !ty.dimensions.is_empty() {
             return self.array(reader, at, ty);
         }
-        if !ty.base.is_empty() && (self.links.bases.get(at).copied().flatten().is_some() || !self.is_own(ty)) {
+        if !ty.base.is_empty() && (self.links.bases.get(at).copied().flatten().is_some() || !self.names_itself(ty)) {
             let base = self.base(reader, at, ty);
             if let Some(array) = self.array_without_info(reader, base, ty) {
                 return (array, ty.bits);
@@ -186,16 +191,16 @@ impl<'t, 'a> Types<'t, 'a> {
             let base = self.sized(reader, base, ty);
             return (Shape::Alias(base), ty.bits.or_else(|| self.bits(base)));
         }
-        self.by_name_of_its_own(reader, ty)
+        self.defined_by_name(reader, ty)
     }
 
-    /// Whether the base of a type is the type itself.
-    fn is_own(&self, ty: &RawType<'_>) -> bool {
+    /// Returns whether a type names itself as its base.
+    fn names_itself(&self, ty: &RawType<'_>) -> bool {
         ty.base.text == ty.name.text
     }
 
-    /// A type with nothing but a name: a basic one.
-    fn by_name_of_its_own(&mut self, reader: &mut Reader<'_, '_>, ty: &RawType<'_>) -> (Shape, Option<u32>) {
+    /// Lowers a data type that is only defined by its name, which is that of a basic type.
+    fn defined_by_name(&mut self, reader: &mut Reader<'_, '_>, ty: &RawType<'_>) -> (Shape, Option<u32>) {
         let known = type_name::basic(&ty.name.text);
         let known = known.or_else(|| Some((type_name::by_code(ty.code?)?, Spelling::Standard)));
         let bits = |ty: Type| ty.bits();
@@ -213,11 +218,11 @@ impl<'t, 'a> Types<'t, 'a> {
             }
             None => {}
         }
-        let message = format!("nothing says what the data type `{}` is", brief(&ty.name.text));
+        let message = format!("the data type `{}` has no definition", brief(&ty.name.text));
         reader.diagnostics.push(
             Diagnostic::new(&codes::UNRESOLVED_TYPE, ty.name.span.or(ty.origin.span), message)
                 .label("kept as raw bytes")
-                .help("give it a BaseType, an ArrayInfo, SubItems or EnumInfos, or the name of a basic type"),
+                .help("add a BaseType, ArrayInfo, SubItems or EnumInfos, or use the name of a basic type"),
         );
         (Shape::Alias(Type::Opaque(ty.code)), ty.bits)
     }
@@ -234,7 +239,7 @@ impl<'t, 'a> Types<'t, 'a> {
             let sub_index = field.sub_index;
             fields.push(Field { name, sub_index, ty: resolved, bits, bit_offset: offset });
         }
-        places(reader, ty, &fields);
+        check_layout(reader, ty, &fields);
         (Shape::Record(fields), ty.bits.or(Some(end)))
     }
 
@@ -264,7 +269,7 @@ impl<'t, 'a> Types<'t, 'a> {
         let bits = of_element.zip(count).and_then(|(bits, count)| bits.checked_mul(count));
         if let (Some(size), Some(bits)) = (ty.bits, bits) {
             if size != bits {
-                let message = format!("the elements have {bits} bits together, but BitSize is {size}");
+                let message = format!("the elements have {bits} bits in total, but BitSize is {size}");
                 let span = ty.dimensions.first().map_or(ty.origin.span, |first| first.origin.span);
                 reader.report(&codes::ARRAY_BOUNDS, span, message, "the number of elements is used");
             }
@@ -272,14 +277,14 @@ impl<'t, 'a> Types<'t, 'a> {
         (Shape::Array { element, dimensions }, bits.or(ty.bits))
     }
 
-    /// An alias that is several times as long as its base, and is called an array.
+    /// Returns an array for an alias with the suffix `ARR` whose length is a multiple of its base.
     fn array_without_info(&self, reader: &mut Reader<'_, '_>, base: Type, ty: &RawType<'_>) -> Option<Shape> {
         let (size, element) = (ty.bits?, self.bits(base).filter(|&bits| bits > 0)?);
         let count = size / element;
         if count < 2 || size % element != 0 || !ty.name.text.ends_with("ARR") {
             return None;
         }
-        let message = format!("`{}` is as long as {count} elements and has no ArrayInfo", brief(&ty.name.text));
+        let message = format!("`{}` has the length of {count} elements but no ArrayInfo", brief(&ty.name.text));
         let label = format!("read as an array of {count} elements");
         reader.report(&codes::ARRAY_BOUNDS, ty.name.span.or(ty.origin.span), message, label);
         Some(Shape::Array { element: base, dimensions: vec![(1, count)] })
@@ -292,14 +297,14 @@ impl<'t, 'a> Types<'t, 'a> {
         }
     }
 
-    /// The integer below an enumeration.
+    /// Returns the base type of an enumeration.
     fn integer_base(&mut self, reader: &mut Reader<'_, '_>, at: usize, ty: &RawType<'_>) -> Type {
         let by_size = |bits: Option<u32>| Type::Unsigned(bits.and_then(|bits| u8::try_from(bits).ok()).unwrap_or(32));
         let sensible = ty.bits.filter(|bits| (1..=64).contains(bits));
         if ty.base.is_empty() {
             let unsigned = by_size(sensible);
             let message = format!("the enumeration `{}` has no BaseType", brief(&ty.name.text));
-            let label = format!("read as {unsigned}, by its BitSize");
+            let label = format!("read as {unsigned} from its BitSize");
             reader.report(&codes::MISSING_BASE_TYPE, ty.name.span.or(ty.origin.span), message, label);
             return unsigned;
         }
@@ -309,22 +314,22 @@ impl<'t, 'a> Types<'t, 'a> {
             return base;
         }
         let unsigned = by_size(sensible);
-        let message = format!("the values of an enumeration are numbers, and `{}` is none", brief(&ty.base.text));
+        let message = format!("the base type `{}` of an enumeration is not an integer type", brief(&ty.base.text));
         reader.report(&codes::MISSING_BASE_TYPE, ty.base.span, message, format!("read as {unsigned}"));
         unsigned
     }
 
-    /// A part of a type; what would make it endless is cut off.
+    /// Returns a part of a type. A part that would make the type endless becomes raw bytes.
     fn part(&mut self, reader: &mut Reader<'_, '_>, at: usize, part: u32, given: &Given<'_>) -> Type {
         if self.links.is_endless(at) && self.links.is_endless(part as usize) {
-            let message = format!("`{}` is made of itself, or of too many layers", brief(&given.text));
+            let message = format!("`{}` contains itself or is nested too deeply", brief(&given.text));
             reader.report(&codes::ENDLESS_TYPE, given.span, message, "kept as raw bytes");
             return Type::Opaque(None);
         }
         self.meaning.get(part as usize).copied().unwrap_or(Type::Opaque(None))
     }
 
-    /// The type that a name means.
+    /// Returns the type that a name refers to.
     pub fn resolve(&mut self, reader: &mut Reader<'_, '_>, given: &Given<'_>) -> Type {
         match self.by_name.get(given.text.as_ref()) {
             Some(&at) => self.meaning.get(at as usize).copied().unwrap_or(Type::Opaque(None)),
@@ -332,18 +337,18 @@ impl<'t, 'a> Types<'t, 'a> {
         }
     }
 
-    /// Whether a name is that of a data type, or of a basic one as the standard spells it.
+    /// Returns whether a name is that of a data type, or the standard name of a basic type.
     pub fn knows(&self, name: &str) -> bool {
         self.by_name.contains_key(name) || matches!(type_name::basic(name), Some((_, Spelling::Standard)))
     }
 
-    /// The record that a reference to a type means.
+    /// Returns the record that a reference to a type resolves to.
     pub fn record_of(&self, ty: Type) -> Option<&'t RawType<'a>> {
         let Type::Named(TypeId(at)) = ty else { return None };
         self.raw.get(at as usize).filter(|raw| !raw.fields.is_empty())
     }
 
-    /// The type of the field at `position` of a record.
+    /// Returns the type of the field at `position` of a record.
     pub fn field(&self, record: Type, position: usize) -> Type {
         let Type::Named(TypeId(at)) = record else { return Type::Opaque(None) };
         match self.defs.get(at as usize).map(|def| &def.shape) {
@@ -352,7 +357,7 @@ impl<'t, 'a> Types<'t, 'a> {
         }
     }
 
-    /// The element type, lower bound and number of elements of an array.
+    /// Returns the element type, lower bound and number of elements of an array.
     pub fn elements(&self, ty: Type) -> Option<(Type, i32, u32)> {
         let Type::Named(TypeId(at)) = ty else { return None };
         match &self.defs.get(at as usize)?.shape {
@@ -378,7 +383,7 @@ impl<'t, 'a> Types<'t, 'a> {
         }
     }
 
-    /// A type that its name defines, such as BITARR8.
+    /// Returns a type that its name defines, such as BITARR8.
     fn make(&mut self, name: &str, known: Basic) -> Type {
         if let Some(&ty) = self.made.get(name) {
             return ty;
@@ -398,7 +403,7 @@ impl<'t, 'a> Types<'t, 'a> {
         ty
     }
 
-    /// A basic type with the size that the data type has.
+    /// Returns a basic type with the length of the data type.
     fn sized(&self, reader: &mut Reader<'_, '_>, base: Type, ty: &RawType<'_>) -> Type {
         let Some(bits) = ty.bits.filter(|&bits| bits > 0) else { return base };
         let bytes = Some(bits / 8).filter(|_| bits % 8 == 0);
@@ -406,8 +411,8 @@ impl<'t, 'a> Types<'t, 'a> {
             Type::VisibleString(None) => Type::VisibleString(bytes),
             Type::OctetString(None) => Type::OctetString(bytes),
             Type::UnicodeString(None) => Type::UnicodeString(bytes.map(|bytes| bytes / 2)),
-            Type::Integer(own) | Type::Unsigned(own) if u32::from(own) != bits => {
-                let message = format!("BitSize is {bits}, but {base} has {own} bits");
+            Type::Integer(width) | Type::Unsigned(width) if u32::from(width) != bits => {
+                let message = format!("BitSize is {bits}, but {base} has {width} bits");
                 let narrow = u8::try_from(bits).ok().filter(|bits| *bits <= 64);
                 let sized = match (base, narrow) {
                     (Type::Integer(_), Some(bits)) => Type::Integer(bits),
@@ -422,7 +427,7 @@ impl<'t, 'a> Types<'t, 'a> {
         }
     }
 
-    /// Length in bits.
+    /// Returns the length in bits.
     pub fn bits(&self, ty: Type) -> Option<u32> {
         match ty {
             Type::Named(TypeId(at)) => self.defs.get(at as usize)?.bits,
@@ -432,7 +437,7 @@ impl<'t, 'a> Types<'t, 'a> {
         }
     }
 
-    /// The basic type that the values of a type have.
+    /// Returns the basic type of the values of a type.
     pub fn underlying(&self, ty: Type) -> Type {
         let Type::Named(TypeId(at)) = ty else { return ty };
         match self.defs.get(at as usize).map(|def| &def.shape) {
@@ -441,13 +446,13 @@ impl<'t, 'a> Types<'t, 'a> {
         }
     }
 
-    /// The types in the order of the file, and behind them those that only a name stands for.
+    /// Returns the types in the order of the file, followed by types that are only defined by their name.
     pub fn into_defs(self) -> Vec<TypeDef> {
         self.defs
     }
 }
 
-/// Reports a name that isn't in the tables.
+/// Reports a type name that is not in the tables of ETG.1000.6.
 fn spelled(diagnostics: &mut Diagnostics, spelling: Spelling, name: &Given<'_>, ty: Type) {
     let code = match spelling {
         Spelling::Standard => return,
@@ -455,31 +460,31 @@ fn spelled(diagnostics: &mut Diagnostics, spelling: Spelling, name: &Given<'_>, 
         Spelling::Prefix => &codes::GUESSED_TYPE,
     };
     if diagnostics.wants(code) {
-        let message = format!("`{}` is no type of ETG.1000.6", brief(&name.text));
+        let message = format!("`{}` is not a type of ETG.1000.6", brief(&name.text));
         diagnostics
             .push(Diagnostic::new(code, name.span, message).label(format!("read as {}", type_name::name_of(ty))));
     }
 }
 
-/// Reports fields without a name, or with that of another one.
+/// Reports fields without a name or with a repeated name.
 fn field_names(reader: &mut Reader<'_, '_>, fields: &[RawField<'_>]) {
     let mut seen = Seen::default();
     for field in fields {
         if field.name.is_empty() {
-            let label = "it goes by its sub-index";
+            let label = "its sub-index is used instead of a name";
             reader.report(&codes::SUB_ITEM_NAME, field.origin.span, "this sub-item has no name", label);
         } else if let Some(earlier) = seen.insert(&field.name) {
-            let message = format!("two sub-items are called `{}`", brief(&field.name.text));
+            let message = format!("two sub-items have the name `{}`", brief(&field.name.text));
             reader.diagnostics.push(
                 Diagnostic::new(&codes::SUB_ITEM_NAME, field.name.span, message)
-                    .label("told apart by their sub-indices")
-                    .note_at(earlier, "the first one"),
+                    .label("their sub-indices are used to distinguish them")
+                    .note_at(earlier, "first sub-item with this name"),
             );
         }
     }
 }
 
-/// Names so far. Few are compared one by one, which is faster; many are looked up.
+/// Names that occurred so far. A short list is searched linearly, which is faster; more names are in a map.
 #[derive(Default)]
 struct Seen<'n> {
     few: SmallVec<[&'n Given<'n>; 16]>,
@@ -487,7 +492,7 @@ struct Seen<'n> {
 }
 
 impl<'n> Seen<'n> {
-    /// Where the name stands that is the same, if there is one.
+    /// Returns the span of an earlier equal name. Adds the name if there is none.
     fn insert(&mut self, name: &'n Given<'_>) -> Option<Span> {
         if let Some(same) = self.few.iter().find(|other| other.text == name.text) {
             return Some(same.span);
@@ -506,33 +511,33 @@ impl<'n> Seen<'n> {
     }
 }
 
-/// Lower bounds and numbers of elements; a number that is missing follows from BitSize.
-/// Reports the first sub-item that lies within another, and the first beyond the end of the type.
-fn places(reader: &mut Reader<'_, '_>, ty: &RawType<'_>, fields: &[Field]) {
+/// Returns lower bounds and numbers of elements. A missing number follows from BitSize.
+/// Reports the first sub-item that overlaps another, and the first beyond the end of the type.
+fn check_layout(reader: &mut Reader<'_, '_>, ty: &RawType<'_>, fields: &[Field]) {
     let end = |field: &Field| field.bit_offset.saturating_add(field.bits);
     let mut order: Vec<(&Field, &RawField<'_>)> =
-        fields.iter().zip(&ty.fields).filter(|(own, _)| own.bits > 0).collect();
+        fields.iter().zip(&ty.fields).filter(|(field, _)| field.bits > 0).collect();
     order.sort_by_key(|(field, _)| field.bit_offset);
     let shared = order.windows(2).find(|pair| matches!(pair, [one, other] if end(one.0) > other.0.bit_offset));
     if let Some([one, other]) = shared {
         let (first, second) = (brief(&one.0.name), brief(&other.0.name));
-        let message = format!("the sub-items `{first}` and `{second}` share bits: {}", extents(one.0, other.0));
+        let message = format!("the sub-items `{first}` and `{second}` overlap at bits {}", extents(one.0, other.0));
         let found = Diagnostic::new(&codes::SUB_ITEM_PLACE, other.1.origin.span, message).label("both are kept");
-        let found = found.note_at(one.1.origin.span, "the other one");
-        reader.diagnostics.push(found.help("one of the two has the wrong BitOffs or BitSize"));
+        let found = found.note_at(one.1.origin.span, "other sub-item");
+        reader.diagnostics.push(found.help("correct BitOffs or BitSize of one of the two sub-items"));
     }
     let Some(bits) = ty.bits else { return };
     if let Some((field, raw)) = order.iter().find(|(field, _)| end(field) > bits) {
         let name = brief(&field.name);
-        let message = format!("the sub-item `{name}` reaches to bit {} of a data type of {bits} bits", end(field));
-        let found = Diagnostic::new(&codes::SUB_ITEM_PLACE, raw.origin.span, message).label("kept as it is");
+        let message = format!("the sub-item `{name}` ends at bit {}, but the data type has {bits} bits", end(field));
+        let found = Diagnostic::new(&codes::SUB_ITEM_PLACE, raw.origin.span, message).label("kept unchanged");
         reader
             .diagnostics
-            .push(found.help("the BitSize of the data type is too small, or BitOffs or BitSize here wrong"));
+            .push(found.help("increase BitSize of the data type, or correct BitOffs or BitSize of the sub-item"));
     }
 }
 
-/// The bits of two fields.
+/// Returns the bit ranges of two fields as text.
 fn extents(one: &Field, other: &Field) -> String {
     let bits = |field: &Field| {
         let last = field.bit_offset.saturating_add(field.bits).saturating_sub(1);
@@ -555,9 +560,9 @@ fn dimensions(reader: &mut Reader<'_, '_>, ty: &RawType<'_>, element: Option<u32
             let elements = by_size.unwrap_or(0);
             let message = match given {
                 Some(_) => "the array has no elements",
-                None => "the number of elements is missing",
+                None => "the array has no number of elements",
             };
-            let label = format!("{elements} elements, by BitSize");
+            let label = format!("read as {elements} elements from BitSize");
             reader.report(&codes::ARRAY_BOUNDS, dimension.origin.span, message, label);
             elements
         }
@@ -565,7 +570,7 @@ fn dimensions(reader: &mut Reader<'_, '_>, ty: &RawType<'_>, element: Option<u32
     ty.dimensions.iter().take(MAX_DIMENSIONS).map(|dimension| (dimension.lower, count(dimension))).collect()
 }
 
-/// Single bits that nobody named.
+/// Returns a bit field of unnamed single bits.
 fn bit_array(width: u8) -> Shape {
     let bit = |offset| BitFieldEntry {
         name: format_compact!("Bit {offset}"),
@@ -583,7 +588,7 @@ fn bit_array(width: u8) -> Shape {
     Shape::BitField { base: Type::Unsigned(width), fields: (0..width).map(bit).collect() }
 }
 
-/// The basic type that a name nearly is, where no data type has it.
+/// Returns the basic type that a name resembles, for a name without a data type.
 pub(super) fn guessed(diagnostics: &mut Diagnostics, name: &Given<'_>) -> Type {
     match type_name::basic(&name.text) {
         Some((Basic::Type(ty), spelling)) => {
@@ -597,12 +602,12 @@ pub(super) fn guessed(diagnostics: &mut Diagnostics, name: &Given<'_>) -> Type {
     }
 }
 
-/// Reports a name that is no type's.
+/// Reports a name without a type.
 fn unresolved(diagnostics: &mut Diagnostics, name: &Given<'_>) {
-    let message = format!("no data type is called `{}`", brief(&name.text));
+    let message = format!("there is no data type `{}`", brief(&name.text));
     diagnostics.push(
         Diagnostic::new(&codes::UNRESOLVED_TYPE, name.span, message)
             .label("kept as raw bytes")
-            .help("define it in DataTypes, or use the name of a basic type such as UINT"),
+            .help("define the type in DataTypes, or use the name of a basic type such as UINT"),
     );
 }

@@ -1,4 +1,4 @@
-//! Defaults and limits: bytes in the order of memory, numbers and texts, converted to the type of their item.
+//! Converts default values and limits to the type of their item. They are bytes in memory order, numbers or texts.
 
 use std::cmp::Ordering;
 
@@ -9,14 +9,14 @@ use crate::diagnostics::{codes, Diagnostic};
 use crate::ir::{CompactString, Type, Value};
 use crate::text::brief;
 
-/// Whether a value is a default or a limit.
+/// Whether a value is a default value or a limit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Role {
     Default,
     Limit,
 }
 
-/// Converts a value to `ty`, which is no alias and no enumeration.
+/// Converts a value to `ty`, which is not an alias or enumeration.
 pub(super) fn convert(reader: &mut Reader<'_, '_>, raw: &RawValue<'_>, ty: Type, role: Role) -> Option<Value> {
     match raw.form {
         Form::Data => data(reader, raw, ty),
@@ -25,7 +25,7 @@ pub(super) fn convert(reader: &mut Reader<'_, '_>, raw: &RawValue<'_>, ty: Type,
     }
 }
 
-/// Bytes, the least significant one first.
+/// Converts bytes, least significant byte first.
 fn data(reader: &mut Reader<'_, '_>, raw: &RawValue<'_>, ty: Type) -> Option<Value> {
     let bytes = reader.octets(&raw.given)?;
     match ty {
@@ -46,7 +46,7 @@ fn data(reader: &mut Reader<'_, '_>, raw: &RawValue<'_>, ty: Type) -> Option<Val
     }
 }
 
-/// UTF-8, or else ISO 8859-1.
+/// Decodes UTF-8, or ISO 8859-1 if the bytes are not valid UTF-8.
 fn latin(bytes: &[u8]) -> CompactString {
     match std::str::from_utf8(bytes) {
         Ok(text) => text.into(),
@@ -60,11 +60,11 @@ fn scalar(reader: &mut Reader<'_, '_>, raw: &RawValue<'_>, ty: Type, bytes: Vec<
     let rest = bytes.get(length..).unwrap_or(&[]);
     if bytes.len() != length && reader.diagnostics.wants(&codes::HEX_LENGTH) {
         let label = match bytes.len().cmp(&length) {
-            Ordering::Less => "the bytes that are missing are zeros",
+            Ordering::Less => "missing bytes are read as zeros",
             _ if rest.iter().any(|&byte| byte != 0) => "kept as bytes",
-            _ => "the zeros behind the value are left out",
+            _ => "the zeros after the value are ignored",
         };
-        let message = format!("{ty} has a length of {length} in bytes, and {} are given", bytes.len());
+        let message = format!("{ty} has a length of {length} in bytes, but the value has {}", bytes.len());
         reader.report(&codes::HEX_LENGTH, raw.given.span, message, label);
     }
     if rest.iter().any(|&byte| byte != 0) {
@@ -75,7 +75,7 @@ fn scalar(reader: &mut Reader<'_, '_>, raw: &RawValue<'_>, ty: Type, bytes: Vec<
         Type::Boolean => Value::Bool(pattern != 0),
         Type::Real32 => Value::Real(f64::from(f32::from_bits(pattern as u32))),
         Type::Real64 => Value::Real(f64::from_bits(pattern)),
-        // Missing bytes are zeros: a short number has no sign.
+        // Missing bytes are zeros, so a short number is never negative.
         Type::Integer(bits) if bytes.len() == length => Value::Int(signed(pattern, bits)),
         _ => Value::Int(i128::from(pattern)),
     }
@@ -100,7 +100,7 @@ fn number(reader: &mut Reader<'_, '_>, raw: &RawValue<'_>, ty: Type, role: Role)
             _ => integer(reader, raw, ty, role),
         },
         Type::VisibleString(_) | Type::UnicodeString(_) => {
-            reader.report(&codes::VALUE_FORM, given.span, "a number is given for a text", "read as the text");
+            reader.report(&codes::VALUE_FORM, given.span, "a text has a number as its value", "read as text");
             Value::Text(given.compact())
         }
         _ => integer(reader, raw, ty, role),
@@ -115,29 +115,29 @@ fn integer(reader: &mut Reader<'_, '_>, raw: &RawValue<'_>, ty: Type, role: Role
     if (low..=high).contains(&value) {
         return if ty == Type::Boolean { Value::Bool(value != 0) } else { Value::Int(value) };
     }
-    // A bit pattern has no other way to be negative.
+    // A negative number can only be written as a bit pattern in hexadecimal.
     if number.hex && ty.is_signed() && value <= high - low {
         return Value::Int(value - (high - low + 1));
     }
     if value == -1 && !ty.is_signed() && ty != Type::Boolean {
-        let message = format!("-1 is given for {ty}, which has no sign");
+        let message = format!("the value is -1, but {ty} is unsigned");
         reader.report(&codes::MINUS_ONE, given.span, message, format!("read as all ones: {high}"));
         return Value::Int(high);
     }
     if reader.diagnostics.wants(&codes::ESI_OUT_OF_TYPE) {
-        let what = if role == Role::Limit { "limit" } else { "default" };
-        let message = format!("the {what} {} doesn't fit {ty}, which goes from {low} to {high}", brief(&given.text));
-        reader.report(&codes::ESI_OUT_OF_TYPE, given.span, message, "kept as it is");
+        let what = if role == Role::Limit { "limit" } else { "default value" };
+        let message = format!("the {what} {} is out of range for {ty} ({low} to {high})", brief(&given.text));
+        reader.report(&codes::ESI_OUT_OF_TYPE, given.span, message, "kept unchanged");
     }
     Value::Int(value)
 }
 
-/// Text where an integer is wanted: a number with a fraction of zero, or anything else.
+/// Converts a text that is not an integer. A fraction of zero is dropped; other text is kept.
 fn fraction(reader: &mut Reader<'_, '_>, raw: &RawValue<'_>, ty: Type) -> Value {
     let given = &raw.given;
     let whole = given.text.split_once('.').filter(|(_, rest)| rest.bytes().all(|digit| digit == b'0'));
     if let Some(number) = whole.and_then(|(whole, _)| number::parse(whole)) {
-        let message = format!("a decimal fraction is given for {ty}");
+        let message = format!("the value is a decimal fraction, but the type is {ty}");
         reader.diagnostics.push(
             Diagnostic::new(&codes::VALUE_FORM, given.span, message)
                 .label(format!("read as {}", number.value))
@@ -145,12 +145,12 @@ fn fraction(reader: &mut Reader<'_, '_>, raw: &RawValue<'_>, ty: Type) -> Value 
         );
         return Value::Int(number.value);
     }
-    let message = format!("`{}` is no {ty}", brief(&given.text));
+    let message = format!("`{}` is not a {ty}", brief(&given.text));
     reader.report(&codes::VALUE_FORM, given.span, message, "kept as text");
     Value::Raw(given.compact())
 }
 
-/// A decimal number; eight or sixteen hexadecimal digits are its bits.
+/// Converts a decimal number. Eight or sixteen hexadecimal digits are a bit pattern.
 fn real(reader: &mut Reader<'_, '_>, raw: &RawValue<'_>, ty: Type) -> Value {
     let given = &raw.given;
     let decimal = |byte: u8| byte.is_ascii_digit() || matches!(byte, b'.' | b'-' | b'+' | b'e' | b'E');
@@ -159,7 +159,7 @@ fn real(reader: &mut Reader<'_, '_>, raw: &RawValue<'_>, ty: Type) -> Value {
         return Value::Real(value);
     }
     let Some(number) = reader.parse(given) else {
-        let message = format!("`{}` is no {ty}", brief(&given.text));
+        let message = format!("`{}` is not a {ty}", brief(&given.text));
         reader.report(&codes::VALUE_FORM, given.span, message, "kept as text");
         return Value::Raw(given.compact());
     };
@@ -171,7 +171,7 @@ fn real(reader: &mut Reader<'_, '_>, raw: &RawValue<'_>, ty: Type) -> Value {
         return Value::Real(value);
     }
     let value = number.value as f64;
-    let message = format!("{} doesn't have the {} digits of a {ty}'s bits", brief(&given.text), bits / 4);
+    let message = format!("{} does not have the {} digits of a {ty} bit pattern", brief(&given.text), bits / 4);
     reader.report(&codes::VALUE_FORM, given.span, message, format!("read as the number {value}"));
     Value::Real(value)
 }
@@ -182,7 +182,7 @@ fn text(reader: &mut Reader<'_, '_>, raw: &RawValue<'_>, ty: Type, role: Role) -
         Type::OctetString(_) => Value::Bytes(raw.given.text.as_bytes().to_vec()),
         Type::Opaque(_) | Type::Named(_) | Type::Domain => Value::Text(raw.given.compact()),
         _ => {
-            let message = format!("a text is given for {ty}");
+            let message = format!("the value is marked as text, but the type is {ty}");
             reader.report(&codes::VALUE_FORM, raw.given.span, message, "read as a number");
             number(reader, raw, ty, role)
         }

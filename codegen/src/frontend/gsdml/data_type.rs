@@ -1,55 +1,55 @@
-//! The data types of GSDML, with their lengths.
+//! The data types of GSDML and their lengths.
 
 use crate::ir::{TimeFormat, Type};
 
-/// What the name of a data type stands for.
+/// Data type with a name in GSDML.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum DataType {
     /// A type of the IR.
     Basic(Type),
-    /// A string whose length in bytes stands beside it.
+    /// A string with a length in bytes from the file.
     String(StringType),
-    /// A number with a meaning of its own (profiles of drives and process control).
+    /// A number with a defined meaning (PROFIdrive and process control profiles).
     Number(&'static NumberType),
-    /// A value and what tells its quality, or two values.
+    /// A value with its quality, or two values.
     Pair(&'static PairType),
-    /// Octets of the length beside it, the last of which is a status.
+    /// Octets with a length from the file. The last octet is a status.
     OctetsWithStatus,
-    /// The trailer of a PROFIsafe message, of so many bytes: no data of the user.
+    /// Trailer of a PROFIsafe message, with its length in bytes. It contains no user data.
     Trailer(u32),
     /// One bit.
     Bit,
-    /// Some bits.
+    /// Several bits.
     BitArea,
 }
 
-/// Types of strings.
+/// Type of a string.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum StringType {
     Visible,
     Octet,
-    /// A string in an encoding or with a header of its own: octets under this name.
+    /// A string in another encoding or with a header. It is read as octets and keeps this type name.
     Named(&'static str),
 }
 
-/// A number with a name of its own.
+/// A named number type.
 #[derive(Debug, PartialEq)]
 pub(super) struct NumberType {
     pub name: &'static str,
     pub base: Type,
-    /// Physical units per count, where the type fixes them.
+    /// Physical value of 1 LSB, if the type defines it.
     pub factor: Option<f64>,
 }
 
 impl Eq for NumberType {}
 
-/// Two values under one name.
+/// Two values in one type.
 #[derive(Debug, PartialEq, Eq)]
 pub(super) struct PairType {
     pub name: &'static str,
     pub first: Type,
     pub second: Type,
-    /// What the name of the second value ends in.
+    /// Suffix of the second value's name.
     pub suffix: &'static str,
 }
 
@@ -57,7 +57,7 @@ const fn number(name: &'static str, base: Type, factor: Option<f64>) -> NumberTy
     NumberType { name, base, factor }
 }
 
-/// Normalised values of PROFIdrive and fixed-point numbers of IEC 61158-6-10. 100 % of an N2 are 2^14, of an N4 2^30.
+/// Normalized values of PROFIdrive and fixed-point numbers of IEC 61158-6-10. 100 % is 2^14 for N2 and 2^30 for N4.
 static NUMBERS: [NumberType; 13] = [
     number("N2", Type::Integer(16), Some(100.0 / 16_384.0)),
     number("N4", Type::Integer(32), Some(100.0 / 1_073_741_824.0)),
@@ -70,7 +70,7 @@ static NUMBERS: [NumberType; 13] = [
     number("D2", Type::Unsigned(16), None),
     number("R2", Type::Unsigned(16), None),
     number("Unipolar2.16", Type::Unsigned(16), None),
-    // Sequences of bits: plain numbers.
+    // Bit sequences are read as integers.
     number("V2", Type::Unsigned(16), None),
     number("L2", Type::Unsigned(16), None),
 ];
@@ -89,7 +89,7 @@ static PAIRS: [PairType; 7] = [
     pair("Unsigned8_S", Type::Unsigned(8), "status"),
 ];
 
-/// The types of IEC 61158-6-10 and IEC 61131, in which GSDML describes most data.
+/// Types of IEC 61158-6-10 and IEC 61131. Most data in GSDML files has one of them.
 static BASIC: [(&str, DataType); 31] = [
     ("Unsigned8", DataType::Basic(Type::Unsigned(8))),
     ("Unsigned16", DataType::Basic(Type::Unsigned(16))),
@@ -101,7 +101,7 @@ static BASIC: [(&str, DataType); 31] = [
     ("Integer64", DataType::Basic(Type::Integer(64))),
     ("Float32", DataType::Basic(Type::Real32)),
     ("Float64", DataType::Basic(Type::Real64)),
-    // One byte, of which bit 0 is the value.
+    // One byte; bit 0 is the value.
     ("Boolean", DataType::Basic(Type::Boolean)),
     ("Bit", DataType::Bit),
     ("BitArea", DataType::BitArea),
@@ -126,12 +126,12 @@ static BASIC: [(&str, DataType); 31] = [
 ];
 
 impl DataType {
-    /// The data type with this name.
+    /// Returns the data type with this name.
     pub fn find(name: &str) -> Option<Self> {
         Self::all().find(|(other, _)| *other == name).map(|(_, ty)| ty)
     }
 
-    /// The data type with this name in any case, and its name.
+    /// Returns the data type with this name and its correct spelling. Ignores case.
     pub fn find_in_any_case(name: &str) -> Option<(&'static str, Self)> {
         Self::all().find(|(other, _)| other.eq_ignore_ascii_case(name))
     }
@@ -144,7 +144,7 @@ impl DataType {
         BASIC.iter().copied().chain(numbers).chain(PAIRS.iter().map(|pair| (pair.name, DataType::Pair(pair))))
     }
 
-    /// Length in bytes, where the name tells it.
+    /// Returns the length in bytes if the type defines it.
     pub fn bytes(self) -> Option<u32> {
         match self {
             DataType::Basic(Type::Boolean) => Some(1),
@@ -158,7 +158,7 @@ impl DataType {
 }
 
 impl PairType {
-    /// Length of the first value in bits.
+    /// Returns the length of the first value in bits.
     pub fn first_bits(&self) -> u32 {
         match self.first {
             Type::OctetString(Some(bytes)) => 8 * bytes,

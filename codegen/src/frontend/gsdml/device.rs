@@ -1,8 +1,8 @@
-//! Device access points: what a device can, and what can be plugged into it.
+//! Device access points: properties of a device, and the modules and submodules that fit.
 
 use compact_str::format_compact;
 
-use super::links::{Kind, Owner};
+use super::links::{ElementKind, Owner};
 use super::module_info::{named_graphic, Info};
 use super::reader::Reader;
 use super::submodule::Holder;
@@ -13,10 +13,10 @@ use crate::ir::{
 };
 use crate::syntax::xml::Tag;
 
-/// Greatest length of a record where the source doesn't say.
+/// Default value of the maximum record length.
 const RECORD_SIZE: u32 = 4068;
 
-/// Send clock factor where the source doesn't say: 1 ms.
+/// Default value of the send clock factor: 1 ms.
 const SEND_CLOCK: u16 = 32;
 
 impl<'a> Reader<'a, '_> {
@@ -56,7 +56,7 @@ impl<'a> Reader<'a, '_> {
         Ok(device)
     }
 
-    /// The attributes of a device access point.
+    /// Reads the attributes of a device access point.
     fn settings(&mut self, tag: &Tag<'a>, position: usize, device: &mut Device) -> Read<ProfinetSettings> {
         const NAMES: [&str; 9] = [
             "ID",
@@ -72,15 +72,15 @@ impl<'a> Reader<'a, '_> {
         let mut settings = ProfinetSettings::default();
         let [id, ident, version, slots, interval, dns, allowed, fixed, record] =
             self.attributes_and_others(tag, NAMES, &mut settings.attributes)?;
-        self.register(tag, Kind::AccessPoint, &id, position);
+        self.register(tag, ElementKind::AccessPoint, &id, position);
         device.id = id.compact();
         settings.ident = self.required_ident(tag, &ident, "ModuleIdentNumber");
         settings.pnio_version = version.compact();
         settings.slots = self.numbers(&slots);
-        settings.min_device_interval = self.unsigned16(&interval, "multiple of 31.25 µs");
+        settings.min_device_interval = self.unsigned16(&interval, "minimum device interval");
         settings.dns_name = dns.compact();
         settings.places = self.places([allowed, fixed, Given::missing()]);
-        settings.max_record_size = self.unsigned(&record, u32::MAX, "length in bytes").unwrap_or(RECORD_SIZE);
+        settings.max_record_size = self.unsigned(&record, u32::MAX, "maximum record length").unwrap_or(RECORD_SIZE);
         device.identity.others.push(("module_ident".into(), settings.ident));
         Ok(settings)
     }
@@ -113,7 +113,7 @@ impl<'a> Reader<'a, '_> {
                 Ok(())
             }
             "ApplicationRelations" => {
-                // V1.0 and V2.0 have it here.
+                // In V1.0 and V2.0, the element is here.
                 let mut kept = Submodule::default();
                 self.application_relations(tag, Some(settings), &mut kept)?;
                 settings.attributes.append(&mut kept.attributes);
@@ -145,9 +145,9 @@ impl<'a> Reader<'a, '_> {
         let names = ["MaxInputLength", "MaxOutputLength", "MaxDataLength"];
         let [input, output, data] = self.attributes_and_others(tag, names, &mut others)?;
         settings.max_lengths = IoLengths {
-            input: self.unsigned16(&input, "length in bytes"),
-            output: self.unsigned16(&output, "length in bytes"),
-            data: self.unsigned16(&data, "length in bytes"),
+            input: self.unsigned16(&input, "data length"),
+            output: self.unsigned16(&output, "data length"),
+            data: self.unsigned16(&data, "data length"),
         };
         let named = others.into_iter().map(|(key, value)| (format_compact!("IOConfigData@{key}"), value));
         settings.attributes.extend(named);
@@ -159,7 +159,7 @@ impl<'a> Reader<'a, '_> {
             let [number, text] = reader.attributes(tag, ["SlotNumber", "TextId"])?;
             let name = reader.name(tag, text);
             reader.require(tag, &number, "SlotNumber", "left out");
-            if let Some(number) = reader.unsigned16(&number, "number of a slot") {
+            if let Some(number) = reader.unsigned16(&number, "slot number") {
                 device.slots.push(Slot { number, name, instances: (0, 1), ..Slot::default() });
             }
             reader.no_children(tag)
@@ -188,7 +188,7 @@ impl<'a> Reader<'a, '_> {
 }
 
 impl Info<'_> {
-    /// What ModuleInfo says of a device access point.
+    /// Adds the contents of ModuleInfo to a device access point.
     fn of_device(self, device: &mut Device, attributes: &mut Attributes) {
         device.name = self.name;
         device.documentation = self.documentation;

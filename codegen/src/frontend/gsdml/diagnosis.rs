@@ -1,4 +1,4 @@
-//! Channel diagnosis, process alarms, diagnosis of user structures and the log book.
+//! Channel diagnosis, process alarms, user-structure diagnosis and the log book.
 
 use std::fmt::Write;
 
@@ -11,7 +11,7 @@ use crate::ir::{
 use crate::source::Origin;
 use crate::syntax::xml::Tag;
 
-/// A list of codes: the attribute that has the code, the tables, and what they are called.
+/// A list of codes: the attribute with the code, and names of the tables and columns.
 struct List {
     code: &'static str,
     table: &'static str,
@@ -20,7 +20,7 @@ struct List {
     extended_columns: &'static [&'static str],
 }
 
-/// Errors of channels; an extended error belongs to the error type in its first cell.
+/// Channel errors. The first column of an extended error is its error type.
 static CHANNEL_DIAGNOSIS: List = List {
     code: "ErrorType",
     table: "channel_diagnosis",
@@ -29,7 +29,7 @@ static CHANNEL_DIAGNOSIS: List = List {
     extended_columns: &["error_type", "maintenance_alarm_state", "api", "add_value"],
 };
 
-/// Reasons of process alarms.
+/// Reasons of process alarms. The first column of an extended reason is its reason.
 static PROCESS_ALARMS: List = List {
     code: "Reason",
     table: "process_alarms",
@@ -38,14 +38,14 @@ static PROCESS_ALARMS: List = List {
     extended_columns: &["reason", "maintenance_alarm_state", "api", "add_value"],
 };
 
-/// The rows of a list, and those of its extended codes.
+/// Rows of the codes and of the extended codes of a list.
 #[derive(Default)]
 struct Rows {
     codes: Vec<CodeRow>,
     extended: Vec<CodeRow>,
 }
 
-/// One code as written.
+/// A code as written.
 #[derive(Default)]
 struct Code {
     code: Option<i128>,
@@ -84,9 +84,9 @@ impl<'a> Reader<'a, '_> {
         Ok(())
     }
 
-    /// Reads a code, or an extended code of the code and application process `parent`, and the codes within it.
+    /// Reads a code and its extended codes. For an extended code, `parent` is the code and API of its parent.
     fn code(&mut self, tag: &Tag<'a>, list: &'static List, parent: Option<(i128, u32)>, rows: &mut Rows) -> Read<()> {
-        // Some files have errors where reasons belong.
+        // Some files have ErrorType instead of the reason.
         let names = [list.code, "MaintenanceAlarmState", "API", "ErrorType"];
         let [mut given, state, api, other] = self.attributes(tag, names)?;
         if given.is_missing() {
@@ -96,7 +96,7 @@ impl<'a> Reader<'a, '_> {
         let mut code = Code {
             code: self.unsigned16(&given, "code").map(i128::from),
             state: if state.is_missing() { "D".into() } else { state.compact() },
-            // What is within the error of a profile is that profile's.
+            // An extended code has the API of its parent unless it declares one.
             api: self.unsigned(&api, u32::MAX, "API number").or(parent.map(|(_, api)| api)).unwrap_or(0),
             ..Code::default()
         };
@@ -127,7 +127,7 @@ impl<'a> Reader<'a, '_> {
         Ok(())
     }
 
-    /// What comes along with a code, as `1 Unsigned16, 2 Float32`.
+    /// Adds the additional values of a code to `text`, in the form `1 Unsigned16, 2 Float32`.
     fn add_values(&mut self, list: &Tag<'a>, text: &mut String) -> Read<()> {
         self.each(list, "DataItem", |reader, tag| {
             let [id, data_type] = reader.attributes(tag, ["Id", "DataType"])?;
@@ -137,14 +137,14 @@ impl<'a> Reader<'a, '_> {
         })
     }
 
-    /// Reads LogBookEntryList: the code of a row is the whole status, ErrorCode2 being its last byte.
+    /// Reads LogBookEntryList. The code of a row is the whole status; ErrorCode2 is its last byte.
     pub fn log_book(&mut self, list: &Tag<'a>, catalog: &mut Catalog) -> Read<()> {
         let origin = self.origin(list);
         let mut rows = Vec::new();
         self.each(list, "LogBookEntryItem", |reader, tag| {
             let [status] = reader.attributes(tag, ["Status"])?;
-            reader.require(tag, &status, "Status", "taken for 0");
-            let status = reader.unsigned(&status, 0xFF_FFFF, "status of three bytes").unwrap_or(0);
+            reader.require(tag, &status, "Status", "read as 0");
+            let status = reader.unsigned(&status, 0xFF_FFFF, "three-byte status").unwrap_or(0);
             reader.log_entries(tag, i128::from(status) << 8, &mut rows)
         })?;
         catalog.code_tables.push(table("log_book", &[], rows, origin));
@@ -157,8 +157,8 @@ impl<'a> Reader<'a, '_> {
                 "ErrorCode2Value" => rows.push(self.log_entry(&tag, first, Some(first + 0xFF))?),
                 "ErrorCode2List" => self.each(&tag, "ErrorCode2Item", |reader, tag| {
                     let given = reader.attribute(tag, "ErrorCode2")?;
-                    reader.require(tag, &given, "ErrorCode2", "taken for 0");
-                    let code = reader.unsigned(&given, u8::MAX.into(), "error code of one byte").unwrap_or(0);
+                    reader.require(tag, &given, "ErrorCode2", "read as 0");
+                    let code = reader.unsigned(&given, u8::MAX.into(), "one-byte error code").unwrap_or(0);
                     rows.push(reader.log_entry(tag, first + i128::from(code), None)?);
                     Ok(())
                 })?,
@@ -200,7 +200,7 @@ impl<'a> Reader<'a, '_> {
         let names = ["API", "UserStructureIdentifier"];
         let [api, identifier] = self.attributes(parent, names)?;
         diagnosis.api = self.unsigned(&api, u32::MAX, "API number").unwrap_or(0);
-        self.require(parent, &identifier, "UserStructureIdentifier", "taken for 0");
+        self.require(parent, &identifier, "UserStructureIdentifier", "read as 0");
         diagnosis.identifier = self.unsigned16(&identifier, "structure identifier").unwrap_or(0);
         while let Some(tag) = self.child(parent)? {
             match tag.name {
@@ -268,7 +268,7 @@ fn empty_row(code: i128) -> CodeRow {
     }
 }
 
-/// Whether an element of a list is a code.
+/// Returns whether an element of a list is a code.
 fn is_code(element: &str) -> bool {
     const NAMES: [&str; 10] = [
         "ChannelDiagItem",

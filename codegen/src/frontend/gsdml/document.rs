@@ -1,4 +1,4 @@
-//! One file.
+//! Reads a file.
 
 use super::header::Header;
 use super::lists;
@@ -13,10 +13,10 @@ use crate::source::{FileId, Source};
 use crate::syntax::xml::{Cursor, Tag};
 use crate::text::brief;
 
-/// Reads the device access points, modules and submodules that `source` describes. Everything that had to be repaired goes
-/// to `diagnostics`.
+/// Reads the device access points, modules and submodules that `source` describes. Repairs are reported to
+/// `diagnostics`.
 ///
-/// Returns `None`, with one error, for a file that isn't well formed or no GSDML.
+/// Returns `None`, with one error, if the file is not well-formed or not a GSDML file.
 pub fn read(source: &Source, file: FileId, diagnostics: &mut Diagnostics) -> Option<Catalog> {
     declared_encoding::report(source, file, diagnostics);
     let mut reader = Reader::new(Cursor::new(source.text(), file), diagnostics, Gsdml::default());
@@ -39,7 +39,7 @@ pub fn read(source: &Source, file: FileId, diagnostics: &mut Diagnostics) -> Opt
     Some(catalog)
 }
 
-/// What was read so far.
+/// Contents of a file that were read.
 #[derive(Default)]
 struct Document<'a> {
     catalog: Catalog,
@@ -61,11 +61,11 @@ impl<'a> Document<'a> {
                 _ => reader.unknown(&tag)?,
             }
         }
-        // What follows the root element has to be well formed, too.
+        // The content after the root element must be well-formed, too.
         while reader.cursor.read()?.is_some() {}
         if self.catalog.devices.is_empty() {
-            let message = "the file describes no device access point";
-            let label = "there is no <DeviceAccessPointItem> in it";
+            let message = "the file does not describe a device access point";
+            let label = "<DeviceAccessPointItem> is missing";
             reader.report(&codes::NO_DEVICE_ACCESS_POINT, root.name_span(), message, label);
         }
         Ok(())
@@ -87,10 +87,10 @@ impl<'a> Document<'a> {
         while let Some(tag) = reader.child(parent)? {
             match tag.name {
                 "Family" => self.header.family(reader, &tag)?,
-                // Not its place, but nothing else can be meant.
+                // The element is misplaced, but its meaning is clear.
                 "ApplicationProcess" => {
-                    let message = "<ApplicationProcess> belongs into <ProfileBody>";
-                    reader.report(&codes::GSDML_VALUE, tag.name_span(), message, "read here");
+                    let message = "<ApplicationProcess> is not in <ProfileBody>";
+                    reader.report(&codes::GSDML_VALUE, tag.name_span(), message, "read as a part of <ProfileBody>");
                     self.process(reader, &tag)?;
                 }
                 _ => reader.unknown(&tag)?,
@@ -122,7 +122,8 @@ impl<'a> Document<'a> {
 }
 
 fn not_gsdml(root: &Tag<'_>) -> Box<Diagnostic> {
-    let message = format!("<{}> isn't the root of a GSDML file", brief(root.name));
-    let help = "a GSDML file has the root element ISO15745Profile, and in it a ProfileBody with an ApplicationProcess";
+    let message = format!("<{}> is not the root element of a GSDML file", brief(root.name));
+    let help =
+        "check that the file has <ISO15745Profile> as its root element, with <ApplicationProcess> in <ProfileBody>";
     Box::new(Diagnostic::new(&codes::NOT_A_GSDML, root.name_span(), message).help(help))
 }

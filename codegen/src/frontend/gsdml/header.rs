@@ -1,4 +1,4 @@
-//! What a file says about itself and its family of devices: its name, the version of the schema, the vendor.
+//! Header of a file: its name, schema version, vendor and family of devices.
 
 use super::reader::Reader;
 use super::resolve::Resolver;
@@ -8,24 +8,24 @@ use crate::ir::{Catalog, CompactString, Documentation, Extension};
 use crate::source::{FileId, Span};
 use crate::syntax::xml::Tag;
 
-/// Bytes of the texts of a header that every device may have at no cost.
+/// Number of header text bytes that are copied to each device without using the copy budget.
 const MAX_FREE_TEXTS: usize = 1024;
 
-/// What all devices of a file share.
+/// Facts that all devices of a file share.
 #[derive(Default)]
 pub(super) struct Header {
     vendor_id: Option<u32>,
     vendor_name: CompactString,
     device_id: Option<u32>,
-    /// What stands for the description of the family.
+    /// Description of the family, with a placeholder for its text.
     description: Option<Box<Documentation>>,
     family: (CompactString, CompactString),
-    /// Version of the schema, and where it stands.
+    /// Version of the schema and its span.
     version: Option<(CompactString, Span)>,
 }
 
 impl Header {
-    /// Reads the version of the schema from where the root says that it is found.
+    /// Reads the schema version from the schema location in the root element.
     pub fn root(&mut self, reader: &mut Reader<'_, '_>, root: &Tag<'_>) -> Read<()> {
         let Some(location) = root.attribute("schemaLocation")? else { return Ok(()) };
         let text = location.value(reader.diagnostics);
@@ -39,10 +39,10 @@ impl Header {
     pub fn identity<'a>(&mut self, reader: &mut Reader<'a, '_>, tag: &Tag<'a>) -> Read<()> {
         let [vendor, device] = reader.attributes(tag, ["VendorID", "DeviceID"])?;
         for (given, name) in [(&vendor, "VendorID"), (&device, "DeviceID")] {
-            reader.require(tag, given, name, "devices are left without it");
+            reader.require(tag, given, name, "the devices have no such ID");
         }
-        self.vendor_id = reader.ident(&vendor, u16::MAX.into(), "number of a vendor");
-        self.device_id = reader.ident(&device, u16::MAX.into(), "number of a device");
+        self.vendor_id = reader.ident(&vendor, u16::MAX.into(), "vendor ID");
+        self.device_id = reader.ident(&device, u16::MAX.into(), "device ID");
         while let Some(child) = reader.child(tag)? {
             match child.name {
                 "InfoText" => self.description = reader.documentation(&child)?,
@@ -60,7 +60,7 @@ impl Header {
         reader.no_children(tag)
     }
 
-    /// Gives every device its share.
+    /// Adds the shared facts to every device.
     pub fn apply(mut self, catalog: &mut Catalog, resolver: &mut Resolver<'_, '_>) {
         resolver.documentation(&mut self.description);
         let description = self.description.as_ref().map_or("", |documentation| documentation.text.as_str());
@@ -73,15 +73,15 @@ impl Header {
             if weight > MAX_FREE_TEXTS && !resolver.spend_at(weight, device.origin.span) {
                 continue;
             }
-            let own = std::mem::replace(&mut identity.vendor_name, self.vendor_name.clone());
+            let of_device = std::mem::replace(&mut identity.vendor_name, self.vendor_name.clone());
             identity.product_name = device.name.clone();
             device.header.description = description.into();
             device.header.format_version = version.clone();
             let Some(settings) = &mut device.profinet else { continue };
             settings.device_id = self.device_id.and_then(|id| u16::try_from(id).ok()).unwrap_or(0);
             settings.family = self.family.clone();
-            if !own.is_empty() && own != device.identity.vendor_name {
-                settings.attributes.push(("ModuleInfo/VendorName".into(), own));
+            if !of_device.is_empty() && of_device != device.identity.vendor_name {
+                settings.attributes.push(("ModuleInfo/VendorName".into(), of_device));
             }
         }
         if let Some(documentation) = self.description {
@@ -95,31 +95,32 @@ impl Header {
         }
     }
 
-    /// Holds the name of the file against the rule for it.
+    /// Compares the file name with the naming rule and the schema version.
     pub fn check_file_name(&self, name: &str, file: FileId, diagnostics: &mut Diagnostics) {
         if !diagnostics.wants(&codes::GSDML_FILE_NAME) {
             return;
         }
         let name = name.rsplit(['/', '\\']).next().unwrap_or(name);
         let Some(named) = version_of_name(name) else {
-            let message = format!("`{name}` isn't how a GSDML file is called");
+            let message = format!("`{name}` is not a GSDML file name");
             diagnostics.push(
                 Diagnostic::new(&codes::GSDML_FILE_NAME, Span::new(file, 0, 0), message).help(
-                    "the form is `GSDML-V2.35-Vendor-Device-20200131.xml`, perhaps with `-hhmmss` behind the date",
+                    "rename the file to the form `GSDML-V2.35-Vendor-Device-20200131.xml`, optionally with `-hhmmss` after the date",
                 ),
             );
             return;
         };
         if let Some((version, span)) = &self.version {
             if version != named {
-                let message = format!("the name of the file says version {named}, its schema is that of {version}");
-                diagnostics.push(Diagnostic::new(&codes::GSDML_FILE_NAME, *span, message).label("this one counts"));
+                let message = format!("the file name has version {named}, but the schema has version {version}");
+                diagnostics
+                    .push(Diagnostic::new(&codes::GSDML_FILE_NAME, *span, message).label("this version is used"));
             }
         }
     }
 }
 
-/// The version in `GSDML-DeviceProfile-v2.35.xsd`.
+/// Returns the version in a schema name such as `GSDML-DeviceProfile-v2.35.xsd`.
 fn version_in(name: &str) -> Option<&str> {
     let (_, rest) = name.rsplit_once(['-', '_'])?;
     let version = rest.strip_prefix(['v', 'V'])?.strip_suffix(".xsd").or(rest.strip_prefix(['v', 'V']))?;
@@ -131,13 +132,13 @@ fn is_version(text: &str) -> bool {
     text.split_once('.').is_some_and(|(major, minor)| digits(major) && digits(minor))
 }
 
-/// The version in the name of a file, where the name follows the rule.
+/// Returns the version in a file name that follows the naming rule.
 fn version_of_name(name: &str) -> Option<&str> {
     let rest = name.strip_prefix("GSDML-V")?;
     let rest = rest.strip_suffix(".xml").or_else(|| rest.strip_suffix(".XML"))?;
     let (version, rest) = rest.split_once('-')?;
     let digits = |text: &str, count| text.len() == count && text.bytes().all(|byte| byte.is_ascii_digit());
-    // The date is last, or has the time behind it.
+    // The date is last or is followed by the time.
     let (front, last) = rest.rsplit_once('-')?;
     let front = match (digits(last, 8), front.rsplit_once('-')) {
         (true, _) => front,

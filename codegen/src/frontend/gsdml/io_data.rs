@@ -1,4 +1,4 @@
-//! Cyclic data of a submodule: data items, bits and channels.
+//! Reads the cyclic data of a submodule: data items, bits and channels.
 
 use compact_str::CompactString;
 
@@ -35,7 +35,7 @@ impl<'a> Reader<'a, '_> {
             let target = if direction == Direction::Transmit { &mut submodule.input } else { &mut submodule.output };
             if target.replace(Box::new(data)).is_some() {
                 let message = format!("<{}> occurs twice", tag.name);
-                self.report(&codes::DUPLICATE_ID, tag.span, message, "takes the place of the one before");
+                self.report(&codes::DUPLICATE_ID, tag.span, message, "replaces the previous element");
             }
         }
         Ok(())
@@ -45,7 +45,7 @@ impl<'a> Reader<'a, '_> {
         let [consistency] = self.attributes(parent, ["Consistency"])?;
         let consistent = consistency.text == "All items consistency";
         if !consistent && !consistency.is_missing() && consistency.text != "Item consistency" {
-            self.bad(&consistency, "kind of consistency", "read as `Item consistency`");
+            self.bad(&consistency, "consistency", "read as `Item consistency`");
         }
         let mut layout = Layout::default();
         let mut channels = Vec::new();
@@ -79,24 +79,24 @@ impl<'a> Reader<'a, '_> {
         let use_as_bits = self.flag_or(&use_as_bits, false);
         self.bit_data_items(tag, &mut item)?;
         if !item.bits.is_empty() && !use_as_bits {
-            let message = "the bits of this item have names, but UseAsBits isn't true";
+            let message = "the bits of this item have names, but UseAsBits is not true";
             self.report(&codes::BIT_DATA_ITEM, tag.name_span(), message, "read as bits");
         }
         layout.add(item, self);
         Ok(())
     }
 
-    /// The length beside the data type, where there is one.
+    /// Returns the length of a data item from the file, if the type needs one or the file declares it.
     fn item_length(&mut self, tag: &Tag<'a>, item: &DataItem, given: &Given<'a>) -> Option<u32> {
         let length = self.unsigned(given, u16::MAX.into(), "length in bytes");
         let fixed = item.found.and_then(DataType::bytes);
         match (fixed, length) {
             (Some(fixed), Some(length)) if fixed != length => {
-                let message = format!("a {} has {fixed} bytes, not {length}", item.data_type);
+                let message = format!("{} has {fixed} bytes, but Length is {length}", item.data_type);
                 self.report(&codes::GSDML_VALUE, given.span, message, format!("read as {fixed}"));
             }
             (None, None) if given.is_missing() => {
-                self.missing(tag, "Length", "taken for 0 bytes: what follows may stand elsewhere");
+                self.missing(tag, "Length", "read as 0 bytes; later items may have wrong offsets");
             }
             _ => {}
         }
@@ -109,7 +109,7 @@ impl<'a> Reader<'a, '_> {
             let [offset, text] = reader.attributes(tag, ["BitOffset", "TextId"])?;
             let name = reader.name(tag, text);
             reader.require(tag, &offset, "BitOffset", "left out");
-            if let Some(offset) = reader.unsigned(&offset, u16::MAX.into(), "number of a bit") {
+            if let Some(offset) = reader.unsigned(&offset, u16::MAX.into(), "bit offset") {
                 item.bits.push(Bit { offset, name, origin });
             }
             reader.no_children(tag)
@@ -119,7 +119,7 @@ impl<'a> Reader<'a, '_> {
     fn channel(&mut self, parent: &Tag<'a>) -> Read<IoChannel> {
         let mut channel = IoChannel::default();
         let [number] = self.attributes_and_others(parent, ["Number"], &mut channel.attributes)?;
-        channel.number = self.unsigned16(&number, "number of a channel").unwrap_or(0);
+        channel.number = self.unsigned16(&number, "channel number").unwrap_or(0);
         while let Some(tag) = self.child(parent)? {
             if !matches!(tag.name, "Data" | "Quality") {
                 self.unknown(&tag)?;
@@ -127,7 +127,7 @@ impl<'a> Reader<'a, '_> {
             }
             let names = ["BitOffset", "BitLength", "Format"];
             let [offset, bits, format] = self.attributes_and_others(&tag, names, &mut channel.attributes)?;
-            let offset = self.unsigned(&offset, u16::MAX.into(), "number of a bit");
+            let offset = self.unsigned(&offset, u16::MAX.into(), "bit offset");
             let bits = self.unsigned(&bits, u16::MAX.into(), "number of bits");
             if tag.name == "Data" {
                 channel.data = offset.map(|offset| (offset, bits.unwrap_or(1)));
@@ -142,7 +142,7 @@ impl<'a> Reader<'a, '_> {
     }
 }
 
-/// Number of bits that tell a quality: a qualifier is one bit, a status one byte; 0 where the format doesn't tell.
+/// Returns the number of quality bits of a format: 1 for a qualifier, 8 for a status, 0 for an unknown format.
 fn quality_bits(format: &str) -> u32 {
     match format {
         "Qualifier" => 1,
@@ -151,7 +151,7 @@ fn quality_bits(format: &str) -> u32 {
     }
 }
 
-/// A data item as it is written.
+/// A data item as written.
 struct DataItem {
     name: CompactString,
     data_type: CompactString,
@@ -162,30 +162,30 @@ struct DataItem {
     origin: Origin,
 }
 
-/// A bit with a name.
+/// A named bit.
 struct Bit {
     offset: u32,
     name: CompactString,
     origin: Origin,
 }
 
-/// Data items one behind the other.
+/// Consecutive data items.
 #[derive(Default)]
 struct Layout {
     fields: Vec<PdoEntry>,
     items: Vec<IoItem>,
-    /// Number of bits so far.
+    /// Current length in bits.
     at: u32,
-    /// Number of bytes at the end that aren't data of the user.
+    /// Number of bytes at the end that are not user data.
     overhead: u32,
-    /// The items of these bytes, and where they stand.
+    /// Positions and origins of the items for these bytes.
     trailers: Vec<(usize, Origin)>,
 }
 
 impl Layout {
     fn add(&mut self, item: DataItem, reader: &mut Reader<'_, '_>) {
         if !matches!(item.found, Some(DataType::Trailer(_))) {
-            self.go_on(reader);
+            self.trailers_to_data(reader);
         }
         let (first, start) = (self.fields.len(), self.at);
         let bytes = item.found.and_then(DataType::bytes).or(item.length).unwrap_or(0);
@@ -227,12 +227,13 @@ impl Layout {
         }
     }
 
-    /// What comes before other data is data, too: the trailer of a safety message is the end of it.
-    fn go_on(&mut self, reader: &mut Reader<'_, '_>) {
+    /// Converts the trailer of a safety message to data if other data follows it. A trailer must be the end of the
+    /// data.
+    fn trailers_to_data(&mut self, reader: &mut Reader<'_, '_>) {
         for (at, origin) in std::mem::take(&mut self.trailers) {
             let Some(item) = self.items.get_mut(at) else { continue };
-            let message = "the trailer of a safety message isn't the end of the data";
-            let label = "read as data, as there are items behind it";
+            let message = "the trailer of a safety message is not at the end of the data";
+            let label = "read as data because other items follow it";
             reader.report(&codes::GSDML_VALUE, origin.span, message, label);
             (item.first_field, item.fields) = (u32::try_from(self.fields.len()).unwrap_or(u32::MAX), 1);
             let (name, ty) = (item.name.clone(), Type::OctetString(Some(item.bits / 8)));
@@ -249,7 +250,7 @@ impl Layout {
         self.overhead = 0;
     }
 
-    /// A field of an item, `offset` bits behind the item's start.
+    /// Adds a field of an item. `offset` is in bits from the start of the item.
     fn field(&mut self, item: &DataItem, name: CompactString, ty: Type, offset: u32, bits: u32) {
         let kind = if ty == Type::Opaque(None) { PdoEntryKind::Unknown } else { PdoEntryKind::Item };
         self.push(name, ty, kind, offset, bits, item.origin);
@@ -260,7 +261,7 @@ impl Layout {
         self.fields.push(PdoEntry { bit_offset, kind, name, ty, origin, ..PdoEntry::new(0, 0, bits) });
     }
 
-    /// The bits of an item in the order in which they stand, with padding between them.
+    /// Adds the bits of an item in ascending order, with padding between them.
     fn bits(&mut self, item: &DataItem, length: u32, reader: &mut Reader<'_, '_>) {
         let is_number = matches!(item.found, Some(DataType::Basic(Type::Unsigned(_) | Type::Integer(_))));
         let mut bits: Vec<(u32, &Bit)> =
@@ -270,8 +271,8 @@ impl Layout {
         for (at, bit) in bits {
             if bit.offset >= length || at < next {
                 let message = match at < next {
-                    true => format!("bit {} of this item has a name already", bit.offset),
-                    false => format!("the item has {length} bits; there is no bit {}", bit.offset),
+                    true => format!("bit {} of this item already has a name", bit.offset),
+                    false => format!("the item has only {length} bits, but the offset is {}", bit.offset),
                 };
                 reader.report(&codes::BIT_DATA_ITEM, bit.origin.span, message, "left out");
                 continue;
@@ -291,7 +292,7 @@ impl Layout {
     }
 }
 
-/// Where a bit of an item stands: numbers are big-endian, so that bit 0 is in their last byte.
+/// Returns the position of a bit in an item. Numbers are big-endian, so their bit 0 is in the last byte.
 fn position(bit: u32, length: u32, is_number: bool) -> u32 {
     if !is_number || bit >= length {
         return bit;

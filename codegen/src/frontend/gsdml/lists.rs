@@ -1,6 +1,6 @@
-//! The lists of pictures and categories of a file.
+//! Reads the lists of graphics and categories of a file.
 
-use super::links::Kind;
+use super::links::ElementKind;
 use super::reader::Reader;
 use crate::frontend::xml::Read;
 use crate::ir::{Catalog, CompactString, Extension, Family, Graphic, LocalText};
@@ -10,7 +10,7 @@ use crate::syntax::xml::Tag;
 pub(super) fn graphics<'a>(reader: &mut Reader<'a, '_>, list: &Tag<'a>, catalog: &mut Catalog) -> Read<()> {
     reader.each(list, "GraphicItem", |reader, tag| {
         let [id, file] = reader.attributes(tag, ["ID", "GraphicFile"])?;
-        reader.register(tag, Kind::Graphic, &id, catalog.graphics.len());
+        reader.register(tag, ElementKind::Graphic, &id, catalog.graphics.len());
         catalog.graphics.push(Graphic { id: id.compact(), file: file.compact() });
         reader.each(tag, "Embedded", drawing)
     })
@@ -30,7 +30,7 @@ pub(super) fn categories<'a>(reader: &mut Reader<'a, '_>, list: &Tag<'a>, catalo
     reader.each(list, "CategoryItem", |reader, tag| {
         let origin = reader.origin(tag);
         let [id, text] = reader.attributes(tag, ["ID", "TextId"])?;
-        reader.register(tag, Kind::Category, &id, catalog.families.len());
+        reader.register(tag, ElementKind::Category, &id, catalog.families.len());
         let name = reader.name(tag, text);
         let mut family = Family { id: id.compact(), name, origin, ..Family::default() };
         reader.each(tag, "InfoText", |reader, tag| {

@@ -1,4 +1,4 @@
-//! Where a value is in a record or a diagnosis, of which type it is, and the names of its values.
+//! Location and type of a value in a record or diagnosis, and the names of its values.
 
 use super::data_type::DataType;
 use super::reader::Reader;
@@ -8,7 +8,7 @@ use crate::ir::Type;
 use crate::syntax::xml::Tag;
 use crate::text::brief;
 
-/// Bits and type of a value.
+/// Position, length and type of a value.
 pub(super) struct Location {
     pub data_type: Option<DataType>,
     pub ty: Type,
@@ -17,7 +17,7 @@ pub(super) struct Location {
 }
 
 impl Location {
-    /// The type of its numbers.
+    /// Returns the type of the raw number.
     pub fn number(&self) -> Type {
         match self.data_type {
             Some(DataType::Number(number)) => number.base,
@@ -27,15 +27,15 @@ impl Location {
 }
 
 impl<'a> Reader<'a, '_> {
-    /// The location that the attributes DataType, ByteOffset, BitOffset, BitLength and Length describe.
+    /// Returns the location that the attributes DataType, ByteOffset, BitOffset, BitLength and Length describe.
     pub fn location(&mut self, tag: &Tag<'a>, data_type: &Given<'a>, attributes: [&Given<'a>; 4]) -> Location {
         let [byte, bit, bits, length] = attributes;
         let byte = self.unsigned(byte, u32::MAX / 8 - 1, "byte offset").unwrap_or(0);
-        let length = self.unsigned(length, u16::MAX.into(), "length in bytes");
+        let length = self.unsigned(length, u16::MAX.into(), "length");
         let data_type = self.data_type(tag, data_type);
         let mut bit_offset = byte * 8;
         if matches!(data_type, Some(DataType::Bit | DataType::BitArea)) {
-            bit_offset += self.unsigned(bit, 7, "offset of a bit in its byte").unwrap_or(0);
+            bit_offset += self.unsigned(bit, 7, "bit offset").unwrap_or(0);
         }
         let (ty, bits) = match data_type {
             Some(DataType::Bit) => (Type::Boolean, 1),
@@ -52,7 +52,7 @@ impl<'a> Reader<'a, '_> {
         Location { data_type, ty, bit_offset, bits }
     }
 
-    /// The data type that `tag` names; one that GSDML doesn't have is reported.
+    /// Returns the data type in `given`. Reports a type that GSDML does not define.
     pub fn data_type(&mut self, tag: &Tag<'a>, given: &Given<'a>) -> Option<DataType> {
         if !self.require(tag, given, "DataType", "kept as raw bytes") {
             return None;
@@ -63,31 +63,31 @@ impl<'a> Reader<'a, '_> {
         }
         let similar = DataType::find_in_any_case(&given.text);
         if let Some((name, _)) = similar {
-            let message = format!("`{}` is written in another case than GSDML has it", brief(&given.text));
+            let message = format!("the data type `{}` has the wrong case", brief(&given.text));
             self.report(&codes::UNKNOWN_GSDML_TYPE, given.span, message, format!("read as `{name}`"));
         } else {
-            let message = format!("`{}` is no data type of GSDML", brief(&given.text));
+            let message = format!("`{}` is not a data type of GSDML", brief(&given.text));
             let diagnostic = Diagnostic::new(&codes::UNKNOWN_GSDML_TYPE, given.span, message);
-            let diagnostic = diagnostic.label("kept as raw bytes of the length that is given");
+            let diagnostic = diagnostic.label("kept as raw bytes of the declared length");
             self.diagnostics.push(match given.text.as_ref() {
-                "Float" | "Real" | "REAL" => diagnostic.help("a number of 4 bytes is a `Float32`"),
+                "Float" | "Real" | "REAL" => diagnostic.help("write `Float32` for a 4-byte number"),
                 _ => diagnostic,
             });
         }
         similar.map(|(_, ty)| ty)
     }
 
-    /// The enumeration of the ValueItem that `target` names, for a value of type `ty`.
+    /// Returns the enumeration of the ValueItem `target` for a value of type `ty`.
     pub fn named_values(&mut self, target: Given<'a>, ty: Type) -> Option<Type> {
         if target.is_missing() {
             return None;
         }
-        // Two named values of one bit are an enumeration as well.
+        // A single bit with named values becomes an enumeration, too.
         let base = if ty == Type::Boolean { Type::Unsigned(1) } else { ty };
         if matches!(base, Type::Integer(_) | Type::Unsigned(_)) {
             return Some(self.format.types.enumeration(target, base));
         }
-        let message = "only whole numbers can have named values";
+        let message = "only integers can have named values";
         self.report(&codes::GSDML_VALUE, target.span, message, "kept as an extension attribute");
         self.note("ValueItemTarget", &target);
         None

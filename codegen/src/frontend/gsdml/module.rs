@@ -1,6 +1,6 @@
-//! Modules.
+//! Reads modules.
 
-use super::links::{Kind, Owner};
+use super::links::{ElementKind, Owner};
 use super::module_info::{named_graphic, Info};
 use super::reader::Reader;
 use super::submodule::Holder;
@@ -24,7 +24,7 @@ impl<'a> Reader<'a, '_> {
         let mut attributes = Attributes::new();
         let names = ["ID", "ModuleIdentNumber", "PhysicalSubslots"];
         let [id, ident, subslots] = self.attributes_and_others(parent, names, &mut attributes)?;
-        self.register(parent, Kind::Module, &id, position);
+        self.register(parent, ElementKind::Module, &id, position);
         module.id = id.compact();
         module.number = self.required_ident(parent, &ident, "ModuleIdentNumber");
         module.subslots = self.numbers(&subslots);
@@ -58,7 +58,7 @@ impl<'a> Reader<'a, '_> {
 }
 
 impl Info<'_> {
-    /// What ModuleInfo says of a module.
+    /// Adds the contents of ModuleInfo to a module.
     fn of_module(self, module: &mut Module, attributes: &mut Attributes) {
         module.name = self.name;
         module.documentation = self.documentation;

@@ -1,14 +1,14 @@
-//! What modules, submodules and device access points have in common: ModuleInfo and pictures.
+//! ModuleInfo and graphics, which modules, submodules and device access points share.
 
 use compact_str::format_compact;
 
-use super::links::Kind;
+use super::links::ElementKind;
 use super::reader::Reader;
 use crate::frontend::xml::{Attributes, Given, Read};
 use crate::ir::{CompactString, Documentation};
 use crate::syntax::xml::Tag;
 
-/// ModuleInfo.
+/// Contents of a ModuleInfo element.
 #[derive(Default)]
 pub(super) struct Info<'a> {
     /// Placeholder of the name.
@@ -22,7 +22,7 @@ pub(super) struct Info<'a> {
     pub attributes: Attributes,
 }
 
-/// Pictures, by kind.
+/// Graphics, each with its kind.
 pub(super) type Graphics = Vec<(CompactString, CompactString)>;
 
 impl<'a> Reader<'a, '_> {
@@ -32,7 +32,7 @@ impl<'a> Reader<'a, '_> {
         let [category, sub_category] = self.attributes(parent, ["CategoryRef", "SubCategory1Ref"])?;
         for (key, given) in [("CategoryRef", category), ("SubCategory1Ref", sub_category)] {
             if !given.is_missing() {
-                self.format.links.mention(Kind::Category, &given);
+                self.format.links.mention(ElementKind::Category, &given);
                 info.attributes.extend(given.attribute(key));
             }
         }
@@ -60,7 +60,7 @@ impl<'a> Reader<'a, '_> {
         self.each(list, "GraphicItemRef", |reader, tag| {
             let [kind, target] = reader.attributes(tag, ["Type", "GraphicItemTarget"])?;
             if reader.require(tag, &target, "GraphicItemTarget", "left out") {
-                reader.format.links.mention(Kind::Graphic, &target);
+                reader.format.links.mention(ElementKind::Graphic, &target);
                 graphics.push((kind.compact(), target.compact()));
             }
             reader.no_children(tag)
@@ -69,7 +69,7 @@ impl<'a> Reader<'a, '_> {
     }
 }
 
-/// A picture as an attribute of what has no list of pictures.
+/// Returns a graphic as an attribute, for elements without a list of graphics in the IR.
 pub(super) fn named_graphic(graphic: (CompactString, CompactString)) -> (CompactString, CompactString) {
     (format_compact!("GraphicItemRef@{}", graphic.0), graphic.1)
 }

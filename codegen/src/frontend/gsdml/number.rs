@@ -1,4 +1,4 @@
-//! Numbers, truth values and lists, as GSDML writes them.
+//! Reads the numbers, Boolean values and lists of GSDML.
 
 use smallvec::SmallVec;
 
@@ -9,7 +9,7 @@ use crate::ir::Numbers;
 use crate::syntax::xml::Tag;
 
 impl<'a> Reader<'a, '_> {
-    /// A decimal number up to `max`; anything else is reported.
+    /// Reads a decimal number up to `max` and reports any other text.
     pub fn unsigned(&mut self, given: &Given<'_>, max: u32, what: &str) -> Option<u32> {
         if given.is_missing() {
             return None;
@@ -25,7 +25,7 @@ impl<'a> Reader<'a, '_> {
         let value = hex(&given.text).and_then(fits);
         match value {
             Some(value) => {
-                let message = format!("`{}` is hexadecimal; GSDML has decimal digits here", given.text);
+                let message = format!("`{}` is hexadecimal, but GSDML requires decimal digits here", given.text);
                 self.diagnostics.push(
                     Diagnostic::new(&codes::GSDML_VALUE, given.span, message)
                         .label(format!("read as {value}"))
@@ -37,12 +37,13 @@ impl<'a> Reader<'a, '_> {
         value
     }
 
-    /// A decimal number of 16 bits.
+    /// Reads a 16-bit decimal number.
     pub fn unsigned16(&mut self, given: &Given<'_>, what: &str) -> Option<u16> {
         self.unsigned(given, u16::MAX.into(), what).and_then(|value| u16::try_from(value).ok())
     }
 
-    /// An ident number (`0x0000430A`, of any number of digits); without its prefix it is reported, and read all the same.
+    /// Reads an ident number (`0x0000430A`) with any number of digits. Reports a missing prefix and still reads the
+    /// number.
     pub fn ident(&mut self, given: &Given<'_>, max: u32, what: &str) -> Option<u32> {
         if given.is_missing() {
             return None;
@@ -67,13 +68,13 @@ impl<'a> Reader<'a, '_> {
         value
     }
 
-    /// The ident number that `tag` has to have; 0 where it has none.
+    /// Reads the required ident number of `tag`. Returns 0 if it is missing.
     pub fn required_ident(&mut self, tag: &Tag<'_>, given: &Given<'_>, name: &str) -> u32 {
-        self.require(tag, given, name, "taken for 0");
+        self.require(tag, given, name, "read as 0");
         self.ident(given, u32::MAX, "ident number").unwrap_or(0)
     }
 
-    /// A list of numbers and ranges (`1..3 7`); what of it is no number is reported and left out.
+    /// Reads a list of numbers and ranges (`1..3 7`). Reports and ignores other parts.
     pub fn numbers(&mut self, given: &Given<'_>) -> Numbers {
         let mut list = SmallVec::new();
         let mut broken = None;
@@ -88,8 +89,8 @@ impl<'a> Reader<'a, '_> {
             }
         }
         if let Some(part) = broken {
-            let message = format!("`{part}` is no number and no range `first..last` of numbers up to 65535");
-            let label = if range(part).is_some() { "read the other way round" } else { "left out" };
+            let message = format!("`{part}` is neither a number up to 65535 nor a range `first..last`");
+            let label = if range(part).is_some() { "read with the limits swapped" } else { "left out" };
             self.diagnostics.push(Diagnostic::new(&codes::GSDML_VALUE, given.span, message).label(label));
         }
         Numbers(list)
@@ -111,12 +112,12 @@ fn hex(text: &str) -> Option<u64> {
     u64::from_str_radix(digits, 16).ok()
 }
 
-/// The tokens of a list `a;b;c`.
+/// Returns the tokens of a list `a;b;c`.
 pub(super) fn tokens(text: &str) -> impl Iterator<Item = &str> {
     text.split(';').map(str::trim).filter(|token| !token.is_empty())
 }
 
-/// A list of numbers of up to 32 bits and ranges of them; `None` where it has anything else.
+/// Reads a list of 32-bit numbers and ranges. Returns `None` for any other text.
 pub(super) fn wide_ranges(text: &str) -> Option<Vec<(i128, i128)>> {
     let number = |text: &str| text.parse::<u32>().ok().map(i128::from);
     let range = |part: &str| match part.split_once("..") {

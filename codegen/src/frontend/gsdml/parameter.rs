@@ -1,4 +1,4 @@
-//! Parameters of a record.
+//! Reads the parameters of a record.
 
 use super::data_type::DataType;
 use super::location::Location;
@@ -8,7 +8,7 @@ use crate::ir::{Access, Behaviour, Binding, Item};
 use crate::syntax::xml::Tag;
 
 impl<'a> Reader<'a, '_> {
-    /// Reads a Ref of the record `index`.
+    /// Reads a Ref element of the record `index`.
     pub fn parameter(&mut self, tag: &Tag<'a>, index: u16, item: &mut Item) -> Read<()> {
         const NAMES: [&str; 12] = [
             "ValueItemTarget",
@@ -31,11 +31,11 @@ impl<'a> Reader<'a, '_> {
         self.note("ID", &id);
         item.at.name = text.span;
         item.name = self.name(tag, text);
-        self.require(tag, &byte, "ByteOffset", "taken for 0");
+        self.require(tag, &byte, "ByteOffset", "read as 0");
         let location = self.location(tag, &data_type, [&byte, &bit, &bits, &length]);
         let Location { ty, bit_offset, bits, .. } = location;
         if bits == 0 {
-            self.missing(tag, "Length", "it has no bytes");
+            self.missing(tag, "Length", "read as 0 bytes");
         }
         (item.ty, item.at.ty) = (ty, data_type.span);
         item.bindings = smallvec::smallvec![Binding::Record { index, bit_offset, bits }];
@@ -56,7 +56,7 @@ impl<'a> Reader<'a, '_> {
     }
 
     fn default(&mut self, tag: &Tag<'a>, mut given: Given<'a>, location: &Location, item: &mut Item) -> Read<()> {
-        if !self.require(tag, &given, "DefaultValue", "without a default") {
+        if !self.require(tag, &given, "DefaultValue", "the parameter has no default value") {
             return Ok(());
         }
         if matches!(location.data_type, Some(DataType::String(_))) {

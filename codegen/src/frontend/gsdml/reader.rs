@@ -1,6 +1,6 @@
-//! The state of reading one file, and what many elements have: identifiers, references to texts, required attributes.
+//! State of reading a file, and functions for identifiers, text references and required attributes.
 
-use super::links::{Kind, Links};
+use super::links::{ElementKind, Links};
 use super::text_references::TextReferences;
 use super::types::Types;
 use crate::diagnostics::{codes, Code, Diagnostic};
@@ -11,16 +11,16 @@ use crate::text::brief;
 
 pub(super) type Reader<'a, 'd> = xml::Reader<'a, 'd, Gsdml<'a>>;
 
-/// What the reader of GSDML has beyond the base.
+/// State of the GSDML reader.
 #[derive(Default)]
 pub(super) struct Gsdml<'a> {
     /// References to texts, which are at the end of the file.
     pub texts: TextReferences<'a>,
-    /// Types of the catalogue so far.
+    /// Types that were added to the catalog.
     pub types: Types<'a>,
-    /// Elements by their identifiers, and references to them.
+    /// Identifiers of elements, and references to them.
     pub links: Links<'a>,
-    /// Space for the parameters of a record, which is used again for the next one.
+    /// Buffer for the parameters of a record. It is reused for each record.
     pub items: Vec<Item>,
 }
 
@@ -39,7 +39,7 @@ impl<'a> Reader<'a, '_> {
         self.report(&codes::GSDML_MISSING, tag.name_span(), message, label);
     }
 
-    /// Whether a required attribute is given; reports it if not.
+    /// Returns whether a required attribute is present; reports it if not.
     pub fn require(&mut self, tag: &Tag<'_>, given: &Given<'_>, name: &str, label: &str) -> bool {
         if given.is_missing() {
             self.missing(tag, name, label);
@@ -47,49 +47,49 @@ impl<'a> Reader<'a, '_> {
         !given.is_missing()
     }
 
-    /// The required attribute `name` of an element that has nothing else to say.
+    /// Reads the required attribute `name` of an element that should have no other content.
     pub fn single(&mut self, tag: &Tag<'a>, name: &str) -> Read<Given<'a>> {
         let given = self.attribute(tag, name)?;
         self.require(tag, &given, name, "left empty");
         Ok(given)
     }
 
-    /// The placeholder of the text of an element that has to have one.
+    /// Returns the placeholder for the required text of an element.
     pub fn name(&mut self, tag: &Tag<'a>, given: Given<'a>) -> CompactString {
         if given.is_missing() {
-            let message = format!("<{}> has no TextId, and so no name", tag.name);
+            let message = format!("<{}> has no TextId", tag.name);
             self.report(&codes::MISSING_TEXT, tag.name_span(), message, "its name is left empty");
             return CompactString::default();
         }
         self.format.texts.hold(given)
     }
 
-    /// The placeholder of the text of an element that has nothing but a `TextId`.
+    /// Reads an element that has only a `TextId`, and returns the placeholder for its text.
     pub fn text_reference(&mut self, tag: &Tag<'a>) -> Read<CompactString> {
         let given = self.attribute(tag, "TextId")?;
         Ok(self.name(tag, given))
     }
 
-    /// The same as documentation.
+    /// Reads an element that has only a `TextId`, and returns the placeholder as documentation.
     pub fn documentation(&mut self, tag: &Tag<'a>) -> Read<Option<Box<Documentation>>> {
         let text = self.text_reference(tag)?.into();
         Ok(Some(Box::new(Documentation { text, ..Documentation::default() })))
     }
 
-    /// Registers the identifier of the element `tag` of this kind, which is at `position` in the catalogue. The first element with
-    /// an identifier counts.
-    pub fn register(&mut self, tag: &Tag<'a>, kind: Kind, id: &Given<'a>, position: usize) {
+    /// Registers the identifier of the element `tag` at `position` in the catalog. The first element with an
+    /// identifier takes precedence.
+    pub fn register(&mut self, tag: &Tag<'a>, kind: ElementKind, id: &Given<'a>, position: usize) {
         if id.is_missing() {
-            // Interfaces and ports of V2.0 have none, and nothing refers to them.
-            if kind != Kind::BuiltIn || tag.name == "VirtualSubmoduleItem" {
-                self.missing(tag, "ID", "nothing can refer to it");
+            // In V2.0, interfaces and ports have no ID, and nothing refers to them.
+            if kind != ElementKind::BuiltIn || tag.name == "VirtualSubmoduleItem" {
+                self.missing(tag, "ID", "references to it are impossible");
             }
             return;
         }
         if let Some(first) = self.format.links.register(kind, id, position) {
-            let message = format!("a <{}> with the ID `{}` exists already", brief(tag.name), brief(&id.text));
+            let message = format!("there already is a <{}> with the ID `{}`", brief(tag.name), brief(&id.text));
             let diagnostic = Diagnostic::new(&codes::DUPLICATE_ID, id.span, message);
-            self.diagnostics.push(diagnostic.label("references lead to the first one").note_at(first, "the first one"));
+            self.diagnostics.push(diagnostic.label("references resolve to the first one").note_at(first, "first one"));
         }
     }
 }

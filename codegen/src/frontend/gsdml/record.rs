@@ -1,4 +1,4 @@
-//! Parameter records: constants and menus.
+//! Reads parameter records: constants and menus.
 
 use super::reader::Reader;
 use super::value::octets;
@@ -19,7 +19,7 @@ impl<'a> Reader<'a, '_> {
                 _ => self.unknown(&tag)?,
             }
         }
-        // 0 leaves the order open.
+        // A sequence number of 0 means any order.
         let order = |group: &Group| match &group.kind {
             GroupKind::Record(record) if record.transfer_sequence > 0 => record.transfer_sequence,
             _ => u16::MAX,
@@ -34,12 +34,12 @@ impl<'a> Reader<'a, '_> {
         group.origin = self.origin(tag);
         let names = ["Index", "Length", "TransferSequence", "ChangeableWithBump"];
         let [index, length, sequence, bump] = self.attributes(tag, names)?;
-        self.require(tag, &index, "Index", "left out: without an index a record has no address");
+        self.require(tag, &index, "Index", "left out because the record has no address");
         let index = self.unsigned16(&index, "record index");
         let mut record = Record {
             index: index.unwrap_or(0),
             length: self.record_length(tag, &length),
-            transfer_sequence: self.unsigned16(&sequence, "order of transfer").unwrap_or(0),
+            transfer_sequence: self.unsigned16(&sequence, "transfer sequence").unwrap_or(0),
             changeable_with_bump: (!bump.is_missing()).then(|| self.flag(&bump)),
             constants: Vec::new(),
         };
@@ -49,13 +49,13 @@ impl<'a> Reader<'a, '_> {
         Ok(index.map(|_| group))
     }
 
-    /// The length that a record has to have.
+    /// Returns the required length of a record.
     pub fn record_length(&mut self, tag: &Tag<'a>, given: &Given<'a>) -> u32 {
-        self.require(tag, given, "Length", "taken for 0");
-        self.unsigned(given, u32::MAX, "length in bytes").unwrap_or(0)
+        self.require(tag, given, "Length", "read as 0");
+        self.unsigned(given, u32::MAX, "length").unwrap_or(0)
     }
 
-    /// Reads what a record, or a block of a vendor, consists of.
+    /// Reads the contents of a record or of a vendor block.
     pub fn record_body(
         &mut self,
         parent: &Tag<'a>,
@@ -67,7 +67,7 @@ impl<'a> Reader<'a, '_> {
         while let Some(tag) = self.child(parent)? {
             match tag.name {
                 "Ref" => {
-                    // Filled in place: it is too large to be moved.
+                    // The item is filled in place because it is large.
                     items.push(Item::new(Binding::Record { index: record.index, bit_offset: 0, bits: 0 }));
                     if let Some(item) = items.last_mut() {
                         self.parameter(&tag, record.index, item)?;
@@ -83,7 +83,7 @@ impl<'a> Reader<'a, '_> {
                 _ => self.unknown(&tag)?,
             }
         }
-        // Of the length that they have: items are large.
+        // Reserves the exact length because items are large.
         group.items.reserve_exact(items.len());
         group.items.append(&mut items);
         self.format.items = items;

@@ -1,4 +1,4 @@
-//! Texts in the place of placeholders, in everything that has a name.
+//! Replaces the placeholders of names and descriptions by texts.
 
 use std::borrow::Cow;
 use std::collections::{HashMap, HashSet};
@@ -17,7 +17,7 @@ use crate::limits;
 use crate::source::Span;
 use crate::text::brief;
 
-/// Resolves every name and description of a catalogue.
+/// Resolves all names and descriptions of a catalog.
 pub(super) fn catalog(catalog: &mut Catalog, resolver: &mut Resolver<'_, '_>) {
     catalog.devices.iter_mut().for_each(|found| device(found, resolver));
     catalog.modules.iter_mut().for_each(|found| module(found, resolver));
@@ -109,21 +109,21 @@ fn unit_diagnosis(diagnosis: &mut UnitDiagnosis, resolver: &mut Resolver<'_, '_>
     }
 }
 
-/// Puts texts in the place of the numbers that stand for them.
+/// Replaces placeholders by the texts that they refer to.
 pub(super) struct Resolver<'a, 'd> {
     pub list: TextList<'a>,
     references: TextReferences<'a>,
     pub diagnostics: &'d mut Diagnostics,
     /// Texts with a suffix, by identifier and suffix.
     suffixed: HashMap<(Cow<'a, str>, CompactString), (CompactString, Texts)>,
-    /// References that were reported: one element may have become several of the IR.
+    /// References that were reported. Several elements of the IR may have the same reference.
     missing: HashSet<usize>,
-    /// How many bytes of text may still be copied.
+    /// Remaining number of text bytes that may be copied.
     budget: usize,
 }
 
 impl<'a, 'd> Resolver<'a, 'd> {
-    /// A resolver for a file of `length` bytes.
+    /// Creates a resolver for a file of `length` bytes.
     pub fn new(
         list: TextList<'a>,
         references: TextReferences<'a>,
@@ -155,9 +155,9 @@ impl<'a, 'd> Resolver<'a, 'd> {
                 return;
             }
         } else if self.missing.insert(at) {
-            let message = format!("the text list has no `{}`", brief(&given.text));
+            let message = format!("the text `{}` is not in the text list", brief(&given.text));
             let diagnostic = Diagnostic::new(&codes::MISSING_TEXT, given.span, message);
-            self.diagnostics.push(diagnostic.label("its identifier is used as the name"));
+            self.diagnostics.push(diagnostic.label("the identifier is used as the name"));
         }
         *name = match suffix {
             "" => given.text.as_ref().into(),
@@ -178,21 +178,22 @@ impl<'a, 'd> Resolver<'a, 'd> {
         Some(found)
     }
 
-    /// Whether one more text of this length may be copied: a long one to which everything refers must not multiply.
+    /// Returns whether a text of this length may be copied again. The limit prevents a long text from being
+    /// multiplied by many references.
     fn spend(&mut self, length: usize, given: &Given<'_>) -> bool {
         self.spend_at(length, given.span)
     }
 
-    /// Whether a text of so many bytes may be copied. The first that may not is reported.
+    /// Returns whether a text of `length` bytes may be copied. Reports the first text that exceeds the limit.
     pub fn spend_at(&mut self, length: usize, span: Span) -> bool {
         if let Some(rest) = self.budget.checked_sub(length) {
             self.budget = rest;
             return true;
         }
         if std::mem::take(&mut self.budget) > 0 {
-            let message = "the texts that the file refers to are many times longer than the file";
+            let message = "copied texts would exceed the size limit of the description";
             let diagnostic = Diagnostic::new(&codes::INPUT_TOO_LARGE, span, message);
-            self.diagnostics.push(diagnostic.label("from here on, identifiers are used as names"));
+            self.diagnostics.push(diagnostic.label("identifiers are used as further names"));
         }
         false
     }
@@ -205,13 +206,13 @@ impl<'a, 'd> Resolver<'a, 'd> {
         documentation.text = text.into();
     }
 
-    /// Resolves descriptions in all languages, of which there is one so far.
+    /// Resolves a list of descriptions, which contains only placeholders, into all languages.
     pub fn descriptions(&mut self, descriptions: &mut Vec<LocalText>) {
         for LocalText { text: mark, .. } in std::mem::take(descriptions) {
             let (mut text, mut texts) = (mark.clone(), Texts::default());
             self.name(&mut text, &mut texts);
             descriptions.push(LocalText { language: "en".into(), text });
-            // Here every translation is a copy of its own.
+            // Each translation is a separate copy.
             let given = mark.parse().ok().and_then(|at: usize| self.references.get(at)).cloned();
             let length = texts.iter().map(|local| local.text.len() + std::mem::size_of::<LocalText>()).sum();
             if given.is_some_and(|given| self.spend(length, &given)) {

@@ -1,4 +1,4 @@
-//! Parameters of functional safety (PROFIsafe).
+//! Reads parameters for functional safety (PROFIsafe).
 
 use super::number;
 use super::reader::Reader;
@@ -7,16 +7,16 @@ use crate::frontend::xml::{Given, Read};
 use crate::ir::{FParameter, FParameters, Submodule};
 use crate::syntax::xml::Tag;
 
-/// A parameter as the schema has it.
+/// A parameter as the schema defines it.
 struct Known {
     name: &'static str,
-    /// Whether a record has to have it.
+    /// Whether the parameter is mandatory in a record.
     required: bool,
     default: &'static str,
     allowed: &'static str,
     changeable: bool,
     visible: bool,
-    /// Values with names, by their number in the record; none = numbers.
+    /// Named values with their numbers in the record; empty if the values are numbers.
     labels: &'static [(&'static str, i128)],
 }
 
@@ -38,7 +38,7 @@ impl Known {
     }
 }
 
-/// The parameters in the order of the schema, with what it takes for granted.
+/// The parameters in the order of the schema, with their defaults.
 static KNOWN: [Known; 12] = [
     known("F_Check_iPar", "NoCheck", "Check NoCheck", false).hidden().labels(&[("NoCheck", 0), ("Check", 1)]),
     known("F_SIL", "SIL3", "SIL1 SIL2 SIL3 NoSIL", true).labels(&[("SIL1", 0), ("SIL2", 1), ("SIL3", 2), ("NoSIL", 3)]),
@@ -47,7 +47,7 @@ static KNOWN: [Known; 12] = [
         ("2-Byte-CRC", 1),
         ("4-Byte-CRC", 2),
     ]),
-    // The one seed that GSDML knows is a clear bit: the checksums that vendors give for their defaults say so.
+    // The only seed in GSDML is a clear bit. This follows from the checksums that vendors declare for their defaults.
     known("F_CRC_Seed", "CRC-Seed24/32", "CRC-Seed24/32", false).optional().labels(&[("CRC-Seed24/32", 0)]),
     known("F_Passivation", "Device/Module", "Device/Module", false)
         .optional()
@@ -70,11 +70,11 @@ impl<'a> Reader<'a, '_> {
         let [index, sequence, crc, supported, bump] = fields;
         submodule.attributes.extend(supported.attribute("F_ParameterRecordDataItem@F_SupportedParameters"));
         submodule.attributes.extend(bump.attribute("F_ParameterRecordDataItem@ChangeableWithBump"));
-        self.require(parent, &index, "Index", "taken for 0");
+        self.require(parent, &index, "Index", "read as 0");
         let mut found = FParameters {
             index: self.unsigned16(&index, "record index").unwrap_or(0),
-            transfer_sequence: self.unsigned16(&sequence, "order of transfer").unwrap_or(0),
-            description_crc: self.unsigned16(&crc, "checksum of 16 bits"),
+            transfer_sequence: self.unsigned16(&sequence, "transfer sequence").unwrap_or(0),
+            description_crc: self.unsigned16(&crc, "16-bit checksum"),
             parameters: Vec::new(),
             origin,
         };
@@ -88,14 +88,14 @@ impl<'a> Reader<'a, '_> {
         }
         self.add_missing(parent, &mut found.parameters);
         if submodule.f_parameters.is_some() {
-            let message = "a submodule has one F-parameter record";
-            self.report(&codes::DUPLICATE_ID, parent.span, message, "takes the place of the one before");
+            let message = "a submodule can have only one F-parameter record";
+            self.report(&codes::DUPLICATE_ID, parent.span, message, "replaces the previous record");
         }
         submodule.f_parameters = Some(Box::new(found));
         Ok(())
     }
 
-    /// Parameters that every record has are there even where the source leaves them out.
+    /// Adds the mandatory parameters that the file leaves out.
     fn add_missing(&mut self, tag: &Tag<'a>, parameters: &mut Vec<FParameter>) {
         for known in KNOWN.iter().filter(|known| known.required) {
             if !parameters.iter().any(|parameter| parameter.name == known.name) {
@@ -125,7 +125,7 @@ impl<'a> Reader<'a, '_> {
 
     fn f_default(&mut self, given: &Given<'a>, known: &Known, parameter: &mut FParameter) {
         if known.labels.is_empty() {
-            match self.unsigned(given, u32::MAX, "value of an F-parameter") {
+            match self.unsigned(given, u32::MAX, "F-parameter value") {
                 Some(value) => parameter.default = value.into(),
                 None => parameter.label = given.text.as_ref().into(),
             }
@@ -134,7 +134,7 @@ impl<'a> Reader<'a, '_> {
         parameter.label = given.text.as_ref().into();
         match known.labels.iter().find(|(label, _)| *label == given.text) {
             Some(&(_, number)) => parameter.default = number,
-            None => self.bad(given, "value of this F-parameter", "kept as text; its number is that of the default"),
+            None => self.bad(given, "F-parameter value", "kept as text; the number of the default value is used"),
         }
     }
 
@@ -150,12 +150,12 @@ impl<'a> Reader<'a, '_> {
         parameter.allowed_labels = given.text.split_ascii_whitespace().map(Into::into).collect();
         let is_known = |label: &str| known.labels.iter().any(|(known, _)| *known == label);
         if !given.text.split_ascii_whitespace().all(is_known) {
-            self.bad(given, "list of values of this F-parameter", "kept as it is");
+            self.bad(given, "list of F-parameter values", "kept unchanged");
         }
     }
 }
 
-/// A parameter of which the source says nothing.
+/// Returns a parameter with the facts of the schema.
 fn by_schema(known: &Known) -> FParameter {
     let mut parameter = FParameter {
         name: known.name.into(),

@@ -1,8 +1,8 @@
-//! Submodules of all kinds: virtual and pluggable ones, interfaces and ports.
+//! Reads submodules of all kinds: virtual and pluggable submodules, interfaces and ports.
 
 use compact_str::format_compact;
 
-use super::links::{Kind, Owner};
+use super::links::{ElementKind, Owner};
 use super::module_info::Info;
 use super::number::tokens;
 use super::reader::Reader;
@@ -13,17 +13,17 @@ use crate::syntax::xml::Tag;
 /// Subslot of the first interface.
 const INTERFACE: u16 = 0x8000;
 
-/// What holds built-in submodules.
+/// Element with built-in submodules.
 pub(super) struct Holder<'h> {
-    /// Submodules of the catalogue.
+    /// Submodules of the catalog.
     pub submodules: &'h mut Vec<Submodule>,
-    /// Where they are.
+    /// Submodules of the element, with their subslots.
     pub uses: &'h mut Vec<SubmoduleUse>,
-    /// What an interface says of the device as a whole.
+    /// Device settings that an interface declares.
     pub settings: Option<&'h mut ProfinetSettings>,
 }
 
-/// The kind of submodule that an element stands for.
+/// Returns the kind of submodule that an element describes.
 fn kind_of(element: &str) -> Option<SubmoduleKind> {
     match element {
         "VirtualSubmoduleItem" => Some(SubmoduleKind::Virtual),
@@ -47,7 +47,7 @@ impl<'a> Reader<'a, '_> {
             };
             let position = holder.submodules.len();
             let (submodule, fixed) =
-                self.submodule(&tag, kind, Kind::BuiltIn, position, holder.settings.as_deref_mut())?;
+                self.submodule(&tag, kind, ElementKind::BuiltIn, position, holder.settings.as_deref_mut())?;
             let fixed = if fixed.is_empty() { Numbers::from_iter([default_subslot(kind)]) } else { fixed };
             holder.submodules.push(submodule);
             let submodule = SubmoduleId(u32::try_from(position).unwrap_or(u32::MAX));
@@ -61,7 +61,7 @@ impl<'a> Reader<'a, '_> {
         while let Some(tag) = self.child(list)? {
             match kind_of(tag.name) {
                 Some(kind) => {
-                    let (submodule, _) = self.submodule(&tag, kind, Kind::Pluggable, submodules.len(), None)?;
+                    let (submodule, _) = self.submodule(&tag, kind, ElementKind::Pluggable, submodules.len(), None)?;
                     submodules.push(submodule);
                 }
                 None => self.unknown(&tag)?,
@@ -70,12 +70,12 @@ impl<'a> Reader<'a, '_> {
         Ok(())
     }
 
-    /// Reads a submodule; gives it with the subslots in which it is built in.
+    /// Reads a submodule. Returns it with the subslots in which it is built in.
     fn submodule(
         &mut self,
         parent: &Tag<'a>,
         kind: SubmoduleKind,
-        ids: Kind,
+        ids: ElementKind,
         position: usize,
         mut settings: Option<&mut ProfinetSettings>,
     ) -> Read<(Submodule, Numbers)> {
@@ -105,7 +105,7 @@ impl<'a> Reader<'a, '_> {
                 _ => self.unknown(&tag)?,
             }
         }
-        // Virtual submodules of V1.0 have no name.
+        // In V1.0, virtual submodules have no name.
         let named = kind == SubmoduleKind::Virtual || !submodule.name.is_empty() || !info.name.is_empty();
         if !named {
             self.missing(parent, "name", "its name is left empty");
@@ -113,20 +113,20 @@ impl<'a> Reader<'a, '_> {
         info.of_submodule(&mut submodule);
         submodule.extensions = self.extensions_since(start);
         let mut fixed = self.numbers(&fixed);
-        if let Some(number) = self.unsigned16(&subslot, "number of a subslot") {
+        if let Some(number) = self.unsigned16(&subslot, "subslot number") {
             fixed.0.push((number, number));
         }
         Ok((submodule, fixed))
     }
 
-    /// Reads ApplicationRelations. What the IR has fields for is taken from the first interface.
+    /// Reads ApplicationRelations. Fields of the IR are filled from the first interface.
     pub fn application_relations(
         &mut self,
         parent: &Tag<'a>,
         settings: Option<&mut ProfinetSettings>,
         submodule: &mut Submodule,
     ) -> Read<()> {
-        // Of a further interface, everything is kept as it is written.
+        // The element of a further interface is kept as written.
         let Some(settings) = settings.filter(|settings| settings.startup_modes.is_empty()) else {
             return self.keep_as_attributes(parent, &mut submodule.attributes);
         };
@@ -164,7 +164,7 @@ impl<'a> Reader<'a, '_> {
         })
     }
 
-    /// The places that the attributes Allowed…, Fixed… and Used… list.
+    /// Returns the slots or subslots in the attributes Allowed…, Fixed… and Used….
     pub fn places(&mut self, given: [Given<'a>; 3]) -> Places {
         let [allowed, fixed, used] = given.map(|given| self.numbers(&given));
         Places { allowed, fixed, used }
@@ -177,7 +177,7 @@ impl<'a> Reader<'a, '_> {
             let [number, text] = reader.attributes(tag, ["SubslotNumber", "TextId"])?;
             reader.require(tag, &number, "SubslotNumber", "left out");
             let name = reader.name(tag, text);
-            if let Some(number) = reader.unsigned16(&number, "number of a subslot") {
+            if let Some(number) = reader.unsigned16(&number, "subslot number") {
                 subslots.push(SubslotName { number, name, ..SubslotName::default() });
             }
             reader.no_children(tag)
@@ -186,7 +186,7 @@ impl<'a> Reader<'a, '_> {
     }
 }
 
-/// Whether an element of a submodule is kept as attributes.
+/// Returns whether an element of a submodule is kept as attributes.
 fn is_kept(element: &str) -> bool {
     const NAMES: [&str; 11] = [
         "IsochroneMode",
@@ -204,7 +204,7 @@ fn is_kept(element: &str) -> bool {
     NAMES.contains(&element)
 }
 
-/// Where a submodule is that doesn't say it.
+/// Returns the default subslot of a kind of submodule.
 fn default_subslot(kind: SubmoduleKind) -> u16 {
     match kind {
         SubmoduleKind::Interface => INTERFACE,
@@ -220,7 +220,7 @@ fn add(element: &str, others: Attributes, submodule: &mut Submodule) {
 }
 
 impl Info<'_> {
-    /// What ModuleInfo says of a submodule.
+    /// Adds the contents of ModuleInfo to a submodule.
     fn of_submodule(self, submodule: &mut Submodule) {
         if !self.name.is_empty() {
             submodule.name = self.name;

@@ -1,4 +1,4 @@
-//! The text list at the end of a file.
+//! Reads the text list at the end of a file.
 
 use std::borrow::Cow;
 use std::collections::{HashMap, HashSet};
@@ -13,18 +13,18 @@ use crate::source::Span;
 use crate::syntax::xml::Tag;
 use crate::text::brief;
 
-/// The texts of a file by their identifiers.
+/// Texts of a file by identifier.
 #[derive(Default)]
 pub(super) struct TextList<'a> {
-    places: HashMap<Cow<'a, str>, usize>,
+    positions: HashMap<Cow<'a, str>, usize>,
     entries: Vec<Entry<'a>>,
     translations: Vec<Translation<'a>>,
-    /// How many texts the primary language has.
+    /// Number of texts in the primary language.
     primaries: usize,
     languages: Vec<CompactString>,
     seen: HashMap<CompactString, Span>,
-    /// The entry that the next text most likely belongs to: languages list the same texts in the same order, in which they are mostly
-    /// referred to as well.
+    /// Entry that the next text probably belongs to. Languages list the same texts in the same order, and most
+    /// references have this order, too.
     next: usize,
 }
 
@@ -33,9 +33,9 @@ struct Entry<'a> {
     /// Span of the identifier.
     span: Span,
     primary: Option<Cow<'a, str>>,
-    /// First and last of its translations.
+    /// Positions of the first and last translation.
     translations: Option<(usize, usize)>,
-    /// The finished text, once somebody refers to it.
+    /// Text with its translations, after the first reference is resolved.
     finished: Option<(CompactString, Texts)>,
 }
 
@@ -47,7 +47,7 @@ struct Translation<'a> {
     next: Option<usize>,
 }
 
-/// One `Text` of a list.
+/// A `Text` element of a list.
 struct Text<'a> {
     id: Given<'a>,
     value: Cow<'a, str>,
@@ -88,14 +88,12 @@ impl<'a> TextList<'a> {
     }
 
     fn language(&mut self, reader: &mut Reader<'a, '_>, parent: &Tag<'a>) -> Read<()> {
-        // Every text of the language has a copy of its name.
+        // Each text of the language has a copy of the language name, so the name is shortened.
         let name = CompactString::from(brief(&reader.single(parent, "lang")?.text));
         if let Some(&first) = self.seen.get(&name) {
-            let message = format!("the texts of the language `{name}` are listed twice");
+            let message = format!("the language `{name}` has two lists of texts");
             let diagnostic = Diagnostic::new(&codes::DUPLICATE_ID, parent.span, message);
-            reader
-                .diagnostics
-                .push(diagnostic.label("both lists are used, equal texts once").note_at(first, "the first list"));
+            reader.diagnostics.push(diagnostic.label("the lists are merged").note_at(first, "first list"));
         }
         self.seen.insert(name.clone(), parent.span);
         let language = self.languages.len();
@@ -113,11 +111,11 @@ impl<'a> TextList<'a> {
         Ok(())
     }
 
-    /// The entry with this identifier, made where there is none.
+    /// Returns the entry with this identifier. Adds it if it is missing.
     fn entry(&mut self, id: Given<'a>) -> usize {
         let at = match self.entries.get(self.next) {
             Some(entry) if entry.id == id.text => self.next,
-            _ => *self.places.entry(id.text.clone()).or_insert(self.entries.len()),
+            _ => *self.positions.entry(id.text.clone()).or_insert(self.entries.len()),
         };
         if at == self.entries.len() {
             let Given { text: id, span } = id;
@@ -127,7 +125,7 @@ impl<'a> TextList<'a> {
         at
     }
 
-    /// Adds a translation. Returns the span of an earlier one in the same language if there is one.
+    /// Adds a translation. Returns the span of an earlier one in the same language.
     fn translate(&mut self, at: usize, language: usize, span: Span, text: Cow<'a, str>) -> Option<Span> {
         let number = self.translations.len();
         let entry = self.entries.get_mut(at)?;
@@ -146,7 +144,7 @@ impl<'a> TextList<'a> {
         None
     }
 
-    /// Reports a language that has only `count` of the texts of the primary one.
+    /// Reports a language that has only `count` texts of the primary language.
     fn report_missing(&self, diagnostics: &mut Diagnostics, tag: &Tag<'a>, language: usize, count: usize) {
         let missing = self.primaries.saturating_sub(count);
         if missing == 0 {
@@ -156,22 +154,23 @@ impl<'a> TextList<'a> {
         let texts = if missing == 1 { "text has" } else { "texts have" };
         let message = format!("{missing} {texts} no translation in the language `{name}`");
         let mut diagnostic = Diagnostic::new(&codes::MISSING_TRANSLATION, tag.span, message)
-            .label("the primary language is used for them");
+            .label("the primary language is used instead");
         let last = |entry: &Entry<'a>| entry.translations.and_then(|(_, last)| self.translations.get(last));
         let translated = |entry: &Entry<'a>| last(entry).is_some_and(|last| last.language == language);
-        // No further than the language itself is long: a file may have many languages of one text.
+        // The search is limited to the length of this list, because a file may have many languages with one text
+        // each.
         let mut near = self.entries.iter().take(count + 1);
         if let Some(first) = near.find(|entry| entry.primary.is_some() && !translated(entry)) {
-            diagnostic = diagnostic.note_at(first.span, "the first of them");
+            diagnostic = diagnostic.note_at(first.span, "first text without a translation");
         }
         diagnostics.push(diagnostic);
     }
 
-    /// The text with this identifier, and its translations.
+    /// Returns the text with this identifier and its translations.
     pub fn find(&mut self, id: &str) -> Option<(CompactString, Texts)> {
         let at = match self.entries.get(self.next) {
             Some(entry) if entry.id == id => self.next,
-            _ => *self.places.get(id)?,
+            _ => *self.positions.get(id)?,
         };
         self.next = at + 1;
         if self.entries.get(at)?.finished.is_none() {
@@ -181,13 +180,13 @@ impl<'a> TextList<'a> {
         self.entries.get(at)?.finished.clone()
     }
 
-    /// Texts that nothing refers to become extensions, and those that the primary language lacks are reported.
+    /// Keeps unreferenced texts as extensions, and reports texts that the primary language lacks.
     pub fn close(&self, diagnostics: &mut Diagnostics, extensions: &mut Extensions) {
         for entry in &self.entries {
             if entry.primary.is_none() {
                 let message = format!("the primary language has no text `{}`", brief(&entry.id));
                 let diagnostic = Diagnostic::new(&codes::MISSING_TEXT, entry.span, message);
-                diagnostics.push(diagnostic.label("the first translation is used as the name"));
+                diagnostics.push(diagnostic.label("the first translation is used instead"));
             }
             if entry.finished.is_none() {
                 self.keep_unused(entry, diagnostics, extensions);
@@ -197,7 +196,7 @@ impl<'a> TextList<'a> {
 
     fn keep_unused(&self, entry: &Entry<'a>, diagnostics: &mut Diagnostics, extensions: &mut Extensions) {
         if diagnostics.wants(&codes::UNUSED_TEXT) {
-            let message = format!("nothing refers to the text `{}`", brief(&entry.id));
+            let message = format!("the text `{}` is not used", brief(&entry.id));
             let diagnostic = Diagnostic::new(&codes::UNUSED_TEXT, entry.span, message);
             diagnostics.push(diagnostic.label("kept as an extension attribute"));
         }
@@ -210,10 +209,10 @@ impl<'a> TextList<'a> {
         extensions.extend(others.map(|(key, value)| Extension { key, value, span: entry.span }));
     }
 
-    /// The name and its translations.
+    /// Returns the text and its translations.
     fn finish(&self, entry: &Entry<'a>) -> (CompactString, Texts) {
         let mut texts = Vec::new();
-        // A language that is listed twice has some texts twice, mostly all of them.
+        // A language with two lists usually has all texts twice.
         let is_repeated = self.seen.len() < self.languages.len();
         let mut seen = HashSet::new();
         let mut chain = entry.translations;
@@ -234,11 +233,11 @@ impl<'a> TextList<'a> {
 }
 
 fn repeated(diagnostics: &mut Diagnostics, span: Span, first: Span, id: &str) {
-    let message = format!("the text `{}` is listed twice in one language", brief(id));
+    let message = format!("the text `{}` occurs twice in one language", brief(id));
     diagnostics.push(
         Diagnostic::new(&codes::DUPLICATE_ID, span, message)
             .label("left out; the first one is used")
-            .note_at(first, "listed here"),
+            .note_at(first, "first occurrence"),
     );
 }
 
@@ -250,9 +249,9 @@ fn read_text<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>) -> Read<Option<Text
     // Blanks around a text are part of it.
     let [id, value] = reader.attributes_with_blanks(tag, ["TextId", "Value"])?;
     reader.no_children(tag)?;
-    if !reader.require(tag, &id, "TextId", "left out: nothing can refer to it") {
+    if !reader.require(tag, &id, "TextId", "left out because references need an ID") {
         return Ok(None);
     }
-    reader.require(tag, &value, "Value", "taken for an empty text");
+    reader.require(tag, &value, "Value", "read as an empty text");
     Ok(Some(Text { id: id.trimmed(), value: value.text }))
 }

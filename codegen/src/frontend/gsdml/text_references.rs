@@ -1,7 +1,7 @@
 //! References to texts, which are at the end of a file.
 //!
-//! Until the text list is read, a name in the IR is a placeholder: the number of a reference, perhaps with a suffix after a blank.
-//! `resolve` replaces placeholders by texts.
+//! Before the text list is read, a name in the IR is a placeholder: the number of a reference. A blank and a suffix
+//! may follow the number. `resolve` replaces placeholders by texts.
 
 use compact_str::{format_compact, CompactString, ToCompactString};
 
@@ -12,12 +12,12 @@ use crate::frontend::xml::Given;
 pub(super) struct TextReferences<'a>(Vec<Given<'a>>);
 
 impl<'a> TextReferences<'a> {
-    /// The reference with this number.
+    /// Returns the reference with this number.
     pub fn get(&self, number: usize) -> Option<&Given<'a>> {
         self.0.get(number)
     }
 
-    /// The placeholder of the text with this identifier.
+    /// Adds a reference and returns its placeholder.
     pub fn hold(&mut self, given: Given<'a>) -> CompactString {
         let placeholder = self.0.len().to_compact_string();
         self.0.push(given);
@@ -25,8 +25,8 @@ impl<'a> TextReferences<'a> {
     }
 }
 
-/// The placeholder of the same text as `placeholder`, followed by `suffix`.
+/// Returns a placeholder for the text of `placeholder` followed by `suffix`.
 pub(super) fn with_suffix(placeholder: &str, suffix: &str) -> CompactString {
-    // Without a text, the blank in front tells the suffix from a number.
+    // The blank separates the suffix from the number, also if the placeholder is empty.
     format_compact!("{placeholder} {suffix}")
 }

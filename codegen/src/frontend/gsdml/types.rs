@@ -1,4 +1,4 @@
-//! Types of the catalogue: numbers and strings that have a name in GSDML, and the enumerations of its value list.
+//! Types of the catalog: named numbers and strings of GSDML, and the enumerations of its value list.
 
 use std::borrow::Cow;
 use std::collections::HashMap;
@@ -14,11 +14,11 @@ use crate::source::Origin;
 #[derive(Default)]
 pub(super) struct Types<'a> {
     defs: Vec<TypeDef>,
-    /// Types with a name in GSDML, by name and length in bytes.
+    /// Named types, by name and length in bytes.
     named: HashMap<(&'static str, u32), TypeId>,
-    /// Enumerations, by the identifier of the ValueItem and the type of what has its values.
+    /// Enumerations, by the identifier of the ValueItem and the base type.
     enumerations: HashMap<(Cow<'a, str>, Type), TypeId>,
-    /// The first reference to each of them.
+    /// First reference to each enumeration.
     wanted: Vec<(Given<'a>, Type, TypeId)>,
     items: Vec<ValueItem>,
     by_id: HashMap<Cow<'a, str>, usize>,
@@ -51,7 +51,7 @@ impl<'a> Types<'a> {
         Type::Named(id)
     }
 
-    /// The type of a string of so many bytes.
+    /// Returns the type of a string with `bytes` bytes.
     pub fn string(&mut self, string: StringType, bytes: u32) -> Type {
         match string {
             StringType::Visible => Type::VisibleString(Some(bytes)),
@@ -60,7 +60,7 @@ impl<'a> Types<'a> {
         }
     }
 
-    /// The type of a number that has a name of its own.
+    /// Returns the type of a named number.
     pub fn number(&mut self, number: &NumberType) -> Type {
         let base = number.base;
         let bytes = base.bits().unwrap_or(0) / 8;
@@ -70,7 +70,7 @@ impl<'a> Types<'a> {
         })
     }
 
-    /// Two values as one record.
+    /// Returns a record type for two values.
     pub fn pair(&mut self, pair: &PairType) -> Type {
         let bits = pair.first_bits();
         self.named(pair.name, bits / 8 + 1, || {
@@ -80,12 +80,12 @@ impl<'a> Types<'a> {
         })
     }
 
-    /// How many elements of the value list were read.
+    /// Returns the number of elements of the value list that were read.
     pub fn value_items(&self) -> usize {
         self.items.len()
     }
 
-    /// Adds an element of the value list. References lead to the first one with an identifier.
+    /// Adds an element of the value list. The first element with an identifier takes precedence.
     pub fn add_values(&mut self, id: &Given<'a>, item: ValueItem) {
         if !id.is_missing() {
             self.by_id.entry(id.text.clone()).or_insert(self.items.len());
@@ -93,7 +93,7 @@ impl<'a> Types<'a> {
         self.items.push(item);
     }
 
-    /// The enumeration of the ValueItem that `target` names, over `base`.
+    /// Returns the enumeration of the ValueItem `target` over `base`.
     pub fn enumeration(&mut self, target: Given<'a>, base: Type) -> Type {
         let key = (target.text.clone(), base);
         if let Some(&id) = self.enumerations.get(&key) {
@@ -105,7 +105,7 @@ impl<'a> Types<'a> {
         Type::Named(id)
     }
 
-    /// The types, now that the value list is known.
+    /// Returns the types after the value list was read.
     pub fn finish(mut self, diagnostics: &mut Diagnostics) -> Vec<TypeDef> {
         let mut budget = limits::MAX_DERIVED_ITEMS;
         for (target, base, TypeId(id)) in std::mem::take(&mut self.wanted) {
@@ -137,12 +137,12 @@ impl<'a> Types<'a> {
 }
 
 fn too_many(target: &Given<'_>, diagnostics: &mut Diagnostics) {
-    let message = "the values of the file's lists are used with too many types";
+    let message = "the value lists are used with too many types";
     let diagnostic = Diagnostic::new(&codes::INPUT_TOO_LARGE, target.span, message);
-    diagnostics.push(diagnostic.label("without names of its values"));
+    diagnostics.push(diagnostic.label("the values have no names"));
 }
 
-/// The type for an enumeration that nothing refers to.
+/// Returns the type for an enumeration that nothing refers to.
 fn narrowest(values: &[EnumValue]) -> Type {
     let least = values.iter().map(|value| value.value).min().unwrap_or(0);
     let greatest = values.iter().map(|value| value.last.unwrap_or(value.value)).max().unwrap_or(0);
@@ -152,7 +152,7 @@ fn narrowest(values: &[EnumValue]) -> Type {
 }
 
 impl DataType {
-    /// The type of one value, where there is one, and its length in bytes; `length` is the one next to the name.
+    /// Returns the type of a single value and its length in bytes. `length` is the declared length.
     pub fn lower(self, length: Option<u32>, types: &mut Types<'_>) -> (Type, u32) {
         let bytes = self.bytes().or(length).unwrap_or(0);
         let ty = match self {

@@ -1,4 +1,4 @@
-//! Defaults and allowed values of parameters.
+//! Reads default values and allowed values of parameters.
 
 use super::reader::Reader;
 use crate::diagnostics::{codes, Diagnostic};
@@ -7,7 +7,7 @@ use crate::ir::{Limits, Type, Value};
 use crate::text::brief;
 
 impl<'a> Reader<'a, '_> {
-    /// The default of a parameter of type `ty`; what is no value of it is reported and kept as text.
+    /// Reads the default value of a parameter of type `ty`. Reports an invalid value and keeps it as text.
     pub fn default_value(&mut self, given: &Given<'_>, ty: Type, bits: u32) -> Option<Value> {
         let text = given.text.as_ref();
         let value = match ty {
@@ -24,12 +24,12 @@ impl<'a> Reader<'a, '_> {
         if value.is_none() {
             let what = match ty {
                 Type::Boolean => "0 or 1",
-                Type::Integer(_) | Type::Unsigned(_) => "a whole number",
+                Type::Integer(_) | Type::Unsigned(_) => "an integer",
                 Type::Real32 | Type::Real64 => "a number",
                 Type::OctetString(_) => "octets such as `0x00,0x1F`",
-                _ => "a value of a form that Lexibus knows",
+                _ => "a value in a known form",
             };
-            let message = format!("the default `{}` isn't {what}", brief(text));
+            let message = format!("the default value `{}` is not {what}", brief(text));
             self.diagnostics.push(Diagnostic::new(&codes::GSDML_DEFAULT, given.span, message).label("kept as text"));
         }
         Some(value.unwrap_or_else(|| Value::Raw(text.into())))
@@ -38,7 +38,7 @@ impl<'a> Reader<'a, '_> {
     fn integer(&mut self, given: &Given<'_>, ty: Type) -> Option<Value> {
         let (value, is_plain) = whole(&given.text)?;
         if !is_plain {
-            let message = format!("`{}` isn't written with decimal digits", given.text);
+            let message = format!("`{}` does not consist of decimal digits", given.text);
             self.diagnostics.push(
                 Diagnostic::new(&codes::GSDML_DEFAULT, given.span, message)
                     .label(format!("read as {value}"))
@@ -49,24 +49,24 @@ impl<'a> Reader<'a, '_> {
         Some(Value::Int(value))
     }
 
-    /// Reports a number that no value of the type can have.
+    /// Reports a number outside the range of the type.
     fn check_range(&mut self, given: &Given<'_>, value: i128, ty: Type) {
         let Some((low, high)) = ty.integer_range() else { return };
         if value < low || value > high {
-            let message = format!("{value} is no value of {ty}, which has {low} to {high}");
-            self.diagnostics.push(Diagnostic::new(&codes::OUT_OF_TYPE, given.span, message).label("kept as it is"));
+            let message = format!("{value} is out of range for {ty} ({low} to {high})");
+            self.diagnostics.push(Diagnostic::new(&codes::OUT_OF_TYPE, given.span, message).label("kept unchanged"));
         }
     }
 
     fn check_length(&mut self, given: &Given<'_>, bits: u32) {
         let length = given.text.chars().count();
         if length > bits as usize / 8 {
-            let message = format!("the default has {length} characters, and the parameter room for {}", bits / 8);
-            self.diagnostics.push(Diagnostic::new(&codes::OUT_OF_TYPE, given.span, message).label("kept as it is"));
+            let message = format!("the default value has {length} characters, but the parameter has only {}", bits / 8);
+            self.diagnostics.push(Diagnostic::new(&codes::OUT_OF_TYPE, given.span, message).label("kept unchanged"));
         }
     }
 
-    /// The values that a parameter of type `ty` may have.
+    /// Reads the allowed values of a parameter of type `ty`.
     pub fn allowed_values(&mut self, given: &Given<'_>, ty: Type) -> Limits {
         let mut limits = Limits::default();
         if given.is_missing() {
@@ -75,7 +75,7 @@ impl<'a> Reader<'a, '_> {
         let parse = match ty {
             Type::Boolean | Type::Integer(_) | Type::Unsigned(_) => integer_range,
             Type::Real32 | Type::Real64 => real_range,
-            // A string has no numbers to compare with.
+            // The IR has no allowed values for strings.
             _ => {
                 self.note("AllowedValues", given);
                 return limits;
@@ -84,11 +84,11 @@ impl<'a> Reader<'a, '_> {
         for part in given.text.split_ascii_whitespace() {
             match parse(part) {
                 Some((first, last)) if less(&last, &first) => {
-                    self.bad_part(given, part, "the last value is less than the first", "read the other way round");
+                    self.bad_part(given, part, "the last value is less than the first", "read with the limits swapped");
                     add(&mut limits, last, first);
                 }
                 Some((first, last)) => add(&mut limits, first, last),
-                None => self.bad_part(given, part, "it is no number and no range `first..last`", "left out"),
+                None => self.bad_part(given, part, "neither a number nor a range `first..last`", "left out"),
             }
         }
         for value in [&limits.low, &limits.high].into_iter().flatten() {
@@ -100,7 +100,7 @@ impl<'a> Reader<'a, '_> {
     }
 
     fn bad_part(&mut self, given: &Given<'_>, part: &str, why: &str, label: &str) {
-        let message = format!("`{}` among the allowed values: {why}", brief(part));
+        let message = format!("invalid allowed value `{}`: {why}", brief(part));
         self.diagnostics.push(Diagnostic::new(&codes::ALLOWED_VALUES, given.span_of(part), message).label(label));
     }
 }
@@ -112,7 +112,7 @@ fn less(a: &Value, b: &Value) -> bool {
     }
 }
 
-/// Adds a range to the allowed values. The first needs no list: it is the least and the greatest value.
+/// Adds a range to the allowed values. The first range is stored only as minimum and maximum.
 fn add(limits: &mut Limits, first: Value, last: Value) {
     let (Some(low), Some(high)) = (&mut limits.low, &mut limits.high) else {
         (limits.low, limits.high) = (Some(first), Some(last));
@@ -138,7 +138,7 @@ fn boolean(text: &str) -> Option<Value> {
     }
 }
 
-/// A whole number, and whether it is written as GSDML wants.
+/// Reads an integer. Returns also whether it consists of decimal digits.
 fn whole(text: &str) -> Option<(i128, bool)> {
     if let Ok(value) = text.parse::<i64>() {
         return Some((value.into(), true));
@@ -160,7 +160,7 @@ fn real(text: &str) -> Option<f64> {
     }
 }
 
-/// `0x01,0x02`.
+/// Reads octets in the form `0x01,0x02`.
 pub(super) fn octets(text: &str) -> Option<Vec<u8>> {
     text.split(',').map(|octet| octet_of(octet.trim())).collect()
 }

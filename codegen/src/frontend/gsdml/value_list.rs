@@ -1,6 +1,6 @@
-//! The value list: named values of parameters.
+//! Reads the value list: named values of parameters.
 
-use super::links::Kind;
+use super::links::ElementKind;
 use super::reader::Reader;
 use super::types::ValueItem;
 use crate::frontend::xml::Read;
@@ -17,7 +17,7 @@ impl<'a> Reader<'a, '_> {
         let mut item = ValueItem::default();
         item.origin = self.origin(parent);
         let [id] = self.attributes(parent, ["ID"])?;
-        self.register(parent, Kind::Value, &id, self.format.types.value_items());
+        self.register(parent, ElementKind::Value, &id, self.format.types.value_items());
         item.id = id.compact();
         while let Some(tag) = self.child(parent)? {
             match tag.name {
@@ -42,7 +42,7 @@ impl<'a> Reader<'a, '_> {
             return Ok(None);
         }
         let Some((value, last)) = span_of_values(&content.text) else {
-            self.bad(&content, "whole number or range of whole numbers", "left out of the enumeration");
+            self.bad(&content, "integer or range of integers", "left out of the enumeration");
             self.note("Assign@Content", &content);
             return Ok(None);
         };
@@ -50,7 +50,7 @@ impl<'a> Reader<'a, '_> {
     }
 }
 
-/// `7` or `0..3`.
+/// Reads a value or range, such as `7` or `0..3`.
 fn span_of_values(text: &str) -> Option<(i128, Option<i128>)> {
     match text.split_once("..") {
         Some((first, last)) => {
@@ -61,7 +61,7 @@ fn span_of_values(text: &str) -> Option<(i128, Option<i128>)> {
     }
 }
 
-/// A whole number, perhaps with a fraction of zero or in hexadecimal.
+/// Reads an integer. Also accepts a fraction of zero or hexadecimal digits.
 fn whole(text: &str) -> Option<i128> {
     let text = text.trim();
     if let Ok(value) = text.parse::<i64>() {

@@ -16,7 +16,7 @@ pub(super) type Ids = HashMap<String, usize>;
 
 #[derive(Default)]
 pub(super) struct Application<'a> {
-    /// Parameters, and variables of structures, to which sub-objects may refer as well.
+    /// Parameters, and variables of structures. Sub-objects may refer to both.
     pub parameters: Vec<Parameter<'a>>,
     pub templates: Vec<Parameter<'a>>,
     pub allowed_templates: Vec<Allowed<'a>>,
@@ -32,7 +32,7 @@ pub(super) struct Application<'a> {
 pub(super) struct Parameter<'a> {
     pub template: Given<'a>,
     pub access: Given<'a>,
-    /// Whether the source has a default for the access: a variable hasn't.
+    /// Whether it is a variable. A variable has no default access rights.
     pub is_variable: bool,
     pub support: Given<'a>,
     pub persistent: Given<'a>,
@@ -46,19 +46,19 @@ pub(super) struct Parameter<'a> {
     pub allowed: Option<Box<Allowed<'a>>>,
     pub unit: Option<Box<Unit<'a>>>,
     pub extensions: Extensions,
-    /// Length of its element, which bounds what copies of it may cost.
+    /// Length of its element in bytes. It limits how often the parameter is copied.
     pub weight: usize,
-    /// The structure and field, if it is a variable of one.
+    /// Structure and field, if it is a variable of a structure.
     pub field: Option<(usize, usize)>,
 }
 
-/// allowedValues or allowedValuesTemplate.
+/// An allowedValues or allowedValuesTemplate element.
 #[derive(Default)]
 pub(super) struct Allowed<'a> {
     pub template: Given<'a>,
     pub values: Vec<(Given<'a>, Texts<'a>)>,
     pub ranges: Vec<AllowedRange<'a>>,
-    /// Length of its element.
+    /// Length of its element in bytes.
     pub weight: usize,
 }
 
@@ -76,7 +76,7 @@ pub(super) struct Unit<'a> {
     pub texts: Texts<'a>,
 }
 
-/// A parameter with the template it refers to; the parameter's own facts count first.
+/// A parameter with its template. Facts of the parameter take precedence.
 #[derive(Clone, Copy)]
 pub(super) struct View<'p, 'a> {
     /// Position of the parameter.
@@ -86,7 +86,7 @@ pub(super) struct View<'p, 'a> {
 }
 
 impl<'p, 'a> View<'p, 'a> {
-    /// Of an object that refers to no parameter.
+    /// View of an object without a parameter.
     pub const NONE: Self = View { position: None, parameter: None, template: None };
 
     pub fn exists(&self) -> bool {
@@ -97,12 +97,13 @@ impl<'p, 'a> View<'p, 'a> {
         self.parameter
     }
 
-    /// The first of the two that has the fact.
+    /// Returns the fact from the parameter, or from the template if the parameter does not have it.
     pub fn find<T>(&self, fact: impl Fn(&'p Parameter<'a>) -> Option<T>) -> Option<T> {
         self.parameter.and_then(&fact).or_else(|| self.template.and_then(&fact))
     }
 
-    /// The labels and descriptions, each of the first of the two that has any.
+    /// Returns the labels and descriptions. Each is from the parameter, or from the template if the parameter has
+    /// none.
     pub fn texts(&self) -> Texts<'a> {
         let has = |names: &&'p Names<'a, Lang>| !names.is_empty();
         let labels = self.find(|parameter| Some(&parameter.texts.labels).filter(has));
@@ -116,14 +117,14 @@ impl<'p, 'a> View<'p, 'a> {
         of(self.parameter).iter().chain(of(self.template))
     }
 
-    /// What a copy costs.
+    /// Returns the cost of a copy in bytes.
     pub fn weight(&self) -> usize {
         self.parameter.map_or(0, |parameter| parameter.weight) + self.template.map_or(0, |template| template.weight)
     }
 }
 
 impl<'a> Application<'a> {
-    /// The parameter to which an object refers.
+    /// Returns the parameter to which an object refers.
     pub fn view(&self, reader: &mut Reader<'a, '_>, given: &Given<'a>) -> View<'_, 'a> {
         if given.is_missing() {
             return View::NONE;
@@ -143,7 +144,7 @@ impl<'a> Application<'a> {
         View { position: Some(position), parameter: Some(parameter), template }
     }
 
-    /// The allowed values of a parameter, perhaps those of a template.
+    /// Returns the allowed values of a parameter, or those of the template it refers to.
     pub fn allowed<'p>(&'p self, reader: &mut Reader<'a, '_>, allowed: &'p Allowed<'a>) -> &'p Allowed<'a> {
         let given = &allowed.template;
         if given.is_missing() {
@@ -160,17 +161,17 @@ impl<'a> Application<'a> {
 }
 
 pub(super) fn dangling(reader: &mut Reader<'_, '_>, given: &Given<'_>, what: &str) {
-    let message = format!("no {what} has the uniqueID `{}`", brief(&given.text));
-    reader.report(&codes::DANGLING_REFERENCE, given.span, message, "not resolved");
+    let message = format!("there is no {what} with the uniqueID `{}`", brief(&given.text));
+    reader.report(&codes::DANGLING_REFERENCE, given.span, message, "reference is ignored");
 }
 
-/// Registers the position of an element by its uniqueID; the first element of that name counts.
+/// Registers the position of an element by its uniqueID. The first element with a uniqueID takes precedence.
 pub(super) fn insert(reader: &mut Reader<'_, '_>, ids: &mut Ids, given: Given<'_>, position: usize) {
     if given.is_missing() {
         return;
     }
     if ids.contains_key(given.text.as_ref()) {
-        reader.bad(&given, "unique identifier: it occurs twice", "references lead to the first");
+        reader.bad(&given, "uniqueID: it occurs twice", "references resolve to the first element");
         return;
     }
     ids.insert(given.text.into_owned(), position);

@@ -6,17 +6,17 @@ use crate::ir::{CompactString, EnumValue, Type};
 use crate::source::{Origin, Span};
 use crate::syntax::xml::Tag;
 
-/// The type of a parameter, element or field.
+/// Type of a parameter, element or field.
 #[derive(Clone, Debug)]
 pub(super) enum TypeRef<'a> {
-    /// `<UDINT/>`
+    /// A basic type, such as `<UDINT/>`.
     Basic(Type, Span),
-    /// `<dataTypeIDRef uniqueIDRef="…"/>`
+    /// A reference: `<dataTypeIDRef uniqueIDRef="…"/>`.
     Named(Given<'a>),
 }
 
 impl<'a> TypeRef<'a> {
-    /// The type that an element names, if it names one.
+    /// Reads the type in an element. Returns `None` for an element that is not a type.
     pub fn read(reader: &mut Reader<'a, '_>, tag: &Tag<'a>) -> Read<Option<Self>> {
         if let Some(ty) = basic(tag.name) {
             return Ok(Some(TypeRef::Basic(ty, tag.span)));
@@ -40,12 +40,12 @@ impl<'a> TypeRef<'a> {
 pub(super) struct RawType<'a> {
     pub name: CompactString,
     pub texts: Texts<'a>,
-    pub kind: Kind<'a>,
+    pub kind: DataTypeKind<'a>,
     pub origin: Origin,
 }
 
-/// What a type is made of.
-pub(super) enum Kind<'a> {
+/// Composition of a data type.
+pub(super) enum DataTypeKind<'a> {
     Array {
         dimensions: Vec<(i32, u32)>,
         element: Option<TypeRef<'a>>,
@@ -62,7 +62,7 @@ pub(super) enum Kind<'a> {
     },
 }
 
-/// The basic types of IEC 61131-3 as CiA 311 maps them to those of CiA 301.
+/// Returns the CiA 301 type of a basic type of IEC 61131-3, as mapped by CiA 311.
 fn basic(name: &str) -> Option<Type> {
     Some(match name {
         "BOOL" => Type::Boolean,
@@ -83,7 +83,7 @@ fn basic(name: &str) -> Option<Type> {
     })
 }
 
-/// A value of an enumeration with its labels.
+/// Returns a value of an enumeration with its labels.
 pub(super) fn enum_value(value: i128, texts: &Texts<'_>) -> EnumValue {
     let name = texts.labels.name();
     let (names, documentation) = (texts.labels.except(&name), texts.descriptions.documentation());

@@ -1,7 +1,7 @@
-//! Reading of dataTypeList.
+//! Reads dataTypeList.
 
 use super::application::{insert, Application};
-use super::data_type::{enum_value, Kind, RawType, TypeRef};
+use super::data_type::{enum_value, DataTypeKind, RawType, TypeRef};
 use super::number::integer;
 use super::parameter;
 use super::reader::{Reader, Texts};
@@ -17,7 +17,7 @@ pub(super) fn read<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, application: 
     }
     let origin = reader.origin(tag);
     let [id, name, size] = reader.attributes(tag, ["uniqueID", "name", "size"])?;
-    // The size of an enumeration repeats what its values and its type say.
+    // The size of an enumeration is redundant: values and base type determine it.
     reader.note("enum@size", &size);
     let mut texts = Texts::default();
     let kind = match tag.name {
@@ -32,7 +32,7 @@ pub(super) fn read<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, application: 
     Ok(())
 }
 
-/// Reads the type that a data type is made of, or a label or description.
+/// Reads a type that is part of a data type, or a label or description.
 fn component<'a>(
     reader: &mut Reader<'a, '_>,
     tag: &Tag<'a>,
@@ -46,7 +46,7 @@ fn component<'a>(
     Ok(())
 }
 
-fn array<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, texts: &mut Texts<'a>) -> Read<Kind<'a>> {
+fn array<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, texts: &mut Texts<'a>) -> Read<DataTypeKind<'a>> {
     let (mut dimensions, mut element) = (Vec::new(), None);
     while let Some(tag) = reader.child(parent)? {
         if tag.name != "subrange" {
@@ -60,12 +60,12 @@ fn array<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, texts: &mut Texts<'a
                 dimensions.push((low, u32::try_from(count).unwrap_or(u32::MAX)));
             }
             _ => {
-                let message = "lowerLimit and upperLimit are no range of whole numbers";
+                let message = "lowerLimit and upperLimit are not a range of whole numbers";
                 reader.report(&codes::XDD_VALUE, tag.span, message, "left out");
             }
         }
     }
-    Ok(Kind::Array { dimensions, element })
+    Ok(DataTypeKind::Array { dimensions, element })
 }
 
 fn structure<'a>(
@@ -73,7 +73,7 @@ fn structure<'a>(
     parent: &Tag<'a>,
     texts: &mut Texts<'a>,
     application: &mut Application<'a>,
-) -> Read<Kind<'a>> {
+) -> Read<DataTypeKind<'a>> {
     let mut variables = Vec::new();
     while let Some(tag) = reader.child(parent)? {
         if tag.name != "varDeclaration" {
@@ -87,10 +87,10 @@ fn structure<'a>(
         variables.push(application.parameters.len());
         application.parameters.push(variable);
     }
-    Ok(Kind::Struct(variables))
+    Ok(DataTypeKind::Struct(variables))
 }
 
-fn enumeration<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, texts: &mut Texts<'a>) -> Read<Kind<'a>> {
+fn enumeration<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, texts: &mut Texts<'a>) -> Read<DataTypeKind<'a>> {
     let (mut base, mut values) = (None, Vec::<EnumValue>::new());
     while let Some(tag) = reader.child(parent)? {
         if tag.name != "enumValue" {
@@ -99,20 +99,20 @@ fn enumeration<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, texts: &mut Te
         }
         let [given] = reader.attributes(&tag, ["value"])?;
         let texts = reader.texts(&tag)?;
-        // Without a number, the values count up as in C.
+        // Values without a number count up, as in C.
         let value = match given.is_missing() {
             true => Some(values.last().map_or(0, |last| last.value.saturating_add(1))),
             false => integer(&given.text),
         };
         match value {
             Some(value) => values.push(enum_value(value, &texts)),
-            None => reader.bad(&given, "number of an enumeration's value", "left out"),
+            None => reader.bad(&given, "enumeration value", "left out"),
         }
     }
-    Ok(Kind::Enum { base, values })
+    Ok(DataTypeKind::Enum { base, values })
 }
 
-fn derived<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, texts: &mut Texts<'a>) -> Read<Kind<'a>> {
+fn derived<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, texts: &mut Texts<'a>) -> Read<DataTypeKind<'a>> {
     let (mut base, mut count) = (None, None);
     while let Some(tag) = reader.child(parent)? {
         if tag.name != "count" {
@@ -128,5 +128,5 @@ fn derived<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, texts: &mut Texts<
             }
         }
     }
-    Ok(Kind::Derived { base, count })
+    Ok(DataTypeKind::Derived { base, count })
 }

@@ -1,4 +1,4 @@
-//! One file: its profiles, and the device that they describe.
+//! Reads a file: its profiles, and the device that they describe.
 
 use super::application::Application;
 use super::object_list::ObjectList;
@@ -11,9 +11,10 @@ use crate::ir::{CanOpenSettings, Catalog, Device, Extension};
 use crate::source::{FileId, Source, Span};
 use crate::syntax::xml::{Attribute, Cursor, Tag};
 
-/// Reads the device that `source` describes. Everything that had to be repaired goes to `diagnostics`.
+/// Reads the device that `source` describes. Repairs are reported to `diagnostics`.
 ///
-/// Returns `None`, with one error, for a file that isn't well formed, describes a POWERLINK device, or no device.
+/// Returns `None`, with one error, if the file is not well-formed, describes a POWERLINK device, or describes no
+/// device.
 pub fn read(source: &Source, file: FileId, aliases: &[String], diagnostics: &mut Diagnostics) -> Option<Catalog> {
     declared_encoding::report(source, file, diagnostics);
     let mut reader = Reader::new(Cursor::new(source.text(), file), diagnostics, Xdd { aliases });
@@ -26,13 +27,13 @@ pub fn read(source: &Source, file: FileId, aliases: &[String], diagnostics: &mut
     }
 }
 
-/// What the profiles of a file say.
+/// Contents of the profiles of a file.
 struct Profiles<'a> {
     device: Device,
     canopen: CanOpenSettings,
     application: Application<'a>,
     objects: ObjectList,
-    /// Whether there is anything of CANopen.
+    /// Whether the file contains a CANopen profile.
     canopen_seen: bool,
 }
 
@@ -52,7 +53,7 @@ fn container<'a>(reader: &mut Reader<'a, '_>) -> Read<Device> {
         "ISO15745Profile" => profile(reader, &root, &mut profiles)?,
         _ => return Err(not_canopen(&root)),
     }
-    // What follows the root element has to be well formed, too.
+    // The content after the root element must be well-formed, too.
     while reader.cursor.read()?.is_some() {}
     if !profiles.canopen_seen {
         return Err(not_canopen(&root));
@@ -69,7 +70,7 @@ fn container<'a>(reader: &mut Reader<'a, '_>) -> Read<Device> {
 }
 
 fn not_canopen(root: &Tag<'_>) -> Box<Diagnostic> {
-    let message = "this XML describes no CANopen device";
+    let message = "this XML document does not describe a CANopen device";
     Box::new(Diagnostic::new(&codes::NOT_A_CANOPEN_XDD, root.name_span(), message).help(
         "an XDD or XDC has the root element ISO15745ProfileContainer, and profile bodies of the types \
          ProfileBody_Device_CANopen and ProfileBody_CommunicationNetwork_CANopen",
@@ -88,7 +89,7 @@ fn profile<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, profiles: &mut Pro
 }
 
 fn body<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, profiles: &mut Profiles<'a>) -> Read<()> {
-    // The one attribute of the schema instance namespace that matters, under whatever prefix.
+    // `type` is the only attribute of the schema instance namespace that matters. Its prefix is arbitrary.
     let is_kind = |attribute: &Attribute<'_>| attribute.name == "type" && !attribute.prefix.is_empty();
     let kind = parent.attributes().find(|attribute| attribute.as_ref().map_or(true, is_kind)).transpose()?;
     let kind = kind.map(|attribute| (attribute.value(reader.diagnostics), attribute.span));
@@ -98,7 +99,7 @@ fn body<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, profiles: &mut Profil
             return Err(powerlink(*span));
         }
         if !kind.contains("canopen") {
-            // A profile of another technology in the same container.
+            // This profile is for another technology.
             return reader.keep(parent);
         }
         profiles.canopen_seen = true;
@@ -129,10 +130,10 @@ fn body<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, profiles: &mut Profil
 
 fn powerlink(span: Span) -> Box<Diagnostic> {
     Box::new(
-        Diagnostic::new(&codes::POWERLINK_XDD, span, "this is an XDD of Ethernet POWERLINK, not of CANopen")
-            .label("a profile of EPSG 311")
+        Diagnostic::new(&codes::POWERLINK_XDD, span, "this is an XDD for Ethernet POWERLINK, not for CANopen")
+            .label("this profile is defined by EPSG 311")
             .help(
-                "both kinds of file share the ending .xdd and the outer elements; ask the vendor for the CANopen XDD",
+                "ask the vendor for the CANopen XDD; the two formats share the extension .xdd and the outer elements",
             ),
     )
 }

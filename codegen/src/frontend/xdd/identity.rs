@@ -1,4 +1,4 @@
-//! What the file says about itself, and which device it describes.
+//! Reads the file header and the identity of the device.
 
 use super::number::integer;
 use super::reader::Reader;
@@ -6,7 +6,7 @@ use crate::frontend::xml::{Given, Read};
 use crate::ir::{CompactString, Device, Extension};
 use crate::syntax::xml::Tag;
 
-/// The attributes of a profile body. Both bodies of a file have them; the first that says something counts.
+/// Reads the attributes of a profile body. A file has two bodies; the first value of each attribute applies.
 pub(super) fn body<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, device: &mut Device) -> Read<()> {
     const NAMES: [&str; 12] = [
         "fileName",
@@ -39,14 +39,14 @@ pub(super) fn body<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, device: &mut 
             *target = given.compact();
         }
     }
-    // The version of CiA 311 isn't one of CiA 306, of which the header has a field.
+    // The header of the IR has a field for the version of CiA 306, but none for that of CiA 311.
     for (name, given) in NAMES.iter().zip(&fields).skip(9) {
         reader.note(name, given);
     }
     Ok(())
 }
 
-/// DeviceIdentity, or the identity of the communication profile, which repeats a part of it.
+/// Reads DeviceIdentity, or the identity in the communication profile, which repeats a part of it.
 pub(super) fn read<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, device: &mut Device) -> Read<()> {
     while let Some(tag) = reader.child(parent)? {
         match tag.name {
@@ -55,7 +55,7 @@ pub(super) fn read<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, device: &m
             "orderNumber" => order_number(reader, &tag, device)?,
             "vendorID" => number(reader, &tag, &mut device.identity.vendor_id)?,
             "productID" => number(reader, &tag, &mut device.identity.product_code)?,
-            // The second spelling is that of a schema in use.
+            // A schema in use has the second, misspelled name.
             "revisionNumber" | "revisionNumer" => number(reader, &tag, &mut device.identity.revision_number)?,
             "version" => {
                 let kind = reader.attribute(&tag, "versionType")?;
@@ -85,7 +85,7 @@ fn name<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, name: &mut CompactString
     Ok(())
 }
 
-/// The first order number is that of the device; further ones are of its variants.
+/// Reads an order number. The first one is that of the device; others belong to variants.
 fn order_number<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, device: &mut Device) -> Read<()> {
     let given = reader.text(tag)?;
     if device.identity.order_code.is_empty() {
@@ -96,7 +96,7 @@ fn order_number<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, device: &mut Dev
     Ok(())
 }
 
-/// A number in decimal or with `0x`. Other profiles of ISO 15745 have texts here; such a one is kept.
+/// Reads a decimal number or one with `0x`. Other ISO 15745 profiles have texts here, which are kept as extensions.
 fn number<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, number: &mut Option<u32>) -> Read<()> {
     let given = reader.text(tag)?;
     if given.is_missing() {
@@ -108,14 +108,14 @@ fn number<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, number: &mut Option<u3
         Some(value) if *number == Some(value) => {}
         Some(_) => reader.note(tag.name, &given),
         None => {
-            reader.bad(&given, tag.name, "kept as an extension attribute; expected a number of 32 bits");
+            reader.bad(&given, tag.name, "kept as an extension attribute; expected a 32-bit number");
             reader.note(tag.name, &given);
         }
     }
     Ok(())
 }
 
-/// Eight digits without a prefix are how hexBinary writes 32 bits.
+/// Reads a number. Eight digits without a prefix are hexBinary for 32 bits.
 fn parse(given: &Given<'_>) -> Option<i128> {
     let text = given.text.as_ref();
     if text.len() == 8 && text.bytes().all(|byte| byte.is_ascii_hexdigit()) {
@@ -124,7 +124,7 @@ fn parse(given: &Given<'_>) -> Option<i128> {
     integer(text)
 }
 
-/// The first description of the product, preferably in English, is what an EDS calls the description.
+/// Returns the first description of the product, preferably in English. It corresponds to the description in an EDS.
 fn product_text<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, device: &mut Device) -> Read<()> {
     let texts = reader.texts(parent)?;
     let documentation = texts.descriptions.documentation().unwrap_or_default();

@@ -1,4 +1,4 @@
-//! From an object or sub-object, and the parameter to which it refers, to an item.
+//! Converts an object or sub-object, and its parameter, to an item.
 
 use super::application::{Allowed, AllowedRange, View};
 use super::data_type::enum_value;
@@ -16,11 +16,11 @@ use crate::ir::{
 };
 use crate::source::Span;
 
-/// What a sub-object takes from its object: the parameter of the whole, and the type of this component.
+/// Facts that a sub-object takes from its object: the parameter of the object, and the type of this component.
 pub(super) type Parent<'v, 'p, 'a> = Option<(&'v View<'p, 'a>, Option<Type>)>;
 
 impl<'a, 'p> Builder<'a, '_, 'p> {
-    /// One value: a VAR, a DOMAIN, a sub-object. Name, texts and extensions are the caller's.
+    /// Builds the item of a VAR, DOMAIN or sub-object. The caller sets name, texts and extensions.
     pub(super) fn item(
         &mut self,
         index: u16,
@@ -41,14 +41,14 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
         let base = underlying(&self.types, item.ty);
         item.access = self.access(raw, view, code, parent, &mut item);
         if ty.is_none() {
-            // Nobody can say which bytes to write.
+            // Without a data type it is unknown which bytes to write.
             item.access = Access::ReadOnly;
         }
         item.mappable = self.mappable(raw, item.access, &mut item);
         let default = raw.get(Key::DefaultValue).or_else(|| view.find(|parameter| parameter.default.non_empty()));
         item.default = self.typed(default, base, Role::Value);
         item.at.default = span_of(default);
-        // An enumeration of the allowed values says all of them.
+        // An enumeration of the allowed values makes the limits redundant.
         self.limits(raw, base, allowed.filter(|_| item.ty == plain), &mut item);
         item.flags = self.flags(raw);
         self.configured(raw, view, base, &mut item);
@@ -78,12 +78,12 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
             };
             let defined = self.codes.get(&number).copied();
             let ty = object::type_by_code(number, given.span, defined, self.reader.diagnostics);
-            // An enumeration of the same integers says more.
+            // An enumeration over the same integer type is more specific.
             let named = parameter.map(|parameter| self.application.resolve(self.reader, parameter));
             return named.filter(|&named| named != ty && underlying(&self.types, named) == ty).or(Some(ty));
         }
         item.at.ty = parameter.map_or(raw.origin.span, |parameter| parameter.span());
-        // IEC 61131-3 has no domains: a parameter that stands for one has some other type.
+        // IEC 61131-3 has no type for a DOMAIN, so the parameter has another type.
         if code == ObjectCode::Domain {
             return Some(Type::Domain);
         }
@@ -100,10 +100,10 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
             Diagnostic::new(
                 &codes::MISSING_DATA_TYPE,
                 item.at.ty,
-                "neither the object nor a parameter has a data type",
+                "the object has no data type, and no parameter with one",
             )
             .label("kept read-only, as raw bytes")
-            .help("add dataType=\"0007\", say, for UNSIGNED32"),
+            .help("add a data type, such as `dataType=\"0007\"` for UNSIGNED32"),
         );
         None
     }
@@ -129,14 +129,14 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
             return self.parameter_access(given);
         }
         item.at.access = raw.origin.span;
-        // What a parameter doesn't say is `read` by the schema of CiA 311.
+        // The CiA 311 schema defines `read` as the default access of a parameter.
         let is_read = view.parameter().is_some_and(|parameter| !parameter.is_variable);
         match code {
             ObjectCode::Domain if !is_read => return Access::ReadWrite,
             ObjectCode::DefType | ObjectCode::DefStruct | ObjectCode::Null => {}
             _ if is_read => {}
             _ => {
-                let message = "neither the object nor a parameter has an access type";
+                let message = "the object has no access type, and no parameter with one";
                 self.reader.report(&codes::MISSING_ACCESS, raw.origin.span, message, "kept read-only");
             }
         }
@@ -152,7 +152,7 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
             "readWriteOutput" => Access::ReadWriteOutput,
             "const" => Access::Constant,
             "noAccess" => {
-                let message = "an object refers to a parameter that the bus has no access to";
+                let message = "the object refers to a parameter without access from the bus";
                 self.reader.report(&codes::XDD_VALUE, given.span, message, "kept read-only");
                 Access::ReadOnly
             }
@@ -182,11 +182,11 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
         }
     }
 
-    /// Labelled values are an enumeration of their own.
+    /// Returns an enumeration type for allowed values with labels.
     fn enumeration(&mut self, ty: Type, view: &View<'p, 'a>, allowed: Option<&'p Allowed<'a>>) -> Type {
         let (Some(allowed), Some(position)) = (allowed, view.position) else { return ty };
-        let labelled = allowed.ranges.is_empty() && allowed.values.iter().all(|(_, texts)| !texts.labels.is_empty());
-        if allowed.values.is_empty() || !labelled || !matches!(ty, Type::Integer(_) | Type::Unsigned(_)) {
+        let labeled = allowed.ranges.is_empty() && allowed.values.iter().all(|(_, texts)| !texts.labels.is_empty());
+        if allowed.values.is_empty() || !labeled || !matches!(ty, Type::Integer(_) | Type::Unsigned(_)) {
             return ty;
         }
         if let Some(&known) = self.enumerations.get(&position) {
@@ -208,12 +208,12 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
         Type::Named(id)
     }
 
-    /// The object's limits, else what the parameter's allowed values span.
+    /// Sets the limits of the object. If it has none, the limits are the range of the parameter's allowed values.
     fn limits(&mut self, raw: &Raw<'a>, ty: Type, allowed: Option<&'p Allowed<'a>>, item: &mut Item) {
-        let own = |key| raw.get(key);
-        (item.at.low, item.at.high) = (span_of(own(Key::LowLimit)), span_of(own(Key::HighLimit)));
-        item.limits.low = self.typed(own(Key::LowLimit), ty, Role::Limit);
-        item.limits.high = self.typed(own(Key::HighLimit), ty, Role::Limit);
+        let attribute = |key| raw.get(key);
+        (item.at.low, item.at.high) = (span_of(attribute(Key::LowLimit)), span_of(attribute(Key::HighLimit)));
+        item.limits.low = self.typed(attribute(Key::LowLimit), ty, Role::Limit);
+        item.limits.high = self.typed(attribute(Key::HighLimit), ty, Role::Limit);
         let Some(allowed) = allowed else { return };
         if !item.limits.is_empty() {
             return keep_allowed(allowed, &mut item.extensions);
@@ -229,7 +229,7 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
         keep_allowed(allowed, &mut item.extensions);
     }
 
-    /// The least and the greatest of several ranges and values.
+    /// Returns the minimum and maximum of several ranges and values.
     fn hull(&mut self, allowed: &'p Allowed<'a>, ty: Type) -> Limits {
         let single = allowed.values.iter().map(|(given, _)| (Some(given), Some(given)));
         let ranges = allowed.ranges.iter().map(|range| (range.low.non_empty(), range.high.non_empty()));
@@ -255,7 +255,7 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
         })
     }
 
-    /// What an XDC adds to an item.
+    /// Adds the configured value and denotation of an XDC to an item.
     fn configured(&mut self, raw: &Raw<'a>, view: &View<'p, 'a>, ty: Type, item: &mut Item) {
         let actual = raw.get(Key::ActualValue).or_else(|| view.find(|parameter| parameter.actual.non_empty()));
         let denotation = match raw.get(Key::Denotation) {
@@ -273,7 +273,8 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
         }
     }
 
-    /// Unit and scale: engineering value = (raw + offset) × multiplier, in units of the unit's multiplier.
+    /// Sets unit and scale: physical value = (raw value + offset) × multiplier of the parameter × multiplier of the
+    /// unit.
     fn quantity(&mut self, view: &View<'p, 'a>, allowed: Option<&'p Allowed<'a>>, ty: Type, item: &mut Item) {
         let unit = view.find(|parameter| parameter.unit.as_deref());
         let multiplier = view.find(|parameter| parameter.multiplier.non_empty());
@@ -308,7 +309,7 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
     }
 }
 
-/// The exact list, of which limits are only the outline.
+/// Keeps the exact list of allowed values. The limits contain only its minimum and maximum.
 fn keep_allowed(allowed: &Allowed<'_>, extensions: &mut Extensions) {
     let text = |given: Option<&Given<'_>>| given.map_or_else(String::new, |given| given.text.to_string());
     let range = |range: &AllowedRange<'_>| format!("{}..{}", text(range.low.non_empty()), text(range.high.non_empty()));

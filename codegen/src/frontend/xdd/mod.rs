@@ -1,12 +1,14 @@
-//! XDD, XDC and XPD files (CiA 311, versions 1.0 and 1.1) to IR.
+//! Converts XDD, XDC and XPD files (CiA 311, versions 1.0 and 1.1) to IR.
 //!
-//! A file has two profiles: one of the device (identity, application process), one of the communication network (object
-//! list, bit rates, network management). An object may carry all of its facts, or refer to a parameter of the
-//! application process, which may follow it. So [`read`] goes through the file once, where it reads everything but
-//! the objects and notes the positions of those, and then reads the objects in the order of their indices.
+//! A file has two profiles. The device profile contains the identity and the application process. The communication
+//! network profile contains the object list, bit rates and network management.
 //!
-//! The IR is that of the same device described by an EDS. A version 1.0 differs from 1.1 in its namespace and in what an
-//! object may leave to a parameter, neither of which needs a case of its own here.
+//! An object contains all of its facts, or refers to a parameter of the application process, which may be later in
+//! the file. [`read`] therefore reads the file once and records only the positions of the objects. It then reads the
+//! objects in the order of their indices.
+//!
+//! The IR is the same as for an EDS of the device. Version 1.0 differs from 1.1 only in its namespace, and in which
+//! attributes of an object a parameter may supply. Both are read in the same way.
 //!
 //! | file | subject |
 //! |---|---|
@@ -15,11 +17,11 @@
 //! | `identity` | file, vendor, product |
 //! | `network` | bit rates, network management, dummy entries, dynamic channels, commissioning |
 //! | `modules` | slots of modular devices |
-//! | `process`, `parameter`, `data_type_list`, `data_type` | reading the application process |
-//! | `application` | its parameters, templates and data types by their identifiers |
-//! | `types` | its data types to types |
+//! | `process`, `parameter`, `data_type_list`, `data_type` | the application process |
+//! | `application` | parameters, templates and data types by their identifiers |
+//! | `types` | data types of the application process to types of the IR |
 //! | `object_list`, `objects` | objects and their sub-objects |
-//! | `item` | from an object and the parameter it refers to, to an item |
+//! | `item` | an object and its parameter to an item |
 
 mod application;
 mod data_type;

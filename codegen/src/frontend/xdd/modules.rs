@@ -1,13 +1,13 @@
-//! Modular devices: the interfaces into which modules are plugged (CiA 311, module management).
+//! Modular devices: the interfaces for modules (CiA 311, module management).
 //!
-//! The modules themselves have files of their own, which are read as devices.
+//! Modules are described in files of their manufacturers, which are read as devices.
 
 use super::reader::{Reader, Texts};
 use crate::frontend::xml::Read;
 use crate::ir::{Device, Fit, Slot};
 use crate::syntax::xml::Tag;
 
-/// DeviceManager: its interfaces become slots, everything else extensions.
+/// Reads DeviceManager. Its interfaces become slots; other elements become extensions.
 pub(super) fn device_manager<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, device: &mut Device) -> Read<()> {
     while let Some(tag) = reader.child(parent)? {
         match tag.name {

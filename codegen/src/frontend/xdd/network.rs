@@ -1,4 +1,4 @@
-//! The communication network profile, but for the objects.
+//! Reads the communication network profile, except the objects.
 
 use compact_str::format_compact;
 
@@ -10,7 +10,7 @@ use crate::frontend::xml::{Given, Read};
 use crate::ir::{CanOpenSettings, CanOpenSpans, CompactString, Device, DynamicChannel};
 use crate::syntax::xml::Tag;
 
-/// ApplicationLayers: the object list, dummy entries, dynamic channels.
+/// Reads ApplicationLayers: the object list, dummy entries and dynamic channels.
 pub(super) fn application_layers<'a>(
     reader: &mut Reader<'a, '_>,
     parent: &Tag<'a>,
@@ -27,7 +27,7 @@ pub(super) fn application_layers<'a>(
             "dummyUsage" => dummy_usage(reader, &tag, canopen)?,
             "dynamicChannels" => dynamic_channels(reader, &tag, canopen)?,
             "identity" => identity::read(reader, &tag, device)?,
-            // The ranges of indices that modules take, of which the IR knows nothing.
+            // The IR has no field for the index ranges of modules.
             "moduleManagement" => reader.keep(&tag)?,
             _ => reader.unknown(&tag)?,
         }
@@ -35,7 +35,7 @@ pub(super) fn application_layers<'a>(
     Ok(())
 }
 
-/// `<dummy entry="Dummy0001=1"/>`: a line of `[DummyUsage]` in an attribute.
+/// Reads dummy usage entries such as `<dummy entry="Dummy0001=1"/>`. The attribute is a line of `[DummyUsage]`.
 fn dummy_usage<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, canopen: &mut CanOpenSettings) -> Read<()> {
     canopen.dummies_given = true;
     reader.each(parent, "dummy", |reader, tag| {
@@ -43,7 +43,7 @@ fn dummy_usage<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, canopen: &mut 
         match dummy(&given.text) {
             Some((code, true)) if !canopen.dummies.contains(&code) => canopen.dummies.push(code),
             None if !given.is_missing() => {
-                reader.bad(&given, "dummy entry", "left out; expected `Dummy0005=1`, say");
+                reader.bad(&given, "dummy entry", "left out; expected a line such as `Dummy0005=1`");
                 reader.note("dummy", &given);
             }
             _ => {}
@@ -89,7 +89,7 @@ fn dynamic_channels<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, canopen: 
     })
 }
 
-/// TransportLayers/PhysicalLayer/baudRate.
+/// Reads TransportLayers/PhysicalLayer/baudRate.
 pub(super) fn transport_layers<'a>(
     reader: &mut Reader<'a, '_>,
     parent: &Tag<'a>,
@@ -97,7 +97,7 @@ pub(super) fn transport_layers<'a>(
 ) -> Read<()> {
     while let Some(tag) = reader.child(parent)? {
         match tag.name {
-            // Some files leave out the layer in between.
+            // Some files leave out the intermediate layer.
             "PhysicalLayer" => transport_layers(reader, &tag, canopen)?,
             "baudRate" => baud_rate(reader, &tag, canopen)?,
             _ => reader.unknown(&tag)?,
@@ -120,7 +120,7 @@ fn baud_rate<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, canopen: &mut Ca
     })
 }
 
-/// `250 Kbps`, in kbit/s.
+/// Returns the bit rate of a text such as `250 Kbps`, in kbit/s.
 fn bit_rate(reader: &mut Reader<'_, '_>, given: &Given<'_>) -> Option<u16> {
     if given.is_missing() {
         return None;
@@ -141,7 +141,7 @@ fn bit_rate(reader: &mut Reader<'_, '_>, given: &Given<'_>) -> Option<u16> {
     value
 }
 
-/// NetworkManagement: features and commissioning.
+/// Reads NetworkManagement: features and commissioning.
 pub(super) fn management<'a>(
     reader: &mut Reader<'a, '_>,
     parent: &Tag<'a>,

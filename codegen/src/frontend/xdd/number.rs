@@ -1,4 +1,4 @@
-//! Numbers of CiA 311.
+//! Reads the numbers of CiA 311.
 
 use super::reader::Reader;
 use crate::diagnostics::{codes, Diagnostic};
@@ -6,7 +6,7 @@ use crate::frontend::canopen::number;
 use crate::frontend::xml::Given;
 
 impl Reader<'_, '_> {
-    /// A number up to `max`; anything else is reported.
+    /// Reads a number up to `max` and reports any other text.
     pub fn unsigned(&mut self, given: &Given<'_>, max: u32, what: &str) -> Option<u32> {
         if given.is_missing() {
             return None;
@@ -18,7 +18,7 @@ impl Reader<'_, '_> {
         value
     }
 
-    /// Hexadecimal digits (hexBinary of XML Schema).
+    /// Reads hexadecimal digits (hexBinary of XML Schema).
     pub fn hex(&mut self, given: &Given<'_>, max: u32, what: &str) -> Option<u32> {
         if given.is_missing() {
             return None;
@@ -30,7 +30,7 @@ impl Reader<'_, '_> {
         match value {
             None => self.bad(given, what, "left out; expected hexadecimal digits"),
             Some(value) if digits.len() != text.len() => {
-                let message = format!("{text} has a prefix, which CiA 311 doesn't want here");
+                let message = format!("{text} has a prefix, which CiA 311 does not allow here");
                 self.diagnostics.push(
                     Diagnostic::new(&codes::XDD_VALUE, given.span, message)
                         .label(format!("read as {value:#06x}"))
@@ -42,7 +42,7 @@ impl Reader<'_, '_> {
         value
     }
 
-    /// A real number.
+    /// Reads a real number.
     pub fn real(&mut self, given: &Given<'_>, what: &str) -> Option<f64> {
         let value = given.text.parse::<f64>().ok().filter(|value| value.is_finite());
         if value.is_none() {
@@ -52,7 +52,8 @@ impl Reader<'_, '_> {
     }
 }
 
-/// An integer as XML Schema writes it: it has no octal numbers, so that a leading zero says nothing. Prefixes are taken as well.
+/// Reads an integer in the form of XML Schema. There are no octal numbers, so leading zeros are ignored. Prefixes are
+/// accepted.
 pub(super) fn integer(text: &str) -> Option<i128> {
     let digits = text.strip_prefix(['-', '+']).unwrap_or(text);
     match !digits.is_empty() && digits.bytes().all(|byte| byte.is_ascii_digit()) {

@@ -13,7 +13,7 @@ pub(super) struct ObjectList(pub Vec<(u16, Origin)>);
 impl ObjectList {
     /// Reads CANopenObjectList without the content of the objects.
     pub fn read<'a>(&mut self, reader: &mut Reader<'a, '_>, parent: &Tag<'a>) -> Read<()> {
-        // The numbers of objects say nothing that the objects don't.
+        // The numbers of objects are redundant.
         reader.attributes(parent, ["mandatoryObjects", "optionalObjects", "manufacturerObjects"])?;
         while let Some(tag) = reader.child(parent)? {
             match tag.name {
@@ -24,7 +24,7 @@ impl ObjectList {
                         None => missing_index(reader, &tag, "this object has no index"),
                     }
                 }
-                "CANopenSubObject" => missing_index(reader, &tag, "this sub-object stands outside of an object"),
+                "CANopenSubObject" => missing_index(reader, &tag, "this sub-object is outside an object"),
                 _ => reader.unknown(&tag)?,
             }
         }

@@ -1,4 +1,4 @@
-//! Objects and sub-objects of the object list.
+//! Reads the objects and sub-objects of the object list.
 
 use std::collections::BTreeMap;
 
@@ -23,8 +23,8 @@ pub(super) fn build<'a>(
     list: ObjectList,
     device: &mut Device,
 ) -> Read<()> {
-    let ObjectList(mut places) = list;
-    places.sort_by_key(|&(index, _)| index);
+    let ObjectList(mut positions) = list;
+    positions.sort_by_key(|&(index, _)| index);
     let mut builder = Builder {
         copies_left: reader.cursor.text().len().saturating_mul(limits::MAX_COPIES_PER_BYTE),
         reader,
@@ -34,9 +34,9 @@ pub(super) fn build<'a>(
         enumerations: BTreeMap::new(),
         copies_exceeded: false,
     };
-    device.groups.reserve(places.len());
-    for (at, &(index, origin)) in places.iter().enumerate() {
-        if let Some((_, later)) = places.get(at + 1).filter(|(other, _)| *other == index) {
+    device.groups.reserve(positions.len());
+    for (at, &(index, origin)) in positions.iter().enumerate() {
+        if let Some((_, later)) = positions.get(at + 1).filter(|(other, _)| *other == index) {
             builder.duplicate(later.span, origin.span, &format!("object 0x{index:04X}"));
             continue;
         }
@@ -95,7 +95,7 @@ macro_rules! attributes {
 const OBJECT: [&str; 15] = attributes!("index");
 const SUB_OBJECT: [&str; 15] = attributes!("subIndex");
 
-/// Attributes of one value, which say nothing about an object whose values are its sub-objects.
+/// Attributes of a single value. They have no meaning for an object whose values are in its sub-objects.
 const OF_A_VALUE: [Key; 8] = [
     Key::DataType,
     Key::AccessType,
@@ -107,7 +107,7 @@ const OF_A_VALUE: [Key; 8] = [
     Key::Denotation,
 ];
 
-/// What an object or sub-object itself says.
+/// Attributes and texts of an object or sub-object.
 pub(super) struct Raw<'a> {
     fields: [Given<'a>; OBJECT.len()],
     pub extensions: Extensions,
@@ -115,12 +115,12 @@ pub(super) struct Raw<'a> {
 }
 
 impl<'a> Raw<'a> {
-    /// The attribute, missing or not.
+    /// Returns the attribute, which may be missing.
     pub fn field(&self, key: Key) -> &Given<'a> {
         &self.fields[key as usize]
     }
 
-    /// The attribute, if it is given.
+    /// Returns the attribute if it is present.
     pub fn get(&self, key: Key) -> Option<&Given<'a>> {
         self.field(key).non_empty()
     }
@@ -130,7 +130,7 @@ impl<'a> Raw<'a> {
         Some(ObjectType { text, number: number::parse(text, &[]).int(), span: *span })
     }
 
-    /// The span of the attribute, or else of the element.
+    /// Returns the span of the attribute, or of the element if the attribute is missing.
     pub fn span(&self, key: Key) -> Span {
         self.field(key).span.or(self.origin.span)
     }
@@ -140,7 +140,7 @@ const TERMS: Terms = Terms {
     sub_number: "subNumber",
     sub_object: "sub-object",
     elements: "sub-objects",
-    records: "write objectType=\"9\" for a RECORD, \"8\" for an ARRAY",
+    records: "write `objectType=\"9\"` for a RECORD, `objectType=\"8\"` for an ARRAY",
 };
 
 fn is_var(raw: &Raw<'_>) -> bool {
@@ -151,11 +151,11 @@ fn is_var(raw: &Raw<'_>) -> bool {
 pub(super) struct Builder<'a, 'd, 'p> {
     pub reader: &'p mut Reader<'a, 'd>,
     pub application: &'p Application<'a>,
-    /// The types of the device, those of the application process in front.
+    /// Types of the device, starting with those of the application process.
     pub types: Vec<TypeDef>,
-    /// Types that objects define, by their index.
+    /// Types that objects define, by index.
     pub codes: BTreeMap<u32, Type>,
-    /// Enumerations made from the allowed values of a parameter, by its position.
+    /// Enumerations of allowed values, by position of the parameter.
     pub enumerations: BTreeMap<usize, TypeId>,
     copies_left: usize,
     copies_exceeded: bool,
@@ -255,7 +255,7 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
         }
         let is_record = group.object_code() == Some(ObjectCode::Record);
         if is_record && object.get(Key::DataType).is_some() && first != Some(0) && is_var(object) {
-            self.own_value(group, index, object, parent);
+            self.value_of_var(group, index, object, parent);
         } else {
             group.flags = self.flags(object);
             self.unused(object, &OF_A_VALUE, &mut group.extensions);
@@ -263,15 +263,15 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
         self.sub_number(group, object);
     }
 
-    /// A VAR that also has sub-objects, but none of sub-index 0: its own value is that.
-    fn own_value(&mut self, group: &mut Group, index: u16, raw: &Raw<'a>, view: &View<'p, 'a>) {
+    /// Adds sub-index 0 to a VAR that has sub-objects but no sub-index 0. Its value is that of the VAR.
+    fn value_of_var(&mut self, group: &mut Group, index: u16, raw: &Raw<'a>, view: &View<'p, 'a>) {
         let mut item = self.item(index, 0, raw, view, ObjectCode::Var, None);
         item.name = group.name.clone();
         item.at.name = group.name_at;
         group.items.insert(0, item);
     }
 
-    /// Keeps attributes that mean nothing where they stand, unless they say so themselves.
+    /// Keeps attributes that have no meaning for this object, except a mapping or count of `no` or `0`.
     fn unused(&mut self, raw: &Raw<'a>, keys: &[Key], extensions: &mut Extensions) {
         for &key in keys {
             let Some(given) = raw.get(key) else { continue };
@@ -280,20 +280,20 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
             }
             let name = OBJECT[key as usize];
             if self.reader.diagnostics.wants(&codes::NOT_ALLOWED_ENTRY) {
-                let message = format!("{name} has no meaning here");
+                let message = format!("{name} has no meaning for this object");
                 self.reader.report(&codes::NOT_ALLOWED_ENTRY, given.span, message, "kept as an extension attribute");
             }
             extensions.extend(given.extension(name));
         }
     }
 
-    /// What a sub-object is.
+    /// Returns the object code of a sub-object.
     fn sub_code(&mut self, raw: &Raw<'a>) -> ObjectCode {
         let given = raw.object_type();
         given.map_or(ObjectCode::Var, |given| given.of_sub_index(&TERMS, self.reader.diagnostics))
     }
 
-    /// The parameter of an object, unless such have been copied too often.
+    /// Returns the parameter of an object. Returns no parameter if the limit for copies is exceeded.
     fn view(&mut self, raw: &Raw<'a>) -> View<'p, 'a> {
         let application = self.application;
         let view = application.view(self.reader, raw.field(Key::UniqueIdRef));
@@ -304,15 +304,16 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
         }
     }
 
-    /// Whether another `weight` bytes of the application process may be copied. That they may not is told once.
+    /// Returns whether another `weight` bytes of the application process may be copied. Reports only the first
+    /// refusal.
     pub(super) fn charge(&mut self, weight: usize, span: Span) -> bool {
         if let Some(left) = self.copies_left.checked_sub(weight) {
             self.copies_left = left;
             return true;
         }
         if !std::mem::replace(&mut self.copies_exceeded, true) {
-            let message = "references to the same parameters would make the description many times longer";
-            self.reader.report(&codes::INPUT_TOO_LARGE, span, message, "not resolved from here on");
+            let message = "copies of parameters would exceed the size limit of the description";
+            self.reader.report(&codes::INPUT_TOO_LARGE, span, message, "further references are ignored");
         }
         false
     }
@@ -331,18 +332,18 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
             "optional" => Some(Category::Optional),
             "conditional" => Some(Category::Conditional),
             _ => {
-                self.reader.bad(given, "kind of support", "left out; expected mandatory, optional or conditional");
+                self.reader.bad(given, "support value", "left out; expected mandatory, optional or conditional");
                 None
             }
         }
     }
 
-    /// objFlags: four hexadecimal digits.
+    /// Reads objFlags: four hexadecimal digits.
     pub(super) fn flags(&mut self, raw: &Raw<'a>) -> u32 {
         self.reader.hex(raw.field(Key::ObjFlags), u32::MAX, "objFlags").unwrap_or(0)
     }
 
-    /// The type of a component, from that of the whole object.
+    /// Returns the type of a component from the type of the whole object.
     fn component(&self, whole: Type, sub: u8, position: usize, count: usize) -> Option<Type> {
         let Type::Named(TypeId(at)) = underlying(&self.types, whole) else { return None };
         match &self.types.get(at as usize)?.shape {
@@ -352,7 +353,7 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
         }
     }
 
-    /// A sub-object that refers to a variable of a structure tells the sub-index of that field.
+    /// Sets the sub-index of a structure field from the sub-object that refers to it.
     fn note_field(&mut self, view: &View<'p, 'a>, sub: u8) {
         let Some((structure, field)) = view.parameter().and_then(|parameter| parameter.field) else { return };
         if let Some(Shape::Record(fields)) = self.types.get_mut(structure).map(|def| &mut def.shape) {
@@ -372,7 +373,7 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
         self.reader.diagnostics.push(
             Diagnostic::new(&codes::DUPLICATE_OBJECT, later, format!("{what} occurs twice"))
                 .label("this one is used")
-                .note_at(earlier, "and this one is not"),
+                .note_at(earlier, "this one is ignored"),
         );
     }
 }

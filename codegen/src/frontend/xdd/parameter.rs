@@ -1,4 +1,4 @@
-//! Reading of parameters, their allowed values and units.
+//! Reads parameters, their allowed values and units.
 
 use super::application::{Allowed, AllowedRange, Parameter, Unit};
 use super::data_type::TypeRef;
@@ -18,7 +18,7 @@ pub(super) fn read<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>) -> Read<(G
         "offset",
         "multiplier",
         "accessList",
-        // Of a variable.
+        // Attribute of a variable.
         "name",
         "initialValue",
     ];
@@ -71,7 +71,7 @@ fn child<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, parameter: &mut Paramet
     Ok(())
 }
 
-/// The `value` of defaultValue and its like; what else it says is kept.
+/// Returns the `value` of defaultValue and similar elements. Keeps other attributes.
 fn value<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>) -> Read<Given<'a>> {
     let [given] = reader.attributes(tag, ["value"])?;
     while let Some(inner) = reader.child(tag)? {

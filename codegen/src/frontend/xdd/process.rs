@@ -1,4 +1,4 @@
-//! The element ApplicationProcess: lists of data types, parameters, templates and groups.
+//! Reads ApplicationProcess: lists of data types, parameters, templates and groups.
 
 use super::application::{dangling, insert, Application};
 use super::reader::{Reader, Texts};
@@ -7,7 +7,7 @@ use crate::frontend::xml::{Given, Read};
 use crate::ir::{CompactString, Extension};
 use crate::syntax::xml::Tag;
 
-/// How many characters of a group's label its parameters remember.
+/// Maximum number of characters of a group's label that are kept with its parameters.
 const MAX_GROUP_LABEL: usize = 128;
 
 /// References of groups to parameters, with the label of the innermost group.
@@ -60,7 +60,7 @@ fn template<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, application: &mut Ap
     Ok(())
 }
 
-/// Groups may contain groups.
+/// Reads groups, which may be nested.
 fn groups<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, grouped: &mut Grouped<'a>) -> Read<()> {
     let mut texts = Texts::default();
     let first = grouped.len();
@@ -76,7 +76,7 @@ fn groups<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, grouped: &mut Group
             _ => reader.text_or_keep(&tag, &mut texts)?,
         }
     }
-    // Copied for each reference: a long text must not multiply.
+    // The label is copied for each reference, so its length is limited.
     let label: CompactString = texts.labels.name().chars().take(MAX_GROUP_LABEL).collect();
     for (_, name) in grouped.iter_mut().skip(first).filter(|(_, name)| name.is_empty()) {
         name.clone_from(&label);

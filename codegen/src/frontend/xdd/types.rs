@@ -1,13 +1,13 @@
-//! From the data types of the application process to types of the device.
+//! Converts the data types of the application process to types of the device.
 
 use super::application::{dangling, Application};
-use super::data_type::{Kind, TypeRef};
+use super::data_type::{DataTypeKind, TypeRef};
 use super::reader::Reader;
 use crate::diagnostics::codes;
 use crate::ir::{Field, Shape, Type, TypeDef, TypeId};
 use crate::limits;
 
-/// The types of the application process as types of the device, in the same order.
+/// Returns the types of the device for the types of the application process, in the same order.
 pub(super) fn lower<'a>(reader: &mut Reader<'a, '_>, application: &mut Application<'a>) -> Vec<TypeDef> {
     let order = Order::new(application);
     let mut bits: Vec<Option<u32>> = vec![None; application.types.len()];
@@ -30,10 +30,10 @@ pub(super) fn lower<'a>(reader: &mut Reader<'a, '_>, application: &mut Applicati
     .collect()
 }
 
-/// The order in which types can be lowered: a type after those that it is made of.
+/// The order in which types are lowered: each type comes after its parts.
 struct Order {
     sequence: Vec<usize>,
-    /// Whether a type is made of itself, or of too many layers.
+    /// Whether a type contains itself or is nested too deeply.
     endless: Vec<bool>,
 }
 
@@ -42,9 +42,9 @@ impl Order {
         let count = application.types.len();
         let mut waiting = vec![0usize; count];
         let mut users: Vec<Vec<usize>> = vec![Vec::new(); count];
-        for (at, own) in waiting.iter_mut().enumerate() {
+        for (at, open) in waiting.iter_mut().enumerate() {
             for part in parts(application, at) {
-                *own += 1;
+                *open += 1;
                 users[part].push(at);
             }
         }
@@ -66,22 +66,22 @@ impl Order {
     }
 }
 
-/// The types of which a type is made.
+/// Returns the positions of the types that a type consists of.
 fn parts<'p, 'a>(application: &'p Application<'a>, at: usize) -> impl Iterator<Item = usize> + use<'p, 'a> {
-    let (variables, own) = match &application.types[at].kind {
-        Kind::Struct(variables) => (variables.as_slice(), None),
-        Kind::Array { element: own, .. } | Kind::Enum { base: own, .. } | Kind::Derived { base: own, .. } => {
-            (&[][..], own.as_ref())
-        }
+    let (variables, part) = match &application.types[at].kind {
+        DataTypeKind::Struct(variables) => (variables.as_slice(), None),
+        DataTypeKind::Array { element: part, .. }
+        | DataTypeKind::Enum { base: part, .. }
+        | DataTypeKind::Derived { base: part, .. } => (&[][..], part.as_ref()),
     };
     let of_variables = variables.iter().filter_map(|&variable| application.parameters[variable].ty.as_ref());
-    of_variables.chain(own).filter_map(|ty| match ty {
+    of_variables.chain(part).filter_map(|ty| match ty {
         TypeRef::Named(given) => application.type_ids.get(given.text.as_ref()).copied(),
         TypeRef::Basic(..) => None,
     })
 }
 
-/// Lowers the type at `at`, of whose parts the lengths are known.
+/// Lowers the type at `at`. The lengths of its parts are known.
 struct Types<'t, 'a, 'd> {
     reader: &'t mut Reader<'a, 'd>,
     application: &'t Application<'a>,
@@ -94,19 +94,19 @@ impl<'t, 'a> Types<'t, 'a, '_> {
     fn shape(&mut self) -> (Shape, Option<u32>) {
         let application = self.application;
         match &application.types[self.at].kind {
-            Kind::Array { dimensions, element } => {
+            DataTypeKind::Array { dimensions, element } => {
                 let element = self.part(element.as_ref());
                 let count = dimensions.iter().try_fold(1u32, |count, dimension| count.checked_mul(dimension.1));
                 let bits = self.length(element).zip(count).and_then(|(bits, count)| bits.checked_mul(count));
                 (Shape::Array { element, dimensions: dimensions.clone() }, bits)
             }
-            Kind::Struct(variables) => self.record(variables),
-            Kind::Enum { base, values } => {
+            DataTypeKind::Struct(variables) => self.record(variables),
+            DataTypeKind::Enum { base, values } => {
                 let base = self.part(base.as_ref());
                 let bits = self.length(base);
                 (Shape::Enumeration { base, values: values.clone(), closed: false }, bits)
             }
-            Kind::Derived { base, count } => {
+            DataTypeKind::Derived { base, count } => {
                 let base = self.part(base.as_ref());
                 derived_shape(base, *count, self.length(base))
             }
@@ -127,13 +127,13 @@ impl<'t, 'a> Types<'t, 'a, '_> {
         (Shape::Record(fields), known.then_some(offset))
     }
 
-    /// A part of the type; what would make it endless is cut off.
+    /// Returns a part of the type. A part that would make the type endless becomes raw bytes.
     fn part(&mut self, ty: Option<&TypeRef<'a>>) -> Type {
         let Some(ty) = ty else { return Type::Opaque(None) };
         let resolved = self.application.resolve(self.reader, ty);
         if let Type::Named(TypeId(part)) = resolved {
             if self.order.endless[self.at] && self.order.endless[part as usize] {
-                let message = "the data type is made of itself, or of too many layers";
+                let message = "the data type contains itself or is nested too deeply";
                 self.reader.report(&codes::XDD_VALUE, ty.span(), message, "kept as raw bytes");
                 return Type::Opaque(None);
             }
@@ -149,7 +149,7 @@ impl<'t, 'a> Types<'t, 'a, '_> {
     }
 }
 
-/// A type of `count` units of another: a string of that length, or an array.
+/// Returns a type of `count` units of another type: a string of that length, or an array.
 fn derived_shape(base: Type, count: Option<u32>, bits: Option<u32>) -> (Shape, Option<u32>) {
     let Some(count) = count.filter(|&count| count > 0) else { return (Shape::Alias(base), bits) };
     match base {
@@ -165,7 +165,7 @@ fn derived_shape(base: Type, count: Option<u32>, bits: Option<u32>) -> (Shape, O
 }
 
 impl<'a> Application<'a> {
-    /// The type to which a parameter refers.
+    /// Returns the type to which a parameter refers.
     pub fn resolve(&self, reader: &mut Reader<'_, '_>, ty: &TypeRef<'a>) -> Type {
         match ty {
             TypeRef::Basic(ty, _) => *ty,
@@ -180,10 +180,10 @@ impl<'a> Application<'a> {
     }
 }
 
-/// The basic type that the values of a type have: what aliases and enumerations stand for.
+/// Returns the basic type of the values of a type. Resolves aliases and enumerations.
 pub(super) fn underlying(types: &[TypeDef], ty: Type) -> Type {
     let mut ty = ty;
-    // Types of the application process have no cycles; the bound is for those that objects define.
+    // Types of the application process have no cycles. The limit is for types that objects define.
     for _ in 0..=limits::MAX_XML_DEPTH {
         let Type::Named(TypeId(at)) = ty else { return ty };
         match types.get(at as usize).map(|def| &def.shape) {

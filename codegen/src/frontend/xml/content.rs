@@ -1,4 +1,4 @@
-//! Text of elements, in formats that have any.
+//! Reads the text of elements.
 
 use std::borrow::Cow;
 
@@ -9,13 +9,13 @@ use crate::source::Span;
 use crate::syntax::xml::{Event, Tag, Text};
 
 impl<'a, F: Format> Reader<'a, '_, F> {
-    /// Reads an element that has nothing but text to its end. Anything else it has becomes extensions.
+    /// Reads an element that should contain only text to its end. Keeps other content as extensions.
     pub fn text(&mut self, tag: &Tag<'a>) -> Read<Given<'a>> {
         self.keep_attributes(tag)?;
         self.content()
     }
 
-    /// Reads the content of an element whose attributes were read, to its end.
+    /// Reads the content of an element, whose attributes were read, to its end.
     pub fn content(&mut self) -> Read<Given<'a>> {
         let mut given = Given::default();
         if let Some(piece) = self.cursor.only_text() {
@@ -33,7 +33,7 @@ impl<'a, F: Format> Reader<'a, '_, F> {
 }
 
 impl<'a> Given<'a> {
-    /// Adds a piece of the content of an element. Comments and CDATA divide the content.
+    /// Adds a piece of content. Comments and CDATA sections divide the content of an element into pieces.
     fn add(&mut self, piece: &Text<'a>, diagnostics: &mut Diagnostics) {
         let value = piece.value(diagnostics);
         if !self.span.is_empty() {
@@ -51,7 +51,7 @@ impl<'a> Given<'a> {
         };
     }
 
-    /// Ends the content of an element.
+    /// Trims the content at the end of an element.
     fn finish(mut self) -> Self {
         if let Cow::Owned(text) = &mut self.text {
             text.truncate(text.trim_ascii_end().len());

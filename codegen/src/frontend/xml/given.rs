@@ -9,22 +9,23 @@ use crate::ir::Extension;
 use crate::source::{FileId, Span};
 use crate::syntax::xml::Attribute;
 
-/// The value of an attribute or the content of an element, without blanks around it. The span is empty if it is missing.
+/// Trimmed value of an attribute, or trimmed content of an element. The span is empty if the attribute or element is
+/// missing.
 #[derive(Clone, Debug, Default)]
 pub struct Given<'a> {
     /// The text.
     pub text: Cow<'a, str>,
-    /// Its span; of an empty attribute that of the quotation marks.
+    /// Its span. For an empty attribute, it is the span of the quotation marks.
     pub span: Span,
 }
 
 impl<'a> Given<'a> {
-    /// The value of an attribute, with the blanks around it.
+    /// Returns the value of an attribute with surrounding blanks.
     pub fn of_attribute(attribute: &Attribute<'a>, diagnostics: &mut Diagnostics) -> Self {
         Given { text: attribute.value(diagnostics), span: attribute.marked_span() }
     }
 
-    /// Without the blanks around it.
+    /// Returns the text without surrounding blanks.
     #[inline]
     pub fn trimmed(self) -> Self {
         let is_blank = |byte: Option<&u8>| byte.is_some_and(u8::is_ascii_whitespace);
@@ -38,12 +39,12 @@ impl<'a> Given<'a> {
         Given { text, span: self.span }
     }
 
-    /// A missing attribute or element.
+    /// Returns the value for a missing attribute or element.
     pub const fn missing() -> Self {
         Given { text: Cow::Borrowed(""), span: Span::new(FileId(0), 0, 0) }
     }
 
-    /// The span of a part of the text; that of the whole if the text is not as written.
+    /// Returns the span of a part of the text. If the text was decoded, it is the span of the whole text.
     pub fn span_of(&self, part: &str) -> Span {
         let start = (part.as_ptr() as usize).wrapping_sub(self.text.as_ptr() as usize);
         let is_part = self.text.len().checked_sub(start).is_some_and(|rest| part.len() <= rest);
@@ -54,33 +55,33 @@ impl<'a> Given<'a> {
         Span { start, end: start + part.len() as u32, ..self.span }
     }
 
-    /// Whether there is no such attribute or element.
+    /// Returns whether the attribute or element is missing.
     pub fn is_missing(&self) -> bool {
         self.span.is_empty()
     }
 
-    /// Whether it is missing or empty.
+    /// Returns whether it is missing or empty.
     pub fn is_empty(&self) -> bool {
         self.text.is_empty()
     }
 
-    /// `None` if it is missing or empty.
+    /// Returns `None` if it is missing or empty.
     pub fn non_empty(&self) -> Option<&Self> {
         (!self.is_empty()).then_some(self)
     }
 
-    /// The same as an extension; `None` if it is missing.
+    /// Returns it as an extension; `None` if it is missing.
     pub fn extension(&self, key: &str) -> Option<Extension> {
         let extension = || Extension { key: key.into(), value: self.compact(), span: self.span };
         (!self.is_missing()).then(extension)
     }
 
-    /// The same as an attribute; `None` if it is missing.
+    /// Returns it as an attribute; `None` if it is missing.
     pub fn attribute(&self, key: &str) -> Option<(CompactString, CompactString)> {
         (!self.is_missing()).then(|| (key.into(), self.compact()))
     }
 
-    /// The text.
+    /// Returns the text.
     pub fn compact(&self) -> CompactString {
         CompactString::from(self.text.as_ref())
     }

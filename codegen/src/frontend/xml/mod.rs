@@ -1,16 +1,21 @@
 //! The reader base of the XML formats ESI, XDD and GSDML.
 //!
-//! A front end walks through a document with a [`Reader`], which has a [`Format`] with the names and codes of its standard and with
-//! the front end's state. Reading an element takes three steps: [`Reader::attributes`] for its attributes, a loop over
-//! [`Reader::child`] with a `match` on names, and [`Reader::unknown`] for every other child. What the IR has no field for is put on
-//! the stack [`Reader::extensions`]; an element with extensions of its own takes those that were added while it was read
-//! ([`Reader::extensions_since`]), and the others are left to the element around it.
+//! A front end reads a document with a [`Reader`]. Its [`Format`] has the names and codes of the standard and the
+//! state of the front end. An element is read in three steps:
+//!
+//! - [`Reader::attributes`] reads its attributes.
+//! - A loop over [`Reader::child`] matches the names of its children.
+//! - [`Reader::unknown`] reads every other child.
+//!
+//! Facts without a field in the IR are put on the stack [`Reader::extensions`]. An element with extensions in the IR
+//! takes those that were added while it was read ([`Reader::extensions_since`]). The enclosing element takes the
+//! others.
 //!
 //! | file | subject |
 //! |---|---|
 //! | `reader` | attributes and children |
 //! | `content` | text |
-//! | `unknown` | what the standard or the IR does not have |
+//! | `unknown` | elements and attributes unknown to the standard or the IR |
 //! | `given` | a text with its span |
 //! | `names` | a text in several languages |
 

@@ -7,12 +7,12 @@ use super::Given;
 use crate::ir::{Documentation, LocalText, Texts};
 use crate::source::Span;
 
-/// How a format says in which language a text is.
+/// Language of a text in a format.
 pub trait Language {
-    /// How well a text in this language serves as the name; the least rank is best.
+    /// Returns the rank of a text in this language as the name; lower is better.
     fn rank(&self) -> u8;
 
-    /// The tag of BCP 47.
+    /// Returns the BCP 47 tag.
     fn tag(&self) -> CompactString;
 }
 
@@ -37,33 +37,33 @@ impl<'a, L: Language> Names<'a, L> {
         self.0.append(&mut other.0);
     }
 
-    /// Whether there is no text.
+    /// Returns whether there is no text.
     pub fn is_empty(&self) -> bool {
         self.0.is_empty()
     }
 
-    /// Position of the text that serves as the name.
+    /// Returns the position of the text that is the name.
     fn best(&self) -> usize {
         let ranks = self.0.iter().enumerate().map(|(at, (language, _))| (language.rank(), at));
         ranks.min().map_or(0, |(_, at)| at)
     }
 
-    /// The text that serves as the name.
+    /// Returns the text that is the name.
     pub fn given(&self) -> Option<&Given<'a>> {
         self.0.get(self.best()).map(|(_, given)| given)
     }
 
-    /// The name.
+    /// Returns the name.
     pub fn name(&self) -> CompactString {
         self.given().map_or_else(CompactString::default, Given::compact)
     }
 
-    /// The span of the name.
+    /// Returns the span of the name.
     pub fn span(&self) -> Span {
         self.given().map_or_else(Span::default, |given| given.span)
     }
 
-    /// The texts that are not the name.
+    /// Returns the texts that are not the name.
     pub fn others(&self) -> Texts {
         if self.0.len() < 2 {
             return Texts::default();
@@ -72,28 +72,29 @@ impl<'a, L: Language> Names<'a, L> {
         self.all().enumerate().filter(|(at, _)| *at != best).map(|(_, text)| text).collect()
     }
 
-    /// The texts that differ from `name`.
+    /// Returns the texts that differ from `name`.
     pub fn except(&self, name: &str) -> Texts {
         self.all().filter(|text| text.text != name).collect()
     }
 
-    /// The texts, each with its language.
+    /// Iterates over the texts with their languages.
     pub fn all(&self) -> impl Iterator<Item = LocalText> + '_ {
         self.0.iter().map(|(language, given)| LocalText { language: language.tag(), text: given.compact() })
     }
 
-    /// The texts as documentation of an element.
+    /// Returns the texts as documentation of an element.
     pub fn documentation(&self) -> Option<Box<Documentation>> {
         let text = self.given()?.text.to_string();
         Some(Box::new(Documentation { text, translations: self.others(), ..Documentation::default() }))
     }
 
-    /// Bytes that a copy of all texts takes.
+    /// Returns the number of bytes that a copy of all texts needs.
     pub fn weight(&self) -> usize {
         self.0.iter().map(|(_, given)| size_of::<LocalText>() + given.text.len()).sum()
     }
 
-    /// Whether both have a text in the same language. So has what is in more languages than there are.
+    /// Returns whether both have a text in the same language. Also returns true if there are more texts than there
+    /// are languages.
     pub fn shares_language(&self, other: &Names<'_, L>) -> bool {
         let has = |language: &L| other.0.iter().any(|(other, _)| other.tag() == language.tag());
         self.0.len() > 255 || self.0.iter().any(|(language, _)| has(language))

@@ -1,4 +1,4 @@
-//! The state of reading one file: attributes and children of elements.
+//! State of reading a file, and functions that read attributes and children of elements.
 
 use compact_str::CompactString;
 
@@ -9,37 +9,37 @@ use crate::source::{Origin, Span};
 use crate::syntax::xml::{Attribute, Cursor, Tag};
 use crate::text::brief;
 
-/// A result that ends the reading of the file with one diagnostic.
+/// Result of reading. An error ends the reading of the file with one diagnostic.
 pub type Read<T> = Result<T, Box<Diagnostic>>;
 
-/// Attributes as the source spells them, with their values.
+/// Names of attributes as written, with their values.
 pub type Attributes = Vec<(CompactString, CompactString)>;
 
-/// What a format decides about the reading of its elements, and its state.
+/// State of a format, and its settings for reading elements.
 pub trait Format {
-    /// The standard, as diagnostics call it.
+    /// Name of the standard in diagnostics.
     const STANDARD: &'static str;
-    /// Code of an element or attribute that the standard does not have.
+    /// Code for an element or attribute that the standard does not define.
     const UNKNOWN: &'static Code;
-    /// Code of a value of a form that the standard does not allow.
+    /// Code for a value with a form that the standard does not allow.
     const VALUE: &'static Code;
-    /// Code of an attribute whose name is in another case; without one, such a name is as good as the right one.
+    /// Code for an attribute name in the wrong case; `None` if case is ignored.
     const CASE: Option<&'static Code> = None;
-    /// Whether the key of an unknown attribute names its element.
+    /// Whether the key of an unknown attribute includes the name of its element.
     const ELEMENT_IN_KEY: bool = false;
-    /// Whether an empty attribute or element is as good as none.
+    /// Whether an empty attribute or element is treated as missing.
     const EMPTY_IS_MISSING: bool = true;
-    /// The attribute of a text in English, which is not kept.
+    /// Language attribute of an English text. It is not kept.
     const ENGLISH: (&'static str, &'static str) = ("", "");
 }
 
-/// The state of reading one file.
+/// State of reading a file.
 pub struct Reader<'a, 'd, F> {
     /// The document.
     pub cursor: Cursor<'a>,
     /// The diagnostics so far.
     pub diagnostics: &'d mut Diagnostics,
-    /// What was read and has no field in the IR, as a stack; see the module.
+    /// Stack of facts without a field in the IR; see the module.
     pub extensions: Extensions,
     /// The last child, if it has attributes and none of them was read.
     pub(super) unread: Option<Tag<'a>>,
@@ -48,12 +48,13 @@ pub struct Reader<'a, 'd, F> {
 }
 
 impl<'a, 'd, F: Format> Reader<'a, 'd, F> {
-    /// A reader before the first element that `cursor` finds.
+    /// Creates a reader before the first element of `cursor`.
     pub fn new(cursor: Cursor<'a>, diagnostics: &'d mut Diagnostics, format: F) -> Self {
         Reader { cursor, diagnostics, extensions: Extensions::new(), unread: None, format }
     }
 
-    /// The next child of `parent`; the unread rest of the previous one is skipped. Attributes that nothing has read are unknown.
+    /// Returns the next child of `parent` and skips the unread rest of the previous one. Reports the unread
+    /// attributes of the previous child as unknown.
     pub fn child(&mut self, parent: &Tag<'a>) -> Read<Option<Tag<'a>>> {
         if let Some(tag) = self.unread.take() {
             self.attributes(&tag, [])?;
@@ -69,7 +70,7 @@ impl<'a, 'd, F: Format> Reader<'a, 'd, F> {
         Ok(self.cursor.skip(tag)?)
     }
 
-    /// Reads each child called `name` of an element that has no others.
+    /// Reads each child called `name` of an element that should have no other children.
     pub fn each(
         &mut self,
         parent: &Tag<'a>,
@@ -97,23 +98,23 @@ impl<'a, 'd, F: Format> Reader<'a, 'd, F> {
         Ok(())
     }
 
-    /// Line and span of an element.
+    /// Returns line and span of an element.
     pub fn origin(&mut self, tag: &Tag<'a>) -> Origin {
         self.cursor.origin(tag)
     }
 
-    /// The attributes called `names`, in that order; others become extensions.
+    /// Returns the values of the attributes `names`, in that order. Other attributes become extensions.
     pub fn attributes<const N: usize>(&mut self, tag: &Tag<'a>, names: [&str; N]) -> Read<[Given<'a>; N]> {
         self.select(tag, names, Self::given, |reader, attribute| reader.unknown_attribute(tag, attribute))
     }
 
-    /// The same with the blanks around their values.
+    /// Returns the values of the attributes `names` with surrounding blanks. Other attributes become extensions.
     pub fn attributes_with_blanks<const N: usize>(&mut self, tag: &Tag<'a>, names: [&str; N]) -> Read<[Given<'a>; N]> {
         let given = |reader: &mut Self, attribute: &_| Given::of_attribute(attribute, reader.diagnostics);
         self.select(tag, names, given, |reader, attribute| reader.unknown_attribute(tag, attribute))
     }
 
-    /// The attributes called `names`, in that order; others are added to `others`.
+    /// Returns the values of the attributes `names`, in that order. Adds other attributes to `others`.
     pub fn attributes_and_others<const N: usize>(
         &mut self,
         tag: &Tag<'a>,
@@ -135,14 +136,14 @@ impl<'a, 'd, F: Format> Reader<'a, 'd, F> {
     ) -> Read<[Given<'a>; N]> {
         self.unread = None;
         let mut found = [const { Given::missing() }; N];
-        // Most files have the attributes in this order.
+        // In most files the attributes have this order.
         let mut next = 0;
         if !tag.has_attributes() {
             return Ok(found);
         }
         for attribute in tag.attributes() {
             let attribute = attribute?;
-            // Attributes with a prefix are those of XML Schema and of XML itself, such as `xml:lang`.
+            // Attributes with a prefix belong to XML Schema or to XML, such as `xml:lang`.
             let has_prefix = !attribute.prefix.is_empty();
             if attribute.is_namespace() || (has_prefix && attribute.prefix != "xml") {
                 continue;
@@ -161,23 +162,23 @@ impl<'a, 'd, F: Format> Reader<'a, 'd, F> {
         Ok(found)
     }
 
-    /// The position of a name that differs from that of an attribute in nothing but its case.
+    /// Returns the position of the name that equals the attribute name except for case.
     fn in_another_case(&mut self, attribute: &Attribute<'a>, names: &[&str]) -> Option<usize> {
         let at = names.iter().position(|name| name.eq_ignore_ascii_case(attribute.name))?;
         if let (Some(code), Some(name)) = (F::CASE, names.get(at)) {
-            let message = format!("the attribute is called {name}, not {}", attribute.name);
+            let message = format!("the attribute name is {name}, not {}", attribute.name);
             let diagnostic = Diagnostic::new(code, attribute.name_span, message);
             self.diagnostics.push(diagnostic.label(format!("read as {name}")).fix(*name));
         }
         Some(at)
     }
 
-    /// The attribute `name`; others become extensions.
+    /// Returns the value of the attribute `name`. Other attributes become extensions.
     pub fn attribute(&mut self, tag: &Tag<'a>, name: &str) -> Read<Given<'a>> {
         self.attributes(tag, [name]).map(|[given]| given)
     }
 
-    /// The attribute `name` of an element that is read later.
+    /// Returns the value of the attribute `name` of an element that is read later.
     pub fn peek(&mut self, tag: &Tag<'a>, name: &str) -> Read<Given<'a>> {
         self.unread = None;
         Ok(tag.attribute(name)?.map_or_else(Given::default, |attribute| self.given(&attribute)))
@@ -191,7 +192,7 @@ impl<'a, 'd, F: Format> Reader<'a, 'd, F> {
         given
     }
 
-    /// `true` or `false`, also as 1 or 0; `default` if it is missing.
+    /// Reads `true`, `false`, 1 or 0. Returns `default` if the value is missing.
     pub fn flag_or(&mut self, given: &Given<'_>, default: bool) -> bool {
         if given.is_missing() {
             return default;
@@ -203,18 +204,18 @@ impl<'a, 'd, F: Format> Reader<'a, 'd, F> {
         }
         let value = ["true", "yes"].iter().any(|word| word.eq_ignore_ascii_case(&given.text))
             || given.text.bytes().any(|byte| matches!(byte, b'1'..=b'9'));
-        self.bad(given, "`true` or `false`", format!("read as {value}"));
+        self.bad(given, "boolean", format!("read as {value}; expected `true` or `false`"));
         value
     }
 
-    /// The same; false if it is missing.
+    /// Reads `true`, `false`, 1 or 0. Returns false if the value is missing.
     pub fn flag(&mut self, given: &Given<'_>) -> bool {
         self.flag_or(given, false)
     }
 
-    /// Reports a text of a form that the standard does not allow.
+    /// Reports a text with a form that the standard does not allow.
     pub fn bad(&mut self, given: &Given<'_>, what: &str, label: impl Into<String>) {
-        let message = format!("`{}` is no {what}", brief(&given.text));
+        let message = format!("`{}` is not a valid {what}", brief(&given.text));
         self.report(F::VALUE, given.span, message, label);
     }
 
@@ -223,12 +224,12 @@ impl<'a, 'd, F: Format> Reader<'a, 'd, F> {
         self.diagnostics.push(Diagnostic::new(code, span, message).label(label));
     }
 
-    /// Keeps a text that was read as an extension.
+    /// Keeps a text as an extension.
     pub fn note(&mut self, key: &str, given: &Given<'_>) {
         self.extensions.extend(given.extension(key));
     }
 
-    /// Takes the extensions that were added since there were `start` of them.
+    /// Removes and returns the extensions after the first `start`.
     pub fn extensions_since(&mut self, start: usize) -> Extensions {
         if self.extensions.len() <= start {
             return Extensions::new();

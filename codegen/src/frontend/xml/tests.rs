@@ -1,4 +1,4 @@
-//! Tests of the base with a format that has nothing of its own.
+//! Tests of the reader base with a minimal format.
 
 use super::{Format, Given, Reader};
 use crate::diagnostics::{codes, Code, Diagnostics};
@@ -53,10 +53,14 @@ fn attributes_by_name_and_the_others_as_extensions() {
         assert_eq!((empty.is_missing(), missing.is_missing(), &text[empty.span.range()]), (false, true, "''"));
         reader.no_children(root).unwrap();
         let extensions = reader.extensions_since(0);
-        let extensions: Vec<_> = extensions.iter().map(|own| (own.key.as_str(), own.value.as_str())).collect();
+        let extensions: Vec<_> =
+            extensions.iter().map(|extension| (extension.key.as_str(), extension.value.as_str())).collect();
         assert_eq!(extensions, [("other", "3"), ("lang", "en"), ("a/b@c", "4"), ("a/b", "t"), ("b/d", "")]);
     });
-    assert_eq!(diagnostics.list().iter().map(|own| own.code.id).collect::<Vec<_>>(), [codes::ATTRIBUTE_CASE.id]);
+    assert_eq!(
+        diagnostics.list().iter().map(|diagnostic| diagnostic.code.id).collect::<Vec<_>>(),
+        [codes::ATTRIBUTE_CASE.id]
+    );
     read::<true, _>(text, &mut Diagnostics::default(), |reader, root| {
         let [empty] = reader.attributes(root, ["EMPTY"]).unwrap();
         assert!(empty.is_missing());

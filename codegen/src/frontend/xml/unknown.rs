@@ -1,4 +1,5 @@
-//! What the standard or the IR does not have: reported if asked for, and kept as extensions.
+//! Elements and attributes that the standard or the IR does not define. They are kept as extensions, and reported on
+//! request.
 
 use compact_str::{format_compact, CompactString};
 
@@ -9,20 +10,20 @@ use crate::syntax::xml::{Attribute, Event, Tag};
 use crate::text::brief;
 
 impl<'a, F: Format> Reader<'a, '_, F> {
-    /// Reports and keeps an element that the standard does not have here.
+    /// Reports and keeps an element that the standard does not define here.
     pub fn unknown(&mut self, tag: &Tag<'a>) -> Read<()> {
         if self.diagnostics.wants(F::UNKNOWN) {
-            let message = format!("{} has no element <{}> here", F::STANDARD, brief(tag.name));
+            let message = format!("{} does not define the element <{}> here", F::STANDARD, brief(tag.name));
             self.report(F::UNKNOWN, tag.name_span(), message, "kept as extension attributes");
         }
         self.keep(tag)
     }
 
-    /// Reports and keeps an attribute that the standard does not have here.
+    /// Reports and keeps an attribute that the standard does not define here.
     pub(super) fn unknown_attribute(&mut self, tag: &Tag<'a>, attribute: &Attribute<'a>) {
         if self.diagnostics.wants(F::UNKNOWN) {
             let (element, name) = (brief(tag.name), brief(attribute.name));
-            let message = format!("<{element}> has no attribute `{name}` in {}", F::STANDARD);
+            let message = format!("{} does not define the attribute `{name}` of <{element}>", F::STANDARD);
             self.report(F::UNKNOWN, attribute.name_span, message, "kept as an extension attribute");
         }
         let key = match F::ELEMENT_IN_KEY {
@@ -33,7 +34,7 @@ impl<'a, F: Format> Reader<'a, '_, F> {
         self.extensions.push(Extension { key, value, span: attribute.span });
     }
 
-    /// Keeps the attributes and texts of an element and of those in it as `parent/element@attribute` extensions.
+    /// Keeps the attributes and texts of an element and its descendants as `parent/element@attribute` extensions.
     pub fn keep(&mut self, tag: &Tag<'a>) -> Read<()> {
         self.keep_start(tag)?;
         while self.cursor.depth() >= tag.depth {
@@ -50,7 +51,7 @@ impl<'a, F: Format> Reader<'a, '_, F> {
         Ok(())
     }
 
-    /// Keeps the same as `element@attribute` attributes.
+    /// Keeps the attributes and texts of an element and its descendants as `element@attribute` attributes.
     pub fn keep_as_attributes(&mut self, tag: &Tag<'a>, attributes: &mut Attributes) -> Read<()> {
         let start = self.extensions.len();
         self.keep(tag)?;
@@ -61,7 +62,7 @@ impl<'a, F: Format> Reader<'a, '_, F> {
         Ok(())
     }
 
-    /// Keeps what a start tag has, or that it has nothing.
+    /// Keeps the attributes of a start tag, or the fact that it has none.
     fn keep_start(&mut self, tag: &Tag<'a>) -> Read<()> {
         let before = self.extensions.len();
         self.keep_attributes(tag)?;

@@ -17,7 +17,7 @@ use crate::text::brief;
 pub struct Attribute<'a> {
     /// The name without its prefix.
     pub name: &'a str,
-    /// Its prefix; empty = none.
+    /// Its prefix; empty if there is none.
     pub prefix: &'a str,
     /// The value as written.
     pub raw: &'a str,
@@ -25,17 +25,17 @@ pub struct Attribute<'a> {
     pub name_span: Span,
     /// Span of the value, without its quotation marks.
     pub span: Span,
-    /// Whether the value is as written.
+    /// Whether the value needs no decoding.
     plain: bool,
 }
 
 impl<'a> Attribute<'a> {
-    /// Whether it declares a namespace.
+    /// Returns whether it declares a namespace.
     pub fn is_namespace(&self) -> bool {
         self.prefix == "xmlns" || (self.prefix.is_empty() && self.name == "xmlns")
     }
 
-    /// The span to mark in a diagnostic: that of the value, or of the quotation marks of an empty one.
+    /// Returns the span to mark in a diagnostic: the value, or the quotation marks of an empty value.
     pub fn marked_span(&self) -> Span {
         match self.span {
             span if span.is_empty() => Span { start: span.start.saturating_sub(1), end: span.end + 1, ..span },
@@ -43,7 +43,7 @@ impl<'a> Attribute<'a> {
         }
     }
 
-    /// The value with references resolved and blanks normalised (XML 1.0, 3.3.3).
+    /// Returns the value with references resolved and blanks normalized (XML 1.0, 3.3.3).
     pub fn value(&self, diagnostics: &mut Diagnostics) -> Cow<'a, str> {
         if self.plain {
             return Cow::Borrowed(self.raw);
@@ -52,13 +52,13 @@ impl<'a> Attribute<'a> {
     }
 }
 
-/// The attributes of a tag.
+/// Iterator over the attributes of a tag.
 #[derive(Clone, Debug)]
 pub struct Attributes<'a> {
     rest: &'a str,
     at: u32,
     file: FileId,
-    /// Names so far, to find one that occurs twice.
+    /// Names that occurred so far, to detect duplicates.
     seen: SmallVec<[&'a str; 16]>,
 }
 
@@ -100,7 +100,7 @@ impl<'a> Iterator for Attributes<'a> {
         let Some(name) = Name::of(self.rest).filter(|_| blanks > 0) else { return self.no_name(blanks) };
         let (full, name_span) = (&self.rest[..name.length], self.span(name.length));
         self.advance(name.length);
-        // Blanks around the sign are rare.
+        // Blanks before or after the equals sign are rare.
         if self.rest.starts_with("=\"") {
             self.advance(2);
             return self.value(full, name, name_span, b'"');
@@ -112,7 +112,7 @@ impl<'a> Iterator for Attributes<'a> {
         self.advance(1);
         self.skip_blanks();
         let Some(quote @ (b'"' | b'\'')) = self.rest.bytes().next() else {
-            return self.fail(name_span, format!("the value of `{}` isn't in quotation marks", brief(full)));
+            return self.fail(name_span, format!("the value of `{}` is not in quotation marks", brief(full)));
         };
         self.advance(1);
         self.value(full, name, name_span, quote)
@@ -120,7 +120,7 @@ impl<'a> Iterator for Attributes<'a> {
 }
 
 impl<'a> Attributes<'a> {
-    /// The attribute whose value starts after its quotation mark.
+    /// Returns the attribute whose value starts after its opening quotation mark.
     #[inline]
     fn value(&mut self, full: &'a str, name: Name, name_span: Span, quote: u8) -> Option<Result<Attribute<'a>, Error>> {
         let Some(Value { length, plain }) = Value::of(quote, self.rest.as_bytes()) else {
@@ -141,8 +141,8 @@ impl<'a> Attributes<'a> {
     fn no_name(&mut self, blanks: usize) -> Option<Result<Attribute<'a>, Error>> {
         let length = self.rest.bytes().take_while(|&byte| !is_blank(byte) && byte != b'=').count();
         if blanks == 0 {
-            return self.fail(self.span(length), "there is no blank in front of this attribute");
+            return self.fail(self.span(length), "there is no blank before this attribute");
         }
-        self.fail(self.span(length.max(1)), "this is no name of an attribute")
+        self.fail(self.span(length.max(1)), "this is not an attribute name")
     }
 }

@@ -1,4 +1,4 @@
-//! The cursor: events in the order of the document, with the stack of open elements.
+//! The cursor: events in document order, with the stack of open elements.
 
 use compact_str::{format_compact, CompactString};
 use memchr::{memchr, memchr_iter};
@@ -10,31 +10,31 @@ use crate::limits;
 use crate::source::{FileId, Origin, Span};
 use crate::text::brief;
 
-/// Reads a document from its start to its end.
+/// Reads an XML document from start to end.
 pub struct Cursor<'a> {
     text: &'a str,
-    /// Offset of the next event.
+    /// Byte offset of the next event.
     at: usize,
     file: FileId,
-    /// Names of the open elements with their prefixes, the root first.
+    /// Names of the open elements with their prefixes, starting with the root.
     open: Vec<&'a str>,
-    /// The last start tag was that of an empty element, whose end is the next event.
+    /// Whether the last start tag was that of an empty element. Its end is then the next event.
     empty: bool,
     root_seen: bool,
-    /// Number of the line that contains the byte `line_at`.
+    /// Line number of the byte `line_at`.
     line: u32,
     line_at: usize,
 }
 
 impl<'a> Cursor<'a> {
-    /// A cursor before the first element of `text`.
+    /// Creates a cursor before the first element of `text`.
     pub fn new(text: &'a str, file: FileId) -> Self {
         let base = text.len() - text.trim_start_matches('\u{feff}').len();
         Cursor::start(text, base, file, 1)
     }
 
-    /// A cursor before the element whose start tag is at `origin`, to read it once more. The cursor does not know the elements
-    /// around it.
+    /// Creates a cursor before the element with its start tag at `origin`, to read it again. The cursor does not know
+    /// the parent elements.
     pub fn resume(text: &'a str, origin: Origin) -> Self {
         let at = (origin.span.start as usize).min(text.len());
         let at = if text.is_char_boundary(at) { at } else { text.len() };
@@ -45,16 +45,17 @@ impl<'a> Cursor<'a> {
         Cursor { text, at, file, open: Vec::new(), empty: false, root_seen: false, line, line_at: at }
     }
 
-    /// The whole document.
+    /// Returns the whole document.
     pub fn text(&self) -> &'a str {
         self.text
     }
 
-    /// The next event, or `None` at the end of the document.
+    /// Returns the next event, or `None` at the end of the document.
     ///
     /// # Errors
     ///
-    /// If the document is not well formed, or nested deeper than [`limits::MAX_XML_DEPTH`]. Nothing can be read after that.
+    /// Returns an error if the document is not well-formed, or is nested deeper than [`limits::MAX_XML_DEPTH`].
+    /// Reading can't continue after an error.
     pub fn read(&mut self) -> Result<Option<Event<'a>>, Error> {
         if std::mem::take(&mut self.empty) {
             self.open.pop();
@@ -69,11 +70,9 @@ impl<'a> Cursor<'a> {
                 }
                 [b'<', b'/', ..] => return self.end_tag(start).map(Some),
                 [b'<', b'?', ..] => {
-                    self.skip_to("?>", start, 2, "the end `?>` of this processing instruction is missing")?;
+                    self.skip_to("?>", start, 2, "this processing instruction has no closing `?>`")?;
                 }
-                [b'<', b'!', b'-', b'-', ..] => {
-                    self.skip_to("-->", start, 4, "the end `-->` of this comment is missing")?
-                }
+                [b'<', b'!', b'-', b'-', ..] => self.skip_to("-->", start, 4, "this comment has no closing `-->`")?,
                 [b'<', b'!', ..] => {
                     if let Some(text) = self.declaration(start)? {
                         return Ok(Some(Event::Text(text)));
@@ -89,7 +88,7 @@ impl<'a> Cursor<'a> {
     ///
     /// # Errors
     ///
-    /// As [`Cursor::read`]; a document without an element is not well formed.
+    /// Returns the errors of [`Cursor::read`], and an error for a document without an element.
     pub fn root(&mut self) -> Result<Tag<'a>, Error> {
         while let Some(event) = self.read()? {
             if let Event::Start(tag) = event {
@@ -99,12 +98,12 @@ impl<'a> Cursor<'a> {
         Err(self.no_root())
     }
 
-    /// The next child of the open element `parent`, or `None` once `parent` has ended. The unread rest of the previous child is
-    /// skipped.
+    /// Returns the next child of the open element `parent`, or `None` at the end of `parent`. Skips the unread rest
+    /// of the previous child.
     ///
     /// # Errors
     ///
-    /// As [`Cursor::read`].
+    /// Returns the errors of [`Cursor::read`].
     pub fn child(&mut self, parent: &Tag<'a>) -> Result<Option<Tag<'a>>, Error> {
         while self.open.len() >= parent.depth {
             match self.read()? {
@@ -116,8 +115,8 @@ impl<'a> Cursor<'a> {
         Ok(None)
     }
 
-    /// Reads the innermost open element to its end if it has nothing but one piece of text, and returns that. Returns `None`
-    /// without reading anything if the element has no text, or anything else.
+    /// Reads the innermost open element to its end and returns its text, if it contains exactly one piece of text.
+    /// Returns `None` without reading anything if the element contains no text or anything else.
     pub fn only_text(&mut self) -> Option<Text<'a>> {
         let open = self.open.last().filter(|_| !self.empty)?;
         let rest = &self.text.as_bytes()[self.at..];
@@ -133,28 +132,28 @@ impl<'a> Cursor<'a> {
     ///
     /// # Errors
     ///
-    /// As [`Cursor::read`].
+    /// Returns the errors of [`Cursor::read`].
     pub fn skip(&mut self, tag: &Tag<'a>) -> Result<(), Error> {
         while self.open.len() >= tag.depth && self.read()?.is_some() {}
         Ok(())
     }
 
-    /// The number of open elements.
+    /// Returns the number of open elements.
     pub fn depth(&self) -> usize {
         self.open.len()
     }
 
-    /// The offset of the next event, in bytes.
+    /// Returns the offset of the next event, in bytes.
     pub fn offset(&self) -> u32 {
         self.at as u32
     }
 
-    /// The names of the open elements without their prefixes, the root first.
+    /// Returns the names of the open elements without their prefixes, starting with the root.
     pub fn path(&self) -> impl DoubleEndedIterator<Item = &'a str> + '_ {
         self.open.iter().map(|full| full.split_once(':').map_or(*full, |(_, name)| name))
     }
 
-    /// The names of the two innermost open elements, `parent/child`, each shortened if it is very long.
+    /// Returns the names of the two innermost open elements as `parent/child`. Shortens very long names.
     pub fn innermost(&self) -> CompactString {
         let mut path = self.path().rev();
         let child = path.next().map_or("", brief);
@@ -164,19 +163,19 @@ impl<'a> Cursor<'a> {
         }
     }
 
-    /// Line and span of a start tag.
+    /// Returns line and span of a start tag.
     pub fn origin(&mut self, tag: &Tag<'a>) -> Origin {
         Origin { span: tag.span, line: self.line(tag.span.start) }
     }
 
-    /// The line of a byte of the document, counted from 1. Cheap if called from top to bottom.
+    /// Returns the line of a byte of the document, counted from 1. It is fast if offsets increase from call to call.
     pub fn line(&mut self, offset: u32) -> u32 {
         let offset = (offset as usize).min(self.text.len());
         let (from, to) = (self.line_at.min(offset), self.line_at.max(offset));
         let bytes = self.text.as_bytes();
         let passed = &bytes[from..to];
         let mut ends = memchr_iter(b'\n', passed).count() as u32;
-        // CR LF is one end.
+        // CR LF is one line end.
         if memchr(b'\r', passed).is_some() {
             ends += memchr_iter(b'\r', passed).filter(|at| bytes.get(from + at + 1) != Some(&b'\n')).count() as u32;
         }
@@ -217,7 +216,7 @@ impl<'a> Cursor<'a> {
         Ok(Event::Start(Tag { name, prefix, span, depth, empty, attributes, attributes_at: after_name as u32 }))
     }
 
-    /// Opens an element.
+    /// Adds an element to the stack of open elements.
     fn push(&mut self, name: &'a str, span: Span) -> Result<(), Error> {
         if self.open.is_empty() && std::mem::replace(&mut self.root_seen, true) {
             return Err(malformed(span, format!("<{}> is a second root element", brief(name))));
@@ -249,37 +248,37 @@ impl<'a> Cursor<'a> {
                 Ok(Event::End)
             }
             Some(open) => {
-                let message = format!("`</{}>` ends no element; <{}> is open", brief(name), brief(open));
-                Err(malformed(span, message).note_at(self.span_of(open), "it starts here"))
+                let message = format!("`</{}>` does not match the open element <{}>", brief(name), brief(open));
+                Err(malformed(span, message).note_at(self.span_of(open), "the open element starts here"))
             }
-            None => Err(malformed(span, format!("`</{}>` ends no element", brief(name)))),
+            None => Err(malformed(span, format!("`</{}>` has no start tag", brief(name)))),
         }
     }
 
-    /// Skips what starts with `opening` bytes at `start` and ends with `end`.
+    /// Skips markup that starts with `opening` bytes at `start` and ends with `end`.
     fn skip_to(&mut self, end: &str, start: usize, opening: usize, missing: &str) -> Result<(), Error> {
         let after = scan::after(self.text.as_bytes(), start + opening, end);
         self.at = after.ok_or_else(|| malformed(self.span(start, start + 1), missing))?;
         Ok(())
     }
 
-    /// CDATA, which is text, or a document type declaration, which is skipped.
+    /// Returns the text of a CDATA section. Skips a document type declaration.
     fn declaration(&mut self, start: usize) -> Result<Option<Text<'a>>, Error> {
         const CDATA: &str = "<![CDATA[";
         if self.text[start..].starts_with(CDATA) {
-            self.skip_to("]]>", start, CDATA.len(), "the end `]]>` of this CDATA is missing")?;
+            self.skip_to("]]>", start, CDATA.len(), "this CDATA section has no closing `]]>`")?;
             let text = self.piece(start + CDATA.len(), self.at - 3, true);
             return self.inside(text.span).map(|()| Some(text));
         }
         if !self.text[start..].starts_with("<!DOCTYPE") {
-            return Err(malformed(self.span(start, start + 2), "this is no declaration of XML"));
+            return Err(malformed(self.span(start, start + 2), "this is not an XML declaration"));
         }
-        let missing = || malformed(self.span(start, start + 1), "the end `>` of this declaration is missing");
+        let missing = || malformed(self.span(start, start + 1), "this declaration has no closing `>`");
         self.at = scan::after_doctype(self.text.as_bytes(), start).ok_or_else(missing)?;
         Ok(None)
     }
 
-    /// Text up to the next tag, with its blanks.
+    /// Returns the text up to the next tag, including blanks.
     fn text_to_tag(&mut self) -> Result<Text<'a>, Error> {
         let rest = &self.text.as_bytes()[self.at..];
         let length = scan::find_near(b'<', rest).unwrap_or(rest.len());
@@ -289,7 +288,7 @@ impl<'a> Cursor<'a> {
         Ok(text)
     }
 
-    /// Reports text outside of the root element.
+    /// Returns an error for text outside the root element.
     fn inside(&self, span: Span) -> Result<(), Error> {
         if !self.open.is_empty() {
             return Ok(());
@@ -297,11 +296,11 @@ impl<'a> Cursor<'a> {
         let text = self.text.get(span.range()).unwrap_or("");
         let start = span.start + (text.len() - text.trim_start().len()) as u32;
         let span = Span { start, end: start + text.trim().len() as u32, ..span };
-        Err(malformed(span, "this text is outside of the root element"))
+        Err(malformed(span, "this text is outside the root element"))
     }
 
     fn endless_tag(&self, start: usize) -> Error {
-        malformed(self.span(start, start + 1), "the end `>` of this tag is missing")
+        malformed(self.span(start, start + 1), "this tag has no closing `>`")
     }
 
     fn finish(&self) -> Result<(), Error> {
@@ -309,7 +308,7 @@ impl<'a> Cursor<'a> {
             return Err(self.no_root());
         }
         let Some(&open) = self.open.last() else { return Ok(()) };
-        let error = malformed(self.last_character(), format!("the file ends within <{}>", brief(open)));
+        let error = malformed(self.last_character(), format!("the file ends inside <{}>", brief(open)));
         Err(error.note_at(self.span_of(open), "the element starts here"))
     }
 
@@ -317,25 +316,25 @@ impl<'a> Cursor<'a> {
         malformed(self.last_character(), "the file has no root element")
     }
 
-    /// The last character that was read.
+    /// Returns the span of the last character that was read.
     fn last_character(&self) -> Span {
         let start = self.text[..self.at].char_indices().next_back().map_or(0, |(start, _)| start);
         self.span(start, self.at)
     }
 
-    /// The first offset from `at` on that is between two characters.
+    /// Returns the first character boundary at or after `at`.
     fn boundary(&self, at: usize) -> usize {
         (at..self.text.len()).find(|&at| self.text.is_char_boundary(at)).unwrap_or(self.text.len())
     }
 
-    /// The span of a part of the document.
+    /// Returns the span of a part of the document.
     fn span_of(&self, part: &str) -> Span {
         let start = (part.as_ptr() as usize).wrapping_sub(self.text.as_ptr() as usize);
         self.span(start, start + part.len())
     }
 }
 
-const NO_START_TAG: &str = "this is no start tag";
+const NO_START_TAG: &str = "this is not a start tag";
 
 fn malformed(span: Span, message: impl Into<String>) -> Error {
     Error::new(&codes::MALFORMED_XML, span, message)

@@ -1,4 +1,4 @@
-//! References and blanks in attribute values and text.
+//! Decodes references and blanks in attribute values and text.
 
 use std::borrow::Cow;
 
@@ -7,14 +7,14 @@ use memchr::{memchr, memchr2};
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
 use crate::source::Span;
 
-/// How blanks are normalised.
+/// How blanks are normalized.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Blanks {
-    /// Line ends become LF.
+    /// In text, line ends become LF.
     Text,
-    /// The same, and nothing is a reference.
+    /// In CDATA, line ends become LF and references are not resolved.
     Cdata,
-    /// Each blank and each line end becomes a space.
+    /// In attribute values, each blank and each line end becomes a space.
     Attribute,
 }
 
@@ -55,10 +55,10 @@ pub(super) fn decode<'a>(raw: &'a str, span: Span, blanks: Blanks, diagnostics: 
     Cow::Owned(value)
 }
 
-/// The longest name of an entity that is looked for after an `&`.
+/// Maximum length of an entity name that is searched after an `&`.
 const MAX_ENTITY_NAME: usize = 64;
 
-/// The character that the reference at the start of `text` stands for, and how long the reference is.
+/// Returns the character of the reference at the start of `text`, and the length of the reference.
 fn reference_at(text: &str) -> (Option<char>, usize) {
     let name = text[1..].bytes().take(MAX_ENTITY_NAME).position(|byte| !byte.is_ascii_alphanumeric() && byte != b'#');
     let Some(length) = name.filter(|&length| length > 0 && text.as_bytes()[1 + length] == b';') else {
@@ -87,8 +87,8 @@ fn unknown_reference(reference: &str, span: Span, offset: usize, diagnostics: &m
     let start = span.start + offset as u32;
     let span = Span::new(span.file, start, start + reference.len() as u32);
     let message = match reference {
-        "&" => "a `&` that starts no reference".to_owned(),
-        _ => format!("`{reference}` is no entity of XML"),
+        "&" => "this `&` does not start a reference".to_owned(),
+        _ => format!("`{reference}` is not an entity of XML"),
     };
     diagnostics.push(
         Diagnostic::new(&codes::ENTITY_REFERENCE, span, message)

@@ -1,4 +1,4 @@
-//! Events of a document, and the error that ends it.
+//! Events of a document, and the error that ends reading.
 
 use std::borrow::Cow;
 
@@ -7,7 +7,7 @@ use super::decode::{decode, Blanks};
 use crate::diagnostics::{Code, Diagnostic, Diagnostics};
 use crate::source::Span;
 
-/// The reason why reading stopped: the document is not well formed, or nested too deeply.
+/// Error that stops reading: the document is not well-formed or is nested too deeply.
 #[derive(Clone, Debug)]
 pub struct Error(Box<Diagnostic>);
 
@@ -20,7 +20,7 @@ impl Error {
         Error(Box::new(self.0.note_at(span, message)))
     }
 
-    /// The diagnostic to report.
+    /// Returns the diagnostic to report.
     pub fn into_diagnostic(self) -> Diagnostic {
         *self.0
     }
@@ -32,12 +32,12 @@ impl From<Error> for Box<Diagnostic> {
     }
 }
 
-/// What the cursor found.
+/// An event of the document.
 #[derive(Clone, Copy, Debug)]
 pub enum Event<'a> {
-    /// An element starts. An `<empty/>` one ends with the next event.
+    /// Start of an element. The end of an `<empty/>` element is the next event.
     Start(Tag<'a>),
-    /// The innermost open element ends.
+    /// End of the innermost open element.
     End,
     /// Text or CDATA. Comments divide a text into several events.
     Text(Text<'a>),
@@ -48,35 +48,35 @@ pub enum Event<'a> {
 pub struct Tag<'a> {
     /// The name without its prefix.
     pub name: &'a str,
-    /// Its prefix; empty = none.
+    /// Its prefix; empty if there is none.
     pub prefix: &'a str,
     /// The tag from `<` to `>`.
     pub span: Span,
-    /// The number of open elements, this one included.
+    /// Number of open elements, including this one.
     pub depth: usize,
-    /// Whether it is `<empty/>`.
+    /// Whether it is an empty-element tag (`<empty/>`).
     pub empty: bool,
-    /// The text between the name and the end of the tag, and its offset.
+    /// Text between the name and the end of the tag.
     pub(super) attributes: &'a str,
     pub(super) attributes_at: u32,
 }
 
 impl<'a> Tag<'a> {
-    /// The attributes in the order of the source, namespace declarations included.
+    /// Returns the attributes in document order, including namespace declarations.
     pub fn attributes(&self) -> Attributes<'a> {
         Attributes::new(self.attributes, self.attributes_at, self.span.file)
     }
 
-    /// Whether the tag has anything after its name.
+    /// Returns whether the tag has any text after its name.
     pub fn has_attributes(&self) -> bool {
         !self.attributes.is_empty()
     }
 
-    /// The attribute with this name, whatever its prefix.
+    /// Returns the attribute with this name and any prefix.
     ///
     /// # Errors
     ///
-    /// If the tag is not well formed up to the attribute.
+    /// Returns an error if the tag is not well-formed up to the attribute.
     pub fn attribute(&self, name: &str) -> Result<Option<Attribute<'a>>, Error> {
         for attribute in self.attributes() {
             let attribute = attribute?;
@@ -87,7 +87,7 @@ impl<'a> Tag<'a> {
         Ok(None)
     }
 
-    /// The span of the name with its prefix.
+    /// Returns the span of the name with its prefix.
     pub fn name_span(&self) -> Span {
         Span::new(self.span.file, self.span.start + 1, self.attributes_at)
     }
@@ -96,16 +96,16 @@ impl<'a> Tag<'a> {
 /// A piece of text.
 #[derive(Clone, Copy, Debug)]
 pub struct Text<'a> {
-    /// The text as written, of CDATA its content.
+    /// The text as written; for CDATA its content.
     pub raw: &'a str,
     /// Its span.
     pub span: Span,
-    /// Whether it is CDATA, in which nothing is a reference.
+    /// Whether it is CDATA, which contains no references.
     pub cdata: bool,
 }
 
 impl<'a> Text<'a> {
-    /// The text with references resolved and line ends normalised (XML 1.0, 2.11).
+    /// Returns the text with references resolved and line ends normalized (XML 1.0, 2.11).
     pub fn value(&self, diagnostics: &mut Diagnostics) -> Cow<'a, str> {
         let blanks = if self.cdata { Blanks::Cdata } else { Blanks::Text };
         decode(self.raw, self.span, blanks, diagnostics)

@@ -1,10 +1,10 @@
 //! A cursor over the events of an XML document, with positions and the path of open elements.
 //!
-//! [`Cursor::read`] returns the start of an element, its end (also of `<empty/>`), and text. Comments, processing
-//! instructions, declarations and blank text are skipped. Names come without their namespace prefix. Attributes are parsed
-//! on request, and values are decoded when they are used: skipping a part of a document allocates nothing.
+//! [`Cursor::read`] returns the start of an element, its end (also for `<empty/>`), and text. It skips comments,
+//! processing instructions, declarations and blank text. Names exclude the namespace prefix. Attributes are parsed on
+//! request, and values are decoded on use, so skipping a part of a document allocates nothing.
 //!
-//! A reader walks down with [`Cursor::child`], which skips the unread rest of the previous child:
+//! A reader iterates over children with [`Cursor::child`], which skips the unread rest of the previous child:
 //!
 //! ```
 //! use lexibus_codegen::source::FileId;
@@ -20,8 +20,8 @@
 //! # Ok::<(), lexibus_codegen::syntax::xml::Error>(())
 //! ```
 //!
-//! DTDs are skipped and only the five entities of XML itself are expanded, so that a small file cannot grow into a large
-//! one. Reading stops at the first error.
+//! DTDs are skipped, and only the five predefined entities of XML are expanded. A small file therefore cannot expand
+//! into a large one. Reading stops at the first error.
 
 mod attributes;
 mod cursor;

@@ -1,10 +1,10 @@
-//! Finding the ends of tokens. Every search is for ASCII, so that each offset is between two characters.
+//! Finds the ends of tokens. Every search is for an ASCII byte, so each result is a character boundary.
 
 use memchr::{memchr, memmem};
 
 use crate::syntax::words;
 
-/// Length of a name, and of its prefix.
+/// Length of a name and of its prefix.
 #[derive(Clone, Copy)]
 pub(super) struct Name {
     pub length: usize,
@@ -12,7 +12,7 @@ pub(super) struct Name {
 }
 
 impl Name {
-    /// The name at the start of `text`, up to a blank or punctuation; `None` if there is none.
+    /// Returns the name at the start of `text`, up to a blank or punctuation; `None` if there is none.
     pub fn of(text: &str) -> Option<Self> {
         let bytes = text.as_bytes();
         let starts = |byte: u8| byte.is_ascii_alphabetic() || byte >= 0x80 || matches!(byte, b'_' | b':');
@@ -31,7 +31,7 @@ impl Name {
         Some(Name { length, colon })
     }
 
-    /// Prefix and name; `full` is the text of the name.
+    /// Returns prefix and name. `full` is the text of the name.
     pub fn split(self, full: &str) -> (&str, &str) {
         self.colon.map_or(("", full), |colon| (&full[..colon], &full[colon + 1..]))
     }
@@ -41,13 +41,13 @@ pub(super) fn is_blank(byte: u8) -> bool {
     matches!(byte, b' ' | b'\t' | b'\n' | b'\r')
 }
 
-/// The offset of the first byte from `at` on that is no blank.
+/// Returns the offset of the first non-blank byte at or after `at`.
 pub(super) fn after_blanks(bytes: &[u8], at: usize) -> usize {
     let rest = bytes.get(at..).unwrap_or(&[]);
     at + rest.iter().position(|&byte| !is_blank(byte)).unwrap_or(rest.len())
 }
 
-/// The position of the first `byte`. It is mostly so near that a loop is faster than setting up a search.
+/// Returns the position of the first `byte`. It is usually so near that a loop is faster than a vectorized search.
 pub(super) fn find_near(byte: u8, bytes: &[u8]) -> Option<usize> {
     const NEAR: usize = 16;
     let near = &bytes[..bytes.len().min(NEAR)];
@@ -57,16 +57,17 @@ pub(super) fn find_near(byte: u8, bytes: &[u8]) -> Option<usize> {
     }
 }
 
-/// The text of an attribute value up to its closing quotation mark.
+/// An attribute value up to its closing quotation mark.
 #[derive(Clone, Copy)]
 pub(super) struct Value {
     pub length: usize,
-    /// Whether it has neither a reference nor a control character, and so is its own value.
+    /// Whether it needs no decoding: it has no reference and no control character.
     pub plain: bool,
 }
 
 impl Value {
-    /// The value at the start of `bytes`; `None` if there is no closing quotation mark. Eight bytes are compared at once.
+    /// Returns the value at the start of `bytes`, or `None` without a closing quotation mark. Compares eight bytes at
+    /// once.
     #[inline]
     pub fn of(quote: u8, bytes: &[u8]) -> Option<Self> {
         let marks = |word: u64| words::equal(word, b'&') | words::less(word, b' ');
@@ -89,13 +90,13 @@ impl Value {
     }
 }
 
-/// The offset after the first `end` from `at` on.
+/// Returns the offset after the first `end` at or after `at`.
 pub(super) fn after(bytes: &[u8], at: usize, end: &str) -> Option<usize> {
     let rest = bytes.get(at..)?;
     Some(at + memmem::find(rest, end.as_bytes())? + end.len())
 }
 
-/// The offset of the `>` that ends a start tag; `from` is after its name.
+/// Returns the offset of the `>` that ends a start tag. `from` is the offset after its name.
 pub(super) fn tag_end(bytes: &[u8], from: usize) -> Option<usize> {
     if bytes.get(from) == Some(&b'>') {
         return Some(from);
@@ -114,7 +115,8 @@ pub(super) fn tag_end(bytes: &[u8], from: usize) -> Option<usize> {
     }
 }
 
-/// Whether no value reaches beyond the end: few have a `>` or a `'`. A loop without an exit, which runs on whole vectors.
+/// Returns whether the quotation marks are paired, so that the first `>` ends the tag. The loop has no early exit, so
+/// that the compiler can vectorize it.
 fn has_pairs_of_quotes(bytes: &[u8]) -> bool {
     let (odd, single) = bytes
         .iter()
@@ -122,7 +124,7 @@ fn has_pairs_of_quotes(bytes: &[u8]) -> bool {
     odd | single == 0
 }
 
-/// The offset after a document type declaration, which may contain others.
+/// Returns the offset after a document type declaration, which may contain other declarations.
 pub(super) fn after_doctype(bytes: &[u8], start: usize) -> Option<usize> {
     let (mut at, mut depth) = (start, 0usize);
     loop {

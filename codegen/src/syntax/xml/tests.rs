@@ -9,7 +9,7 @@ fn cursor(text: &str) -> Cursor<'_> {
     Cursor::new(text, FileId(0))
 }
 
-/// Events in short: `+name`, `-`, `"text"`.
+/// Returns the events in short form: `+name`, `-`, `"text"`.
 fn events(text: &str) -> Result<Vec<String>, Error> {
     let mut cursor = cursor(text);
     let mut list = Vec::new();
@@ -35,7 +35,7 @@ fn error(text: &str) -> (&'static str, String) {
 
 #[test]
 fn blanks_around_references_and_comments() {
-    // An element after a reference and a blank is an element, and blanks within a text are part of it.
+    // An element can follow a reference and a blank, and blanks within a text are part of it.
     assert!(events("<a>x&amp; <b/></a>").unwrap().iter().any(|event| event.contains('b')));
     assert_eq!(events("<a> x &amp; y <!-- --> z </a>").unwrap()[1..3], ["\" x & y \"", "\" z \""]);
 }
