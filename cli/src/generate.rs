@@ -4,11 +4,12 @@ use std::path::Path;
 
 use lexibus_codegen::backend::rust;
 use lexibus_codegen::compile::{self, Compilation};
+use lexibus_export::json;
 
 use super::args::Generate;
 use super::inputs;
 use super::output::Target;
-use super::report::Reporter;
+use super::report::{summary_line, Reporter};
 use super::Failure;
 
 pub(super) fn run(generate: &Generate) -> Result<bool, Failure> {
@@ -19,7 +20,12 @@ pub(super) fn run(generate: &Generate) -> Result<bool, Failure> {
     inputs::each_by_path(&generate.inputs, &options, |input, compilation| {
         reporter.report(&compilation)?;
         match compilation.rust(&rust_options) {
-            Some(text) => target.put(|| file_name(input, &compilation), "rs", &text, &mut reporter),
+            Some(text) => {
+                if target.is_one_file() {
+                    reporter.progress(&format!("read {}", summary_line(&json::info(&compilation))));
+                }
+                target.put(|| file_name(input, &compilation), "rs", &text, &mut reporter)
+            }
             // Its errors were told; among many files, one without a device was found rather than asked for.
             None if !compilation.is_usable() || target.many => Ok(()),
             None => {
@@ -28,6 +34,7 @@ pub(super) fn run(generate: &Generate) -> Result<bool, Failure> {
             }
         }
     })?;
+    target.summarize(&mut reporter);
     reporter.finish()
 }
 

@@ -20,6 +20,8 @@ pub(super) struct Target<'g> {
     pub(super) many: bool,
     /// Names given so far.
     names: BTreeSet<PathBuf>,
+    /// Number of files that were written or had the same text already.
+    files: usize,
 }
 
 impl<'g> Target<'g> {
@@ -38,7 +40,7 @@ impl<'g> Target<'g> {
             std::fs::create_dir_all(out)
                 .map_err(|error| Failure::Usage(format!("can't make the folder {}: {error}", out.display())))?;
         }
-        Ok(Target { out, check, is_folder, many, names: BTreeSet::new() })
+        Ok(Target { out, check, is_folder, many, names: BTreeSet::new(), files: 0 })
     }
 
     /// Whether it takes more than one output.
@@ -63,8 +65,25 @@ impl<'g> Target<'g> {
             check(&path, text, reporter);
         } else if let Err(error) = write_if_changed(&path, text) {
             reporter.error(&format!("can't write {}: {error}", path.display()));
+        } else {
+            self.files += 1;
+            if self.is_one_file() {
+                reporter.progress(&format!("wrote {}: {} lines", path.display(), text.lines().count()));
+            }
         }
         Ok(())
+    }
+
+    /// Whether one input becomes one file, so that a user wants to know what is in it.
+    pub(super) fn is_one_file(&self) -> bool {
+        self.out.is_some() && !self.check && !self.many
+    }
+
+    /// Reports how many files were written to a folder.
+    pub(super) fn summarize(&self, reporter: &mut Reporter) {
+        if let Some(out) = self.out.filter(|_| !self.check && self.many) {
+            reporter.progress(&format!("wrote {} files to {}", self.files, out.display()));
+        }
     }
 
     fn file_in(&mut self, folder: &Path, name: &str, ending: &str) -> PathBuf {

@@ -116,6 +116,13 @@ impl Reporter {
         super::say(&format!("error: {message}"));
     }
 
+    /// Prints what was done, unless programs read the output.
+    pub(super) fn progress(&self, line: &str) {
+        if self.format == MessageFormat::Text {
+            super::say(line);
+        }
+    }
+
     /// Whether there was no error; prints what is printed once.
     pub(super) fn finish(self) -> Result<bool, Failure> {
         match self.format {
@@ -157,6 +164,39 @@ impl Reporter {
             }
             self.kept.push(diagnostic);
         }
+    }
+}
+
+/// Returns what a file describes: `drive.eds: EDS, Demo Drive, 32 objects, 59 entries, 2 RPDOs, 2 TPDOs`.
+pub(super) fn summary_line(info: &Info) -> String {
+    let mut parts = vec![info.format.unwrap_or("unknown format").to_uppercase()];
+    match info.devices.as_slice() {
+        [device] => {
+            parts.push(device_title(device));
+            match device.registers {
+                Some(registers) if registers > 0 => parts.extend(counted(registers, "register")),
+                _ => {
+                    parts.extend(counted(device.objects, "object").into_iter().chain(counted(device.entries, "entry")))
+                }
+            }
+            parts.extend(counted(device.rx_pdos.len(), "RPDO"));
+            parts.extend(counted(device.tx_pdos.len(), "TPDO"));
+        }
+        devices => parts.extend(counted(devices.len(), "device")),
+    }
+    parts.extend(info.dictionary.and_then(|dictionary| counted(dictionary.objects, "object")));
+    parts.extend(info.modules.as_ref().and_then(|modules| counted(modules.len(), "module")));
+    parts.extend(info.submodules.as_ref().and_then(|submodules| counted(submodules.len(), "submodule")));
+    format!("{}: {}", info.file, parts.join(", "))
+}
+
+/// Returns `2 entries`; `None` if there are none.
+fn counted(count: usize, noun: &str) -> Option<String> {
+    match (count, noun.strip_suffix('y')) {
+        (0, _) => None,
+        (1, _) => Some(format!("1 {noun}")),
+        (_, Some(stem)) => Some(format!("{count} {stem}ies")),
+        _ => Some(format!("{count} {noun}s")),
     }
 }
 

@@ -1,8 +1,9 @@
 //! Catalogue of codes as Markdown.
 
 use lexibus_codegen::diagnostics::codes::CODES;
-use lexibus_codegen::diagnostics::Code;
+use lexibus_codegen::diagnostics::{Class, Code};
 
+use super::example::example;
 use super::{level, strictness};
 
 /// Families of codes: the letters at the start of their codes, and their heading.
@@ -24,7 +25,8 @@ const FAMILIES: [(&str, &str); 11] = [
 pub fn catalogue() -> String {
     let mut text = String::from(
         "# The catalogue of codes\n\nThis page is the output of `lexibus explain --format markdown`. \
-         [Diagnostics](diagnostics.md) explains classes and levels, and how to set a level.\n\n\
+         [Diagnostics](diagnostics.md) explains classes and levels, and how to set a level. \
+         Each family lists errors first, then repairs, then lints.\n\n\
          | codes | subject |\n|---|---|\n",
     );
     for (family, about) in FAMILIES {
@@ -32,7 +34,9 @@ pub fn catalogue() -> String {
     }
     for (family, about) in FAMILIES {
         text += &format!("\n<a id=\"{family}\"></a>\n\n## {about}\n");
-        for code in CODES.iter().filter(|code| self::family(code) == family) {
+        let mut codes: Vec<&Code> = CODES.iter().copied().filter(|code| self::family(code) == family).collect();
+        codes.sort_by_key(|code| severity(code.class));
+        for code in codes {
             text.push('\n');
             text += &explain(code);
         }
@@ -48,7 +52,19 @@ pub fn explain(code: &Code) -> String {
     for paragraph in code.explanation.lines().filter(|line| !line.is_empty()) {
         text += &format!("\n{}\n", escaped(paragraph));
     }
+    if let Some(example) = example(code) {
+        text += &format!("\n```text\n{example}\n```\n");
+    }
     text
+}
+
+/// Returns the position of a class in a family: errors first.
+fn severity(class: Class) -> u8 {
+    match class {
+        Class::Error => 0,
+        Class::Repair => 1,
+        Class::Lint => 2,
+    }
 }
 
 /// Returns the letters at the start of a code.

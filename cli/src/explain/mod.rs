@@ -1,5 +1,6 @@
 //! Output of `lexibus explain`: one code or the catalogue of codes, as text or Markdown.
 
+mod example;
 pub mod markdown;
 
 use lexibus_codegen::diagnostics::codes::CODES;
@@ -8,7 +9,7 @@ use lexibus_codegen::diagnostics::{Class, Code, Level};
 /// Maximum line width of [`explain`].
 const COLUMNS: usize = 80;
 
-/// Returns the explanation of a code, wrapped at 80 columns, with a line feed at the end.
+/// Returns the explanation of a code, wrapped at 80 columns, and an example.
 pub fn explain(code: &Code) -> String {
     let (class, strictness) = (code.class.name(), strictness(code.class));
     let mut text = wrapped(&format!("{}: {}", code.id, code.summary));
@@ -16,6 +17,9 @@ pub fn explain(code: &Code) -> String {
     for paragraph in code.explanation.lines().filter(|line| !line.is_empty()) {
         text.push('\n');
         text += &wrapped(paragraph);
+    }
+    if let Some(example) = example::example(code) {
+        text += &format!("\nexample:\n\n{example}\n");
     }
     text
 }
@@ -89,6 +93,7 @@ mod tests {
         ");
         for code in codes::CODES {
             let text = explain(code);
+            let (text, _) = text.split_once("\nexample:").unwrap_or((&text, ""));
             assert!(text.lines().all(|line| line.chars().count() <= COLUMNS), "{text}");
         }
     }

@@ -31,6 +31,7 @@ fn main() {
 
     let mut trials = registers::rust_of_all_cases_compiles(&cases);
     trials.push(registers::every_code_has_a_case(&cases));
+    trials.push(registers::examples_are_those_of_the_cases(&cases, bless));
     trials.push(registers::every_quirk_has_a_case(&cases));
     trials.push(registers::lints_declare_their_codes(&cases));
     trials.extend(cases.into_iter().map(|case| Trial::test(case.name(), move || run(&case, bless))));

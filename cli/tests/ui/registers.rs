@@ -32,6 +32,28 @@ pub fn every_code_has_a_case(cases: &[Case]) -> Trial {
     })
 }
 
+/// `lexibus explain` and the catalogue show a diagnostic from the case of each code: the shortest one.
+pub fn examples_are_those_of_the_cases(cases: &[Case], bless: bool) -> Trial {
+    let cases: Vec<(String, String)> =
+        cases.iter().map(|case| (case.folder_name(), case.expected_diagnostics())).collect();
+    Trial::test("examples of codes", move || {
+        let example = |id: &str, name: &str| {
+            let folder = format!("{}-{name}", id.to_lowercase());
+            let (_, said) = cases.iter().find(|(case, _)| *case == folder)?;
+            let shown = said.split("\n\n").map(str::trim_end);
+            let shown = shown.filter(|text| text.lines().next().is_some_and(|line| line.contains(&format!("[{id}]"))));
+            shown.min_by_key(|text| (text.lines().count(), text.len())).map(|text| format!("=== {id}\n{text}\n\n"))
+        };
+        let examples: String = CODES.iter().filter_map(|code| example(code.id, code.name)).collect();
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/explain/examples.txt");
+        if bless {
+            return Ok(std::fs::write(path, examples)?);
+        }
+        let is_same = std::fs::read_to_string(path)? == examples;
+        is_same.then_some(()).ok_or_else(|| "cli/src/explain/examples.txt is stale: bless it like a case".into())
+    })
+}
+
 /// Every row of `QUIRKS.md` has a case whose name begins with it.
 pub fn every_quirk_has_a_case(cases: &[Case]) -> Trial {
     let names: Vec<String> = cases.iter().map(Case::folder_name).collect();
