@@ -1,7 +1,7 @@
-//! Exports: devices that were read from any format, written as EDS or DCF (CiA 306), ESI (ETG.2000) or GSDML;
-//! the IR as JSON, and diagnostics as JSON lines or SARIF.
+//! Exports devices that were read from any format as EDS or DCF (CiA 306), ESI (ETG.2000) or GSDML. Also writes the IR
+//! as JSON, and diagnostics as JSON lines or SARIF.
 //!
-//! What a format has no place for is left out, and [`Export::notes`] lists it.
+//! Facts that a format cannot hold are left out. [`Export::notes`] lists them.
 //!
 //! ```
 //! use lexibus_codegen::compile::{check, Options};

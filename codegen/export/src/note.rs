@@ -1,4 +1,4 @@
-//! What an export leaves out or changes, so that nothing is lost in silence.
+//! Notes on the facts that an export leaves out or changes.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -8,20 +8,20 @@ use lexibus_codegen::ir::{Device, Group, Item};
 /// An exported file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Export {
-    /// Its text.
+    /// The text of the file.
     pub text: String,
-    /// What was left out or changed, a note a kind, by kind.
+    /// The facts that were left out or changed: one note for each kind, sorted by kind.
     pub notes: Vec<Note>,
 }
 
-/// Everything of one kind that an export left out or changed.
+/// All facts of one kind that an export left out or changed.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Note {
-    /// What kind of fact it is.
+    /// The kind of the facts.
     pub kind: NoteKind,
-    /// How many there are.
+    /// Number of facts.
     pub count: usize,
-    /// Where the first one is: an object, an entry, or the device.
+    /// The first of them: an object, an entry or the device.
     pub first: String,
 }
 
@@ -33,7 +33,7 @@ impl fmt::Display for Note {
 
 macro_rules! kinds {
     ($($(#[doc = $doc:literal])+ $kind:ident = $name:literal, $text:literal;)+) => {
-        /// A kind of fact that the format has no place for, or that has to be told another way.
+        /// A kind of fact that the format cannot hold or expresses in another way.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
         #[non_exhaustive]
         pub enum NoteKind {
@@ -44,14 +44,14 @@ macro_rules! kinds {
             /// All kinds.
             pub const ALL: &'static [NoteKind] = &[$(NoteKind::$kind,)+];
 
-            /// A name for programs.
+            /// Returns a stable name for programs.
             pub fn name(self) -> &'static str {
                 match self {
                     $(NoteKind::$kind => $name,)+
                 }
             }
 
-            /// What it is and what became of it.
+            /// Returns what the fact is and what the export does with it.
             pub fn text(self) -> &'static str {
                 match self {
                     $(NoteKind::$kind => $text,)+
@@ -62,11 +62,11 @@ macro_rules! kinds {
 }
 
 kinds! {
-    /// A fact that the caller gave.
+    /// A fact that was given as an option and is not used.
     GivenFact = "given-fact", "fact given as an option left out: the file has no field for it";
-    /// ParameterValue, Denotation and the like in an EDS.
+    /// A configured value, such as ParameterValue or Denotation, in an EDS.
     Configuration = "configuration", "configuration of one device left out: only a DCF has fields for it";
-    /// Unit, scale, sentinels, step.
+    /// A unit, scale, sentinel or step.
     Quantity = "unit", "unit or scale left out";
     /// A type with named values.
     Enumeration = "enumeration", "enumeration written as its integer type";
@@ -74,71 +74,71 @@ kinds! {
     BitField = "bit-field", "bit field written as its integer type";
     /// A record or array in one entry.
     Structure = "structure", "array or record in one entry written as raw bytes";
-    /// An integer of a width that the format doesn't have.
+    /// An integer whose width does not exist in the format.
     Widened = "widened-type", "integer written with the next wider type of the format";
-    /// A type that the format doesn't have, or that nobody defines.
+    /// A type that the format does not have, or that is not defined.
     UnknownType = "unknown-type", "unsupported type written as raw bytes";
-    /// The greatest length of a text.
+    /// Maximum length of a string.
     Length = "text-length", "maximum length of a string left out";
     /// Several ranges, or a list of values.
     AllowedValues = "allowed-values", "list of allowed values reduced to its minimum and maximum";
     /// Default and limits of a value in cyclic data.
     Limits = "limits", "default or limits of a value in cyclic data left out";
-    /// A lower limit above the upper one.
+    /// A minimum above the maximum.
     SwappedLimits = "swapped-limits", "limits left out: the minimum is above the maximum";
-    /// A default or limit of another kind than its type.
+    /// A default or limit that does not fit its type.
     Value = "value", "value left out: its type cannot hold it";
-    /// A limit between two integers.
+    /// A limit of an integer that is not an integer.
     RoundedLimit = "rounded-limit", "limit of an integer rounded to an integer";
-    /// `$NODEID` minus something.
+    /// `$NODEID` minus a number.
     NegativeFormula = "negative-formula", "formula with a negative number: CiA 306 does not define it";
     /// Directions of PDO mapping that don't follow from the access type.
     Mapping = "pdo-mapping", "direction of PDO mapping written as access type rwr or rww";
-    /// Directions of PDO mapping that no access type tells.
+    /// Directions of PDO mapping that no access type expresses.
     LostMapping = "lost-mapping", "direction of PDO mapping left out: no access type expresses it";
-    /// A PDO that no objects tell.
+    /// A PDO that no object describes.
     Pdo = "pdo", "PDO, or its communication parameters, left out: no object of the file describes it";
-    /// Storage, side effects, conditions.
+    /// Storage, side effects or conditions.
     Behaviour = "behaviour", "storage, conditions or side effects left out";
-    /// Models, versions, options.
+    /// Models, versions or options.
     Availability = "availability", "models, versions or options of an item left out";
-    /// Other items that hold the same value or a part of it; that an entry is reserved or optional.
+    /// Another item that holds the same value or a part of it, or a mark as reserved or optional.
     Relation = "relation", "relation to other items, or mark as reserved or optional, left out";
     /// A description.
     Documentation = "documentation", "description left out";
     /// A name or text in another language.
     Language = "language", "text in another language left out";
-    /// A name of a value beside that of its object.
+    /// The name of a value that differs from the name of its object.
     Name = "name", "name of a value left out: its object has another name";
-    /// A doubt.
+    /// An ambiguity in the manual.
     Doubt = "doubt", "ambiguity in the manual left out";
-    /// A category of an object.
+    /// The category of an object.
     Category = "category", "category of an object left out";
     /// An address on another bus.
     Binding = "binding", "address on another bus left out";
-    /// An object that CANopen doesn't have.
+    /// An object that exists on EtherCAT only.
     CoeOnly = "coe-only", "object that exists on EtherCAT only left out";
-    /// An item that is no entry of an object dictionary.
+    /// An item outside of the object dictionary.
     NotAnObject = "not-an-object", "item outside of the object dictionary left out";
-    /// A sub-index 0 that an object of registers has to have.
+    /// A sub-index 0 that an object made of registers requires.
     Completed = "completed", "sub-index 0 without a register added";
-    /// Two objects, or entries, at one address.
+    /// A second object or entry at the same address.
     Duplicate = "duplicate", "repeated object or entry left out";
-    /// An extension attribute that no key can carry.
+    /// An extension attribute for which the format has no key.
     Extension = "extension", "extension attribute left out: the format has no field for it";
     /// A module.
     Module = "module", "module of another bus left out";
-    /// Slots.
+    /// A slot.
     Slot = "slot", "slot left out";
-    /// What the device is on another bus.
+    /// A setting of another bus.
     OtherBus = "other-bus", "settings of another bus left out";
-    /// A further axis, whose objects follow from those of the first.
+    /// A further axis, whose objects follow from those of the first axis.
     Axis = "axis", "further axis left out: the file has the objects of the first axis";
-    /// A PROFINET submodule, a message, a code table, a state machine, a procedure, a variant.
+    /// A PROFINET submodule, message, code table, state machine, procedure or variant.
     OtherPart = "other-part", "message, code table, state machine, procedure, variant or submodule left out";
     /// A setting of the device or of one of its objects.
     Setting = "setting", "setting left out: the format has no field for it";
-    /// A date or version of another form.
+    /// A date, time, version or comment that the format writes in another form.
     FileInfo = "file-info", "date, time, version or comment of the file converted or left out";
     /// A text with a line break.
     LineBreak = "line-break", "line break in a text written as a space";
@@ -150,29 +150,29 @@ kinds! {
     Constant = "constant", "constant written as a read-only value";
     /// A named range of values.
     ValueRange = "value-range", "range of values of an enumeration written as its first value";
-    /// A name that has to be the only one.
+    /// A name that must be unique.
     Renamed = "renamed", "repeated name made unique";
     /// A type without a fixed length.
     UnknownLength = "unknown-length", "type of unknown length written with a length of 0";
-    /// An object of CAN's own services, or one that the source has on CANopen only.
+    /// An object of a CAN service, or one that exists on CANopen only.
     CanObject = "can-object", "object that exists on CANopen only, or describes CAN services (COB-ID, SYNC, heartbeat), left out";
     /// An object without entries.
     EmptyObject = "empty-object", "object without entries left out";
-    /// Half of a group of facts.
+    /// An incomplete group of facts.
     Incomplete = "incomplete", "facts left out: the format requires others that are missing";
-    /// A spelling that the schema doesn't allow.
+    /// A spelling that the schema does not allow.
     Spelling = "spelling", "word or number left out: the schema does not allow its form";
     /// A device of another vendor.
     OtherVendor = "other-vendor", "device or module of another vendor left out: a file has one vendor";
     /// A control character.
     Control = "control-character", "control character removed from a text";
-    /// A text in a file that has a text list.
+    /// A missing text in a file that has a text list.
     MissingText = "missing-text", "missing text of an element replaced by its name";
-    /// A field of a process image that overlaps another, or isn't whole bytes.
+    /// A field of a process image that overlaps another field or isn't byte-aligned.
     Layout = "layout", "unaligned field of cyclic data written as octets or bits";
     /// An item that is in no process image.
     NotInData = "not-in-data", "item outside of the cyclic data left out";
-    /// A number that the least significant byte comes first of.
+    /// A little-endian number.
     ByteOrder = "byte-order", "little-endian number written as octets: the bus is big-endian";
 }
 
@@ -185,7 +185,7 @@ impl Notes {
         self.add_many(kind, true, subject);
     }
 
-    /// Adds as many as there are; a condition is one or none.
+    /// Adds `count` facts. A `bool` adds one fact or none.
     pub(super) fn add_many(&mut self, kind: NoteKind, count: impl Into<usize>, subject: Subject<'_>) {
         let count = count.into();
         if count > 0 {
@@ -198,12 +198,12 @@ impl Notes {
     }
 }
 
-/// How many facts of an item are [`NoteKind::Relation`]s.
+/// Returns how many facts of an item are [`NoteKind::Relation`]s.
 pub(crate) fn relations(item: &Item) -> usize {
     usize::from(item.related.is_some()) + usize::from(item.is_reserved) + usize::from(item.is_optional)
 }
 
-/// How many parts a device has that no file of a vendor has a place for.
+/// Returns how many parts of a device no vendor format can hold.
 pub(super) fn parts_of_tables(device: &Device) -> usize {
     let parts = [
         device.messages.len(),
@@ -216,7 +216,7 @@ pub(super) fn parts_of_tables(device: &Device) -> usize {
     parts.iter().sum()
 }
 
-/// What a note is about.
+/// The subject of a note.
 #[derive(Clone, Copy)]
 pub(super) enum Subject<'a> {
     Device,
@@ -226,7 +226,7 @@ pub(super) enum Subject<'a> {
 }
 
 impl Subject<'_> {
-    /// The object that a group is.
+    /// Returns the object of a group.
     pub(super) fn object(group: &Group) -> Self {
         group.index().map_or(Subject::Device, Subject::Object)
     }
@@ -242,7 +242,7 @@ impl fmt::Display for Subject<'_> {
             Subject::Device => f.write_str("the device"),
             Subject::Object(index) => write!(f, "0x{index:04X}"),
             Subject::Entry(index, sub) => f.write_str(&lexibus_codegen::facts::address::object(*index, *sub)),
-            // A name may have anything in it, and a note is one line.
+            // A name may contain control characters, and a note is one line.
             Subject::Named(name) => name.chars().try_for_each(|letter| {
                 let letter = if letter.is_control() { ' ' } else { letter };
                 write!(f, "{letter}")

@@ -1,24 +1,24 @@
-//! Facts that a format wants and a source may not have: they come from whoever exports.
+//! Facts that a format requires and a source may not have: the caller of the export gives them.
 
 use std::fmt;
 
 use super::note::Note;
 
-/// A fact that the format wants and nobody gave.
+/// A fact that the format requires and that is missing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct MissingFact {
-    /// The key of the option that gives it.
+    /// Key of the option that sets it.
     pub key: &'static str,
-    /// What it is.
+    /// Description of the fact.
     pub what: &'static str,
 }
 
-/// Why there is no file.
+/// The reason why there is no file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Refusal {
-    /// The source describes nothing that the format could hold.
+    /// The source describes nothing that the format can hold.
     Nothing,
-    /// Facts that the format wants are neither in the source nor in the options.
+    /// Facts that the format requires are neither in the source nor in the options.
     Missing(Vec<MissingFact>),
 }
 
@@ -27,7 +27,7 @@ impl fmt::Display for Refusal {
         match self {
             Refusal::Nothing => f.write_str("it describes nothing that the format can hold"),
             Refusal::Missing(facts) => {
-                f.write_str("the format wants what the source doesn't say; give")?;
+                f.write_str("the format requires facts that are not in the source; set")?;
                 for (fact, comma) in facts.iter().zip(std::iter::once(" ").chain(std::iter::repeat(", "))) {
                     write!(f, "{comma}`{}` ({})", fact.key, fact.what.trim_end_matches('.'))?;
                 }
@@ -39,15 +39,21 @@ impl fmt::Display for Refusal {
 
 impl std::error::Error for Refusal {}
 
-/// The facts that are missing so far.
+/// Collects the facts that are missing.
 #[derive(Default)]
-pub(super) struct Wanted(Vec<MissingFact>);
+pub(super) struct MissingFacts(Vec<MissingFact>);
 
-impl Wanted {
-    /// `found`, or what stands in for it while the others are looked for.
-    pub(super) fn want<T: Default>(&mut self, found: Option<T>, key: &'static str, keys: &[(&str, &'static str)]) -> T {
+impl MissingFacts {
+    /// Returns `found`. If it is `None`, records the missing fact and returns a default, so that one refusal lists all
+    /// missing facts.
+    pub(super) fn require<T: Default>(
+        &mut self,
+        found: Option<T>,
+        key: &'static str,
+        keys: &[(&str, &'static str)],
+    ) -> T {
         found.unwrap_or_else(|| {
-            let what = keys.iter().find(|(own, _)| *own == key).map_or("", |(_, what)| what);
+            let what = keys.iter().find(|(known, _)| *known == key).map_or("", |(_, what)| what);
             if !self.0.iter().any(|fact| fact.key == key) {
                 self.0.push(MissingFact { key, what });
             }
@@ -66,14 +72,14 @@ impl Wanted {
 
 /// A value of an option.
 pub(super) trait OptionValue: Sized {
-    /// What a value has to be.
+    /// Describes the values that are valid.
     const WHAT: &'static str;
 
     fn parse(text: &str) -> Option<Self>;
 }
 
 impl OptionValue for u32 {
-    const WHAT: &'static str = "a number of up to 32 bits, decimal or behind `0x`";
+    const WHAT: &'static str = "a number of up to 32 bits, decimal or hexadecimal with `0x`";
 
     fn parse(text: &str) -> Option<Self> {
         let digits = text.strip_prefix("0x").or_else(|| text.strip_prefix("#x"));
@@ -82,7 +88,7 @@ impl OptionValue for u32 {
 }
 
 impl OptionValue for u16 {
-    const WHAT: &'static str = "a number of up to 16 bits, decimal or behind `0x`";
+    const WHAT: &'static str = "a number of up to 16 bits, decimal or hexadecimal with `0x`";
 
     fn parse(text: &str) -> Option<Self> {
         <u32 as OptionValue>::parse(text).and_then(|value| value.try_into().ok())
@@ -106,14 +112,14 @@ impl OptionValue for bool {
     }
 }
 
-/// Sets an option by its text.
+/// Parses the text of an option.
 pub(super) fn parsed<T: OptionValue>(key: &str, text: &str) -> Result<Option<T>, String> {
-    T::parse(text).map(Some).ok_or_else(|| format!("`{key}` is {}, not `{text}`", T::WHAT))
+    T::parse(text).map(Some).ok_or_else(|| format!("`{key}` must be {}, not `{text}`", T::WHAT))
 }
 
-/// Options that have a key each; beside them what notes which of them a file asked for.
+/// Declares options with a key each, and a view of them that records which options an export reads.
 macro_rules! options {
-    ($(#[$attribute:meta])* pub struct $name:ident, $asked:ident {
+    ($(#[$attribute:meta])* pub struct $name:ident, $tracked:ident {
         $(#[doc = $doc:literal] $field:ident: $ty:ty = $key:literal,)+
     }) => {
         $(#[$attribute])*
@@ -123,31 +129,31 @@ macro_rules! options {
         }
 
         impl $name {
-            /// The key of every option, and what it is.
+            /// The key and the description of every option.
             pub const KEYS: &'static [(&'static str, &'static str)] = &[$(($key, $doc.trim_ascii())),+];
 
-            /// Sets the option with this key; an error says what is wrong with the key or the value.
+            /// Sets the option with this key. Returns an error if the key is unknown or the value is invalid.
             pub fn set(&mut self, key: &str, value: &str) -> Result<(), String> {
                 match key {
                     $($key => self.$field = $crate::options::parsed(key, value)?,)+
                     _ => {
                         let keys: Vec<&str> = Self::KEYS.iter().map(|(key, _)| *key).collect();
-                        return Err(format!("there is no `{key}` in this format; there are {}", keys.join(", ")));
+                        return Err(format!("unknown option `{key}` of this format; the options are {}", keys.join(", ")));
                     }
                 }
                 Ok(())
             }
         }
 
-        /// The options, and those of them that were asked for.
-        pub(super) struct $asked<'o> {
+        /// The options, and the keys that were read.
+        pub(super) struct $tracked<'o> {
             options: &'o $name,
             keys: std::cell::RefCell<std::collections::HashSet<&'static str>>,
         }
 
-        impl<'o> $asked<'o> {
+        impl<'o> $tracked<'o> {
             pub(super) fn new(options: &'o $name) -> Self {
-                $asked { options, keys: Default::default() }
+                $tracked { options, keys: Default::default() }
             }
 
             $(#[doc = $doc]
@@ -156,8 +162,8 @@ macro_rules! options {
                 self.options.$field.clone()
             })+
 
-            /// Notes the options that are given and that nothing asked for.
-            pub(super) fn note_others(&self, notes: &mut $crate::note::Notes) {
+            /// Adds a note for each option that is set and was not read.
+            pub(super) fn note_unused(&self, notes: &mut $crate::note::Notes) {
                 let keys = self.keys.borrow();
                 $(if self.options.$field.is_some() && !keys.contains($key) {
                     notes.add($crate::note::NoteKind::GivenFact, $crate::note::Subject::Named($key));
@@ -175,12 +181,12 @@ mod tests {
     #[test]
     fn values_and_refusals() {
         assert_eq!(parsed::<u32>("a", "0x1F"), Ok(Some(31)));
-        assert_eq!(parsed::<u16>("a", "70000").map_err(|text| text.contains("`a` is a number")), Err(true));
+        assert_eq!(parsed::<u16>("a", "70000").map_err(|text| text.contains("`a` must be a number")), Err(true));
         assert!(parsed::<String>("a", " ").is_err() && parsed::<bool>("a", "yes").is_err());
-        let mut wanted = Wanted::default();
-        assert_eq!(wanted.want(Some(1u32), "one", &[]), 1);
-        assert_eq!(wanted.want(None::<u32>, "two", &[("two", "The second.")]), 0);
-        let refusal = wanted.finish(String::new(), Vec::new()).expect_err("one is missing");
-        assert_eq!(refusal.to_string(), "the format wants what the source doesn't say; give `two` (The second)");
+        let mut missing = MissingFacts::default();
+        assert_eq!(missing.require(Some(1u32), "one", &[]), 1);
+        assert_eq!(missing.require(None::<u32>, "two", &[("two", "The second.")]), 0);
+        let refusal = missing.finish(String::new(), Vec::new()).expect_err("one is missing");
+        assert_eq!(refusal.to_string(), "the format requires facts that are not in the source; set `two` (The second)");
     }
 }

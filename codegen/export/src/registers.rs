@@ -1,4 +1,4 @@
-//! Objects of items that stand in no object: registers of a table that are found in a dictionary, too.
+//! Objects for items that no object contains: the registers of a table that also have an object address.
 
 use std::collections::{BTreeMap, HashSet};
 
@@ -8,24 +8,26 @@ use lexibus_codegen::source::Origin;
 /// Name of a sub-index 0 that no register describes (CiA 301 7.4.3).
 const COUNT_NAME: CompactString = CompactString::const_new("Highest sub-index supported");
 
-/// An object for every index that only registers have: a VAR where there is nothing but sub-index 0, else a RECORD. `address`
-/// gives index and sub-index of a register on the bus that is meant.
+/// Returns an object for every index that only registers have. It is a VAR if it has only sub-index 0, otherwise a RECORD.
+/// `address` returns index and sub-index of a register on the bus of the export.
 pub(super) fn objects(device: &Device, address: impl Fn(&Item) -> Option<(u16, u8)>) -> Vec<Group> {
-    let taken: HashSet<u16> = device.groups.iter().filter_map(Group::index).collect();
-    let mut found: BTreeMap<u16, (&Group, BTreeMap<u8, &Item>)> = BTreeMap::new();
+    let object_indices: HashSet<u16> = device.groups.iter().filter_map(Group::index).collect();
+    let mut by_index: BTreeMap<u16, (&Group, BTreeMap<u8, &Item>)> = BTreeMap::new();
     for chapter in device.groups.iter().filter(|group| group.index().is_none()) {
         for item in &chapter.items {
-            let Some((index, sub)) = address(item).filter(|(index, _)| !taken.contains(index)) else { continue };
-            found.entry(index).or_insert_with(|| (chapter, BTreeMap::new())).1.entry(sub).or_insert(item);
+            let Some((index, sub)) = address(item).filter(|(index, _)| !object_indices.contains(index)) else {
+                continue;
+            };
+            by_index.entry(index).or_insert_with(|| (chapter, BTreeMap::new())).1.entry(sub).or_insert(item);
         }
     }
-    found.into_iter().map(|(index, (chapter, items))| object(index, chapter, &items)).collect()
+    by_index.into_iter().map(|(index, (chapter, items))| object(index, chapter, &items)).collect()
 }
 
 fn object(index: u16, chapter: &Group, items: &BTreeMap<u8, &Item>) -> Group {
-    let own = items.get(&0).filter(|_| items.len() == 1);
-    let mut group = Group::object(index, if own.is_some() { ObjectCode::Var } else { ObjectCode::Record });
-    group.name = own.map_or_else(|| name(chapter, items), |item| item.name.clone());
+    let single = items.get(&0).filter(|_| items.len() == 1);
+    let mut group = Group::object(index, if single.is_some() { ObjectCode::Var } else { ObjectCode::Record });
+    group.name = single.map_or_else(|| name(chapter, items), |item| item.name.clone());
     group.items = items.values().map(|item| (*item).clone()).collect();
     if let (None, Some(&highest)) = (items.get(&0), items.keys().next_back()) {
         group.items.insert(0, count(index, highest));
@@ -33,7 +35,7 @@ fn object(index: u16, chapter: &Group, items: &BTreeMap<u8, &Item>) -> Group {
     group
 }
 
-/// Sub-index 0, which every object with sub-indices has (CiA 301 7.4.3).
+/// Returns sub-index 0, which every object with sub-indices has (CiA 301 7.4.3).
 fn count(index: u16, highest: u8) -> Item {
     let mut item = Item::new(Binding::canopen(index, 0));
     item.name = COUNT_NAME;
@@ -42,13 +44,13 @@ fn count(index: u16, highest: u8) -> Item {
     item
 }
 
-/// How many of `objects` got a sub-index 0 that no register describes.
+/// Returns the number of `objects` whose sub-index 0 no register describes.
 pub(super) fn completed(objects: &[Group]) -> usize {
     let is_count = |item: &Item| item.origin == Origin::default() && item.name == COUNT_NAME;
     objects.iter().filter(|group| group.items.first().is_some_and(is_count)).count()
 }
 
-/// The name of a lone entry is what the object is about; of several, the chapter's.
+/// Returns the name of an object: that of its only entry, otherwise that of the chapter.
 fn name(chapter: &Group, items: &BTreeMap<u8, &Item>) -> CompactString {
     match items.values().next() {
         Some(item) if items.len() == 1 => item.name.clone(),
@@ -56,7 +58,7 @@ fn name(chapter: &Group, items: &BTreeMap<u8, &Item>) -> CompactString {
     }
 }
 
-/// How many registers have the address of an object, or of another register, and so no place of their own.
+/// Returns the number of registers that have the address of an object or of another register.
 pub(super) fn duplicates(device: &Device, address: impl Fn(&Item) -> Option<(u16, u8)>) -> usize {
     let chapters = device.groups.iter().filter(|group| group.index().is_none());
     let addresses = chapters.flat_map(|chapter| &chapter.items).filter_map(address);
@@ -89,13 +91,13 @@ mod tests {
         let control = Group::object(0x6040, ObjectCode::Var);
         let device = Device { groups: vec![chapter, control], ..Device::default() };
         let objects = objects(&device, Item::object);
-        let told = |group: &Group| (group.index(), group.object_code(), group.name.to_string(), group.items.len());
+        let summary = |group: &Group| (group.index(), group.object_code(), group.name.to_string(), group.items.len());
         let expected = [
             (Some(0x2000), Some(ObjectCode::Record), "Motor".to_owned(), 3),
             (Some(0x2001), Some(ObjectCode::Var), "Current".to_owned(), 1),
             (Some(0x2002), Some(ObjectCode::Record), "Axis".to_owned(), 2),
         ];
-        assert_eq!(objects.iter().map(told).collect::<Vec<_>>(), expected);
+        assert_eq!(objects.iter().map(summary).collect::<Vec<_>>(), expected);
         assert_eq!((duplicates(&device, Item::object), completed(&objects)), (2, 2));
         assert_eq!(objects[0].sub(0).and_then(|item| item.default.clone()), Some(Value::Int(2)));
     }

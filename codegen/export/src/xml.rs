@@ -1,4 +1,4 @@
-//! Elements, attributes and texts of an XML file in the making.
+//! A writer of XML: elements, attributes and texts.
 
 use std::borrow::Cow;
 use std::fmt::Display;
@@ -6,19 +6,19 @@ use std::fmt::Display;
 use compact_str::CompactString;
 use quick_xml::escape::escape;
 
-/// A file in the making. Every element that is opened has to be closed.
+/// An XML file that is being written. Every opened element must be closed.
 pub(super) struct Xml {
     text: String,
     open: Vec<Open>,
-    /// Characters that XML 1.0 doesn't allow, which were left out.
+    /// Number of removed characters that XML 1.0 does not allow.
     pub(super) dropped: usize,
-    /// Attributes that were left out: what they are called is no name, or their element has one of that name.
+    /// Number of omitted attributes: their names are invalid, or their elements already have an attribute of this name.
     pub(super) unnamed: usize,
-    /// The names of attributes that the element which was opened last has.
+    /// Names of the attributes of the element that was opened last.
     given: Vec<CompactString>,
 }
 
-/// An element that isn't closed yet.
+/// An element that is not closed yet.
 struct Open {
     name: Cow<'static, str>,
     content: Content,
@@ -26,7 +26,7 @@ struct Open {
 
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Content {
-    /// The start tag isn't finished: attributes may follow.
+    /// The start tag is not finished: attributes can follow.
     Tag,
     Text,
     Elements,
@@ -49,7 +49,7 @@ impl Xml {
         self.open.push(Open { name, content: Content::Tag });
     }
 
-    /// An attribute of the element that was opened last.
+    /// Writes an attribute of the element that was opened last.
     pub(super) fn attribute(&mut self, name: &str, value: impl Display) {
         if !is_name(name) || self.given.iter().any(|given| given == name) {
             self.unnamed += 1;
@@ -60,38 +60,38 @@ impl Xml {
         self.text.push(' ');
         self.text += name;
         self.text += "=\"";
-        // A line break in an attribute is read as a blank, if it isn't a reference.
+        // XML readers replace these characters by spaces unless they are character references.
         let breaks = [("\t", "&#9;"), ("\n", "&#10;"), ("\r", "&#13;")];
         let value = breaks.into_iter().fold(escape(&*value).into_owned(), |text, (from, to)| text.replace(from, to));
         self.text += &value;
         self.text.push('"');
     }
 
-    /// The same where there is a value.
+    /// Writes an attribute if there is a value.
     pub(super) fn optional(&mut self, name: &str, value: Option<impl Display>) {
         if let Some(value) = value {
             self.attribute(name, value);
         }
     }
 
-    /// The same where the value isn't the one that a missing attribute stands for.
+    /// Writes an attribute unless the value is the one that a missing attribute means.
     pub(super) fn unless<T: Display + PartialEq>(&mut self, name: &str, value: T, usual: T) {
         self.optional(name, Some(value).filter(|value| *value != usual));
     }
 
-    /// The same where the text isn't empty.
+    /// Writes an attribute unless the text is empty.
     pub(super) fn text_attribute(&mut self, name: &str, text: &str) {
         self.unless(name, text, "");
     }
 
-    /// An attribute that is there only where it is true.
+    /// Writes an attribute if `value` is true.
     pub(super) fn flag(&mut self, name: &str, value: bool, word: &str) {
         if value {
             self.attribute(name, word);
         }
     }
 
-    /// Text within the element that was opened last.
+    /// Writes text within the element that was opened last.
     pub(super) fn content(&mut self, value: impl Display) {
         let value = self.allowed(value.to_string());
         if !value.is_empty() {
@@ -100,7 +100,7 @@ impl Xml {
         }
     }
 
-    /// Ends the element that was opened last.
+    /// Closes the element that was opened last.
     pub(super) fn close(&mut self) {
         let Some(Open { name, content }) = self.open.pop() else { return };
         match content {
@@ -116,35 +116,35 @@ impl Xml {
         }
     }
 
-    /// An element with nothing but text.
+    /// Writes an element that contains only text.
     pub(super) fn leaf(&mut self, name: impl Into<Cow<'static, str>>, value: impl Display) {
         self.open(name);
         self.content(value);
         self.close();
     }
 
-    /// The same where there is a value.
+    /// Writes such an element if there is a value.
     pub(super) fn optional_leaf(&mut self, name: &'static str, value: Option<impl Display>) {
         if let Some(value) = value {
             self.leaf(name, value);
         }
     }
 
-    /// The same where the text isn't empty.
+    /// Writes such an element unless the text is empty.
     pub(super) fn text_leaf(&mut self, name: &'static str, text: &str) {
         if !text.is_empty() {
             self.leaf(name, text);
         }
     }
 
-    /// An element with nothing but an attribute.
+    /// Writes an empty element with one attribute.
     pub(super) fn reference(&mut self, name: impl Into<Cow<'static, str>>, attribute: &str, value: impl Display) {
         self.open(name);
         self.attribute(attribute, value);
         self.close();
     }
 
-    /// An element that `write` fills with the elements of a list; nothing if the list is empty.
+    /// Writes an element that `write` fills with the elements of a list, unless the list is empty.
     pub(super) fn list<T>(
         &mut self,
         name: &'static str,
@@ -159,7 +159,7 @@ impl Xml {
         }
     }
 
-    /// Ends the start tag of the element that was opened last, if that isn't done.
+    /// Finishes the start tag of the element that was opened last, unless it is finished.
     fn finish_tag(&mut self, content: Content) {
         if let Some(last) = self.open.last_mut().filter(|last| last.content == Content::Tag) {
             last.content = content;
@@ -171,7 +171,7 @@ impl Xml {
         self.text.extend(std::iter::repeat_n("  ", self.open.len()));
     }
 
-    /// `text` without what no XML file can have in it.
+    /// Returns `text` without the characters that XML does not allow.
     fn allowed(&mut self, mut text: String) -> String {
         let is_forbidden = |letter: char| {
             letter < ' ' && !matches!(letter, '\t' | '\n' | '\r') || matches!(letter, '\u{FFFE}' | '\u{FFFF}')
@@ -184,7 +184,7 @@ impl Xml {
         text
     }
 
-    /// The file.
+    /// Returns the text of the file.
     pub(super) fn finish(mut self) -> String {
         while !self.open.is_empty() {
             self.close();
@@ -193,7 +193,7 @@ impl Xml {
     }
 }
 
-/// Whether an attribute can be called so (`Name` of XML 1.0; what isn't ASCII is taken for a letter).
+/// Returns whether an attribute can have this name (`Name` of XML 1.0). Characters that aren't ASCII count as letters.
 fn is_name(text: &str) -> bool {
     let is_letter = |letter: char| letter.is_ascii_alphabetic() || matches!(letter, '_' | ':') || !letter.is_ascii();
     text.starts_with(is_letter)
@@ -219,7 +219,7 @@ mod tests {
     }
 
     #[test]
-    fn attributes_have_names_of_their_own() {
+    fn attributes_have_valid_and_unique_names() {
         let mut xml = Xml::new();
         xml.open("A");
         for name in ["b", "x:c-1", "b", "", "2", "a b", "x=\"\"", "ß", "<"] {

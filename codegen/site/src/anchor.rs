@@ -1,27 +1,27 @@
-//! Names of files and addresses within pages, made of texts of the source.
+//! File names and anchors, derived from texts of the source.
 
 use compact_str::format_compact;
 
 use lexibus_codegen::unique::Unique;
 
-/// The longest name that a text gives.
+/// Maximum length of a name that is derived from a text.
 const LONGEST: usize = 40;
 
-/// Names of files, or addresses within a page, each given once.
+/// Unique file names, or unique anchors within a page.
 #[derive(Debug, Default)]
 pub(super) struct Names {
     given: Unique,
-    /// What addresses begin with.
+    /// Prefix of all anchors.
     prefix: String,
 }
 
 impl Names {
-    /// Addresses of what is within the element with the address `anchor`.
+    /// Creates the anchors of elements within the element with the anchor `anchor`.
     pub fn within(anchor: &str) -> Self {
         Names { prefix: format!("{anchor}."), ..Names::default() }
     }
 
-    /// The name of a file for `text`: small letters, digits and `-`.
+    /// Returns a file name for `text`, of lowercase letters, digits and `-`.
     pub fn file(&mut self, text: &str) -> String {
         let mut name = String::new();
         for letter in text.chars().flat_map(char::to_lowercase) {
@@ -36,14 +36,14 @@ impl Names {
         self.once(if name.is_empty() { "device" } else { name }, '-')
     }
 
-    /// The address of an element called `text`: what of it may stand in a link as it is.
+    /// Returns an anchor for an element called `text`. It contains the characters that need no escaping in a link.
     pub fn anchor(&mut self, text: &str) -> String {
         let is_plain = |letter: &char| letter.is_alphanumeric() || matches!(letter, '_' | '-' | '.' | ':');
         let name: String = text.trim().chars().map(|letter| if is_plain(&letter) { letter } else { '_' }).collect();
         self.once(&format!("{}{}", self.prefix, if name.is_empty() { "_" } else { &name }), '.')
     }
 
-    /// `name`, with a number behind it where it was given before.
+    /// Returns `name`, with a number if the name is already used.
     fn once(&mut self, name: &str, separator: char) -> String {
         self.given.unique(name, |number| format_compact!("{name}{separator}{number}")).into_string()
     }

@@ -3,20 +3,20 @@
 use std::collections::HashMap;
 
 use super::anchor::Names;
+use super::diagnostics::ShownDiagnostic;
 use super::entry::{self, Doubt, Known, Row, Rows};
-use super::findings::Finding;
 use super::words::{self, PLAIN};
 use lexibus_codegen::facts::address;
 use lexibus_codegen::facts::number::hex16;
 use lexibus_codegen::ir::{Group, GroupKind, Item, ItemId, TypeDef};
 
-/// So many items are on a page.
+/// Maximum number of items on a page.
 const PAGE: usize = 500;
 
 /// A page of items.
 #[derive(Debug)]
 pub(super) struct Area {
-    /// Name of the file, without ending.
+    /// Name of the file, without extension.
     pub file: String,
     pub title: String,
     pub facts: Vec<String>,
@@ -25,34 +25,34 @@ pub(super) struct Area {
 }
 
 impl Area {
-    /// How many items it has.
+    /// Returns the number of items.
     pub fn count(&self) -> usize {
         self.sections.iter().map(|section| section.rows.len()).sum()
     }
 }
 
-/// Items that stand together: an object with its entries, or registers.
+/// Items under one heading: an object with its entries, or registers.
 #[derive(Debug, Default)]
 pub(super) struct Section {
-    /// The address of an object with several entries; else its only row has one.
+    /// Anchor of an object with several entries. A single row has the anchor itself.
     pub anchor: Option<String>,
     pub number: String,
     pub name: String,
     pub names: Vec<(String, String)>,
     pub facts: Vec<String>,
     pub doubts: Vec<Doubt>,
-    pub findings: Vec<Finding>,
+    pub diagnostics: Vec<ShownDiagnostic>,
     pub rows: Vec<Row>,
 }
 
-/// A part of a device whose groups make pages.
+/// A part of a device whose groups share pages.
 struct Part<'g> {
     title: String,
-    /// With their positions.
+    /// The groups with their positions.
     groups: Vec<(u32, &'g Group)>,
 }
 
-/// The pages of these groups. Names of their files begin with `prefix`.
+/// Returns the pages of these groups. Their file names begin with `prefix`.
 pub(super) fn areas(
     groups: &[Group],
     types: &[TypeDef],
@@ -63,7 +63,7 @@ pub(super) fn areas(
     parts(groups).iter().flat_map(|part| pages(part, types, known, files, prefix)).collect()
 }
 
-/// A part for each chapter and image, and for each range of objects (CiA 301 7.4.1).
+/// Returns a part for each chapter and image, and for each range of objects (CiA 301 7.4.1).
 fn parts(groups: &[Group]) -> Vec<Part<'_>> {
     let mut parts: Vec<Part<'_>> = Vec::new();
     let mut ranges: HashMap<&str, usize> = HashMap::new();
@@ -105,7 +105,7 @@ fn pages(part: &Part<'_>, types: &[TypeDef], known: Known<'_>, files: &mut Names
     let mut count = 0;
     for &(position, group) in &part.groups {
         let items: Vec<(ItemId, &Item)> = group.items_at(position).collect();
-        // Registers of a long chapter go on to further pages; an object stays whole.
+        // A long chapter can continue on further pages; an object is never divided.
         let chunks: Vec<&[(ItemId, &Item)]> = match group.kind {
             GroupKind::Object { .. } => vec![&items],
             _ => items.chunks(PAGE).collect(),
@@ -147,8 +147,9 @@ fn pages(part: &Part<'_>, types: &[TypeDef], known: Known<'_>, files: &mut Names
 fn section(group: &Group, items: &[(ItemId, &Item)], rows: &mut Rows<'_>) -> Section {
     let GroupKind::Object { index, code, .. } = group.kind else {
         let modbus = rows.known.modbus;
-        let number =
-            |item: &Item| address::addresses(item, modbus).first().map_or_else(String::new, |own| own.number.clone());
+        let number = |item: &Item| {
+            address::addresses(item, modbus).first().map_or_else(String::new, |address| address.number.clone())
+        };
         let rows = items.iter().map(|&(id, item)| rows.row(id, item, number(item), true)).collect();
         return Section::plain(rows);
     };
@@ -171,13 +172,13 @@ fn section(group: &Group, items: &[(ItemId, &Item)], rows: &mut Rows<'_>) -> Sec
         names: words::names(&group.names),
         facts,
         doubts: entry::doubts(&group.doubts, rows.known.manual),
-        findings: rows.known.findings.of_group(group),
+        diagnostics: rows.known.diagnostics.of_group(group),
         rows: items.iter().map(|&(id, item)| rows.row(id, item, sub(item), false)).collect(),
     }
 }
 
 impl Section {
-    /// Rows without a heading.
+    /// Creates a section of rows without a heading.
     pub fn plain(rows: Vec<Row>) -> Self {
         Section { rows, ..Section::default() }
     }

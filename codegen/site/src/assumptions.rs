@@ -1,4 +1,4 @@
-//! All ambiguities of the source with what was assumed, the most severe first.
+//! All ambiguities in the source with their assumptions, sorted by severity.
 
 use std::collections::HashMap;
 
@@ -10,14 +10,14 @@ use super::process::Frame;
 use super::protocol::Protocol;
 use lexibus_codegen::ir::Severity;
 
-/// An ambiguity, and the elements that have it: several where a row of the source is repeated.
+/// An ambiguity, and its elements. A repeated row of the source has several elements.
 #[derive(Debug)]
 pub(super) struct Assumption<'d> {
     pub elements: Vec<Element>,
     pub doubt: &'d Doubt,
 }
 
-/// What an ambiguity is about.
+/// An element with an ambiguity.
 #[derive(Debug)]
 pub(super) struct Element {
     /// File and anchor.
@@ -34,7 +34,7 @@ pub(super) struct Ranked<'d> {
 }
 
 impl Ranked<'_> {
-    /// What a wrong assumption leads to, as a heading.
+    /// Returns the effect of a wrong assumption, as a heading.
     pub fn heading(&self) -> &'static str {
         match self.severity {
             Severity::Hazard => "Can move a motor or damage wiring",
@@ -44,8 +44,8 @@ impl Ranked<'_> {
     }
 }
 
-/// The places where a device has ambiguities.
-pub(super) struct Places<'d> {
+/// The pages and ambiguities of a device.
+pub(super) struct AmbiguitySources<'d> {
     /// The first page, and the ambiguities that belong to no element.
     pub overview: (&'d str, &'d [Doubt]),
     pub areas: &'d [Area],
@@ -59,18 +59,18 @@ pub(super) struct Places<'d> {
     pub codes: Option<(&'d str, &'d [Codes])>,
 }
 
-impl<'d> Places<'d> {
-    /// All ambiguities by severity, within one in the order of the pages; none for a severity without any.
+impl<'d> AmbiguitySources<'d> {
+    /// Returns all ambiguities by severity, then in the order of the pages. A severity without ambiguities is left out.
     pub fn ranked(&self) -> Vec<Ranked<'d>> {
         let mut ranks = [Severity::Hazard, Severity::Value, Severity::Print]
             .map(|severity| Ranked { severity, assumptions: Vec::new() });
-        for own in self.all() {
-            ranks[own.doubt.severity as usize].assumptions.push(own);
+        for assumption in self.all() {
+            ranks[assumption.doubt.severity as usize].assumptions.push(assumption);
         }
         ranks.into_iter().filter(|rank| !rank.assumptions.is_empty()).collect()
     }
 
-    /// All ambiguities, each once.
+    /// Returns all ambiguities. Each occurs once.
     fn all(&self) -> Vec<Assumption<'d>> {
         let mut all: Vec<Assumption<'d>> = Vec::new();
         let mut known = HashMap::new();
@@ -79,7 +79,7 @@ impl<'d> Places<'d> {
             if at == all.len() {
                 all.push(Assumption { elements: Vec::new(), doubt });
             }
-            // One with a subject is also in the list of the device, and at each element of that type.
+            // An ambiguity with a subject is also in the list of the device and at each element with this type.
             match doubt.subject.as_str() {
                 "" => all[at].elements.push(Element { link, title: title.to_owned() }),
                 _ if !all[at].elements.is_empty() => {}
@@ -89,7 +89,7 @@ impl<'d> Places<'d> {
         all
     }
 
-    /// Visits the ambiguities in the order of the pages, with the link and the title of the element that has them.
+    /// Calls the visitor for all ambiguities in the order of the pages, with the link and title of the element.
     fn visit(&self, visitor: &mut impl FnMut(String, &str, &'d Doubt)) {
         let (first, doubts) = self.overview;
         let (of_device, with_subject): (Vec<_>, Vec<_>) = doubts.iter().partition(|doubt| doubt.subject.is_empty());
@@ -107,9 +107,9 @@ impl<'d> Places<'d> {
                 }
             }
         }
-        if let Some((file, own)) = self.behaviour {
-            let of_machines = own.machines.iter().flat_map(|machine| &machine.doubts);
-            let doubts = of_machines.chain(own.sequences.iter().flat_map(|sequence| &sequence.doubts));
+        if let Some((file, behaviour)) = self.behaviour {
+            let of_machines = behaviour.machines.iter().flat_map(|machine| &machine.doubts);
+            let doubts = of_machines.chain(behaviour.sequences.iter().flat_map(|sequence| &sequence.doubts));
             doubts.for_each(|doubt| visitor(file.to_owned(), "", doubt));
         }
         let mut visit_all = |file: &str, anchor: &str, title: &str, doubts: &'d [Doubt]| {

@@ -1,4 +1,4 @@
-//! Drawings of bit fields: a cell a bit, the most significant first.
+//! Drawings of bit fields: one cell for each bit, the most significant bit first.
 
 use std::collections::BTreeSet;
 
@@ -8,7 +8,7 @@ use lexibus_codegen::facts::types;
 use lexibus_codegen::ir::owner::Owner;
 use lexibus_codegen::ir::{BitFieldEntry, BitMeaning, EnumValue, Shape, Trigger, Type, TypeDef};
 
-/// Bits in a row of a drawing.
+/// Number of bits in a row of a drawing.
 const ROW: u32 = 16;
 
 /// Width of a bit.
@@ -17,7 +17,7 @@ const CELL: u32 = 40;
 /// First bit and number of bits of the rows of drawings.
 pub(super) type Grids = BTreeSet<(u32, u32)>;
 
-/// A bit field, ready to be drawn and listed.
+/// A bit field for a page: drawing and list.
 #[derive(Debug)]
 pub(super) struct Bits {
     /// Rows of the drawing, the most significant bits first.
@@ -28,19 +28,19 @@ pub(super) struct Bits {
 /// A row of a drawing.
 #[derive(Debug)]
 pub(super) struct Row {
-    /// The number of its least significant bit.
+    /// Number of the least significant bit.
     pub first: u32,
-    /// How many bits it has.
+    /// Number of bits.
     pub bits: u32,
     /// Distance from the top.
     pub top: u32,
     pub cells: Vec<Cell>,
 }
 
-/// A line of the list.
+/// A row of the list.
 #[derive(Debug)]
 pub(super) struct Field {
-    /// `7`, `3–0`.
+    /// Bit numbers, such as `7` or `3–0`.
     pub bits: String,
     pub name: String,
     pub names: Vec<(String, String)>,
@@ -57,7 +57,7 @@ pub(super) struct Label {
     pub facts: String,
 }
 
-/// Bits and values of a type; nothing for one that has neither.
+/// Returns the bits and values of a type.
 pub(super) fn of_type(types: &[TypeDef], ty: Type) -> (Option<Bits>, Vec<Label>) {
     match Owner::of_types(types).definition(ty).map(|definition| &definition.shape) {
         Some(Shape::BitField { base, fields }) => {
@@ -69,7 +69,7 @@ pub(super) fn of_type(types: &[TypeDef], ty: Type) -> (Option<Bits>, Vec<Label>)
     }
 }
 
-/// The rows that drawings have: first bit and number of bits of each, for the grid behind it.
+/// Returns the rows of drawings: first bit and number of bits of each. The grid is drawn once for each.
 pub(super) fn grids<'b>(drawings: impl Iterator<Item = &'b Bits>) -> Grids {
     drawings.flat_map(|drawing| &drawing.rows).map(|row| (row.first, row.bits)).collect()
 }
@@ -85,10 +85,10 @@ fn drawing(types: &[TypeDef], fields: &[BitFieldEntry], bits: u32) -> Bits {
         rows.push(Row { first, bits: last - first, top, cells });
         last = first;
     }
-    Bits { rows, fields: fields.iter().map(|own| field(types, own)).collect() }
+    Bits { rows, fields: fields.iter().map(|entry| field(types, entry)).collect() }
 }
 
-/// What of a field stands in the row of `bits` bits from `first` on. Reserved bits stay empty.
+/// Returns the cell of a field in the row of `bits` bits from `first` on. Reserved bits have no cell.
 fn cell(field: &BitFieldEntry, first: u32, bits: u32) -> Option<Cell> {
     if matches!(field.meaning, BitMeaning::Reserved { .. }) {
         return None;

@@ -1,18 +1,18 @@
-//! A box of a drawing, with as much of its name as there is room for.
+//! A cell of a drawing. Its label is the part of the name that fits.
 
 use super::words;
 
-/// Width of a letter, and the room beside a text.
+/// Width of a letter, and the margin of a text.
 const LETTER: u32 = 7;
 
-/// What a field is drawn as, or the part of it that stands in a row.
+/// A field of a drawing, or the part of a field in one row.
 #[derive(Debug)]
 pub(super) struct Cell {
     pub left: u32,
     pub width: u32,
     pub middle: u32,
     pub label: String,
-    /// Whether nobody uses it.
+    /// Whether the bits are unused.
     pub is_padding: bool,
 }
 
@@ -22,7 +22,7 @@ impl Cell {
         Cell { left, width, middle: left + width / 2, label: words::cut(name, room), is_padding: false }
     }
 
-    /// Room without a name.
+    /// Creates a cell without a name.
     pub fn padding(left: u32, width: u32) -> Self {
         Cell { is_padding: true, ..Cell::new(left, width, "") }
     }

@@ -6,7 +6,7 @@ use super::words::{self, PLAIN};
 use lexibus_codegen::facts::code;
 use lexibus_codegen::ir::{CodeTable, Device, Manual, SubjectKind};
 
-/// A table.
+/// A table of codes.
 #[derive(Debug)]
 pub(super) struct Codes {
     pub anchor: String,
@@ -17,7 +17,7 @@ pub(super) struct Codes {
     pub rows: Vec<Code>,
 }
 
-/// A code.
+/// A row of a table.
 #[derive(Debug)]
 pub(super) struct Code {
     pub anchor: String,

@@ -1,22 +1,22 @@
-//! Rows of tables: an item a row, and what there is no column for below it.
+//! Rows of tables. Each item has a row, and the facts without a column are below it.
 
 use std::collections::HashMap;
 
 use super::anchor::Names;
 use super::bits::{self, Bits, Label};
-use super::findings::{Finding, Findings};
+use super::diagnostics::{ShownDiagnostic, ShownDiagnostics};
 use super::words::{self, PLAIN};
 use lexibus_codegen::facts::words::{capital, row_of, sentence, ALLOWED_SHOWN};
 use lexibus_codegen::facts::{address, item, types};
 use lexibus_codegen::ir::{Item, ItemId, Manual, ModbusTable, Severity, Subject, SubjectKind, Type, TypeDef};
 
-/// An item, ready to be written.
+/// An item of a page.
 #[derive(Debug)]
 pub(super) struct Row {
     pub anchor: String,
-    /// By what it is looked up: `0x6040:00`, `register 12`.
+    /// The address for readers, such as `0x6040:00` or `register 12`.
     pub number: String,
-    /// All addresses, as a search finds them.
+    /// All addresses in the form that the search finds.
     pub addresses: Vec<String>,
     pub name: String,
     pub names: Vec<(String, String)>,
@@ -25,30 +25,30 @@ pub(super) struct Row {
     pub default: String,
     pub range: String,
     pub unit: String,
-    /// The first sentence of its description.
+    /// First sentence of the description.
     pub description: String,
-    /// Sentences.
+    /// The facts below the row, as sentences.
     pub facts: Vec<String>,
     /// The description in other languages.
     pub translations: Vec<(String, String)>,
-    /// Further addresses, with their bus.
+    /// Further addresses with their bus.
     pub elsewhere: Vec<String>,
     pub doubts: Vec<Doubt>,
-    /// Ambiguities of its bits or values.
+    /// Ambiguities of the bits or values.
     pub doubts_of_type: Vec<Doubt>,
-    pub findings: Vec<Finding>,
-    /// The lines of a program that read and write it.
+    pub diagnostics: Vec<ShownDiagnostic>,
+    /// Lines of Rust code that read and write the item.
     pub rust: Vec<String>,
     pub bits: Option<Bits>,
     pub labels: Vec<Label>,
-    /// The address of the row that has the bits or values, where another one on the page has the same type.
+    /// The row on the page that shows the bits or values of the same type: anchor and name.
     pub same_as: Option<(String, String)>,
 }
 
-/// A contradiction of the source.
+/// An ambiguity in the source.
 #[derive(Debug, PartialEq, Eq, Hash)]
 pub(super) struct Doubt {
-    /// What it is about within the device: `HomingMethod, 33`; empty if the page shows it there.
+    /// Its subject within the device, such as `HomingMethod, 33`. Empty if the ambiguity is shown at its subject.
     pub subject: String,
     pub severity: Severity,
     pub says: String,
@@ -58,22 +58,22 @@ pub(super) struct Doubt {
 }
 
 impl Row {
-    /// The addresses for the search, each once. The address of the row is as the row shows it, unless more is known.
+    /// Returns the addresses for the search, each once. The first one is that of the row, with the wire address if known.
     pub fn lookups(&self) -> Vec<&str> {
-        let (own, others): (Vec<&str>, Vec<&str>) =
+        let (of_row, others): (Vec<&str>, Vec<&str>) =
             self.addresses.iter().map(String::as_str).partition(|address| address.starts_with(&self.number));
-        let first = own.first().filter(|address| address.contains(" (")).copied().unwrap_or(&self.number);
+        let first = of_row.first().filter(|address| address.contains(" (")).copied().unwrap_or(&self.number);
         std::iter::once(first).chain(others).collect()
     }
 
-    /// Whether anything stands below the row.
+    /// Returns whether there are facts below the row.
     pub fn has_more(&self) -> bool {
         !self.facts.is_empty()
             || !self.translations.is_empty()
             || !self.elsewhere.is_empty()
             || !self.doubts.is_empty()
             || !self.doubts_of_type.is_empty()
-            || !self.findings.is_empty()
+            || !self.diagnostics.is_empty()
             || !self.rust.is_empty()
             || self.bits.is_some()
             || !self.labels.is_empty()
@@ -81,38 +81,38 @@ impl Row {
     }
 }
 
-/// The lines of a program that read and write items.
+/// The lines of Rust code that read and write items.
 pub(super) type Calls = HashMap<ItemId, Vec<String>>;
 
-/// What is known of a description beside its items.
+/// Facts about the description, apart from its items.
 #[derive(Clone, Copy)]
 pub(super) struct Known<'d> {
     pub manual: &'d Manual,
-    /// The ambiguities of the device.
+    /// Ambiguities of the device.
     pub doubts: &'d [lexibus_codegen::ir::Doubt],
-    /// The requests that its tables of Modbus take.
+    /// The Modbus tables with the requests that they accept.
     pub modbus: &'d [ModbusTable],
-    /// How programs reach items.
+    /// Rust code for the items.
     pub calls: &'d Calls,
-    pub findings: &'d Findings,
+    pub diagnostics: &'d ShownDiagnostics,
 }
 
-/// The ambiguities of a device about an element of this kind and name, ready to be written.
+/// Returns the ambiguities of a device about an element with this kind and name.
 pub(super) fn about(all: &[lexibus_codegen::ir::Doubt], kind: SubjectKind, name: &str, manual: &Manual) -> Vec<Doubt> {
     doubts(all.iter().filter(|doubt| doubt.is_about(kind, name)), manual)
 }
 
-/// What rows of one page have in common.
+/// Data that the rows of a page share.
 pub(super) struct Rows<'p> {
     pub types: &'p [TypeDef],
     pub names: &'p mut Names,
     pub known: Known<'p>,
-    /// The types whose bits or values the page has already, with the address and name of the row.
+    /// The types whose bits or values the page already shows, with anchor and name of the row.
     pub shown: Vec<(Type, String, String)>,
 }
 
 impl Rows<'_> {
-    /// A row; `number` is by what it is looked up, and its address, where the name isn't.
+    /// Creates a row. `number` is the address for readers. It is also the anchor unless `by_name` is set.
     pub fn row(&mut self, id: ItemId, item: &Item, number: String, by_name: bool) -> Row {
         let anchor = self.names.anchor(if by_name && !item.name.is_empty() { &item.name } else { &number });
         let (mut drawn, mut labels, mut same_as) = (None, Vec::new(), None);
@@ -126,11 +126,11 @@ impl Rows<'_> {
                 }
             }
         }
-        // The first row with a type shows the facts about it.
+        // The first row with a type shows its facts.
         let definition = types::definition(self.types, item.ty).filter(|_| same_as.is_none());
         let addresses = address::addresses(item, self.known.modbus);
         let lookups: Vec<String> =
-            addresses.iter().map(|address| address.lookup.clone()).filter(|own| !own.is_empty()).collect();
+            addresses.iter().map(|address| address.lookup.clone()).filter(|lookup| !lookup.is_empty()).collect();
         let addresses = addresses.into_iter().filter(|address| address.text != number);
         let elsewhere = addresses.map(|address| format!("{}: {}", address.bus, address.text)).collect();
         Row {
@@ -152,7 +152,7 @@ impl Rows<'_> {
             doubts_of_type: definition
                 .map(|definition| about(self.known.doubts, SubjectKind::Type, &definition.name, self.known.manual))
                 .unwrap_or_default(),
-            findings: self.known.findings.of_item(item),
+            diagnostics: self.known.diagnostics.of_item(item),
             rust: self.known.calls.get(&id).cloned().unwrap_or_default(),
             bits: drawn,
             labels,
@@ -189,15 +189,15 @@ impl Rows<'_> {
     }
 }
 
-/// `HomingMethod, 33`.
-fn subject(own: &Subject) -> String {
-    match own.element.as_str() {
-        "" => own.name.to_string(),
-        element => format!("{}, {element}", own.name),
+/// Returns the subject of an ambiguity, such as `HomingMethod, 33`.
+fn subject(subject: &Subject) -> String {
+    match subject.element.as_str() {
+        "" => subject.name.to_string(),
+        element => format!("{}, {element}", subject.name),
     }
 }
 
-/// Doubts, ready to be written.
+/// Converts ambiguities for a page.
 pub(super) fn doubts<'d>(
     doubts: impl IntoIterator<Item = &'d lexibus_codegen::ir::Doubt>,
     manual: &Manual,

@@ -1,19 +1,19 @@
-//! The pages of a catalogue, in a folder of their own.
+//! The pages of a catalog in their folder.
 
 use std::collections::{BTreeSet, HashMap};
 use std::rc::Rc;
 
 use super::anchor::Names;
 use super::area::{self, Area};
-use super::assumptions::{Places, Ranked};
+use super::assumptions::{AmbiguitySources, Ranked};
 use super::codes::{self, Codes};
+use super::diagnostics::ShownDiagnostics;
 use super::entry::{Known, Row};
-use super::findings::Findings;
 use super::links::Links;
 use super::machines;
 use super::modules::{self, ModuleModel};
 use super::overview::{self, Contents, Overview};
-use super::pages::{Catalogue, Content, Frameset, Listed, Pages, FIRST};
+use super::pages::{Content, Frameset, Listed, ListedCatalog, Pages, FIRST};
 use super::process::{self, About, Frame};
 use super::protocol::{self, Protocol};
 use super::search::{Entry, Index};
@@ -22,21 +22,21 @@ use lexibus_codegen::backend::rust;
 use lexibus_codegen::facts::{self, pdo, words};
 use lexibus_codegen::ir::{Catalog, Device, Documentation, Group, Manual, Texts};
 
-/// The folder of a catalogue.
+/// The folder of a catalog.
 pub(super) struct Folder {
     pub format: &'static dyn Pages,
     files: Names,
     pub pages: Vec<Page>,
     pub index: Index,
-    pub listed: Catalogue,
-    findings: Findings,
+    pub listed: ListedCatalog,
+    diagnostics: ShownDiagnostics,
     /// Pages that all devices share.
     shared: Rc<Links>,
-    /// The pages of the device that was written last.
+    /// Pages of the device that was written last.
     last: Rc<Links>,
 }
 
-/// What a device has beside items, and the files that it goes to.
+/// The parts of a device with their files.
 struct Parts {
     overview: Overview,
     areas: Vec<Area>,
@@ -48,22 +48,22 @@ struct Parts {
 }
 
 impl Parts {
-    /// The ambiguities of a device whose first page is `first`, the most severe first.
+    /// Returns the ambiguities of a device whose first page is `first`, sorted by severity.
     fn assumptions<'p>(&'p self, first: &'p str) -> Vec<Ranked<'p>> {
-        let places = Places {
+        let sources = AmbiguitySources {
             overview: (first, &self.overview.doubts),
             areas: &self.areas,
             process: self.process.as_deref().map(|file| (file, self.frames.as_slice())),
-            protocol: self.protocol.as_ref().map(|(file, own)| (file.as_str(), own)),
-            behaviour: self.behaviour.as_ref().map(|(file, own)| (file.as_str(), own)),
-            codes: self.codes.as_ref().map(|(file, own)| (file.as_str(), own.as_slice())),
+            protocol: self.protocol.as_ref().map(|(file, protocol)| (file.as_str(), protocol)),
+            behaviour: self.behaviour.as_ref().map(|(file, behaviour)| (file.as_str(), behaviour)),
+            codes: self.codes.as_ref().map(|(file, tables)| (file.as_str(), tables.as_slice())),
         };
-        places.ranked()
+        sources.ranked()
     }
 }
 
 impl Folder {
-    pub fn new(format: &'static dyn Pages, findings: Findings) -> Self {
+    pub fn new(format: &'static dyn Pages, diagnostics: ShownDiagnostics) -> Self {
         let mut files = Names::default();
         files.file(FIRST);
         Folder {
@@ -71,34 +71,35 @@ impl Folder {
             files,
             pages: Vec::new(),
             index: Index::default(),
-            listed: Catalogue::default(),
-            findings,
+            listed: ListedCatalog::default(),
+            diagnostics,
             shared: Rc::default(),
             last: Rc::default(),
         }
     }
 
-    /// All pages of a catalogue that is called `title`.
+    /// Writes all pages of a catalog with this title.
     pub fn catalog(&mut self, title: &str, catalog: &Catalog) {
         let is_alone = catalog.devices.len() == 1;
-        // Pages of devices lead to those that all of them share, whose names are known first therefore.
+        // The pages of devices have links to the shared pages, so the names of these are determined first.
         let (modules, files) = self.modules(catalog);
-        let findings = (!self.findings.list.is_empty()).then(|| self.file("Findings"));
+        let diagnostics = (!self.diagnostics.list.is_empty()).then(|| self.file("Findings"));
         self.listed.shared.extend(files.iter().cloned());
-        self.listed.shared.extend(findings.iter().map(|file| (file.clone(), "Findings".to_owned())));
-        // The first page of modules leads to those behind it.
+        self.listed.shared.extend(diagnostics.iter().map(|file| (file.clone(), "Findings".to_owned())));
+        // The first page of modules has links to the others.
         self.shared = Rc::new(Links::new(self.listed.shared.clone(), files.len().min(1)..files.len()));
         let spoken = languages_of_modules(catalog);
         for device in &catalog.devices {
             self.device(device, catalog, is_alone, &spoken);
         }
-        let title = self.listed.devices.first().filter(|_| is_alone).map_or(title, |own| own.title.as_str()).to_owned();
-        let own = if is_alone { self.last.clone() } else { Rc::default() };
+        let title =
+            self.listed.devices.first().filter(|_| is_alone).map_or(title, |device| device.title.as_str()).to_owned();
+        let device_pages = if is_alone { self.last.clone() } else { Rc::default() };
         let languages = languages(&catalog.devices, &spoken);
-        let frame = Frameset { title, own, shared: self.shared.clone(), languages };
+        let frame = Frameset { title, device_pages, shared: self.shared.clone(), languages };
         self.module_pages(&modules, &files, &frame);
-        if let Some(file) = &findings {
-            let text = self.format.page(&frame, file, Content::Findings(&self.findings.list));
+        if let Some(file) = &diagnostics {
+            let text = self.format.page(&frame, file, Content::Diagnostics(&self.diagnostics.list));
             self.pages.push(Page::new(file, text));
         }
         if !is_alone {
@@ -113,7 +114,7 @@ impl Folder {
         self.pages.push(Page::new(file, self.format.page(frame, file, content)));
     }
 
-    /// The name of a new file for `title`.
+    /// Returns the name of a new file for `title`.
     fn file(&mut self, title: &str) -> String {
         self.files.file(title) + self.format.ending()
     }
@@ -133,7 +134,8 @@ impl Folder {
         links.extend(pages.iter().cloned());
         self.last = Rc::new(Links::new(links, 1..1 + parts.areas.len()));
         let languages = languages(std::slice::from_ref(device), spoken);
-        let frame = Frameset { title: title.clone(), own: self.last.clone(), shared: self.shared.clone(), languages };
+        let frame =
+            Frameset { title: title.clone(), device_pages: self.last.clone(), shared: self.shared.clone(), languages };
         if let Some(file) = &assumptions {
             self.page(&frame, file, Content::Assumptions(&ranked));
         }
@@ -148,7 +150,7 @@ impl Folder {
         self.listed.devices.push(Listed { title, vendor: device.identity.vendor_name.to_string(), path: first, pages });
     }
 
-    /// What there is to write of a device, and the further pages that it gives.
+    /// Collects the parts of a device and its further pages.
     fn parts(
         &mut self,
         device: &Device,
@@ -157,8 +159,13 @@ impl Folder {
         prefix: &str,
     ) -> (Parts, Vec<(String, String)>) {
         let calls = rust::calls(device);
-        let known =
-            Known { manual, doubts: &device.doubts, modbus: &device.modbus, calls: &calls, findings: &self.findings };
+        let known = Known {
+            manual,
+            doubts: &device.doubts,
+            modbus: &device.modbus,
+            calls: &calls,
+            diagnostics: &self.diagnostics,
+        };
         let mut areas = area::areas(&device.groups, &device.types, known, &mut self.files, prefix);
         for area in &mut areas {
             area.file += self.format.ending();
@@ -189,14 +196,14 @@ impl Folder {
         (parts, pages)
     }
 
-    /// The pages behind those of items.
+    /// Writes the pages after those of items.
     fn further(&mut self, device: &Device, parts: &Parts, frame: &Frameset) {
         if let Some(file) = &parts.process {
             let sync_managers = process::sync_managers(&device.process_data);
             self.page(frame, file, Content::Process(&parts.frames, &sync_managers));
             self.index.page(file, &frame.title);
             for frame in &parts.frames {
-                self.index.entry(&found(&frame.anchor, &frame.anchor, &frame.title));
+                self.index.entry(&index_entry(&frame.anchor, &frame.anchor, &frame.title));
             }
         }
         if let Some((file, protocol)) = &parts.protocol {
@@ -204,7 +211,7 @@ impl Folder {
             self.index.page(file, &frame.title);
             for message in &protocol.messages {
                 let words = message.facts.first().map_or("", String::as_str);
-                let entry = found(&message.anchor, "message", &message.name);
+                let entry = index_entry(&message.anchor, "message", &message.name);
                 self.index.entry(&Entry { names: &message.names, words, ..entry });
             }
         }
@@ -215,16 +222,16 @@ impl Folder {
             self.page(frame, file, Content::Codes(tables));
             self.index.page(file, &frame.title);
             for row in tables.iter().flat_map(|table| &table.rows) {
-                let entry = found(&row.anchor, &row.number, &row.name);
+                let entry = index_entry(&row.anchor, &row.number, &row.name);
                 let words = format!("{} {}", row.cells.join(" "), row.facts);
                 self.index.entry(&Entry { names: &row.names, words: &words, ..entry });
             }
         }
     }
 
-    /// The modules, and the files and titles of their pages.
+    /// Returns the modules, and the files and titles of their pages.
     fn modules(&mut self, catalog: &Catalog) -> (Vec<ModuleModel>, Vec<(String, String)>) {
-        let mut all = modules::modules(catalog, &self.findings);
+        let mut all = modules::modules(catalog, &self.diagnostics);
         let count = all.len().div_ceil(modules::PAGE);
         let name = |at: usize| match count {
             1 => "Modules".to_owned(),
@@ -244,7 +251,7 @@ impl Folder {
                 self.index.entry(&Entry {
                     names: &module.names,
                     words,
-                    ..found(&module.anchor, &module.number, &module.name)
+                    ..index_entry(&module.anchor, &module.number, &module.name)
                 });
                 for (_, section) in &module.sections {
                     index_rows(&mut self.index, &section.rows);
@@ -254,13 +261,13 @@ impl Folder {
     }
 }
 
-/// Makes links of the addresses of submodules, which may be on another page.
+/// Makes links from the anchors of submodules, which can be on other pages.
 fn link_parts(modules: &mut [ModuleModel], files: &[(String, String)]) {
-    let places: HashMap<String, usize> =
-        modules.iter().enumerate().map(|(at, own)| (own.anchor.clone(), at / modules::PAGE)).collect();
-    for (at, own) in modules.iter_mut().enumerate() {
-        for (_, anchor) in &mut own.parts {
-            let page = places.get(anchor).copied().filter(|page| *page != at / modules::PAGE);
+    let pages: HashMap<String, usize> =
+        modules.iter().enumerate().map(|(at, module)| (module.anchor.clone(), at / modules::PAGE)).collect();
+    for (at, module) in modules.iter_mut().enumerate() {
+        for (_, anchor) in &mut module.parts {
+            let page = pages.get(anchor).copied().filter(|page| *page != at / modules::PAGE);
             let file = page.and_then(|page| files.get(page)).map_or("", |(file, _)| file.as_str());
             *anchor = format!("{file}#{anchor}");
         }
@@ -268,27 +275,27 @@ fn link_parts(modules: &mut [ModuleModel], files: &[(String, String)]) {
 }
 
 fn contents(device: &Device, parts: &Parts) -> Contents {
-    let of_frame = |(file, own): (&String, &Frame)| (format!("{file}#{}", own.anchor), own.title.clone());
+    let of_frame = |(file, frame): (&String, &Frame)| (format!("{file}#{}", frame.anchor), frame.title.clone());
     Contents {
         areas: parts.areas.iter().map(|area| (area.file.clone(), area.title.clone(), area.count())).collect(),
         frames: parts
             .process
             .iter()
-            .flat_map(|file| parts.frames.iter().map(move |own| (file, own)))
+            .flat_map(|file| parts.frames.iter().map(move |frame| (file, frame)))
             .map(of_frame)
             .collect(),
         slots: modules::slots(device),
     }
 }
 
-fn found<'e>(anchor: &'e str, number: &'e str, name: &'e str) -> Entry<'e> {
+fn index_entry<'e>(anchor: &'e str, number: &'e str, name: &'e str) -> Entry<'e> {
     Entry { anchor, number, name, names: &[], unit: "", words: "" }
 }
 
 fn index_area(index: &mut Index, area: &Area) {
     for section in &area.sections {
         if let Some(anchor) = &section.anchor {
-            index.entry(&Entry { names: &section.names, ..found(anchor, &section.number, &section.name) });
+            index.entry(&Entry { names: &section.names, ..index_entry(anchor, &section.number, &section.name) });
         }
         index_rows(index, &section.rows);
     }
@@ -298,7 +305,7 @@ fn index_rows(index: &mut Index, rows: &[Row]) {
     for row in rows {
         let words = row.description.as_str();
         for number in row.lookups() {
-            let entry = found(&row.anchor, number, &row.name);
+            let entry = index_entry(&row.anchor, number, &row.name);
             index.entry(&Entry { names: &row.names, unit: &row.unit, words, ..entry });
         }
     }
@@ -311,7 +318,7 @@ fn title(device: &Device) -> String {
     }
 }
 
-/// The languages of names and descriptions: of these devices, and those that their modules have, which are on pages of all devices.
+/// Returns the languages of names and descriptions of these devices and of the modules, whose pages all devices share.
 fn languages(devices: &[Device], modules: &BTreeSet<&str>) -> Vec<String> {
     let mut all = Languages(modules.clone());
     for device in devices {
@@ -341,7 +348,7 @@ struct Languages<'c>(BTreeSet<&'c str>);
 impl<'c> Languages<'c> {
     fn add(&mut self, names: &'c Texts, documentation: Option<&'c Documentation>) {
         let translations = documentation.into_iter().flat_map(|documentation| documentation.translations.iter());
-        self.0.extend(names.iter().chain(translations).map(|own| own.language.as_str()));
+        self.0.extend(names.iter().chain(translations).map(|text| text.language.as_str()));
     }
 
     fn add_groups(&mut self, groups: &'c [Group]) {

@@ -1,16 +1,16 @@
-//! The formats of documentation.
+//! The formats of the documentation.
 
 use super::html::Html;
 use super::markdown::Markdown;
 use super::pages::Pages;
 
-/// The format of a documentation.
+/// A format of the documentation.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Format {
-    /// Pages that open from disk, with drawings and a search.
+    /// HTML pages that open from disk, with drawings and a search.
     #[default]
     Html,
-    /// Pages for repositories and for `mdBook`, with a `SUMMARY.md`.
+    /// Markdown pages for repositories and `mdBook`, with a `SUMMARY.md`.
     Markdown,
 }
 

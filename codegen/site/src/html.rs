@@ -1,4 +1,4 @@
-//! Pages of HTML, with drawings and a search. Texts go through askama's escaper for HTML.
+//! HTML pages with drawings and a search. Askama's escaper for HTML escapes all texts.
 
 use askama::Template;
 
@@ -6,22 +6,22 @@ use super::area::{Area, Section};
 use super::assumptions::Ranked;
 use super::bits::{self, Grids};
 use super::codes::Codes;
-use super::findings::Finding;
+use super::diagnostics::ShownDiagnostic;
 use super::machines::Behaviour;
 use super::modules::ModuleModel;
 use super::overview::{Contents, Overview};
-use super::pages::{Catalogue, Content, Frameset, Listed, Pages};
+use super::pages::{Content, Frameset, Listed, ListedCatalog, Pages};
 use super::process::{Frame, SyncManager};
 use super::protocol::Protocol;
 use super::Page;
 
-/// What pages look like.
+/// The style sheet.
 const STYLE: &str = include_str!("../templates/site.css");
 
-/// Search, theme, language and copying.
+/// The script: search, theme, language and copy buttons.
 const SCRIPT: &str = include_str!("../templates/site.js");
 
-/// A template for each kind of page.
+/// Declares a template for each kind of page.
 macro_rules! templates {
     ($($page:ident = $path:literal { $($field:ident: $ty:ty),+ })+) => { $(
         #[derive(Template)]
@@ -43,16 +43,16 @@ templates! {
     MachinesPage = "machines.html" { behaviour: &'p Behaviour }
     ModulesPage = "modules.html" { modules: &'p [ModuleModel], grids: &'p Grids }
     AssumptionsPage = "assumptions.html" { ranked: &'p [Ranked<'p>] }
-    FindingsPage = "findings.html" { findings: &'p [Finding] }
+    DiagnosticsPage = "diagnostics.html" { diagnostics: &'p [ShownDiagnostic] }
     ListPage = "list.html" { devices: &'p [Listed], root: &'p str, index: &'p str }
 }
 
-/// Templates don't fail on what they are given.
+/// Renders a template. The templates contain nothing that can fail.
 fn written(template: &impl Template) -> String {
     template.render().unwrap_or_default()
 }
 
-/// Pages of HTML.
+/// The format HTML.
 pub(super) struct Html;
 
 impl Pages for Html {
@@ -86,7 +86,7 @@ impl Pages for Html {
                 written(&ModulesPage { frame, file, modules, grids })
             }
             Content::Assumptions(ranked) => written(&AssumptionsPage { frame, file, ranked }),
-            Content::Findings(findings) => written(&FindingsPage { frame, file, findings }),
+            Content::Diagnostics(diagnostics) => written(&DiagnosticsPage { frame, file, diagnostics }),
             Content::List { devices, root, index } => written(&ListPage { frame, file, devices, root, index }),
         }
     }
@@ -95,14 +95,14 @@ impl Pages for Html {
         vec![Page::new("search.js", search())]
     }
 
-    fn of_site(&self, _: &[Catalogue], search: Option<&dyn Fn() -> String>) -> Vec<Page> {
+    fn of_site(&self, _: &[ListedCatalog], search: Option<&dyn Fn() -> String>) -> Vec<Page> {
         let mut pages = vec![Page::new("site.css", STYLE.to_owned()), Page::new("site.js", SCRIPT.to_owned())];
         pages.extend(search.map(|search| Page::new("search.js", search())));
         pages
     }
 }
 
-/// The grids of the bit fields in these sections.
+/// Returns the grids of the bit fields in these sections.
 fn grids_of_rows<'p>(sections: impl IntoIterator<Item = &'p Section>) -> Grids {
     let rows = sections.into_iter().flat_map(|section| &section.rows);
     bits::grids(rows.filter_map(|row| row.bits.as_ref()))

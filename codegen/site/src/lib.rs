@@ -1,7 +1,8 @@
-//! Documentation: a static site of HTML that opens from disk, with a search and no address of any other place, or pages
-//! of Markdown.
+//! Creates documentation: a static HTML site that opens from disk, with a search and without external links, or
+//! Markdown pages.
 //!
-//! A [`Site`] takes one catalogue after the other and gives the pages of each; what all of them share comes at the end.
+//! A [`Site`] accepts catalogs one by one and returns the pages of each. [`Site::finish`] returns the pages that all
+//! catalogs share.
 //!
 //! ```
 //! use lexibus_site::Site;
@@ -27,8 +28,8 @@ mod bits;
 mod cell;
 mod codes;
 pub mod compare;
+mod diagnostics;
 mod entry;
-mod findings;
 mod folder;
 mod format;
 mod html;
@@ -44,36 +45,36 @@ mod search;
 mod words;
 
 use anchor::Names;
-use findings::Findings;
+use diagnostics::ShownDiagnostics;
 use folder::Folder;
 pub use format::Format;
 use lexibus_codegen::compile::Compilation;
 use lexibus_codegen::ir::Catalog;
-use pages::{Catalogue, Content, Frameset, Listed};
+use pages::{Content, Frameset, Listed, ListedCatalog};
 use search::Index;
 
 /// A file of the site.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Page {
-    /// Where it belongs, relative to the site, with `/` between folders.
+    /// Path relative to the folder of the site, with `/` as the separator.
     pub path: String,
-    /// Its content.
+    /// Content of the file.
     pub text: String,
 }
 
-/// What a page of HTML says of itself.
+/// The mark of a generated HTML page.
 const GENERATOR: &str = "<meta name=\"generator\" content=\"lexibus docs\">";
 
-/// How other files begin.
+/// The beginnings of other generated files.
 const BEGINNINGS: [&str; 4] =
     ["<!-- Written by lexibus docs", "/* Written by lexibus docs", "// Written by lexibus docs", "lexibusIndex("];
 
 impl Page {
-    /// Whether a file with this text may become this page: it is one of an earlier call.
+    /// Returns whether this page may replace a file with this text, because an earlier call wrote the file.
     pub fn replaces(&self, text: &str) -> bool {
         match self.path.ends_with(".html") {
             true => text.contains(GENERATOR),
-            false => BEGINNINGS.iter().any(|own| text.starts_with(own)),
+            false => BEGINNINGS.iter().any(|beginning| text.starts_with(beginning)),
         }
     }
 
@@ -88,43 +89,47 @@ pub struct Site {
     format: Format,
     folders: Names,
     index: Index,
-    catalogs: Vec<Catalogue>,
+    catalogs: Vec<ListedCatalog>,
 }
 
 impl Site {
-    /// A site of pages in this format.
+    /// Creates a site in this format.
     pub fn new(format: Format) -> Self {
         Site { format, ..Site::default() }
     }
 
-    /// The pages of a catalogue, in a folder that is named after `name`.
+    /// Returns the pages of a catalog, in a folder whose name is derived from `name`.
     pub fn add(&mut self, name: &str, catalog: &Catalog) -> Vec<Page> {
-        self.folder(name, catalog, Findings::default())
+        self.folder(name, catalog, ShownDiagnostics::default())
     }
 
-    /// The pages of what was compiled, with what was found in its source; none where it has errors.
+    /// Returns the pages of a compilation, with its diagnostics. Returns no pages if the compilation has errors.
     pub fn add_compilation(&mut self, name: &str, compilation: &Compilation) -> Vec<Page> {
         let catalog = compilation.catalog.as_ref().filter(|_| compilation.is_usable());
-        catalog.map(|catalog| self.folder(name, catalog, Findings::of(compilation))).unwrap_or_default()
+        catalog.map(|catalog| self.folder(name, catalog, ShownDiagnostics::of(compilation))).unwrap_or_default()
     }
 
-    fn folder(&mut self, name: &str, catalog: &Catalog, findings: Findings) -> Vec<Page> {
+    fn folder(&mut self, name: &str, catalog: &Catalog, diagnostics: ShownDiagnostics) -> Vec<Page> {
         let folder = self.folders.file(name);
-        let mut own = Folder::new(self.format.pages(), findings);
-        own.catalog(name, catalog);
-        self.index.add(&own.index, &folder);
-        own.pages.extend(own.format.of_catalog(&|| own.index.script()));
-        self.catalogs.push(Catalogue { title: name.to_owned(), folder: format!("{folder}/"), ..own.listed });
-        own.pages.into_iter().map(|page| Page { path: format!("{folder}/{}", page.path), ..page }).collect()
+        let mut catalog_folder = Folder::new(self.format.pages(), diagnostics);
+        catalog_folder.catalog(name, catalog);
+        self.index.add(&catalog_folder.index, &folder);
+        catalog_folder.pages.extend(catalog_folder.format.of_catalog(&|| catalog_folder.index.script()));
+        self.catalogs.push(ListedCatalog {
+            title: name.to_owned(),
+            folder: format!("{folder}/"),
+            ..catalog_folder.listed
+        });
+        catalog_folder.pages.into_iter().map(|page| Page { path: format!("{folder}/{}", page.path), ..page }).collect()
     }
 
-    /// What all pages share: the list of devices, and what their format wants.
+    /// Returns the pages that all catalogs share: the list of devices, and the files of the format.
     pub fn finish(self) -> Vec<Page> {
         let format = self.format.pages();
         let frame = Frameset { title: "Devices".to_owned(), ..Frameset::default() };
         let file = self.format.first_page();
-        let devices: Vec<Listed> = self.catalogs.iter().flat_map(Catalogue::in_site).collect();
-        // All that a single catalogue has is in its own index.
+        let devices: Vec<Listed> = self.catalogs.iter().flat_map(ListedCatalog::in_site).collect();
+        // A single catalog already has an index of all entries.
         let index = match self.catalogs.as_slice() {
             [only] => only.folder.as_str(),
             _ => "",

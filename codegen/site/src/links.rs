@@ -1,37 +1,38 @@
-//! The pages that a page has links to: with all of very many, a site would grow with the square of their number.
+//! The links of a page to other pages. If there are very many pages, each one has links to a few only, because the size
+//! of a site would otherwise grow quadratically.
 
 use std::collections::HashMap;
 use std::ops::Range;
 
 use lexibus_codegen::limits::{MAX_LINKED_PAGES, NEAR_LINKED_PAGES};
 
-/// Files and titles of pages in their order, among which those of one kind may be many.
+/// Files and titles of pages in their order. `many` is the range of pages that can be very many.
 #[derive(Debug, Default)]
 pub(super) struct Links {
     list: Vec<(String, String)>,
     many: Range<usize>,
-    /// The places of the files.
-    places: HashMap<String, usize>,
+    /// Positions of the files.
+    positions: HashMap<String, usize>,
 }
 
 impl Links {
     pub fn new(list: Vec<(String, String)>, many: Range<usize>) -> Self {
-        let places = list.iter().enumerate().map(|(at, (file, _))| (file.clone(), at)).collect();
-        Links { list, many, places }
+        let positions = list.iter().enumerate().map(|(at, (file, _))| (file.clone(), at)).collect();
+        Links { list, many, positions }
     }
 
-    /// All of them.
+    /// Returns all pages.
     pub fn all(&self) -> impl Iterator<Item = &(String, String)> {
         self.list.iter()
     }
 
-    /// All; of very many, those that are near to `file`, and those of other kinds.
+    /// Returns all pages. If they are very many, returns those near `file` and those outside of `many`.
     pub fn near(&self, file: &str) -> impl Iterator<Item = &(String, String)> {
         let Range { start, end } = self.many;
         let near = if end - start <= MAX_LINKED_PAGES {
             start..end
         } else {
-            let at = self.places.get(file).copied().unwrap_or(start).clamp(start, end - 1);
+            let at = self.positions.get(file).copied().unwrap_or(start).clamp(start, end - 1);
             at.saturating_sub(NEAR_LINKED_PAGES).max(start)..(at + NEAR_LINKED_PAGES + 1).min(end)
         };
         [0..start, near, end..self.list.len()].into_iter().flat_map(|range| &self.list[range])

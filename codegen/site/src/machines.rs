@@ -10,29 +10,29 @@ use lexibus_codegen::ir::{
     Device, ItemRef, Manual, Outcome, Pattern, Procedure, StateMachine, SubjectKind, Transition,
 };
 
-/// Size of a state in the diagram, and the room between two.
+/// Width of a state in the diagram.
 const WIDTH: u32 = 170;
 const HEIGHT: u32 = 36;
 const GAP: u32 = 30;
 const RISE: u32 = 70;
 
-/// The room on either side, for arrows that lead back.
+/// Margin on either side, for arrows that lead back.
 const SIDE: u32 = 90;
 
-/// The letters of a name that a state has room for.
+/// Maximum number of letters in the box of a state.
 const LETTERS: usize = 22;
 
-/// Where transitions start that name no state.
+/// Name of the source state of transitions from any state.
 pub(super) const ANY_STATE: &str = "any state";
 
-/// A state machine, ready to be written.
+/// A state machine for a page.
 #[derive(Debug)]
 pub(super) struct Machine {
     pub title: String,
     pub facts: Vec<String>,
     pub doubts: Vec<Doubt>,
     pub diagram: Option<Diagram>,
-    /// The state after power-on.
+    /// State after power-on.
     pub initial: Option<String>,
     pub states: Vec<Named>,
     pub commands: Vec<Named>,
@@ -45,7 +45,7 @@ pub(super) struct Machine {
 pub(super) struct Named {
     pub name: String,
     pub names: Vec<(String, String)>,
-    /// `xxxx xxxx x01x 0111`; empty if the state is a value.
+    /// Bit pattern, such as `xxxx xxxx x01x 0111`; empty if the state is a value.
     pub bits: String,
     pub facts: String,
 }
@@ -54,7 +54,7 @@ pub(super) struct Named {
 #[derive(Debug)]
 pub(super) struct TransitionRow {
     pub number: String,
-    /// `None` for any state.
+    /// Source state; `None` means any state.
     pub from: Option<String>,
     pub to: String,
     pub command: String,
@@ -62,13 +62,13 @@ pub(super) struct TransitionRow {
 }
 
 impl TransitionRow {
-    /// The state that it leaves, in words.
+    /// Returns the name of the source state.
     pub fn source(&self) -> &str {
         self.from.as_deref().unwrap_or(ANY_STATE)
     }
 }
 
-/// What commands do in each state.
+/// The effects of commands in each state.
 #[derive(Debug)]
 pub(super) struct Matrix {
     pub states: Vec<String>,
@@ -76,7 +76,7 @@ pub(super) struct Matrix {
     pub notes: Vec<String>,
 }
 
-/// States as boxes, transitions as arrows.
+/// A diagram with states as boxes and transitions as arrows.
 #[derive(Debug)]
 pub(super) struct Diagram {
     pub width: u32,
@@ -103,7 +103,7 @@ pub(super) struct Arrow {
     pub label: String,
 }
 
-/// A procedure: what to do, step by step.
+/// A procedure with its steps.
 #[derive(Debug)]
 pub(super) struct Sequence {
     pub name: String,
@@ -119,60 +119,60 @@ pub(super) struct Behaviour {
     pub sequences: Vec<Sequence>,
 }
 
-/// The state machines and procedures of a device, if it has any.
+/// Returns the state machines and procedures of a device, if any.
 pub(super) fn behaviour(device: &Device, manual: &Manual) -> Option<Behaviour> {
-    let machines: Vec<_> = device.machines.iter().map(|own| machine(own, device, manual)).collect();
+    let machines: Vec<_> = device.machines.iter().map(|each| machine(each, device, manual)).collect();
     let sequences: Vec<_> = device.procedures.iter().map(|procedure| sequence(procedure, device, manual)).collect();
     (!machines.is_empty() || !sequences.is_empty()).then_some(Behaviour { machines, sequences })
 }
 
-fn machine(own: &StateMachine, device: &Device, manual: &Manual) -> Machine {
+fn machine(machine: &StateMachine, device: &Device, manual: &Manual) -> Machine {
     let width = |item: &ItemRef, patterns: &[Pattern]| {
         let item = device.referred(item);
         pattern::width(item.and_then(|item| types::basic(&device.types, item.ty).bits()), patterns)
     };
-    let of_status = width(&own.status_item, &own.states);
-    let of_control = width(&own.control_item, &own.commands);
-    let mut facts = PLAIN.description(own.documentation.as_deref());
-    facts.extend((!own.status_item.is_empty()).then(|| format!("{} tells the state.", own.status_item)));
-    facts.extend((!own.control_item.is_empty()).then(|| format!("{} takes the commands.", own.control_item)));
-    facts.extend(own.initial.as_ref().map(|state| format!("After power-on: {state}.")));
-    facts.extend(PLAIN.place(manual, "", own.documentation.as_deref(), &[]));
+    let of_status = width(&machine.status_item, &machine.states);
+    let of_control = width(&machine.control_item, &machine.commands);
+    let mut facts = PLAIN.description(machine.documentation.as_deref());
+    facts.extend((!machine.status_item.is_empty()).then(|| format!("{} tells the state.", machine.status_item)));
+    facts.extend((!machine.control_item.is_empty()).then(|| format!("{} takes the commands.", machine.control_item)));
+    facts.extend(machine.initial.as_ref().map(|state| format!("After power-on: {state}.")));
+    facts.extend(PLAIN.place(manual, "", machine.documentation.as_deref(), &[]));
     Machine {
-        title: own.name.to_string(),
+        title: machine.name.to_string(),
         facts,
-        doubts: entry::about(&device.doubts, SubjectKind::Machine, &own.name, manual),
-        diagram: diagram(own),
-        initial: own.initial.as_ref().map(ToString::to_string),
-        states: own.states.iter().map(|state| named(state, of_status)).collect(),
-        commands: own.commands.iter().map(|command| named(command, of_control)).collect(),
-        transitions: own.transitions.iter().enumerate().map(way).collect(),
-        matrix: matrix(own),
+        doubts: entry::about(&device.doubts, SubjectKind::Machine, &machine.name, manual),
+        diagram: diagram(machine),
+        initial: machine.initial.as_ref().map(ToString::to_string),
+        states: machine.states.iter().map(|state| named(state, of_status)).collect(),
+        commands: machine.commands.iter().map(|command| named(command, of_control)).collect(),
+        transitions: machine.transitions.iter().enumerate().map(|(at, each)| transition_row(at, each)).collect(),
+        matrix: matrix(machine),
     }
 }
 
-fn named(own: &Pattern, width: u32) -> Named {
-    let bits = if own.mask == 0 { String::new() } else { pattern::text(own.mask, own.value, width) };
+fn named(pattern: &Pattern, width: u32) -> Named {
+    let bits = if pattern.mask == 0 { String::new() } else { pattern::text(pattern.mask, pattern.value, width) };
     Named {
-        name: own.name.to_string(),
-        names: words::names(&own.names),
+        name: pattern.name.to_string(),
+        names: words::names(&pattern.names),
         bits,
-        facts: PLAIN.description(own.documentation.as_deref()).join(" "),
+        facts: PLAIN.description(pattern.documentation.as_deref()).join(" "),
     }
 }
 
-/// By what the list and the diagram call a transition: its number, else its place.
-fn number((at, own): (usize, &Transition)) -> String {
-    own.number.map_or_else(|| (at + 1).to_string(), |number| number.to_string())
+/// Returns the name of a transition in the list and the diagram: its number, or its position.
+fn number(position: usize, transition: &Transition) -> String {
+    transition.number.map_or_else(|| (position + 1).to_string(), |number| number.to_string())
 }
 
-fn way((at, own): (usize, &Transition)) -> TransitionRow {
+fn transition_row(position: usize, transition: &Transition) -> TransitionRow {
     TransitionRow {
-        number: number((at, own)),
-        from: own.from.as_ref().map(ToString::to_string),
-        to: own.to.to_string(),
-        command: own.command.as_ref().map_or_else(|| "by itself".to_owned(), ToString::to_string),
-        facts: PLAIN.description(own.documentation.as_deref()).join(" "),
+        number: number(position, transition),
+        from: transition.from.as_ref().map(ToString::to_string),
+        to: transition.to.to_string(),
+        command: transition.command.as_ref().map_or_else(|| "by itself".to_owned(), ToString::to_string),
+        facts: PLAIN.description(transition.documentation.as_deref()).join(" "),
     }
 }
 
@@ -180,7 +180,7 @@ fn matrix(machine: &StateMachine) -> Option<Matrix> {
     let first = machine.outcomes.first()?;
     let states: Vec<String> = first.cells.iter().map(|cell| cell.state.to_string()).collect();
     let mut notes: Vec<String> = Vec::new();
-    let mut places: HashMap<String, usize> = HashMap::new();
+    let mut note_numbers: HashMap<String, usize> = HashMap::new();
     let mut rows = Vec::new();
     for row in &machine.outcomes {
         let mut cells = Vec::new();
@@ -190,7 +190,7 @@ fn matrix(machine: &StateMachine) -> Option<Matrix> {
             let mark = if text.is_empty() {
                 String::new()
             } else {
-                let at = *places.entry(text).or_insert_with_key(|text| {
+                let at = *note_numbers.entry(text).or_insert_with_key(|text| {
                     notes.push(text.clone());
                     notes.len()
                 });
@@ -203,41 +203,41 @@ fn matrix(machine: &StateMachine) -> Option<Matrix> {
     Some(Matrix { states, rows, notes })
 }
 
-fn outcome(own: &Outcome) -> String {
-    match own {
+fn outcome(outcome: &Outcome) -> String {
+    match outcome {
         Outcome::Unchanged => "stays".to_owned(),
         Outcome::Refused => "–".to_owned(),
         Outcome::States(to) => format!("→ {}", to.join(" → ")),
     }
 }
 
-/// The diagram; `None` without a transition between states.
+/// Returns the diagram, or `None` if there is no transition between states.
 fn diagram(machine: &StateMachine) -> Option<Diagram> {
-    let place = |name: &str| machine.states.iter().position(|state| state.name == name);
-    // Transitions from any state leave one more box, after those of the states.
+    let position = |name: &str| machine.states.iter().position(|state| state.name == name);
+    // Transitions from any state start at one more box, after those of the states.
     let any = machine.states.len();
-    let from = |way: &Transition| way.from.as_ref().map_or(Some(any), |name| place(name));
-    // Several transitions from one state to another are one arrow.
-    let mut ways: Vec<(usize, usize, String)> = Vec::new();
-    for (at, way) in machine.transitions.iter().enumerate() {
-        let (Some(from), Some(to)) = (from(way), place(&way.to)) else { continue };
-        let number = number((at, way));
-        match ways.iter_mut().find(|known| (known.0, known.1) == (from, to)) {
+    let from = |transition: &Transition| transition.from.as_ref().map_or(Some(any), |name| position(name));
+    // Several transitions between the same states are one arrow.
+    let mut edges: Vec<(usize, usize, String)> = Vec::new();
+    for (at, transition) in machine.transitions.iter().enumerate() {
+        let (Some(from), Some(to)) = (from(transition), position(&transition.to)) else { continue };
+        let number = number(at, transition);
+        match edges.iter_mut().find(|known| (known.0, known.1) == (from, to)) {
             Some((.., label)) if label.split(", ").any(|known| known == number) => {}
             Some((.., label)) => *label += &format!(", {number}"),
-            None => ways.push((from, to, number)),
+            None => edges.push((from, to, number)),
         }
     }
-    if ways.is_empty() {
+    if edges.is_empty() {
         return None;
     }
-    let first = machine.initial.as_ref().and_then(|name| place(name)).unwrap_or(ways.first()?.0);
-    let mut ranks = ranks(any + 1, first, &ways);
-    // That box is above the first state that it leads to.
-    if let Some(to) = ways.iter().filter(|(from, ..)| *from == any).map(|(_, to, _)| ranks[*to]).min() {
+    let first = machine.initial.as_ref().and_then(|name| position(name)).unwrap_or(edges.first()?.0);
+    let mut ranks = ranks(any + 1, first, &edges);
+    // The box of any state is above the first state that it leads to.
+    if let Some(to) = edges.iter().filter(|(from, ..)| *from == any).map(|(_, to, _)| ranks[*to]).min() {
         ranks[any] = to.saturating_sub(1);
     }
-    let used = |at: usize| ways.iter().any(|(from, to, _)| *from == at || *to == at);
+    let used = |at: usize| edges.iter().any(|(from, to, _)| *from == at || *to == at);
     let mut rows: Vec<Vec<usize>> = Vec::new();
     for (at, rank) in ranks.iter().enumerate().filter(|(at, _)| used(*at)) {
         while rows.len() <= *rank {
@@ -249,19 +249,19 @@ fn diagram(machine: &StateMachine) -> Option<Diagram> {
     let width = widest * (WIDTH + GAP) + 2 * SIDE;
     let mut boxes = vec![None; any + 1];
     for (rank, row) in rows.iter().enumerate() {
-        let taken = row.len() as u32 * (WIDTH + GAP);
-        let start = SIDE + (width.saturating_sub(2 * SIDE).saturating_sub(taken)) / 2;
+        let width_of_row = row.len() as u32 * (WIDTH + GAP);
+        let start = SIDE + (width.saturating_sub(2 * SIDE).saturating_sub(width_of_row)) / 2;
         for (column, at) in row.iter().enumerate() {
             boxes[*at] = Some((start + column as u32 * (WIDTH + GAP), 8 + rank as u32 * (HEIGHT + RISE)));
         }
     }
-    let arrows = ways
+    let arrows = edges
         .iter()
         .enumerate()
         .filter_map(|(number, (from, to, label))| Some(arrow(boxes[*from]?, boxes[*to]?, number as u32, label)));
     let arrows = arrows.collect();
-    let state_box = |(at, place): (usize, &Option<(u32, u32)>)| {
-        let (left, top) = (*place)?;
+    let state_box = |(at, corner): (usize, &Option<(u32, u32)>)| {
+        let (left, top) = (*corner)?;
         let label =
             machine.states.get(at).map_or_else(|| ANY_STATE.to_owned(), |state| words::cut(&state.name, LETTERS));
         Some(StateBox {
@@ -277,34 +277,34 @@ fn diagram(machine: &StateMachine) -> Option<Diagram> {
     Some(Diagram { width, height, boxes: boxes.iter().enumerate().filter_map(state_box).collect(), arrows })
 }
 
-/// How many transitions each state is from the first one. States that it doesn't lead to come behind: first those that no other
-/// state leads to.
-fn ranks(count: usize, first: usize, ways: &[(usize, usize, String)]) -> Vec<usize> {
+/// Returns the distance of each state from the first one, in transitions. Unreachable states follow, beginning with
+/// those that no other state leads to.
+fn ranks(count: usize, first: usize, edges: &[(usize, usize, String)]) -> Vec<usize> {
     let mut ranks = vec![None; count];
-    let mut last = follow(first, 0, ways, &mut ranks);
-    let leads_to = |at: usize| ways.iter().any(|(from, to, _)| *to == at && *from != at);
+    let mut last = follow(first, 0, edges, &mut ranks);
+    let leads_to = |at: usize| edges.iter().any(|(from, to, _)| *to == at && *from != at);
     let starts: Vec<usize> = (0..count).filter(|at| ranks[*at].is_none() && !leads_to(*at)).collect();
     let rank = last + 1;
     for at in starts {
-        last = last.max(follow(at, rank, ways, &mut ranks));
+        last = last.max(follow(at, rank, edges, &mut ranks));
     }
-    // States that only lead to one another.
+    // The remaining states only lead to each other.
     for at in 0..count {
         if ranks[at].is_none() {
-            last = follow(at, last + 1, ways, &mut ranks);
+            last = follow(at, last + 1, edges, &mut ranks);
         }
     }
     ranks.into_iter().flatten().collect()
 }
 
-/// Ranks a state and those that follow it. Returns the last rank of them.
-fn follow(at: usize, rank: usize, ways: &[(usize, usize, String)], ranks: &mut [Option<usize>]) -> usize {
+/// Sets the rank of a state and of those that follow it. Returns the last rank.
+fn follow(at: usize, rank: usize, edges: &[(usize, usize, String)], ranks: &mut [Option<usize>]) -> usize {
     let mut queue = VecDeque::from([(at, rank)]);
     ranks[at] = Some(rank);
     let mut last = rank;
     while let Some((at, rank)) = queue.pop_front() {
         last = rank;
-        for (_, to, _) in ways.iter().filter(|(from, ..)| *from == at) {
+        for (_, to, _) in edges.iter().filter(|(from, ..)| *from == at) {
             if ranks[*to].is_none() {
                 ranks[*to] = Some(rank + 1);
                 queue.push_back((*to, rank + 1));
@@ -314,9 +314,10 @@ fn follow(at: usize, rank: usize, ways: &[(usize, usize, String)], ranks: &mut [
     last
 }
 
-/// A curve from one state to another, its number beside it. Those that lead down leave at the bottom, those that lead back at the
-/// side that is nearer to the end, and those within a row pass below it.
-fn arrow((x, y): (u32, u32), (to_x, to_y): (u32, u32), number: u32, label: &str) -> Arrow {
+/// Returns a curve between two states and its label. An arrow down begins at the bottom of its state, an arrow back at
+/// the side closer to its end. An arrow within a row passes below the row.
+fn arrow(from: (u32, u32), to: (u32, u32), number: u32, label: &str) -> Arrow {
+    let ((x, y), (to_x, to_y)) = (from, to);
     let shift = number % 5 * 12;
     let (from_x, end_x) = (x + WIDTH / 2 - 24 + shift, to_x + WIDTH / 2 - 24 + shift);
     let middle_x = (from_x + end_x) / 2 + 4;
@@ -338,10 +339,10 @@ fn arrow((x, y): (u32, u32), (to_x, to_y): (u32, u32), number: u32, label: &str)
                 true => side.min(to_side).saturating_sub(GAP + shift),
                 false => side.max(to_side) + GAP + shift,
             };
-            // A curve comes three quarters of the way to the points that it is drawn towards.
-            let beside = (side + to_side + 6 * out) / 8;
+            // A Bézier curve reaches three quarters of the distance to its control points.
+            let curve_x = (side + to_side + 6 * out) / 8;
             let middle = (start + end) / 2 + number % 3 * 12;
-            (format!("M{side} {start}C{out} {start} {out} {end} {to_side} {end}"), beside, middle)
+            (format!("M{side} {start}C{out} {start} {out} {end} {to_side} {end}"), curve_x, middle)
         }
     };
     Arrow { path, x, y, label: label.to_owned() }
@@ -364,16 +365,16 @@ mod tests {
     use super::ranks;
 
     #[test]
-    fn states_come_below_those_that_lead_to_them() {
-        let ways = |pairs: &[(usize, usize)]| -> Vec<_> {
+    fn states_are_below_their_predecessors() {
+        let edges = |pairs: &[(usize, usize)]| -> Vec<_> {
             pairs.iter().map(|&(from, to)| (from, to, String::new())).collect()
         };
-        assert_eq!(ranks(4, 0, &ways(&[(0, 1), (1, 2), (2, 0)])), [0, 1, 2, 3]);
+        assert_eq!(ranks(4, 0, &edges(&[(0, 1), (1, 2), (2, 0)])), [0, 1, 2, 3]);
         assert_eq!(
-            ranks(5, 0, &ways(&[(1, 3), (2, 3), (3, 0), (4, 4)])),
+            ranks(5, 0, &edges(&[(1, 3), (2, 3), (3, 0), (4, 4)])),
             [0, 1, 1, 2, 1],
             "nothing leads to 1, 2 and 4"
         );
-        assert_eq!(ranks(3, 0, &ways(&[(1, 2), (2, 1)])), [0, 1, 2], "a circle begins at its first state");
+        assert_eq!(ranks(3, 0, &edges(&[(1, 2), (2, 1)])), [0, 1, 2], "a circle begins at its first state");
     }
 }

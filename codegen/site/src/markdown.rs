@@ -1,4 +1,4 @@
-//! Pages of Markdown, for repositories and `mdBook`. Texts go through [`Escape`], which `askama.toml` names.
+//! Markdown pages for repositories and `mdBook`. [`Escape`], which `askama.toml` names, escapes all texts.
 
 use std::collections::HashSet;
 use std::fmt::{self, Write};
@@ -8,17 +8,17 @@ use askama::Template;
 use super::area::Area;
 use super::assumptions::Ranked;
 use super::codes::Codes;
-use super::findings::Finding;
+use super::diagnostics::ShownDiagnostic;
 use super::machines::{Behaviour, Machine, ANY_STATE};
 use super::modules::ModuleModel;
 use super::overview::{Contents, Overview};
-use super::pages::{Catalogue, Content, Frameset, Listed, Pages, FIRST};
+use super::pages::{Content, Frameset, Listed, ListedCatalog, Pages, FIRST};
 use super::process::{Frame, SyncManager};
 use super::protocol::Protocol;
 use super::Page;
 use lexibus_codegen::facts::markdown;
 
-/// Shows texts as they are, on one line, whatever marks of Markdown or HTML are in them.
+/// Escapes characters of Markdown and HTML, and writes a text on one line.
 #[derive(Clone, Copy)]
 pub(super) struct Escape;
 
@@ -28,14 +28,14 @@ impl askama::filters::Escaper for Escape {
     }
 }
 
-/// Whether a letter shows what it is: neither a control character, nor one that changes how others are shown.
+/// Returns whether a character is visible: no control character, and none that changes the display of others.
 fn is_visible(letter: char) -> bool {
     let is_invisible =
         matches!(letter, '\u{200B}'..='\u{200F}' | '\u{2028}'..='\u{202E}' | '\u{2060}'..='\u{206F}' | '\u{FEFF}');
     !letter.is_control() && !is_invisible
 }
 
-/// A template for each kind of page.
+/// Declares a template for each kind of page.
 macro_rules! templates {
     ($($page:ident = $path:literal { $($field:ident: $ty:ty),+ })+) => { $(
         #[derive(Template)]
@@ -58,12 +58,12 @@ templates! {
     MachinesPage = "markdown/machines.md" { behaviour: &'p Behaviour }
     ModulesPage = "markdown/modules.md" { modules: &'p [ModuleModel] }
     AssumptionsPage = "markdown/assumptions.md" { ranked: &'p [Ranked<'p>] }
-    FindingsPage = "markdown/findings.md" { findings: &'p [Finding] }
+    DiagnosticsPage = "markdown/diagnostics.md" { diagnostics: &'p [ShownDiagnostic] }
     ListPage = "markdown/list.md" { title: &'p str, devices: &'p [Listed], links: PageLinks<'p> }
-    SummaryPage = "markdown/summary.md" { catalogs: &'p [Catalogue] }
+    SummaryPage = "markdown/summary.md" { catalogs: &'p [ListedCatalog] }
 }
 
-/// A page, with one empty line where the template leaves several. Templates don't fail on what they are given.
+/// Renders a template and reduces consecutive empty lines to one. The templates contain nothing that can fail.
 fn written(template: &impl Template) -> String {
     let rendered = template.render().unwrap_or_default();
     let mut text = String::with_capacity(rendered.len());
@@ -80,7 +80,7 @@ fn written(template: &impl Template) -> String {
     text
 }
 
-/// Pages of Markdown.
+/// The format Markdown.
 pub(super) struct Markdown;
 
 impl Pages for Markdown {
@@ -88,8 +88,8 @@ impl Pages for Markdown {
         ".md"
     }
 
-    /// What repositories show of a folder. Further down, links to a page of that name lead nowhere in `mdBook`, which calls it
-    /// otherwise.
+    /// Returns the name of the file that repositories show for a folder. Other folders don't use it, because `mdBook`
+    /// renames such a file and breaks links to it.
     fn front(&self) -> &'static str {
         "README"
     }
@@ -98,7 +98,7 @@ impl Pages for Markdown {
         let (title, mut links) = (frame.title.as_str(), links(frame, file));
         match content {
             Content::Overview(overview, contents) => {
-                // The overview itself is the first of them; areas, process data and slots have lists of their own.
+                // The first link is the overview itself. Areas, process data and slots have separate lists.
                 let areas: HashSet<&str> = contents.areas.iter().map(|(area, ..)| area.as_str()).collect();
                 links.retain(|(linked, _)| !areas.contains(linked.as_str()) && linked != file);
                 written(&OverviewPage { title, overview, contents, links: &links })
@@ -110,7 +110,7 @@ impl Pages for Markdown {
             Content::Machines(behaviour) => written(&MachinesPage { behaviour }),
             Content::Modules(modules) => written(&ModulesPage { modules }),
             Content::Assumptions(ranked) => written(&AssumptionsPage { ranked }),
-            Content::Findings(findings) => written(&FindingsPage { findings }),
+            Content::Diagnostics(diagnostics) => written(&DiagnosticsPage { diagnostics }),
             Content::List { devices, .. } => written(&ListPage { title, devices, links: &links }),
         }
     }
@@ -119,12 +119,12 @@ impl Pages for Markdown {
         Vec::new()
     }
 
-    fn of_site(&self, catalogs: &[Catalogue], _: Option<&dyn Fn() -> String>) -> Vec<Page> {
+    fn of_site(&self, catalogs: &[ListedCatalog], _: Option<&dyn Fn() -> String>) -> Vec<Page> {
         vec![Page::new("SUMMARY.md", written(&SummaryPage { catalogs }))]
     }
 }
 
-/// The pages that one leads to. The first of a folder leads to all of them: most others lead to none.
+/// Returns the links of a page. Only the first page of a folder has links to all pages.
 fn links<'s>(frame: &'s Frameset, file: &str) -> Vec<&'s (String, String)> {
     let is_first = file.strip_suffix(".md") == Some(FIRST);
     if is_first {
@@ -135,7 +135,7 @@ fn links<'s>(frame: &'s Frameset, file: &str) -> Vec<&'s (String, String)> {
 }
 
 impl Machine {
-    /// The transitions as lines of a state diagram of Mermaid, which has its own rules of what a name is.
+    /// Returns the transitions as lines of a Mermaid state diagram. Mermaid restricts the characters of names.
     fn lines(&self) -> Vec<String> {
         let label = |text: &str| -> String {
             let is_plain = |letter: char| letter.is_alphanumeric() || matches!(letter, ' ' | '-' | '_' | '.' | '/');
@@ -176,11 +176,11 @@ mod tests {
     }
 
     #[test]
-    fn the_first_page_leads_to_all_of_very_many() {
+    fn the_first_page_has_links_to_all_pages() {
         let pages = (0..1000).map(|at| (format!("modules-{at}.md"), format!("Modules {at}"))).collect();
         let frame = Frameset {
             title: "Coupler".to_owned(),
-            own: Rc::default(),
+            device_pages: Rc::default(),
             shared: Rc::new(Links::new(pages, 0..1000)),
             languages: Vec::new(),
         };

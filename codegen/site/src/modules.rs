@@ -1,16 +1,16 @@
-//! Modules and submodules that can be plugged in, and the slots for them.
+//! Pluggable modules and submodules, and their slots.
 
 use super::anchor::Names;
 use super::area::Section;
+use super::diagnostics::ShownDiagnostics;
 use super::entry::{Calls, Known, Rows};
-use super::findings::Findings;
 use super::process::{self, About, Frame};
 use super::words::{self, PLAIN};
 use lexibus_codegen::facts::number::{hex16, hex32};
 use lexibus_codegen::facts::{self, address};
 use lexibus_codegen::ir::{Catalog, Device, Group, GroupKind, IoData, Manual, Module, ObjectBuses, Submodule, TypeDef};
 
-/// So many modules are on a page.
+/// Maximum number of modules on a page.
 pub(super) const PAGE: usize = 100;
 
 /// A module or submodule.
@@ -25,7 +25,7 @@ pub(super) struct ModuleModel {
     pub translations: Vec<(String, String)>,
     pub frames: Vec<Frame>,
     pub sections: Vec<(String, Section)>,
-    /// Submodules that belong to it: name and link.
+    /// Submodules that belong to the module: name and link.
     pub parts: Vec<(String, String)>,
 }
 
@@ -37,8 +37,8 @@ pub(super) struct Slot {
     pub fits: String,
 }
 
-/// All modules of a catalogue, and then its submodules.
-pub(super) fn modules(catalog: &Catalog, findings: &Findings) -> Vec<ModuleModel> {
+/// Returns all modules of a catalog, followed by its submodules.
+pub(super) fn modules(catalog: &Catalog, diagnostics: &ShownDiagnostics) -> Vec<ModuleModel> {
     let mut names = Names::default();
     let anchors: Vec<String> = catalog
         .submodules
@@ -46,82 +46,91 @@ pub(super) fn modules(catalog: &Catalog, findings: &Findings) -> Vec<ModuleModel
         .map(|submodule| names.anchor(&format!("submodule-{:08X}", submodule.ident)))
         .collect();
     let mut all: Vec<ModuleModel> = Vec::new();
-    for own in &catalog.modules {
-        let parts = own.submodules.iter().filter_map(|used| {
+    for each in &catalog.modules {
+        let parts = each.submodules.iter().filter_map(|used| {
             let at = used.submodule.0 as usize;
             Some((catalog.submodules.get(at)?.name.to_string(), anchors.get(at)?.clone()))
         });
-        let anchor = names.anchor(&format!("module-{:08X}", own.number));
-        all.push(module(own, anchor, parts.collect(), findings));
+        let anchor = names.anchor(&format!("module-{:08X}", each.number));
+        all.push(module(each, anchor, parts.collect(), diagnostics));
     }
-    all.extend(catalog.submodules.iter().zip(anchors).map(|(own, anchor)| submodule(catalog, own, anchor, findings)));
+    all.extend(
+        catalog.submodules.iter().zip(anchors).map(|(each, anchor)| submodule(catalog, each, anchor, diagnostics)),
+    );
     all
 }
 
-/// The items of a module; their addresses begin with that of the module.
+/// Returns the items of a module. Their anchors begin with that of the module.
 fn sections<'g>(
     groups: impl Iterator<Item = &'g Group>,
     types: &[TypeDef],
     anchor: &str,
-    findings: &Findings,
+    diagnostics: &ShownDiagnostics,
 ) -> Vec<(String, Section)> {
     let (manual, calls, mut names) = (Manual::default(), Calls::default(), Names::within(anchor));
-    let known = Known { manual: &manual, doubts: &[], modbus: &[], calls: &calls, findings };
+    let known = Known { manual: &manual, doubts: &[], modbus: &[], calls: &calls, diagnostics };
     let mut rows = Rows { types, known, names: &mut names, shown: Vec::new() };
     groups.map(|group| section(group, &mut rows)).collect()
 }
 
-fn module(own: &Module, anchor: String, parts: Vec<(String, String)>, findings: &Findings) -> ModuleModel {
-    let mut facts = PLAIN.description(own.documentation.as_deref());
-    let order = &own.identity.order_code;
+fn module(
+    module: &Module,
+    anchor: String,
+    parts: Vec<(String, String)>,
+    diagnostics: &ShownDiagnostics,
+) -> ModuleModel {
+    let mut facts = PLAIN.description(module.documentation.as_deref());
+    let order = &module.identity.order_code;
     facts.extend((!order.is_empty()).then(|| format!("Order code {order}.")));
     ModuleModel {
-        number: hex32(own.number),
-        name: own.name.to_string(),
-        names: words::names(&own.names),
+        number: hex32(module.number),
+        name: module.name.to_string(),
+        names: words::names(&module.names),
         facts,
-        translations: words::translations(own.documentation.as_deref()),
+        translations: words::translations(module.documentation.as_deref()),
         frames: process::frames(
-            &own.process_data,
-            &own.types,
+            &module.process_data,
+            &module.types,
             About { buses: ObjectBuses::COE, manual: &Manual::default(), doubts: &[] },
         ),
-        sections: sections(own.fixed_objects.iter().chain(&own.groups), &own.types, &anchor, findings),
+        sections: sections(module.fixed_objects.iter().chain(&module.groups), &module.types, &anchor, diagnostics),
         parts,
         anchor,
     }
 }
 
-fn submodule(catalog: &Catalog, own: &Submodule, anchor: String, findings: &Findings) -> ModuleModel {
-    let mut facts = PLAIN.description(own.documentation.as_deref());
-    facts.extend((own.api != 0).then(|| format!("API {}.", hex16(own.api))));
-    facts.extend(own.f_parameters.is_some().then(|| "With parameters of functional safety (PROFIsafe).".to_owned()));
+fn submodule(catalog: &Catalog, submodule: &Submodule, anchor: String, diagnostics: &ShownDiagnostics) -> ModuleModel {
+    let mut facts = PLAIN.description(submodule.documentation.as_deref());
+    facts.extend((submodule.api != 0).then(|| format!("API {}.", hex16(submodule.api))));
+    facts.extend(
+        submodule.f_parameters.is_some().then(|| "With parameters of functional safety (PROFIsafe).".to_owned()),
+    );
     let image = |data: &IoData, title: &str| process::image(&data.image, &catalog.types, "", title);
-    let inputs = own.input.as_deref().map(|data| image(data, "Inputs of the controller"));
-    let outputs = own.output.as_deref().map(|data| image(data, "Outputs of the controller"));
+    let inputs = submodule.input.as_deref().map(|data| image(data, "Inputs of the controller"));
+    let outputs = submodule.output.as_deref().map(|data| image(data, "Outputs of the controller"));
     ModuleModel {
-        number: hex32(own.ident),
-        name: own.name.to_string(),
-        names: words::names(&own.names),
+        number: hex32(submodule.ident),
+        name: submodule.name.to_string(),
+        names: words::names(&submodule.names),
         facts,
-        translations: words::translations(own.documentation.as_deref()),
+        translations: words::translations(submodule.documentation.as_deref()),
         frames: inputs.into_iter().chain(outputs).collect(),
-        sections: sections(own.records.iter(), &catalog.types, &anchor, findings),
+        sections: sections(submodule.records.iter(), &catalog.types, &anchor, diagnostics),
         parts: Vec::new(),
         anchor,
     }
 }
 
 fn section(group: &Group, rows: &mut Rows<'_>) -> (String, Section) {
-    let place = match &group.kind {
+    let address = match &group.kind {
         GroupKind::Record(record) => format!("Record {}", hex16(record.index)),
         GroupKind::Object { index, .. } => format!("Object {}", hex16(*index)),
         _ => String::new(),
     };
-    let parts = [place.as_str(), group.name.as_str()].into_iter().filter(|part| !part.is_empty());
+    let parts = [address.as_str(), group.name.as_str()].into_iter().filter(|part| !part.is_empty());
     let title = parts.collect::<Vec<_>>().join(": ");
     let number = |item: &lexibus_codegen::ir::Item| {
-        address::addresses(item, &[]).first().map_or_else(String::new, |own| own.number.clone())
+        address::addresses(item, &[]).first().map_or_else(String::new, |address| address.number.clone())
     };
     let items = group.items_at(0).map(|(id, item)| rows.row(id, item, number(item), false)).collect();
     (title, Section::plain(items))

@@ -1,4 +1,4 @@
-//! What a device is, on its first page.
+//! The overview of a device, on its first page.
 
 use super::entry::{self, Doubt};
 use super::modules::Slot;
@@ -12,14 +12,14 @@ pub(super) struct Overview {
     pub facts: Vec<String>,
     /// The description in other languages.
     pub translations: Vec<(String, String)>,
-    /// Name and value: who made it, on which buses it is, where this was read.
+    /// Identity, buses and source file: name and value.
     pub identity: Vec<(&'static str, String)>,
     /// Models, with their constants.
     pub models: Vec<Model>,
     pub doubts: Vec<Doubt>,
 }
 
-/// Where on its further pages a device has what.
+/// The table of contents of a device.
 #[derive(Debug)]
 pub(super) struct Contents {
     /// Areas of items: file, title and number of items.
@@ -58,7 +58,8 @@ pub(super) fn overview(device: &Device, file: Option<&FileInfo>, manual: &Manual
     Overview { facts, translations, identity, models: models.collect(), doubts: entry::doubts(doubts(device), manual) }
 }
 
-/// The ambiguities of a device that no other page shows: its own, those of numbers of the machine, and those of chapters without items.
+/// Returns the ambiguities that no other page shows: those of the device, of machine constants and of chapters without
+/// items.
 fn doubts(device: &Device) -> impl Iterator<Item = &lexibus_codegen::ir::Doubt> {
     let given = device.given.iter().flat_map(|given| &given.doubts);
     let empty = device.groups.iter().filter(|group| group.index().is_none() && group.items.is_empty());
@@ -66,31 +67,31 @@ fn doubts(device: &Device) -> impl Iterator<Item = &lexibus_codegen::ir::Doubt> 
 }
 
 fn identity(device: &Device) -> Vec<(&'static str, String)> {
-    let own = &device.identity;
+    let identity = &device.identity;
     let hex = |number: Option<u32>| number.map(hex32).unwrap_or_default();
     let all = [
-        ("Vendor", own.vendor_name.to_string()),
-        ("Product", own.product_name.to_string()),
-        ("Order code", own.order_code.to_string()),
-        ("Vendor-ID", hex(own.vendor_id)),
-        ("Product code", hex(own.product_code)),
-        ("Revision", hex(own.revision_number)),
+        ("Vendor", identity.vendor_name.to_string()),
+        ("Product", identity.product_name.to_string()),
+        ("Order code", identity.order_code.to_string()),
+        ("Vendor-ID", hex(identity.vendor_id)),
+        ("Product code", hex(identity.product_code)),
+        ("Revision", hex(identity.revision_number)),
     ];
     all.into_iter().filter(|(_, value)| !value.is_empty()).collect()
 }
 
-/// What it can on its buses.
+/// Returns the settings of the device on its buses.
 fn settings(device: &Device) -> Vec<(&'static str, String)> {
     let mut all = Vec::new();
-    if let Some(own) = &device.canopen {
-        let rates: Vec<String> = own.bit_rates.iter().map(|rate| format!("{rate} kbit/s")).collect();
+    if let Some(settings) = &device.canopen {
+        let rates: Vec<String> = settings.bit_rates.iter().map(|rate| format!("{rate} kbit/s")).collect();
         all.push(("CANopen", if rates.is_empty() { "yes".to_owned() } else { rates.join(", ") }));
     }
-    all.extend(device.ethercat.as_deref().map(|own| ("EtherCAT", ethercat(own))));
-    all.extend(device.profinet.as_deref().map(|own| ("PROFINET", profinet(own))));
-    for modbu in &device.modbus {
-        let functions: Vec<String> = modbu.functions.iter().map(u8::to_string).collect();
-        let most = [("reads", modbu.max_read), ("writes", modbu.max_write)];
+    all.extend(device.ethercat.as_deref().map(|settings| ("EtherCAT", ethercat(settings))));
+    all.extend(device.profinet.as_deref().map(|settings| ("PROFINET", profinet(settings))));
+    for table in &device.modbus {
+        let functions: Vec<String> = table.functions.iter().map(u8::to_string).collect();
+        let most = [("reads", table.max_read), ("writes", table.max_write)];
         let most = most.into_iter().filter_map(|(what, most)| Some(format!("{what} up to {}", most?)));
         let facts: Vec<String> = std::iter::once(format!("functions {}", functions.join(", "))).chain(most).collect();
         all.push(("Modbus", facts.join("; ")));
@@ -126,8 +127,8 @@ fn ethercat(settings: &EtherCatSettings) -> String {
     }
 }
 
-fn clocks(own: &DistributedClocks) -> String {
-    let modes: Vec<&str> = own.modes.iter().map(|mode| mode.name.as_str()).collect();
+fn clocks(clocks: &DistributedClocks) -> String {
+    let modes: Vec<&str> = clocks.modes.iter().map(|mode| mode.name.as_str()).collect();
     format!("distributed clocks ({})", modes.join(", "))
 }
 

@@ -1,11 +1,11 @@
-//! What a format of documentation has to write: a text for each kind of page.
+//! The interface of a documentation format. It writes the text of each kind of page.
 
 use std::rc::Rc;
 
 use super::area::Area;
 use super::assumptions::Ranked;
 use super::codes::Codes;
-use super::findings::Finding;
+use super::diagnostics::ShownDiagnostic;
 use super::links::Links;
 use super::machines::Behaviour;
 use super::modules::ModuleModel;
@@ -14,64 +14,64 @@ use super::process::{Frame, SyncManager};
 use super::protocol::Protocol;
 use super::Page;
 
-/// The name of the first page of a folder, without ending.
+/// The name of the first page of a folder, without extension.
 pub(super) const FIRST: &str = "index";
 
-/// The title, links and languages that the pages of a device, or of a catalog, have in common.
+/// The title, links and languages that the pages of a device or catalog have in common.
 #[derive(Debug, Default)]
 pub(super) struct Frameset {
-    /// The catalogue, or the device of it.
+    /// Title of the device or catalog.
     pub title: String,
-    /// The pages of the device.
-    pub own: Rc<Links>,
-    /// Those that all devices share.
+    /// Pages of the device.
+    pub device_pages: Rc<Links>,
+    /// Pages that all devices share.
     pub shared: Rc<Links>,
     /// Languages of names.
     pub languages: Vec<String>,
 }
 
 impl Frameset {
-    /// The files and titles of all pages.
+    /// Returns the files and titles of all pages.
     pub fn all(&self) -> Vec<&(String, String)> {
-        self.own.all().chain(self.shared.all()).collect()
+        self.device_pages.all().chain(self.shared.all()).collect()
     }
 
-    /// The files and titles that a page has links to.
+    /// Returns the files and titles of the pages that a page has links to.
     pub fn near(&self, file: &str) -> Vec<&(String, String)> {
-        self.own.near(file).chain(self.shared.near(file)).collect()
+        self.device_pages.near(file).chain(self.shared.near(file)).collect()
     }
 }
 
-/// The pages of a catalogue, as lists of contents have them.
+/// The pages of a catalog for lists of contents.
 #[derive(Debug, Default)]
-pub(super) struct Catalogue {
+pub(super) struct ListedCatalog {
     pub title: String,
-    /// Its folder, with a `/` behind it.
+    /// Folder of the catalog, with a `/` at the end.
     pub folder: String,
     pub devices: Vec<Listed>,
-    /// Pages that all its devices share: files and titles.
+    /// Pages that all devices share: files and titles.
     pub shared: Vec<(String, String)>,
 }
 
-/// A device in the list of all.
+/// A device in the list of all devices.
 #[derive(Clone, Debug)]
 pub(super) struct Listed {
     pub title: String,
     pub vendor: String,
-    /// Its first page.
+    /// First page.
     pub path: String,
-    /// Its further pages: files and titles.
+    /// Further pages: files and titles.
     pub pages: Vec<(String, String)>,
 }
 
-impl Catalogue {
-    /// The devices, their first pages as seen from the folder of the site.
+impl ListedCatalog {
+    /// Returns the devices, with the paths of their first pages relative to the site.
     pub fn in_site(&self) -> impl Iterator<Item = Listed> + '_ {
         self.devices.iter().map(|device| Listed { path: format!("{}{}", self.folder, device.path), ..device.clone() })
     }
 }
 
-/// What a page shows.
+/// The content of a page.
 #[derive(Clone, Copy)]
 pub(super) enum Content<'p> {
     Overview(&'p Overview, &'p Contents),
@@ -82,28 +82,28 @@ pub(super) enum Content<'p> {
     Machines(&'p Behaviour),
     Modules(&'p [ModuleModel]),
     Assumptions(&'p [Ranked<'p>]),
-    Findings(&'p [Finding]),
+    Diagnostics(&'p [ShownDiagnostic]),
     /// A list of devices.
     List {
         devices: &'p [Listed],
-        /// The way to the folder of the site.
+        /// Relative path to the folder of the site.
         root: &'p str,
-        /// The folder of the index, where that isn't the page's.
+        /// Folder of the index if it differs from that of the page.
         index: &'p str,
     },
 }
 
-/// Writes pages.
+/// Writes the pages of a format.
 pub(super) trait Pages {
-    /// How names of files end, with the dot.
+    /// Returns the file extension, with the dot.
     fn ending(&self) -> &'static str;
-    /// The name of the first page of all, without ending.
+    /// Returns the name of the first page of a site, without extension.
     fn front(&self) -> &'static str;
-    /// The page `file`, whose links and title are those of `frame`.
+    /// Returns the text of the page `file`, whose links and title are in `frame`.
     fn page(&self, frame: &Frameset, file: &str, content: Content<'_>) -> String;
 
-    /// Further pages that those of one catalogue share.
+    /// Returns the files that the pages of one catalog share.
     fn of_catalog(&self, search: &dyn Fn() -> String) -> Vec<Page>;
-    /// What all pages share. `search` is the index of all, where a catalogue's isn't enough.
-    fn of_site(&self, catalogs: &[Catalogue], search: Option<&dyn Fn() -> String>) -> Vec<Page>;
+    /// Returns the files that all pages share. `search` is the index of all catalogs if there are several.
+    fn of_site(&self, catalogs: &[ListedCatalog], search: Option<&dyn Fn() -> String>) -> Vec<Page>;
 }

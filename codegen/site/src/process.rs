@@ -1,4 +1,4 @@
-//! Cyclic data: PDOs, process images and sync managers, with drawings byte by byte.
+//! Cyclic data: PDOs, process images and sync managers, with drawings of their bytes.
 
 use super::anchor::Names;
 use super::cell::Cell;
@@ -10,17 +10,17 @@ use lexibus_codegen::ir::{
     Direction, Manual, ObjectBuses, Pdo, PdoEntry, PdoEntryKind, ProcessData, ProcessImage, SubjectKind, TypeDef,
 };
 
-/// Bytes in a row of a drawing, and the width of one.
+/// Number of bytes in a row of a drawing, and width of a byte.
 const ROW: u32 = 8;
 const CELL: u32 = 80;
 
 /// Height of a row.
 const HEIGHT: u32 = 40;
 
-/// So many rows are drawn; what is behind them is in the list.
+/// Maximum number of rows in a drawing. The list contains further entries.
 const MOST_ROWS: usize = 64;
 
-/// What is exchanged together.
+/// Data that are exchanged together.
 #[derive(Debug, Default)]
 pub(super) struct Frame {
     pub anchor: String,
@@ -36,17 +36,17 @@ pub(super) struct Frame {
 /// A row of the drawing: eight bytes.
 #[derive(Debug)]
 pub(super) struct Row {
-    /// Number of its first byte.
+    /// Number of the first byte.
     pub first: u32,
     pub top: u32,
     pub cells: Vec<Cell>,
 }
 
-/// A line of the list.
+/// A row of the list.
 #[derive(Debug)]
 pub(super) struct Entry {
-    pub place: String,
-    /// The object, and whether the device describes it.
+    pub position: String,
+    /// Address of the object.
     pub object: String,
     pub name: String,
     pub names: Vec<(String, String)>,
@@ -63,24 +63,24 @@ pub(super) struct SyncManager {
     pub size: String,
 }
 
-/// What PDOs of a device or module have in common.
+/// Data that PDOs of a device or module have in common.
 #[derive(Clone, Copy)]
 pub(super) struct About<'d> {
-    /// The buses that the objects are on.
+    /// Buses of the objects.
     pub buses: ObjectBuses,
     pub manual: &'d Manual,
-    /// The ambiguities of the device.
+    /// Ambiguities of the device.
     pub doubts: &'d [lexibus_codegen::ir::Doubt],
 }
 
-/// All cyclic data of a device or module.
+/// Returns all cyclic data of a device or module.
 pub(super) fn frames(data: &ProcessData, types: &[TypeDef], about: About<'_>) -> Vec<Frame> {
-    let pdos = data.pdos.iter().map(|own| pdo(own, types, about));
-    let images = data.images.iter().enumerate().map(|(at, own)| Frame {
-        doubts: super::entry::about(about.doubts, SubjectKind::Image, &own.name, about.manual),
-        ..image(own, types, &format!("image-{at}"), "")
+    let pdos = data.pdos.iter().map(|each| pdo(each, types, about));
+    let images = data.images.iter().enumerate().map(|(at, each)| Frame {
+        doubts: super::entry::about(about.doubts, SubjectKind::Image, &each.name, about.manual),
+        ..image(each, types, &format!("image-{at}"), "")
     });
-    // PDOs of two buses may have one index.
+    // PDOs of different buses can have the same index.
     let mut names = Names::default();
     let once = |frame: Frame| Frame { anchor: names.anchor(&frame.anchor), ..frame };
     pdos.chain(images).map(once).collect()
@@ -96,15 +96,15 @@ pub(super) fn sync_managers(data: &ProcessData) -> Vec<SyncManager> {
     data.sync_managers.iter().map(one).collect()
 }
 
-fn pdo(own: &Pdo, types: &[TypeDef], about: About<'_>) -> Frame {
-    let name = if own.name.is_empty() { String::new() } else { format!(": {}", own.name) };
-    let mut facts = words::PLAIN.description(own.documentation.as_deref());
-    let index = hex16(own.mapping_index);
-    let mapping = if own.mapping_index == 0 { String::new() } else { format!(", mapped by {index}") };
-    let bytes = own.bytes();
+fn pdo(pdo: &Pdo, types: &[TypeDef], about: About<'_>) -> Frame {
+    let name = if pdo.name.is_empty() { String::new() } else { format!(": {}", pdo.name) };
+    let mut facts = words::PLAIN.description(pdo.documentation.as_deref());
+    let index = hex16(pdo.mapping_index);
+    let mapping = if pdo.mapping_index == 0 { String::new() } else { format!(", mapped by {index}") };
+    let bytes = pdo.bytes();
     facts.push(format!("{bytes} {}{mapping}.", if bytes == 1 { "byte" } else { "bytes" }));
-    if let Some(communication) = &own.communication {
-        let cob_id = |id| cob_id::text(id, CobId::of_pdo(own.direction)).unwrap_or_else(|| words::PLAIN.value(id));
+    if let Some(communication) = &pdo.communication {
+        let cob_id = |id| cob_id::text(id, CobId::of_pdo(pdo.direction)).unwrap_or_else(|| words::PLAIN.value(id));
         facts.extend(communication.cob_id.as_ref().map(|id| format!("COB-ID {}.", cob_id(id))));
         facts.extend(
             communication.transmission_type.map(|transmission_type| format!("Transmission type {transmission_type}.")),
@@ -112,50 +112,50 @@ fn pdo(own: &Pdo, types: &[TypeDef], about: About<'_>) -> Frame {
         facts.extend(communication.inhibit_time.map(|inhibit_time| format!("Inhibit time {inhibit_time} × 100 µs.")));
         facts.extend(communication.event_timer.map(|event_timer| format!("Event timer {event_timer} ms.")));
     }
-    facts.extend(own.fixed.then(|| "Its mapping can't be changed.".to_owned()));
-    facts.extend(own.mandatory.then(|| "It has to be assigned.".to_owned()));
-    facts.extend(own.sync_manager.map(|number| format!("Assigned to sync manager {number} by default.")));
-    if !own.excludes.is_empty() {
-        let others: Vec<String> = own.excludes.iter().map(|index| hex16(*index)).collect();
+    facts.extend(pdo.fixed.then(|| "Its mapping can't be changed.".to_owned()));
+    facts.extend(pdo.mandatory.then(|| "It has to be assigned.".to_owned()));
+    facts.extend(pdo.sync_manager.map(|number| format!("Assigned to sync manager {number} by default.")));
+    if !pdo.excludes.is_empty() {
+        let others: Vec<String> = pdo.excludes.iter().map(|index| hex16(*index)).collect();
         facts.push(format!("Can't be assigned together with {}.", others.join(", ")));
     }
     Frame {
         anchor: index,
-        title: pdo::title(own, about.buses) + &name,
+        title: pdo::title(pdo, about.buses) + &name,
         facts,
-        doubts: super::entry::doubts(&own.doubts, about.manual),
-        ..drawn(&own.entries, own.bits(), types)
+        doubts: super::entry::doubts(&pdo.doubts, about.manual),
+        ..drawn(&pdo.entries, pdo.bits(), types)
     }
 }
 
-/// An image whose title begins with `of`.
-pub(super) fn image(own: &ProcessImage, types: &[TypeDef], anchor: &str, of: &str) -> Frame {
-    let direction = match own.direction {
+/// Converts an image. A title in `of` replaces the name of the image.
+pub(super) fn image(image: &ProcessImage, types: &[TypeDef], anchor: &str, of: &str) -> Frame {
+    let direction = match image.direction {
         Direction::Receive => "to the device",
         Direction::Transmit => "from the device",
     };
-    let mut facts = vec![format!("{} bytes {direction}.", own.length)];
-    facts.extend(own.big_endian.then(|| "Numbers are big-endian.".to_owned()));
-    facts.extend((own.overhead > 0).then(|| format!("{} further bytes are no user data.", own.overhead)));
+    let mut facts = vec![format!("{} bytes {direction}.", image.length)];
+    facts.extend(image.big_endian.then(|| "Numbers are big-endian.".to_owned()));
+    facts.extend((image.overhead > 0).then(|| format!("{} further bytes are no user data.", image.overhead)));
     Frame {
         anchor: anchor.to_owned(),
-        title: if of.is_empty() { format!("Image {}", own.name) } else { of.to_owned() },
+        title: if of.is_empty() { format!("Image {}", image.name) } else { of.to_owned() },
         facts,
-        ..drawn(&own.fields, own.length.saturating_mul(8), types)
+        ..drawn(&image.fields, image.length.saturating_mul(8), types)
     }
 }
 
-/// A frame with nothing but what it carries.
+/// Returns a frame with its drawing and its list of entries only.
 fn drawn(entries: &[PdoEntry], bits: u32, types: &[TypeDef]) -> Frame {
     let bytes = bits.div_ceil(8);
     let rows: Vec<Row> = (0..bytes.div_ceil(ROW)).take(MOST_ROWS).map(|at| row(entries, at)).collect();
-    let list = entries.iter().filter(|entry| entry.kind != PdoEntryKind::Padding).map(|own| Entry {
-        place: address::bits_of(own.bit_offset, own.bits),
-        object: if own.index == 0 { String::new() } else { address::object(own.index, own.sub_index) },
-        name: own.name.to_string(),
-        names: words::names(&own.names),
-        ty: types::name(types, own.ty),
-        bits: own.bits,
+    let list = entries.iter().filter(|entry| entry.kind != PdoEntryKind::Padding).map(|entry| Entry {
+        position: address::bits_of(entry.bit_offset, entry.bits),
+        object: if entry.index == 0 { String::new() } else { address::object(entry.index, entry.sub_index) },
+        name: entry.name.to_string(),
+        names: words::names(&entry.names),
+        ty: types::name(types, entry.ty),
+        bits: entry.bits,
     });
     Frame { height: rows.len() as u32 * HEIGHT, rows, entries: list.collect(), ..Frame::default() }
 }

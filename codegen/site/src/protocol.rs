@@ -1,4 +1,4 @@
-//! Messages of a command protocol: how frames are delimited, and what each carries.
+//! Messages of a command protocol: framing and fields.
 
 use super::anchor::Names;
 use super::bits::{self, Bits, Label};
@@ -13,7 +13,7 @@ use lexibus_codegen::ir::{Completion, Device, Framing, Message, MessageField, Me
 /// The protocol of a device.
 #[derive(Debug)]
 pub(super) struct Protocol {
-    /// How frames are delimited, as name and value.
+    /// Framing, as name and value.
     pub framing: Vec<(&'static str, String)>,
     pub framing_facts: Vec<String>,
     pub messages: Vec<MessageModel>,
@@ -35,19 +35,19 @@ pub(super) struct MessageModel {
 /// A field of a frame.
 #[derive(Debug, Default)]
 pub(super) struct Part {
-    /// How long it is: `2 bytes`, `4 bits`; empty where that isn't known.
+    /// Length, such as `2 bytes` or `4 bits`; empty if unknown.
     pub length: String,
     pub label: String,
     pub facts: String,
-    /// How the field is drawn: `c` for fixed bytes, `v` for values, `e` for copies.
+    /// Kind for the style sheet: `c` for fixed bytes, `v` for values, `e` for copies, `r` for repetitions.
     pub kind: &'static str,
-    /// How deep it is repeated.
+    /// Nesting depth of repetitions.
     pub depth: usize,
     pub bits: Option<Bits>,
     pub labels: Vec<Label>,
 }
 
-/// Frames as the source prints them.
+/// An example of frames, as in the manual.
 #[derive(Debug)]
 pub(super) struct Example {
     pub request: String,
@@ -55,7 +55,7 @@ pub(super) struct Example {
     pub facts: String,
 }
 
-/// `None` where a device has no messages.
+/// Returns the protocol, or `None` if the device has no messages.
 pub(super) fn protocol(device: &Device, manual: &Manual) -> Option<Protocol> {
     if device.messages.is_empty() {
         return None;
@@ -65,7 +65,7 @@ pub(super) fn protocol(device: &Device, manual: &Manual) -> Option<Protocol> {
     Some(Protocol {
         framing: framing.map(delimited).unwrap_or_default(),
         framing_facts: framing.map(|framing| PLAIN.description(framing.documentation.as_deref())).unwrap_or_default(),
-        messages: device.messages.iter().map(|own| message(own, device, manual, &mut names)).collect(),
+        messages: device.messages.iter().map(|each| message(each, device, manual, &mut names)).collect(),
     })
 }
 
@@ -88,44 +88,47 @@ fn delimited(framing: &Framing) -> Vec<(&'static str, String)> {
     facts
 }
 
-fn message(own: &Message, device: &Device, manual: &Manual, names: &mut Names) -> MessageModel {
-    let mut facts = PLAIN.description(own.documentation.as_deref());
-    facts.extend(match &own.completion {
+fn message(message: &Message, device: &Device, manual: &Manual, names: &mut Names) -> MessageModel {
+    let mut facts = PLAIN.description(message.documentation.as_deref());
+    facts.extend(match &message.completion {
         Completion::Immediate => None,
         Completion::Reply => Some("The reply comes when the order is carried out.".to_owned()),
         Completion::Delayed(milliseconds) => Some(format!("The order is carried out after {milliseconds} ms.")),
         Completion::Polled { item, .. } => Some(format!("The order is carried out when {item} says so.")),
     });
-    facts.extend(own.reply_time.map(|time| format!("The reply takes about {time} ms.")));
-    if !own.accepted_in.is_empty() {
-        let states: Vec<&str> = own.accepted_in.iter().map(|state| state.as_str()).collect();
+    facts.extend(message.reply_time.map(|time| format!("The reply takes about {time} ms.")));
+    if !message.accepted_in.is_empty() {
+        let states: Vec<&str> = message.accepted_in.iter().map(|state| state.as_str()).collect();
         facts.push(format!("Accepted in the states: {}.", states.join(", ")));
     }
     facts.extend(
-        own.accepted_when.iter().map(|accepted_when| format!("Accepted only while {}.", PLAIN.holds(accepted_when))),
+        message
+            .accepted_when
+            .iter()
+            .map(|accepted_when| format!("Accepted only while {}.", PLAIN.holds(accepted_when))),
     );
-    facts.extend(own.side_effects.iter().map(|effect| lexibus_codegen::facts::words::sentence(effect)));
-    facts.extend(own.after.as_ref().map(|other| format!("Means this after {other}.")));
-    facts.extend(own.by_default.then(|| "So it is after power-on, too.".to_owned()));
+    facts.extend(message.side_effects.iter().map(|effect| lexibus_codegen::facts::words::sentence(effect)));
+    facts.extend(message.after.as_ref().map(|other| format!("Means this after {other}.")));
+    facts.extend(message.by_default.then(|| "So it is after power-on, too.".to_owned()));
     facts.extend(
-        own.error.as_ref().map(|other| format!("Where the device refuses, {other} comes instead of the reply.")),
+        message.error.as_ref().map(|other| format!("Where the device refuses, {other} comes instead of the reply.")),
     );
-    facts.extend(own.availability.as_ref().map(|availability| PLAIN.availability(availability)));
-    facts.extend(PLAIN.place(manual, "", own.documentation.as_deref(), &own.names));
+    facts.extend(message.availability.as_ref().map(|availability| PLAIN.availability(availability)));
+    facts.extend(PLAIN.place(manual, "", message.documentation.as_deref(), &message.names));
     facts.retain(|fact| !fact.is_empty());
-    let mut parts = Parts { types: &device.types, all: Vec::new(), doubts: own.doubts.to_vec() };
-    parts.fields(&own.request, 0);
+    let mut parts = Parts { types: &device.types, all: Vec::new(), doubts: message.doubts.to_vec() };
+    parts.fields(&message.request, 0);
     let request = std::mem::take(&mut parts.all);
-    parts.fields(&own.reply, 0);
+    parts.fields(&message.reply, 0);
     MessageModel {
-        anchor: names.anchor(&own.name),
-        name: own.name.to_string(),
-        names: words::names(&own.names),
+        anchor: names.anchor(&message.name),
+        name: message.name.to_string(),
+        names: words::names(&message.names),
         facts,
         doubts: entry::doubts(&parts.doubts, manual),
         request,
         reply: parts.all,
-        examples: own
+        examples: message
             .examples
             .iter()
             .map(|example| Example {
@@ -137,11 +140,11 @@ fn message(own: &Message, device: &Device, manual: &Manual, names: &mut Names) -
     }
 }
 
-/// Collects fields, those of repetitions too.
+/// Collects fields, including those of repetitions.
 struct Parts<'d> {
     types: &'d [TypeDef],
     all: Vec<Part>,
-    /// The ambiguities of the message and of its fields.
+    /// Ambiguities of the message and of its fields.
     doubts: Vec<lexibus_codegen::ir::Doubt>,
 }
 
@@ -149,7 +152,7 @@ impl Parts<'_> {
     fn fields(&mut self, fields: &[MessageField], depth: usize) {
         for field in fields {
             let part = |length: String, label: String, kind| Part { length, label, kind, depth, ..Part::default() };
-            let own = match field {
+            let part = match field {
                 MessageField::Constant(constant) => part(count(constant.len(), "byte"), bytes(constant), "c"),
                 MessageField::FixedBits { bits, value } => {
                     part(count((*bits).into(), "bit"), format!("{value:#b}").replacen("0b", "", 1), "c")
@@ -174,36 +177,38 @@ impl Parts<'_> {
                 MessageField::Rest => part(String::new(), "all that follows".to_owned(), "v"),
                 MessageField::Repeat { count: number, max, fields } => {
                     let often =
-                        number.as_ref().map_or("up to the end".to_owned(), |own| format!("as often as {own} says"));
+                        number.as_ref().map_or("up to the end".to_owned(), |count| format!("as often as {count} says"));
                     let most = max.map(|max| format!(", {max} times at most")).unwrap_or_default();
                     self.all.push(part(String::new(), format!("repeated {often}{most}:"), "r"));
                     self.fields(fields, depth + 1);
                     continue;
                 }
             };
-            self.all.push(own);
+            self.all.push(part);
         }
     }
 
-    fn value(&mut self, own: &MessageValue, depth: usize) -> Part {
-        let item = &own.item;
+    fn value(&mut self, value: &MessageValue, depth: usize) -> Part {
+        let item = &value.item;
         self.doubts.extend(item.doubts.iter().cloned());
         let basic = types::basic(self.types, item.ty);
         let (bits, labels) = bits::of_type(self.types, item.ty);
         let mut facts = vec![format!("{}.", types::name(self.types, item.ty))];
         facts.extend(
-            PLAIN.limits(&item.limits, Physical::of(item.quantity.as_deref()).as_ref()).map(|own| format!("{own}.")),
+            PLAIN
+                .limits(&item.limits, Physical::of(item.quantity.as_deref()).as_ref())
+                .map(|limits| format!("{limits}.")),
         );
         if let Some(quantity) = &item.quantity {
             let unit = PLAIN.quantity(quantity);
             facts.extend((!unit.is_empty()).then(|| format!("{}.", unit.trim_start_matches([',', ' ']))));
             facts.extend(PLAIN.notes(quantity));
         }
-        if !own.byte_order.is_empty() {
-            let order: String = own.byte_order.iter().map(|byte| char::from(b'A'.saturating_add(*byte))).collect();
+        if !value.byte_order.is_empty() {
+            let order: String = value.byte_order.iter().map(|byte| char::from(b'A'.saturating_add(*byte))).collect();
             facts.push(format!("Bytes in the order {order}, A being the most significant."));
         }
-        facts.extend(own.counts.as_ref().map(|from| format!("The number of bytes from {from} on.")));
+        facts.extend(value.counts.as_ref().map(|from| format!("The number of bytes from {from} on.")));
         facts.extend(PLAIN.description(item.documentation.as_deref()));
         let length = match basic.bits() {
             Some(bits) if bits.is_multiple_of(8) => count((bits / 8) as usize, "byte"),

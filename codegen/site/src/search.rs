@@ -1,21 +1,21 @@
-//! The index of the search, in a script that pages load when somebody searches. Many entries have the same number or text, in a
-//! site of many devices above all: each of them is written once, and looked through once.
+//! The index of the search, in a script that pages load when the reader searches. In a site of many devices, many
+//! entries have the same number or text. Each number and text is stored and searched once.
 
 use std::collections::HashMap;
 use std::fmt::Write;
 
 use super::words::one_line as line;
 
-/// So many letters of a description are found.
+/// Number of searchable characters of a description.
 const WORDS: usize = 80;
 
 /// An index of entries.
 #[derive(Debug, Default)]
 pub(super) struct Index {
-    /// Pages, each with the title of its device and its entries.
+    /// Pages with the title of their device and their entries.
     pages: Vec<Page>,
     numbers: Texts,
-    /// Name, names in other languages, unit and the start of the description, separated by tabs.
+    /// Searchable texts: name, names in other languages, unit and start of the description, separated by tabs.
     texts: Texts,
 }
 
@@ -23,19 +23,19 @@ pub(super) struct Index {
 struct Page {
     path: String,
     title: String,
-    entries: Vec<Place>,
+    entries: Vec<IndexedEntry>,
 }
 
-/// Where an entry is, and which number and text it has.
+/// An entry: its anchor, and the positions of its number and text.
 #[derive(Debug)]
-struct Place {
-    /// Its address within the page; empty where that is its number.
+struct IndexedEntry {
+    /// Anchor within the page; empty if it is equal to the number.
     anchor: String,
     number: usize,
     text: usize,
 }
 
-/// What is found.
+/// An entry of the search.
 pub(super) struct Entry<'e> {
     pub anchor: &'e str,
     pub number: &'e str,
@@ -46,74 +46,74 @@ pub(super) struct Entry<'e> {
     pub words: &'e str,
 }
 
-/// Texts, each once, in the order in which they came.
+/// A list of unique texts, in the order of their first occurrence.
 #[derive(Debug, Default)]
 struct Texts {
     all: Vec<String>,
-    places: HashMap<String, usize>,
+    positions: HashMap<String, usize>,
 }
 
 impl Texts {
-    fn place(&mut self, text: &str) -> usize {
-        if let Some(place) = self.places.get(text) {
-            return *place;
+    fn position(&mut self, text: &str) -> usize {
+        if let Some(position) = self.positions.get(text) {
+            return *position;
         }
-        let place = self.all.len();
+        let position = self.all.len();
         self.all.push(text.to_owned());
-        self.places.insert(text.to_owned(), place);
-        place
+        self.positions.insert(text.to_owned(), position);
+        position
     }
 }
 
 impl Index {
-    /// Adds a page; entries that follow are on it.
+    /// Adds a page. The following entries belong to it.
     pub fn page(&mut self, path: &str, title: &str) {
         self.pages.push(Page { path: path.to_owned(), title: title.to_owned(), entries: Vec::new() });
     }
 
-    /// Adds an entry of the last page.
+    /// Adds an entry to the last page.
     pub fn entry(&mut self, entry: &Entry<'_>) {
         let names: Vec<String> = entry.names.iter().map(|(_, name)| line(name)).collect();
         let words: String = line(entry.words).chars().take(WORDS).collect();
         let text = [line(entry.name), names.join(" | "), line(entry.unit), words].join("\t");
-        let (number, text) = (self.numbers.place(&line(entry.number)), self.texts.place(&text));
+        let (number, text) = (self.numbers.position(&line(entry.number)), self.texts.position(&text));
         let anchor = if entry.anchor == entry.number { String::new() } else { line(entry.anchor) };
         if let Some(page) = self.pages.last_mut() {
-            page.entries.push(Place { anchor, number, text });
+            page.entries.push(IndexedEntry { anchor, number, text });
         }
     }
 
-    /// Adds all that another index has, whose pages are in a folder.
+    /// Adds the pages and entries of another index, whose pages are in a folder.
     pub fn add(&mut self, other: &Index, folder: &str) {
-        let numbers: Vec<usize> = other.numbers.all.iter().map(|own| self.numbers.place(own)).collect();
-        let texts: Vec<usize> = other.texts.all.iter().map(|own| self.texts.place(own)).collect();
-        let place = |place: &Place| Place {
-            anchor: place.anchor.clone(),
-            number: numbers[place.number],
-            text: texts[place.text],
+        let numbers: Vec<usize> = other.numbers.all.iter().map(|number| self.numbers.position(number)).collect();
+        let texts: Vec<usize> = other.texts.all.iter().map(|text| self.texts.position(text)).collect();
+        let indexed = |entry: &IndexedEntry| IndexedEntry {
+            anchor: entry.anchor.clone(),
+            number: numbers[entry.number],
+            text: texts[entry.text],
         };
         self.pages.extend(other.pages.iter().map(|page| Page {
             path: format!("{folder}/{}", page.path),
             title: page.title.clone(),
-            entries: page.entries.iter().map(place).collect(),
+            entries: page.entries.iter().map(indexed).collect(),
         }));
     }
 
-    /// The script. Texts are JSON strings, so that nothing in them is code.
+    /// Returns the script. Texts are JSON strings, so no text is executed.
     pub fn script(&self) -> String {
         let json = |text: &str| serde_json::to_string(text).unwrap_or_default();
         let pages: Vec<String> =
             self.pages.iter().map(|page| format!("[{},{}]", json(&page.path), json(&page.title))).collect();
         let anchors: Vec<&str> =
-            self.pages.iter().flat_map(|page| &page.entries).map(|own| own.anchor.as_str()).collect();
+            self.pages.iter().flat_map(|page| &page.entries).map(|entry| entry.anchor.as_str()).collect();
         let lists = [&self.numbers.all.join("\n"), &self.texts.all.join("\n"), &anchors.join("\n")];
         let lists = lists.map(|list| json(list)).join(",\n");
         let mut script = format!("lexibusIndex([{}],\n{lists},\n[", pages.join(","));
         for (at, page) in self.pages.iter().enumerate() {
             script.push_str(if at == 0 { "[" } else { ",[" });
-            for (at, own) in page.entries.iter().enumerate() {
+            for (at, entry) in page.entries.iter().enumerate() {
                 let comma = if at == 0 { "" } else { "," };
-                let _ = write!(script, "{comma}{},{}", own.number, own.text);
+                let _ = write!(script, "{comma}{},{}", entry.number, entry.text);
             }
             script.push(']');
         }

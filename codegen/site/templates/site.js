@@ -1,31 +1,31 @@
 // Written by lexibus docs.
 "use strict";
-// What the index of a site, or of one device, has: pages with their titles, numbers, texts, and entries, each of which is a page,
-// an address within it, a number and a text. Texts are name, names in other languages, unit and description.
+// The index of a site or of one device: pages with their titles, numbers, texts and anchors. An entry refers to a page, a number
+// and a text, and has an anchor. A text contains name, names in other languages, unit and description.
 let pages = [], titles = [], numbers = [], texts = [], anchors = [], isLoading = false, isLoaded = false;
-// Of each entry: where it is in the lists above.
+// Positions in these lists, for each entry.
 let pageOf, numberOf, textOf;
 
-// Capitals and accents make no difference.
+// Returns a text without capitals and accents, which the search ignores.
 const plain = (text) => text.replace(/[\u00c0-\u024f]/g, (letter) => letter.normalize("NFD")[0]).toLowerCase();
 
-function lexibusIndex(list, ownNumbers, ownTexts, ownAnchors, entries) {
+function lexibusIndex(list, numberLines, textLines, anchorLines, entries) {
   pages = list.map(([path, title]) => ({ path, title }));
   titles = list.map(([, title]) => plain(title));
-  numbers = ownNumbers.split("\n").map(numberFrom);
-  texts = ownTexts.split("\n").map((line) => ({ fields: line.split("\t"), plain: plain(line).split("\t") }));
-  anchors = ownAnchors.split("\n");
+  numbers = numberLines.split("\n").map(numberFrom);
+  texts = textLines.split("\n").map((line) => ({ fields: line.split("\t"), plain: plain(line).split("\t") }));
+  anchors = anchorLines.split("\n");
   [pageOf, numberOf, textOf] = [0, 1, 2].map(() => new Uint32Array(anchors.length));
   let at = 0;
-  for (const [page, own] of entries.entries()) {
-    for (let next = 0; next < own.length; next += 2, at++) [pageOf[at], numberOf[at], textOf[at]] = [page, own[next], own[next + 1]];
+  for (const [page, pairs] of entries.entries()) {
+    for (let next = 0; next < pairs.length; next += 2, at++) [pageOf[at], numberOf[at], textOf[at]] = [page, pairs[next], pairs[next + 1]];
   }
   isLoaded = true;
   lead();
   search();
 }
 
-// `0x6040:01`, `register 12–13 (wire 11–12)`, `0x6100 to 0x61FF`: what is written, and the first and last number of each range.
+// Parses `0x6040:01`, `register 12–13 (wire 11–12)` or `0x6100 to 0x61FF`: the text, and the first and last number of each range.
 function numberFrom(text) {
   const range = (pattern) => {
     const [, first, last] = plain(text).match(pattern) || [];
@@ -35,7 +35,7 @@ function numberFrom(text) {
   return { text, plain: plain(text), ranges: [printed, range(/\(wire (0x[0-9a-f]+|[0-9]+)(?:–(0x[0-9a-f]+|[0-9]+))?\)/)] };
 }
 
-// The folder of the index, where that isn't the page's.
+// The folder of the index if it differs from that of the page.
 const folder = document.documentElement.dataset.index || "";
 const byId = (id) => document.getElementById(id);
 const input = byId("search"), found = byId("found");
@@ -48,20 +48,20 @@ function load() {
   document.head.append(script);
 }
 
-// What numbers a word may be: indices are written without 0x, too.
+// Returns the numbers that a word can mean. Readers also write indices without 0x.
 function values(word) {
   const all = /^(0x[0-9a-f]+|[0-9]+)$/.test(word) ? [Number(word)] : [];
   return /^[0-9a-f]{4}$/.test(word) ? [...all, parseInt(word, 16)] : all;
 }
 
-// Points of a number, of a text and of a title for a word; 0 where it isn't there.
-function numberPoints(own, { word, hex, values }) {
-  if (own.plain === word || own.plain === hex) return 150;
-  for (const { first, last } of own.ranges) {
-    if (values.includes(first)) return own.plain.includes(":") ? 90 : 100;
+// Returns the points of a number for a word; 0 if it does not contain the word.
+function numberPoints(number, { word, hex, values }) {
+  if (number.plain === word || number.plain === hex) return 150;
+  for (const { first, last } of number.ranges) {
+    if (values.includes(first)) return number.plain.includes(":") ? 90 : 100;
     if (values.some((value) => first < value && value <= last)) return 60;
   }
-  return own.plain.includes(word) ? 20 : 0;
+  return number.plain.includes(word) ? 20 : 0;
 }
 
 function textPoints([name, names, ...rest], word) {
@@ -79,15 +79,15 @@ function each(list, points) {
   return all;
 }
 
-// Points for a word by number, by text and by page. Words that stay while the next one is typed are known.
+// The points of all numbers, texts and titles for a word. They are cached, because words stay while the reader types the next one.
 const known = new Map();
 
 function pointsOf(word) {
   if (!known.has(word)) {
     if (known.size > 20) known.clear();
-    const own = { word, hex: "0x" + word, values: values(word) };
+    const query = { word, hex: "0x" + word, values: values(word) };
     known.set(word, {
-      numbers: each(numbers, (number) => numberPoints(number, own)),
+      numbers: each(numbers, (number) => numberPoints(number, query)),
       texts: each(texts, (text) => textPoints(text.plain, word)),
       titles: each(titles, (title) => Number(title.includes(word))),
     });
@@ -95,35 +95,36 @@ function pointsOf(word) {
   return known.get(word);
 }
 
-// So many results are shown.
+// Maximum number of results.
 const MOST = 50;
 
-// Adds the points of a word to those of each entry, which have none any more where it is neither in them nor in the title.
+// Adds the points of a word to each entry. An entry is excluded (-1) if neither it nor the title contains the word.
 function add({ numbers, texts, titles }, sums) {
   for (let entry = 0; entry < sums.length; entry++) {
-    const own = numbers[numberOf[entry]] + texts[textOf[entry]];
-    sums[entry] = sums[entry] < 0 || own === 0 && titles[pageOf[entry]] === 0 ? -1 : sums[entry] + own;
+    const points = numbers[numberOf[entry]] + texts[textOf[entry]];
+    sums[entry] = sums[entry] < 0 || points === 0 && titles[pageOf[entry]] === 0 ? -1 : sums[entry] + points;
   }
 }
 
-// Entries that have each of the words, the best first, and of equally good ones the first. What is in titles alone is none.
+// Returns the entries that match all words, the best first; equal ones are in the order of the index. A match in the title alone
+// gives no result.
 function matches(query) {
   const words = plain(query).split(/\s+/).filter(Boolean), best = [];
   if (!words.length || !isLoaded) return best;
   const sums = new Int32Array(anchors.length);
   for (const word of words) add(pointsOf(word), sums);
-  for (let entry = 0, least = 0; entry < sums.length; entry++) {
-    if (sums[entry] > least) least = insert(best, { points: sums[entry], entry });
+  for (let entry = 0, minimum = 0; entry < sums.length; entry++) {
+    if (sums[entry] > minimum) minimum = insert(best, { points: sums[entry], entry });
   }
-  // A row has an entry for each of its addresses; the best one is shown.
+  // A row has an entry for each of its addresses. Only the best one is shown.
   const links = new Set();
   return best.map(({ entry }) => entry).filter((entry) => !links.has(linkOf(entry)) && links.add(linkOf(entry))).slice(0, MOST);
 }
 
-// Gives the points that a further entry has to surpass.
-function insert(best, own) {
-  const place = best.findIndex((other) => other.points < own.points);
-  best.splice(place < 0 ? best.length : place, 0, own);
+// Inserts an entry. Returns the points that a further entry must exceed.
+function insert(best, match) {
+  const position = best.findIndex((other) => other.points < match.points);
+  best.splice(position < 0 ? best.length : position, 0, match);
   if (best.length > 4 * MOST) best.pop();
   return best.length === 4 * MOST ? best[best.length - 1].points : 0;
 }
@@ -132,9 +133,9 @@ const anchorOf = (entry) => anchors[entry] || numbers[numberOf[entry]].text;
 const linkOf = (entry) => folder + pages[pageOf[entry]].path + "#" + encodeURIComponent(anchorOf(entry));
 
 let selected = 0;
-const said = document.createElement("p");
-said.setAttribute("role", "status");
-found.after(said);
+const announcement = document.createElement("p");
+announcement.setAttribute("role", "status");
+found.after(announcement);
 
 function search() {
   const list = matches(input.value);
@@ -154,14 +155,14 @@ function search() {
   }));
   found.hidden = !list.length;
   input.setAttribute("aria-expanded", String(list.length > 0));
-  said.textContent = list.length || !isLoaded || !input.value.trim() ? "" : "Nothing found.";
+  announcement.textContent = list.length || !isLoaded || !input.value.trim() ? "" : "Nothing found.";
   select(0);
 }
 
 function select(at) {
   const items = found.querySelectorAll("a");
   selected = Math.max(0, Math.min(at, items.length - 1));
-  for (const [place, item] of [...items].entries()) item.setAttribute("aria-selected", String(place === selected));
+  for (const [position, item] of [...items].entries()) item.setAttribute("aria-selected", String(position === selected));
   if (items[selected]) {
     input.setAttribute("aria-activedescendant", items[selected].id);
     items[selected].scrollIntoView({ block: "nearest" });
@@ -172,7 +173,7 @@ function select(at) {
 
 function close() {
   found.hidden = true;
-  said.textContent = "";
+  announcement.textContent = "";
   input.setAttribute("aria-expanded", "false");
 }
 
@@ -199,7 +200,7 @@ document.addEventListener("keydown", (event) => {
   }
 });
 
-// What was chosen stays chosen, where the browser keeps anything.
+// Stores a choice of the reader and returns it. Some browsers store nothing.
 const kept = (key, value) => {
   try {
     if (value !== undefined) localStorage.setItem(key, value);
@@ -214,13 +215,13 @@ byId("theme").addEventListener("click", () => {
   root.dataset.theme = kept("theme", dark ? "light" : "dark");
 });
 
-// Names and descriptions in the language that is chosen: of elements that have none in it, the name of the description.
+// Shows names and descriptions in the selected language. Elements without a name in it keep the name of the source.
 function names(language) {
-  for (const own of document.querySelectorAll(":is(i, p)[lang]")) own.hidden = language !== "" && own.lang !== language;
-  for (const own of document.querySelectorAll("b:has(+ i[lang])")) {
+  for (const text of document.querySelectorAll(":is(i, p)[lang]")) text.hidden = language !== "" && text.lang !== language;
+  for (const name of document.querySelectorAll("b:has(+ i[lang])")) {
     const others = [];
-    for (let next = own.nextElementSibling; next && next.matches("i[lang]"); next = next.nextElementSibling) others.push(next);
-    own.hidden = others.some((other) => other.lang === language);
+    for (let next = name.nextElementSibling; next && next.matches("i[lang]"); next = next.nextElementSibling) others.push(next);
+    name.hidden = others.some((other) => other.lang === language);
   }
 }
 const language = byId("language");
@@ -230,7 +231,7 @@ if (language) {
   language.addEventListener("change", () => names(kept("language", language.value)));
 }
 
-// What a program writes is copied with a button, which only pages with a script have.
+// Adds copy buttons to lines of code. Pages without a script don't need them.
 for (const code of document.querySelectorAll("p > code:only-child")) {
   const button = document.createElement("button");
   button.type = "button";
@@ -242,7 +243,7 @@ for (const code of document.querySelectorAll("p > code:only-child")) {
   code.after(" ", button);
 }
 
-// What is wider than the page is scrolled in its own box, which the keyboard reaches then.
+// Lets the keyboard reach elements that are wider than the page and scroll.
 const boxes = new ResizeObserver((list) => {
   for (const { target } of list) {
     if (target.scrollWidth > target.clientWidth) target.tabIndex = 0;
@@ -251,22 +252,22 @@ const boxes = new ResizeObserver((list) => {
 });
 for (const box of document.querySelectorAll(".wide, pre")) boxes.observe(box);
 
-// Of many pages, the one that is open is in sight.
+// Scrolls the list of pages to the open page.
 const open = document.querySelector("nav [aria-current]");
 if (open) open.parentElement.scrollTop = open.offsetTop - open.parentElement.offsetTop - open.offsetHeight;
 
-// The address that is wanted, where this page hasn't it.
-function wanted() {
+// Returns the address in the URL if this page does not have it.
+function missingAddress() {
   let address = location.hash.slice(1);
-  try { address = decodeURIComponent(address); } catch { /* Then it is no text in UTF-8, and stays what it is. */ }
+  try { address = decodeURIComponent(address); } catch { /* The address is not UTF-8 and stays as it is. */ }
   return document.getElementById(address) ? "" : plain(address);
 }
 
-// Leads to the page that has it; an entry may be in the row of its object.
+// Opens the page that has the address. An entry can be in the row of its object.
 function lead() {
-  const address = wanted();
-  for (const own of address ? [address, address.split(":")[0]] : []) {
-    const entry = anchors.findIndex((_, entry) => plain(anchorOf(entry)) === own);
+  const address = missingAddress();
+  for (const candidate of address ? [address, address.split(":")[0]] : []) {
+    const entry = anchors.findIndex((_, entry) => plain(anchorOf(entry)) === candidate);
     if (entry < 0) continue;
     location.replace(linkOf(entry));
     return;
@@ -275,7 +276,7 @@ function lead() {
 
 function leadOrLoad() {
   if (isLoaded) lead();
-  else if (wanted()) load();
+  else if (missingAddress()) load();
 }
 addEventListener("hashchange", leadOrLoad);
 leadOrLoad();

@@ -1,4 +1,4 @@
-//! Findings for programs: JSON lines.
+//! Diagnostics for programs, as JSON lines.
 
 use serde::Serialize;
 
@@ -6,7 +6,7 @@ use lexibus_codegen::diagnostics::render::place::{self, Place};
 use lexibus_codegen::diagnostics::{Diagnostic, Note, Severity};
 use lexibus_codegen::source::Source;
 
-/// A finding; what there is none of is `null`, so that every line has every key.
+/// A diagnostic. Missing values are `null`, so that every line has every key.
 #[derive(Serialize)]
 struct Line<'a> {
     code: &'a str,
@@ -38,12 +38,12 @@ struct NoteLine<'a> {
     column: Option<u32>,
 }
 
-/// The finding as one JSON object without a line feed in or behind it.
+/// Returns the diagnostic as one line of JSON, without a line feed.
 ///
-/// Lines and columns count from 1, columns in characters; `end_column`, like `end`, is one past the last. `start` and
-/// `end` are bytes of the file's text as decoded to UTF-8, without a byte order mark. `source` is the line on which
-/// the marked text starts; one of over 200 characters is shortened around the mark, with `…` for what is left out.
-/// A finding about a file as a whole has a `file` and no place.
+/// Lines and columns count from 1, columns in characters. `end_column` and `end` are exclusive. `start` and `end` are
+/// byte offsets in the file's text, decoded to UTF-8 without a byte order mark. `source` is the line on which the
+/// marked text starts. A line of over 200 characters is shortened around the mark, with `…` for the omitted text. A
+/// diagnostic of a whole file has a `file` and no position.
 pub fn line(diagnostic: &Diagnostic, sources: &[Source]) -> String {
     let place = Place::of(diagnostic.span, sources);
     let mark = place.and_then(|place| place.mark);
@@ -65,7 +65,7 @@ pub fn line(diagnostic: &Diagnostic, sources: &[Source]) -> String {
         help: diagnostic.help.as_deref(),
         fix: diagnostic.fix.as_deref(),
     };
-    super::escaped(serde_json::to_string(&line).expect("strings and numbers serialise"))
+    super::escaped(serde_json::to_string(&line).expect("strings and numbers serialize"))
 }
 
 fn notes<'a>(diagnostic: &'a Diagnostic, sources: &'a [Source]) -> Vec<NoteLine<'a>> {
@@ -89,7 +89,7 @@ mod tests {
     use lexibus_codegen::source::{FileId, Span};
 
     #[test]
-    fn a_finding_has_all_of_its_parts() {
+    fn a_line_has_all_parts_of_a_diagnostic() {
         let sources = [Source::new("a/drive.eds", b"[1018]\r\nGer\xe4t=012\r\n".to_vec())];
         let diagnostic = Diagnostic::new(&codes::OCTAL_NUMBER, Span::new(FileId(0), 15, 18), "`012` is octal")
             .label("read as 10")
@@ -102,7 +102,7 @@ mod tests {
     }
 
     #[test]
-    fn what_there_is_none_of_is_null() {
+    fn missing_values_are_null() {
         let diagnostic = Diagnostic::new(&codes::NOT_AN_EDS, Span::default(), "no section\n\u{9b}2J\u{1b}");
         insta::assert_snapshot!(line(&diagnostic, &[]), @r#"{"code":"EDS002","name":"not-an-eds","severity":"error","message":"no section\n\u009b2J\u001b","file":null,"line":null,"column":null,"end_line":null,"end_column":null,"start":null,"end":null,"source":null,"label":null,"notes":[],"help":null,"fix":null}"#);
         let sources = [Source::new("x.eds", Vec::new())];
@@ -110,7 +110,7 @@ mod tests {
     }
 
     #[test]
-    fn any_span_is_a_place() {
+    fn any_span_has_a_position() {
         let text = format!("{}€{}", "x".repeat(500), "y".repeat(500));
         let sources = [Source::new("x.eds", text.into_bytes())];
         for (start, end) in [(501, 502), (0, u32::MAX), (u32::MAX - 1, u32::MAX), (7, 3)] {

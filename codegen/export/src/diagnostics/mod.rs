@@ -1,15 +1,15 @@
 //! Diagnostics for other programs: JSON lines and SARIF.
 //!
-//! None of the functions panics, whatever the span of a diagnostic is.
+//! No function panics, whatever the span of a diagnostic is.
 
 pub mod json;
 pub mod sarif;
 
 use lexibus_codegen::text::steers;
 
-/// JSON in which characters that steer a terminal, and that JSON allows in a string, are escaped too.
+/// Escapes control characters that JSON allows in strings and that a terminal would interpret.
 ///
-/// They can only stand inside of a string, where an escape is as good.
+/// They occur only in strings, where an escape means the same.
 pub(crate) fn escaped(json: String) -> String {
     if !json.contains(steers) {
         return json;

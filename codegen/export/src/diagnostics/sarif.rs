@@ -1,6 +1,6 @@
-//! Findings for code-scanning services and editors: SARIF 2.1.0.
+//! Diagnostics for code-scanning services and editors, as SARIF 2.1.0.
 //!
-//! The names of the structures and fields are those of the OASIS standard; what Lexibus has no use for is left out.
+//! The structures and fields are named as in the OASIS standard. Fields that Lexibus does not use are missing.
 
 use std::collections::BTreeMap;
 
@@ -10,7 +10,7 @@ use lexibus_codegen::diagnostics::render::place::{Mark, Place};
 use lexibus_codegen::diagnostics::{Code, Diagnostic, Level, Note, Severity};
 use lexibus_codegen::source::Source;
 
-/// Marked text of more bytes isn't repeated in the log.
+/// Maximum length of marked text that the log repeats, in bytes.
 const MAX_SNIPPET: usize = 1000;
 
 #[derive(Serialize)]
@@ -64,7 +64,7 @@ struct Message<'a> {
     text: std::borrow::Cow<'a, str>,
 }
 
-/// A `result`.
+/// A `result` of SARIF.
 #[derive(Serialize)]
 #[serde(rename_all = "camelCase")]
 struct Outcome<'a> {
@@ -132,11 +132,11 @@ struct Replacement<'a> {
     inserted_content: Message<'a>,
 }
 
-/// The findings as a SARIF 2.1.0 log of one run of `lexibus` version `tool_version`.
+/// Returns the diagnostics as a SARIF 2.1.0 log of one run of `lexibus` version `tool_version`.
 ///
-/// The rules are the codes that occur, in the order in which they first do. Facts without a place, and help without a
-/// fix, follow the message on lines of their own, as SARIF has no field for them. Names of files become URIs: relative
-/// ones stay relative to the working directory, absolute ones become `file:` URIs.
+/// The rules are the codes that occur, in the order of their first occurrence. SARIF has no field for notes without a
+/// position or for help without a fix; they follow the message on separate lines. File names become URIs: relative ones
+/// stay relative to the working directory, absolute ones become `file:` URIs.
 pub fn document(diagnostics: &[Diagnostic], sources: &[Source], tool_version: &str) -> String {
     let (mut rules, mut indices) = (Vec::new(), BTreeMap::new());
     let mut results = Vec::with_capacity(diagnostics.len());
@@ -150,12 +150,12 @@ pub fn document(diagnostics: &[Diagnostic], sources: &[Source], tool_version: &s
     let run = Run {
         tool: Tool { driver: Driver { name: "lexibus", version: tool_version, rules } },
         column_kind: "unicodeCodePoints",
-        // A reader takes the first that matches, so that the longest has to come first.
+        // The longest sequence is first, because a reader uses the first one that matches.
         newline_sequences: ["\r\n", "\n", "\r"],
         results,
     };
     let log = Log { schema: "https://json.schemastore.org/sarif-2.1.0.json", version: "2.1.0", runs: [run] };
-    super::escaped(serde_json::to_string(&log).expect("strings and numbers serialise"))
+    super::escaped(serde_json::to_string(&log).expect("strings and numbers serialize"))
 }
 
 fn rule(code: &'static Code) -> Rule {
@@ -191,7 +191,7 @@ fn outcome<'a>(diagnostic: &'a Diagnostic, sources: &'a [Source], rule_index: us
     }
 }
 
-/// The message and all that has no field of its own.
+/// Returns the message with everything that SARIF has no field for.
 fn full_message(diagnostic: &Diagnostic, sources: &[Source], with_help: bool) -> String {
     let mut text = diagnostic.message.clone();
     for note in &diagnostic.notes {
@@ -246,7 +246,7 @@ fn artifact(source: &Source) -> ArtifactLocation {
     ArtifactLocation { uri: uri(source.name(), cfg!(windows)) }
 }
 
-/// A file's name as a URI; `windows` says by which rules to read the name.
+/// Returns the name of a file as a URI; `windows` selects the rules for paths.
 fn uri(name: &str, windows: bool) -> String {
     let name = if windows { name.replace('\\', "/") } else { name.to_owned() };
     let name = name.strip_prefix("//?/").filter(|_| windows).unwrap_or(&name);
@@ -262,7 +262,7 @@ fn uri(name: &str, windows: bool) -> String {
     }
 }
 
-/// Everything but the unreserved characters of RFC 3986 and `/` as `%XX`.
+/// Encodes all bytes as `%XX`, except the unreserved characters of RFC 3986 and `/`.
 fn percent_encoded(text: &str) -> String {
     let mut encoded = String::with_capacity(text.len());
     for byte in text.bytes() {
@@ -275,7 +275,7 @@ fn percent_encoded(text: &str) -> String {
     encoded
 }
 
-/// `octal-number` as `OctalNumber`.
+/// Converts `octal-number` to `OctalNumber`.
 fn pascal_case(name: &str) -> String {
     let word = |word: &str| {
         let mut letters = word.chars();
@@ -290,13 +290,13 @@ mod tests {
     use lexibus_codegen::diagnostics::codes;
     use lexibus_codegen::source::{FileId, Span};
 
-    /// Indented, for people to compare.
+    /// Returns the log as a JSON value for snapshots.
     fn log(diagnostics: &[Diagnostic], sources: &[Source]) -> serde_json::Value {
         serde_json::from_str(&document(diagnostics, sources, "1.2.3")).unwrap()
     }
 
     #[test]
-    fn a_log_without_findings_is_complete() {
+    fn a_log_without_diagnostics_is_complete() {
         insta::assert_snapshot!(document(&[], &[], "1.2.3"), @r#"{"$schema":"https://json.schemastore.org/sarif-2.1.0.json","version":"2.1.0","runs":[{"tool":{"driver":{"name":"lexibus","version":"1.2.3","rules":[]}},"columnKind":"unicodeCodePoints","newlineSequences":["\r\n","\n","\r"],"results":[]}]}"#);
     }
 
@@ -332,7 +332,7 @@ mod tests {
     }
 
     #[test]
-    fn a_result_has_places_notes_and_a_fix() {
+    fn a_result_has_locations_notes_and_a_fix() {
         let sources = [Source::new("my files/Gerät.eds", "[1018]\r\nGerät=012\r\n".into())];
         let diagnostic = Diagnostic::new(&codes::OCTAL_NUMBER, Span::new(FileId(0), 15, 18), "`012` is octal")
             .label("read as 10")
@@ -422,7 +422,7 @@ mod tests {
     }
 
     #[test]
-    fn what_has_no_place_is_in_the_message() {
+    fn facts_without_a_field_are_in_the_message() {
         let diagnostic =
             Diagnostic::new(&codes::NOT_AN_EDS, Span::default(), "no section").help("take another").fix("[1000]");
         let sources = [Source::new("/drives/x y.eds", Vec::new())];

@@ -1,29 +1,30 @@
-//! Objects of equal elements, which CiA 306 describes at once with CompactSubObj.
+//! Objects of equal elements, which CiA 306 describes in one section with CompactSubObj.
 
 use crate::note;
 use lexibus_codegen::ir::{Access, Group, Item, Limits, Mappable, ObjectCode, Type, Value};
 
-/// The name that sub-index 0 has where nobody describes it (CiA 306).
+/// The name of sub-index 0 if the file does not describe it (CiA 306).
 const COUNT_NAME: &str = "NrOfObjects";
 
-/// The elements of such an object.
+/// The elements of a compact object.
 pub(super) struct Elements<'g> {
     group: &'g Group,
-    /// How many there are, sub-index 0 apart.
+    /// Number of elements, without sub-index 0.
     pub(super) count: u8,
-    /// What all of them are.
+    /// The first element, which all others equal.
     pub(super) template: &'g Item,
 }
 
-/// The elements of `group`, if the source declares them at the object itself, and reading CompactSubObj gives just these.
+/// Returns the elements of `group` if the source declares them at the object itself and CompactSubObj expresses them
+/// exactly.
 ///
-/// Others that happen to be alike stay as they are: not every reader of EDS files knows CompactSubObj well.
+/// Other objects with equal elements keep their sections, because not every reader of EDS files supports CompactSubObj.
 pub(super) fn elements(group: &Group) -> Option<Elements<'_>> {
     let (count_item, items) = group.items.split_first()?;
     let count = u8::try_from(items.len()).ok().filter(|&count| (1..=254).contains(&count))?;
     let template = items.first()?;
     let is_in_place =
-        |(item, sub): (&Item, u8)| item.origin == group.origin && item.object().is_some_and(|(_, own)| own == sub);
+        |(item, sub): (&Item, u8)| item.origin == group.origin && item.object().is_some_and(|(_, index)| index == sub);
     let fits = group.object_code() == Some(ObjectCode::Array)
         && group.origin.line > 0
         && group.flags == template.flags
@@ -34,7 +35,7 @@ pub(super) fn elements(group: &Group) -> Option<Elements<'_>> {
     fits.then_some(Elements { group, count, template })
 }
 
-/// Whether sub-index 0 is what follows from the number of elements.
+/// Returns whether sub-index 0 has the value and facts that CompactSubObj implies.
 fn is_count(item: &Item, count: u8) -> bool {
     item.name == COUNT_NAME
         && item.ty == Type::Unsigned(8)
@@ -44,10 +45,10 @@ fn is_count(item: &Item, count: u8) -> bool {
         && item.limits == Limits::default()
         && item.flags == 0
         && item.configured.is_none()
-        && says_nothing_more(item)
+        && has_no_other_facts(item)
 }
 
-/// Whether two elements differ in nothing but name and configured value.
+/// Returns whether two elements differ only in name and configured value.
 fn is_like(item: &Item, other: &Item) -> bool {
     let is_configured_alike = item
         .configured
@@ -61,11 +62,11 @@ fn is_like(item: &Item, other: &Item) -> bool {
         && item.flags == other.flags
         && is_configured_alike
         && !item.name.is_empty()
-        && says_nothing_more(item)
+        && has_no_other_facts(item)
 }
 
-/// Whether an element has nothing that would need a section of its own, or a note of its own.
-fn says_nothing_more(item: &Item) -> bool {
+/// Returns whether an element has no fact that requires a separate section or a note.
+fn has_no_other_facts(item: &Item) -> bool {
     item.extensions.is_empty()
         && item.names.is_empty()
         && item.bindings.len() == 1
@@ -82,7 +83,7 @@ impl Elements<'_> {
         self.group.items.iter().skip(1).filter_map(|item| Some((item.object()?.1, item)))
     }
 
-    /// Names that don't follow from the object's.
+    /// Returns the names that don't follow from the name of the object.
     pub(super) fn names(&self) -> Vec<(u8, String)> {
         let follows = |sub: u8, item: &Item| {
             let number = item.name.strip_prefix(self.group.name.as_str());
@@ -92,18 +93,18 @@ impl Elements<'_> {
         others.map(|(sub, item)| (sub, super::writer::quoted(&item.name).into_owned())).collect()
     }
 
-    /// Configured values.
+    /// Returns the configured values.
     pub(super) fn values(&self, text: impl Fn(&Value) -> Option<String>) -> Vec<(u8, String)> {
         let text = |item: &Item| text(item.configured.as_ref()?.value.as_ref()?);
         self.numbered().filter_map(|(sub, item)| Some((sub, text(item)?))).collect()
     }
 
-    /// How many have something configured.
+    /// Returns the number of configured elements.
     pub(super) fn configured(&self) -> usize {
         self.numbered().filter(|(_, item)| item.configured.is_some()).count()
     }
 
-    /// Names of elements in the application.
+    /// Returns the names that the elements have in the application.
     pub(super) fn denotations(&self) -> Vec<(u8, String)> {
         let text = |item: &Item| Some(item.configured.as_ref()?.denotation.as_ref()?.to_string());
         self.numbered().filter_map(|(sub, item)| Some((sub, text(item)?))).collect()

@@ -1,24 +1,26 @@
-//! Types as the numbers of CiA 301.
+//! Data types as the numbers of CiA 301.
 
 use super::note::NoteKind;
 use lexibus_codegen::ir::{Shape, Type, TypeDef};
 
-/// How many names a type may have on the way to what it is.
+/// Maximum number of names between a type and its basic type.
 const MAX_DEPTH: usize = 8;
 
-/// What an entry of a type is written as.
+/// How an EDS writes the type of an entry.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct DataType {
-    /// Its number; none where the source gives no type.
+    /// Number of the type; `None` if the source gives no type.
     pub(super) code: Option<u32>,
-    /// The type of its values in the file.
+    /// The type of the values in the file.
     pub(super) ty: Type,
-    /// What was lost.
+    /// The fact that was changed or left out.
     pub(super) note: Option<NoteKind>,
 }
 
-/// What `ty` is written as. On CANopen an unknown type keeps its number, which may mean something to others; and what had no
-/// type in a file of CiA 306 (`is_verbatim`) has none again.
+/// Returns how an EDS writes `ty`.
+///
+/// On CANopen an unknown type keeps its number, which other tools may know. An entry of a CiA 306 file (`is_verbatim`)
+/// without a type stays without one.
 pub(super) fn data_type(ty: Type, types: &[TypeDef], is_canopen: bool, is_verbatim: bool) -> DataType {
     let (ty, mut note) = resolved(ty, types);
     let widened = |bits: u8| bits.clamp(1, 64).div_ceil(8) * 8;
@@ -45,7 +47,7 @@ pub(super) fn data_type(ty: Type, types: &[TypeDef], is_canopen: bool, is_verbat
     DataType { code: code(ty), ty, note }
 }
 
-/// What a defined type is below its names, bits and values.
+/// Returns the basic type of a defined type.
 fn resolved(mut ty: Type, types: &[TypeDef]) -> (Type, Option<NoteKind>) {
     let mut note = None;
     for _ in 0..MAX_DEPTH {
@@ -74,7 +76,7 @@ fn resolved(mut ty: Type, types: &[TypeDef]) -> (Type, Option<NoteKind>) {
     (ty, note)
 }
 
-/// The number of a basic type in CiA 301.
+/// Returns the number of a basic type in CiA 301.
 fn code(ty: Type) -> Option<u32> {
     Some(match ty {
         Type::Boolean => 0x01,
@@ -121,7 +123,7 @@ mod tests {
     }
 
     #[test]
-    fn what_canopen_does_not_have() {
+    fn types_that_canopen_does_not_have() {
         let shape = |shape| TypeDef {
             name: "T".into(),
             code: None,

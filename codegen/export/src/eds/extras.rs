@@ -1,7 +1,7 @@
-//! Extension attributes and comments of the device: which section each one goes into.
+//! Extension attributes and comments of the device, and the sections that contain them.
 //!
-//! The IR has them as `section/key`, those of the header first, in the order of the source; the file has them in the
-//! section that they name, and the sections of the header in the order in which they are named.
+//! The IR lists them as `section/key`, those of the header first, in the order of the source. The file has them in the
+//! section that their key names. The sections of the header are in the order of their first attribute.
 
 use super::note::{NoteKind, Notes, Subject};
 use super::writer::Writer;
@@ -24,7 +24,7 @@ pub(super) enum Header {
     Manufacturer,
 }
 
-/// In the order in which the standard introduces them.
+/// All sections, in the order of the standard.
 const HEADERS: [Header; 11] = [
     Header::FileInfo,
     Header::DeviceInfo,
@@ -46,7 +46,7 @@ impl Header {
             Header::DeviceInfo => "DeviceInfo",
             Header::DummyUsage => "DummyUsage",
             Header::Comments => "Comments",
-            // The standard's own spelling.
+            // The standard spells it this way.
             Header::Commissioning => "DeviceComissioning",
             Header::SupportedModules => "SupportedModules",
             Header::ConnectedModules => "ConnectedModules",
@@ -57,7 +57,7 @@ impl Header {
         }
     }
 
-    /// Whether only a DCF has it.
+    /// Returns whether only a DCF has this section.
     fn configures(self) -> bool {
         matches!(self, Header::Commissioning | Header::ConnectedModules)
     }
@@ -74,9 +74,9 @@ pub(super) struct Extra<'a> {
 pub(super) struct Extras<'a> {
     /// Comments above the first section.
     pub(super) preamble: Vec<&'a Extension>,
-    /// Those of the header, in their order.
+    /// Attributes of header sections, in their order.
     header: Vec<(Header, Extra<'a>)>,
-    /// Those of other sections, in their order.
+    /// Attributes of other sections, in their order.
     unknown: Vec<(&'a str, Extra<'a>)>,
 }
 
@@ -105,14 +105,14 @@ impl<'a> Extras<'a> {
                 notes.add(NoteKind::Configuration, Subject::Named(&extension.key));
             }
             Some(header) => self.header.push((header, extra)),
-            // Elsewhere a slash leads to an element of XML.
+            // In other formats, a slash separates the names of nested XML elements.
             None if context.is_verbatim && !section.contains(['[', ']']) => self.unknown.push((section, extra)),
             None => notes.add(NoteKind::Extension, Subject::Named(&extension.key)),
         }
     }
 
-    /// The sections of the header: those that have extension attributes in the order of these, in the places that the
-    /// standard's order leaves them.
+    /// Returns the sections of the header. Those with extension attributes are in the order of these attributes; the
+    /// others keep their position in the order of the standard.
     pub(super) fn order(&self) -> Vec<Header> {
         let mut mentioned: Vec<Header> = Vec::new();
         for (header, _) in &self.header {
@@ -125,12 +125,12 @@ impl<'a> Extras<'a> {
         HEADERS.into_iter().filter_map(in_place).collect()
     }
 
-    /// The extension attributes of a section of the header.
+    /// Returns the extension attributes of a section of the header.
     pub(super) fn of(&self, header: Header) -> impl Iterator<Item = Extra<'a>> + Clone + use<'_, 'a> {
         self.header.iter().filter(move |(other, _)| *other == header).map(|&(_, extra)| extra)
     }
 
-    /// Sections of which CiA 306 knows nothing, and those about objects that aren't described.
+    /// Writes the sections that CiA 306 does not define, and those about objects without a description.
     pub(super) fn write_unknown(&self, writer: &mut Writer) {
         let mut last = None;
         for &(section, extra) in &self.unknown {

@@ -1,7 +1,7 @@
-//! `[FileInfo]`.
+//! The section `[FileInfo]`.
 //!
-//! A file of CiA 306 says of itself again what it said. One of another format has dates as ISO 8601 writes them, and
-//! perhaps no version at all: these are made to fit.
+//! The export of a CiA 306 file keeps the facts of its source. Other formats have dates in ISO 8601 and may have no
+//! version; these are converted or completed.
 
 use super::extras::Header;
 use super::note::{NoteKind, Subject};
@@ -9,14 +9,14 @@ use super::section::Section;
 use super::{Context, Flavour};
 use lexibus_codegen::ir;
 
-/// EDSVersion of what is made of another format: the sections and keys are those of CiA 306 1.3.
+/// EDSVersion of files that are converted from another format. They use the sections and keys of CiA 306 1.3.
 const VERSION: &str = "4.0";
 
 pub(super) fn write(out: &mut Section<'_>, context: &Context<'_>) {
     let subject = Subject::Named(Header::FileInfo.name());
     let given = &context.device.header;
-    let made = (!context.is_verbatim).then(|| made(given, context, out));
-    let header = made.as_ref().unwrap_or(given);
+    let converted = (!context.is_verbatim).then(|| convert(given, context, out));
+    let header = converted.as_ref().unwrap_or(given);
     let entries = [
         ("FileName", &header.file_name),
         ("FileVersion", &header.file_version),
@@ -40,8 +40,8 @@ pub(super) fn write(out: &mut Section<'_>, context: &Context<'_>) {
     }
 }
 
-/// A header that CiA 306 allows, of one of another format.
-fn made(given: &ir::Header, context: &Context<'_>, out: &mut Section<'_>) -> ir::Header {
+/// Converts the header of another format to one that CiA 306 allows.
+fn convert(given: &ir::Header, context: &Context<'_>, out: &mut Section<'_>) -> ir::Header {
     let name = if given.file_name.is_empty() { context.file_name } else { &given.file_name };
     let name = name.rsplit(['/', '\\']).next().unwrap_or_default();
     let stem = name.rsplit_once('.').map_or(name, |(stem, _)| stem);
@@ -73,7 +73,7 @@ fn made(given: &ir::Header, context: &Context<'_>, out: &mut Section<'_>) -> ir:
     header
 }
 
-/// `mm-dd-yyyy` of `yyyy-mm-dd`, behind which a time zone may stand.
+/// Converts `yyyy-mm-dd`, with an optional time zone, to `mm-dd-yyyy`.
 fn date(text: &str) -> Option<String> {
     let mut parts = text.get(..10)?.split('-');
     let [year, month, day] = [parts.next()?, parts.next()?, parts.next()?];
@@ -81,7 +81,7 @@ fn date(text: &str) -> Option<String> {
     (is_number(year, 4) && is_number(month, 2) && is_number(day, 2)).then(|| format!("{month}-{day}-{year}"))
 }
 
-/// `hh:mm` and AM or PM of `hh:mm:ss`, behind which fractions and a time zone may stand.
+/// Converts `hh:mm:ss`, with optional fractions and time zone, to `hh:mm` with AM or PM.
 fn time(text: &str) -> Option<String> {
     let (hours, rest) = text.split_once(':')?;
     let hours: u8 = hours.parse().ok().filter(|hours| *hours < 24)?;

@@ -8,7 +8,7 @@ use super::writer::Writer;
 use super::{file_info, Context, Flavour};
 use lexibus_codegen::ir::{CanOpenSettings, Catalog, Commissioning, CompactString, DynamicChannel, Group};
 
-/// Writes a section of the header, if there is anything in it; an object list with its objects.
+/// Writes a section of the header unless it would be empty. An object list is followed by its objects.
 pub(super) fn write<'e>(
     writer: &mut Writer,
     context: &Context<'_>,
@@ -35,8 +35,8 @@ pub(super) fn write<'e>(
     for extra in extras {
         writer.extension(extra.key, extra.value, Subject::Named(header.name()));
     }
-    let own = objects.iter().filter(|group| list_of(group) == Some(header));
-    object::all(writer, context, own);
+    let listed = objects.iter().filter(|group| list_of(group) == Some(header));
+    object::all(writer, context, listed);
 }
 
 fn device_info(writer: &mut Writer, context: &Context<'_>, objects: &[&Group]) {
@@ -81,7 +81,7 @@ fn device_info(writer: &mut Writer, context: &Context<'_>, objects: &[&Group]) {
     }
 }
 
-/// What the source announces; where it has no such number, the mapping objects that there are.
+/// Returns the number of PDOs that the source declares, otherwise the number of mapping objects.
 fn pdo_count(
     writer: &mut Writer,
     key: &'static str,
@@ -107,7 +107,7 @@ fn number(writer: &mut Writer, key: &'static str, value: Option<u32>) {
 fn dummy_usage(out: &mut Section<'_>, context: &Context<'_>) {
     let Some(canopen) = context.device.canopen.as_deref().filter(|canopen| canopen.dummies_given) else { return };
     let writer = out.open();
-    // These are the types of the examples in CiA 306, and some readers want to see all of them.
+    // Some readers expect all types that the examples of CiA 306 list.
     let usual = 1..=7;
     for code in usual.clone() {
         writer.numbered(format_args!("Dummy{code:04X}"), u8::from(canopen.dummies.contains(&code)));
@@ -124,26 +124,30 @@ fn comments(out: &mut Section<'_>, lines: &[CompactString]) {
 }
 
 fn commissioning(out: &mut Section<'_>, context: &Context<'_>) {
-    let Some(own) = context.device.commissioning.as_deref().filter(|_| context.flavour == Flavour::Dcf) else { return };
+    let Some(commissioning) = context.device.commissioning.as_deref().filter(|_| context.flavour == Flavour::Dcf)
+    else {
+        return;
+    };
     let is_of_modules =
-        Commissioning { connected_modules: own.connected_modules.clone(), ..Commissioning::default() } == *own;
-    if is_of_modules && !own.connected_modules.is_empty() {
+        Commissioning { connected_modules: commissioning.connected_modules.clone(), ..Commissioning::default() }
+            == *commissioning;
+    if is_of_modules && !commissioning.connected_modules.is_empty() {
         return;
     }
     let writer = out.open();
-    if let Some(node_id) = own.node_id {
+    if let Some(node_id) = commissioning.node_id {
         writer.entry("NodeID", node_id);
     }
-    writer.plain("NodeName", &own.node_name, Subject::Device);
-    if let Some(rate) = own.bit_rate {
+    writer.plain("NodeName", &commissioning.node_name, Subject::Device);
+    if let Some(rate) = commissioning.bit_rate {
         writer.entry("Baudrate", rate);
     }
-    if let Some(net) = own.net_number {
+    if let Some(net) = commissioning.net_number {
         writer.entry("NetNumber", net);
     }
-    writer.plain("NetworkName", &own.network_name, Subject::Device);
-    writer.flag("CANopenManager", own.manager);
-    if let Some(serial) = own.lss_serial_number {
+    writer.plain("NetworkName", &commissioning.network_name, Subject::Device);
+    writer.flag("CANopenManager", commissioning.manager);
+    if let Some(serial) = commissioning.lss_serial_number {
         writer.entry("LSS_SerialNumber", format_args!("0x{serial:08X}"));
     }
 }
@@ -156,13 +160,16 @@ fn supported_modules(out: &mut Section<'_>, context: &Context<'_>, catalog: &Cat
 }
 
 fn connected_modules(out: &mut Section<'_>, context: &Context<'_>) {
-    let Some(own) = context.device.commissioning.as_deref().filter(|_| context.flavour == Flavour::Dcf) else { return };
-    if own.connected_modules.is_empty() && !out.is_open {
+    let Some(commissioning) = context.device.commissioning.as_deref().filter(|_| context.flavour == Flavour::Dcf)
+    else {
+        return;
+    };
+    if commissioning.connected_modules.is_empty() && !out.is_open {
         return;
     }
     let writer = out.open();
-    writer.entry("NrOfEntries", own.connected_modules.len());
-    for (module, number) in own.connected_modules.iter().zip(1..) {
+    writer.entry("NrOfEntries", commissioning.connected_modules.len());
+    for (module, number) in commissioning.connected_modules.iter().zip(1..) {
         writer.numbered(number, module);
     }
 }
@@ -198,7 +205,7 @@ fn dynamic_channel(writer: &mut Writer, channel: &DynamicChannel, number: i32) {
     }
 }
 
-/// The list into which an object belongs; none below 0x1000, where data types are defined.
+/// Returns the list that contains an object. Objects below 0x1000 define data types and are in no list.
 fn list_of(group: &Group) -> Option<Header> {
     match group.index()? {
         0x0000..=0x0FFF => None,
@@ -209,6 +216,7 @@ fn list_of(group: &Group) -> Option<Header> {
 }
 
 fn list(writer: &mut Writer, header: Header, objects: &[&Group]) {
-    let own = || objects.iter().filter(|group| list_of(group) == Some(header)).filter_map(|group| group.index());
-    indices(writer, "SupportedObjects", own().count(), own());
+    let indices_of_list =
+        || objects.iter().filter(|group| list_of(group) == Some(header)).filter_map(|group| group.index());
+    indices(writer, "SupportedObjects", indices_of_list().count(), indices_of_list());
 }

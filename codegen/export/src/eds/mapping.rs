@@ -1,4 +1,4 @@
-//! Mapping objects of PDOs that the source describes beside the dictionary, as ETG.2000 does.
+//! Mapping objects of PDOs that the source describes outside of the dictionary, as ETG.2000 does.
 
 use std::collections::HashSet;
 
@@ -7,16 +7,16 @@ use lexibus_codegen::ir::{
     MAX_PDO_SUBS,
 };
 
-/// A mapping object for every PDO of `device` that has none.
+/// Returns a mapping object for every PDO of `device` that has none.
 pub(super) fn objects(device: &Device) -> Vec<Group> {
     let mut seen: HashSet<u16> = device.groups.iter().filter_map(Group::index).collect();
-    let tellable = device.process_data.pdos.iter().filter(|pdo| can_be_told(pdo));
-    tellable.filter(|pdo| seen.insert(pdo.mapping_index)).map(object).collect()
+    let expressible = device.process_data.pdos.iter().filter(|pdo| is_expressible(pdo));
+    expressible.filter(|pdo| seen.insert(pdo.mapping_index)).map(object).collect()
 }
 
-/// Whether the entries of a mapping object can say what `pdo` carries: 16 bits of index, 8 of sub-index and of length.
-/// Those that CompactPDO implies, and those without entries, need none.
-pub(super) fn can_be_told(pdo: &Pdo) -> bool {
+/// Returns whether a mapping object can express the entries of `pdo`: 16 bits of index, 8 bits each of sub-index and
+/// length. PDOs that CompactPDO implies, and those without entries, need no mapping object.
+pub(super) fn is_expressible(pdo: &Pdo) -> bool {
     let in_range = match pdo.direction {
         Direction::Receive => (0x1600..0x1800).contains(&pdo.mapping_index),
         Direction::Transmit => (0x1A00..0x1C00).contains(&pdo.mapping_index),
@@ -54,7 +54,7 @@ fn name(entry: &PdoEntry, sub: u8) -> CompactString {
     }
 }
 
-/// `index << 16 | sub << 8 | bits` (CiA 301 7.5.2.36).
+/// Returns an entry of a mapping object: `index << 16 | sub << 8 | bits` (CiA 301 7.5.2.36).
 fn word(entry: &PdoEntry) -> i128 {
     i128::from(entry.index) << 16 | i128::from(entry.sub_index) << 8 | i128::from(entry.bits)
 }

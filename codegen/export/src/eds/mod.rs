@@ -1,20 +1,20 @@
-//! EDS and DCF files (CiA 306): any device that has objects, written so that reading it again gives the same objects.
+//! EDS and DCF files (CiA 306) of any device that has objects. Reading an exported file gives the same objects again.
 //!
-//! What was read from an EDS comes out as it was understood: repairs are made, values have the spelling of the standard,
-//! sections its order; extension attributes and comments stand in the section where they stood. Of a device of another
-//! format, the file has what CiA 306 has a place for, and [`Export::notes`] says what it doesn't.
+//! The export of an EDS contains the repaired facts. The spelling of values and the order of sections follow the
+//! standard. Extension attributes and comments stay in their sections. The export of another format has the facts that CiA 306 can hold.
+//! [`Export::notes`] lists the others.
 //!
 //! | file | subject |
 //! |---|---|
-//! | `writer` | sections, entries, comments; texts that must not break a line |
-//! | `extras` | which extension attribute goes into which section |
-//! | `header` | `[FileInfo]`, `[DeviceInfo]` and the other sections about the whole |
-//! | `file_info` | what a header of another format has to be for `[FileInfo]` |
-//! | `object`, `compact` | objects; those of equal elements as CompactSubObj |
+//! | `writer` | sections, entries, comments; texts without line breaks |
+//! | `extras` | sections of extension attributes |
+//! | `header` | `[FileInfo]`, `[DeviceInfo]` and the other sections about the file and the device |
+//! | `file_info` | conversion of the header of another format |
+//! | `object`, `compact` | objects; CompactSubObj |
 //! | `data_type`, `value` | types as numbers, values as texts |
 //! | `modules` | modular devices |
-//! | `mapping` | mapping objects of PDOs that the dictionary doesn't have |
-//! | `losses` | facts that CiA 306 has no place for |
+//! | `mapping` | mapping objects that the dictionary doesn't have |
+//! | `losses` | facts that CiA 306 cannot hold |
 
 mod compact;
 mod data_type;
@@ -39,33 +39,33 @@ use extras::Extras;
 use lexibus_codegen::ir::{Binding, Catalog, Device, Format, Group, Item};
 use writer::Writer;
 
-/// Which of the two files of CiA 306 is written.
+/// The kind of file (CiA 306).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Flavour {
-    /// An electronic data sheet: what all devices of the type have in common. Nothing that configures one device.
+    /// An electronic data sheet: the facts that all devices of a type have in common, without a configuration.
     #[default]
     Eds,
-    /// A device configuration file: also the node-ID, the network, configured values, denotations, and the modules that
-    /// are plugged in.
+    /// A device configuration file. It adds the node-ID, the network, configured values, denotations and connected
+    /// modules.
     Dcf,
 }
 
-/// How REAL32 and REAL64 values are written. CiA 306 names no form, and tools differ in what they read.
+/// The notation of REAL32 and REAL64 values. CiA 306 defines none, and tools differ in what they read.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Reals {
-    /// Decimal numbers, as in real files and for Python's `canopen`.
+    /// Decimal numbers, as in vendor files and as Python's `canopen` reads them.
     #[default]
     Decimal,
-    /// The bits of IEEE 754 in hexadecimal, for the tools of lely.
+    /// The bit pattern of IEEE 754 in hexadecimal, as the tools of lely read it.
     Pattern,
 }
 
-/// What is written, and how.
+/// The options of an export.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Options {
-    /// Which file.
+    /// The kind of file.
     pub flavour: Flavour,
-    /// The form of real numbers.
+    /// The notation of real numbers.
     pub reals: Reals,
 }
 
@@ -75,14 +75,15 @@ impl From<Flavour> for Options {
     }
 }
 
-/// The file of `device`, which is one of `catalog`, with the line ends of CiA 306 (CR LF): ASCII where the device's texts are,
-/// else to be written as UTF-8. `None` where the device has no objects.
+/// Returns the file of `device`, a device of `catalog`, or `None` if the device has no objects.
+///
+/// The line ends are CR LF (CiA 306). The text is ASCII if the texts of the device are, otherwise UTF-8.
 pub fn export(catalog: &Catalog, device: &Device, options: impl Into<Options>) -> Option<Export> {
     let Options { flavour, reals } = options.into();
     let registers = registers::objects(device, Item::object);
     let completed = registers::completed(&registers);
-    let made = [mapping::objects(device), registers].concat();
-    let objects = objects(device, &made);
+    let derived = [mapping::objects(device), registers].concat();
+    let objects = objects(device, &derived);
     if objects.is_empty() && device.canopen.is_none() {
         return None;
     }
@@ -119,40 +120,40 @@ pub fn export(catalog: &Catalog, device: &Device, options: impl Into<Options>) -
     Some(Export { text, notes })
 }
 
-/// What every part of the file is written from.
+/// The data that every part of the file is written from.
 struct Context<'a> {
     device: &'a Device,
     flavour: Flavour,
     reals: Reals,
-    /// The name of the file that was read.
+    /// Name of the source file.
     file_name: &'a str,
-    /// Whether the source was a file of CiA 306: then what it leaves out stays left out, and what it spells stays so.
+    /// Whether the source is a file of CiA 306. Then missing facts stay missing, and spellings are kept.
     is_verbatim: bool,
     /// Whether the source describes a CANopen device.
     is_canopen: bool,
 }
 
-/// Whether the device is on CANopen, and this object on EtherCAT only.
+/// Returns whether the device is on CANopen and this object is on EtherCAT only.
 fn is_coe_only(device: &Device, group: &Group) -> bool {
     let is_coe = |binding: &Binding| matches!(binding, Binding::Object { buses, .. } if !buses.canopen);
     let mut items = group.items.iter();
     device.canopen.is_some() && !group.items.is_empty() && items.all(|item| item.bindings.iter().any(is_coe))
 }
 
-/// The objects that the file describes: those of the device without what CompactPDO says already and what only EtherCAT has, and
-/// those `made` of something else; sorted by index.
-fn objects<'a>(device: &'a Device, made: &'a [Group]) -> Vec<&'a Group> {
+/// Returns the objects that the file describes, sorted by index: those of the device and those in `derived`. Objects
+/// that CompactPDO implies or that only EtherCAT has are left out.
+fn objects<'a>(device: &'a Device, derived: &'a [Group]) -> Vec<&'a Group> {
     let compact_pdos = device.canopen.as_ref().is_some_and(|canopen| canopen.compact_pdo != 0);
     let is_implied =
         |group: &Group| compact_pdos && group.origin.line == 0 && matches!(group.index(), Some(0x1400..=0x1BFF));
-    let own = device.groups.iter().filter(|group| group.index().is_some() && !is_implied(group));
-    let own = own.filter(|group| !is_coe_only(device, group));
-    let mut objects: Vec<&Group> = own.chain(made).collect();
+    let described = device.groups.iter().filter(|group| group.index().is_some() && !is_implied(group));
+    let described = described.filter(|group| !is_coe_only(device, group));
+    let mut objects: Vec<&Group> = described.chain(derived).collect();
     objects.sort_by_key(|group| group.index());
     objects
 }
 
-/// Whether no object of this index was there before.
+/// Returns whether this is the first object with its index.
 fn first_of_index(group: &Group, seen: &mut HashSet<Option<u16>>, writer: &mut Writer) -> bool {
     let is_first = seen.insert(group.index());
     if !is_first {

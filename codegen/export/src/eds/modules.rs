@@ -1,4 +1,4 @@
-//! Modules that add to the dictionary (CiA 306, "modular devices").
+//! Modules that add entries to the dictionary (CiA 306, "modular devices").
 
 use super::losses;
 use super::note::{NoteKind, Subject};
@@ -8,7 +8,8 @@ use super::writer::Writer;
 use super::Context;
 use lexibus_codegen::ir::{Catalog, Group, Module, SubExtension};
 
-/// Writes the modules of a CANopen device. Those of other buses have objects that move with the slot, and PDOs.
+/// Writes the modules of a CANopen device. Modules of other buses have objects whose index depends on the slot, and
+/// PDOs; a note counts them.
 pub(super) fn write(writer: &mut Writer, context: &Context<'_>, catalog: &Catalog) {
     for module in context.device.own_modules(&catalog.modules) {
         let number = module.number;
@@ -50,8 +51,8 @@ fn fixed_objects(writer: &mut Writer, context: &Context<'_>, module: &Module) {
     }
     let number = module.number;
     writer.section(format_args!("M{number}FixedObjects"));
-    let own = module.fixed_objects.iter().filter_map(Group::index);
-    indices(writer, "NrOfEntries", module.fixed_objects.len(), own);
+    let fixed_indices = module.fixed_objects.iter().filter_map(Group::index);
+    indices(writer, "NrOfEntries", module.fixed_objects.len(), fixed_indices);
     for group in &module.fixed_objects {
         object::object(writer, context, group, &format!("M{number}Fixed"), &module.types);
     }
@@ -63,8 +64,8 @@ fn sub_extensions(writer: &mut Writer, context: &Context<'_>, module: &Module) {
     }
     let number = module.number;
     writer.section(format_args!("M{number}SubExtends"));
-    let own = module.sub_extensions.iter().map(|extension| extension.index);
-    indices(writer, "NrOfEntries", module.sub_extensions.len(), own);
+    let extended_indices = module.sub_extensions.iter().map(|extension| extension.index);
+    indices(writer, "NrOfEntries", module.sub_extensions.len(), extended_indices);
     for extension in &module.sub_extensions {
         writer.section(format_args!("M{number}SubExt{:04X}", extension.index));
         sub_extension(writer, context, extension, module);

@@ -14,14 +14,14 @@ use lexibus_codegen::ir::{
     Access, Bus, Configured, Extension, Group, Item, Mappable, ObjectCode, Type, TypeDef, Value,
 };
 
-/// The sections of `objects`.
+/// Writes the sections of `objects`.
 pub(super) fn all<'g>(writer: &mut Writer, context: &Context<'_>, objects: impl Iterator<Item = &'g &'g Group>) {
     for group in objects {
         object(writer, context, group, "", &context.device.types);
     }
 }
 
-/// The sections of an object, `before` each of whose names stands `M1Fixed` in a module.
+/// Writes the sections of an object. `before` is a prefix of their names, such as `M1Fixed` of a module.
 pub(super) fn object(writer: &mut Writer, context: &Context<'_>, group: &Group, before: &str, types: &[TypeDef]) {
     let (Some(index), Some(code)) = (group.index(), group.object_code()) else { return };
     let out = Object { context, group, index, code, before, types };
@@ -31,7 +31,7 @@ pub(super) fn object(writer: &mut Writer, context: &Context<'_>, group: &Group, 
     writer.entry("ObjectType", format_args!("{:#X}", number(code)).to_string().replace("0X", "0x"));
     let refinements = out.refinements_of_missing();
     let can_be_compact = refinements.is_empty() && before.is_empty();
-    match (out.own_value(), compact::elements(group).filter(|_| can_be_compact)) {
+    match (out.single_value(), compact::elements(group).filter(|_| can_be_compact)) {
         (Some(item), _) => out.single(writer, item),
         (None, Some(elements)) => out.compact(writer, &elements),
         (None, None) => out.entries(writer),
@@ -43,7 +43,7 @@ pub(super) fn object(writer: &mut Writer, context: &Context<'_>, group: &Group, 
     }
 }
 
-/// The number of an object code in CiA 301 7.4.3.
+/// Returns the number of an object code in CiA 301 7.4.3.
 fn number(code: ObjectCode) -> u8 {
     match code {
         ObjectCode::Null => 0,
@@ -56,7 +56,7 @@ fn number(code: ObjectCode) -> u8 {
     }
 }
 
-/// An object on its way to the file.
+/// An object that is being written.
 pub(super) struct Object<'a> {
     context: &'a Context<'a>,
     group: &'a Group,
@@ -67,11 +67,11 @@ pub(super) struct Object<'a> {
 }
 
 impl<'a> Object<'a> {
-    /// The one value of an object without sub-indices.
-    fn own_value(&self) -> Option<&'a Item> {
+    /// Returns the only value of an object without sub-indices.
+    fn single_value(&self) -> Option<&'a Item> {
         let [item] = self.group.items.as_slice() else { return None };
         let is_alone = item.object().is_some_and(|(_, sub)| sub == 0) && !self.code.has_subs();
-        // Another name, or flags of its own, can only have been in a section of its own.
+        // A source can only declare another name or other flags in a section for sub-index 0.
         let is_the_object = item.name == self.group.name && self.group.flags == 0;
         (is_alone && (is_the_object || self.code == ObjectCode::Var)).then_some(item)
     }
@@ -82,19 +82,19 @@ impl<'a> Object<'a> {
             writer.notes.add(NoteKind::Name, subject);
         }
         self.value(writer, item, item.flags | self.group.flags);
-        writer.extensions(self.own_extensions(), subject);
+        writer.extensions(self.section_extensions(), subject);
         writer.extensions(&item.extensions, subject);
     }
 
     fn entries(&self, writer: &mut Writer) {
         let items = || self.group.items.iter().filter_map(|item| Some((item.object()?.1, item)));
-        // Sub-index 0xFF tells the structure of an object and isn't counted.
+        // Sub-index 0xFF describes the structure of an object and isn't counted.
         let described = items().filter(|(sub, _)| *sub != 0xFF).count();
         if self.code != ObjectCode::Var || described > 0 {
             writer.entry("SubNumber", described);
         }
         flags(writer, self.group.flags);
-        writer.extensions(self.own_extensions(), Subject::Object(self.index));
+        writer.extensions(self.section_extensions(), Subject::Object(self.index));
         let mut seen = [false; 256];
         for (sub, item) in items() {
             if std::mem::replace(&mut seen[usize::from(sub)], true) {
@@ -109,13 +109,13 @@ impl<'a> Object<'a> {
         }
     }
 
-    /// The extension attributes of the object's own section.
-    fn own_extensions(&self) -> &'a [Extension] {
+    /// Returns the extension attributes of the object's section.
+    fn section_extensions(&self) -> &'a [Extension] {
         let all = &self.group.extensions;
         all.get(..all.len() - self.refinements_of_missing().len()).unwrap_or(all)
     }
 
-    /// The extension attributes from the first one on that stands in `[xxxxName]` or its like.
+    /// Returns the extension attributes from the first one that is in a section such as `[xxxxName]`.
     fn refinements_of_missing(&self) -> &'a [Extension] {
         let all = &self.group.extensions;
         let is_first =
@@ -124,12 +124,12 @@ impl<'a> Object<'a> {
         all.get(first.unwrap_or(all.len())..).unwrap_or(&[])
     }
 
-    /// Sections that refine sub-indices which the object doesn't have.
+    /// Writes the sections that refine missing sub-indices.
     fn refinements(&self, writer: &mut Writer, list: &'a [Extension]) {
         let parts = |extension: &'a Extension| extension.key.split_once('/');
         let mut counts: HashMap<&str, usize> = HashMap::new();
         for (section, key) in list.iter().filter_map(parts) {
-            // A key that is no number isn't counted.
+            // Only keys that are numbers are counted.
             *counts.entry(section).or_default() += usize::from(key.bytes().all(|byte| byte.is_ascii_digit()));
         }
         let mut section = "";
@@ -148,7 +148,7 @@ impl<'a> Object<'a> {
         let plain = Item { configured: None, ..elements.template.clone() };
         self.value(writer, &plain, self.group.flags);
         writer.entry("CompactSubObj", elements.count);
-        writer.extensions(self.own_extensions(), Subject::Object(self.index));
+        writer.extensions(self.section_extensions(), Subject::Object(self.index));
         let (before, index) = (self.before, self.index);
         let mut list = |name: &str, rows: Vec<(u8, String)>| {
             if rows.is_empty() {
@@ -176,12 +176,13 @@ impl<'a> Object<'a> {
         data_type(item.type_on(Bus::CanOpen), self.types, self.context.is_canopen, self.context.is_verbatim)
     }
 
-    /// The form of numbers. Communication objects contain identifiers, mappings and masks, which are hexadecimal.
+    /// Returns the notation of numbers. Communication objects contain COB-IDs, mappings and masks, which are
+    /// hexadecimal.
     fn form(&self) -> Form {
         Form { hex: (0x1000..0x2000).contains(&self.index), reals: self.context.reals }
     }
 
-    /// The entries of one value, from its type on.
+    /// Writes the entries of one value, beginning with its type.
     pub(super) fn value(&self, writer: &mut Writer, item: &Item, item_flags: u32) {
         let subject = Subject::item(item);
         let data_type = self.data_type(item);
@@ -254,15 +255,15 @@ impl<'a> Object<'a> {
     }
 }
 
-/// Whether a section is about sub-indices of an object: `2000Name`.
+/// Returns whether a section refines the sub-indices of an object, such as `2000Name`.
 fn is_refinement(section: &str) -> bool {
     let rest =
         section.trim_start_matches(|letter: char| letter.is_ascii_hexdigit() || matches!(letter, 'x' | 'X' | ' '));
-    // `De` are digits, too.
+    // `D` and `e` are hexadecimal digits, so trimming `2000Denotation` leaves `notation`.
     ["Name", "Value", "Denotation", "notation"].iter().any(|word| word.eq_ignore_ascii_case(rest))
 }
 
-/// A value that stands alone: what a module adds to an object.
+/// Writes the section of a single value that a module adds to an object.
 pub(super) fn template(writer: &mut Writer, context: &Context<'_>, index: u16, item: &Item, types: &[TypeDef]) {
     let group = Group::object(index, ObjectCode::Var);
     let out = Object { context, group: &group, index, code: ObjectCode::Var, before: "", types };
@@ -275,7 +276,7 @@ fn flags(writer: &mut Writer, flags: u32) {
     }
 }
 
-/// The access type and PDOMapping that say the same as `access` and `mappable` together, or what comes next to it.
+/// Returns the access type and PDOMapping that express `access` and `mappable`, or the closest ones with a note.
 fn access(access: Access, mappable: Mappable) -> (Access, bool, Option<NoteKind>) {
     if !mappable.any() {
         return (access, false, None);
@@ -293,10 +294,10 @@ fn access(access: Access, mappable: Mappable) -> (Access, bool, Option<NoteKind>
     };
     match same {
         Some(access) => (access, true, Some(NoteKind::Mapping)),
-        // Of a read-only value an RPDO can't be told, of a write-only one a TPDO.
+        // CiA 306 cannot map a read-only value into an RPDO or a write-only value into a TPDO.
         None => {
-            let own = Mappable::by_access(access);
-            let is_left = own.rpdo && mappable.rpdo || own.tpdo && mappable.tpdo;
+            let expressible = Mappable::by_access(access);
+            let is_left = expressible.rpdo && mappable.rpdo || expressible.tpdo && mappable.tpdo;
             (access, is_left, Some(NoteKind::LostMapping))
         }
     }

@@ -1,4 +1,4 @@
-//! Sections of the header and what several of them have: lists of indices, lines of comment.
+//! Sections of the header, and parts that several of them have: lists of indices and comment lines.
 
 use super::extras::Header;
 use super::note::Subject;
@@ -8,21 +8,21 @@ use lexibus_codegen::ir::CompactString;
 /// The bit rates of CiA 306 in kbit/s.
 pub(super) const BIT_RATES: [u16; 8] = [10, 20, 50, 125, 250, 500, 800, 1000];
 
-/// A section that begins with its first entry.
+/// A section of the header. Its first entry opens it.
 pub(super) struct Section<'w> {
     writer: &'w mut Writer,
     header: Header,
-    /// Whether it has begun.
+    /// Whether the section is open.
     pub(super) is_open: bool,
 }
 
 impl<'w> Section<'w> {
-    /// A section without entries, which is not written yet.
+    /// Creates a section. It is not written until the first entry.
     pub(super) fn new(writer: &'w mut Writer, header: Header) -> Self {
         Section { writer, header, is_open: false }
     }
 
-    /// The writer, within the section.
+    /// Returns the writer, within the section.
     pub(super) fn open(&mut self) -> &mut Writer {
         if !self.is_open {
             self.is_open = true;
@@ -32,7 +32,7 @@ impl<'w> Section<'w> {
     }
 }
 
-/// `Lines` and `LineN`.
+/// Writes `Lines` and `LineN`.
 pub(super) fn comment_lines(writer: &mut Writer, lines: &[CompactString]) {
     writer.entry("Lines", lines.len());
     for (line, number) in lines.iter().zip(1..) {
@@ -41,7 +41,7 @@ pub(super) fn comment_lines(writer: &mut Writer, lines: &[CompactString]) {
     }
 }
 
-/// How many there are, and each by number.
+/// Writes the number of indices, then each index.
 pub(super) fn indices(writer: &mut Writer, key: &'static str, count: usize, list: impl Iterator<Item = u16>) {
     writer.entry(key, count);
     for (index, number) in list.zip(1..) {

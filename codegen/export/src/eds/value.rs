@@ -1,4 +1,4 @@
-//! Values as texts that are read back as the same values.
+//! Values as texts. Reading a text gives the same value again.
 
 use std::fmt::Write as _;
 
@@ -7,24 +7,24 @@ use super::writer::quoted;
 use super::Reals;
 use lexibus_codegen::ir::{Type, Value};
 
-/// What a value is for.
+/// The role of a value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Role {
     /// A default or a configured value.
     Value,
-    /// The least value.
+    /// The minimum.
     Low,
-    /// The greatest value.
+    /// The maximum.
     High,
 }
 
-/// A text, or none where the type can't have the value; and what there is to say about it.
+/// The text, or `None` if the type cannot hold the value, and the note about a changed or omitted value.
 type Written = (Option<String>, Option<NoteKind>);
 
-/// The form of numbers.
+/// The notation of numbers.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Form {
-    /// Unsigned integers are hexadecimal.
+    /// Whether unsigned integers are hexadecimal.
     pub hex: bool,
     pub reals: Reals,
 }
@@ -81,7 +81,7 @@ fn real(value: &Value, ty: Type) -> Written {
     match value {
         Value::Real(value) if value.is_finite() => {
             let short = format!("{:?}", *value as f32);
-            // The digits that a REAL32 needs, where the value is what they say.
+            // A REAL32 needs fewer digits if they give the same value.
             let is_enough = ty == Type::Real32 && short.parse() == Ok(*value);
             let text = if is_enough { short } else { format!("{value:?}") };
             written(text.strip_suffix(".0").map_or(text.clone(), str::to_owned))
@@ -92,7 +92,7 @@ fn real(value: &Value, ty: Type) -> Written {
     }
 }
 
-/// The bits of IEEE 754: 8 digits of a REAL32, 16 of a REAL64.
+/// Returns the bit pattern of IEEE 754: 8 digits of a REAL32, 16 of a REAL64.
 fn pattern(value: &Value, ty: Type) -> Written {
     match (value.as_real().filter(|value| value.is_finite()), ty) {
         (Some(value), Type::Real32) => written(format!("0x{:08X}", (value as f32).to_bits())),
@@ -103,7 +103,7 @@ fn pattern(value: &Value, ty: Type) -> Written {
 
 fn string(value: &Value) -> Written {
     match value {
-        // An empty text is a value, an empty entry none.
+        // An empty text is a value; an empty entry means no value.
         Value::Text(text) if text.is_empty() => written("\"\"".into()),
         Value::Text(text) | Value::Raw(text) => written(quoted(text).into_owned()),
         Value::Int(value) => written(value.to_string()),
@@ -135,7 +135,8 @@ fn time(value: &Value) -> Written {
     }
 }
 
-/// A text in an entry where `;` and `#` begin a comment, which they don't in quotation marks.
+/// Returns a text in quotation marks if a reader would take a part of it for a comment. `;` and `#` begin a comment
+/// outside of quotation marks.
 fn without_comment(text: &str) -> String {
     let has_comment = text.find([';', '#', '"']).is_some_and(|at| !text[at..].starts_with('"'));
     if has_comment {
@@ -160,7 +161,7 @@ mod tests {
         assert_eq!(text(&Value::Int(-1), Type::Integer(32), Role::Value, hex), written("-1".into()));
         assert_eq!(of(Value::Int(70_000), Type::Unsigned(16)).as_deref(), Some("70000"));
         assert_eq!(of(Value::NodeId(0x180), u32).as_deref(), Some("$NODEID+0x180"));
-        assert_eq!(of(Value::NodeId(0), u32).as_deref(), Some("$NODEID+0x0"), "some want a number there");
+        assert_eq!(of(Value::NodeId(0), u32).as_deref(), Some("$NODEID+0x0"), "some readers require a number");
         assert_eq!(text(&Value::NodeId(-2), u32, Role::Value, hex).1, Some(NoteKind::NegativeFormula));
         assert_eq!(of(Value::Bool(true), Type::Boolean).as_deref(), Some("1"));
         for (role, expected) in [(Role::Low, Some("3")), (Role::High, Some("2")), (Role::Value, None)] {

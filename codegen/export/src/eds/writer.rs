@@ -1,4 +1,4 @@
-//! The lines of a file.
+//! The writer of lines, entries and sections.
 
 use std::borrow::Cow;
 use std::collections::HashSet;
@@ -10,15 +10,15 @@ use lexibus_codegen::ir::Extension;
 /// Line end of CiA 306.
 const END: &str = "\r\n";
 
-/// The greatest number of characters in a line (CiA 306).
+/// Maximum number of characters in a line (CiA 306).
 const MAX_LINE: usize = 255;
 
-/// A file in the making.
+/// A file that is being written.
 pub(super) struct Writer {
     text: String,
-    /// Keys that the section under way has so far, in lower case.
+    /// Keys of the current section, in lower case.
     keys: HashSet<String>,
-    /// Whether keys of extension attributes may have any letters, and occur twice, as they did in an EDS.
+    /// Whether keys of extension attributes can have any characters and occur twice, because the source is an EDS.
     is_verbatim: bool,
     pub(super) notes: Notes,
 }
@@ -37,23 +37,23 @@ impl Writer {
         self.keys.clear();
     }
 
-    /// `key=value`, where the value has no blanks around it and no line break in it.
+    /// Writes `key=value`. The value has no leading or trailing spaces and no line break.
     pub(super) fn entry(&mut self, key: &'static str, value: impl Display) {
         self.keys.insert(key.to_ascii_lowercase());
         self.numbered(key, value);
     }
 
-    /// [`entry`](Self::entry) of a key that is made up.
+    /// Writes an entry like [`entry`](Self::entry), with a computed key.
     pub(super) fn numbered(&mut self, key: impl Display, value: impl Display) {
         let _ = write!(self.text, "{key}={value}{END}");
     }
 
-    /// 0 or 1.
+    /// Writes 0 or 1.
     pub(super) fn flag(&mut self, key: &'static str, value: bool) {
         self.entry(key, u8::from(value));
     }
 
-    /// An entry of text that is read as it stands; none where it is empty.
+    /// Writes an entry of text, unless the text is empty. Readers take such a text literally.
     pub(super) fn plain(&mut self, key: &'static str, text: &str, subject: Subject<'_>) {
         if !text.is_empty() {
             let text = self.one_line(text, subject);
@@ -61,26 +61,26 @@ impl Writer {
         }
     }
 
-    /// A name, which is read without a pair of quotation marks around it.
+    /// Writes a name. Readers remove a pair of quotation marks from a name.
     pub(super) fn name(&mut self, key: &'static str, name: &str, subject: Subject<'_>) {
         let name = self.one_line(name, subject);
         self.entry(key, quoted(&name));
     }
 
-    /// A comment line.
+    /// Writes a comment line.
     pub(super) fn comment(&mut self, text: &str) {
         let text = self.one_line(text, Subject::Device);
         let _ = write!(self.text, "; {text}{END}");
     }
 
-    /// Extension attributes and comments, in their order.
+    /// Writes extension attributes and comments, in their order.
     pub(super) fn extensions<'e>(&mut self, list: impl IntoIterator<Item = &'e Extension>, subject: Subject<'_>) {
         for extension in list {
             self.extension(&extension.key, &extension.value, subject);
         }
     }
 
-    /// An extension attribute, or a comment.
+    /// Writes an extension attribute or a comment.
     pub(super) fn extension(&mut self, key: &str, value: &str, subject: Subject<'_>) {
         if key == ";" {
             return self.comment(value);
@@ -95,7 +95,7 @@ impl Writer {
         self.numbered(key, value);
     }
 
-    /// `text` without what would end the line, or the file.
+    /// Returns `text` without characters that end the line or the file.
     pub(super) fn one_line<'t>(&mut self, text: &'t str, subject: Subject<'_>) -> Cow<'t, str> {
         const BREAKS: [char; 4] = ['\r', '\n', '\u{1a}', '\0'];
         if !text.contains(BREAKS) {
@@ -122,21 +122,21 @@ impl Writer {
     }
 }
 
-/// Whether a line can have this key. What CiA 306 allows are letters and digits; real files have more.
+/// Returns whether a line can have this key. CiA 306 allows letters and digits only; real files have other characters.
 fn is_key(key: &str) -> bool {
     !key.is_empty() && key.trim() == key && !key.starts_with([';', '#', '[']) && !key.contains(['=', '\r', '\n'])
 }
 
-/// Whether a tool that keeps to the grammar can read this key.
+/// Returns whether a tool that follows the grammar of CiA 306 can read this key.
 fn is_word(key: &str) -> bool {
     key.bytes().all(|byte| byte.is_ascii_alphanumeric() || byte == b'_')
 }
 
-/// `text` in quotation marks, where it would lose its own or the blanks around it without them.
+/// Returns `text` in quotation marks if a reader would otherwise remove its quotation marks or outer spaces.
 pub(super) fn quoted(text: &str) -> Cow<'_, str> {
     const BLANKS: [char; 2] = [' ', '\t'];
-    let has_own = text.len() > 1 && text.starts_with('"') && text.ends_with('"');
-    if has_own || text.starts_with(BLANKS) || text.ends_with(BLANKS) {
+    let is_quoted = text.len() > 1 && text.starts_with('"') && text.ends_with('"');
+    if is_quoted || text.starts_with(BLANKS) || text.ends_with(BLANKS) {
         return Cow::Owned(format!("\"{text}\""));
     }
     Cow::Borrowed(text)

@@ -35,7 +35,7 @@ fn mode(xml: &mut Xml, mode: &ClockMode) {
     xml.close();
 }
 
-/// A time, if anything is said of it.
+/// Writes a time unless it is the default.
 fn time(xml: &mut Xml, element: &'static str, time: ClockTime) {
     if time == ClockTime::default() {
         return;

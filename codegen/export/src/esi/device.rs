@@ -27,23 +27,23 @@ pub(super) fn write(xml: &mut Xml, context: &mut Context<'_>, device: &Device) {
     extras::urls(xml, device);
     extras::info(xml, context, device, settings);
     let group = Some(settings.group.to_string()).filter(|group| !group.is_empty() || context.is_esi);
-    let group = context.wanted(context.options.group(), group, "group");
+    let group = context.required(context.options.group(), group, "group");
     xml.leaf("GroupType", group);
     dictionary(xml, context, device, |xml, context, types| {
         sync::write(xml, context, device, settings);
-        let is_own = |pdo: &&Pdo| pdo.buses.is_none_or(|buses| buses.coe || device.ethercat.is_none());
-        let mut pdos: Vec<&Pdo> = device.process_data.pdos.iter().filter(is_own).collect();
-        // ETG.2000 has all RxPdos in front of the TxPdos; what a file has otherwise stays so.
+        let is_on_ethercat = |pdo: &&Pdo| pdo.buses.is_none_or(|buses| buses.coe || device.ethercat.is_none());
+        let mut pdos: Vec<&Pdo> = device.process_data.pdos.iter().filter(is_on_ethercat).collect();
+        // ETG.2000 lists all RxPdos before the TxPdos. The export of an ESI keeps the order of its source.
         if !context.is_esi {
             pdos.sort_by_key(|pdo| pdo.direction == Direction::Transmit);
         }
-        for own in pdos {
-            pdo::write(xml, &mut context.notes, types, own, device.ethercat.is_some());
+        for pdo in pdos {
+            pdo::write(xml, &mut context.notes, types, pdo, device.ethercat.is_some());
         }
     });
     mailbox::write(xml, context, settings.mailbox.as_deref());
-    if let Some(own) = &settings.clocks {
-        clocks::write(xml, &mut context.notes, own);
+    if let Some(clocks) = &settings.clocks {
+        clocks::write(xml, &mut context.notes, clocks);
     }
     slots::write(xml, context, device, settings);
     eeprom::registers(xml, &mut context.notes, settings);
@@ -53,15 +53,15 @@ pub(super) fn write(xml: &mut Xml, context: &mut Context<'_>, device: &Device) {
     losses::of_device(context, device);
 }
 
-/// The profiles with the dictionary, and behind them what `between` writes with the same types.
+/// Writes the profiles with the dictionary, and then calls `after` with the same types.
 pub(super) fn dictionary(
     xml: &mut Xml,
     context: &mut Context<'_>,
     device: &Device,
-    between: impl FnOnce(&mut Xml, &mut Context<'_>, &Types<'_>),
+    after: impl FnOnce(&mut Xml, &mut Context<'_>, &Types<'_>),
 ) {
-    let made = objects::of_registers(device, &mut context.notes);
-    let objects = objects::of_device(device, &made, &mut context.notes);
+    let of_registers = objects::of_registers(device, &mut context.notes);
+    let objects = objects::of_device(device, &of_registers, &mut context.notes);
     let mut types = Types::new(&device.types, context.is_esi, &mut context.notes);
     if device.dictionary_only {
         dictionary::write(xml, context, &mut types, &objects);
@@ -71,10 +71,10 @@ pub(super) fn dictionary(
             diagnosis::write(xml, &mut context.notes, &device.code_tables);
         });
     }
-    between(xml, context, &types);
+    after(xml, context, &types);
 }
 
-/// A profile for every number, the first one with what `first` writes.
+/// Writes a profile for each number. `first` writes into the first one.
 fn profiles(xml: &mut Xml, context: &mut Context<'_>, device: &Device, first: impl FnOnce(&mut Xml, &mut Context<'_>)) {
     let has_more = !device.groups.is_empty() || !device.types.is_empty() || !device.code_tables.is_empty();
     if device.profiles.is_empty() && !has_more {
@@ -97,9 +97,9 @@ fn profiles(xml: &mut Xml, context: &mut Context<'_>, device: &Device, first: im
 
 fn physics(xml: &mut Xml, context: &mut Context<'_>, settings: &EtherCatSettings) {
     let is_known = |ports: &str| ports.len() <= 4 && ports.bytes().all(|port| b"YKH ,".contains(&port));
-    let own = settings.physics.to_string();
-    let own = Some(own).filter(|ports| context.is_esi || !ports.is_empty());
-    let ports = context.wanted(context.options.physics(), own, "physics");
+    let ports = settings.physics.to_string();
+    let ports = Some(ports).filter(|ports| context.is_esi || !ports.is_empty());
+    let ports = context.required(context.options.physics(), ports, "physics");
     if !is_known(&ports) {
         context.notes.add(NoteKind::Spelling, Subject::Named("Physics"));
         return xml.attribute("Physics", "");
@@ -112,18 +112,18 @@ fn device_type(xml: &mut Xml, context: &mut Context<'_>, device: &Device) {
     let product = options.product_code().or(identity.product_code);
     let revision = options.revision().or(identity.revision_number);
     xml.open("Type");
-    // A master can't tell a device without them from others.
+    // Without them, a master can't distinguish the device from others.
     if !context.is_esi {
-        context.wanted(product, None, "product-code");
-        context.wanted(revision, None, "revision");
+        context.required(product, None, "product-code");
+        context.required(revision, None, "revision");
     }
     xml.optional("ProductCode", product.map(|code| hex(code, 8)));
     xml.optional("RevisionNo", revision.map(|number| hex(number, 8)));
     xml.optional("SerialNo", identity.serial_number.map(|number| hex(number, 8)));
     extras::of_type(xml, device);
     let named = [&identity.order_code, &device.name].into_iter().find(|name| !name.is_empty());
-    let own = if context.is_esi { Some(&identity.order_code) } else { named };
-    let own = context.wanted(options.order_code(), own.map(CompactString::to_string), "order-code");
-    xml.content(own);
+    let order_code = if context.is_esi { Some(&identity.order_code) } else { named };
+    let order_code = context.required(options.order_code(), order_code.map(CompactString::to_string), "order-code");
+    xml.content(order_code);
     xml.close();
 }

@@ -5,7 +5,7 @@ use compact_str::CompactString;
 use super::object;
 use super::record::{self, FieldFacts, Plan};
 use super::text::{documentation, hex, name, names};
-use super::types::{basic_name, is_self_named, Made, MadeField, Types};
+use super::types::{basic_name, is_self_named, AddedField, AddedType, Types};
 use super::Context;
 use crate::note::{NoteKind, Notes, Subject};
 use crate::xml::Xml;
@@ -15,7 +15,7 @@ use lexibus_codegen::ir::{Access, EnumValue, Group, Item, Shape, Type, TypeDef};
 /// An object, its entries by sub-index, and its type.
 type Planned<'g> = (&'g Group, Vec<(u8, &'g Item)>, Plan);
 
-/// Writes a Dictionary, if there is anything in it.
+/// Writes a Dictionary unless it would be empty.
 pub(super) fn write(xml: &mut Xml, context: &mut Context<'_>, types: &mut Types<'_>, groups: &[&Group]) {
     let planned: Vec<Planned<'_>> = groups
         .iter()
@@ -42,7 +42,7 @@ pub(super) fn write(xml: &mut Xml, context: &mut Context<'_>, types: &mut Types<
     xml.close();
 }
 
-/// The entries of an object, each sub-index once.
+/// Returns the entries of an object. Each sub-index occurs once.
 fn entries<'g>(group: &'g Group, notes: &mut Notes) -> Vec<(u8, &'g Item)> {
     let mut items: Vec<(u8, &Item)> = Vec::with_capacity(group.items.len());
     let mut seen = [false; 256];
@@ -62,21 +62,21 @@ fn data_types(xml: &mut Xml, types: &mut Types<'_>, notes: &mut Notes) {
     for (at, def) in (0u32..).zip(types.defs) {
         data_type(xml, types, at, def, notes);
     }
-    // Types that are made up refer to no further ones.
-    for made in &types.made {
-        made_type(xml, made, notes);
+    // Added types refer to no further types.
+    for added in &types.added {
+        added_type(xml, added, notes);
     }
     xml.close();
 }
 
 fn data_type(xml: &mut Xml, types: &mut Types<'_>, at: u32, def: &TypeDef, notes: &mut Notes) {
-    let (own, subject) = (types.name_of(at), Subject::Named(&def.name));
+    let (name, subject) = (types.name_of(at), Subject::Named(&def.name));
     let bits = types.bits(Type::Named(lexibus_codegen::ir::TypeId(at))).unwrap_or(0);
     let base = match &def.shape {
-        Shape::Alias(_) if is_self_named(def, &own) => None,
+        Shape::Alias(_) if is_self_named(def, &name) => None,
         Shape::Alias(ty) | Shape::Array { element: ty, .. } => Some(*ty),
         Shape::Enumeration { base, .. } => Some(*base),
-        Shape::BitField { .. } if matches!(type_name::basic(&own), Some((Basic::Bits(_), _))) => None,
+        Shape::BitField { .. } if matches!(type_name::basic(&name), Some((Basic::Bits(_), _))) => None,
         Shape::BitField { base, .. } => {
             notes.add(NoteKind::BitField, subject);
             Some(*base)
@@ -90,8 +90,8 @@ fn data_type(xml: &mut Xml, types: &mut Types<'_>, at: u32, def: &TypeDef, notes
     let base = base.map(|ty| types.reference(ty, notes, subject).0);
     xml.open("DataType");
     xml.optional_leaf("Index", def.code.map(|code| hex(code, 4)));
-    xml.leaf("Name", &own);
-    xml.optional_leaf("BaseType", base.filter(|base| *base != own));
+    xml.leaf("Name", &name);
+    xml.optional_leaf("BaseType", base.filter(|base| *base != name));
     documentation(xml, "Comment", def.documentation.as_deref(), notes, subject);
     xml.leaf("BitSize", bits);
     match &def.shape {
@@ -114,7 +114,7 @@ fn array_info(xml: &mut Xml, lower: i64, count: u32) {
     xml.close();
 }
 
-/// A named value.
+/// Writes a named value.
 pub(super) fn enum_info(xml: &mut Xml, element: &'static str, value: &EnumValue, notes: &mut Notes) {
     let subject = Subject::Named(&value.name);
     xml.open(element);
@@ -128,38 +128,49 @@ pub(super) fn enum_info(xml: &mut Xml, element: &'static str, value: &EnumValue,
     notes.add_many(NoteKind::Availability, value.availability.is_some(), subject);
 }
 
-/// The sub-items of a record of the device.
+/// Writes the sub-items of a record of the device.
 fn sub_items(xml: &mut Xml, types: &mut Types<'_>, at: u32, def: &TypeDef, notes: &mut Notes) {
     let Shape::Record(fields) = &def.shape else { return };
     let unique = record::field_names(types, at);
     let facts = types.uses.get(&at).cloned().unwrap_or_default();
-    for (position, (field, own)) in fields.iter().zip(&unique).enumerate() {
-        notes.add_many(NoteKind::Renamed, *own != field.name, Subject::Named(&def.name));
+    for (position, (field, name)) in fields.iter().zip(&unique).enumerate() {
+        notes.add_many(NoteKind::Renamed, *name != field.name, Subject::Named(&def.name));
         let (ty, _) = types.reference(field.ty, notes, Subject::Named(&def.name));
         xml.open("SubItem");
         xml.optional_leaf("SubIdx", field.sub_index);
-        sub_item(xml, (own, &ty, field.bits, field.bit_offset), facts.get(position), notes);
+        sub_item(
+            xml,
+            &SubItem { name, ty: &ty, bits: field.bits, offset: field.bit_offset },
+            facts.get(position),
+            notes,
+        );
         xml.close();
     }
 }
 
-/// What every sub-item has: name, type, length and first bit.
-type Placed<'p> = (&'p CompactString, &'p CompactString, u32, u32);
+/// The facts that every sub-item has.
+struct SubItem<'p> {
+    name: &'p CompactString,
+    ty: &'p CompactString,
+    bits: u32,
+    /// First bit.
+    offset: u32,
+}
 
-fn sub_item(xml: &mut Xml, (own, ty, bits, offset): Placed<'_>, facts: Option<&FieldFacts>, notes: &mut Notes) {
-    let subject = Subject::Named(own);
-    xml.leaf("Name", own);
+fn sub_item(xml: &mut Xml, item: &SubItem<'_>, facts: Option<&FieldFacts>, notes: &mut Notes) {
+    let subject = Subject::Named(item.name);
+    xml.leaf("Name", item.name);
     if let Some(facts) = facts {
         for local in facts.names.iter() {
             name(xml, "DisplayName", local, notes, subject);
         }
     }
-    xml.leaf("Type", ty);
+    xml.leaf("Type", item.ty);
     if let Some(facts) = facts {
         documentation(xml, "Comment", facts.documentation.as_deref(), notes, subject);
     }
-    xml.leaf("BitSize", bits);
-    xml.leaf("BitOffs", offset);
+    xml.leaf("BitSize", item.bits);
+    xml.leaf("BitOffs", item.offset);
     if let Some(facts) = facts {
         xml.open("Flags");
         flags(xml, facts, None, notes, subject);
@@ -169,7 +180,7 @@ fn sub_item(xml: &mut Xml, (own, ty, bits, offset): Placed<'_>, facts: Option<&F
     }
 }
 
-/// Access, category and mapping.
+/// Writes access rights, category and mapping.
 pub(super) fn flags(
     xml: &mut Xml,
     facts: &FieldFacts,
@@ -204,26 +215,26 @@ pub(super) fn flags(
     }
 }
 
-fn made_type(xml: &mut Xml, made: &Made, notes: &mut Notes) {
+fn added_type(xml: &mut Xml, added: &AddedType, notes: &mut Notes) {
     xml.open("DataType");
-    match made {
-        Made::Basic { name, bits } => {
+    match added {
+        AddedType::Basic { name, bits } => {
             xml.leaf("Name", name);
             xml.leaf("BitSize", bits);
         }
-        Made::Array { name, element, bits, count } => {
+        AddedType::Array { name, element, bits, count } => {
             xml.leaf("Name", name);
             xml.leaf("BaseType", element);
             xml.leaf("BitSize", bits);
             array_info(xml, 1, *count);
         }
-        Made::Record { name, bits, fields } => {
+        AddedType::Record { name, bits, fields } => {
             xml.leaf("Name", name);
             xml.leaf("BitSize", bits);
-            for MadeField { name, sub_index, ty, bits, offset, facts } in fields {
+            for AddedField { name, sub_index, ty, bits, offset, facts } in fields {
                 xml.open("SubItem");
                 xml.leaf("SubIdx", sub_index);
-                sub_item(xml, (name, ty, *bits, *offset), Some(facts), notes);
+                sub_item(xml, &SubItem { name, ty, bits: *bits, offset: *offset }, Some(facts), notes);
                 xml.close();
             }
         }
@@ -231,7 +242,7 @@ fn made_type(xml: &mut Xml, made: &Made, notes: &mut Notes) {
     xml.close();
 }
 
-/// The name of the type of an entry of a PDO, which needn't be defined.
+/// Returns the name of the type of a PDO entry. The file needs no definition of it.
 pub(super) fn entry_type(types: &Types<'_>, ty: Type) -> Option<CompactString> {
     match ty {
         Type::Named(id) => types.def(ty).map(|_| types.name_of(id.0)),

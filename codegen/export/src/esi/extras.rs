@@ -1,4 +1,4 @@
-//! Extension attributes that have a place in the file, and time limits.
+//! Extension attributes that the file can hold, and time limits.
 
 use std::collections::HashSet;
 
@@ -21,14 +21,14 @@ const OF_TYPE: [&str; 9] = [
     "Type@ShowHideableSubDevices",
 ];
 
-/// Elements of a profile that hold a number.
+/// Elements of a profile that contain a number.
 const OF_PROFILE: [&str; 2] = ["AddInfo", "SubAddInfo"];
 
-/// Time limits of the state machine and of the mailbox; each list is complete or not there.
+/// Time limits of the state machine and of the mailbox. The schema requires all or none of each list.
 const STATE_TIMES: [&str; 4] = ["PreopTimeout", "SafeopOpTimeout", "BackToInitTimeout", "BackToSafeopTimeout"];
 const MAILBOX_TIMES: [&str; 2] = ["RequestTimeout", "ResponseTimeout"];
 
-/// Elements of Info behind the time limits, each with the form of its text.
+/// Elements of Info after the time limits, each with the form of its text.
 const CONTROLLER: [&str; 3] =
     ["EtherCATController/DpramSize", "EtherCATController/SmCount", "EtherCATController/FmmuCount"];
 const LAST: [&str; 3] = ["Info/StationAliasSupported", "Info/IdentificationAdo", "Info/IdentificationReg134"];
@@ -43,7 +43,7 @@ fn find<'e>(list: &'e [Extension], key: &str) -> Option<&'e Extension> {
     list.iter().find(|extension| extension.key == key)
 }
 
-/// Extensions of a device that no place was found for.
+/// Returns the number of extensions of a device that the file cannot hold.
 pub(super) fn lost(device: &Device) -> usize {
     let all = device.extensions.as_slice();
     let image = IMAGES.iter().find(|key| find(all, key).is_some());
@@ -51,15 +51,15 @@ pub(super) fn lost(device: &Device) -> usize {
     for extension in all {
         let key = extension.key.as_str();
         let is_known = key == CURRENT || OF_TYPE.contains(&key) || CONTROLLER.contains(&key) || LAST.contains(&key);
-        // There is room for one of each, and for one picture.
+        // The schema allows one of each, and one picture.
         let is_single = is_known || image.is_some_and(|image| *image == key);
-        let is_told = matches!(key, URL | URL_LANGUAGE) || is_single && seen.insert(key);
-        lost += usize::from(!is_told);
+        let is_written = matches!(key, URL | URL_LANGUAGE) || is_single && seen.insert(key);
+        lost += usize::from(!is_written);
     }
     lost
 }
 
-/// Further attributes of Type.
+/// Writes further attributes of Type.
 pub(super) fn of_type(xml: &mut Xml, device: &Device) {
     for key in OF_TYPE {
         if let Some(extension) = find(&device.extensions, key) {
@@ -68,7 +68,7 @@ pub(super) fn of_type(xml: &mut Xml, device: &Device) {
     }
 }
 
-/// Addresses of pages about a device, perhaps with a language in front of each.
+/// Writes the URLs of a device. The language of a URL, if any, precedes it.
 pub(super) fn urls(xml: &mut Xml, device: &Device) {
     let mut lcid = None;
     for extension in &device.extensions {
@@ -85,7 +85,7 @@ pub(super) fn urls(xml: &mut Xml, device: &Device) {
     }
 }
 
-/// Writes Info, if there is anything in it.
+/// Writes Info unless it would be empty.
 pub(super) fn info(xml: &mut Xml, context: &mut Context<'_>, device: &Device, settings: &EtherCatSettings) {
     let list = device.extensions.as_slice();
     let states = times(context, settings, &STATE_TIMES);
@@ -126,13 +126,13 @@ fn elements(xml: &mut Xml, list: &[Extension], keys: &[&'static str]) {
     }
 }
 
-/// The time limits of these names, if all are there.
+/// Returns the time limits with these names if all exist.
 fn times(context: &mut Context<'_>, settings: &EtherCatSettings, names: &[&'static str]) -> Vec<(&'static str, u32)> {
-    let own = |name: &&'static str| {
-        let found = settings.timeouts.iter().find(|(own, _)| own == *name);
+    let limit = |name: &&'static str| {
+        let found = settings.timeouts.iter().find(|(known, _)| known == *name);
         found.map(|(_, limit)| (*name, *limit))
     };
-    let found: Vec<(&'static str, u32)> = names.iter().filter_map(own).collect();
+    let found: Vec<(&'static str, u32)> = names.iter().filter_map(limit).collect();
     if found.len() == names.len() {
         return found;
     }
@@ -140,7 +140,7 @@ fn times(context: &mut Context<'_>, settings: &EtherCatSettings, names: &[&'stat
     Vec::new()
 }
 
-/// The picture that the file refers to.
+/// Writes the picture that the file refers to.
 pub(super) fn image(xml: &mut Xml, device: &Device) {
     let first = IMAGES.iter().find_map(|key| Some((*key, find(&device.extensions, key)?)));
     if let Some((key, extension)) = first {
@@ -148,12 +148,12 @@ pub(super) fn image(xml: &mut Xml, device: &Device) {
     }
 }
 
-/// Whether an extension of a module is in its profile.
+/// Returns whether an extension of a module belongs to its profile.
 pub(super) fn is_of_profile(extension: &Extension) -> bool {
     OF_PROFILE.contains(&extension.key.as_str()) && extension.value.parse::<i32>().is_ok()
 }
 
-/// Numbers beside that of a profile.
+/// Writes further numbers of a profile.
 pub(super) fn profile(xml: &mut Xml, list: &[Extension]) {
     for key in OF_PROFILE {
         if let Some(extension) = find(list, key).filter(|extension| is_of_profile(extension)) {
@@ -162,7 +162,7 @@ pub(super) fn profile(xml: &mut Xml, list: &[Extension]) {
     }
 }
 
-/// The vendor's name in other languages.
+/// Writes the vendor's name in other languages.
 pub(super) fn vendor_names(xml: &mut Xml, context: &mut Context<'_>) {
     for extension in &context.catalog.extensions {
         let Some(language) = extension.key.strip_prefix(VENDOR_NAME) else { continue };
@@ -178,16 +178,16 @@ pub(super) fn vendor_names(xml: &mut Xml, context: &mut Context<'_>) {
     }
 }
 
-/// What else is said of the vendor.
+/// Writes further facts about the vendor.
 pub(super) fn of_vendor(xml: &mut Xml, context: &mut Context<'_>) {
     let urls = context.catalog.extensions.iter().filter(|extension| extension.key == VENDOR_URL);
     urls.for_each(|extension| xml.leaf("URL", &extension.value));
-    let is_told = |extension: &&Extension| extension.key == VENDOR_URL || extension.key.starts_with(VENDOR_NAME);
-    let lost = context.catalog.extensions.iter().filter(|extension| !is_told(extension)).count();
+    let is_written = |extension: &&Extension| extension.key == VENDOR_URL || extension.key.starts_with(VENDOR_NAME);
+    let lost = context.catalog.extensions.iter().filter(|extension| !is_written(extension)).count();
     context.notes.add_many(NoteKind::Extension, lost, Subject::Named("Vendor"));
 }
 
-/// The version of a file with nothing but messages.
+/// Writes the version of a file that contains only messages.
 pub(super) fn diagnosis_version(xml: &mut Xml, context: &mut Context<'_>) {
     const VERSION: &str = "EtherCATDiag@Version";
     let all = context.catalog.extensions.as_slice();

@@ -1,4 +1,4 @@
-//! The mailbox: its protocols, and what a master sends at start-up.
+//! The mailbox: its protocols, and the start-up commands of the master.
 
 use super::pdo::slot_index;
 use super::text::hex;
@@ -8,7 +8,7 @@ use crate::note::{NoteKind, Notes, Subject};
 use crate::xml::Xml;
 use lexibus_codegen::ir::{Coe, CompactString, InitCommand, Mailbox, Protocol};
 
-/// Attributes of the protocols that the IR has no field for.
+/// Attributes of the protocols for which the IR has no field.
 const ATTRIBUTES: [(&str, &[&str]); 4] = [
     ("AoE", &["AdsRouter", "GenerateOwnNetId", "InitializeOwnNetId"]),
     ("EoE", &["IP", "MAC", "TimeStamp"]),
@@ -16,7 +16,7 @@ const ATTRIBUTES: [(&str, &[&str]); 4] = [
     ("SoE", &["ChannelCount", "DriveFollowsBit3Support"]),
 ];
 
-/// Writes the mailbox of the source, or that of the options where the source has none.
+/// Writes the mailbox of the source, or that of the options if the source has none.
 pub(super) fn write(xml: &mut Xml, context: &mut Context<'_>, declared: Option<&Mailbox>) {
     let given = if declared.is_none() { context.options.coe() } else { None };
     let given = given.map(|coe| Mailbox { coe: Some(coe), ..Mailbox::default() });
@@ -62,7 +62,7 @@ fn protocol(xml: &mut Xml, notes: &mut Notes, element: &'static str, protocol: O
 }
 
 fn attributes(xml: &mut Xml, notes: &mut Notes, element: &'static str, list: &[(CompactString, CompactString)]) {
-    let known = ATTRIBUTES.iter().find(|(own, _)| *own == element).map_or(&[] as &[&str], |(_, names)| names);
+    let known = ATTRIBUTES.iter().find(|(known, _)| *known == element).map_or(&[] as &[&str], |(_, names)| names);
     for (name, value) in list {
         match known.contains(&name.as_str()) {
             true => xml.attribute(name, value),
@@ -71,7 +71,7 @@ fn attributes(xml: &mut Xml, notes: &mut Notes, element: &'static str, list: &[(
     }
 }
 
-/// What a master sends on a change of state.
+/// Writes a command that a master sends on a state transition.
 pub(super) fn init_command(xml: &mut Xml, notes: &mut Notes, protocol: &'static str, command: &InitCommand) {
     let subject = Subject::Object(command.index);
     xml.open("InitCmd");
@@ -93,7 +93,7 @@ pub(super) fn init_command(xml: &mut Xml, notes: &mut Notes, protocol: &'static 
         "EoE" => xml.leaf("Type", command.index),
         "SoE" => xml.leaf("IDN", command.index),
         "CoE" => {
-            slot_index(xml, "Index", command.index, (command.depends_on_slot, command.depends_on_slot_group));
+            slot_index(xml, "Index", command.index, command.depends_on_slot, command.depends_on_slot_group);
             xml.leaf("SubIndex", hex(command.sub_index, 2));
         }
         _ => {}

@@ -1,8 +1,9 @@
-//! EtherCAT slave information (ESI, ETG.2000): every slave of a catalogue, and the dictionary of any device that has objects.
+//! EtherCAT slave information (ESI, ETG.2000): every slave of a catalog, or the dictionary of any device that has
+//! objects.
 //!
-//! What was read from an ESI comes out as it was understood, in the order that the schema wants. Of a device of another
-//! format, the file has what ETG.2000 has a place for, and [`Export::notes`] says what it doesn't. What the schema wants and
-//! the source doesn't say has to be among the [`Options`].
+//! The export of an ESI has its facts in the order that the schema requires. The export of another format has the facts
+//! that ETG.2000 can hold. [`Export::notes`] lists the others. The [`Options`] supply facts that the schema requires
+//! and the source does not have.
 //!
 //! | file | subject |
 //! |---|---|
@@ -12,10 +13,10 @@
 //! | `sync` | FMMUs, sync managers, sync units |
 //! | `pdo`, `mailbox`, `clocks`, `slots`, `eeprom` | the parts of a device |
 //! | `dictionary`, `types`, `record`, `object`, `value` | data types and objects |
-//! | `objects` | which objects there are on EtherCAT |
+//! | `objects` | the objects of a device on EtherCAT |
 //! | `diagnosis` | diagnosis messages |
-//! | `extras` | extension attributes that have a place in the file |
-//! | `losses` | facts that ETG.2000 has no place for |
+//! | `extras` | extension attributes that the file can hold |
+//! | `losses` | facts that ETG.2000 cannot hold |
 
 mod clocks;
 mod device;
@@ -38,7 +39,7 @@ mod types;
 mod value;
 
 pub use super::{Export, MissingFact, Note, NoteKind, Refusal};
-use options::Asked;
+use options::TrackedOptions;
 pub use options::{Area, Options};
 
 use std::collections::HashMap;
@@ -46,18 +47,18 @@ use std::collections::HashMap;
 use compact_str::CompactString;
 
 use super::note::{Notes, Subject};
-use super::options::Wanted;
+use super::options::MissingFacts;
 use super::xml::Xml;
 use lexibus_codegen::etg::unit;
 use lexibus_codegen::ir::{Catalog, Device, Format, Identity};
 use text::{hex, names};
 
-/// Version of ETG.2000 that the schema of what is written has.
+/// Version of ETG.2000 whose schema describes the exported file.
 const VERSION: &str = "1.17";
 
-/// The file of all devices and modules of `catalog` that are EtherCAT slaves or have objects, in UTF-8.
+/// Exports all devices and modules of `catalog` that are EtherCAT slaves or have objects, in UTF-8.
 pub fn export(catalog: &Catalog, options: &Options) -> Result<Export, Refusal> {
-    let options = &Asked::new(options);
+    let options = &TrackedOptions::new(options);
     let devices: Vec<&Device> = catalog.devices.iter().filter(|device| is_slave(device)).collect();
     let is_messages =
         devices.is_empty() && catalog.modules.is_empty() && catalog.code_tables.iter().any(diagnosis::is_list);
@@ -68,7 +69,7 @@ pub fn export(catalog: &Catalog, options: &Options) -> Result<Export, Refusal> {
         catalog,
         options,
         notes: Notes::default(),
-        wanted: Wanted::default(),
+        missing: MissingFacts::default(),
         units: HashMap::new(),
         is_esi: is_esi(catalog),
     };
@@ -80,12 +81,12 @@ pub fn export(catalog: &Catalog, options: &Options) -> Result<Export, Refusal> {
     }
     context.notes.add_many(NoteKind::Control, xml.dropped, Subject::Device);
     context.notes.add_many(NoteKind::Extension, xml.unnamed, Subject::Device);
-    let Context { mut notes, wanted, .. } = context;
-    options.note_others(&mut notes);
-    wanted.finish(xml.finish(), notes.finish())
+    let Context { mut notes, missing, .. } = context;
+    options.note_unused(&mut notes);
+    missing.finish(xml.finish(), notes.finish())
 }
 
-/// Whether a device can be described at all.
+/// Returns whether an ESI can describe the device.
 fn is_slave(device: &Device) -> bool {
     let has_objects = || device.groups.iter().any(|group| group.items.iter().any(|item| item.object().is_some()));
     device.ethercat.is_some() || device.profinet.is_none() && has_objects()
@@ -95,25 +96,25 @@ fn is_esi(catalog: &Catalog) -> bool {
     catalog.files.first().is_some_and(|file| file.format == Format::Esi)
 }
 
-/// What every part of the file is written from.
+/// The data that every part of the file is written from.
 struct Context<'a> {
     catalog: &'a Catalog,
-    options: &'a Asked<'a>,
+    options: &'a TrackedOptions<'a>,
     notes: Notes,
-    wanted: Wanted,
-    /// Numbers of units by their symbols.
+    missing: MissingFacts,
+    /// Numbers of units, by symbol.
     units: HashMap<CompactString, Option<String>>,
-    /// Whether the source was an ESI: then what it leaves open stays open.
+    /// Whether the source is an ESI. Then facts that it leaves out stay out.
     is_esi: bool,
 }
 
 impl Context<'_> {
-    /// What the caller gives, or else the source; if neither does, the caller is told.
-    fn wanted<T: Default>(&mut self, given: Option<T>, found: Option<T>, key: &'static str) -> T {
-        self.wanted.want(given.or(found), key, Options::KEYS)
+    /// Returns the fact of the caller, otherwise that of the source. Records a missing fact if neither has it.
+    fn required<T: Default>(&mut self, given: Option<T>, found: Option<T>, key: &'static str) -> T {
+        self.missing.require(given.or(found), key, Options::KEYS)
     }
 
-    /// The number of a unit, as it is written; a symbol that is a number already is one that nobody knows.
+    /// Returns the number of a unit, as ETG.2000 writes it. The symbol of an unknown unit is its number.
     fn unit(&mut self, symbol: &CompactString) -> Option<String> {
         if symbol.is_empty() {
             return None;
@@ -131,7 +132,7 @@ impl Context<'_> {
     }
 }
 
-/// A dictionary that belongs to no device.
+/// Writes a dictionary without a device.
 fn dictionary_only(xml: &mut Xml, context: &mut Context<'_>, device: &Device) {
     xml.open("EtherCATDict");
     xml.text_attribute("Version", &device.header.format_version);
@@ -140,7 +141,7 @@ fn dictionary_only(xml: &mut Xml, context: &mut Context<'_>, device: &Device) {
     losses::of_device(context, device);
 }
 
-/// Diagnosis messages that belong to no device.
+/// Writes diagnosis messages without a device.
 fn messages_only(xml: &mut Xml, context: &mut Context<'_>) {
     xml.open("EtherCATDiag");
     extras::diagnosis_version(xml, context);
@@ -195,11 +196,11 @@ fn vendor(xml: &mut Xml, context: &mut Context<'_>, device: Option<&&Device>, id
         Some(_) => context.notes.add(NoteKind::FileInfo, Subject::Device),
         None => {}
     }
-    let id = context.wanted(context.options.vendor_id(), identity.vendor_id, "vendor-id");
+    let id = context.required(context.options.vendor_id(), identity.vendor_id, "vendor-id");
     xml.leaf("Id", hex(id, 8));
-    let own = Some(identity.vendor_name.to_string()).filter(|name| !name.is_empty() || context.is_esi);
-    let own = context.wanted(context.options.vendor_name(), own, "vendor-name");
-    xml.leaf("Name", own);
+    let name = Some(identity.vendor_name.to_string()).filter(|name| !name.is_empty() || context.is_esi);
+    let name = context.required(context.options.vendor_name(), name, "vendor-name");
+    xml.leaf("Name", name);
     extras::vendor_names(xml, context);
     if context.is_esi {
         header.into_iter().flat_map(|header| &header.comments).for_each(|comment| xml.leaf("Comment", comment));
@@ -208,7 +209,7 @@ fn vendor(xml: &mut Xml, context: &mut Context<'_>, device: Option<&&Device>, id
     xml.close();
 }
 
-/// The families of a list of devices, and those that devices name and nobody describes.
+/// Writes the groups of the devices, and those that devices refer to without a definition.
 fn groups(xml: &mut Xml, context: &mut Context<'_>, devices: &[&Device]) {
     xml.open("Groups");
     let catalog = context.catalog;

@@ -8,7 +8,7 @@ use crate::note::{NoteKind, Subject};
 use crate::xml::Xml;
 use lexibus_codegen::ir::{Extension, Module};
 
-/// Flags of CoE that the IR keeps as extensions of a module.
+/// Flags of CoE, which the IR stores as extensions of a module.
 const COE: [&str; 9] = [
     "CoE@SdoInfo",
     "CoE@PdoAssign",
@@ -21,7 +21,7 @@ const COE: [&str; 9] = [
     "CoE@ModuleOD",
 ];
 
-/// The extension of a module whose mailbox has CoE.
+/// Extension of a module whose mailbox supports CoE.
 const HAS_COE: &str = "Mailbox/CoE";
 
 /// Writes a module.
@@ -36,8 +36,8 @@ pub(super) fn write(xml: &mut Xml, context: &mut Context<'_>, module: &Module) {
     xml.close();
     names(xml, "Name", &module.name, &module.names, &mut context.notes, subject);
     let mut types = Types::new(&module.types, context.is_esi, &mut context.notes);
-    for own in &module.process_data.pdos {
-        pdo::write(xml, &mut context.notes, &types, own, true);
+    for pdo in &module.process_data.pdos {
+        pdo::write(xml, &mut context.notes, &types, pdo, true);
     }
     mailbox(xml, context, module);
     profile(xml, context, module, &mut types);
@@ -46,8 +46,8 @@ pub(super) fn write(xml: &mut Xml, context: &mut Context<'_>, module: &Module) {
         module.extensions.iter().find(|extension| extension.key == "DcOpModeName").map(|name| &name.value),
     );
     xml.close();
-    let is_told = |extension: &Extension| matches!(extension.key.as_str(), "DcOpModeName" | HAS_COE);
-    let is_lost = |extension: &&Extension| !is_told(extension) && !is_coe(extension);
+    let is_written = |extension: &Extension| matches!(extension.key.as_str(), "DcOpModeName" | HAS_COE);
+    let is_lost = |extension: &&Extension| !is_written(extension) && !is_coe(extension);
     let lost = module.extensions.iter().filter(is_lost).filter(|extension| !extras::is_of_profile(extension)).count();
     context.notes.add_many(NoteKind::Extension, lost, subject);
     losses::of_module(context, module);
@@ -73,7 +73,7 @@ fn mailbox(xml: &mut Xml, context: &mut Context<'_>, module: &Module) {
     xml.close();
 }
 
-/// A module has one profile.
+/// Writes the only profile of a module.
 fn profile(xml: &mut Xml, context: &mut Context<'_>, module: &Module, types: &mut Types<'_>) {
     let objects = objects::all(module.groups.iter(), &mut context.notes);
     if module.profiles.is_empty() && objects.is_empty() && types.defs.is_empty() {

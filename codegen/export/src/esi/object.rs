@@ -11,7 +11,7 @@ use crate::note::{self, NoteKind, Subject};
 use crate::xml::Xml;
 use lexibus_codegen::ir::{Category, Extension, Group, GroupKind, Item, Storage};
 
-/// Extension attributes that are flags of an object.
+/// Extension attributes that ETG.2000 stores as flags of an object.
 const FLAGS: [&str; 3] = ["Attribute", "Transition", "SdoAccess"];
 
 /// Writes an object with these entries.
@@ -28,8 +28,8 @@ pub(super) fn write(
     xml.open("Object");
     index(xml, group);
     names(xml, "Name", &group.name, &group.names, &mut context.notes, subject);
-    let own = group.documentation.as_deref().or_else(|| single.and_then(|item| item.documentation.as_deref()));
-    documentation(xml, "Comment", own, &mut context.notes, subject);
+    let text = group.documentation.as_deref().or_else(|| single.and_then(|item| item.documentation.as_deref()));
+    documentation(xml, "Comment", text, &mut context.notes, subject);
     xml.leaf("Type", &plan.ty);
     xml.leaf("BitSize", plan.bits);
     let both = group.documentation.is_some() && single.is_some_and(|item| item.documentation.is_some());
@@ -65,7 +65,7 @@ fn extension<'g>(group: &'g Group, key: &str) -> Option<&'g CompactString> {
     group.extensions.iter().find(|extension| extension.key == key).map(|extension| &extension.value)
 }
 
-/// What the object says of each of its entries, if that is more than their names in the type.
+/// Writes the facts of the entries, unless they are only the names that the type already has.
 fn sub_items(
     xml: &mut Xml,
     context: &mut Context<'_>,
@@ -73,19 +73,19 @@ fn sub_items(
     items: &[(u8, &Item)],
     names: &[CompactString],
 ) {
-    let says_more = |(item, name): (&Item, &CompactString)| {
+    let has_more_facts = |(item, name): (&Item, &CompactString)| {
         let has_unit = item.quantity.as_ref().is_some_and(|quantity| !quantity.unit.is_empty());
         let has_display_name = record::display_name(item).is_some();
         item.name != *name || item.default.is_some() || !item.limits.is_empty() || has_unit || has_display_name
     };
     let entries = items.iter().map(|(_, item)| *item).zip(names);
-    if !entries.clone().any(says_more) {
+    if !entries.clone().any(has_more_facts) {
         return;
     }
     xml.open("Info");
     for (item, name) in entries {
         xml.open("SubItem");
-        // One without a name goes by that of the type.
+        // An entry without a name gets that of the type.
         xml.leaf("Name", if item.name.is_empty() { name } else { &item.name });
         xml.open("Info");
         info(xml, context, types, item);
@@ -97,7 +97,7 @@ fn sub_items(
     xml.close();
 }
 
-/// Default and limits.
+/// Writes the default and the limits.
 fn info(xml: &mut Xml, context: &mut Context<'_>, types: &Types<'_>, item: &Item) {
     let (elements, notes) = value::elements(item, types.underlying(item.type_on(record::BUS)));
     elements.into_iter().for_each(|(name, text)| xml.leaf(name, text));
@@ -105,7 +105,7 @@ fn info(xml: &mut Xml, context: &mut Context<'_>, types: &Types<'_>, item: &Item
     context.notes.add_many(NoteKind::AllowedValues, !item.limits.allowed.is_empty(), Subject::item(item));
 }
 
-/// The one further name that a single value can have.
+/// Writes the display name of a single value. ETG.2000 allows one only.
 fn display_name(xml: &mut Xml, context: &mut Context<'_>, group: &Group, item: &Item) {
     if item.names == group.names {
         return;
@@ -116,16 +116,16 @@ fn display_name(xml: &mut Xml, context: &mut Context<'_>, group: &Group, item: &
     }
 }
 
-/// The unit, if it has a number, and nothing else is said of the quantity.
+/// Writes the unit if it has a number. Adds a note for the other facts of the quantity.
 fn unit(xml: &mut Xml, context: &mut Context<'_>, item: &Item) {
     let Some(quantity) = &item.quantity else { return };
     let number = context.unit(&quantity.unit);
     xml.optional_leaf("Unit", number.as_ref());
-    let says_more = quantity.scale.is_some()
+    let has_more_facts = quantity.scale.is_some()
         || !quantity.sentinels.is_empty()
         || quantity.step.is_some()
         || !quantity.units.is_empty();
-    if number.is_none() || says_more {
+    if number.is_none() || has_more_facts {
         context.notes.add(NoteKind::Quantity, Subject::item(item));
     }
 }
@@ -169,7 +169,7 @@ fn object_flags(xml: &mut Xml, context: &mut Context<'_>, group: &Group, single:
     xml.close();
 }
 
-/// What else is said of the object, by name.
+/// Writes the other facts of the object as properties with a name and a value.
 fn properties(xml: &mut Xml, group: &Group) {
     let is_flag =
         |extension: &&Extension| FLAGS.contains(&extension.key.as_str()) || extension.key == "OverwrittenByModule";
@@ -187,14 +187,14 @@ fn properties(xml: &mut Xml, group: &Group) {
     xml.close();
 }
 
-/// Facts of an object and its entries that ETG.2000 has no place for.
+/// Adds notes for the facts of an object and its entries that ETG.2000 cannot hold.
 fn losses(context: &mut Context<'_>, group: &Group, items: &[(u8, &Item)]) {
     let notes = &mut context.notes;
     notes.add_many(NoteKind::Doubt, group.doubts.len(), Subject::object(group));
     notes.add_many(NoteKind::Setting, group.links.len(), Subject::object(group));
     for (_, item) in items {
         let subject = Subject::item(item);
-        // Two indices on two buses are one item.
+        // An item with an index on each of two buses is one item.
         let other_buses = item.bindings.len().saturating_sub(1);
         notes.add_many(NoteKind::Binding, other_buses, subject);
         let more = item.behaviour.as_ref().is_some_and(|behaviour| {

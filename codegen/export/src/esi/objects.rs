@@ -1,10 +1,10 @@
-//! Which objects a device has on EtherCAT.
+//! The objects of a device on EtherCAT.
 
 use crate::note::{NoteKind, Notes, Subject};
 use crate::registers;
 use lexibus_codegen::ir::{Binding, Bus, Buses, Device, Group, Item};
 
-/// Index and sub-index on EtherCAT; those on CANopen of an item that has no address of its own there.
+/// Returns the index and sub-index of an item on EtherCAT. An item without an address there has those on CANopen.
 pub(super) fn address(item: &Item) -> Option<(u16, u8)> {
     let on_ethercat = item.bindings.iter().find_map(|binding| match binding {
         Binding::Object { buses, index, sub_index } if buses.coe => Some((*index, *sub_index)),
@@ -13,7 +13,7 @@ pub(super) fn address(item: &Item) -> Option<(u16, u8)> {
     on_ethercat.or_else(|| item.object())
 }
 
-/// The objects that only registers have.
+/// Returns the objects that only registers have.
 pub(super) fn of_registers(device: &Device, notes: &mut Notes) -> Vec<Group> {
     let objects = registers::objects(device, |item| address(item).filter(|_| is_on_ethercat(device, item)));
     notes.add_many(NoteKind::Completed, registers::completed(&objects), Subject::Device);
@@ -21,29 +21,29 @@ pub(super) fn of_registers(device: &Device, notes: &mut Notes) -> Vec<Group> {
     objects
 }
 
-/// Whether an item is there on EtherCAT. Of a device that isn't an EtherCAT slave, all objects are.
+/// Returns whether an item exists on EtherCAT. All objects of a device that isn't an EtherCAT slave do.
 fn is_on_ethercat(device: &Device, item: &Item) -> bool {
     let buses = item.availability.as_ref().map_or(Buses::NONE, |availability| availability.buses);
     let has_address = item.bindings.iter().any(|binding| matches!(binding, Binding::Object { buses, .. } if buses.coe));
     device.ethercat.is_none() || has_address && (buses.is_empty() || buses.contains(Bus::EtherCat))
 }
 
-/// The objects of a device, with those that were `made` of registers. Those that aren't on EtherCAT are left out: what the source
-/// has on CANopen only, and of a CANopen device the objects of CAN's own services.
-pub(super) fn of_device<'g>(device: &'g Device, made: &'g [Group], notes: &mut Notes) -> Vec<&'g Group> {
+/// Returns the objects of a device that exist on EtherCAT, with those `of_registers`. Objects that the source has on
+/// CANopen only, and the CAN services of a CANopen device, are left out.
+pub(super) fn of_device<'g>(device: &'g Device, of_registers: &'g [Group], notes: &mut Notes) -> Vec<&'g Group> {
     let is_canopen_only = device.canopen.is_some() && device.ethercat.is_none();
-    let mut objects = all(device.groups.iter().chain(made), notes);
+    let mut objects = all(device.groups.iter().chain(of_registers), notes);
     objects.retain(|group| {
         let is_of_can = is_canopen_only && group.index().is_some_and(is_of_can);
         let is_absent = !group.items.is_empty() && !group.items.iter().any(|item| is_on_ethercat(device, item));
-        let is_left_out = is_of_can || is_absent && !made.iter().any(|made| std::ptr::eq(made, *group));
+        let is_left_out = is_of_can || is_absent && !of_registers.iter().any(|object| std::ptr::eq(object, *group));
         notes.add_many(NoteKind::CanObject, is_left_out, Subject::object(group));
         !is_left_out
     });
     objects
 }
 
-/// Those of `groups` that are objects, sorted by index, each index once.
+/// Returns the objects of `groups`, sorted by index. Each index occurs once.
 pub(super) fn all<'g>(groups: impl Iterator<Item = &'g Group>, notes: &mut Notes) -> Vec<&'g Group> {
     let mut objects: Vec<&Group> = groups.filter(|group| group.index().is_some()).collect();
     objects.sort_by_key(|group| group.index());
@@ -55,8 +55,8 @@ pub(super) fn all<'g>(groups: impl Iterator<Item = &'g Group>, notes: &mut Notes
     objects
 }
 
-/// Whether an object of CiA 301 is about CAN: identifiers, SYNC, TIME, EMCY, guarding, heartbeat, SDO channels and PDO
-/// communication, which ETG.1000.6 doesn't have.
+/// Returns whether an object of CiA 301 describes CAN services, which ETG.1000.6 doesn't have: COB-IDs, SYNC, TIME,
+/// EMCY, guarding, heartbeat, SDO channels and PDO communication.
 fn is_of_can(index: u16) -> bool {
     matches!(index, 0x1005..=0x1007 | 0x100C..=0x100D | 0x1012..=0x1017 | 0x1019 | 0x1028..=0x1029 | 0x1200..=0x12FF)
         || matches!(index, 0x1400..=0x15FF | 0x1800..=0x19FF)

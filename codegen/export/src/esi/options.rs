@@ -1,11 +1,11 @@
-//! What an ESI has to say and a source may not.
+//! Facts that an ESI requires and a source may not have.
 
 use crate::options::{options, OptionValue};
 use lexibus_codegen::ir::Coe;
 
 options! {
-    /// Facts that count before those of the source, or that it doesn't have.
-    pub struct Options, Asked {
+    /// Facts that take precedence over those of the source, or complete them.
+    pub struct Options, TrackedOptions {
         /// Vendor ID assigned by the EtherCAT Technology Group.
         vendor_id: u32 = "vendor-id",
         /// Name of the vendor.
@@ -35,17 +35,17 @@ options! {
     }
 }
 
-/// A part of the memory of a slave controller.
+/// A range of the memory of a slave controller.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Area {
     /// Address of its first byte.
     pub start: u16,
-    /// Length in bytes, where given.
+    /// Length in bytes, if given.
     pub length: Option<u16>,
 }
 
 impl OptionValue for Area {
-    const WHAT: &'static str = "an address, perhaps with a length behind a colon such as 0x1000:128";
+    const WHAT: &'static str = "an address with an optional length, such as `0x1000:128`";
 
     fn parse(text: &str) -> Option<Self> {
         match text.split_once(':') {

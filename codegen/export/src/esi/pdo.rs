@@ -7,15 +7,15 @@ use crate::note::{NoteKind, Notes, Subject};
 use crate::xml::Xml;
 use lexibus_codegen::ir::{Direction, Extension, Pdo, PdoEntry, Type};
 
-/// Writes a PDO; `is_slave` tells whether its device is an EtherCAT slave, which has no communication parameters of CAN.
+/// Writes a PDO. `is_slave` says whether the device is an EtherCAT slave, which has no CAN communication parameters.
 pub(super) fn write(xml: &mut Xml, notes: &mut Notes, types: &Types<'_>, pdo: &Pdo, is_slave: bool) {
     let subject = Subject::Object(pdo.mapping_index);
     xml.open(if pdo.direction == Direction::Receive { "RxPdo" } else { "TxPdo" });
     attributes(xml, pdo);
-    slot_index(xml, "Index", pdo.mapping_index, (pdo.depends_on_slot, pdo.depends_on_slot_group));
+    slot_index(xml, "Index", pdo.mapping_index, pdo.depends_on_slot, pdo.depends_on_slot_group);
     names(xml, "Name", &pdo.name, &pdo.names, notes, subject);
     pdo.excludes.iter().for_each(|excluded| xml.leaf("Exclude", hex(*excluded, 4)));
-    pdo.entries.iter().for_each(|own| entry(xml, notes, types, own));
+    pdo.entries.iter().for_each(|each| entry(xml, notes, types, each));
     pdo.excluded_sync_managers.iter().for_each(|number| xml.leaf("ExcludedSm", number));
     xml.close();
     let is_lost = |extension: &&Extension| !is_attribute(extension);
@@ -45,7 +45,7 @@ fn attributes(xml: &mut Xml, pdo: &Pdo) {
     }
 }
 
-/// Whether an extension is an attribute of the PDO that the schema has and the IR doesn't.
+/// Returns whether an extension is an attribute of the PDO that the schema defines and the IR has no field for.
 fn is_attribute(extension: &Extension) -> bool {
     let Some(("RxPdo" | "TxPdo", name)) = extension.key.split_once('@') else { return false };
     match name {
@@ -55,11 +55,17 @@ fn is_attribute(extension: &Extension) -> bool {
     }
 }
 
-/// An index, and whether it grows with the slot and the slot group.
-pub(super) fn slot_index(xml: &mut Xml, element: &'static str, index: u16, (slot, group): (bool, bool)) {
+/// Writes an index. The flags say whether it increases with the slot and with the slot group.
+pub(super) fn slot_index(
+    xml: &mut Xml,
+    element: &'static str,
+    index: u16,
+    depends_on_slot: bool,
+    depends_on_slot_group: bool,
+) {
     xml.open(element);
-    xml.flag("DependOnSlot", slot, "true");
-    xml.flag("DependOnSlotGroup", group, "true");
+    xml.flag("DependOnSlot", depends_on_slot, "true");
+    xml.flag("DependOnSlotGroup", depends_on_slot_group, "true");
     xml.content(hex(index, 4));
     xml.close();
 }
@@ -67,7 +73,7 @@ pub(super) fn slot_index(xml: &mut Xml, element: &'static str, index: u16, (slot
 fn entry(xml: &mut Xml, notes: &mut Notes, types: &Types<'_>, entry: &PdoEntry) {
     xml.open("Entry");
     xml.flag("Fixed", entry.fixed, "true");
-    slot_index(xml, "Index", entry.index, (entry.depends_on_slot, entry.depends_on_slot_group));
+    slot_index(xml, "Index", entry.index, entry.depends_on_slot, entry.depends_on_slot_group);
     if entry.index != 0 || entry.sub_index != 0 {
         xml.leaf("SubIndex", entry.sub_index);
     }
@@ -79,7 +85,8 @@ fn entry(xml: &mut Xml, notes: &mut Notes, types: &Types<'_>, entry: &PdoEntry) 
     xml.close();
 }
 
-/// The type of an entry. One of which another number of bits is mapped is a number of those, but for what an ESI says of itself.
+/// Returns the type of an entry. If the mapping has another number of bits, the type is an unsigned integer of that
+/// length. The export of an ESI keeps the type.
 fn data_type(types: &Types<'_>, entry: &PdoEntry) -> Type {
     let is_whole = types.underlying(entry.ty).bits().is_none_or(|bits| bits == entry.bits);
     match u8::try_from(entry.bits) {

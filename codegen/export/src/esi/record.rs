@@ -2,26 +2,26 @@
 
 use compact_str::{format_compact, CompactString};
 
-use super::types::{unique, Made, MadeField, Types};
+use super::types::{unique, AddedField, AddedType, Types};
 use crate::note::{NoteKind, Notes, Subject};
 use lexibus_codegen::ir::{Access, Bus, Documentation, Field, Group, Item, Mappable, ObjectCode, Texts, Type};
 use lexibus_codegen::unique::Unique;
 
-/// The bus whose facts of items are exported.
+/// The bus whose facts are exported.
 pub(super) const BUS: Bus = Bus::EtherCat;
 
-/// One sub-index of an object of a record.
+/// A sub-index of an object whose type is a record.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Entry {
     pub(super) sub_index: u8,
     pub(super) ty: Type,
-    /// Position of its field.
+    /// Position of the field in the record.
     pub(super) field: usize,
-    /// The number of the element, where the field is an array.
+    /// Number of the element if the field is an array.
     pub(super) element: Option<u32>,
 }
 
-/// What a field of a record says of the items that are made from it.
+/// The facts of a field that apply to all items with this type.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct FieldFacts {
     pub(super) access: Access,
@@ -52,7 +52,8 @@ impl FieldFacts {
     }
 }
 
-/// The name for people, where it is a single one in English: then it stands at the object, which has no other languages.
+/// Returns the display name if it is the only one and English. ETG.2000 stores it at the object, which has no other
+/// languages.
 pub(super) fn display_name(item: &Item) -> Option<&CompactString> {
     match &*item.names {
         [only] if only.language.starts_with("en") => Some(&only.text),
@@ -62,15 +63,15 @@ pub(super) fn display_name(item: &Item) -> Option<&CompactString> {
 
 /// The type of an object.
 pub(super) struct Plan {
-    /// Its name.
+    /// Name of the type.
     pub(super) ty: CompactString,
     pub(super) bits: u32,
-    /// The names that its entries have where the object gives them none; none for a single value.
+    /// Names of the entries in the type, for entries without a name in the object; `None` for a single value.
     pub(super) names: Option<Vec<CompactString>>,
 }
 
-/// The entries that an object of a record with these fields has, sorted by sub-index: an array in one of the fields stands
-/// for an entry an element, where there is room for them (ETG.2000, DataType).
+/// Returns the entries of an object whose type is a record with these fields, sorted by sub-index. A field that is an
+/// array gives an entry for each element, as far as free sub-indices follow (ETG.2000, DataType).
 pub(super) fn expansion(types: &Types<'_>, fields: &[Field]) -> Vec<Entry> {
     let (mut entries, mut next) = (Vec::new(), 0u32);
     for (position, field) in fields.iter().enumerate() {
@@ -91,7 +92,7 @@ pub(super) fn expansion(types: &Types<'_>, fields: &[Field]) -> Vec<Entry> {
     entries
 }
 
-/// First sub-index, number of sub-indices and type of a field.
+/// Returns the first sub-index, the number of sub-indices and the type of a field.
 fn span(types: &Types<'_>, field: &Field, next: u32, following: Option<u32>) -> (u32, u32, Type) {
     let given = field.sub_index.map(u32::from);
     let Some((element, lower, count)) = types.elements(field.ty) else { return (given.unwrap_or(next), 1, field.ty) };
@@ -104,7 +105,7 @@ fn span(types: &Types<'_>, field: &Field, next: u32, following: Option<u32>) -> 
     (first, count, element)
 }
 
-/// The type of an object: one of the device that describes just its entries, or a new one.
+/// Returns the type of an object: a type of the device that describes exactly its entries, or a new one.
 pub(super) fn plan(types: &mut Types<'_>, group: &Group, items: &[(u8, &Item)], notes: &mut Notes) -> Plan {
     if let ([(0, item)], false) = (items, group.object_code().is_some_and(ObjectCode::has_subs)) {
         let (ty, bits) = types.reference(item.type_on(BUS), notes, Subject::item(item));
@@ -125,10 +126,10 @@ pub(super) fn plan(types: &mut Types<'_>, group: &Group, items: &[(u8, &Item)], 
     new_record(types, &usual, items, notes)
 }
 
-/// The record at `at`, if what its fields say fits these items.
+/// Returns the record at `at` if the facts of its fields fit these items.
 fn existing(types: &mut Types<'_>, at: u32, group: &Group, items: &[(u8, &Item)]) -> Option<Plan> {
     let entries = types.entries(at);
-    // An object of equal elements is one whose type says so.
+    // An array has a type with an array field.
     let is_array = match entries.split_first() {
         Some((first, rest)) => {
             first.sub_index == 0 && !rest.is_empty() && rest.iter().all(|rest| rest.element.is_some())
@@ -141,13 +142,13 @@ fn existing(types: &mut Types<'_>, at: u32, group: &Group, items: &[(u8, &Item)]
     }
     let fields = field_names(types, at);
     let names: Vec<CompactString> = entries.iter().map(|entry| name_of(entry, &fields)).collect();
-    if !matches_by_place(&entries, &fields, items) {
+    if !matches_by_name_or_position(&entries, &fields, items) {
         return None;
     }
     let mut facts: Vec<Option<FieldFacts>> = vec![None; fields.len()];
     for (entry, (_, item)) in entries.iter().zip(items) {
-        let (own, place) = (FieldFacts::of(item), facts.get_mut(entry.field)?);
-        if place.get_or_insert_with(|| own.clone()) != &own {
+        let (item_facts, field_facts) = (FieldFacts::of(item), facts.get_mut(entry.field)?);
+        if field_facts.get_or_insert_with(|| item_facts.clone()) != &item_facts {
             return None;
         }
     }
@@ -160,7 +161,7 @@ fn existing(types: &mut Types<'_>, at: u32, group: &Group, items: &[(u8, &Item)]
     Some(Plan { ty: types.name_of(at), bits, names: Some(names) })
 }
 
-/// The names of the fields of a record, which the schema wants to differ.
+/// Returns unique names of the fields of a record, as the schema requires.
 pub(super) fn field_names(types: &Types<'_>, at: u32) -> Vec<CompactString> {
     let Some(lexibus_codegen::ir::Shape::Record(fields)) = types.defs.get(at as usize).map(|def| &def.shape) else {
         return Vec::new();
@@ -170,10 +171,10 @@ pub(super) fn field_names(types: &Types<'_>, at: u32) -> Vec<CompactString> {
 
 fn unique_names<'n>(names: impl Iterator<Item = &'n str>) -> Vec<CompactString> {
     let mut seen = Unique::default();
-    names.map(|wanted| unique(&mut seen, wanted)).collect()
+    names.map(|name| unique(&mut seen, name)).collect()
 }
 
-/// The name of an entry that the object gives none.
+/// Returns the name of an entry that has none in the object.
 fn name_of(entry: &Entry, fields: &[CompactString]) -> CompactString {
     let name = fields.get(entry.field).cloned().unwrap_or_default();
     match entry.element {
@@ -182,29 +183,30 @@ fn name_of(entry: &Entry, fields: &[CompactString]) -> CompactString {
     }
 }
 
-/// Whether a reader that goes by the names of sub-items, and else by their places, finds every item in its entry.
-fn matches_by_place(entries: &[Entry], fields: &[CompactString], items: &[(u8, &Item)]) -> bool {
+/// Returns whether a reader finds every item in its entry. Readers look for the name of a sub-item, then use its
+/// position.
+fn matches_by_name_or_position(entries: &[Entry], fields: &[CompactString], items: &[(u8, &Item)]) -> bool {
     let named = |entry: &Entry| fields.get(entry.field).map_or("", CompactString::as_str);
-    items.iter().enumerate().all(|(place, (_, item))| {
+    items.iter().enumerate().all(|(position_of_item, (_, item))| {
         let single = entries
             .iter()
             .position(|entry| entry.element.is_none_or(|number| number == 1) && named(entry) == item.name);
-        single.is_none_or(|found| found <= place)
+        single.is_none_or(|found| found <= position_of_item)
     })
 }
 
-/// Whether the items are sub-index 0 and equal elements from 1 on.
+/// Returns whether the items are sub-index 0 and equal elements from 1 on.
 fn is_array(types: &Types<'_>, items: &[(u8, &Item)]) -> bool {
     let [(0, _), (_, first), ..] = items else { return false };
     let facts = FieldFacts::of(first);
-    let is_like = |(place, (sub, item)): (usize, &(u8, &Item))| {
-        usize::from(*sub) == place
-            && (place == 0 || item.type_on(BUS) == first.type_on(BUS) && FieldFacts::of(item) == facts)
+    let is_like = |(position, (sub, item)): (usize, &(u8, &Item))| {
+        usize::from(*sub) == position
+            && (position == 0 || item.type_on(BUS) == first.type_on(BUS) && FieldFacts::of(item) == facts)
     };
     items.iter().enumerate().all(is_like) && types.elements(first.type_on(BUS)).is_none()
 }
 
-/// Sub-index 0 is followed by room up to the next word (ETG.2000, DataType).
+/// Bit offset of sub-index 1. The space after sub-index 0 is unused (ETG.2000, DataType).
 const FIRST_OFFSET: u32 = 16;
 
 fn new_array(types: &mut Types<'_>, usual: &str, items: &[(u8, &Item)], notes: &mut Notes) -> Plan {
@@ -217,8 +219,8 @@ fn new_array(types: &mut Types<'_>, usual: &str, items: &[(u8, &Item)], notes: &
     let (count_type, count_bits) = types.reference(count_item.type_on(BUS), notes, Subject::item(count_item));
     let bits = element_bits.saturating_mul(count);
     let array = types.unique(&format_compact!("{usual}ARR"));
-    types.made.push(Made::Array { name: array.clone(), element, bits, count });
-    let field = |name: &CompactString, sub_index, ty, bits, offset, item: &Item| MadeField {
+    types.added.push(AddedType::Array { name: array.clone(), element, bits, count });
+    let field = |name: &CompactString, sub_index, ty, bits, offset, item: &Item| AddedField {
         name: name.clone(),
         sub_index,
         ty,
@@ -244,19 +246,19 @@ fn new_record(types: &mut Types<'_>, usual: &str, items: &[(u8, &Item)], notes: 
         let offset = if *sub_index > 0 { next.max(FIRST_OFFSET) } else { next };
         next = offset.saturating_add(bits);
         let facts = FieldFacts::of(item);
-        fields.push(MadeField { name: name.clone(), sub_index: *sub_index, ty, bits, offset, facts });
+        fields.push(AddedField { name: name.clone(), sub_index: *sub_index, ty, bits, offset, facts });
     }
     finish(types, usual, fields, names)
 }
 
-fn finish(types: &mut Types<'_>, usual: &str, fields: Vec<MadeField>, names: Vec<CompactString>) -> Plan {
+fn finish(types: &mut Types<'_>, usual: &str, fields: Vec<AddedField>, names: Vec<CompactString>) -> Plan {
     let bits = fields.last().map_or(0, |last| last.offset.saturating_add(last.bits));
     let ty = types.unique(usual);
-    types.made.push(Made::Record { name: ty.clone(), bits, fields });
+    types.added.push(AddedType::Record { name: ty.clone(), bits, fields });
     Plan { ty, bits, names: Some(names) }
 }
 
-/// Notes what of a field's facts has to be left out.
+/// Returns the states of a field's facts in the notation of the schema. Adds a note if the schema does not allow them.
 pub(super) fn check_states(states: &[CompactString], notes: &mut Notes, subject: Subject<'_>) -> Option<String> {
     const KNOWN: [&str; 7] = ["PreOp", "PreOP", "PreOP_SafeOP", "PreOP_OP", "SafeOP", "SafeOP_OP", "OP"];
     let joined = states.join("_");

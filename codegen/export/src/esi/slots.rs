@@ -13,8 +13,8 @@ pub(super) fn write(xml: &mut Xml, context: &mut Context<'_>, device: &Device, s
     };
     xml.open("Slots");
     attributes(xml, &mut context.notes, rules);
-    for own in &device.slots {
-        slot(xml, &mut context.notes, own, rules);
+    for each in &device.slots {
+        slot(xml, &mut context.notes, each, rules);
     }
     for (number, name) in &rules.groups {
         xml.open("SlotGroupData");
@@ -71,9 +71,9 @@ fn slot(xml: &mut Xml, notes: &mut Notes, slot: &Slot, rules: &SlotRules) {
         ("SlotIndexIncrement", slot.index_increment, rules.index_increment),
         ("SlotGroupIndexIncrement", slot.group_index_increment, rules.group_index_increment),
     ];
-    for (name, own, usual) in increments {
-        if own != usual {
-            xml.attribute(name, hex(own, 1));
+    for (name, value, usual) in increments {
+        if value != usual {
+            xml.attribute(name, hex(value, 1));
         }
     }
     if let Some(Fit::Ident(ident)) = slot.default {
@@ -86,7 +86,7 @@ fn slot(xml: &mut Xml, notes: &mut Notes, slot: &Slot, rules: &SlotRules) {
     xml.close();
 }
 
-/// What fits: modules by their idents, or else by their classes.
+/// Writes the modules that fit a slot by their idents, or by their classes if there are no idents.
 fn fits(xml: &mut Xml, notes: &mut Notes, slot: &Slot) {
     let by_ident = slot.fits.iter().any(|fit| matches!(fit, Fit::Ident(_)));
     for fit in &slot.fits {

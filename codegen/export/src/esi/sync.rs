@@ -7,14 +7,15 @@ use crate::xml::Xml;
 use lexibus_codegen::ir::{CompactString, Device, EtherCatSettings, Fmmu, SyncManager, SyncManagerPurpose};
 use lexibus_codegen::source::Origin;
 
-/// Writes them in their order. Those that the source doesn't have are made of the areas that the caller gives.
+/// Writes FMMUs, sync managers and sync units. FMMUs and sync managers that the source does not have follow from the
+/// areas that the caller gives.
 pub(super) fn write(xml: &mut Xml, context: &mut Context<'_>, device: &Device, settings: &EtherCatSettings) {
-    let own = &device.process_data.sync_managers;
-    let given = if own.is_empty() { given(context) } else { Vec::new() };
-    let managers = if own.is_empty() { &given } else { own };
-    let made: Vec<Fmmu> =
+    let declared = &device.process_data.sync_managers;
+    let given = if declared.is_empty() { given(context) } else { Vec::new() };
+    let managers = if declared.is_empty() { &given } else { declared };
+    let derived: Vec<Fmmu> =
         if settings.fmmus.is_empty() { given.iter().filter_map(mapped).collect() } else { Vec::new() };
-    for fmmu in settings.fmmus.iter().chain(&made) {
+    for fmmu in settings.fmmus.iter().chain(&derived) {
         xml.open("Fmmu");
         xml.flag("OpOnly", fmmu.op_only, "true");
         xml.optional("Sm", fmmu.sync_manager);
@@ -52,10 +53,10 @@ fn sync_manager(xml: &mut Xml, manager: &SyncManager) {
     xml.close();
 }
 
-/// The sync managers of the areas that the caller gives, by their numbers.
+/// Returns the sync managers of the areas that the caller gives, by number.
 fn given(context: &Context<'_>) -> Vec<SyncManager> {
     let options = context.options;
-    // Control bytes of ETG.1000.4 6.7.2: mailbox or three buffers, direction, and an interrupt of the host.
+    // Control bytes (ETG.1000.4, 6.7.2): mailbox or three buffers, direction, and an interrupt of the host.
     let areas = [
         (SyncManagerPurpose::MailboxOut, 0x26, options.mailbox_out()),
         (SyncManagerPurpose::MailboxIn, 0x22, options.mailbox_in()),
@@ -79,7 +80,7 @@ fn given(context: &Context<'_>) -> Vec<SyncManager> {
     (0..).zip(given).map(manager).collect()
 }
 
-/// The FMMU of a sync manager for process data.
+/// Returns the FMMU of a sync manager for process data.
 fn mapped(manager: &SyncManager) -> Option<Fmmu> {
     let is_mapped = matches!(manager.purpose, SyncManagerPurpose::Outputs | SyncManagerPurpose::Inputs);
     is_mapped.then(|| Fmmu { purpose: manager.label.clone(), ..Fmmu::default() })

@@ -7,12 +7,12 @@ use crate::xml::Xml;
 use lexibus_codegen::etg::language;
 use lexibus_codegen::ir::{Documentation, LocalText, Texts};
 
-/// A number as ETG.2000 writes bit patterns, with at least so many digits.
+/// Formats a bit pattern as ETG.2000 does, with at least `digits` digits.
 pub(super) fn hex(value: impl Into<u32>, digits: usize) -> impl fmt::Display {
     format!("#x{:0digits$X}", value.into())
 }
 
-/// A name, and what it is in other languages.
+/// Writes a name and its translations.
 pub(super) fn names(
     xml: &mut Xml,
     element: &'static str,
@@ -21,7 +21,7 @@ pub(super) fn names(
     notes: &mut Notes,
     subject: Subject<'_>,
 ) {
-    // One without a number would give way to another in English.
+    // A name without a language number would be replaced by another English name.
     let is_english = |local: &LocalText| language::lcid(&local.language) == Some(language::ENGLISH);
     xml.open(element);
     xml.optional("LcId", others.iter().any(is_english).then_some(language::ENGLISH));
@@ -32,7 +32,7 @@ pub(super) fn names(
     }
 }
 
-/// A text in one language.
+/// Writes a text in one language.
 pub(super) fn name(xml: &mut Xml, element: &'static str, local: &LocalText, notes: &mut Notes, subject: Subject<'_>) {
     let Some(lcid) = language::lcid(&local.language) else {
         return notes.add(NoteKind::Language, subject);
@@ -43,7 +43,7 @@ pub(super) fn name(xml: &mut Xml, element: &'static str, local: &LocalText, note
     xml.close();
 }
 
-/// A description, if there is one.
+/// Writes a description, if any.
 pub(super) fn documentation(
     xml: &mut Xml,
     element: &'static str,

@@ -1,7 +1,7 @@
-//! Data types: those of the device under their names, and those that its objects need besides.
+//! Data types: those of the device under their names, and further types that its objects need.
 //!
-//! Every type that is named has to be defined in the file (the keys of ETG.2000's schema), basic ones too. An object with
-//! sub-indices needs a data type with as many sub-items, which also tells what may be done with each.
+//! The file must define every type that it names, including basic types (the keys of the schema of ETG.2000). The data
+//! type of an object with sub-indices has a sub-item for each of them. The sub-items contain the access rights.
 
 use std::collections::HashMap;
 
@@ -13,38 +13,38 @@ use lexibus_codegen::etg::type_name::{self, Basic, Spelling};
 use lexibus_codegen::ir::{Shape, Type, TypeDef, TypeId};
 use lexibus_codegen::unique::Unique;
 
-/// The data types of a dictionary in the making.
+/// The data types of a dictionary that is being written.
 pub(super) struct Types<'a> {
     pub(super) defs: &'a [TypeDef],
-    /// The name of each, which no other has.
+    /// Names of these types. Each is unique.
     names: Vec<CompactString>,
-    taken: Unique,
+    used_names: Unique,
     /// Names of basic types.
     basic: HashMap<Type, CompactString>,
-    /// Types that are written behind those of the device.
-    pub(super) made: Vec<Made>,
-    /// What the fields of each record of the device are for, where an object is of it.
+    /// Further types, which follow those of the device.
+    pub(super) added: Vec<AddedType>,
+    /// Facts of the fields of each record of the device that is the type of an object.
     pub(super) uses: HashMap<u32, Vec<FieldFacts>>,
-    /// Records of the device by the sub-indices and types that an object of them has.
+    /// Records of the device, by the sub-indices and types of their entries.
     pub(super) records: HashMap<Vec<(u8, Type)>, Vec<u32>>,
-    /// Whether the source was an ESI: what it says of itself stays so.
+    /// Whether the source is an ESI, whose facts are kept.
     pub(super) is_esi: bool,
 }
 
-/// The name that is wanted, or that with a number behind it.
-pub(super) fn unique(names: &mut Unique, wanted: &str) -> CompactString {
-    names.unique(wanted, |number| format_compact!("{wanted} ({number})"))
+/// Returns a unique name: `name`, with a number if it is already used.
+pub(super) fn unique(names: &mut Unique, name: &str) -> CompactString {
+    names.unique(name, |number| format_compact!("{name} ({number})"))
 }
 
 /// A data type that the device doesn't define.
-pub(super) enum Made {
+pub(super) enum AddedType {
     Basic { name: CompactString, bits: u32 },
     Array { name: CompactString, element: CompactString, bits: u32, count: u32 },
-    Record { name: CompactString, bits: u32, fields: Vec<MadeField> },
+    Record { name: CompactString, bits: u32, fields: Vec<AddedField> },
 }
 
-/// A sub-item of such a type.
-pub(super) struct MadeField {
+/// A sub-item of an added record.
+pub(super) struct AddedField {
     pub(super) name: CompactString,
     pub(super) sub_index: u8,
     pub(super) ty: CompactString,
@@ -58,9 +58,9 @@ impl<'a> Types<'a> {
         let mut types = Types {
             defs,
             names: Vec::with_capacity(defs.len()),
-            taken: Unique::default(),
+            used_names: Unique::default(),
             basic: HashMap::new(),
-            made: Vec::new(),
+            added: Vec::new(),
             uses: HashMap::new(),
             records: HashMap::new(),
             is_esi,
@@ -87,12 +87,12 @@ impl<'a> Types<'a> {
         types
     }
 
-    /// A name that no other type has: the one that is wanted, or that with a number behind it.
-    pub(super) fn unique(&mut self, wanted: &str) -> CompactString {
-        unique(&mut self.taken, if wanted.is_empty() { "Type" } else { wanted })
+    /// Returns a unique name for a type.
+    pub(super) fn unique(&mut self, name: &str) -> CompactString {
+        unique(&mut self.used_names, if name.is_empty() { "Type" } else { name })
     }
 
-    /// The name of a type of the device.
+    /// Returns the name of a type of the device.
     pub(super) fn name_of(&self, at: u32) -> CompactString {
         self.names.get(at as usize).cloned().unwrap_or_default()
     }
@@ -102,7 +102,7 @@ impl<'a> Types<'a> {
         self.defs.get(at as usize)
     }
 
-    /// The entries of an object of the record at `at`.
+    /// Returns the entries of an object whose type is the record at `at`.
     pub(super) fn entries(&self, at: u32) -> Vec<Entry> {
         match self.defs.get(at as usize).map(|def| &def.shape) {
             Some(Shape::Record(fields)) => record::expansion(self, fields),
@@ -110,7 +110,8 @@ impl<'a> Types<'a> {
         }
     }
 
-    /// The name by which a type is referred to, and its length in bits. A basic type that nobody has defined is added.
+    /// Returns the name of a type for references, and its length in bits. Adds the definition of a basic type if it is
+    /// missing.
     pub(super) fn reference(&mut self, ty: Type, notes: &mut Notes, subject: Subject<'_>) -> (CompactString, u32) {
         let bits = self.bits(ty);
         if bits.is_none() && !matches!(ty, Type::Opaque(_) | Type::Domain) {
@@ -138,11 +139,11 @@ impl<'a> Types<'a> {
         }
         let name = self.unique(&basic_name(written));
         self.basic.insert(written, name.clone());
-        self.made.push(Made::Basic { name: name.clone(), bits });
+        self.added.push(AddedType::Basic { name: name.clone(), bits });
         (name, bits)
     }
 
-    /// Length in bits, where it is known.
+    /// Returns the length in bits if it is known.
     pub(super) fn bits(&self, ty: Type) -> Option<u32> {
         match ty {
             Type::Named(_) => {
@@ -161,7 +162,7 @@ impl<'a> Types<'a> {
         }
     }
 
-    /// The basic type that the values of a type have.
+    /// Returns the basic type of the values.
     pub(super) fn underlying(&self, ty: Type) -> Type {
         match self.def(ty).map(|def| &def.shape) {
             Some(
@@ -174,7 +175,7 @@ impl<'a> Types<'a> {
         }
     }
 
-    /// Element type, lower bound and number of elements of an array.
+    /// Returns the element type, the lower bound and the number of elements of an array.
     pub(super) fn elements(&self, ty: Type) -> Option<(Type, i32, u32)> {
         match &self.def(ty)?.shape {
             Shape::Array { element, dimensions } => {
@@ -186,7 +187,7 @@ impl<'a> Types<'a> {
     }
 }
 
-/// Whether an alias needs no base: its name says which type it is.
+/// Returns whether an alias needs no base type because its name already means this type.
 pub(super) fn is_self_named(def: &TypeDef, name: &str) -> bool {
     let Shape::Alias(ty) = def.shape else { return false };
     if let Type::Opaque(_) = ty {
@@ -198,7 +199,7 @@ pub(super) fn is_self_named(def: &TypeDef, name: &str) -> bool {
     }
 }
 
-/// A basic type with the size that a data type gives it.
+/// Returns a basic type with the size of its data type.
 fn sized(ty: Type, bits: Option<u32>) -> Type {
     let Some(bits) = bits.filter(|&bits| bits > 0) else { return ty };
     let bytes = Some(bits / 8).filter(|_| bits % 8 == 0);
@@ -212,7 +213,7 @@ fn sized(ty: Type, bits: Option<u32>) -> Type {
     }
 }
 
-/// The name of a basic type in ETG.1000.6, or what is read as it.
+/// Returns the name of a basic type in ETG.1000.6, or a name that readers understand as this type.
 pub(super) fn basic_name(ty: Type) -> CompactString {
     match ty {
         Type::Boolean => "BOOL".into(),

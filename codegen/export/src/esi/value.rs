@@ -1,15 +1,15 @@
-//! Defaults and limits: numbers, texts, or bytes in the order of memory. Those of one value have one form (ETG.2000,
-//! ObjectInfoType).
+//! Defaults and limits as numbers, texts or bytes in little-endian order. All those of one value have the same form
+//! (ETG.2000, ObjectInfoType).
 
 use std::fmt::Write as _;
 
 use crate::note::NoteKind;
 use lexibus_codegen::ir::{Item, Type, Value};
 
-/// Elements of an Info, and what couldn't be told.
+/// Elements of an Info, and notes on values that it cannot hold.
 pub(super) type Written = (Vec<(&'static str, String)>, Vec<NoteKind>);
 
-/// What the Info of an item of the basic type `ty` says of its limits and its default.
+/// Returns the elements of the Info of an item: limits and default. `ty` is the basic type of the item.
 pub(super) fn elements(item: &Item, ty: Type) -> Written {
     let (mut low, mut high) = (item.limits.low.as_ref(), item.limits.high.as_ref());
     let mut notes = Vec::new();
@@ -36,7 +36,7 @@ pub(super) fn elements(item: &Item, ty: Type) -> Written {
     (elements, notes)
 }
 
-/// Whether a text can stand as it is: blanks around it would be lost, and an empty one would be no default.
+/// Returns whether a text can be DefaultString. Readers remove outer spaces, and an empty element means no default.
 fn is_plain(value: Option<&Value>) -> bool {
     matches!(value, Some(Value::Text(text))
         if !text.is_empty() && text.trim() == text.as_str() && !text.contains(char::is_control))
@@ -46,7 +46,7 @@ fn number(value: &Value) -> Option<String> {
     value.as_int().map(|value| value.to_string())
 }
 
-/// The value in the memory of the device.
+/// Returns the value as bytes in little-endian order.
 fn bytes(value: &Value, ty: Type) -> Option<Vec<u8>> {
     Some(match (value, ty) {
         (Value::Bytes(bytes), _) => bytes.clone(),
@@ -62,7 +62,7 @@ fn bytes(value: &Value, ty: Type) -> Option<Vec<u8>> {
             "" => vec![0, 0],
             text => text.encode_utf16().flat_map(u16::to_le_bytes).collect(),
         },
-        // An element without a digit says nothing.
+        // An element without a digit means no value.
         (Value::Text(text), _) if text.is_empty() => vec![0],
         (Value::Text(text), _) => text.as_bytes().to_vec(),
         (Value::Time { milliseconds, days }, _) => {
@@ -72,7 +72,7 @@ fn bytes(value: &Value, ty: Type) -> Option<Vec<u8>> {
     })
 }
 
-/// Pairs of hexadecimal digits.
+/// Formats bytes as pairs of hexadecimal digits.
 pub(super) fn hex(bytes: &[u8]) -> String {
     bytes.iter().fold(String::with_capacity(2 * bytes.len()), |mut text, byte| {
         let _ = write!(text, "{byte:02X}");

@@ -1,13 +1,13 @@
 //! Device access points.
 
 use super::elements;
-use super::module::{find, graphics, places, ranges, subslots, Info};
+use super::module::{find, graphics, ranges, slot_lists, subslots, Info};
 use super::{record, submodule, Context};
 use crate::note::{NoteKind, Subject};
 use crate::xml::Xml;
 use lexibus_codegen::ir::{Device, GroupKind, Menu, ModuleUse, ProfinetSettings, SubmoduleKind};
 
-/// Greatest length of a record where the file doesn't say.
+/// Maximum length of a record if the file does not declare one.
 const RECORD_SIZE: u32 = 4068;
 
 /// Writes a device access point.
@@ -23,18 +23,18 @@ pub(super) fn write(xml: &mut Xml, context: &mut Context<'_>, device: &Device) {
     io_config_data(xml, settings);
     useable_modules(xml, context, &device.modules);
     vendor_blocks(xml, context, settings);
-    let has_interface = device.submodules.iter().any(|own| {
-        let found = context.catalog.submodules.get(own.submodule.0 as usize);
+    let has_interface = device.submodules.iter().any(|submodule_use| {
+        let found = context.catalog.submodules.get(submodule_use.submodule.0 as usize);
         found.is_some_and(|submodule| submodule.kind == SubmoduleKind::Interface)
     });
     submodule::built_in(xml, context, &device.submodules, Some(settings));
     graphics(xml, attributes);
     elements::ASSETS.write(xml, attributes);
-    // Where there is no interface, or it has none of its own, V1.0 and V2.0 have this here.
-    let is_here = !has_interface || attributes.iter().any(|(key, _)| key.starts_with("ApplicationRelations@"));
-    if is_here && context.is_gsdml {
-        let own = submodule::relations(attributes, Some(settings).filter(|_| !has_interface), false);
-        elements::RELATIONS.write(xml, &own);
+    // In V1.0 and V2.0, the device access point has ApplicationRelations if no interface has them.
+    let has_relations = !has_interface || attributes.iter().any(|(key, _)| key.starts_with("ApplicationRelations@"));
+    if has_relations && context.is_gsdml {
+        let relations = submodule::relations(attributes, Some(settings).filter(|_| !has_interface), false);
+        elements::RELATIONS.write(xml, &relations);
     }
     elements::REDUNDANCY.write(xml, attributes);
     submodule::useable(xml, context, &device.submodules);
@@ -52,7 +52,7 @@ fn head(xml: &mut Xml, device: &Device, settings: &ProfinetSettings) {
     xml.text_attribute("DNS_CompatibleName", &settings.dns_name);
     xml.text_attribute("PhysicalSlots", &ranges(&settings.slots));
     xml.optional("MinDeviceInterval", settings.min_device_interval);
-    places(xml, &settings.places, "Slots");
+    slot_lists(xml, &settings.places, "Slots");
     xml.unless("MaxSupportedRecordSize", settings.max_record_size, RECORD_SIZE);
     elements::kept(xml, &settings.attributes);
 }
@@ -87,7 +87,7 @@ fn useable_modules(xml: &mut Xml, context: &Context<'_>, uses: &[ModuleUse]) {
         let Some(module) = context.catalog.modules.get(module_use.module.0 as usize) else { return };
         xml.open("ModuleItemRef");
         xml.attribute("ModuleItemTarget", &module.id);
-        places(xml, &module_use.places, "Slots");
+        slot_lists(xml, &module_use.places, "Slots");
         xml.close();
     });
 }

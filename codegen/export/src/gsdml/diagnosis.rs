@@ -8,12 +8,12 @@ use crate::note::{NoteKind, Subject};
 use crate::xml::Xml;
 use lexibus_codegen::ir::{Catalog, CodeRow, UnitDiagnosis, UnitDiagnosisField, Value};
 
-/// How a list of codes is written.
+/// The names of the elements and attributes of a list of codes.
 struct List {
     table: &'static str,
     extended: &'static str,
     list: &'static str,
-    /// What items are called behind `SystemDefined`, `Profile` or nothing.
+    /// Name of the items, without the prefix `SystemDefined` or `Profile`.
     item: &'static str,
     extended_list: &'static str,
     extended_item: &'static str,
@@ -46,10 +46,10 @@ static PROCESS_ALARMS: List = List {
     has_state: false,
 };
 
-/// First code that belongs to a profile.
+/// First code of the range for profiles.
 const FIRST_OF_PROFILE: i128 = 0x9000;
 
-/// Whether a table of the catalogue is one of those that a GSDML has.
+/// Returns whether a code table of the catalog is one of the lists of a GSDML.
 pub(super) fn is_list(name: &str) -> bool {
     let lists = [&CHANNEL_DIAGNOSIS, &PROCESS_ALARMS];
     name == "log_book" || lists.iter().any(|list| name == list.table || name == list.extended)
@@ -123,7 +123,7 @@ fn head(xml: &mut Xml, list: &'static List, row: &CodeRow, state: Option<&Value>
     }
 }
 
-/// Name and help.
+/// Writes the name and the help text.
 fn texts(xml: &mut Xml, context: &mut Context<'_>, row: &CodeRow) {
     context.texts.text(xml, "Name", &row.name, &row.names);
     if let Some(documentation) = &row.documentation {
@@ -131,7 +131,7 @@ fn texts(xml: &mut Xml, context: &mut Context<'_>, row: &CodeRow) {
     }
 }
 
-/// What comes along with a code, written `1 Unsigned16, 2 Float32`.
+/// Writes the additional values of a code. The IR stores them as `1 Unsigned16, 2 Float32`.
 fn add_values(xml: &mut Xml, list: &'static List, cell: Option<&Value>) {
     let Some(Value::Text(text)) = cell else { return };
     let items = text.split(", ").filter_map(|item| item.split_once(' '));
@@ -161,7 +161,7 @@ fn field(xml: &mut Xml, context: &mut Context<'_>, field: &UnitDiagnosisField) {
     let values = field.values.and_then(|id| context.types.get(id.0 as usize));
     xml.open("Ref");
     xml.optional("ValueItemTarget", values.map(|def| &def.name));
-    types::place(xml, context, field.ty, (field.bit_offset, field.bits), &field.name);
+    types::position(xml, context, field.ty, field.bit_offset, field.bits, &field.name);
     match &field.default {
         Some(Value::Bool(value)) => xml.attribute("DefaultValue", u8::from(*value)),
         Some(Value::Int(value)) => xml.attribute("DefaultValue", value),
@@ -173,7 +173,7 @@ fn field(xml: &mut Xml, context: &mut Context<'_>, field: &UnitDiagnosisField) {
     xml.close();
 }
 
-/// The code of a row is the whole status, of which ErrorCode2 is the last byte.
+/// Writes the log book. The code of a row is the whole status; ErrorCode2 is its last byte.
 fn log_book(xml: &mut Xml, context: &mut Context<'_>, catalog: &Catalog) {
     let rows = rows(catalog, "log_book");
     if rows.is_empty() {

@@ -1,10 +1,10 @@
-//! Elements of which the IR keeps the attributes as they are written: `Element@Attribute` and a value, one behind the other.
+//! Elements whose attributes the IR stores as they are written: a list of `Element@Attribute` and value.
 
 use super::module::is_of_info;
 use crate::xml::Xml;
 use lexibus_codegen::ir::CompactString;
 
-/// An element, and those that may be in it.
+/// An element and its possible children.
 pub(super) struct Element {
     pub(super) name: &'static str,
     children: &'static [Element],
@@ -39,13 +39,13 @@ pub(super) static RELATIONS: Element = element("ApplicationRelations", &TIMING);
 pub(super) static MAU_TYPES: Element = element("MAUTypeList", &MAU_TYPE);
 pub(super) static FAMILY: Element = leaf("Family");
 
-/// What an interface has in front of its records, and behind them.
+/// The element of an interface before its records, and those after them.
 pub(super) static GENERAL: Element = element("General", &SIGNAL);
 pub(super) static OF_INTERFACE: [Element; 4] =
     [leaf("RT_Class3Properties"), leaf("SynchronisationMode"), leaf("TimeSynchronisation"), leaf("ReportingSystem")];
 pub(super) static MEDIA_REDUNDANCY: Element = element("MediaRedundancy", &INTERCONNECTION);
 
-/// What an ordinary submodule has behind its pictures.
+/// The elements of an ordinary submodule after its pictures.
 pub(super) static OF_SUBMODULE: [Element; 4] = [
     leaf("IsochroneMode"),
     leaf("SlotCluster"),
@@ -60,7 +60,7 @@ impl Element {
         self.name == name || self.children.iter().any(|child| child.has(name))
     }
 
-    /// The names from this element down to `name`.
+    /// Returns the names from this element down to `name`.
     fn path(&self, name: &str) -> Option<Vec<&'static str>> {
         if self.name == name {
             return Some(vec![self.name]);
@@ -81,9 +81,9 @@ impl Element {
             let Some(path) = self.path(name) else { continue };
             let is_new =
                 |opened: &Opened<'_>| opened.is_full || attribute.is_empty() || opened.seen.contains(&attribute);
-            let same = open.iter().zip(&path).take_while(|(own, name)| own.name == **name).count();
+            let same = open.iter().zip(&path).take_while(|(opened, name)| opened.name == **name).count();
             let keep = match open.get(same.wrapping_sub(1)) {
-                Some(own) if same == path.len() && is_new(own) => same - 1,
+                Some(opened) if same == path.len() && is_new(opened) => same - 1,
                 _ => same,
             };
             while open.len() > keep {
@@ -99,8 +99,8 @@ impl Element {
             }
             if attribute.is_empty() {
                 xml.content(value);
-            } else if let Some(own) = open.last_mut() {
-                own.seen.push(attribute);
+            } else if let Some(opened) = open.last_mut() {
+                opened.seen.push(attribute);
                 xml.attribute(attribute, value);
             }
         }
@@ -108,7 +108,7 @@ impl Element {
     }
 }
 
-/// Writes the attributes of `element` that are kept as they are written.
+/// Writes the attributes of `element` that the IR stores as they are written.
 pub(super) fn attributes_of(xml: &mut Xml, element: &str, attributes: &Attributes) {
     for (key, value) in attributes {
         if let Some((_, name)) = key.split_once('@').filter(|(name, _)| *name == element) {
@@ -117,22 +117,22 @@ pub(super) fn attributes_of(xml: &mut Xml, element: &str, attributes: &Attribute
     }
 }
 
-/// Writes the attributes that are kept as they are written and belong to no element below.
+/// Writes the attributes that the IR stores as they are written and that belong to no child element.
 pub(super) fn kept(xml: &mut Xml, attributes: &Attributes) {
     for (key, value) in attributes.iter().filter(|(key, _)| !is_of_element(key) && !is_of_info(key)) {
         xml.attribute(key, value);
     }
 }
 
-/// An element that isn't closed yet.
+/// An element that is not closed yet.
 struct Opened<'e> {
     name: &'static str,
     seen: Vec<&'e str>,
-    /// Whether it has children, and so takes no more attributes.
+    /// Whether the element has children. Then it can't have more attributes.
     is_full: bool,
 }
 
-/// Whether an attribute belongs to one of the elements that are kept so, or is another that has a name in front.
+/// Returns whether an attribute belongs to one of these elements, or its key names another element.
 pub(super) fn is_of_element(key: &str) -> bool {
     let roots = [&CERTIFICATION, &ASSETS, &REDUNDANCY, &SLOT_GROUPS, &FIELDBUS_SLOTS, &RELATIONS, &MAU_TYPES, &FAMILY];
     let all = roots.into_iter().chain([&GENERAL, &MEDIA_REDUNDANCY]).chain(&OF_INTERFACE).chain(&OF_SUBMODULE);
@@ -145,7 +145,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn elements_are_told_apart_by_their_attributes() {
+    fn a_repeated_attribute_begins_another_element() {
         let list = [
             ("MAUTypeList@ExtensionSupported", "true"),
             ("MAUTypeItem@Value", "16"),

@@ -1,56 +1,57 @@
-//! A device access point for a device of another format that has fixed process images: its images are the data of one submodule.
+//! A device access point for a device of another format that has fixed process images. The images are the data of one
+//! submodule.
 
 use compact_str::{format_compact, CompactString};
 use smallvec::smallvec;
 
-use super::options::Asked;
+use super::options::TrackedOptions;
 use super::Options;
 use crate::note::{self, NoteKind, Notes, Subject};
-use crate::options::Wanted;
+use crate::options::MissingFacts;
 use lexibus_codegen::ir::{
     Binding, Catalog, Device, Direction, Header, Identity, IoData, IoItem, IoLengths, Numbers, PdoEntry, PdoEntryKind,
     Places, ProcessImage, ProfinetSettings, Shape, Submodule, SubmoduleId, SubmoduleKind, SubmoduleUse, Type, TypeDef,
 };
 
-/// Subslots of the first interface, and of the first port.
+/// Subslots of the first interface and of the first port.
 const INTERFACE: u16 = 0x8000;
 const PORT: u16 = 0x8001;
 const MAX_PORTS: u16 = 0x0FFF;
 
-/// The catalogue of the devices of `source` that have fixed process images; none where there are no such devices.
+/// Returns the catalog of the devices of `source` that have fixed process images, or `None` if no device has any.
 pub(super) fn catalog(
     source: &Catalog,
-    options: &Asked<'_>,
+    options: &TrackedOptions<'_>,
     notes: &mut Notes,
-    wanted: &mut Wanted,
+    missing: &mut MissingFacts,
 ) -> Option<Catalog> {
-    let mut made = Catalog::default();
+    let mut target = Catalog::default();
     for device in source.devices.iter().filter(|device| !device.process_data.images.is_empty()) {
         losses(device, notes);
-        let position = made.devices.len();
-        let mut maker = Maker { options, wanted, notes, made: &mut made, position };
-        let own = maker.device(device);
-        made.devices.push(own);
+        let position = target.devices.len();
+        let mut maker = Maker { options, missing, notes, target: &mut target, position };
+        let device = maker.device(device);
+        target.devices.push(device);
     }
-    (!made.devices.is_empty()).then_some(made)
+    (!target.devices.is_empty()).then_some(target)
 }
 
 struct Maker<'m> {
-    options: &'m Asked<'m>,
-    wanted: &'m mut Wanted,
+    options: &'m TrackedOptions<'m>,
+    missing: &'m mut MissingFacts,
     notes: &'m mut Notes,
-    made: &'m mut Catalog,
-    /// The number of devices before this one.
+    target: &'m mut Catalog,
+    /// Number of devices before this one.
     position: usize,
 }
 
 impl Maker<'_> {
-    fn want<T: Default>(&mut self, given: Option<T>, key: &'static str) -> T {
-        self.wanted.want(given, key, Options::KEYS)
+    fn require<T: Default>(&mut self, given: Option<T>, key: &'static str) -> T {
+        self.missing.require(given, key, Options::KEYS)
     }
 
     fn device(&mut self, source: &Device) -> Device {
-        self.want(self.options.date(), "date");
+        self.require(self.options.date(), "date");
         let mut device = Device {
             name: source.name.clone(),
             names: source.names.clone(),
@@ -79,33 +80,33 @@ impl Maker<'_> {
         device
     }
 
-    /// An identifier that no other element of the file has.
+    /// Returns an identifier that is unique in the file.
     fn id(&self, what: &str) -> CompactString {
         format_compact!("{what}_{}", self.position + 1)
     }
 
     fn add(&mut self, device: &mut Device, submodule: Submodule, subslot: u16) {
-        let position = u32::try_from(self.made.submodules.len()).unwrap_or(u32::MAX);
+        let position = u32::try_from(self.target.submodules.len()).unwrap_or(u32::MAX);
         let places = Places { fixed: Numbers::from_iter([subslot]), ..Places::default() };
         device.submodules.push(SubmoduleUse { submodule: SubmoduleId(position), places });
-        self.made.submodules.push(submodule);
+        self.target.submodules.push(submodule);
     }
 
     fn settings(&mut self) -> ProfinetSettings {
         let options = self.options;
-        let input = self.want(options.max_input_length(), "max-input-length");
-        let output = self.want(options.max_output_length(), "max-output-length");
+        let input = self.require(options.max_input_length(), "max-input-length");
+        let output = self.require(options.max_output_length(), "max-output-length");
         let mut settings = ProfinetSettings {
-            ident: self.want(options.module_ident(), "module-ident"),
+            ident: self.require(options.module_ident(), "module-ident"),
             family: (
                 options.main_family().as_deref().unwrap_or_default().into(),
                 options.product_family().as_deref().unwrap_or_default().into(),
             ),
-            pnio_version: self.want(options.pnio_version(), "pnio-version").into(),
-            // The device access point is all that there is.
+            pnio_version: self.require(options.pnio_version(), "pnio-version").into(),
+            // Slot 0 contains the device access point. There are no other slots.
             slots: Numbers(smallvec![(0, 0)]),
-            dns_name: self.want(options.dns_name(), "dns-name").into(),
-            min_device_interval: Some(self.want(options.min_device_interval(), "min-device-interval")),
+            dns_name: self.require(options.dns_name(), "dns-name").into(),
+            min_device_interval: Some(self.require(options.min_device_interval(), "min-device-interval")),
             max_record_size: 4068,
             relations: 1,
             startup_modes: list(options.startup_modes().as_deref().unwrap_or("Legacy")),
@@ -119,29 +120,29 @@ impl Maker<'_> {
         settings
     }
 
-    /// Attributes of the device access point for which the IR has no fields.
+    /// Returns the attributes of the device access point for which the IR has no fields.
     fn attributes(&mut self) -> Vec<(CompactString, CompactString)> {
         let options = self.options;
-        let wanted = [
-            ("ObjectUUID_LocalIndex", self.want(options.object_uuid_index(), "object-uuid-index").to_string()),
+        let required = [
+            ("ObjectUUID_LocalIndex", self.require(options.object_uuid_index(), "object-uuid-index").to_string()),
             (
                 "NameOfStationNotTransferable",
-                self.want(options.name_not_transferable(), "name-not-transferable").to_string(),
+                self.require(options.name_not_transferable(), "name-not-transferable").to_string(),
             ),
-            ("DeviceAccessSupported", self.want(options.device_access(), "device-access").to_string()),
-            ("CheckDeviceID_Allowed", self.want(options.check_device_id(), "check-device-id").to_string()),
+            ("DeviceAccessSupported", self.require(options.device_access(), "device-access").to_string()),
+            ("CheckDeviceID_Allowed", self.require(options.check_device_id(), "check-device-id").to_string()),
         ];
         let given = [("HardwareRelease", options.hardware_release()), ("SoftwareRelease", options.software_release())];
         let given = given.into_iter().filter_map(|(key, value)| Some((key, value?)));
-        let all = wanted.into_iter().chain(self.certificate()).chain(given);
+        let all = required.into_iter().chain(self.certificate()).chain(given);
         all.map(|(key, value)| (CompactString::const_new(key), value.into())).collect()
     }
 
-    /// CertificationInfo, which has a conformance class or isn't there.
+    /// Returns CertificationInfo, or nothing without a conformance class.
     fn certificate(&mut self) -> Vec<(&'static str, String)> {
         let options = self.options;
         let Some(conformance) = options.conformance_class() else { return Vec::new() };
-        let application = self.want(options.application_class(), "application-class");
+        let application = self.require(options.application_class(), "application-class");
         let application = if application == "none" { String::new() } else { application };
         let netload = options.netload_class().map(|class| ("CertificationInfo@NetloadClass", class));
         let classes =
@@ -149,11 +150,11 @@ impl Maker<'_> {
         classes.into_iter().chain(netload).collect()
     }
 
-    /// The submodule with the data.
+    /// Returns the submodule with the process data.
     fn submodule(&mut self, source: &Device) -> Submodule {
         let mut submodule = Submodule {
             id: self.id("IO"),
-            ident: self.want(self.options.submodule_ident(), "submodule-ident"),
+            ident: self.require(self.options.submodule_ident(), "submodule-ident"),
             kind: SubmoduleKind::Virtual,
             name: source.name.clone(),
             names: source.names.clone(),
@@ -161,7 +162,7 @@ impl Maker<'_> {
             status_lengths: (1, 1),
             ..Submodule::default()
         };
-        let alarms = self.want(self.options.process_alarms(), "process-alarms");
+        let alarms = self.require(self.options.process_alarms(), "process-alarms");
         submodule.attributes.push(("MayIssueProcessAlarm".into(), format_compact!("{alarms}")));
         for image in &source.process_data.images {
             let subject = match image.direction {
@@ -180,7 +181,7 @@ impl Maker<'_> {
         submodule
     }
 
-    /// Interface and ports, if the caller gives an ident number of the interface.
+    /// Adds the interface and its ports if the caller gives the ident number of the interface.
     fn interface(&mut self, device: &mut Device) {
         let options = self.options;
         let Some(ident) = options.interface_ident() else {
@@ -188,12 +189,12 @@ impl Maker<'_> {
         };
         let mut attributes = vec![(
             CompactString::const_new("SupportedProtocols"),
-            CompactString::from(self.want(options.supported_protocols(), "supported-protocols")),
+            CompactString::from(self.require(options.supported_protocols(), "supported-protocols")),
         )];
         if let Some(classes) = &options.rt_classes() {
             attributes.push(("SupportedRT_Classes".into(), classes.into()));
         }
-        let name = CompactString::from(self.want(options.interface_name(), "interface-name"));
+        let name = CompactString::from(self.require(options.interface_name(), "interface-name"));
         let interface = Submodule {
             id: self.id("Interface"),
             ident,
@@ -204,15 +205,15 @@ impl Maker<'_> {
             ..Submodule::default()
         };
         self.add(device, interface, INTERFACE);
-        let ports = self.want(options.ports(), "ports");
+        let ports = self.require(options.ports(), "ports");
         if ports > MAX_PORTS {
             self.notes.add(NoteKind::GivenFact, Subject::Named("ports"));
         }
         for number in 0..ports.min(MAX_PORTS) {
-            let kind = self.want(options.mau_type(), "mau-type");
+            let kind = self.require(options.mau_type(), "mau-type");
             let port = Submodule {
                 id: format_compact!("Port_{}_{}", self.position + 1, number + 1),
-                ident: self.want(options.port_ident(), "port-ident"),
+                ident: self.require(options.port_ident(), "port-ident"),
                 kind: SubmoduleKind::Port,
                 name: format_compact!("{name} P{}", number + 1),
                 attributes: vec![("MAUTypeItem@Value".into(), format_compact!("{kind}"))],
@@ -224,13 +225,13 @@ impl Maker<'_> {
     }
 }
 
-/// Words with `;` between them.
+/// Splits a list at `;`.
 fn list(text: &str) -> Vec<CompactString> {
     text.split(';').map(str::trim).filter(|word| !word.is_empty()).map(Into::into).collect()
 }
 
-/// The data of an image, as data items one behind the other. They are told in whole bytes: of fields that share bytes, those
-/// of one bit keep their names.
+/// Converts an image to data items of whole bytes. Fields that share bytes become one data item, in which fields of one
+/// bit keep their names.
 fn io_data(image: &ProcessImage, types: &[TypeDef], notes: &mut Notes) -> IoData {
     let mut fields: Vec<PdoEntry> = Vec::new();
     let mut items = Vec::new();
@@ -240,7 +241,7 @@ fn io_data(image: &ProcessImage, types: &[TypeDef], notes: &mut Notes) -> IoData
     while let Some(first) = sorted.get(next) {
         let start = first.bit_offset / 8 * 8;
         filler(&mut fields, at, start);
-        // Up to where a field begins with a byte.
+        // Extend the item up to a field that begins at a byte boundary.
         let mut end = first.bit_offset.saturating_add(first.bits);
         let mut last = next + 1;
         while let Some(field) = sorted.get(last).filter(|field| field.bit_offset / 8 < end.div_ceil(8)) {
@@ -262,7 +263,7 @@ fn io_data(image: &ProcessImage, types: &[TypeDef], notes: &mut Notes) -> IoData
     IoData { image, consistent: false, items, channels: Vec::new() }
 }
 
-/// Bytes that no field has.
+/// Adds an item for bytes without a field.
 fn filler(fields: &mut Vec<PdoEntry>, from: u32, to: u32) {
     if from < to {
         let octets = Type::OctetString(Some((to - from) / 8));
@@ -272,12 +273,12 @@ fn filler(fields: &mut Vec<PdoEntry>, from: u32, to: u32) {
     }
 }
 
-/// A field of whole bytes.
+/// Returns a data item for a field of whole bytes.
 fn whole(field: &PdoEntry, image: &ProcessImage, types: &[TypeDef], notes: &mut Notes) -> PdoEntry {
     let subject = Subject::Named(&field.name);
     let octets = |kind| (Type::OctetString(Some(field.bits / 8)), Some(kind));
     let (below, note) = underlying(field.ty, types);
-    let (ty, own) = match below {
+    let (ty, type_note) = match below {
         Type::Unsigned(width) | Type::Integer(width) if u32::from(width) != field.bits => octets(NoteKind::UnknownType),
         Type::Unsigned(16 | 32 | 64) | Type::Integer(16 | 32 | 64) | Type::Real32 | Type::Real64
             if !image.big_endian =>
@@ -292,29 +293,29 @@ fn whole(field: &PdoEntry, image: &ProcessImage, types: &[TypeDef], notes: &mut 
         Type::Opaque(_) => octets(NoteKind::UnknownType),
         _ => octets(NoteKind::Structure),
     };
-    note.into_iter().chain(own).for_each(|note| notes.add(note, subject));
+    note.into_iter().chain(type_note).for_each(|note| notes.add(note, subject));
     PdoEntry { ty, ..field.clone() }
 }
 
-/// What a type is below its names, bits and values; those have no place in cyclic data.
+/// Returns the basic type of a defined type. Cyclic data cannot have names for bits and values.
 fn underlying(mut ty: Type, types: &[TypeDef]) -> (Type, Option<NoteKind>) {
     let mut note = None;
     for _ in 0..8 {
         let Type::Named(id) = ty else { break };
         let Some(def) = types.get(id.0 as usize) else { break };
-        let (below, own) = match &def.shape {
+        let (below, shape_note) = match &def.shape {
             Shape::Alias(base) => (*base, None),
             Shape::Enumeration { base, .. } => (*base, Some(NoteKind::Enumeration)),
             Shape::BitField { base, .. } => (*base, Some(NoteKind::BitField)),
             Shape::Scaled { base, .. } => (*base, Some(NoteKind::Quantity)),
             Shape::Array { .. } | Shape::Record(_) => return (Type::Opaque(None), Some(NoteKind::Structure)),
         };
-        (ty, note) = (below, note.or(own));
+        (ty, note) = (below, note.or(shape_note));
     }
     (ty, note)
 }
 
-/// Fields that share bytes, as one data item of bits.
+/// Adds one data item of bits for fields that share bytes.
 fn bits(
     fields: &mut Vec<PdoEntry>,
     items: &mut Vec<IoItem>,
@@ -359,7 +360,7 @@ fn bits(
     });
 }
 
-/// What of the device isn't in its process images.
+/// Adds notes for the facts of the device that are not in its process images.
 fn losses(device: &Device, notes: &mut Notes) {
     let subject = Subject::Named(&device.name);
     let others = [device.canopen.is_some(), device.ethercat.is_some()].iter().filter(|is_there| **is_there).count();
@@ -388,7 +389,7 @@ fn losses(device: &Device, notes: &mut Notes) {
                     notes.add_many(NoteKind::Documentation, item.documentation.is_some(), subject);
                     notes.add_many(NoteKind::Doubt, item.doubts.len(), subject);
                 }
-                // What a record says at start-up, its defaults for every byte, no register tells.
+                // A record needs start-up values for every byte, which registers do not have.
                 (false, true) => notes.add(NoteKind::Binding, subject),
                 (false, false) => notes.add(NoteKind::NotInData, subject),
             }

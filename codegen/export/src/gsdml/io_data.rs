@@ -33,11 +33,11 @@ fn direction(xml: &mut Xml, context: &mut Context<'_>, element: &'static str, da
         next = first + fields.len();
     }
     simple(xml, context, data.image.fields.get(next..).unwrap_or_default());
-    data.channels.iter().for_each(|own| channel(xml, own));
+    data.channels.iter().for_each(|each| channel(xml, each));
     xml.close();
 }
 
-/// Data items of one field each.
+/// Writes a data item for each field.
 fn simple(xml: &mut Xml, context: &mut Context<'_>, fields: &[PdoEntry]) {
     let types = context.types;
     for field in fields {
@@ -55,7 +55,7 @@ fn simple(xml: &mut Xml, context: &mut Context<'_>, fields: &[PdoEntry]) {
     }
 }
 
-/// A data item of bits, of two values, or of none.
+/// Writes a data item that consists of bits or of two values, or has no fields.
 fn composed(xml: &mut Xml, context: &mut Context<'_>, item: &IoItem, fields: &[PdoEntry]) {
     let is_bit = |field: &PdoEntry| field.kind == PdoEntryKind::Padding || field.bits == 1 && field.ty == Type::Boolean;
     let is_bits = !fields.is_empty() && fields.iter().all(is_bit);
@@ -70,15 +70,15 @@ fn composed(xml: &mut Xml, context: &mut Context<'_>, item: &IoItem, fields: &[P
     xml.flag("Subordinate", item.subordinate, "true");
     xml.attribute("TextId", context.texts.id(&item.name, &item.names));
     if is_bits {
-        // The most significant byte of a number is the first one, and its bits are counted from the last.
+        // Numbers are big-endian, and GSDML counts their bits from the last byte.
         let is_number = item.data_type.starts_with("Unsigned")
             || item.data_type.starts_with("Integer")
             || matches!(item.data_type.as_str(), "V2" | "L2");
         for field in fields.iter().filter(|field| field.kind != PdoEntryKind::Padding) {
-            let place = field.bit_offset.saturating_sub(item.bit_offset);
-            let offset = match item.bits.checked_div(8).filter(|bytes| is_number && place / 8 < *bytes) {
-                Some(bytes) => (bytes - 1 - place / 8) * 8 + place % 8,
-                None => place,
+            let bit_offset = field.bit_offset.saturating_sub(item.bit_offset);
+            let offset = match item.bits.checked_div(8).filter(|bytes| is_number && bit_offset / 8 < *bytes) {
+                Some(bytes) => (bytes - 1 - bit_offset / 8) * 8 + bit_offset % 8,
+                None => bit_offset,
             };
             xml.open("BitDataItem");
             xml.attribute("BitOffset", offset);

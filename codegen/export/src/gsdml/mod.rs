@@ -1,20 +1,20 @@
-//! PROFINET device descriptions (GSDML): all device access points of a catalogue, and one for a device of another format that
-//! has fixed process images.
+//! PROFINET device descriptions (GSDML): all device access points of a catalog, or one for a device of another format
+//! with fixed process images.
 //!
-//! What was read from a GSDML comes out as it was understood, in the order that the schema wants; attributes of later versions
-//! of the schema stay as they are. Of a device of another format, the file has a device access point with one submodule, which
-//! has the process images as its data, and [`Export::notes`] says what is left out. What the schema wants and the source
-//! doesn't say has to be among the [`Options`].
+//! The export of a GSDML has its facts in the order that the schema requires. Attributes of later versions of the
+//! schema are kept. For another format, the file has a device access point with one submodule, whose data are the
+//! process images. [`Export::notes`] lists the other facts. The [`Options`] supply facts that the schema requires and
+//! the source does not have.
 //!
 //! | file | subject |
 //! |---|---|
 //! | `options` | facts that the caller gives |
 //! | `texts` | the text list |
-//! | `elements` | elements of which the IR keeps the attributes as they are |
+//! | `elements` | elements whose attributes the IR stores as they are written |
 //! | `device`, `module`, `submodule` | device access points, modules, submodules |
 //! | `image` | a device access point for fixed process images |
 //! | `io_data`, `types` | cyclic data and its types |
-//! | `record` | parameter records, those of PROFIsafe too |
+//! | `record` | parameter records, including those of PROFIsafe |
 //! | `values` | named values |
 //! | `diagnosis` | diagnosis, alarms and log book |
 
@@ -32,31 +32,31 @@ mod types;
 mod values;
 
 pub use super::{Export, MissingFact, Note, NoteKind, Refusal};
-use options::Asked;
 pub use options::Options;
+use options::TrackedOptions;
 
 use std::collections::HashSet;
 
 use super::note::{Notes, Subject};
-use super::options::Wanted;
+use super::options::MissingFacts;
 use super::xml::Xml;
 use lexibus_codegen::ir::{Catalog, Documentation, Extension, Format, LocalText, TypeDef};
 use texts::TextList;
 
-/// Version of the schema that is written where the source doesn't say.
+/// Version of the schema if the source does not declare one.
 const VERSION: &str = "2.35";
 
-/// The file of all device access points of `catalog`, in UTF-8. Its name has to be that of [`file_name`].
+/// Exports all device access points of `catalog`, in UTF-8. The file must have the name that [`file_name`] returns.
 pub fn export(catalog: &Catalog, options: &Options) -> Result<Export, Refusal> {
-    let options = &Asked::new(options);
-    // It is a part of the file's name.
+    let options = &TrackedOptions::new(options);
+    // The file name contains the date.
     options.date();
-    let (mut notes, mut wanted) = (Notes::default(), Wanted::default());
-    let made = match is_gsdml(catalog) {
+    let (mut notes, mut missing) = (Notes::default(), MissingFacts::default());
+    let from_images = match is_gsdml(catalog) {
         true => None,
-        false => Some(image::catalog(catalog, options, &mut notes, &mut wanted).ok_or(Refusal::Nothing)?),
+        false => Some(image::catalog(catalog, options, &mut notes, &mut missing).ok_or(Refusal::Nothing)?),
     };
-    let catalog = made.as_ref().unwrap_or(catalog);
+    let catalog = from_images.as_ref().unwrap_or(catalog);
     if catalog.devices.is_empty() && catalog.modules.is_empty() && catalog.submodules.is_empty() {
         return Err(Refusal::Nothing);
     }
@@ -66,22 +66,22 @@ pub fn export(catalog: &Catalog, options: &Options) -> Result<Export, Refusal> {
         options,
         types: &catalog.types,
         notes,
-        wanted,
+        missing,
         texts,
         pluggable_ports: submodule::pluggable_ports(catalog),
-        is_gsdml: made.is_none(),
+        is_gsdml: from_images.is_none(),
     };
     let mut xml = Xml::new();
     root(&mut xml, &mut context);
     context.notes.add_many(NoteKind::Control, xml.dropped, Subject::Device);
     context.notes.add_many(NoteKind::Extension, xml.unnamed, Subject::Device);
-    let Context { mut notes, wanted, .. } = context;
-    options.note_others(&mut notes);
-    wanted.finish(xml.finish(), notes.finish())
+    let Context { mut notes, missing, .. } = context;
+    options.note_unused(&mut notes);
+    missing.finish(xml.finish(), notes.finish())
 }
 
-/// The name, without ending, that the file has to have: version of the schema, vendor, family and date. None where nobody
-/// gives the date.
+/// Returns the required name of the file, without extension: version of the schema, vendor, family and date. Returns
+/// `None` without a date.
 pub fn file_name(catalog: &Catalog, options: &Options) -> Option<String> {
     let source = catalog.files.first().filter(|_| is_gsdml(catalog));
     let stem = source.and_then(|file| {
@@ -96,7 +96,7 @@ pub fn file_name(catalog: &Catalog, options: &Options) -> Option<String> {
     let vendor =
         options.vendor_name.as_deref().or_else(|| device.map(|device| device.identity.vendor_name.as_str()))?;
     let family = options.product_family.as_deref().or_else(|| device.map(|device| device.name.as_str()))?;
-    // A dash divides the parts of the name.
+    // A dash separates the parts of the name.
     let part = |text: &str| -> String {
         let is_safe = |letter: char| letter.is_ascii_alphanumeric() || matches!(letter, '_' | '.' | '+');
         text.trim().chars().map(|letter| if is_safe(letter) { letter } else { '_' }).collect()
@@ -109,28 +109,28 @@ fn is_gsdml(catalog: &Catalog) -> bool {
 }
 
 fn version(catalog: &Catalog) -> &str {
-    let own = catalog.devices.first().map(|device| device.header.format_version.as_str());
-    own.filter(|version| is_gsdml(catalog) && !version.is_empty()).unwrap_or(VERSION)
+    let version = catalog.devices.first().map(|device| device.header.format_version.as_str());
+    version.filter(|version| is_gsdml(catalog) && !version.is_empty()).unwrap_or(VERSION)
 }
 
-/// What every part of the file is written from.
+/// The data that every part of the file is written from.
 struct Context<'a> {
     catalog: &'a Catalog,
-    options: &'a Asked<'a>,
+    options: &'a TrackedOptions<'a>,
     types: &'a [TypeDef],
     notes: Notes,
-    wanted: Wanted,
+    missing: MissingFacts,
     texts: TextList,
-    /// Positions of the ports that can be plugged.
+    /// Positions of the pluggable ports.
     pluggable_ports: HashSet<u32>,
-    /// Whether the source was a GSDML: then what it leaves out stays left out.
+    /// Whether the source is a GSDML. Then facts that it leaves out stay out.
     is_gsdml: bool,
 }
 
 impl Context<'_> {
-    /// What the caller gives, or else the source; if neither does, the caller is told.
-    fn wanted<T: Default>(&mut self, given: Option<T>, found: Option<T>, key: &'static str) -> T {
-        self.wanted.want(given.or(found), key, Options::KEYS)
+    /// Returns the fact of the caller, otherwise that of the source. Records a missing fact if neither has it.
+    fn required<T: Default>(&mut self, given: Option<T>, found: Option<T>, key: &'static str) -> T {
+        self.missing.require(given.or(found), key, Options::KEYS)
     }
 }
 
@@ -151,7 +151,7 @@ fn root(xml: &mut Xml, context: &mut Context<'_>) {
     lost(context);
 }
 
-/// The header of ISO 15745-1, in which every GSDML says the same.
+/// The header of ISO 15745-1, which is the same in every GSDML.
 const HEADER: [(&str, &str); 5] = [
     ("ProfileIdentification", "PROFINET Device Profile"),
     ("ProfileRevision", "1.00"),
@@ -164,8 +164,8 @@ const REFERENCE: [(&str, &str); 3] = [("ISO15745Part", "4"), ("ISO15745Edition",
 
 fn profile_header(xml: &mut Xml, extensions: &[Extension]) {
     let find = |above: &str, name: &str| {
-        let is_own = |key: &str| key.split_once('/').is_some_and(|(own, rest)| own == above && rest == name);
-        extensions.iter().find(|extension| is_own(&extension.key)).map(|extension| extension.value.as_str())
+        let is_named = |key: &str| key.split_once('/').is_some_and(|(element, rest)| element == above && rest == name);
+        extensions.iter().find(|extension| is_named(&extension.key)).map(|extension| extension.value.as_str())
     };
     xml.open("ProfileHeader");
     for (name, usual) in HEADER {
@@ -184,36 +184,38 @@ fn profile_header(xml: &mut Xml, extensions: &[Extension]) {
     xml.close();
 }
 
-/// DeviceIdentity and DeviceFunction.
+/// Writes DeviceIdentity and DeviceFunction.
 fn identity(xml: &mut Xml, context: &mut Context<'_>) {
     let (catalog, options) = (context.catalog, context.options);
     let none = Default::default();
     let device = catalog.devices.first().unwrap_or(&none);
-    let own = |number: Option<u32>| number.and_then(|number| u16::try_from(number).ok()).filter(|_| context.is_gsdml);
-    let (vendor, number) = (own(device.identity.vendor_id), own(device.identity.product_code));
+    let number_of_source =
+        |number: Option<u32>| number.and_then(|number| u16::try_from(number).ok()).filter(|_| context.is_gsdml);
+    let (vendor, number) =
+        (number_of_source(device.identity.vendor_id), number_of_source(device.identity.product_code));
     let name = Some(device.identity.vendor_name.to_string()).filter(|name| context.is_gsdml || !name.is_empty());
     let text = Some(device.header.description.to_string()).filter(|text| context.is_gsdml || !text.is_empty());
     let family = device.profinet.as_ref().map(|settings| &settings.family);
     let main = family.map(|(main, _)| main.to_string()).filter(|main| context.is_gsdml || !main.is_empty());
     let product = family.map(|(_, product)| product.to_string()).filter(|product| !product.is_empty());
     xml.open("DeviceIdentity");
-    let vendor = context.wanted(options.vendor_id(), vendor, "vendor-id");
+    let vendor = context.required(options.vendor_id(), vendor, "vendor-id");
     xml.attribute("VendorID", format_args!("0x{vendor:04X}"));
-    let number = context.wanted(options.device_id(), number, "device-id");
+    let number = context.required(options.device_id(), number, "device-id");
     xml.attribute("DeviceID", format_args!("0x{number:04X}"));
-    let text = context.wanted(options.description(), text, "description");
+    let text = context.required(options.description(), text, "description");
     let language = |extension: &Extension| {
         let language = extension.key.strip_prefix("DeviceIdentity/InfoText/")?;
         Some(LocalText { language: language.into(), text: extension.value.clone() })
     };
     let translations = catalog.extensions.iter().filter_map(language).collect();
     context.texts.documentation(xml, "InfoText", &Documentation { text, translations, ..Documentation::default() });
-    let name = context.wanted(options.vendor_name(), name, "vendor-name");
+    let name = context.required(options.vendor_name(), name, "vendor-name");
     xml.reference("VendorName", "Value", name);
     xml.close();
     xml.open("DeviceFunction");
     xml.open("Family");
-    let main = context.wanted(options.main_family(), main, "main-family");
+    let main = context.required(options.main_family(), main, "main-family");
     xml.attribute("MainFamily", main);
     xml.optional("ProductFamily", options.product_family().or(product));
     xml.close();
@@ -244,19 +246,19 @@ fn category(xml: &mut Xml, context: &mut Context<'_>, family: &lexibus_codegen::
     xml.attribute("TextId", context.texts.id(&family.name, &family.names));
     if let Some((first, others)) = family.descriptions.split_first() {
         let translations = others.iter().cloned().collect();
-        let own = Documentation { text: first.text.to_string(), translations, ..Documentation::default() };
-        context.texts.documentation(xml, "InfoText", &own);
+        let description = Documentation { text: first.text.to_string(), translations, ..Documentation::default() };
+        context.texts.documentation(xml, "InfoText", &description);
     }
     xml.close();
 }
 
-/// What the catalogue has beside what was written.
+/// Adds a note for the extensions of the catalog that were not written.
 fn lost(context: &mut Context<'_>) {
     let catalog = context.catalog;
-    let is_told = |extension: &&Extension| {
+    let is_written = |extension: &&Extension| {
         let key = extension.key.as_str();
         let is_header = |above: &str, names: &[(&str, &str)]| {
-            key.strip_prefix(above).is_some_and(|name| names.iter().any(|(own, _)| *own == name))
+            key.strip_prefix(above).is_some_and(|name| names.iter().any(|(known, _)| *known == name))
         };
         texts::kept(key).is_some()
             || key.starts_with("DeviceIdentity/InfoText/")
@@ -264,7 +266,7 @@ fn lost(context: &mut Context<'_>) {
             || is_header("ISO15745Reference/", &REFERENCE)
             || matches!(key, "ProfileHeader/ProfileDate" | "ProfileHeader/AdditionalInformation")
     };
-    let lost = catalog.extensions.iter().filter(|extension| !is_told(extension)).count();
+    let lost = catalog.extensions.iter().filter(|extension| !is_written(extension)).count();
     context.notes.add_many(NoteKind::Extension, lost, Subject::Device);
     let tables = catalog.code_tables.iter().filter(|table| !diagnosis::is_list(&table.name)).count();
     context.notes.add_many(NoteKind::OtherPart, tables, Subject::Device);

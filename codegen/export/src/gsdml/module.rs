@@ -1,4 +1,4 @@
-//! Modules, and what modules, submodules and device access points have in common.
+//! Modules, and parts that modules, submodules and device access points have in common.
 
 use std::fmt::Display;
 
@@ -8,7 +8,7 @@ use crate::note::{NoteKind, Subject};
 use crate::xml::Xml;
 use lexibus_codegen::ir::{CompactString, Documentation, Extension, Module, Numbers, Places, SubslotName, Texts};
 
-/// What ModuleInfo says.
+/// The facts of ModuleInfo.
 pub(super) struct Info<'i> {
     pub(super) name: &'i str,
     pub(super) names: &'i Texts,
@@ -17,16 +17,16 @@ pub(super) struct Info<'i> {
     pub(super) order: &'i str,
     pub(super) hardware: &'i str,
     pub(super) software: &'i str,
-    /// Category and family.
+    /// Contains category and family.
     pub(super) attributes: &'i Attributes,
 }
 
 /// Attributes of ModuleInfo.
 const OF_INFO: [&str; 2] = ["CategoryRef", "SubCategory1Ref"];
 
-/// The value of an attribute that is kept as it is.
+/// Returns the value of an attribute that the IR stores as it is written, or an empty text.
 pub(super) fn find<'a>(attributes: &'a Attributes, key: &str) -> &'a str {
-    attributes.iter().find(|(own, _)| own == key).map_or("", |(_, value)| value)
+    attributes.iter().find(|(name, _)| name == key).map_or("", |(_, value)| value)
 }
 
 impl Info<'_> {
@@ -40,7 +40,7 @@ impl Info<'_> {
         match self.documentation {
             Some(documentation) => context.texts.documentation(xml, "InfoText", documentation),
             None if context.is_gsdml => {}
-            // The schema wants a text there.
+            // The schema requires a text.
             None => {
                 context.texts.text(xml, "InfoText", self.name, self.names);
                 context.notes.add(NoteKind::MissingText, Subject::Named(self.name));
@@ -60,17 +60,17 @@ impl Info<'_> {
     }
 }
 
-/// Whether an attribute stands in ModuleInfo.
+/// Returns whether an attribute belongs to ModuleInfo.
 pub(super) fn is_of_info(key: &str) -> bool {
     OF_INFO.contains(&key) || matches!(key, "HardwareRelease" | "SoftwareRelease")
 }
 
-/// Ranges of numbers as GSDML writes them.
+/// Formats ranges of numbers as in GSDML.
 pub(super) fn ranges(numbers: &Numbers) -> String {
     numbers.0.iter().map(|(first, last)| range(first, last)).collect::<Vec<_>>().join(" ")
 }
 
-/// A range of values as GSDML writes it.
+/// Formats a range of values as in GSDML.
 pub(super) fn range<T: PartialEq + Display>(first: T, last: T) -> String {
     if first == last {
         first.to_string()
@@ -79,9 +79,9 @@ pub(super) fn range<T: PartialEq + Display>(first: T, last: T) -> String {
     }
 }
 
-/// Attributes that list places; `what` is Slots or Subslots.
-pub(super) fn places(xml: &mut Xml, places: &Places, what: &str) {
-    let lists = [("AllowedIn", &places.allowed), ("UsedIn", &places.used), ("FixedIn", &places.fixed)];
+/// Writes the attributes that list slots or subslots; `what` is `Slots` or `Subslots`.
+pub(super) fn slot_lists(xml: &mut Xml, slots: &Places, what: &str) {
+    let lists = [("AllowedIn", &slots.allowed), ("UsedIn", &slots.used), ("FixedIn", &slots.fixed)];
     for (name, numbers) in lists.into_iter().filter(|(_, numbers)| !numbers.is_empty()) {
         xml.attribute(&format!("{name}{what}"), ranges(numbers));
     }
@@ -97,10 +97,10 @@ pub(super) fn subslots(xml: &mut Xml, context: &mut Context<'_>, names: &[Subslo
     });
 }
 
-/// Writes Graphics of references that are kept as `GraphicItemRef@Type`.
+/// Writes Graphics from references that the IR stores as `GraphicItemRef@Type`.
 pub(super) fn graphics(xml: &mut Xml, attributes: &Attributes) {
-    let own = attributes.iter().filter_map(|(key, target)| Some((key.strip_prefix("GraphicItemRef@")?, target)));
-    graphics_of(xml, own);
+    let references = attributes.iter().filter_map(|(key, target)| Some((key.strip_prefix("GraphicItemRef@")?, target)));
+    graphics_of(xml, references);
 }
 
 /// Writes Graphics.

@@ -1,12 +1,12 @@
-//! What a GSDML has to say and a source may not.
+//! Facts that a GSDML requires and a source may not have.
 
 use crate::options::{options, OptionValue};
 use lexibus_codegen::ir::Numbers;
 
 options! {
-    /// Facts that count before those of the source, or that it doesn't have. Those of the device access point, its submodules and
-    /// the interface are asked for only where a fixed process image becomes a device access point.
-    pub struct Options, Asked {
+    /// Facts that take precedence over those of the source, or complete them. The options of the device access point,
+    /// its submodules and the interface are only used if a process image becomes a device access point.
+    pub struct Options, TrackedOptions {
         /// Vendor ID assigned by PROFIBUS & PROFINET International (VendorID).
         vendor_id: u16 = "vendor-id",
         /// Device ID, unique among the devices of the vendor (DeviceID).

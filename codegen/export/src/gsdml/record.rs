@@ -12,7 +12,7 @@ use lexibus_codegen::ir::{
     Submodule, Value,
 };
 
-/// Writes RecordDataList, if there is anything in it.
+/// Writes RecordDataList unless it would be empty.
 pub(super) fn list(xml: &mut Xml, context: &mut Context<'_>, submodule: &Submodule) {
     if submodule.records.is_empty() && submodule.f_parameters.is_none() {
         return;
@@ -37,11 +37,11 @@ pub(super) fn list(xml: &mut Xml, context: &mut Context<'_>, submodule: &Submodu
     xml.close();
 }
 
-/// The menus of a submodule, each taken by the first record that it belongs to.
+/// The menus of a submodule. Each one belongs to the first record that uses it.
 struct Menus<'m> {
-    /// Those that no record took so far.
+    /// Menus that no record uses so far.
     left: Vec<Option<&'m Menu>>,
-    /// By their names and by those that they show.
+    /// Positions of menus by their names and by the names that they show.
     by_name: HashMap<&'m str, Vec<usize>>,
 }
 
@@ -56,23 +56,24 @@ impl<'m> Menus<'m> {
         Menus { left: menus.iter().map(Some).collect(), by_name }
     }
 
-    /// The menus with parameters of a record and those that are connected with them, in their order.
+    /// Removes and returns the menus that show parameters of a record, and the menus connected with them, in their
+    /// order.
     fn take(&mut self, group: &'m Group) -> Vec<&'m Menu> {
-        let mut own = BTreeMap::new();
+        let mut menus = BTreeMap::new();
         let mut names: Vec<&str> = group.items.iter().filter_map(id).map(CompactString::as_str).collect();
         while let Some(name) = names.pop() {
-            // Each name leads to its menus once.
+            // Each name needs to be followed once.
             for at in self.by_name.remove(name).into_iter().flatten() {
                 if let Some(menu) = self.left.get_mut(at).and_then(Option::take) {
                     names.extend(menu.targets.iter().chain([&menu.id]).map(CompactString::as_str));
-                    own.insert(at, menu);
+                    menus.insert(at, menu);
                 }
             }
         }
-        own.into_values().collect()
+        menus.into_values().collect()
     }
 
-    /// How many no record took.
+    /// Returns the number of menus that no record uses.
     fn others(&self) -> usize {
         self.left.iter().flatten().count()
     }
@@ -82,7 +83,7 @@ fn id(item: &Item) -> Option<&CompactString> {
     kept(item, "ID")
 }
 
-/// Constants, parameters and menus.
+/// Writes constants, parameters and menus.
 pub(super) fn body(xml: &mut Xml, context: &mut Context<'_>, record: &Record, group: &Group, menus: &[&Menu]) {
     for (offset, data) in &record.constants {
         xml.open("Const");
@@ -116,7 +117,7 @@ fn parameter(xml: &mut Xml, context: &mut Context<'_>, item: &Item) {
     xml.open("Ref");
     xml.optional("ID", id(item));
     xml.optional("ValueItemTarget", values.map(|(def, _)| &def.name).or_else(|| kept(item, "ValueItemTarget")));
-    types::place(xml, context, ty, (offset, bits), &item.name);
+    types::position(xml, context, ty, offset, bits, &item.name);
     if let Some(default) = item.default.as_ref().and_then(value) {
         xml.attribute("DefaultValue", default);
     }
@@ -132,8 +133,9 @@ fn parameter(xml: &mut Xml, context: &mut Context<'_>, item: &Item) {
     }
     xml.attribute("TextId", context.texts.id(&item.name, &item.names));
     xml.close();
-    let is_told = |extension: &&Extension| matches!(extension.key.as_str(), "ID" | "ValueItemTarget" | "AllowedValues");
-    let lost = item.extensions.iter().filter(|extension| !is_told(extension)).count();
+    let is_written =
+        |extension: &&Extension| matches!(extension.key.as_str(), "ID" | "ValueItemTarget" | "AllowedValues");
+    let lost = item.extensions.iter().filter(|extension| !is_written(extension)).count();
     context.notes.add_many(NoteKind::Extension, lost, subject);
 }
 
@@ -145,7 +147,7 @@ fn value(value: &Value) -> Option<String> {
     Some(match value {
         Value::Bool(value) => u8::from(*value).to_string(),
         Value::Int(value) => value.to_string(),
-        // A number with a point, or an exponent, of which no side is empty.
+        // The notation of Rust has a decimal point or an exponent, with digits on both sides.
         Value::Real(value) => format!("{value:?}"),
         Value::Text(text) | Value::Raw(text) => text.to_string(),
         Value::Bytes(bytes) => octets(bytes),
@@ -153,7 +155,7 @@ fn value(value: &Value) -> Option<String> {
     })
 }
 
-/// The values that are allowed, as ranges; what was kept as it is stays so.
+/// Returns the allowed values as ranges. A text that the IR stores as it is written takes precedence.
 fn allowed(item: &Item) -> Option<String> {
     if let Some(kept) = kept(item, "AllowedValues") {
         return Some(kept.to_string());

@@ -3,7 +3,7 @@
 use std::collections::HashSet;
 
 use super::elements::{self, Attributes};
-use super::module::{find, graphics_of, places, ranges, Info};
+use super::module::{find, graphics_of, ranges, slot_lists, Info};
 use super::{io_data, record, Context};
 use crate::note::{NoteKind, Subject};
 use crate::xml::Xml;
@@ -14,7 +14,7 @@ use lexibus_codegen::ir::{
 /// Subslot of the first interface.
 const INTERFACE: u16 = 0x8000;
 
-/// Whether a submodule is part of what holds it: then it is described there.
+/// Returns whether a submodule is part of a device access point or module, which then contains its description.
 fn is_built_in(context: &Context<'_>, at: u32) -> bool {
     let Some(submodule) = context.catalog.submodules.get(at as usize) else { return false };
     match submodule.kind {
@@ -24,30 +24,31 @@ fn is_built_in(context: &Context<'_>, at: u32) -> bool {
     }
 }
 
-/// Ports of the submodule list: those behind the first submodule that can be plugged, and those that can be anywhere.
+/// Returns the ports of the submodule list: those that several elements use, that can be in several subslots, or that
+/// no element uses.
 pub(super) fn pluggable_ports(catalog: &Catalog) -> HashSet<u32> {
     let uses = |list: &[SubmoduleUse]| -> Vec<(u32, bool)> {
         let is_anywhere = |submodule_use: &SubmoduleUse| {
             !submodule_use.places.allowed.is_empty() || !submodule_use.places.used.is_empty()
         };
-        list.iter().map(|own| (own.submodule.0, is_anywhere(own))).collect()
+        list.iter().map(|submodule_use| (submodule_use.submodule.0, is_anywhere(submodule_use))).collect()
     };
     let of_devices = catalog.devices.iter().flat_map(|device: &Device| uses(&device.submodules));
     let of_modules = catalog.modules.iter().flat_map(|module| uses(&module.submodules));
     let (mut pluggable, mut used) = (HashSet::new(), HashSet::new());
     for (at, is_anywhere) in of_devices.chain(of_modules) {
-        // One that two take isn't a part of either.
+        // A port that two elements use is a part of neither.
         if !used.insert(at) || is_anywhere {
             pluggable.insert(at);
         }
     }
     let is_port = |submodule: &Submodule| submodule.kind == SubmoduleKind::Port;
-    let unused = (0u32..).zip(&catalog.submodules).filter(|(at, own)| is_port(own) && !used.contains(at));
+    let unused = (0u32..).zip(&catalog.submodules).filter(|(at, submodule)| is_port(submodule) && !used.contains(at));
     pluggable.extend(unused.map(|(at, _)| at));
     pluggable
 }
 
-/// The built-in submodules of a device access point or a module.
+/// Writes the built-in submodules of a device access point or a module.
 pub(super) fn built_in(
     xml: &mut Xml,
     context: &mut Context<'_>,
@@ -55,13 +56,13 @@ pub(super) fn built_in(
     settings: Option<&ProfinetSettings>,
 ) {
     let catalog = context.catalog;
-    let own: Vec<(&Submodule, &SubmoduleUse)> = uses
+    let built_in: Vec<(&Submodule, &SubmoduleUse)> = uses
         .iter()
         .filter(|submodule_use| is_built_in(context, submodule_use.submodule.0))
-        .filter_map(|own| Some((catalog.submodules.get(own.submodule.0 as usize)?, own)))
+        .filter_map(|built_in| Some((catalog.submodules.get(built_in.submodule.0 as usize)?, built_in)))
         .collect();
     let (ordinary, system): (Vec<_>, Vec<_>) =
-        own.into_iter().partition(|(submodule, _)| submodule.kind == SubmoduleKind::Virtual);
+        built_in.into_iter().partition(|(submodule, _)| submodule.kind == SubmoduleKind::Virtual);
     xml.list("VirtualSubmoduleList", ordinary, |xml, (submodule, submodule_use)| {
         let fixed = Some(&submodule_use.places.fixed).filter(|numbers| **numbers != Numbers::from_iter([1]));
         write(xml, context, submodule, ("VirtualSubmoduleItem", fixed), None);
@@ -72,13 +73,13 @@ pub(super) fn built_in(
             SubmoduleKind::Interface => "InterfaceSubmoduleItem",
             _ => "PortSubmoduleItem",
         };
-        // What the device as a whole can is told by the first interface.
+        // The first interface has the settings of the device as a whole.
         let settings = settings.take_if(|_| submodule.kind == SubmoduleKind::Interface);
         write(xml, context, submodule, (element, Some(&submodule_use.places.fixed)), settings);
     });
 }
 
-/// References to submodules that can be plugged.
+/// Writes references to pluggable submodules.
 pub(super) fn useable(xml: &mut Xml, context: &mut Context<'_>, uses: &[SubmoduleUse]) {
     let catalog = context.catalog;
     let others: Vec<&SubmoduleUse> =
@@ -87,7 +88,7 @@ pub(super) fn useable(xml: &mut Xml, context: &mut Context<'_>, uses: &[Submodul
         let Some(submodule) = catalog.submodules.get(submodule_use.submodule.0 as usize) else { return };
         xml.open("SubmoduleItemRef");
         xml.attribute("SubmoduleItemTarget", &submodule.id);
-        places(xml, &submodule_use.places, "Subslots");
+        slot_lists(xml, &submodule_use.places, "Subslots");
         xml.close();
     });
 }
@@ -144,7 +145,7 @@ fn write(
     }
     graphics_of(xml, submodule.graphics.iter().map(|(kind, target)| (kind.as_str(), target)));
     if matches!(submodule.kind, SubmoduleKind::Virtual | SubmoduleKind::Pluggable) {
-        elements::OF_SUBMODULE.iter().for_each(|own| own.write(xml, attributes));
+        elements::OF_SUBMODULE.iter().for_each(|element| element.write(xml, attributes));
     }
     xml.close();
     context.notes.add_many(NoteKind::Extension, submodule.extensions.len(), Subject::Named(&submodule.name));
@@ -159,7 +160,7 @@ fn head(xml: &mut Xml, context: &mut Context<'_>, submodule: &Submodule, has_inf
     }
 }
 
-/// The subslot of an interface or port, where it isn't the usual one.
+/// Writes the subslot of an interface or port unless it is the default.
 fn subslot(xml: &mut Xml, element: &str, numbers: &Numbers) {
     let first = numbers.0.first().map_or(INTERFACE, |(first, _)| *first);
     if element == "PortSubmoduleItem" || first != INTERFACE {
@@ -186,22 +187,22 @@ fn info(xml: &mut Xml, context: &mut Context<'_>, submodule: &Submodule) {
     info.write(xml, context);
 }
 
-/// What an interface has behind its records.
+/// Writes the elements of an interface after its records.
 fn interface(xml: &mut Xml, attributes: &Attributes, settings: Option<&ProfinetSettings>) {
-    elements::OF_INTERFACE.iter().for_each(|own| own.write(xml, attributes));
+    elements::OF_INTERFACE.iter().for_each(|element| element.write(xml, attributes));
     elements::RELATIONS.write(xml, &relations(attributes, settings, true));
     elements::MEDIA_REDUNDANCY.write(xml, attributes);
 }
 
-/// Attributes of ApplicationRelations, among them those for which the IR has fields.
+/// Returns the attributes of ApplicationRelations, including those from fields of the IR.
 pub(super) fn relations(
     attributes: &Attributes,
     settings: Option<&ProfinetSettings>,
     is_interface: bool,
 ) -> Vec<(CompactString, CompactString)> {
     let of = |element: &str| {
-        let is_own = |key: &str| key.split_once('@').map_or(key, |(own, _)| own) == element;
-        attributes.iter().filter(move |(key, _)| is_own(key)).cloned().collect::<Vec<_>>()
+        let is_of_element = |key: &str| key.split_once('@').map_or(key, |(name, _)| name) == element;
+        attributes.iter().filter(move |(key, _)| is_of_element(key)).cloned().collect::<Vec<_>>()
     };
     let mut list = Vec::new();
     let mut timing = Vec::new();

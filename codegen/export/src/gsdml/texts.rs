@@ -1,4 +1,4 @@
-//! The text list: every text once, in all languages.
+//! The text list, which contains every text once, in all languages.
 
 use std::collections::{HashMap, HashSet};
 
@@ -8,28 +8,28 @@ use crate::note::{NoteKind, Notes, Subject};
 use crate::xml::Xml;
 use lexibus_codegen::ir::{Documentation, Extension, LocalText, Texts};
 
-/// A language, and its texts by their identifiers.
+/// A language, and its texts by identifier.
 type Language<'t> = (&'t CompactString, Vec<(&'t CompactString, &'t CompactString)>);
 
-/// Texts so far.
+/// The texts that the file refers to.
 #[derive(Default)]
 pub(super) struct TextList {
     texts: Vec<(CompactString, CompactString, Texts)>,
-    /// Identifiers by their text and its translations.
+    /// Identifiers of texts, by text and translations.
     known: HashMap<(CompactString, Vec<(CompactString, CompactString)>), CompactString>,
-    taken: HashSet<CompactString>,
+    used_ids: HashSet<CompactString>,
     next: usize,
 }
 
 impl TextList {
-    /// A list that begins with the texts of the source to which nothing refers but attributes that are kept as they are.
+    /// Creates a list that begins with texts of the source that only uninterpreted attributes refer to.
     pub(super) fn new(extensions: &[Extension]) -> Self {
         let mut list = TextList::default();
-        let mut places: HashMap<CompactString, usize> = HashMap::new();
+        let mut positions: HashMap<CompactString, usize> = HashMap::new();
         let mut others: Vec<Vec<LocalText>> = Vec::new();
         for extension in extensions {
             let Some((language, id)) = kept(&extension.key) else { continue };
-            let at = *places.entry(id.into()).or_insert_with(|| {
+            let at = *positions.entry(id.into()).or_insert_with(|| {
                 list.texts.push((id.into(), CompactString::default(), Texts::default()));
                 others.push(Vec::new());
                 list.texts.len() - 1
@@ -42,18 +42,18 @@ impl TextList {
                 }
                 _ => {
                     let local = LocalText { language: language.into(), text: extension.value.clone() };
-                    others.get_mut(at).into_iter().for_each(|own| own.push(local.clone()));
+                    others.get_mut(at).into_iter().for_each(|translations| translations.push(local.clone()));
                 }
             }
         }
-        for (text, own) in list.texts.iter_mut().zip(others) {
-            text.2 = own.into();
+        for (text, translations) in list.texts.iter_mut().zip(others) {
+            text.2 = translations.into();
         }
-        list.taken = list.texts.iter().map(|(id, ..)| id.clone()).collect();
+        list.used_ids = list.texts.iter().map(|(id, ..)| id.clone()).collect();
         list
     }
 
-    /// The identifier of a text.
+    /// Returns the identifier of a text.
     pub(super) fn id(&mut self, text: &str, names: &Texts) -> CompactString {
         let others = names.iter().map(|local| (local.language.clone(), local.text.clone())).collect();
         let key = (CompactString::from(text), others);
@@ -65,12 +65,12 @@ impl TextList {
         id
     }
 
-    /// The identifier of a text that no other element may refer to.
+    /// Returns the identifier of a text that no other element refers to.
     pub(super) fn add(&mut self, text: &str, names: &Texts) -> CompactString {
         let id = loop {
             self.next += 1;
             let id = format_compact!("T{}", self.next);
-            if self.taken.insert(id.clone()) {
+            if self.used_ids.insert(id.clone()) {
                 break id;
             }
         };
@@ -78,31 +78,31 @@ impl TextList {
         id
     }
 
-    /// An element that refers to a text.
+    /// Writes an element that refers to a text.
     pub(super) fn text(&mut self, xml: &mut Xml, element: &'static str, text: &str, names: &Texts) {
         xml.reference(element, "TextId", self.id(text, names));
     }
 
-    /// An element that refers to a description.
+    /// Writes an element that refers to a description.
     pub(super) fn documentation(&mut self, xml: &mut Xml, element: &'static str, documentation: &Documentation) {
         self.text(xml, element, &documentation.text, &documentation.translations);
     }
 
-    /// The languages in the order in which they occur, each with its texts.
+    /// Returns the languages in the order in which they occur, each with its texts.
     fn translations(&self) -> Vec<Language<'_>> {
-        let mut places: HashMap<&str, usize> = HashMap::new();
+        let mut positions: HashMap<&str, usize> = HashMap::new();
         let mut languages: Vec<Language<'_>> = Vec::new();
         for (id, _, names) in &self.texts {
             for local in names.iter() {
-                let at = *places.entry(&local.language).or_insert(languages.len());
+                let at = *positions.entry(&local.language).or_insert(languages.len());
                 if at == languages.len() {
                     languages.push((&local.language, Vec::new()));
                 }
-                // Of two texts in one language the first one counts.
-                if let Some((_, own)) =
-                    languages.get_mut(at).filter(|(_, own)| own.last().is_none_or(|last| last.0 != id))
+                // If a text has two translations in one language, the first one is used.
+                if let Some((_, texts)) =
+                    languages.get_mut(at).filter(|(_, texts)| texts.last().is_none_or(|last| last.0 != id))
                 {
-                    own.push((id, &local.text));
+                    texts.push((id, &local.text));
                 }
             }
         }
@@ -117,14 +117,14 @@ impl TextList {
             text(xml, id, value);
         }
         xml.close();
-        for (language, own) in self.translations() {
+        for (language, texts) in self.translations() {
             if !is_tag(language) {
-                notes.add_many(NoteKind::Language, own.len(), Subject::Named(language));
+                notes.add_many(NoteKind::Language, texts.len(), Subject::Named(language));
                 continue;
             }
             xml.open("Language");
             xml.attribute("xml:lang", language);
-            own.into_iter().for_each(|(id, value)| text(xml, id, value));
+            texts.into_iter().for_each(|(id, value)| text(xml, id, value));
             xml.close();
         }
         xml.close();
@@ -138,12 +138,12 @@ fn text(xml: &mut Xml, id: &str, value: &str) {
     xml.close();
 }
 
-/// Language and identifier of a text that nothing refers to: `Text/de/T7`.
+/// Returns language and identifier of a text that nothing refers to, such as `Text/de/T7`.
 pub(super) fn kept(key: &str) -> Option<(&str, &str)> {
     key.strip_prefix("Text/")?.split_once('/')
 }
 
-/// Whether a text has the form of a language tag (`xs:language`).
+/// Returns whether a text has the form of a language tag (`xs:language`).
 fn is_tag(text: &str) -> bool {
     let mut parts = text.split('-');
     let is_part = |part: &str| (1..=8).contains(&part.len()) && part.bytes().all(|byte| byte.is_ascii_alphanumeric());

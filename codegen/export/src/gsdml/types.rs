@@ -5,10 +5,10 @@ use crate::note::{NoteKind, Subject};
 use crate::xml::Xml;
 use lexibus_codegen::ir::{Shape, Type, TypeDef};
 
-/// How many names a type may have on the way to what it is.
+/// Maximum number of names between a type and its basic type.
 const MAX_DEPTH: usize = 8;
 
-/// The name of a data type, and whether its length has to stand beside it.
+/// The name of a data type.
 pub(super) struct Name<'t> {
     pub(super) name: &'t str,
     pub(super) needs_length: bool,
@@ -19,11 +19,11 @@ fn plain(name: &str) -> Name<'_> {
     Name { name, needs_length: false, note: None }
 }
 
-/// What a type of so many bits is called.
+/// Returns the name of a type with a length in bits.
 pub(super) fn name(ty: Type, bits: u32, types: &[TypeDef]) -> Name<'_> {
     let octets = |note| Name { name: "OctetString", needs_length: true, note };
-    let (ty, note) = match own_name(ty, types) {
-        Ok(own) => return own,
+    let (ty, note) = match defined_name(ty, types) {
+        Ok(name) => return name,
         Err(below) => below,
     };
     let mut found = match ty {
@@ -49,8 +49,8 @@ pub(super) fn name(ty: Type, bits: u32, types: &[TypeDef]) -> Name<'_> {
     found
 }
 
-/// Writes the type and the place of a value in a record.
-pub(super) fn place(xml: &mut Xml, context: &mut Context<'_>, ty: Type, (offset, bits): (u32, u32), of: &str) {
+/// Writes the type and the position of a value in a record.
+pub(super) fn position(xml: &mut Xml, context: &mut Context<'_>, ty: Type, offset: u32, bits: u32, subject: &str) {
     let is_byte = offset.is_multiple_of(8);
     let is_bits = match ty {
         Type::Boolean | Type::Unsigned(1) => bits == 1,
@@ -63,7 +63,7 @@ pub(super) fn place(xml: &mut Xml, context: &mut Context<'_>, ty: Type, (offset,
         _ => name(ty, bits, context.types),
     };
     if let Some(note) = note {
-        context.notes.add(note, Subject::Named(of));
+        context.notes.add(note, Subject::Named(subject));
     }
     xml.attribute("DataType", name);
     xml.attribute("ByteOffset", offset / 8);
@@ -78,8 +78,8 @@ pub(super) fn place(xml: &mut Xml, context: &mut Context<'_>, ty: Type, (offset,
     }
 }
 
-/// A type that GSDML has under its name, or what a defined type is below its names, bits and values.
-fn own_name(mut ty: Type, types: &[TypeDef]) -> Result<Name<'_>, (Type, Option<NoteKind>)> {
+/// Returns the name of a type that GSDML defines, otherwise the basic type of a defined type.
+fn defined_name(mut ty: Type, types: &[TypeDef]) -> Result<Name<'_>, (Type, Option<NoteKind>)> {
     let mut note = None;
     for _ in 0..MAX_DEPTH {
         let Type::Named(id) = ty else { break };
@@ -107,7 +107,7 @@ fn own_name(mut ty: Type, types: &[TypeDef]) -> Result<Name<'_>, (Type, Option<N
     Err((ty, note))
 }
 
-/// The integer of an enumeration.
+/// Returns the definition and the integer of an enumeration.
 pub(super) fn enumeration(ty: Type, types: &[TypeDef]) -> Option<(&TypeDef, Type)> {
     let Type::Named(id) = ty else { return None };
     let def = types.get(id.0 as usize)?;
@@ -121,7 +121,7 @@ fn is_string(name: &str) -> bool {
     matches!(name, "UnicodeString8" | "61131_STRING" | "61131_WSTRING")
 }
 
-/// Types of PROFIdrive and of process control, and pairs of a value and its status.
+/// Returns whether a name is a type of PROFIdrive or process control, or a pair of a value and its status.
 fn is_number(name: &str) -> bool {
     const NAMES: [&str; 18] = [
         "N2",

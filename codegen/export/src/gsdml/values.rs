@@ -7,7 +7,7 @@ use crate::note::{NoteKind, Subject};
 use crate::xml::Xml;
 use lexibus_codegen::ir::{EnumValue, Shape, TypeDef};
 
-/// Writes ValueList: a list a name, however many types have its values.
+/// Writes ValueList, with one list for each name, even if several types have its values.
 pub(super) fn write(xml: &mut Xml, context: &mut Context<'_>) {
     let types = context.types;
     let enumeration = |def: &'_ TypeDef| matches!(def.shape, Shape::Enumeration { .. });
@@ -34,7 +34,7 @@ pub(super) fn write(xml: &mut Xml, context: &mut Context<'_>) {
     xml.close();
 }
 
-/// The values of a list; every one of them has a text of its own.
+/// Writes the values of a list. Each value refers to a different text.
 fn assignments(xml: &mut Xml, context: &mut Context<'_>, values: &[EnumValue]) {
     let mut used = HashSet::new();
     xml.open("Assignments");

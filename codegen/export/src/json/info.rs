@@ -1,4 +1,4 @@
-//! The summary of a file: one JSON object.
+//! The summary of a file, as one JSON object.
 
 use std::collections::BTreeMap;
 
@@ -12,27 +12,27 @@ use lexibus_codegen::ir::{
 };
 use lexibus_codegen::source::{FileId, Origin};
 
-/// What `lexibus info --format json` says of a file.
+/// The output of `lexibus info --format json` for a file.
 #[derive(Clone, Debug, Serialize)]
 pub struct Info {
-    /// Its name.
+    /// Name of the file.
     pub file: String,
-    /// Its format: `eds`, `dcf`, `xdd`, `esi`, `gsdml`, `table`; null where it wasn't recognised.
+    /// Format: `eds`, `dcf`, `xdd`, `esi`, `gsdml`, `table`; null if it was not recognized.
     pub format: Option<&'static str>,
-    /// How its bytes were decoded.
+    /// Encoding of the file.
     pub encoding: &'static str,
-    /// The devices that it describes; for GSDML, the device access points.
+    /// The devices that the file describes; for GSDML, the device access points.
     pub devices: Vec<DeviceInfo>,
-    /// A dictionary that several devices share (EtherCATDict), where it describes one.
+    /// A dictionary that several devices share (EtherCATDict), if the file describes one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub dictionary: Option<DictionaryInfo>,
     /// The device access points, for GSDML.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub daps: Option<Vec<DapInfo>>,
-    /// The modules that it describes, for ESI and GSDML.
+    /// The modules that the file describes, for ESI and GSDML.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub modules: Option<Vec<ModuleInfo>>,
-    /// The submodules that can be plugged in, for GSDML.
+    /// The pluggable submodules, for GSDML.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub submodules: Option<Vec<SubmoduleInfo>>,
     /// Number of errors, by code.
@@ -44,7 +44,7 @@ pub struct Info {
 /// One device.
 #[derive(Clone, Debug, Serialize)]
 pub struct DeviceInfo {
-    /// Number of the vendor.
+    /// Vendor ID.
     pub vendor_id: Option<u32>,
     /// Product code; for GSDML, the DeviceID.
     pub product_code: Option<u32>,
@@ -52,13 +52,13 @@ pub struct DeviceInfo {
     pub revision: Option<u32>,
     /// Name of the product.
     pub name: String,
-    /// Order code, or Type of ETG.2000; empty where there is none.
+    /// Order code, or Type of ETG.2000; empty if there is none.
     pub order_code: String,
     /// Number of distinct indices that the file and a dictionary file of the device declare.
     pub objects: usize,
-    /// Number of addressable sub-entries that they declare, sub-index 0 included.
+    /// Number of addressable sub-entries that these files declare, sub-index 0 included.
     pub entries: usize,
-    /// For register tables: number of registers, which are items of chapters.
+    /// Number of registers (items of chapters), for register tables.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub registers: Option<usize>,
     /// RPDOs whose mapping the file describes.
@@ -79,50 +79,50 @@ pub struct DictionaryInfo {
 /// A device access point of PROFINET.
 #[derive(Clone, Debug, Serialize)]
 pub struct DapInfo {
-    /// Its ID.
+    /// ID of the device access point.
     pub id: String,
     /// Module ident number.
     pub ident: u32,
-    /// Its virtual submodules.
+    /// Virtual submodules of the device access point.
     pub virtual_submodules: Vec<SubmoduleInfo>,
 }
 
 /// A module.
 #[derive(Clone, Debug, Serialize)]
 pub struct ModuleInfo {
-    /// Its ID (GSDML), or its Type (ETG.2000).
+    /// ID of the module (GSDML), or its Type (ETG.2000).
     pub id: String,
     /// Module ident number.
     pub ident: u32,
-    /// What of it depends on the bus.
+    /// The facts that depend on the bus.
     #[serde(flatten)]
     pub content: ModuleContent,
 }
 
-/// What a module has.
+/// The bus-specific facts of a module.
 #[derive(Clone, Debug, Serialize)]
 #[serde(untagged)]
 pub enum ModuleContent {
-    /// On PROFINET.
+    /// A module of PROFINET.
     Profinet {
-        /// Bytes of its virtual submodules' inputs, those of F message trailers included.
+        /// Input bytes of its virtual submodules, including F message trailers.
         input_bytes: u32,
-        /// Bytes of its virtual submodules' outputs, those of F message trailers included.
+        /// Output bytes of its virtual submodules, including F message trailers.
         output_bytes: u32,
         /// Parameter records of its virtual submodules.
         records: Vec<RecordInfo>,
-        /// Its virtual submodules.
+        /// Virtual submodules of the module.
         virtual_submodules: Vec<SubmoduleInfo>,
     },
-    /// On EtherCAT.
+    /// A module of EtherCAT.
     EtherCat {
         /// Number of distinct indices that the file declares.
         objects: usize,
         /// Number of addressable sub-entries that the file declares, sub-index 0 included.
         entries: usize,
-        /// Its RPDOs.
+        /// RPDOs of the module.
         rx_pdos: Vec<PdoInfo>,
-        /// Its TPDOs.
+        /// TPDOs of the module.
         tx_pdos: Vec<PdoInfo>,
     },
 }
@@ -130,17 +130,17 @@ pub enum ModuleContent {
 /// A submodule of PROFINET.
 #[derive(Clone, Debug, Serialize)]
 pub struct SubmoduleInfo {
-    /// Its ID.
+    /// ID of the submodule.
     pub id: String,
     /// Submodule ident number.
     pub ident: u32,
     /// API number.
     pub api: u32,
-    /// Bytes of its inputs, those of an F message trailer included.
+    /// Input bytes, including an F message trailer.
     pub input_bytes: u32,
-    /// Bytes of its outputs, those of an F message trailer included.
+    /// Output bytes, including an F message trailer.
     pub output_bytes: u32,
-    /// Its parameter records.
+    /// Parameter records of the submodule.
     pub records: Vec<RecordInfo>,
 }
 
@@ -151,14 +151,14 @@ pub struct RecordInfo {
     pub index: u16,
     /// Length in bytes.
     pub length: u32,
-    /// Number of parameters in it.
+    /// Number of parameters in the record.
     pub refs: usize,
 }
 
 /// One PDO.
 #[derive(Clone, Copy, Debug, Serialize, PartialEq, Eq)]
 pub struct PdoInfo {
-    /// Index of its mapping object.
+    /// Index of the mapping object.
     pub index: u16,
     /// Number of entries, dummy entries included.
     pub entries: usize,
@@ -166,7 +166,7 @@ pub struct PdoInfo {
     pub bits: u32,
 }
 
-/// Sums up a checked compilation of one file.
+/// Returns the summary of a checked compilation of one file.
 pub fn info(compilation: &Compilation) -> Info {
     let source = compilation.sources.first();
     let nothing = Catalog::default();
@@ -174,19 +174,22 @@ pub fn info(compilation: &Compilation) -> Info {
     let is_gsdml = compilation.format == Some(Format::Gsdml);
     let is_table = compilation.format == Some(Format::Table);
     let is_modular = is_gsdml || compilation.format == Some(Format::Esi);
-    let own_devices = || catalog.devices.iter().filter(|device| is_own(device.origin));
-    let own_modules = || catalog.modules.iter().filter(|module| is_own(module.origin));
+    let main_devices = || catalog.devices.iter().filter(|device| is_in_main_file(device.origin));
+    let main_modules = || catalog.modules.iter().filter(|module| is_in_main_file(module.origin));
     let mut info = Info {
         file: source.map(|source| source.name().to_owned()).unwrap_or_default(),
         format: compilation.format.map(|format| format.name()),
         encoding: source.map_or("utf-8", |source| source.encoding().name()),
-        devices: own_devices()
+        devices: main_devices()
             .filter(|device| !device.dictionary_only)
-            .map(|own| DeviceInfo { registers: is_table.then(|| registers(own)), ..device(own, catalog) })
+            .map(|described| DeviceInfo {
+                registers: is_table.then(|| registers(described)),
+                ..device(described, catalog)
+            })
             .collect(),
-        dictionary: own_devices().find(|device| device.dictionary_only).map(|device| dictionary(device, catalog)),
+        dictionary: main_devices().find(|device| device.dictionary_only).map(|device| dictionary(device, catalog)),
         daps: is_gsdml.then(|| catalog.devices.iter().map(|device| dap(device, catalog)).collect()),
-        modules: is_modular.then(|| own_modules().map(|one| module(one, catalog, is_gsdml)).collect()),
+        modules: is_modular.then(|| main_modules().map(|one| module(one, catalog, is_gsdml)).collect()),
         submodules: is_gsdml.then(|| {
             let pluggable = |one: &&Submodule| one.kind == SubmoduleKind::Pluggable;
             catalog.submodules.iter().filter(pluggable).map(submodule).collect()
@@ -204,16 +207,17 @@ pub fn info(compilation: &Compilation) -> Info {
     info
 }
 
-/// Whether something stands in the file itself, not in one that it refers to.
-fn is_own(origin: Origin) -> bool {
+/// Returns whether an element is in the main file, not in a file that it refers to.
+fn is_in_main_file(origin: Origin) -> bool {
     origin.span.file == FileId(0)
 }
 
-/// The objects that the file and the dictionary files of its devices declare, without those of overlays and profiles.
+/// Returns the objects that the file and the dictionary files of its devices declare, without those of overlays and
+/// profiles.
 fn declared<'g>(groups: &'g [Group], catalog: &'g Catalog) -> impl Iterator<Item = &'g Group> {
     let format = |origin: Origin| catalog.files.get(origin.span.file.0 as usize).map(|file| file.format);
     let is_declared = move |group: &&Group| {
-        let is_described = is_own(group.origin) || format(group.origin) == Some(Format::Esi);
+        let is_described = is_in_main_file(group.origin) || format(group.origin) == Some(Format::Esi);
         group.origin.line > 0 && group.index().is_some() && is_described
     };
     groups.iter().filter(is_declared)
@@ -235,7 +239,7 @@ fn device(device: &Device, catalog: &Catalog) -> DeviceInfo {
     }
 }
 
-/// Number of items in chapters.
+/// Returns the number of items in chapters.
 fn registers(device: &Device) -> usize {
     let chapters = device.groups.iter().filter(|group| matches!(group.kind, GroupKind::Chapter));
     chapters.map(|group| group.items.len()).sum()
@@ -301,6 +305,8 @@ fn record(group: &Group) -> Option<RecordInfo> {
 }
 
 fn pdos(data: &ProcessData, direction: Direction) -> Vec<PdoInfo> {
-    let own = data.pdos.iter().filter(|pdo| pdo.direction == direction && !pdo.implicit);
-    own.map(|pdo| PdoInfo { index: pdo.mapping_index, entries: pdo.entries.len(), bits: pdo.bits() }).collect()
+    let declared_pdos = data.pdos.iter().filter(|pdo| pdo.direction == direction && !pdo.implicit);
+    declared_pdos
+        .map(|pdo| PdoInfo { index: pdo.mapping_index, entries: pdo.entries.len(), bits: pdo.bits() })
+        .collect()
 }

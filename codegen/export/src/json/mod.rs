@@ -1,4 +1,4 @@
-//! JSON: the IR as a whole, and the summary that `lexibus info` prints.
+//! JSON: the whole IR, and the summary that `lexibus info` prints.
 
 mod info;
 

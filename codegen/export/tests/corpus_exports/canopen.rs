@@ -1,7 +1,7 @@
-//! Exported files in an independent library: `canopen`, the one of the Python world.
+//! Exported files in an independent library: `canopen` for Python.
 //!
-//! What it can load it loads after export, too, with the same entries. Skipped, with a message, where there is no Python
-//! with this library.
+//! If the library loads a file, it also loads the exported file, with the same entries. The tests are skipped, with a
+//! message, if there is no Python with this library.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -15,14 +15,14 @@ use lexibus_codegen::source::{Source, Span};
 use lexibus_export::eds::{export, Flavour};
 use serde_json::Value;
 
-/// Files that it can't load after export either, and why.
+/// Files that the library does not load after export either, with the reason.
 const NOT_LOADABLE: [(&str, &str); 3] = [
-    ("KITmedical__kacanopen__301__87d58e93.eds", "0x1023 has no DataType, and nobody can say which"),
-    ("bggardner__canopen-rpi__node__root.eds", "0x1018 has no DataType, and nobody can say which"),
-    ("starnus-software__ros2_canopen__master.dcf.em", "a template of a file, with loops that look like repeated keys"),
+    ("KITmedical__kacanopen__301__87d58e93.eds", "0x1023 has no DataType"),
+    ("bggardner__canopen-rpi__node__root.eds", "0x1018 has no DataType"),
+    ("starnus-software__ros2_canopen__master.dcf.em", "a template with loops that look like repeated keys"),
 ];
 
-/// What the library says of one file: its entries, or why it can't load it.
+/// The result of loading a file: its entries, or the error.
 type Loaded = Result<BTreeMap<(u16, u8), Entry>, String>;
 
 /// Data type, access and default.
@@ -33,7 +33,7 @@ struct Entry {
     default: Option<String>,
 }
 
-/// A folder of this test's own.
+/// Creates an empty folder for temporary files.
 fn folder(name: &str) -> PathBuf {
     let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
     let _ = std::fs::remove_dir_all(&path);
@@ -41,7 +41,7 @@ fn folder(name: &str) -> PathBuf {
     path
 }
 
-/// What the library makes of `paths`.
+/// Loads `paths` with the library.
 fn load(python: &Path, paths: &[PathBuf]) -> Vec<Loaded> {
     const SCRIPT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/corpus_exports/dump.py");
     let output = Command::new(python).arg(SCRIPT).args(paths).output().expect("Python runs");
@@ -67,7 +67,7 @@ fn loaded(line: &str) -> Loaded {
     Ok(line["entries"].as_array().expect("entries").iter().map(entry).collect())
 }
 
-/// An original, its export, and how Lexibus understood it.
+/// An original, its export, and the compilation of the original.
 struct Pair {
     name: String,
     compilation: Compilation,
@@ -89,44 +89,44 @@ fn pair(folder: &Path, file: File, number: usize) -> Option<Pair> {
 
 impl Pair {
     fn device(&self) -> &Device {
-        &self.compilation.catalog.as_ref().expect("a catalogue").devices[0]
+        &self.compilation.catalog.as_ref().expect("a catalog").devices[0]
     }
 
     fn item(&self, at: (u16, u8)) -> Option<&Item> {
         self.device().entry(at.0, at.1)
     }
 
-    /// Whether a diagnostic says that the text at `span` isn't what it seems.
+    /// Returns whether a diagnostic repairs the text at `span`.
     fn is_repaired(&self, span: Span) -> bool {
         let is_within = |found: &Diagnostic| span.start <= found.span.start && found.span.end <= span.end;
         !span.is_empty() && self.compilation.diagnostics.list().iter().any(is_within)
     }
 }
 
-/// Why an entry may be another after export; none where it may not.
+/// Returns the reason why an entry may change with the export, or `None` if it must not change.
 fn reason(pair: &Pair, at: (u16, u8), before: Option<&Entry>, after: Option<&Entry>) -> Option<&'static str> {
     let item = pair.item(at)?;
     let Some((before, after)) = before.zip(after) else {
-        // The library knows CompactSubObj of an ARRAY only, and of that only the first element and those with names.
+        // The library supports CompactSubObj of an ARRAY only, and of its elements only the first and those with names.
         let follows = pair.device().object(at.0).is_some_and(|object| object.origin == item.origin);
         return (before.is_none() && follows).then_some("follows from CompactSubObj");
     };
     let is_empty = before.default.as_deref() == Some("") && after.default.is_none();
     if before.default.is_none() && item.default == Some(ir::Value::NodeId(0)) {
-        return Some("the library reads $NODEID only with a number");
+        return Some("the library reads $NODEID only if a number follows");
     }
     let is_alike = (before.data_type == after.data_type || pair.is_repaired(item.at.ty))
         && (before.access == after.access || pair.is_repaired(item.at.access))
         && (before.default == after.default || is_empty || pair.is_repaired(item.at.default));
     match is_alike {
-        true if is_empty => Some("an empty entry is a missing one"),
+        true if is_empty => Some("an empty entry equals a missing one"),
         true => Some("repaired"),
         false => None,
     }
 }
 
 #[test]
-fn what_the_library_loads_it_loads_after_export_too() {
+fn exported_files_load_if_their_originals_do() {
     let (Some(python), Some(files)) = (python::with(&["canopen"]), files()) else { return };
     let folder = folder("eds-in-canopen");
     let originals = files.into_iter().filter(|file| !file.is_xml()).enumerate();
@@ -141,13 +141,13 @@ fn what_the_library_loads_it_loads_after_export_too() {
                 same += usize::from(found.is_empty());
                 wrong.extend(found);
             }
-            (Ok(_), Err(error)) => wrong.push(format!("{}: can't be loaded any more: {error}", pair.name)),
+            (Ok(_), Err(error)) => wrong.push(format!("{}: cannot be loaded after export: {error}", pair.name)),
             (Err(_), Ok(_)) => newly += 1,
             (Err(_), Err(_)) if NOT_LOADABLE.iter().any(|(name, _)| *name == pair.name) => never += 1,
-            (Err(_), Err(error)) => wrong.push(format!("{}: can't be loaded: {error}", pair.name)),
+            (Err(_), Err(error)) => wrong.push(format!("{}: cannot be loaded: {error}", pair.name)),
         }
     }
-    eprintln!("{same} the same, {newly} only after export, {never} neither before nor after; excused: {excused:?}");
+    eprintln!("{same} files are equal, {newly} load only after export, {never} do not load; excused: {excused:?}");
     assert!(wrong.is_empty(), "{} wrong:\n{}", wrong.len(), wrong[..wrong.len().min(200)].join("\n"));
 }
 
@@ -172,7 +172,7 @@ fn compare(
     wrong
 }
 
-/// Devices of other formats: the library loads them, with the entries that they have.
+/// The library loads the exports of other formats, with all entries.
 #[test]
 fn devices_of_other_formats_load() {
     let Some(python) = python::with(&["canopen"]) else { return };
@@ -207,7 +207,7 @@ fn devices_of_other_formats_load() {
     assert!(wrong.is_empty(), "{} wrong:\n{}", wrong.len(), wrong.join("\n"));
 }
 
-/// The descriptions that this project has checked in, register tables among them.
+/// The library loads the exports of the repository's dictionaries, including register tables.
 #[test]
 fn dictionaries_load() {
     let Some(python) = python::with(&["canopen"]) else { return };
@@ -223,7 +223,7 @@ fn dictionaries_load() {
     for source in &sources {
         let bytes = std::fs::read(source).expect("a dictionary");
         let compilation = check(Source::new(source.to_string_lossy(), bytes), &Options::default());
-        let catalog = compilation.catalog.as_ref().expect("a catalogue");
+        let catalog = compilation.catalog.as_ref().expect("a catalog");
         for device in &catalog.devices {
             let Some(file) = export(catalog, device, Flavour::Eds) else { continue };
             let path = folder.join(format!("{}.eds", paths.len()));
@@ -240,7 +240,7 @@ fn dictionaries_load() {
     }
 }
 
-/// The entries that the library knows of: it has no objects that define types.
+/// Returns the entries that the library loads. It does not load objects that define types.
 fn addresses(device: &Device) -> Vec<(u16, u8)> {
     let objects = device.groups.iter().filter(|group| group.index().is_some_and(|index| index >= 0x1000));
     let typed = objects.flat_map(|group| &group.items).filter(|item| item.ty != Type::Opaque(None));

@@ -1,5 +1,5 @@
-"""Prints, for each file that it is given, whether dcf-tools accepts it as the EDS of node 5: a line of JSON with the
-verdict of `dcfchk -n 5` (strict), and of the same without its list of known keys and sections (lenient)."""
+"""Prints for each file whether dcf-tools accepts it as the EDS of node 5, as one line of JSON. `strict` is the
+verdict of `dcfchk -n 5`, `lenient` that without its list of known keys and sections."""
 
 import json
 import sys
@@ -15,7 +15,7 @@ for path in sys.argv[1:]:
     try:
         cfg = parse_file(path)
         is_known = lint(cfg)
-    except Exception as error:  # Whatever it is, the file isn't accepted.
+    except Exception as error:  # Any exception means that the file is not accepted.
         verdict["error"] = repr(error)
         is_known = False
     try:

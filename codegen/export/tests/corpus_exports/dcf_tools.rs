@@ -1,7 +1,7 @@
 //! Exported files in a second independent reader: `dcfchk` of lely's `dcf-tools`.
 //!
-//! What it accepts before export it accepts after `export --real hex`. Skipped, with a message, where there is no Python with
-//! this package.
+//! If it accepts a file, it also accepts the file after `export --real hex`. The test is skipped, with a message, if
+//! there is no Python with this package.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -12,13 +12,13 @@ use lexibus_codegen::source::Source;
 use lexibus_export::eds::{self, export, Flavour, Reals};
 use serde::Deserialize;
 
-/// Files that it accepts before export and not after, and why.
+/// Files that it accepts only before export, with the reason.
 const NOT_ACCEPTED: [(&str, &str); 1] = [(
     "christiansandberg__canopen__sample",
-    "the lists of objects leave the PDO mapping out, which names 0x6040; the file has no such object, and the export lists all",
+    "the object lists omit the PDO mapping, which maps the missing object 0x6040; the export lists all objects",
 )];
 
-/// What the package says of a file: `dcfchk -n 5`, and the same without its list of known keys.
+/// The verdicts of `dcfchk -n 5`: with and without its list of known keys.
 #[derive(Debug, Deserialize)]
 struct Verdict {
     strict: bool,
@@ -37,7 +37,7 @@ fn verdicts(python: &Path, paths: &[PathBuf]) -> Vec<Verdict> {
 }
 
 #[test]
-fn what_dcf_tools_accept_they_accept_after_export_too() {
+fn exported_files_are_accepted_if_their_originals_are() {
     let (Some(python), Some(files)) = (python::with(&["dcf.lint"]), files_of("eds")) else { return };
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("eds-in-dcf-tools");
     std::fs::create_dir_all(&folder).expect("a folder for temporary files");
@@ -57,22 +57,22 @@ fn what_dcf_tools_accept_they_accept_after_export_too() {
         names.push(file.name);
     }
     let [before, after] = paths.map(|paths| verdicts(&python, &paths));
-    let count = |list: &[Verdict], of: fn(&Verdict) -> bool| list.iter().filter(|own| of(own)).count();
+    let count = |list: &[Verdict], of: fn(&Verdict) -> bool| list.iter().filter(|verdict| of(verdict)).count();
     eprintln!(
         "{} files: {} accepted strictly before and {} after export, {} and {} leniently",
         names.len(),
-        count(&before, |own| own.strict),
-        count(&after, |own| own.strict),
-        count(&before, |own| own.lenient),
-        count(&after, |own| own.lenient)
+        count(&before, |verdict| verdict.strict),
+        count(&after, |verdict| verdict.strict),
+        count(&before, |verdict| verdict.lenient),
+        count(&after, |verdict| verdict.lenient)
     );
-    assert!(count(&before, |own| own.strict) > 0 && count(&before, |own| own.lenient) > 0);
-    let is_excused = |name: &str| NOT_ACCEPTED.iter().any(|(own, _)| name.starts_with(own));
+    assert!(count(&before, |verdict| verdict.strict) > 0 && count(&before, |verdict| verdict.lenient) > 0);
+    let is_excused = |name: &str| NOT_ACCEPTED.iter().any(|(prefix, _)| name.starts_with(prefix));
     let pairs = names.iter().zip(before.iter().zip(&after));
     let lost = pairs.filter(|(_, (before, after))| before.strict && !after.strict || before.lenient && !after.lenient);
     let lost: Vec<String> = lost
         .filter(|(name, _)| !is_excused(name))
         .map(|(name, (_, after))| format!("{name}: {}", after.error))
         .collect();
-    assert!(lost.is_empty(), "not accepted any more:\n{}", lost.join("\n"));
+    assert!(lost.is_empty(), "not accepted after export:\n{}", lost.join("\n"));
 }

@@ -1,7 +1,7 @@
-"""Loads EDS files with the library `canopen` and prints what it made of each: one JSON object a line.
+"""Loads EDS files with the library `canopen` and prints the result for each file, as one line of JSON.
 
-Called with the names of files. `error` is why a file wasn't loaded; `entries` are [index, sub-index, data type, access,
-default] in the order of the addresses.
+The arguments are file names. `error` is the reason why a file was not loaded. `entries` are [index, sub-index,
+data type, access, default], sorted by address.
 """
 
 import json
@@ -18,7 +18,7 @@ def entry(variable):
     default = variable.default
     if isinstance(default, (bytes, bytearray)):
         default = default.hex()
-    # JSON has no infinity; a number is told by its digits.
+    # JSON has no infinity, so numbers are texts.
     default = None if default is None else str(default)
     return [variable.index, variable.subindex, variable.data_type, variable.access_type, default]
 
@@ -36,5 +36,5 @@ for path in sys.argv[1:]:
     try:
         loaded = sorted(entries(canopen.import_od(path, node_id=5)), key=lambda entry: entry[:2])
         print(json.dumps({"entries": loaded}))
-    except Exception as error:  # Whatever goes wrong within the library is its answer.
+    except Exception as error:  # Any exception of the library is its result.
         print(json.dumps({"error": f"{type(error).__name__}: {error}"}))

@@ -1,7 +1,7 @@
-//! EDS → IR → EDS → IR is the identity on every file of the corpus.
+//! Reading, exporting and reading again gives the same IR for every EDS of the corpus.
 //!
-//! The IR of an exported file is that of the original, but for the places where things stand and for what the files say
-//! of the file itself (name, digest). And reading the export finds nothing wrong that wasn't wrong in the original.
+//! The comparison ignores positions in the file and facts about the file (name, digest). The exported file has no new
+//! diagnostics.
 
 use std::collections::BTreeMap;
 
@@ -14,10 +14,10 @@ use lexibus_codegen::source::Source;
 use lexibus_export::eds::{export, Export, Flavour};
 use serde_json::Value;
 
-/// Codes that an export may have and its original didn't, with the reason.
+/// Codes that an export may have although its original does not, with the reason.
 const MAY_APPEAR: [(&str, &str); 0] = [];
 
-/// What only a DCF says, taken out.
+/// Removes the facts that only a DCF has.
 fn without_configuration(value: &mut Value) {
     match value {
         Value::Object(fields) => {
@@ -38,11 +38,11 @@ fn without_configuration(value: &mut Value) {
 }
 
 fn exported(compilation: &Compilation, flavour: Flavour) -> Export {
-    let catalog = compilation.catalog.as_ref().expect("a catalogue");
+    let catalog = compilation.catalog.as_ref().expect("a catalog");
     export(catalog, &catalog.devices[0], flavour).expect("a CANopen device has an EDS")
 }
 
-/// Checks one file in one flavour; gives what is wrong.
+/// Checks one file in one flavour. Returns the errors.
 fn check(file: &File, original: &Compilation, flavour: Flavour) -> Vec<String> {
     let options = options();
     let Export { text, .. } = exported(original, flavour);
@@ -55,7 +55,7 @@ fn check(file: &File, original: &Compilation, flavour: Flavour) -> Vec<String> {
         say("the export isn't read".into());
         return wrong;
     };
-    let mut before = content(&without_swapped_limits(original.catalog.as_ref().expect("a catalogue")));
+    let mut before = content(&without_swapped_limits(original.catalog.as_ref().expect("a catalog")));
     if flavour == Flavour::Eds {
         without_configuration(&mut before);
     }
@@ -71,10 +71,10 @@ fn check(file: &File, original: &Compilation, flavour: Flavour) -> Vec<String> {
         }
     }
     if exported(&again, flavour).text != text {
-        say("the export of the export is another".into());
+        say("the second export differs".into());
     }
     for line in text.split_inclusive('\n').filter(|line| !line.ends_with("\r\n")) {
-        say(format!("a line doesn't end as CiA 306 wants it: {line:?}"));
+        say(format!("a line does not end with CR LF: {line:?}"));
     }
     if flavour == Flavour::Dcf {
         wrong.extend(check_passes(file, &text));
@@ -82,7 +82,7 @@ fn check(file: &File, original: &Compilation, flavour: Flavour) -> Vec<String> {
     wrong
 }
 
-/// An export leaves out limits that no value satisfies.
+/// Removes swapped limits, which an export leaves out.
 fn without_swapped_limits(catalog: &Catalog) -> Catalog {
     let mut catalog = catalog.clone();
     let lists = catalog.devices.iter_mut().map(|device| &mut device.groups);
@@ -94,12 +94,12 @@ fn without_swapped_limits(catalog: &Catalog) -> Catalog {
     catalog
 }
 
-/// The passes complete and check what was read: of an export they see the same, and say the same.
+/// Checks that the compiler passes give the same IR and diagnostics for an export.
 fn check_passes(file: &File, text: &str) -> Vec<String> {
     let options = options();
     let (first, second) = (compile(source(file), &options), compile(Source::new("export.dcf", text.into()), &options));
     let findings = |compilation: &Compilation| -> Vec<String> {
-        // How a number is written is no part of the IR.
+        // The notation of a number is not in the IR.
         let is_of_the_text = |id: &str| id.starts_with("EDS") || id == "TAB012";
         let findings = compilation.diagnostics.list().iter().filter(|found| !is_of_the_text(found.code.id));
         let mut findings: Vec<String> = findings.map(|found| format!("{} {}", found.code.id, found.message)).collect();
@@ -111,7 +111,7 @@ fn check_passes(file: &File, text: &str) -> Vec<String> {
         wrong.push(format!("{}: {:?} and {:?}", file.name, findings(&first), findings(&second)));
     }
     if exported(&first, Flavour::Dcf).text != exported(&second, Flavour::Dcf).text {
-        wrong.push(format!("{}: the checked device has another export", file.name));
+        wrong.push(format!("{}: the export of the checked device differs", file.name));
     }
     wrong
 }
@@ -136,7 +136,7 @@ fn eds_to_ir_to_eds_to_ir_is_the_identity() {
     assert!(wrong.is_empty(), "{} wrong:\n{}", wrong.len(), wrong.join("\n"));
 }
 
-/// What an entry of any format is in an EDS, as far as that can say it.
+/// Compares the entries of a device of any format with those of its EDS, as far as an EDS can express them.
 fn compare_items(device: &Device, again: &Device, wrong: &mut Vec<String>) {
     for item in device.groups.iter().flat_map(|group| &group.items) {
         let Some((index, sub)) = item.object() else { continue };
@@ -144,19 +144,19 @@ fn compare_items(device: &Device, again: &Device, wrong: &mut Vec<String>) {
             wrong.push(format!("{index:04X}:{sub:02X} is lost"));
             continue;
         };
-        let mut hold = |what: &str, holds: bool| {
+        let mut check = |what: &str, holds: bool| {
             if !holds {
                 wrong.push(format!("{index:04X}:{sub:02X}: {what}: {item:?} became {found:?}"));
             }
         };
         let (access, as_before) = (found.access, item.access);
-        hold("access", access.readable() == as_before.readable() && access.writable() == as_before.writable());
-        hold("mapping", !item.mappable.any() || found.mappable.any() || !as_before.writable());
+        check("access", access.readable() == as_before.readable() && access.writable() == as_before.writable());
+        check("mapping", !item.mappable.any() || found.mappable.any() || !as_before.writable());
         let is_kept = item.ty == found.ty && !matches!(item.ty, Type::Opaque(_) | Type::Domain);
-        hold("default", !is_kept || item.default == found.default);
+        check("default", !is_kept || item.default == found.default);
         let is_whole = |value: &Option<ir::Value>| !matches!(value, Some(ir::Value::Real(_)));
-        hold("low", !is_kept || !is_whole(&item.limits.low) || item.limits.low == found.limits.low);
-        hold("high", !is_kept || !is_whole(&item.limits.high) || item.limits.high == found.limits.high);
+        check("low", !is_kept || !is_whole(&item.limits.low) || item.limits.low == found.limits.low);
+        check("high", !is_kept || !is_whole(&item.limits.high) || item.limits.high == found.limits.high);
     }
 }
 
@@ -168,7 +168,7 @@ fn devices_of_other_formats_have_the_same_entries() {
     for file in xml {
         let compilation = compile(source(&file), &options());
         let Some(catalog) = &compilation.catalog else { continue };
-        // Files with hundreds of devices repeat themselves.
+        // Files with hundreds of devices repeat the same objects.
         for device in catalog.devices.iter().filter(|device| !device.groups.is_empty()).take(3) {
             let Some(exported) = export(catalog, device, Flavour::Dcf) else { continue };
             devices += 1;

@@ -1,5 +1,5 @@
-//! ESI → IR → ESI → IR is the identity on every file of the corpus, but for what is listed here; and every file that is
-//! written is valid by ETG's schema, even where its original isn't.
+//! Reading, exporting and reading again gives the same IR for every ESI of the corpus, with the exceptions in this
+//! file. Every exported file is valid by ETG's schema, even if its original is not.
 
 use std::collections::BTreeMap;
 use std::sync::OnceLock;
@@ -14,19 +14,19 @@ use lexibus_export::esi::{export, NoteKind, Options, Refusal};
 use lexibus_export::Export;
 use serde_json::Value;
 
-/// Takes out what isn't compared, each with its reason.
+/// Removes facts that the comparison ignores, with the reasons.
 fn comparable(before: &mut Value, after: &mut Value) {
     for value in [&mut *before, &mut *after] {
         each_object(value, &mut |fields| {
-            // How the source spreads the description of an object over it and its data type.
+            // Part of a description can be at the object or at its data type.
             fields.remove("described");
-            // A REAL has 32 bits in the file; in a text it may have been written with more digits.
+            // A REAL has 32 bits in the file; its text can have more digits.
             if let Some(real) = fields.get_mut("real").filter(|real| real.is_f64()) {
                 *real = Value::from(real.as_f64().unwrap_or_default() as f32);
             }
         });
     }
-    // The schema wants every type defined, and types of objects to say what each entry is for: there may be more of them.
+    // The schema requires definitions of all types, and record types for objects. An export can add types.
     for list in ["devices", "modules"] {
         let (Some(before), Some(after)) = (before[list].as_array_mut(), after[list].as_array_mut()) else { continue };
         for (one, other) in before.iter_mut().zip(after) {
@@ -42,33 +42,34 @@ fn noted(exported: &Export, kind: NoteKind) -> usize {
     exported.notes.iter().filter(|note| note.kind == kind).map(|note| note.count).sum()
 }
 
-/// Units for which there is no number are left out, and names of types and sub-items that occur twice got a number, which is
-/// told: takes out both, and gives how many there are of each.
-fn take_told(before: &mut Value, after: &mut Value) -> (usize, usize) {
+/// Removes units without a number, which an export leaves out, and numbers in names of types and sub-items, which make
+/// names unique. Returns how many there are of each.
+fn take_noted(before: &mut Value, after: &mut Value) -> (usize, usize) {
     let add = |sum: (usize, usize), more: (usize, usize)| (sum.0 + more.0, sum.1 + more.1);
     match (before, after) {
         (Value::Object(one), Value::Object(other)) => {
-            let is_lost = one.get("quantity").is_some_and(|own| !own.is_null())
+            let is_lost = one.get("quantity").is_some_and(|quantity| !quantity.is_null())
                 && other.get("quantity").is_some_and(Value::is_null);
             if is_lost {
                 one.insert("quantity".into(), Value::Null);
             }
             let names = [&*one, &*other].map(|fields| fields.get("name").and_then(Value::as_str).map(str::to_owned));
-            let is_numbered = matches!(&names, [Some(own), Some(name)] if name.starts_with(&format!("{own} (")));
+            let is_numbered =
+                matches!(&names, [Some(original), Some(name)] if name.starts_with(&format!("{original} (")));
             if is_numbered {
                 other.insert("name".into(), names[0].clone().into());
             }
-            let inner = one.iter_mut().filter_map(|(key, value)| Some(take_told(value, other.get_mut(key)?)));
+            let inner = one.iter_mut().filter_map(|(key, value)| Some(take_noted(value, other.get_mut(key)?)));
             inner.fold((usize::from(is_lost), usize::from(is_numbered)), add)
         }
         (Value::Array(one), Value::Array(other)) => {
-            one.iter_mut().zip(other).map(|(one, other)| take_told(one, other)).fold((0, 0), add)
+            one.iter_mut().zip(other).map(|(one, other)| take_noted(one, other)).fold((0, 0), add)
         }
         _ => (0, 0),
     }
 }
 
-/// A file has one vendor: those of others are told to be left out.
+/// Removes the devices of other vendors, which an export leaves out. A file has one vendor.
 fn take_other_vendors(before: &mut Value) -> usize {
     let Some(devices) = before["devices"].as_array_mut() else { return 0 };
     let vendor = devices.first().map_or(Value::Null, |device| device["identity"]["vendor_id"].clone());
@@ -77,40 +78,44 @@ fn take_other_vendors(before: &mut Value) -> usize {
     count - devices.len()
 }
 
-/// What is wrong with what the export of `catalog` became.
+/// Returns the difference between `catalog` and its export.
 fn check(catalog: &Catalog, exported: &Export) -> Option<String> {
     let again = read(Source::new("export.xml", exported.text.clone().into()), &options());
     let Some(found) = &again.catalog else { return Some("the export isn't read".into()) };
     let [mut before, mut after] = [catalog, found].map(content);
     let vendors = take_other_vendors(&mut before);
-    let (own, others) = (take_extensions(&mut before), take_extensions(&mut after));
+    let (original_keys, exported_keys) = (take_extensions(&mut before), take_extensions(&mut after));
     comparable(&mut before, &mut after);
-    let (units, names) = take_told(&mut before, &mut after);
-    let told = [NoteKind::Quantity, NoteKind::Renamed, NoteKind::OtherVendor].map(|kind| noted(exported, kind));
-    if units != told[0] || names > told[1] || vendors != told[2] {
-        return Some(format!("{units} units, {names} names and {vendors} devices are lost, and {told:?} are told"));
+    let (units, names) = take_noted(&mut before, &mut after);
+    let counts = [NoteKind::Quantity, NoteKind::Renamed, NoteKind::OtherVendor].map(|kind| noted(exported, kind));
+    if units != counts[0] || names > counts[1] || vendors != counts[2] {
+        return Some(format!(
+            "{units} units, {names} names and {vendors} devices are lost, and the notes count {counts:?}"
+        ));
     }
     if let Some(difference) = difference(&before, &after, "") {
         return Some(difference);
     }
-    // Attributes that the IR has no fields for are there again, or it is told that they aren't.
-    let missing: usize =
-        own.iter().map(|(key, count)| count.saturating_sub(others.get(key).copied().unwrap_or(0))).sum();
-    let new = others.iter().find(|(key, count)| own.get(key).is_none_or(|before| before < count));
+    // Extension attributes are either exported or counted in a note.
+    let missing: usize = original_keys
+        .iter()
+        .map(|(key, count)| count.saturating_sub(exported_keys.get(key).copied().unwrap_or(0)))
+        .sum();
+    let new = exported_keys.iter().find(|(key, count)| original_keys.get(key).is_none_or(|before| before < count));
     if let Some((key, _)) = new {
         return Some(format!("{key:?} wasn't there before"));
     }
-    let told = noted(exported, NoteKind::Extension);
-    if missing != told {
-        return Some(format!("{missing} extension attributes are lost, and {told} are told"));
+    let count = noted(exported, NoteKind::Extension);
+    if missing != count {
+        return Some(format!("{missing} extension attributes are lost, and the notes count {count}"));
     }
     match export(found, &Options::default()) {
         Ok(second) if second.text == exported.text => None,
-        _ => Some("the export of the export is another".into()),
+        _ => Some("the second export differs".into()),
     }
 }
 
-/// Every file that can be exported, with what it becomes.
+/// Returns all files that can be exported, with their exports.
 fn exports() -> Option<&'static Vec<(String, Catalog, Export)>> {
     static EXPORTS: OnceLock<Option<Vec<(String, Catalog, Export)>>> = OnceLock::new();
     EXPORTS.get_or_init(make_exports).as_ref()
@@ -148,7 +153,7 @@ fn esi_to_ir_to_esi_to_ir_is_the_identity() {
     assert!(wrong.is_empty(), "{} wrong:\n{}", wrong.len(), wrong.join("\n"));
 }
 
-/// What a CANopen device doesn't say of a slave.
+/// Returns the facts of a slave that a CANopen device does not have.
 fn of_a_slave() -> Options {
     let mut options = Options::default();
     let facts = [
@@ -169,7 +174,7 @@ fn of_a_slave() -> Options {
     options
 }
 
-/// Entries of a CANopen device that aren't in its ESI as they were.
+/// Returns the entries of a CANopen device that its ESI lacks or changes.
 fn lost_entries(before: &Device, after: &Device, kinds: &[NoteKind]) -> Vec<String> {
     let mut lost = Vec::new();
     for item in before.groups.iter().flat_map(|group| &group.items) {
@@ -181,7 +186,7 @@ fn lost_entries(before: &Device, after: &Device, kinds: &[NoteKind]) -> Vec<Stri
             continue;
         };
         let access = |item: &Item| (item.access.readable(), item.access.writable(), item.mappable);
-        // What has no name goes by that of its type.
+        // An entry without a name gets that of its type.
         let is_same = (item.name.is_empty() || found.name == item.name) && access(found) == access(item);
         let is_whole = matches!(item.default, Some(lexibus_codegen::ir::Value::Int(_))) && found.ty == item.ty;
         if !is_same || is_whole && found.default != item.default {
@@ -232,7 +237,7 @@ fn canopen_devices_have_valid_dictionaries() {
 }
 
 #[test]
-fn what_is_exported_is_valid() {
+fn exports_are_valid() {
     let Some(exports) = exports() else { return };
     for (root, schema) in [
         ("<EtherCATInfo", "esi/EtherCATInfo.xsd"),
@@ -240,13 +245,13 @@ fn what_is_exported_is_valid() {
         ("<EtherCATDiag", "esi/EtherCATDiag.xsd"),
     ] {
         let Some(schema) = Schema::new(schema) else { return };
-        let is_own = |text: &str| text.lines().nth(1).is_some_and(|line| line.starts_with(root));
-        let own = exports.iter().filter(|(_, _, exported)| is_own(&exported.text));
-        let own: Vec<(&str, &[u8])> =
-            own.map(|(name, _, exported)| (name.as_str(), exported.text.as_bytes())).collect();
-        assert!(!own.is_empty() || !lane::is_full(), "no export has the root {root}>");
-        let violations = schema.violations(&root[1..], own.iter().copied());
-        eprintln!("{} files with the root {root}>", own.len());
+        let has_root = |text: &str| text.lines().nth(1).is_some_and(|line| line.starts_with(root));
+        let with_root = exports.iter().filter(|(_, _, exported)| has_root(&exported.text));
+        let with_root: Vec<(&str, &[u8])> =
+            with_root.map(|(name, _, exported)| (name.as_str(), exported.text.as_bytes())).collect();
+        assert!(!with_root.is_empty() || !lane::is_full(), "no export has the root {root}>");
+        let violations = schema.violations(&root[1..], with_root.iter().copied());
+        eprintln!("{} files with the root {root}>", with_root.len());
         assert!(violations.is_empty(), "{} violations:\n{}", violations.len(), violations.join("\n"));
     }
 }

@@ -1,5 +1,5 @@
-//! GSDML → IR → GSDML → IR is the identity on every file of the corpus, but for what is listed here; and what was valid by PI's
-//! schema is valid again.
+//! Reading, exporting and reading again gives the same IR for every GSDML of the corpus, with the exceptions in this
+//! file. An export of a valid file is valid by PI's schema.
 
 use std::collections::BTreeMap;
 
@@ -13,18 +13,18 @@ use lexibus_export::gsdml::{export, file_name, NoteKind, Options};
 use lexibus_export::Export;
 use serde_json::Value;
 
-/// Takes out what isn't compared, each with its reason.
+/// Removes facts that the comparison ignores, with the reasons.
 fn comparable(value: &mut Value) {
-    // The lists of diagnosis stand in the order of the schema.
+    // The export writes the lists of diagnosis in the order of the schema.
     if let Some(tables) = value["code_tables"].as_array_mut() {
         tables.sort_by_key(|table| table["name"].to_string());
     }
     each_object(value, &mut |fields| {
-        // Attributes have no order, and neither have the elements that they are of.
+        // Attributes and their elements have no order.
         if let Some(Value::Array(list)) = fields.get_mut("attributes") {
             list.sort_by_key(ToString::to_string);
         }
-        // A file that doesn't say by which version of the schema it is written says so now.
+        // The export declares a version of the schema even if the source does not.
         if let Some(version) = fields.get_mut("format_version").filter(|version| version.as_str() == Some("")) {
             *version = "2.35".into();
         }
@@ -35,43 +35,45 @@ fn noted(exported: &Export, kind: NoteKind) -> usize {
     exported.notes.iter().filter(|note| note.kind == kind).map(|note| note.count).sum()
 }
 
-/// What is wrong with what the export of `catalog` became.
+/// Returns the difference between `catalog` and its export.
 fn check(catalog: &Catalog, exported: &Export) -> Option<String> {
     let name = file_name(catalog, &Options::default()).unwrap_or_else(|| "export".into()) + ".xml";
     let again = read(Source::new(name.as_str(), exported.text.clone().into()), &options());
     let Some(found) = &again.catalog else { return Some("the export isn't read".into()) };
     let [mut before, mut after] = [catalog, found].map(content);
-    let (own, others) = (take_extensions(&mut before), take_extensions(&mut after));
+    let (original_keys, exported_keys) = (take_extensions(&mut before), take_extensions(&mut after));
     comparable(&mut before);
     comparable(&mut after);
     if let Some(difference) = difference(&before, &after, "") {
         return Some(difference);
     }
-    let missing: usize =
-        own.iter().map(|(key, count)| count.saturating_sub(others.get(key).copied().unwrap_or(0))).sum();
-    // The schema wants the header, which says the same in every file.
+    let missing: usize = original_keys
+        .iter()
+        .map(|(key, count)| count.saturating_sub(exported_keys.get(key).copied().unwrap_or(0)))
+        .sum();
+    // The schema requires the header, which is the same in every file.
     let is_header = |key: &str| key.starts_with("ProfileHeader/") || key.starts_with("ISO15745Reference/");
-    let new = others.iter().filter(|(key, _)| !is_header(&key.0));
-    let new = new.into_iter().find(|(key, count)| own.get(key).is_none_or(|before| before < count));
+    let new = exported_keys.iter().filter(|(key, _)| !is_header(&key.0));
+    let new = new.into_iter().find(|(key, count)| original_keys.get(key).is_none_or(|before| before < count));
     if let Some((key, _)) = new {
         return Some(format!("{key:?} wasn't there before"));
     }
-    let told = noted(exported, NoteKind::Extension);
-    if missing != told {
-        return Some(format!("{missing} extension attributes are lost, and {told} are told"));
+    let count = noted(exported, NoteKind::Extension);
+    if missing != count {
+        return Some(format!("{missing} extension attributes are lost, and the notes count {count}"));
     }
     match export(found, &Options::default()) {
         Ok(second) if second.text == exported.text => None,
-        _ => Some("the export of the export is another".into()),
+        _ => Some("the second export differs".into()),
     }
 }
 
-/// Every file that can be exported, with what it becomes.
+/// Returns all files that can be exported, with their exports.
 fn exports() -> Option<Vec<(File, Catalog, Export)>> {
     let mut exports = Vec::new();
     for file in files_of("gsdml")? {
         let Some(catalog) = read(source(&file), &options()).catalog else { continue };
-        // One file of the corpus has no device access point, and nothing else either.
+        // One file of the corpus describes neither devices nor modules.
         if catalog.devices.is_empty() && catalog.modules.is_empty() {
             continue;
         }
@@ -101,7 +103,7 @@ fn gsdml_to_ir_to_gsdml_to_ir_is_the_identity() {
 }
 
 #[test]
-fn what_was_valid_is_valid() {
+fn exports_of_valid_files_are_valid() {
     let (Some(exports), Some(schema)) = (exports(), Schema::new("gsdml/GSDML-DeviceProfile-v2.35.xsd")) else { return };
     let originals: Vec<String> = exports.iter().map(|(file, ..)| without_declaration(&file.text())).collect();
     let named = exports.iter().zip(&originals).map(|((file, ..), text)| (file.name.as_str(), text.as_bytes()));
@@ -115,7 +117,7 @@ fn what_was_valid_is_valid() {
     assert!(violations.is_empty(), "{} violations:\n{}", violations.len(), violations.join("\n"));
 }
 
-/// A text that was decoded is UTF-8, whatever its declaration says.
+/// Returns the text without its XML declaration. A decoded text is UTF-8, whatever its declaration says.
 fn without_declaration(text: &str) -> String {
     let text = text.trim_start();
     match text.strip_prefix("<?xml").and_then(|rest| rest.split_once("?>")) {

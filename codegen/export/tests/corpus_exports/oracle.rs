@@ -1,5 +1,5 @@
-//! What the compiler says of every file of the corpus against the corpus's own lists: counts that a simple script made
-//! (`oracle.json`), and what kind of file each is (`MANIFEST.tsv`).
+//! Compares the compiler with the lists of the corpus: the counts of a simple script (`oracle.json`) and the class of
+//! each file (`MANIFEST.tsv`).
 
 use std::collections::BTreeMap;
 
@@ -10,7 +10,7 @@ use lexibus_codegen::source::{FileId, Source};
 use lexibus_export::json;
 use serde_json::Value;
 
-/// A file, what the lists say of it, and what the compiler does.
+/// A file, its entries in the lists, and its compilation.
 struct Case {
     file: File,
     class: String,
@@ -46,17 +46,17 @@ fn cases() -> Option<Vec<Case>> {
 }
 
 fn case(file: File, oracle: &Value) -> Case {
-    let own = &oracle[file.name.as_str()];
+    let entry = &oracle[file.name.as_str()];
     let text =
-        |key: &str| own[key].as_str().unwrap_or_else(|| panic!("{}: no {key} in the oracle", file.name)).to_owned();
+        |key: &str| entry[key].as_str().unwrap_or_else(|| panic!("{}: no {key} in the oracle", file.name)).to_owned();
     let number = |key: &str| text(key).parse().unwrap_or_else(|_| panic!("{}: {key} is no number", file.name));
     let (class, format, objects, subs) = (text("class"), text("format"), number("objects"), number("subobjects"));
     let compilation = check(Source::new(file.name.as_str(), file.bytes.clone()), &Options::default());
     Case { file, class, format, objects, subs, compilation }
 }
 
-/// How many items have a section, or an element, of their own.
-fn own_subs(case: &Case) -> usize {
+/// Returns the number of items with a separate section or element.
+fn declared_subs(case: &Case) -> usize {
     let groups = case.compilation.catalog.iter().flat_map(|catalog| &catalog.devices).flat_map(|device| &device.groups);
     let origins = groups.flat_map(|group| &group.items).map(|item| item.origin.span);
     origins.filter(|&span| is_sub(case.source().slice(span))).count()
@@ -66,9 +66,9 @@ fn is_sub(declaration: &str) -> bool {
     declaration.to_ascii_lowercase().contains("sub")
 }
 
-/// All counts agree: E24 (any case of `sub`), E27 (repeated sections), E33 (sub-indices without an object), E41 (leading
-/// zeros), E43 (what follows from CompactSubObj has no section) and E70 (nor has what follows from CompactPDO) are
-/// counted alike.
+/// All counts agree. The oracle and the compiler count these cases alike: E24 (any case of `sub`), E27 (repeated
+/// sections), E33 (sub-indices without an object), E41 (leading zeros), E43 (CompactSubObj implies entries without
+/// sections) and E70 (so does CompactPDO).
 #[test]
 fn objects_and_sub_indices_are_as_many_as_the_oracle_counts() {
     let Some(cases) = cases() else { return };
@@ -77,11 +77,16 @@ fn objects_and_sub_indices_are_as_many_as_the_oracle_counts() {
         let info = json::info(&case.compilation);
         let [device] = &info.devices[..] else { panic!("{}: {} devices", case.name(), info.devices.len()) };
         assert_eq!(device.objects, case.objects, "{}: objects", case.name());
-        let own = own_subs(case);
-        assert_eq!(own, case.subs, "{}: sub-indices with a section of their own", case.name());
-        assert!(device.entries >= own, "{}: {} entries, {own} of them sub-indices", case.name(), device.entries);
+        let declared = declared_subs(case);
+        assert_eq!(declared, case.subs, "{}: sub-indices with a section", case.name());
+        assert!(
+            device.entries >= declared,
+            "{}: {} entries, {declared} of them sub-indices",
+            case.name(),
+            device.entries
+        );
         objects += device.objects;
-        subs += own;
+        subs += declared;
     }
     eprintln!("{objects} objects and {subs} sub-indices are as many as the oracle counts");
     assert!(
@@ -90,16 +95,17 @@ fn objects_and_sub_indices_are_as_many_as_the_oracle_counts() {
     );
 }
 
-/// E68: the script calls a file a DCF that has this section, and any other an EDS.
+/// Returns whether the text has the section of a commissioned device (E68). The script takes such a file for a DCF, and any
+/// other file for an EDS.
 fn e68_commissioned(text: &str) -> bool {
     let names = lines(text).into_iter().filter_map(|(_, line)| Some(header(line)?.0.to_ascii_lowercase()));
     names.into_iter().any(|name| ["devicecomissioning", "devicecommissioning"].contains(&name.as_str()))
 }
 
-/// The compiler believes the ending of a name that says `.eds` or `.dcf`. Where that is another answer than the
-/// script's, the file has the one's ending and the other's content.
+/// The compiler prefers the extension `.eds` or `.dcf` of the file name. It may differ from the script only if the
+/// extension and the content differ.
 #[test]
-fn formats_are_told_apart() {
+fn formats_follow_from_extension_or_content() {
     let Some(cases) = cases() else { return };
     let mut by_name = 0;
     for case in cases.iter().filter(|case| case.is_canopen()) {
@@ -112,12 +118,12 @@ fn formats_are_told_apart() {
         if format != expected {
             let by_content = if e68_commissioned(&case.file.text()) { "dcf" } else { "eds" };
             let ending = case.name().rsplit_once('.').map(|(_, ending)| ending.to_ascii_lowercase());
-            assert_eq!(ending.as_deref(), Some(format), "{}: not the ending of its name", case.name());
+            assert_eq!(ending.as_deref(), Some(format), "{}: not the extension of its name", case.name());
             assert_eq!(by_content, expected, "{}: not what it contains", case.name());
             by_name += 1;
         }
     }
-    eprintln!("{by_name} files are EDS or DCF by their name alone");
+    eprintln!("{by_name} files are EDS or DCF by their extension only");
 }
 
 #[test]
@@ -149,7 +155,7 @@ fn no_canopen_file_is_rejected() {
     assert!(real >= lane::at_least(170), "only {real} files of real devices");
 }
 
-/// The one error that a file gets that is no CANopen description.
+/// Returns code and message of the only error of a file that is no CANopen description.
 fn rejection(case: &Case) -> (&'static str, &'static str) {
     match case.class.as_str() {
         "negative (EtherNet/IP EDS)" => ("EDS001", "this is an EtherNet/IP EDS"),
@@ -157,12 +163,12 @@ fn rejection(case: &Case) -> (&'static str, &'static str) {
         "negative (Xilinx constraints .xdc)" => ("IO002", "this is not a device description"),
         "bad/edge" if case.file.bytes.is_empty() => ("IO002", "the file is empty"),
         "bad/edge (git symlink target text)" | "bad/edge" => ("EDS002", "this is not an EDS"),
-        other => panic!("{}: nothing is known of the class {other:?}", case.name()),
+        other => panic!("{}: unknown class {other:?}", case.name()),
     }
 }
 
 #[test]
-fn everything_else_is_rejected_with_one_error_that_says_what_it_is() {
+fn other_files_are_rejected_with_one_error_that_names_their_format() {
     let Some(cases) = cases() else { return };
     let mut rejected: BTreeMap<&str, usize> = BTreeMap::new();
     for case in cases.iter().filter(|case| !case.is_canopen()) {
@@ -182,7 +188,7 @@ fn everything_else_is_rejected_with_one_error_that_says_what_it_is() {
     assert!(rejected.keys().eq(expected.keys()), "the sample has a file for each code: {rejected:?}");
 }
 
-/// A template of a text processor looks like an EDS for the most part: what it has of its own mustn't go by unnoticed.
+/// Most lines of a text template look like an EDS. The others must be reported.
 #[test]
 fn lines_of_a_template_are_reported_one_by_one() {
     let Some(cases) = cases() else { return };
@@ -199,47 +205,47 @@ fn lines_of_a_template_are_reported_one_by_one() {
         let text = case.file.text();
         for ((_, line), number) in lines(&text).into_iter().zip(1..) {
             if line.starts_with('@') && !line.contains('=') {
-                assert!(found(number), "{}:{number}: nothing is said of {line:?}", case.name());
+                assert!(found(number), "{}:{number}: no diagnostic about {line:?}", case.name());
             }
         }
     }
     assert_eq!(templates, 1);
 }
 
-/// Findings about what isn't there have a file, but no place in it.
+/// Diagnostics about missing parts have a file but no position.
 const ABOUT_THE_WHOLE_FILE: [&str; 4] = ["IO002", "EDS002", "EDS063", "EDS069"];
 
 #[test]
-fn every_finding_has_a_place_that_exists() {
+fn every_diagnostic_has_a_valid_position() {
     let Some(cases) = cases() else { return };
-    let mut findings = 0;
+    let mut diagnostics = 0;
     for case in &cases {
         let text = case.file.text();
         let lines = lines(&text);
         for found in case.compilation.diagnostics.list() {
-            place(case, found, &text, &lines);
-            findings += 1;
+            check_position(case, found, &text, &lines);
+            diagnostics += 1;
         }
     }
-    eprintln!("{findings} findings have a place");
-    assert!(findings > lane::at_least(5_000), "only {findings} findings");
+    eprintln!("{diagnostics} diagnostics have a position");
+    assert!(diagnostics > lane::at_least(5_000), "only {diagnostics} diagnostics");
 }
 
-fn place(case: &Case, found: &Diagnostic, text: &str, lines: &[(usize, &str)]) {
-    let said = case.one_line(found);
-    assert_eq!(found.span.file, FileId(0), "{said}");
+fn check_position(case: &Case, found: &Diagnostic, text: &str, lines: &[(usize, &str)]) {
+    let report = case.one_line(found);
+    assert_eq!(found.span.file, FileId(0), "{report}");
     for span in std::iter::once(found.span).chain(found.notes.iter().filter_map(|note| note.span)) {
-        assert!(text.get(span.range()).is_some(), "{said}: {span:?} isn't in the file");
+        assert!(text.get(span.range()).is_some(), "{report}: {span:?} isn't in the file");
     }
     if found.span.is_empty() {
-        assert!(ABOUT_THE_WHOLE_FILE.contains(&found.code.id), "{said}: it has no place");
-        assert!(said.starts_with(&format!("{}: ", case.name())), "{said}");
+        assert!(ABOUT_THE_WHOLE_FILE.contains(&found.code.id), "{report}: it has no position");
+        assert!(report.starts_with(&format!("{}: ", case.name())), "{report}");
         return;
     }
     let start = found.span.start as usize;
     let line = lines.partition_point(|&(from, _)| from <= start);
-    let (from, own) = lines[line - 1];
-    assert!(start - from < own.len(), "{said}: it points behind the end of line {line}");
+    let (from, text_of_line) = lines[line - 1];
+    assert!(start - from < text_of_line.len(), "{report}: the position is after the end of line {line}");
     let column = text[from..start].chars().count() + 1;
-    assert!(said.starts_with(&format!("{}:{line}:{column}: ", case.name())), "{said}: not at {line}:{column}");
+    assert!(report.starts_with(&format!("{}:{line}:{column}: ", case.name())), "{report}: not at {line}:{column}");
 }

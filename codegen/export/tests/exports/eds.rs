@@ -1,11 +1,11 @@
-//! What an exported EDS or DCF looks like, and what an export says that it leaves out.
+//! Exported EDS and DCF files, and the notes of exports.
 
 use lexibus_codegen::compile::{check, read, Options};
 use lexibus_codegen::ir::{Catalog, Device};
 use lexibus_codegen::source::Source;
 use lexibus_export::eds::{export, Export, Flavour, NoteKind};
 
-/// A bit of everything that a real file has, and much that it shouldn't.
+/// Most features of real files, and many mistakes.
 const QUIRKY: &str = "\
 ; made by hand
 [DeviceInfo]
@@ -76,13 +76,13 @@ NodeID=5
 Baudrate=250
 ";
 
-/// What the file says, without what profiles add.
+/// Options that read a file without completing it from profiles.
 fn options() -> Options {
     Options { no_profiles: true, ..Options::default() }
 }
 
 fn catalog(name: &str, text: &str) -> Catalog {
-    check(Source::new(name, text.into()), &options()).catalog.expect("a catalogue")
+    check(Source::new(name, text.into()), &options()).catalog.expect("a catalog")
 }
 
 fn of(catalog: &Catalog, flavour: Flavour) -> Export {
@@ -102,17 +102,17 @@ fn dcf_of_a_quirky_file() {
 }
 
 #[test]
-fn an_eds_configures_nothing() {
+fn an_eds_has_no_configuration() {
     let exported = of(&catalog("pump.dcf", QUIRKY), Flavour::Eds);
     for absent in ["[DeviceComissioning]", "ParameterValue", "NodeID="] {
         assert!(!exported.text.contains(absent), "{absent}");
     }
-    // The node's place in the network, and the value of 0x2000.
+    // The commissioning of the node, and the value of 0x2000.
     assert_eq!(notes(&exported)[0], (NoteKind::Configuration, 2, "the device"));
 }
 
 #[test]
-fn what_is_right_stays_right() {
+fn a_correct_file_stays_correct() {
     const DEMO: &str = include_str!("../../../../dictionaries/demo-drive.eds");
     let exported = of(&catalog("demo-drive.eds", DEMO), Flavour::Eds);
     assert_eq!(notes(&exported), []);
@@ -127,7 +127,7 @@ fn what_is_right_stays_right() {
     assert_eq!(
         after.rust(&options.rust).and_then(body),
         before.rust(&options.rust).and_then(body),
-        "the same bindings but for the digest of the file"
+        "the same bindings, except for the digest of the file"
     );
 }
 
@@ -181,7 +181,7 @@ fn modules_keep_their_sections() {
                [M1SubExtends]\nNrOfEntries=1\n1=0x6000\n\
                [M1SubExt6000]\nParameterName=Inputs\nDataType=5\nAccessType=ro\nPDOMapping=1\nCount=0;2\nObjExtend=1\nWire=4\n";
     let compilation = read(Source::new("head.eds", eds.into()), &Options::default());
-    let text = of(compilation.catalog.as_ref().expect("a catalogue"), Flavour::Eds).text.replace('\r', "");
+    let text = of(compilation.catalog.as_ref().expect("a catalog"), Flavour::Eds).text.replace('\r', "");
     let sections = &text[text.find("[M1ModuleInfo]").expect("the module")..];
     assert_eq!(
         sections,
@@ -195,7 +195,7 @@ fn modules_keep_their_sections() {
 }
 
 #[test]
-fn what_has_no_objects_has_no_eds() {
+fn a_device_without_objects_has_no_eds() {
     let catalog = Catalog { devices: vec![Device::default()], ..Catalog::default() };
     assert_eq!(export(&catalog, &catalog.devices[0], Flavour::Eds), None);
 }

@@ -1,4 +1,4 @@
-//! What an exported ESI looks like, what it is valid by, and what an export says that it leaves out or needs.
+//! Exported ESI files, their validity, and the notes and refusals of exports.
 
 use crate::corpus_support::root::root;
 use crate::corpus_support::round_trip::options;
@@ -8,7 +8,7 @@ use lexibus_codegen::ir::{Catalog, Device, Documentation, Value};
 use lexibus_codegen::source::Source;
 use lexibus_export::esi::{export, Area, Export, NoteKind, Options, Refusal};
 
-/// A slave with a bit of everything.
+/// A slave with most features of ETG.2000.
 const SLAVE: &str = include_str!("slave.xml");
 
 /// A CANopen device.
@@ -85,33 +85,33 @@ DefaultValue=0x20000110
 ";
 
 fn catalog(name: &str, text: &str) -> Catalog {
-    read(Source::new(name, text.into()), &options()).catalog.expect("a catalogue")
+    read(Source::new(name, text.into()), &options()).catalog.expect("a catalog")
 }
 
-fn told(export: &Export) -> String {
+fn note_lines(export: &Export) -> String {
     export.notes.iter().map(|note| format!("{note}\n")).collect()
 }
 
-/// Validates where there is a validator, and reads again without findings.
+/// Validates a file if there is a validator, and reads it again without diagnostics.
 fn valid(what: &str, text: &str) -> Catalog {
     if let Some(schema) = Schema::new("esi/EtherCATInfo.xsd") {
         assert_eq!(schema.violations(what, [("export.xml", text.as_bytes())]), Vec::<String>::new());
     }
     let again = read(Source::new("export.xml", text.into()), &options());
-    let findings: Vec<String> = again.diagnostics.list().iter().map(|found| again.one_line(found)).collect();
-    assert_eq!(findings, Vec::<String>::new());
-    again.catalog.expect("a catalogue")
+    let reports: Vec<String> = again.diagnostics.list().iter().map(|found| again.one_line(found)).collect();
+    assert_eq!(reports, Vec::<String>::new());
+    again.catalog.expect("a catalog")
 }
 
 #[test]
 fn esi_of_a_slave() {
     let exported = export(&catalog("slave.xml", SLAVE), &Options::default()).expect("an ESI");
-    insta::assert_snapshot!(told(&exported) + "\n" + &exported.text);
+    insta::assert_snapshot!(note_lines(&exported) + "\n" + &exported.text);
     valid("slave", &exported.text);
 }
 
 #[test]
-fn what_is_said_of_a_pdo_has_no_place() {
+fn the_description_of_a_pdo_is_left_out() {
     let mut catalog = catalog("slave.xml", SLAVE);
     let notes = |catalog: &Catalog| -> Vec<(NoteKind, usize)> {
         let exported = export(catalog, &Options::default()).expect("an ESI");
@@ -121,7 +121,7 @@ fn what_is_said_of_a_pdo_has_no_place() {
     let pdo = &mut catalog.devices[0].process_data.pdos[0];
     pdo.documentation = Some(Box::new(Documentation { text: "Velocity.".to_owned(), ..Documentation::default() }));
     let more = notes(&catalog);
-    assert_ne!(before, more, "it is told");
+    assert_ne!(before, more, "a note counts it");
     let count = |list: &[(NoteKind, usize)]| -> usize {
         list.iter().filter(|(kind, _)| *kind == NoteKind::Documentation).map(|(_, count)| count).sum()
     };
@@ -129,7 +129,7 @@ fn what_is_said_of_a_pdo_has_no_place() {
 }
 
 #[test]
-fn what_the_caller_says_counts_first() {
+fn options_take_precedence() {
     let options = Options {
         vendor_id: Some(0x99),
         vendor_name: Some("Other".into()),
@@ -146,7 +146,7 @@ fn what_the_caller_says_counts_first() {
 }
 
 #[test]
-fn what_the_caller_says_and_the_file_does_not_take_is_told() {
+fn unused_options_are_noted() {
     let mut options = Options { vendor_id: Some(1), ..Options::default() };
     for (key, value) in [("coe", "sdo-info"), ("mailbox-out", "0x1000:128")] {
         options.set(key, value).expect("an option");
@@ -157,7 +157,7 @@ fn what_the_caller_says_and_the_file_does_not_take_is_told() {
 }
 
 #[test]
-fn what_nobody_says_is_asked_for() {
+fn missing_facts_are_listed() {
     let eds = catalog("pump.eds", EDS);
     let Err(Refusal::Missing(facts)) = export(&eds, &Options::default()) else { panic!("it has no physics") };
     assert_eq!(facts.iter().map(|fact| fact.key).collect::<Vec<_>>(), ["physics", "group"]);
@@ -168,10 +168,10 @@ fn what_nobody_says_is_asked_for() {
     assert_eq!(options.set("mailbox-out", "0x1000:128"), Ok(()));
     assert_eq!(options.mailbox_out, Some(Area { start: 0x1000, length: Some(128) }));
     assert!(options.set("mailbox-out", "here").is_err_and(|text| text.contains("an address")));
-    assert!(options.set("colour", "red").is_err_and(|text| text.contains("there is no `colour`")));
+    assert!(options.set("colour", "red").is_err_and(|text| text.contains("unknown option `colour`")));
 }
 
-/// What an EDS doesn't say of a slave.
+/// Returns the facts of a slave that an EDS does not have.
 fn of_a_slave() -> Options {
     let mut options = Options::default();
     let facts = [
@@ -190,13 +190,13 @@ fn of_a_slave() -> Options {
 #[test]
 fn esi_of_a_canopen_device() {
     let exported = export(&catalog("pump.eds", EDS), &of_a_slave()).expect("an ESI");
-    insta::assert_snapshot!(told(&exported) + "\n" + &exported.text);
+    insta::assert_snapshot!(note_lines(&exported) + "\n" + &exported.text);
     let again = valid("canopen", &exported.text);
     let device = &again.devices[0];
     assert_eq!(device.name, "Pump <A&B>");
     assert_eq!(device.entry(0x2000, 1).expect("an entry").limits.low, Some(Value::Int(-5)));
     assert_eq!(device.entry(0x2002, 1).expect("an entry").default, Some(Value::Real(1.5)));
-    assert!(device.object(0x1017).is_none(), "a heartbeat is CAN's");
+    assert!(device.object(0x1017).is_none(), "a heartbeat is a CAN service");
     assert_eq!(device.process_data.sync_managers.len(), 4);
 }
 
@@ -232,7 +232,7 @@ fn esi_of_a_register_table() {
     assert!(kinds.contains(&NoteKind::BitField), "{kinds:?}");
 }
 
-/// Every table of the project that has objects has a valid ESI.
+/// Every table of the project that has objects gives a valid ESI.
 #[test]
 fn every_table_with_objects_has_an_esi() {
     let folder = root().join("dictionaries");

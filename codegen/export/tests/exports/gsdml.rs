@@ -1,4 +1,4 @@
-//! What an exported GSDML looks like, what it is valid by, and what an export says that it leaves out or needs.
+//! Exported GSDML files, their validity, and the notes and refusals of exports.
 
 use crate::corpus_support::root::root;
 use crate::corpus_support::round_trip::options as reading;
@@ -8,7 +8,7 @@ use lexibus_codegen::ir::{Catalog, Type};
 use lexibus_codegen::source::Source;
 use lexibus_export::gsdml::{export, file_name, Export, NoteKind, Options, Refusal};
 
-/// A drive with two process images, some fields of which share bytes.
+/// A drive with two process images, some of whose fields share bytes.
 const TABLE: &str = r#"
 lexibus = 1
 [device]
@@ -48,7 +48,7 @@ ready = { at = 0, bit = 1, type = "bool" }
 position = { at = 1, type = "i32" }
 "#;
 
-/// What no register table says.
+/// Facts that a register table does not have.
 const FACTS: [(&str, &str); 27] = [
     ("vendor-id", "0x0123"),
     ("device-id", "0x0001"),
@@ -81,9 +81,8 @@ const FACTS: [(&str, &str); 27] = [
 
 fn table() -> Catalog {
     let compilation = check(Source::new("positioner.toml", TABLE.into()), &reading());
-    let findings: Vec<String> =
-        compilation.diagnostics.list().iter().map(|found| compilation.one_line(found)).collect();
-    assert!(!compilation.diagnostics.has_errors(), "{findings:?}");
+    let reports: Vec<String> = compilation.diagnostics.list().iter().map(|found| compilation.one_line(found)).collect();
+    assert!(!compilation.diagnostics.has_errors(), "{reports:?}");
     compilation.catalog.expect("a table")
 }
 
@@ -93,42 +92,42 @@ fn given() -> Options {
     options
 }
 
-fn told(export: &Export) -> String {
+fn note_lines(export: &Export) -> String {
     export.notes.iter().map(|note| format!("{note}\n")).collect()
 }
 
 #[test]
 fn gsdml_of_process_images() {
     let exported = export(&table(), &given()).expect("a GSDML");
-    insta::assert_snapshot!(told(&exported) + "\n" + &exported.text);
+    insta::assert_snapshot!(note_lines(&exported) + "\n" + &exported.text);
     if let Some(schema) = Schema::new("gsdml/GSDML-DeviceProfile-v2.35.xsd") {
         assert_eq!(schema.violations("images", [("export.xml", exported.text.as_bytes())]), Vec::<String>::new());
     }
     let name = file_name(&table(), &given()).expect("a name");
     assert_eq!(name, "GSDML-V2.35-Example-Positioner-20240131");
     let again = read(Source::new((name + ".xml").as_str(), exported.text.into()), &reading());
-    let findings: Vec<String> = again.diagnostics.list().iter().map(|found| again.one_line(found)).collect();
-    assert_eq!(findings, Vec::<String>::new());
-    let catalog = again.catalog.expect("a catalogue");
-    // What is said of a device access point counts only where one is made.
+    let reports: Vec<String> = again.diagnostics.list().iter().map(|found| again.one_line(found)).collect();
+    assert_eq!(reports, Vec::<String>::new());
+    let catalog = again.catalog.expect("a catalog");
+    // Options of a device access point are used only if the export creates one.
     let of_itself = export(&catalog, &given()).expect("a GSDML");
     let unused = of_itself.notes.iter().find(|note| note.kind == NoteKind::GivenFact).expect("a note");
     assert_eq!((unused.count, unused.first.as_str()), (FACTS.len() - 5, "dns-name"));
-    let data = catalog.submodules.iter().find_map(|own| own.output.as_ref()).expect("what a controller sends");
+    let data = catalog.submodules.iter().find_map(|submodule| submodule.output.as_ref()).expect("output data");
     let fields = &data.image.fields;
-    let place = |name: &str| {
+    let position = |name: &str| {
         let found = fields.iter().find(|field| field.name == name).expect("a field");
         (found.bit_offset, found.bits, found.ty)
     };
-    assert_eq!(place("enable"), (0, 1, Type::Boolean));
-    assert_eq!(place("reset fault"), (7, 1, Type::Boolean));
-    assert_eq!(place("target"), (8, 32, Type::Integer(32)));
-    assert_eq!(place("speed"), (48, 16, Type::Unsigned(16)));
+    assert_eq!(position("enable"), (0, 1, Type::Boolean));
+    assert_eq!(position("reset fault"), (7, 1, Type::Boolean));
+    assert_eq!(position("target"), (8, 32, Type::Integer(32)));
+    assert_eq!(position("speed"), (48, 16, Type::Unsigned(16)));
     assert_eq!(data.image.length, 9);
 }
 
 #[test]
-fn what_nobody_says_is_asked_for() {
+fn missing_facts_are_listed() {
     let Err(Refusal::Missing(facts)) = export(&table(), &Options::default()) else { panic!("much is missing") };
     let keys: Vec<&str> = facts.iter().map(|fact| fact.key).collect();
     for key in ["vendor-id", "device-id", "dns-name", "module-ident", "min-device-interval", "date"] {
@@ -141,7 +140,7 @@ fn what_nobody_says_is_asked_for() {
     assert!(options.set("device-access", "perhaps").is_err_and(|text| text.contains("`true` or `false`")));
 }
 
-/// Every table of the project that has process images has a valid GSDML.
+/// Every table of the project that has process images gives a valid GSDML.
 #[test]
 fn every_table_with_images_has_a_gsdml() {
     let folder = root().join("dictionaries");
@@ -161,6 +160,9 @@ fn every_table_with_images_has_a_gsdml() {
             assert_eq!(schema.violations(&name, [("export.xml", exported.text.as_bytes())]), Vec::<String>::new());
         }
         let again = read(Source::new("export.xml", exported.text.into()), &reading());
-        assert!(!again.diagnostics.has_errors() && again.catalog.is_some_and(|own| !own.devices.is_empty()), "{name}");
+        assert!(
+            !again.diagnostics.has_errors() && again.catalog.is_some_and(|catalog| !catalog.devices.is_empty()),
+            "{name}"
+        );
     }
 }

@@ -1,4 +1,4 @@
-//! Names that try to break out of an exported file: what is read from it again has the structure of what was exported.
+//! Names that contain markup of the exported format. Reading an exported file gives the structure of the original.
 
 use lexibus_codegen::compile::{check, Options};
 use lexibus_codegen::ir::{Catalog, Documentation, Group, Pdo};
@@ -8,7 +8,7 @@ use lexibus_export::{eds, esi, gsdml};
 use crate::corpus_support::lane;
 use crate::corpus_support::root::root;
 
-/// Ends of lines, sections, keys, comments, elements, attributes and entities.
+/// Line ends, sections, keys, comments, elements, attributes and entities.
 const HOSTILE: [&str; 12] = [
     "a\nAccessType=wo",
     "b\r\n[6FFF]\r\nParameterName=x",
@@ -27,10 +27,10 @@ const HOSTILE: [&str; 12] = [
 fn catalog(path: &str) -> Catalog {
     let path = root().join(path);
     let compilation = check(Source::read(&path).expect("a description"), &Options::default());
-    compilation.catalog.expect("a catalogue")
+    compilation.catalog.expect("a catalog")
 }
 
-/// Gives every element of a catalogue another name, of the number that it is.
+/// Gives every element of a catalog a different name, which depends on its number.
 fn rename(catalog: &mut Catalog, name: impl Fn(usize) -> String) {
     let mut number = 0;
     let mut next = || {
@@ -73,7 +73,7 @@ fn rename(catalog: &mut Catalog, name: impl Fn(usize) -> String) {
     }
 }
 
-/// All of a catalogue but its texts.
+/// Returns the facts of a catalog without its texts.
 fn structure(catalog: &Catalog) -> Vec<String> {
     fn groups(groups: &[Group], lines: &mut Vec<String>) {
         for group in groups {
@@ -112,14 +112,14 @@ fn structure(catalog: &Catalog) -> Vec<String> {
     lines
 }
 
-/// What the export of a renamed catalogue is read as.
+/// Returns the structure of the exported and reread catalog.
 fn again(path: &str, name: &str, write: &dyn Fn(&Catalog) -> String, names: impl Fn(usize) -> String) -> Vec<String> {
-    let mut own = catalog(path);
-    rename(&mut own, names);
-    let text = write(&own);
+    let mut renamed = catalog(path);
+    rename(&mut renamed, names);
+    let text = write(&renamed);
     let read = check(Source::new(name, text.clone().into()), &Options::default());
-    let told: Vec<String> = read.diagnostics.list().iter().map(|found| read.one_line(found)).collect();
-    structure(&read.catalog.unwrap_or_else(|| panic!("{path}: {told:?}\n{text}")))
+    let reports: Vec<String> = read.diagnostics.list().iter().map(|found| read.one_line(found)).collect();
+    structure(&read.catalog.unwrap_or_else(|| panic!("{path}: {reports:?}\n{text}")))
 }
 
 fn hold(path: &str, name: &str, write: &dyn Fn(&Catalog) -> String) {
@@ -136,7 +136,7 @@ fn hold(path: &str, name: &str, write: &dyn Fn(&Catalog) -> String) {
 }
 
 #[test]
-fn an_eds_is_no_other_by_its_names() {
+fn names_do_not_change_the_structure_of_an_eds() {
     for path in ["dictionaries/demo-drive.eds", "dictionaries/aec-vector-step.toml", "tests/data/coupler.esi.xml"] {
         for flavour in [eds::Flavour::Eds, eds::Flavour::Dcf] {
             let write = |catalog: &Catalog| eds::export(catalog, &catalog.devices[0], flavour).expect("an EDS").text;
@@ -146,7 +146,7 @@ fn an_eds_is_no_other_by_its_names() {
 }
 
 #[test]
-fn an_esi_is_no_other_by_its_names() {
+fn names_do_not_change_the_structure_of_an_esi() {
     for path in ["tests/data/coupler.esi.xml", "benches/instructions/axis.esi.xml"] {
         let write = |catalog: &Catalog| esi::export(catalog, &esi::Options::default()).expect("an ESI").text;
         hold(path, "again.xml", &write);
@@ -154,7 +154,7 @@ fn an_esi_is_no_other_by_its_names() {
 }
 
 #[test]
-fn a_gsdml_is_no_other_by_its_names() {
+fn names_do_not_change_the_structure_of_a_gsdml() {
     for path in ["tests/data/drive.gsdml.xml", "tests/data/safe.gsdml.xml"] {
         let write = |catalog: &Catalog| gsdml::export(catalog, &gsdml::Options::default()).expect("a GSDML").text;
         hold(path, "GSDML-again.xml", &write);

@@ -12,7 +12,7 @@ fn read(text: &str) -> Compilation {
     check(Source::new("t.toml", text.into()), &Options::default())
 }
 
-/// The first example of the documentation of register tables: a whole device.
+/// The first example in the documentation of register tables, which is a whole device.
 #[test]
 fn info_of_the_worked_example() {
     let (_, block) = examples().swap_remove(0);

@@ -1,4 +1,4 @@
-//! Exports: their text, what they are valid by, and what they report as left out or missing.
+//! Exports: their text, their validity, and the facts that they report as left out or missing.
 
 #[path = "../../../tests/corpus_support/mod.rs"]
 mod corpus_support;

@@ -1,4 +1,4 @@
-//! Addresses of an item on every bus.
+//! The addresses of an item on every bus.
 
 use std::mem::discriminant;
 
@@ -10,7 +10,7 @@ use lexibus_codegen::facts::address;
 use lexibus_codegen::facts::words::bus_name;
 use lexibus_codegen::ir::{Binding, CompactString, ImageBinding, IndirectBinding, RegisterBinding, WindowSide};
 
-/// Compares the addresses, those of one kind in their order.
+/// Compares the addresses. Those of one kind are compared in their order.
 pub(super) fn compare(old: &[Binding], new: &[Binding], comparison: &mut Comparison<'_>) {
     buses(old, new, comparison);
     let mut left: Vec<&Binding> = new.iter().collect();
@@ -28,13 +28,13 @@ pub(super) fn compare(old: &[Binding], new: &[Binding], comparison: &mut Compari
     }
 }
 
-/// Whether the others have the buses of an address as well, so that the comparison of buses says nothing about it.
+/// Returns whether the other addresses have the buses of this one. Then the comparison of buses does not report it.
 fn is_reached(binding: &Binding, others: &[Binding]) -> bool {
     let names = names_of(others);
     buses_of(binding).iter().all(|bus| names.contains(bus))
 }
 
-/// The buses on which the item can be reached. A bus on which it does not exist is a compile error.
+/// Compares the buses of the item. Access over a bus that the item does not have is a compile error in Rust.
 fn buses(old: &[Binding], new: &[Binding], comparison: &mut Comparison<'_>) {
     let (old, new) = (names_of(old), names_of(new));
     let is_lost = old.iter().any(|bus| !new.contains(bus));
@@ -68,16 +68,16 @@ fn binding(old: &Binding, new: &Binding, comparison: &mut Comparison<'_>) {
             fact("length in bytes", Judgement::WIRE)(old, new, comparison);
         }
         (Binding::Indirect(old), Binding::Indirect(new)) => window(old, new, comparison),
-        // The address is all that they have, and the buses have been compared.
+        // These have no fields except the address, and the buses were compared.
         _ => {}
     }
 }
 
 fn register(old: &RegisterBinding, new: &RegisterBinding, comparison: &mut Comparison<'_>) {
-    // A single register has no order of words.
+    // Word order has no effect on a single register.
     let word_order = if old.count.max(new.count) > 1 { Judgement::WIRE } else { Judgement::NONE };
     compare_fields!(RegisterBinding, old, new, comparison, {
-        // The number that the source prints moves with the address and length.
+        // The printed number changes with the address and the length.
         printed: |one: &CompactString, other: &CompactString, comparison: &mut Comparison<'_>| {
             if (old.address, old.count) == (new.address, new.count) {
                 text("printed address")(one, other, comparison);

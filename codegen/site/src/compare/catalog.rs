@@ -1,4 +1,4 @@
-//! Catalogs: devices, modules and submodules with what they share.
+//! Catalogs: devices, modules and submodules, and data that they share.
 
 use super::change::{Change, Judgement};
 use super::comparison::{compare_fields, fact_as, list, part, text, Comparison, Elements, COMPARED, KEY, POSITION};
@@ -9,8 +9,10 @@ use super::{codes, devices, modules, profinet, types};
 use lexibus_codegen::facts::device::title;
 use lexibus_codegen::ir::{Catalog, Device, Family, Graphic, LocalText, Module, Submodule};
 
-/// Compares two versions of a description. The changes that break Rust code or the communication come first, then those that break the behavior,
-/// then the others, each in the order of the old description.
+/// Compares two versions of a description.
+///
+/// Changes that break Rust code or the communication come first, then those that break the behavior, then the others.
+/// Each group has the order of the old description.
 pub fn compare(old: &Catalog, new: &Catalog) -> Vec<Change> {
     let mut comparison = Comparison::new(old, new);
     compare_devices(&old.devices, &new.devices, &mut comparison);
@@ -23,7 +25,7 @@ pub fn compare(old: &Catalog, new: &Catalog) -> Vec<Change> {
     changes
 }
 
-/// Compares what devices, modules and submodules share.
+/// Compares the data that devices, modules and submodules share.
 fn shared(old: &Catalog, new: &Catalog, comparison: &mut Comparison<'_>) {
     compare_fields!(Catalog, old, new, comparison, {
         code_tables: codes::tables(),
@@ -37,13 +39,14 @@ fn shared(old: &Catalog, new: &Catalog, comparison: &mut Comparison<'_>) {
     }, "the files that are compared" => [files], COMPARED => [devices, modules, submodules, types]);
 }
 
-/// The only devices of two descriptions belong together, others by product code, name and identifier.
+/// Compares devices. If each description has only one, these are compared. Otherwise devices are paired by product
+/// code, name and identifier.
 fn compare_devices<'a>(old: &'a [Device], new: &'a [Device], comparison: &mut Comparison<'a>) {
     let is_one = old.len() == 1 && new.len() == 1;
     let key = |device: &Device| format!("{:?} {} {}", device.identity.product_code, title(device), device.id);
     let key = |device: &Device| if is_one { String::new() } else { key(device) };
-    let place = |device: &Device| if is_one { String::new() } else { title(device).to_owned() };
-    for (old, new) in pairs(old, new, key, place) {
+    let position = |device: &Device| if is_one { String::new() } else { title(device).to_owned() };
+    for (old, new) in pairs(old, new, key, position) {
         let owner = old.or(new).filter(|_| !is_one).map(title).unwrap_or_default().to_owned();
         owned(owner, "device", (old, new), comparison, |old, new, comparison| {
             comparison.in_types(&old.types, &new.types, |comparison| devices::compare(old, new, comparison));
@@ -67,7 +70,7 @@ fn compare_submodules<'a>(old: &'a [Submodule], new: &'a [Submodule], comparison
     }
 }
 
-/// Compares two owners of elements, whose name reports show.
+/// Compares two owners of elements. Reports contain the name of the owner.
 fn owned<'a, T>(
     owner: String,
     kind: &str,

@@ -1,4 +1,4 @@
-//! A difference between two descriptions, and what it means for programs, frames and the behavior of the device.
+//! A change between two descriptions, and its effects on programs, frames and the behavior of the device.
 
 use std::fmt;
 
@@ -12,25 +12,25 @@ pub enum Effect {
     /// The change does not concern this aspect.
     #[default]
     Unaffected,
-    /// What was valid for the old description is valid for the new one, with the same meaning.
+    /// Everything that was valid for the old description is valid for the new one and means the same.
     Compatible,
-    /// What was valid for the old description is invalid for the new one, or has another meaning.
+    /// Something that was valid for the old description is invalid for the new one or has another meaning.
     Breaking,
 }
 
 /// The effects of a change on the three aspects of a description.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize)]
 pub struct Judgement {
-    /// Rust code that was written for the old version: whether it compiles and means the same.
+    /// Rust code for the old version: whether it compiles and means the same.
     pub api: Effect,
     /// The bytes on the bus: addresses, layouts, encodings and frames.
     pub wire: Effect,
-    /// The behavior of the device: range, default, storage, conditions, effects, availability.
+    /// The behavior of the device: range, default, storage, conditions, effects and availability.
     pub behavior: Effect,
 }
 
 impl Judgement {
-    /// No effect: texts, and facts about the file.
+    /// No effect, as for texts and facts about the file.
     pub const NONE: Judgement = Judgement::new(Effect::Unaffected, Effect::Unaffected, Effect::Unaffected);
     /// Breaks Rust code only.
     pub const API: Judgement = Judgement::new(Effect::Breaking, Effect::Unaffected, Effect::Unaffected);
@@ -48,7 +48,7 @@ impl Judgement {
     pub const ADDITION: Judgement = Judgement::new(Effect::Compatible, Effect::Compatible, Effect::Unaffected);
     /// Adds something to the bus.
     pub const WIRE_COMPATIBLE: Judgement = Judgement::new(Effect::Unaffected, Effect::Compatible, Effect::Unaffected);
-    /// Changes the behavior so that everything remains possible.
+    /// Changes the behavior, but everything remains possible.
     pub const BEHAVIOR_COMPATIBLE: Judgement =
         Judgement::new(Effect::Unaffected, Effect::Unaffected, Effect::Compatible);
 
@@ -57,12 +57,12 @@ impl Judgement {
         Judgement { api, wire, behavior }
     }
 
-    /// Whether Rust code or the communication breaks.
+    /// Returns whether Rust code or the communication breaks.
     pub fn is_breaking(self) -> bool {
         self.api == Effect::Breaking || self.wire == Effect::Breaking
     }
 
-    /// The class of the change, by its worst effect.
+    /// Returns the class of the change, which depends on its worst effect.
     pub fn class(self) -> Class {
         match [self.api, self.wire, self.behavior].into_iter().max() {
             _ if self.is_breaking() => Class::Breaking,
@@ -72,7 +72,7 @@ impl Judgement {
         }
     }
 
-    /// The aspects with this effect, in the words of reports.
+    /// Returns the aspects with this effect, as reports name them.
     fn aspects(self, effect: Effect) -> String {
         let all = [("api", self.api), ("wire", self.wire), ("behavior", self.behavior)];
         all.into_iter().filter(|(_, other)| *other == effect).map(|(name, _)| name).collect::<Vec<_>>().join(", ")
@@ -80,7 +80,7 @@ impl Judgement {
 }
 
 impl fmt::Display for Judgement {
-    /// `breaks api, wire`, `compatible`, `no effect`.
+    /// Writes `breaks api, wire`, `compatible` or `no effect`.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self.class() {
             Class::Breaking | Class::Behavior => write!(f, "breaks {}", self.aspects(Effect::Breaking)),
@@ -90,7 +90,7 @@ impl fmt::Display for Judgement {
     }
 }
 
-/// Changes by their worst effect, in the order of reports.
+/// Classes of changes by their worst effect, in the order of reports.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Class {
     /// Rust code or the communication breaks.
@@ -106,18 +106,18 @@ pub enum Class {
 /// A difference between two descriptions.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Change {
-    /// The device or module, if there are several.
+    /// Name of the device or module if there are several.
     #[serde(skip_serializing_if = "String::is_empty")]
     pub owner: String,
-    /// The element that changed: address and name.
+    /// Element that changed: address and name.
     pub element: String,
-    /// The fact of the element: `access`, `type`, `range`, `layout`; `added`, `removed`.
+    /// Fact that changed, such as `access`, `type`, `range`, `layout`, `added` or `removed`.
     pub fact: &'static str,
-    /// The old value; empty if there is none.
+    /// Old value; empty if there is none.
     pub old: String,
-    /// The new value; empty if there is none.
+    /// New value; empty if there is none.
     pub new: String,
-    /// The effects of the change.
+    /// Effects of the change.
     #[serde(flatten)]
     pub judgement: Judgement,
 }
@@ -126,7 +126,7 @@ impl fmt::Display for Change {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Change { owner, element, fact, old, new, judgement } = self;
         let (old, new) = excerpts(old, new);
-        // They are texts of the descriptions, and this is for a terminal.
+        // The texts come from descriptions and can contain control characters for the terminal.
         let [owner, element, old, new] = [owner, element, &old, &new].map(|text| printable(text));
         let of = if owner.is_empty() { String::new() } else { format!("{owner}: ") };
         write!(f, "{judgement}: {of}{element}")?;
@@ -139,11 +139,11 @@ impl fmt::Display for Change {
     }
 }
 
-/// Long texts from the word on in which they differ.
+/// Shortens long texts. The result begins at the first word that differs.
 fn excerpts(old: &str, new: &str) -> (String, String) {
-    /// So many characters of a text are shown as they are.
+    /// Maximum length of a text that is not shortened.
     const LONG: usize = 240;
-    /// So many characters of a longer text are shown.
+    /// Maximum length of a shortened text.
     const SHOWN: usize = 80;
     if old.chars().count().max(new.chars().count()) <= LONG {
         return (old.to_owned(), new.to_owned());
@@ -161,7 +161,7 @@ fn excerpts(old: &str, new: &str) -> (String, String) {
     (excerpt(old), excerpt(new))
 }
 
-/// How many changes there are of each kind.
+/// The number of changes of each class.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Summary {
     /// All changes.
@@ -182,7 +182,7 @@ impl Summary {
     /// Counts changes.
     pub fn of(changes: &[Change]) -> Self {
         let count =
-            |wanted: &dyn Fn(Judgement) -> bool| changes.iter().filter(|change| wanted(change.judgement)).count();
+            |condition: &dyn Fn(Judgement) -> bool| changes.iter().filter(|change| condition(change.judgement)).count();
         Summary {
             changes: changes.len(),
             api: count(&|judgement| judgement.api == Effect::Breaking),
@@ -195,7 +195,7 @@ impl Summary {
 }
 
 impl fmt::Display for Summary {
-    /// `3 changes; breaking: api 1, wire 2, behavior 0; compatible: 1; no effect: 0`.
+    /// Writes `3 changes; breaking: api 1, wire 2, behavior 0; compatible: 1; no effect: 0`.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Summary { changes, api, wire, behavior, compatible, none } = self;
         let count = match changes {

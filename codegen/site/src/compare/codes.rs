@@ -1,4 +1,4 @@
-//! Tables of codes, which are enumerations in Rust.
+//! Code tables, which are enumerations in Rust.
 
 use super::change::Judgement;
 use super::comparison::{compare_fields, fact, list, text, Comparison, Elements, COMPARED, POSITION};
@@ -7,7 +7,7 @@ use super::names::identifier;
 use lexibus_codegen::facts::code;
 use lexibus_codegen::ir::{CodeRow, CodeTable};
 
-/// Tables belong together by their names.
+/// Compares code tables, which are paired by name.
 pub(super) fn tables() -> impl Fn(&Vec<CodeTable>, &Vec<CodeTable>, &mut Comparison<'_>) {
     let elements = Elements::titled(|table: &CodeTable| format!("codes {}", table.name))
         .paired_by(|table| identifier(&table.name));
@@ -24,12 +24,12 @@ fn table(old: &CodeTable, new: &CodeTable, comparison: &mut Comparison<'_>) {
     }, POSITION => [origin]);
 }
 
-/// Code may match all codes.
+/// Compares the rows of a code table. Rust code can match all codes.
 fn rows() -> Elements<CodeRow> {
     Elements {
         title: |row| format!("code {} {}", code::text(row), row.name),
         name: |row| row.name.to_string(),
-        place: |row| row.code.to_string(),
+        position: |row| row.code.to_string(),
         added: |_| Judgement::API,
         removed: |_| Judgement::API,
     }
@@ -40,7 +40,7 @@ fn row(old: &CodeRow, new: &CodeRow, comparison: &mut Comparison<'_>) {
         Some(last) => format!("{} to {last}", row.code),
         None => row.code.to_string(),
     };
-    // The notation is no fact of the code.
+    // Another notation of the same code has no effect on the bus.
     let judgement = if old.code == new.code { Judgement::API } else { Judgement::WIRE };
     comparison.texts("code", number(old), number(new), judgement);
     compare_fields!(CodeRow, old, new, comparison, {

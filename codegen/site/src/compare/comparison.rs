@@ -1,4 +1,4 @@
-//! The state of a comparison, and the rules by which fields are compared.
+//! The state of a comparison, and the rules for fields.
 
 use std::borrow::Borrow;
 use std::collections::HashSet;
@@ -10,17 +10,17 @@ use super::pairing;
 use super::show::Show;
 use lexibus_codegen::ir::{Catalog, Type, TypeDef};
 
-/// Changes that were found so far, and the element that is compared.
+/// The changes that were found so far, and the current element.
 pub(super) struct Comparison<'a> {
-    /// The old catalog and the new one.
+    /// The old and the new catalog.
     pub catalogs: (&'a Catalog, &'a Catalog),
-    /// The old types and the new ones of the device, module or submodules that are compared.
+    /// The old and the new types of the current device, module or submodules.
     pub types: (&'a [TypeDef], &'a [TypeDef]),
-    /// Pairs of types that were compared, by their owner.
+    /// Pairs of compared types, with their owner.
     compared_types: HashSet<(usize, Type, Type)>,
-    /// The owner of the types; 0 is the catalog.
+    /// Owner of the current types; 0 is the catalog.
     types_owner: usize,
-    /// How many owners of types there are.
+    /// Number of owners of types.
     types_owners: usize,
     pub owner: String,
     pub changes: Vec<Change>,
@@ -50,7 +50,7 @@ impl<'a> Comparison<'a> {
         (self.types, self.types_owner) = outer;
     }
 
-    /// Compares what names types of the catalog.
+    /// Compares elements that refer to types of the catalog.
     pub fn in_types_of_catalog(&mut self, compare: impl FnOnce(&mut Self)) {
         let outer = (self.types, self.types_owner);
         let (old, new) = self.catalogs;
@@ -59,12 +59,12 @@ impl<'a> Comparison<'a> {
         (self.types, self.types_owner) = outer;
     }
 
-    /// Whether a pair of types has not been compared before.
+    /// Returns whether a pair of types has not been compared before. Records the pair.
     pub fn is_first_comparison(&mut self, old: Type, new: Type) -> bool {
         self.compared_types.insert((self.types_owner, old, new))
     }
 
-    /// The types of the current owner that were compared: the old ones and the new ones.
+    /// Returns the compared types of the current owner: the old and the new ones.
     pub fn compared_types(&self) -> (HashSet<Type>, HashSet<Type>) {
         let of_owner = self.compared_types.iter().filter(|(owner, ..)| *owner == self.types_owner);
         of_owner.map(|(_, old, new)| (*old, *new)).unzip()
@@ -81,13 +81,13 @@ impl<'a> Comparison<'a> {
         self.element.truncate(length);
     }
 
-    /// Reports a change of a fact of the current element.
+    /// Reports a changed fact of the current element.
     pub fn push(&mut self, fact: &'static str, old: String, new: String, judgement: Judgement) {
         let (owner, element) = (self.owner.clone(), self.element.clone());
         self.changes.push(Change { owner, element, fact, old, new, judgement });
     }
 
-    /// Reports a fact whose values differ.
+    /// Reports a fact if its values differ.
     pub fn values<T: PartialEq + Debug>(
         &mut self,
         fact: &'static str,
@@ -95,32 +95,33 @@ impl<'a> Comparison<'a> {
         [old_text, new_text]: [String; 2],
         judgement: Judgement,
     ) {
-        // A number that is none (NaN) differs from itself, which is no change.
+        // NaN differs from itself, which is no change.
         if old != new && format!("{old:?}") != format!("{new:?}") {
             self.push(fact, old_text, new_text, judgement);
         }
     }
 
-    /// Reports a fact whose texts differ.
+    /// Reports a fact if its texts differ.
     pub fn texts(&mut self, fact: &'static str, old: String, new: String, judgement: Judgement) {
         if old != new {
             self.push(fact, old, new, judgement);
         }
     }
 
-    /// Reports that the current element is gone.
+    /// Reports that the current element was removed.
     pub fn removed(&mut self, judgement: Judgement) {
         self.push("removed", String::new(), String::new(), judgement);
     }
 
-    /// Reports that the current element is new.
+    /// Reports that the current element was added.
     pub fn added(&mut self, judgement: Judgement) {
         self.push("added", String::new(), String::new(), judgement);
     }
 }
 
-/// Compares all fields of a type by a rule each. A field without a rule does not compile. Fields that most types have are named
-/// without a rule (see `rule`). Behind the rules, by the reason, are fields that are no facts of the device, or are compared elsewhere.
+/// Compares all fields of a type, with a rule for each. A field without a rule is a compile error. Common fields have
+/// the rule that `rule` gives them. Ignored fields follow the rules, with the reason: they are no facts of the device,
+/// or are compared elsewhere.
 macro_rules! compare_fields {
     ($type:ident, $old:expr, $new:expr, $comparison:expr, { $($field:ident $(: $rule:expr)?),* $(,)? }
         $(, $reason:expr => [$($ignored:ident),+])* $(,)?) => {{
@@ -132,7 +133,7 @@ macro_rules! compare_fields {
 }
 pub(super) use compare_fields;
 
-/// The rule of a field: its own, or that of all fields of this name.
+/// Selects the rule of a field: the given one, or that of all fields with this name.
 macro_rules! rule {
     (name) => {
         $crate::compare::comparison::judged("name", $crate::compare::texts::renamed)
@@ -162,12 +163,12 @@ pub(super) use rule;
 pub(super) const POSITION: &str = "a position in the source file";
 /// A page, line or clause of a manual.
 pub(super) const CITATION: &str = "a position in the manual";
-/// The elements are paired by it.
+/// The elements are paired by this field.
 pub(super) const KEY: &str = "a key; a change is reported as a removal and an addition";
-/// Another field is compared with it.
+/// The field is compared together with another field.
 pub(super) const COMPARED: &str = "compared together with another field";
 
-/// A fact that affects always the same aspects.
+/// Compares a fact whose changes always affect the same aspects.
 pub(super) fn fact<T: PartialEq + Debug + Show>(
     name: &'static str,
     judgement: Judgement,
@@ -175,7 +176,7 @@ pub(super) fn fact<T: PartialEq + Debug + Show>(
     fact_as(name, judgement, T::show)
 }
 
-/// A fact whose texts are those of `show`.
+/// Compares a fact whose text `show` returns.
 pub(super) fn fact_as<T: PartialEq + Debug>(
     name: &'static str,
     judgement: Judgement,
@@ -188,12 +189,12 @@ pub(super) fn fact_as<T: PartialEq + Debug>(
     }
 }
 
-/// A text without an effect.
+/// Compares a text. A change has no effect.
 pub(super) fn text<T: PartialEq + Debug + Show>(name: &'static str) -> impl Fn(&T, &T, &mut Comparison<'_>) {
     fact(name, Judgement::NONE)
 }
 
-/// A value with positions in the source, which is compared by its text.
+/// Compares a value that contains positions in the source, by its text.
 pub(super) fn positioned<T: PartialEq>(
     name: &'static str,
     judgement: Judgement,
@@ -206,7 +207,7 @@ pub(super) fn positioned<T: PartialEq>(
     }
 }
 
-/// A fact whose effects depend on the values.
+/// Compares a fact whose effects depend on the values.
 pub(super) fn judged<T: PartialEq + Debug + Show>(
     name: &'static str,
     judge: impl Fn(&T, &T) -> Judgement,
@@ -218,7 +219,7 @@ pub(super) fn judged<T: PartialEq + Debug + Show>(
     }
 }
 
-/// A part with a name.
+/// Compares a part with a name.
 pub(super) fn part<T>(
     name: &'static str,
     compare: impl Fn(&T, &T, &mut Comparison<'_>),
@@ -226,7 +227,7 @@ pub(super) fn part<T>(
     move |old, new, comparison| comparison.within(name, |comparison| compare(old, new, comparison))
 }
 
-/// A part that may be missing, with the effects of its addition and of its removal.
+/// Compares an optional part, with the effects of its addition and of its removal.
 pub(super) fn optional<T, B: Borrow<T>>(
     name: &'static str,
     added: Judgement,
@@ -243,7 +244,7 @@ pub(super) fn optional<T, B: Borrow<T>>(
     }
 }
 
-/// A part whose absence is the same as its default.
+/// Compares an optional part whose absence means its default.
 pub(super) fn or_default<T: Default, B: Borrow<T>>(
     compare: impl Fn(&T, &T, &mut Comparison<'_>),
 ) -> impl Fn(&Option<B>, &Option<B>, &mut Comparison<'_>) {
@@ -256,32 +257,32 @@ pub(super) fn or_default<T: Default, B: Borrow<T>>(
     }
 }
 
-/// A list that is compared as a slice.
+/// Compares a list as a slice.
 pub(super) fn slice<T, L: Deref<Target = [T]>>(
     compare: impl Fn(&[T], &[T], &mut Comparison<'_>),
 ) -> impl Fn(&L, &L, &mut Comparison<'_>) {
     move |old, new, comparison| compare(old, new, comparison)
 }
 
-/// How the elements of a list are named, and the effects of additions and removals.
+/// The names and positions of the elements of a list, and the effects of additions and removals.
 pub(super) struct Elements<T> {
-    /// The text that names an element in reports.
+    /// Name of an element in reports.
     pub title: fn(&T) -> String,
-    /// Pairs elements first, unless it is empty.
+    /// The first key that pairs elements, unless it is empty.
     pub name: fn(&T) -> String,
-    /// Pairs the elements that have no name in common.
-    pub place: fn(&T) -> String,
+    /// The key that pairs elements without a common name.
+    pub position: fn(&T) -> String,
     pub added: fn(&T) -> Judgement,
     pub removed: fn(&T) -> Judgement,
 }
 
 impl<T> Elements<T> {
-    /// Elements with a title by which they are paired.
+    /// Creates elements that are paired by their title.
     pub fn titled(title: fn(&T) -> String) -> Self {
         Elements {
             title,
             name: title,
-            place: |_| String::new(),
+            position: |_| String::new(),
             added: |_| Judgement::ADDITION,
             removed: |_| Judgement::API_AND_WIRE,
         }
@@ -292,13 +293,13 @@ impl<T> Elements<T> {
         Elements { name, ..self }
     }
 
-    /// The effects of every addition and of every removal.
+    /// Sets the effects of every addition and of every removal.
     pub fn judged(self, added: fn(&T) -> Judgement, removed: fn(&T) -> Judgement) -> Self {
         Elements { added, removed, ..self }
     }
 }
 
-/// A list of elements.
+/// Compares a list of elements.
 pub(super) fn list<T, L: Deref<Target = [T]>>(
     elements: Elements<T>,
     compare: impl Fn(&T, &T, &mut Comparison<'_>),
@@ -314,7 +315,7 @@ pub(super) fn slices<T>(
     compare: impl Fn(&T, &T, &mut Comparison<'_>),
     comparison: &mut Comparison<'_>,
 ) {
-    for (old, new) in pairing::pairs(old, new, elements.name, elements.place) {
+    for (old, new) in pairing::pairs(old, new, elements.name, elements.position) {
         let Some(title) = new.or(old).map(elements.title) else { continue };
         comparison.within(&title, |comparison| match (old, new) {
             (Some(old), Some(new)) => compare(old, new, comparison),

@@ -1,4 +1,4 @@
-//! What restricts an element: conditions, models, firmware versions, options and buses.
+//! Restrictions of an element: conditions, models, firmware versions, options and buses.
 
 use std::fmt::Debug;
 
@@ -7,7 +7,7 @@ use super::comparison::{compare_fields, fact, judged, or_default, text, Comparis
 use super::show::Show;
 use lexibus_codegen::ir::{Availability, Bus, Buses, Condition};
 
-/// A list that restricts what is possible unless it is empty.
+/// Compares a list that restricts an element. An empty list means no restriction.
 pub(super) fn restricted<T: PartialEq + Debug + Show>(
     name: &'static str,
 ) -> impl Fn(&Vec<T>, &Vec<T>, &mut Comparison<'_>) {
@@ -21,7 +21,7 @@ pub(super) fn restricted<T: PartialEq + Debug + Show>(
     })
 }
 
-/// Conditions that all have to hold.
+/// Compares conditions, all of which must hold.
 pub(super) fn conditions(name: &'static str) -> impl Fn(&Vec<Condition>, &Vec<Condition>, &mut Comparison<'_>) {
     move |old, new, comparison| {
         let text = |list: &[Condition]| list.iter().map(Condition::show).collect::<Vec<_>>().join(" and ");
@@ -33,12 +33,12 @@ pub(super) fn conditions(name: &'static str) -> impl Fn(&Vec<Condition>, &Vec<Co
     }
 }
 
-/// Compares the only buses that have an element.
+/// Compares the buses to which an element is restricted.
 pub(super) fn only_on(old: &Buses, new: &Buses, comparison: &mut Comparison<'_>) {
     restricted("only on")(&Vec::<Bus>::from(*old), &Vec::from(*new), comparison);
 }
 
-/// Models, firmware versions, options and buses that have an element.
+/// Compares the models, firmware versions, options and buses to which an element is restricted.
 pub(super) fn availability(
     old: &Option<Box<Availability>>,
     new: &Option<Box<Availability>>,

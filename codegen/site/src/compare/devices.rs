@@ -39,7 +39,7 @@ pub(super) fn compare(old: &Device, new: &Device, comparison: &mut Comparison<'_
         messages: slice(messages::compare),
         parameter_spaces: messages::spaces(),
         framing: optional("framing", Judgement::ADDITION, Judgement::API_AND_WIRE, messages::framing),
-        given: list(Elements::titled(|number: &GivenNumber| format!("number of the machine {}", number.name))
+        given: list(Elements::titled(|number: &GivenNumber| format!("machine constant {}", number.name))
             .paired_by(|number| identifier(&number.name))
             .judged(|_| Judgement::API, |_| Judgement::API), given),
         code_tables: codes::tables(),
@@ -65,7 +65,7 @@ pub(super) fn compare(old: &Device, new: &Device, comparison: &mut Comparison<'_
     types::compare_unused(comparison);
 }
 
-/// What is true of the device as a whole.
+/// Compares the facts of the device as a whole.
 fn facts_of_device(old: &Device, new: &Device, comparison: &mut Comparison<'_>) {
     let titles = [old, new].map(|device| facts::device::title(device).to_owned());
     judged("name", renamed)(&titles[0], &titles[1], comparison);
@@ -92,7 +92,7 @@ fn node_ids(range: &Option<(u8, u8)>) -> String {
     range.map(|(first, last)| format!("{first} to {last}")).unwrap_or_default()
 }
 
-/// Compares what a file says about itself.
+/// Compares the header of the file.
 fn header(old: &Header, new: &Header, comparison: &mut Comparison<'_>) {
     compare_fields!(Header, old, new, comparison, {
         file_name: text("name of the file"),
@@ -141,7 +141,7 @@ fn dynamic_channel(channel: &DynamicChannel) -> String {
     format!("type {data_type:#X} {direction} {range} at {offset} {further}").trim_end().to_owned()
 }
 
-/// Compares the requests that the tables of Modbus accept.
+/// Compares the requests that the Modbus tables accept.
 fn modbus_tables(old: &[ModbusTable], new: &[ModbusTable], comparison: &mut Comparison<'_>) {
     let missing = |table: &ModbusTable| ModbusTable {
         space: table.space,
@@ -161,7 +161,7 @@ fn modbus_tables(old: &[ModbusTable], new: &[ModbusTable], comparison: &mut Comp
 
 fn modbus_table(old: &ModbusTable, new: &ModbusTable, comparison: &mut Comparison<'_>) {
     compare_fields!(ModbusTable, old, new, comparison, {
-        // Without a list, all functions are accepted. A driver that uses one that is left speaks another way.
+        // Without a list, all functions are accepted. A driver uses another function if the preferred one was removed.
         functions: judged("function codes", |old: &Vec<u8>, new: &Vec<u8>| {
             let is_lost = !new.is_empty() && (old.is_empty() || old.iter().any(|value| !new.contains(value)));
             if is_lost { Judgement::WIRE } else { Judgement::WIRE_COMPATIBLE }
@@ -174,7 +174,7 @@ fn modbus_table(old: &ModbusTable, new: &ModbusTable, comparison: &mut Compariso
     }, KEY => [space]);
 }
 
-/// The effects of another maximum length of requests.
+/// Returns the effects of another maximum length of requests.
 fn shorter(old: &Option<u16>, new: &Option<u16>) -> Judgement {
     let is_shorter = new.is_some_and(|new| old.is_none_or(|old| new < old));
     let wire = if is_shorter { Effect::Breaking } else { Effect::Compatible };
@@ -203,7 +203,7 @@ fn given(old: &GivenNumber, new: &GivenNumber, comparison: &mut Comparison<'_>) 
     }, POSITION => [origin]);
 }
 
-/// `Small 5, Large 10`.
+/// Formats constants as `Small 5, Large 10`.
 fn constants(constants: &Vec<(CompactString, Value)>) -> String {
     constants.show()
 }

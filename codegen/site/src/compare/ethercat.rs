@@ -1,4 +1,4 @@
-//! EtherCAT: the settings by which a master sets up a slave.
+//! EtherCAT: the settings with which a master configures a slave.
 
 use super::change::Judgement;
 use super::comparison::{compare_fields, fact, fact_as, list, optional, text, Comparison, Elements, KEY, POSITION};
@@ -29,12 +29,12 @@ pub(super) fn compare(old: &EtherCatSettings, new: &EtherCatSettings, comparison
     });
 }
 
-/// The texts of a list.
+/// Joins the texts of a list.
 pub(super) fn joined<T>(list: &[T], show: impl Fn(&T) -> String) -> String {
     list.iter().map(show).collect::<Vec<_>>().join("; ")
 }
 
-/// Names of the flags that are set, behind a text.
+/// Appends the names of the flags that are set.
 fn with_flags(text: String, flags: &[(bool, &str)]) -> String {
     let set = flags.iter().filter(|(is_set, _)| *is_set).map(|(_, name)| *name);
     std::iter::once(text.as_str()).chain(set).collect::<Vec<_>>().join(" ")
@@ -95,7 +95,7 @@ fn coe(old: &Coe, new: &Coe, comparison: &mut Comparison<'_>) {
     });
 }
 
-/// What a master sends at start-up. Commands belong together by their objects.
+/// Compares the start-up commands of the master, which are paired by their objects.
 pub(super) fn init_commands() -> impl Fn(&Vec<InitCommand>, &Vec<InitCommand>, &mut Comparison<'_>) {
     let title =
         |command: &InitCommand| format!("start-up write to {}", address::object(command.index, command.sub_index));
@@ -111,7 +111,7 @@ fn init_command(old: &InitCommand, new: &InitCommand, comparison: &mut Compariso
         complete_access: fact("complete access", Judgement::WIRE),
         fixed: fact("fixed", Judgement::NONE),
         adapt: fact("adapted by the master", Judgement::WIRE),
-        overwritten_by_module: fact("replaced by that of a module", Judgement::WIRE),
+        overwritten_by_module: fact("replaced by a module", Judgement::WIRE),
         comment: text("comment"),
     }, KEY => [index, sub_index], POSITION => [origin]);
 }

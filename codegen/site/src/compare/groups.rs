@@ -1,4 +1,4 @@
-//! Objects, chapters, records and images, and the items that they hold.
+//! Objects, chapters, records and images, and their items.
 
 use std::ops::Range;
 
@@ -61,15 +61,15 @@ struct Side<'a> {
     groups: &'a [&'a Group],
     identifiers: Identifiers,
     entries: Vec<Entry<'a>>,
-    /// The entries of each group.
+    /// Ranges of the entries of each group.
     ranges: Vec<Range<usize>>,
 }
 
-/// An item with the group that has it.
+/// An item with its group.
 struct Entry<'a> {
     group: &'a Group,
     item: &'a Item,
-    /// Its identifier; empty for the value of an object without entries.
+    /// Rust identifier; empty for the value of an object without entries.
     identifier: String,
 }
 
@@ -94,7 +94,7 @@ impl<'a> Side<'a> {
     }
 
     fn group_keys(&self) -> Vec<Key> {
-        self.groups.iter().map(|group| Key { name: group.name.to_string(), place: place(group) }).collect()
+        self.groups.iter().map(|group| Key { name: group.name.to_string(), position: position(group) }).collect()
     }
 
     fn item_keys(&self) -> Vec<Key> {
@@ -108,22 +108,22 @@ impl Entry<'_> {
             "" => String::new(),
             name => format!("{}/{name}", self.group.name),
         };
-        Key { name, place: self.place() }
+        Key { name, position: self.position() }
     }
 
-    fn place(&self) -> String {
+    fn position(&self) -> String {
         self.item.bindings.first().map(address::number).unwrap_or_default()
     }
 
-    /// What a report calls an item: its address and name.
+    /// Returns the name of an item in reports: address and name.
     fn title(&self) -> String {
         let name = if self.item.name.is_empty() { &self.group.name } else { &self.item.name };
-        format!("{} {name}", self.place()).trim().to_owned()
+        format!("{} {name}", self.position()).trim().to_owned()
     }
 }
 
-/// By what a group is found.
-fn place(group: &Group) -> String {
+/// Returns the position key of a group.
+fn position(group: &Group) -> String {
     match &group.kind {
         GroupKind::Object { index, .. } => hex16(*index),
         GroupKind::Chapter => "chapter".to_owned(),
@@ -133,13 +133,13 @@ fn place(group: &Group) -> String {
 }
 
 fn title(group: &Group) -> String {
-    format!("{} {}", place(group), group.name).trim().to_owned()
+    format!("{} {}", position(group), group.name).trim().to_owned()
 }
 
-/// Compares two items, whose identifiers depend on the names of others.
+/// Compares two items. Their Rust identifiers depend on the names of others.
 fn pair(old: &Entry<'_>, new: &Entry<'_>, comparison: &mut Comparison<'_>) {
     let name = |one: &CompactString, other: &CompactString, comparison: &mut Comparison<'_>| {
-        // The name of an object's only value is the object's.
+        // The only value of an object has the name of the object.
         let is_of_group = old.identifier.is_empty() && (one, other) == (&old.group.name, &new.group.name);
         if !is_of_group {
             names([one, other], [&old.identifier, &new.identifier], comparison);
@@ -160,7 +160,7 @@ fn names(names: [&CompactString; 2], identifiers: [&str; 2], comparison: &mut Co
     }
 }
 
-/// Compares the facts of a group itself.
+/// Compares the facts of a group, apart from its items.
 fn facts(old: &Group, new: &Group, identifiers: [&str; 2], comparison: &mut Comparison<'_>) {
     compare_fields!(Group, old, new, comparison, {
         name: |one: &CompactString, other: &CompactString, comparison: &mut Comparison<'_>| {
@@ -185,11 +185,11 @@ fn kind(old: &Group, new: &Group, comparison: &mut Comparison<'_>) {
             GroupKind::Object { index: one, code: old_code, category: old_category },
             GroupKind::Object { index: other, code, category },
         ) => {
-            // The addresses of the items contain the index.
+            // Otherwise the addresses of the items contain the index.
             if !(has_index_of_items(old) && has_index_of_items(new)) {
                 fact_as("index", Judgement::WIRE, index)(one, other, comparison);
             }
-            // An object with entries is a module, another one a constant.
+            // In Rust, an object with entries is a module, and another one a constant.
             let judgement = if is_module(old) == is_module(new) { Judgement::NONE } else { Judgement::API };
             fact("object code", judgement)(old_code, code, comparison);
             fact("category", Judgement::NONE)(old_category, category, comparison);
@@ -198,11 +198,11 @@ fn kind(old: &Group, new: &Group, comparison: &mut Comparison<'_>) {
         (GroupKind::Image { length: old }, GroupKind::Image { length: new }) => {
             fact("length in bytes", Judgement::WIRE)(old, new, comparison);
         }
-        _ => comparison.texts("kind", place(old), place(new), Judgement::API_AND_WIRE),
+        _ => comparison.texts("kind", position(old), position(new), Judgement::API_AND_WIRE),
     }
 }
 
-/// Whether an object has items, all of which are at its index.
+/// Returns whether an object has items and all of them have its index.
 fn has_index_of_items(group: &Group) -> bool {
     let is_at_index = |item: &Item| item.object().map(|(index, _)| index) == group.index();
     !group.items.is_empty() && group.items.iter().all(is_at_index)

@@ -6,7 +6,7 @@ use super::show::ident;
 use lexibus_codegen::facts::number::hex32;
 use lexibus_codegen::ir::{CompactString, Identity};
 
-/// Compares identities. A program may check them; they change no other bytes.
+/// Compares identities. A program can check them; no other bytes depend on them.
 pub(super) fn identity(old: &Identity, new: &Identity, comparison: &mut Comparison<'_>) {
     compare_fields!(Identity, old, new, comparison, {
         vendor_id: fact_as("vendor-ID", Judgement::BEHAVIOR, ident),

@@ -1,4 +1,4 @@
-//! Facts of an item: value, range, access rights, behavior.
+//! Items: value, range, access rights and behavior.
 
 use super::bindings;
 use super::change::{Effect, Judgement};
@@ -21,7 +21,7 @@ pub(super) fn compare(old: &Item, new: &Item, comparison: &mut Comparison<'_>) {
     compare_named(old, new, judged("name", renamed), comparison);
 }
 
-/// Compares all facts of an item, its name by `name`.
+/// Compares all facts of an item. `name` compares its name.
 pub(super) fn compare_named(
     old: &Item,
     new: &Item,
@@ -49,7 +49,7 @@ pub(super) fn compare_named(
         availability,
         related: or_default(related),
         is_reserved: fact("reserved", Judgement::NONE),
-        is_optional: fact("exists only at times", Judgement::BEHAVIOR),
+        is_optional: fact("optional", Judgement::BEHAVIOR),
         shared_by_axes: fact("shared by all axes", Judgement::API),
         flags: fact_as("flags of the object", Judgement::BEHAVIOR, |flags| format!("0x{flags:X}")),
         documentation, doubts, extensions,
@@ -60,7 +60,7 @@ pub(super) fn compare_named(
     }, POSITION => [origin, at]);
 }
 
-/// Compares the items that an item belongs to.
+/// Compares the relations to other items.
 fn related(old: &RelatedItems, new: &RelatedItems, comparison: &mut Comparison<'_>) {
     compare_fields!(RelatedItems, old, new, comparison, {
         same_as: fact("same value as", Judgement::NONE),
@@ -70,7 +70,7 @@ fn related(old: &RelatedItems, new: &RelatedItems, comparison: &mut Comparison<'
     });
 }
 
-/// The effects of other access rights.
+/// Returns the effects of other access rights.
 fn access_effects(old: &Access, new: &Access) -> Judgement {
     let lost = old.readable() && !new.readable() || old.writable() && !new.writable();
     let gained = !old.readable() && new.readable() || !old.writable() && new.writable();
@@ -102,7 +102,8 @@ fn default(old: &Item, new: &Item, comparison: &mut Comparison<'_>) {
     }
 }
 
-/// The effects of another value on the behavior. A value that was not stated before contradicts nothing.
+/// Returns the effects of another value on the behavior. A value that is stated for the first time contradicts
+/// nothing.
 fn stated_effects<T>(old: &Option<T>, _: &Option<T>) -> Judgement {
     match old {
         None => Judgement::BEHAVIOR_COMPATIBLE,
@@ -120,7 +121,8 @@ fn range(items: [&Item; 2], limits: [&Limits; 2], access: Access, comparison: &m
     }
 }
 
-/// A value that can be written must not be refused. Of a value that can only be read, no other numbers must come.
+/// Returns the effects of other limits. Writing a value must not become an error, and reading must not return
+/// unexpected values.
 fn range_effects(old: &Limits, new: &Limits, access: Access) -> Judgement {
     let is_broken = if access.writable() { is_narrower(old, new) } else { is_narrower(new, old) };
     if is_broken {
@@ -130,7 +132,7 @@ fn range_effects(old: &Limits, new: &Limits, access: Access) -> Judgement {
     }
 }
 
-/// Whether some value was allowed that isn't any more.
+/// Returns whether a value was allowed that is not allowed now.
 fn is_narrower(old: &Limits, new: &Limits) -> bool {
     let real = |value: &Option<Value>| value.as_ref().and_then(Value::as_real);
     let is_beyond = |old: Option<f64>, new: Option<f64>, beyond: fn(f64, f64) -> bool| match (old, new) {
@@ -150,7 +152,7 @@ fn is_narrower(old: &Limits, new: &Limits) -> bool {
     below || above || is_unlisted
 }
 
-/// Variants are paired by the models and buses that they are about.
+/// Compares variants, which are paired by their models and buses.
 fn variants() -> Elements<ItemVariant> {
     Elements::titled(|variant: &ItemVariant| {
         let models = variant.models.iter().map(CompactString::as_str);
@@ -160,7 +162,7 @@ fn variants() -> Elements<ItemVariant> {
     .judged(|_| Judgement::BEHAVIOR, |_| Judgement::BEHAVIOR)
 }
 
-/// Compares what differs on some models or buses, of two versions of an item.
+/// Compares two versions of a variant of an item, which applies to some models or buses.
 fn variant(items: [&Item; 2], old: &ItemVariant, new: &ItemVariant, comparison: &mut Comparison<'_>) {
     let access = new.access.unwrap_or(items[1].access);
     compare_fields!(ItemVariant, old, new, comparison, {
@@ -180,7 +182,7 @@ fn variant(items: [&Item; 2], old: &ItemVariant, new: &ItemVariant, comparison: 
         limits: |old: &Limits, new: &Limits, comparison: &mut Comparison<'_>| {
             range(items, [old, new], access, comparison);
         },
-        step: judged("rounded to steps of", stated_effects),
+        step: judged("step", stated_effects),
         scale: fact_as("scale", Judgement::API_AND_BEHAVIOR, |scale: &Option<Scale>| {
             scale.as_ref().map(|scale| PLAIN.scale(scale, "")).unwrap_or_default()
         }),
@@ -188,7 +190,7 @@ fn variant(items: [&Item; 2], old: &ItemVariant, new: &ItemVariant, comparison: 
     }, POSITION => [at]);
 }
 
-/// The text of a value that may be missing.
+/// Returns the text of an optional value.
 fn value(item: &Item, value: &Option<Value>, types: &[TypeDef]) -> String {
     value.as_ref().map(|value| facts::item::value(item, value, types)).unwrap_or_default()
 }
@@ -204,7 +206,7 @@ fn configured(old: &Configured, new: &Configured, comparison: &mut Comparison<'_
 
 fn quantity(old: &Quantity, new: &Quantity, comparison: &mut Comparison<'_>) {
     compare_fields!(Quantity, old, new, comparison, {
-        // A unit that was not stated before contradicts nothing.
+        // A unit that is stated for the first time contradicts nothing.
         unit: judged("unit", |old: &CompactString, _: &CompactString| match old.is_empty() {
             true => Judgement::API_COMPATIBLE,
             false => Judgement::API_AND_BEHAVIOR,
@@ -212,7 +214,7 @@ fn quantity(old: &Quantity, new: &Quantity, comparison: &mut Comparison<'_>) {
         units: text("unit in other languages"),
         scale: |_: &_, _: &_, comparison: &mut Comparison<'_>| scale(old, new, comparison),
         sentinels: slice(sentinels),
-        step: judged("rounded to steps of", stated_effects),
+        step: judged("step", stated_effects),
         machine: or_default(machine_unit),
         conversions: positioned("examples of conversions", Judgement::NONE, |examples: &Vec<Conversion>| {
             examples.iter().map(conversion).collect::<Vec<_>>().join("; ")
@@ -220,7 +222,7 @@ fn quantity(old: &Quantity, new: &Quantity, comparison: &mut Comparison<'_>) {
     });
 }
 
-/// The type in Rust has the scale.
+/// Compares the scale, which determines the type in Rust.
 fn scale(old: &Quantity, new: &Quantity, comparison: &mut Comparison<'_>) {
     if old.scale != new.scale {
         let text = |quantity: &Quantity| {
@@ -234,24 +236,24 @@ fn scale(old: &Quantity, new: &Quantity, comparison: &mut Comparison<'_>) {
     }
 }
 
-/// Raw values that are no numbers, which the type in Rust excludes.
+/// Compares the sentinels: raw values that are not numbers. The type in Rust excludes them.
 fn sentinels(old: &[(Value, CompactString)], new: &[(Value, CompactString)], comparison: &mut Comparison<'_>) {
     let numbers = |list: &[(Value, CompactString)]| list.iter().map(|(raw, _)| raw.clone()).collect::<Vec<_>>();
     fact("no number", Judgement::API_AND_BEHAVIOR)(&numbers(old), &numbers(new), comparison);
     let meanings =
         |list: &[(Value, CompactString)]| list.iter().map(|(_, name)| name.show()).collect::<Vec<_>>().join("; ");
-    comparison.texts("meaning of values that are no number", meanings(old), meanings(new), Judgement::NONE);
+    comparison.texts("meaning of sentinels", meanings(old), meanings(new), Judgement::NONE);
 }
 
 fn machine_unit(old: &MachineUnit, new: &MachineUnit, comparison: &mut Comparison<'_>) {
     compare_fields!(MachineUnit, old, new, comparison, {
-        unit: fact("unit of the machine", Judgement::API),
+        unit: fact("machine unit", Judgement::API),
         times: fact("multiplied by", Judgement::API),
         over: fact("divided by", Judgement::API),
     });
 }
 
-/// `250 = 25 °C`, without its position.
+/// Formats a conversion as `250 = 25 °C`, without its position.
 fn conversion(conversion: &Conversion) -> String {
     let Conversion { raw, value, unit, given, model, by, documentation, at: _ } = conversion;
     let given: Vec<String> = given.iter().map(|(name, number)| format!(", {name} {number}")).collect();
@@ -276,7 +278,7 @@ fn behaviour(old: &Behaviour, new: &Behaviour, comparison: &mut Comparison<'_>) 
             PLAIN.behaviour(&Behaviour { srdo: *srdo, ..Behaviour::default() }).concat()
         }),
         hidden: fact("hidden by tools", Judgement::NONE),
-        pdi_access: fact("access of the device's own processor", Judgement::BEHAVIOR),
+        pdi_access: fact("access of the device's processor", Judgement::BEHAVIOR),
         read_states: restricted("readable in states"),
         write_states: restricted("writable in states"),
     });

@@ -11,7 +11,7 @@ pub(super) fn compare(old: &StateMachine, new: &StateMachine, comparison: &mut C
         status_item: fact("status", Judgement::API_AND_WIRE),
         control_item: fact("control", Judgement::API_AND_WIRE),
         state_type: fact("enumeration of the states", Judgement::API),
-        // Code may match all variants of an enumeration.
+        // Rust code can match all variants of an enumeration.
         states: list(patterns(|state| format!("state {}", state.name)), pattern),
         initial: fact("state after power-on", Judgement::BEHAVIOR),
         commands: list(patterns(|command| format!("command {}", command.name)), pattern),
@@ -25,17 +25,17 @@ pub(super) fn compare(old: &StateMachine, new: &StateMachine, comparison: &mut C
     });
 }
 
-/// States and commands are variants of enumerations, and code may match all of them.
+/// Compares states or commands. They are variants of enumerations, and Rust code can match all of them.
 fn patterns(title: fn(&Pattern) -> String) -> Elements<Pattern> {
     Elements {
         name: |pattern| pattern.name.to_string(),
-        place: bits,
+        position: bits,
         ..Elements::titled(title).judged(|_| Judgement::API, |_| Judgement::API)
     }
 }
 
 fn bits(pattern: &Pattern) -> String {
-    format!("0x{:X} of 0x{:X}", pattern.value, pattern.mask)
+    format!("0x{:X} (mask 0x{:X})", pattern.value, pattern.mask)
 }
 
 fn pattern(old: &Pattern, new: &Pattern, comparison: &mut Comparison<'_>) {
@@ -48,11 +48,9 @@ fn pattern(old: &Pattern, new: &Pattern, comparison: &mut Comparison<'_>) {
 fn transitions() -> Elements<Transition> {
     Elements::titled(|transition: &Transition| {
         let from = transition.from.as_deref().unwrap_or("any state");
-        format!(
-            "transition from {from} to {} by {}",
-            transition.to,
-            transition.command.as_ref().map_or("itself", |own| own.as_str())
-        )
+        let command = transition.command.as_ref();
+        let command = command.map_or_else(|| "without a command".to_owned(), |command| format!("by {command}"));
+        format!("transition from {from} to {} {command}", transition.to)
     })
     .judged(|_| Judgement::BEHAVIOR, |_| Judgement::BEHAVIOR)
 }
@@ -93,7 +91,7 @@ fn state_outcome(old: &StateOutcome, new: &StateOutcome, comparison: &mut Compar
     }, KEY => [state]);
 }
 
-/// Compares the writes of a procedure, which are constants in Rust.
+/// Compares the steps of a procedure, which is a constant in Rust.
 pub(super) fn procedure(old: &Procedure, new: &Procedure, comparison: &mut Comparison<'_>) {
     compare_fields!(Procedure, old, new, comparison, {
         name, names,
@@ -105,7 +103,7 @@ pub(super) fn procedure(old: &Procedure, new: &Procedure, comparison: &mut Compa
     }, POSITION => [step_spans, origin]);
 }
 
-/// A step, with the difference between a value and an argument that is written.
+/// Formats a step. Arguments and values have different texts.
 fn step(step: &Step) -> String {
     match step {
         Step::WriteArgument(item, argument) => format!("Write the argument {argument} to {item}."),

@@ -27,11 +27,11 @@ fn message(old: &Message, new: &Message, comparison: &mut Comparison<'_>) {
         reply: |old: &Vec<MessageField>, new: &Vec<MessageField>, comparison: &mut Comparison<'_>| {
             frame("reply", old, new, comparison);
         },
-        completion: fact_as("carried out", Judgement::BEHAVIOR, completion),
+        completion: fact_as("completion", Judgement::BEHAVIOR, completion),
         reply_time: fact("time of the reply in ms", Judgement::BEHAVIOR),
         after: fact("after the message", Judgement::API),
-        by_default: fact("answered so after power-on", Judgement::BEHAVIOR),
-        error: fact("message that refuses it", Judgement::API_AND_WIRE),
+        by_default: fact("default after power-on", Judgement::BEHAVIOR),
+        error: fact("error reply", Judgement::API_AND_WIRE),
         side_effects: fact_as("side effects", Judgement::BEHAVIOR, |effects: &Vec<CompactString>| effects.join("; ")),
         accepted_when: conditions("accepted while"),
         names, availability,
@@ -41,7 +41,7 @@ fn message(old: &Message, new: &Message, comparison: &mut Comparison<'_>) {
     }, POSITION => [origin]);
 }
 
-/// Frames that a source prints, without their positions.
+/// Formats the example frames of a message, without their positions.
 pub(super) fn examples(examples: &[MessageExample]) -> String {
     let example = |example: &MessageExample| {
         let text = described(example.documentation.as_deref());
@@ -64,12 +64,12 @@ fn completion(completion: &Completion) -> String {
     }
 }
 
-/// Compares the layout of a frame, and the values in it.
+/// Compares the layout of a frame and the values in it.
 fn frame(name: &'static str, old: &[MessageField], new: &[MessageField], comparison: &mut Comparison<'_>) {
     comparison.texts(name, layout(old, true), layout(new, true), frame_effects(old, new));
     let title = |value: &&MessageValue| value.item.name.to_string();
     for (old, new) in super::pairing::pairs(&values(old), &values(new), title, |_| String::new()) {
-        // Additions and removals are differences of the layout.
+        // The layout reports added and removed values.
         if let (Some(old), Some(new)) = (old, new) {
             comparison.within(&format!("{name} {}", new.item.name), |comparison| value(old, new, comparison));
         }
@@ -92,11 +92,12 @@ fn value(old: &MessageValue, new: &MessageValue, comparison: &mut Comparison<'_>
     compare_fields!(MessageValue, old, new, comparison, {
         item: item::compare,
         byte_order: fact("order of the bytes", Judgement::WIRE),
-        counts: fact("counts the bytes from", Judgement::WIRE),
+        counts: fact("byte count starts at", Judgement::WIRE),
     });
 }
 
-/// Names of fields are those of a struct in Rust; their types are compared with the values.
+/// Returns the effects of another layout. Names of fields are those of a struct in Rust. Types are compared with the
+/// values.
 fn frame_effects(old: &[MessageField], new: &[MessageField]) -> Judgement {
     let names = |fields| values(fields).iter().map(|value| identifier(&value.item.name)).collect::<Vec<_>>();
     let effect = |breaks: bool| if breaks { Effect::Breaking } else { Effect::Unaffected };
@@ -104,7 +105,7 @@ fn frame_effects(old: &[MessageField], new: &[MessageField]) -> Judgement {
     Judgement { api: effect(names(old) != names(new)), wire: effect(is_wire), behavior: Effect::Unaffected }
 }
 
-/// The fields one after the other.
+/// Formats the fields of a frame in their order.
 fn layout(fields: &[MessageField], with_names: bool) -> String {
     fields.iter().map(|one| field(one, with_names)).collect::<Vec<_>>().join(", ")
 }
@@ -143,7 +144,7 @@ pub(super) fn space(old: &ParameterSpace, new: &ParameterSpace, comparison: &mut
     }, KEY => [name], POSITION => [origin]);
 }
 
-/// Spaces belong together by their names.
+/// Compares parameter spaces, which are paired by name.
 pub(super) fn spaces() -> impl Fn(&Vec<ParameterSpace>, &Vec<ParameterSpace>, &mut Comparison<'_>) {
     list(Elements::titled(|space: &ParameterSpace| format!("parameter space {}", space.name)), space)
 }
@@ -162,7 +163,7 @@ pub(super) fn framing(old: &Framing, new: &Framing, comparison: &mut Comparison<
         check_escaped: fact("check is escaped", Judgement::WIRE),
         check_seed: fact_as("start value of the check", Judgement::WIRE, |value| format!("0x{value:X}")),
         max_data: fact("maximum number of data bytes", Judgement::BEHAVIOR),
-        address: fact("field of the device's number", Judgement::API_AND_WIRE),
+        address: fact("device address field", Judgement::API_AND_WIRE),
         documentation,
     }, POSITION => [origin]);
 }

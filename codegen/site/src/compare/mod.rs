@@ -1,4 +1,5 @@
-//! What changed between two versions of a description: of each change, whether Rust code, the communication or the behavior breaks.
+//! Compares two versions of a description. Each change states whether it breaks Rust code, the communication or the
+//! behavior.
 //!
 //! ```
 //! use lexibus_codegen::compile::{check, Options};

@@ -1,4 +1,4 @@
-//! Modular devices: slots, and modules that can be plugged into them.
+//! Modular devices: slots and pluggable modules.
 
 use super::change::Judgement;
 use super::comparison::{
@@ -8,14 +8,14 @@ use super::conditions::restricted;
 use super::ethercat::init_commands;
 use super::identity::identity;
 use super::show::index;
-use super::slots::{places, Use};
+use super::slots::{compare_slots, Use};
 use super::texts::{documentation, extensions, renamed};
 use super::{groups, item, pdos, profinet, types};
 use lexibus_codegen::ir::{
     Catalog, Group, Module, ModuleUse, ObjectBuses, ProcessData, Slot, SubExtension, SubslotName,
 };
 
-/// Slots belong together by their numbers.
+/// Compares slots, which are paired by number.
 pub(super) fn slots() -> Elements<Slot> {
     Elements::titled(|slot: &Slot| format!("slot {}", slot.number))
 }
@@ -26,7 +26,7 @@ pub(super) fn slot(old: &Slot, new: &Slot, comparison: &mut Comparison<'_>) {
         instances: fact("minimum and maximum number of modules", Judgement::BEHAVIOR),
         names,
         fits: restricted("fitting modules"),
-        default: fact("module by default", Judgement::BEHAVIOR),
+        default: fact("default module", Judgement::BEHAVIOR),
         group: fact("slot group", Judgement::WIRE),
         index_increment: fact_as("index increment", Judgement::WIRE, index),
         pdo_increment: fact("PDO increment", Judgement::WIRE),
@@ -35,7 +35,7 @@ pub(super) fn slot(old: &Slot, new: &Slot, comparison: &mut Comparison<'_>) {
     }, KEY => [number]);
 }
 
-/// Modules belong together by number, or ident number, and identifier.
+/// Returns the key that pairs modules: number or ident number, and identifier.
 pub(super) fn key(module: &Module) -> String {
     format!("{:08X} {}", module.number, module.id)
 }
@@ -48,12 +48,12 @@ pub(super) fn compare_uses(old: &[ModuleUse], new: &[ModuleUse], comparison: &mu
                 Some(module) => (format!("module {} ({})", module.name, key(module)), key(module)),
                 None => (format!("module number {}", one.module.0), one.module.0.to_string()),
             };
-            Use { title, key, places: one.places.clone() }
+            Use { title, key, slots: one.places.clone() }
         };
         uses.iter().map(used).collect()
     };
     let (old_catalog, new_catalog) = comparison.catalogs;
-    places(&uses(old_catalog, old), &uses(new_catalog, new), comparison);
+    compare_slots(&uses(old_catalog, old), &uses(new_catalog, new), comparison);
 }
 
 /// Compares all facts of a module.
@@ -97,7 +97,7 @@ fn sub_extension(old: &SubExtension, new: &SubExtension, comparison: &mut Compar
     compare_fields!(SubExtension, old, new, comparison, {
         count: fact("number of entries", Judgement::WIRE),
         per: fact("modules of one entry", Judgement::WIRE),
-        extends_object: fact("goes on at the next index", Judgement::WIRE),
+        extends_object: fact("continues at the next index", Judgement::WIRE),
         template: item::compare,
     }, KEY => [index]);
 }

@@ -1,24 +1,26 @@
-//! Identifiers in Rust of the elements of a description.
+//! The Rust identifiers of elements.
 
 use lexibus_codegen::facts::address;
 use lexibus_codegen::ir::{Group, GroupKind, Item, ObjectCode};
 use lexibus_codegen::names::{self, unique, Case, Wish};
 
-/// The identifier of a name that no other element has.
+/// Returns the identifier of a unique name.
 pub(super) fn identifier(name: &str) -> String {
     names::identifier(&Wish::new(name, "item", ""), Case::Snake)
 }
 
-/// Identifiers of the groups and items of a device or module.
+/// The identifiers of the groups and items of a device or module.
 pub(super) struct Identifiers {
-    /// Those of objects; empty for other groups.
+    /// Identifiers of objects; empty for other groups.
     pub groups: Vec<String>,
-    /// Those of registers and of the entries of objects, by group; empty for the value of an object without entries.
+    /// Identifiers of registers and of the entries of objects, by group; empty for the value of an object without
+    /// entries.
     pub items: Vec<Vec<String>>,
 }
 
 impl Identifiers {
-    /// The identifiers in these groups: names, which get an address if several elements share them.
+    /// Returns the identifiers in these groups. They follow from names; names that several elements share get an
+    /// address.
     pub fn of(groups: &[&Group]) -> Self {
         let wishes: Vec<Wish<'_>> = groups.iter().flat_map(|group| wishes(group)).collect();
         let mut names = unique(&wishes, &[], Case::Snake).into_iter();
@@ -35,7 +37,7 @@ impl Identifiers {
     }
 }
 
-/// An object is one element, and a chapter or image one for each of its registers.
+/// Returns the requested identifiers of a group: one for an object, and one for each register of a chapter or image.
 fn wishes(group: &Group) -> Vec<Wish<'_>> {
     match group.kind {
         GroupKind::Object { index, .. } => vec![Wish::new(&group.name, "object", format!("{index:04X}"))],
@@ -52,7 +54,7 @@ fn entries(group: &Group) -> Vec<String> {
     unique(&wishes, &[], Case::Snake)
 }
 
-/// Whether an object is a module of several values in Rust.
+/// Returns whether an object is a module of several values in Rust.
 pub(super) fn is_module(group: &Group) -> bool {
     group.object_code().is_some_and(ObjectCode::has_subs) || group.items.len() != 1
 }

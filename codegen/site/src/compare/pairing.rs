@@ -1,54 +1,55 @@
-//! Which element of the old description is which of the new one.
+//! Pairs the elements of two descriptions.
 
 use std::collections::HashMap;
 use std::hash::Hash;
 
-/// An element of the old description with the same one of the new description.
+/// An element of the old description and the same element of the new description.
 pub(super) type Pair<'a, T> = (Option<&'a T>, Option<&'a T>);
 
-/// Pairs elements, in the order of the old list, followed by the new elements.
+/// Pairs elements in the order of the old list. Added elements follow.
 ///
-/// Elements belong together if they have the same name and place, else if no others have this name, and else if they have the same place. An
-/// empty name or place alone pairs nothing.
+/// Elements are paired if they have the same name and position. If there are none, they are paired by a unique name,
+/// then by position. An empty name or position pairs nothing.
 pub(super) fn pairs<'a, T>(
     old: &'a [T],
     new: &'a [T],
     name: impl Fn(&T) -> String,
-    place: impl Fn(&T) -> String,
+    position: impl Fn(&T) -> String,
 ) -> Vec<Pair<'a, T>> {
-    let keys =
-        |list: &[T]| list.iter().map(|element| Key { name: name(element), place: place(element) }).collect::<Vec<_>>();
+    let keys = |list: &[T]| {
+        list.iter().map(|element| Key { name: name(element), position: position(element) }).collect::<Vec<_>>()
+    };
     let matching = Matching::of(&keys(old), &keys(new));
     let paired = old.iter().zip(&matching.new_of_old).map(|(one, other)| (Some(one), other.map(|at| &new[at])));
     let added = new.iter().zip(&matching.is_new_paired).filter(|(_, is_paired)| !**is_paired);
     paired.chain(added.map(|(one, _)| (None, Some(one)))).collect()
 }
 
-/// By what an element is paired.
+/// The texts by which an element is paired.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub(super) struct Key {
     pub name: String,
-    pub place: String,
+    pub position: String,
 }
 
-/// Which elements of two lists belong together.
+/// The pairs of elements of two lists.
 pub(super) struct Matching {
-    /// The position in the new list of each element of the old one.
+    /// Position in the new list for each element of the old list.
     pub new_of_old: Vec<Option<usize>>,
-    /// Whether each element of the new list is one of the old list.
+    /// For each element of the new list, whether it is in the old list.
     pub is_new_paired: Vec<bool>,
 }
 
 impl Matching {
-    /// Matches the elements with these keys.
+    /// Pairs the elements with these keys.
     pub fn of(old: &[Key], new: &[Key]) -> Self {
         let mut matching = Matching { new_of_old: vec![None; old.len()], is_new_paired: vec![false; new.len()] };
         matching.stage(old, new, Some, true);
         matching.stage(old, new, |key| Some(&key.name).filter(|name| !name.is_empty()), false);
-        matching.stage(old, new, |key| Some(&key.place).filter(|place| !place.is_empty()), true);
+        matching.stage(old, new, |key| Some(&key.position).filter(|position| !position.is_empty()), true);
         matching
     }
-    /// Pairs elements of equal keys, in their order. Keys that several elements share count if `is_repeatable`.
+    /// Pairs elements with equal keys in their order. Keys that several elements share only count if `is_repeatable`.
     fn stage<'k, Q: Hash + Eq + 'k>(
         &mut self,
         old: &'k [Key],
@@ -82,12 +83,13 @@ impl Matching {
 mod tests {
     use super::*;
 
-    /// Names are letters, places are digits.
+    /// Names are letters, positions are digits.
     fn paired(old: &[&str], new: &[&str]) -> Vec<(String, String)> {
-        let part = |text: &&str, wanted: fn(char) -> bool| text.chars().filter(|letter| wanted(*letter)).collect();
+        let part =
+            |text: &&str, condition: fn(char) -> bool| text.chars().filter(|letter| condition(*letter)).collect();
         let name = |text: &&str| part(text, |letter| letter.is_alphabetic());
-        let place = |text: &&str| part(text, |letter| letter.is_numeric());
-        let all = pairs(old, new, name, place);
+        let position = |text: &&str| part(text, |letter| letter.is_numeric());
+        let all = pairs(old, new, name, position);
         let shown = |value: Option<&&str>| value.map(|value| (*value).to_owned()).unwrap_or_default();
         all.into_iter().map(|(old, new)| (shown(old), shown(new))).collect()
     }
@@ -99,7 +101,7 @@ mod tests {
     }
 
     #[test]
-    fn elements_are_paired_by_name_and_then_by_place() {
+    fn elements_are_paired_by_name_and_then_by_position() {
         is(&["a1", "b2"], &["a1", "b2"], &[("a1", "a1"), ("b2", "b2")]);
         is(&["a1", "b2"], &["a2", "b1"], &[("a1", "a2"), ("b2", "b1")]);
         is(&["a1"], &["b1", "a2"], &[("a1", "a2"), ("", "b1")]);
@@ -109,7 +111,7 @@ mod tests {
     }
 
     #[test]
-    fn names_that_several_have_count_with_their_place_only() {
+    fn shared_names_count_with_their_position_only() {
         is(&["a1", "a2"], &["a2", "a3"], &[("a1", "a3"), ("a2", "a2")]);
         is(&["a1", "a2", "a3"], &["a4", "a2"], &[("a1", ""), ("a2", "a2"), ("a3", ""), ("", "a4")]);
         is(&["a1", "a1"], &["a1", "a1"], &[("a1", "a1"), ("a1", "a1")]);

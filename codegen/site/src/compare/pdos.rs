@@ -18,7 +18,7 @@ use lexibus_codegen::ir::{
     SyncManagerPurpose, Type, TypeDef, Value,
 };
 
-/// Compares the cyclic data of a device or a module, whose objects are on `buses`.
+/// Compares the cyclic data of a device or a module. `buses` are the buses of its objects.
 pub(super) fn compare(old: &ProcessData, new: &ProcessData, buses: ObjectBuses, comparison: &mut Comparison<'_>) {
     compare_fields!(ProcessData, old, new, comparison, {
         pdos: |old: &Vec<Pdo>, new: &Vec<Pdo>, comparison: &mut Comparison<'_>| pdos(old, new, buses, comparison),
@@ -28,7 +28,7 @@ pub(super) fn compare(old: &ProcessData, new: &ProcessData, buses: ObjectBuses, 
     });
 }
 
-/// PDOs belong together by their mapping object and buses.
+/// Compares PDOs, which are paired by mapping object and buses.
 fn pdos(old: &[Pdo], new: &[Pdo], buses: ObjectBuses, comparison: &mut Comparison<'_>) {
     let key = |pdo: &Pdo| format!("{:?} {} {:?}", pdo.direction, pdo.mapping_index, pdo.buses);
     for (old, new) in super::pairing::pairs(old, new, key, |_| String::new()) {
@@ -62,7 +62,7 @@ fn pdo(old: &Pdo, new: &Pdo, comparison: &mut Comparison<'_>) {
         depends_on_slot: fact("index grows with the slot", Judgement::WIRE),
         depends_on_slot_group: fact("index grows with the slot group", Judgement::WIRE),
         is_virtual: fact("carries no data", Judgement::API_AND_WIRE),
-        overwritten_by_module: fact("replaced by that of a module", Judgement::WIRE),
+        overwritten_by_module: fact("replaced by a module", Judgement::WIRE),
         oversampling: fact("oversampling", Judgement::WIRE),
         names,
         max_bytes: fact("maximum length in bytes", Judgement::BEHAVIOR),
@@ -99,7 +99,7 @@ fn communication(
     });
 }
 
-/// Compares layouts as a whole: an inserted entry moves all that follow.
+/// Compares whole layouts, because an inserted entry moves all that follow.
 fn entries(old: &[PdoEntry], new: &[PdoEntry], comparison: &mut Comparison<'_>) {
     let (old_types, new_types) = comparison.types;
     let layouts = [Layout { entries: old, types: old_types }, Layout { entries: new, types: new_types }];
@@ -111,7 +111,7 @@ fn entries(old: &[PdoEntry], new: &[PdoEntry], comparison: &mut Comparison<'_>) 
         lengths(old, new, comparison);
     }
     objects(old, new, comparison);
-    // Entries at one place are compared further, and paddings in their order.
+    // The facts of entries at the same position are compared, and those of paddings in their order.
     let matching = Matching::of(&entry_keys(old), &entry_keys(new));
     for (old, other) in old.iter().zip(matching.new_of_old) {
         if let Some(new) = other.map(|at| &new[at]) {
@@ -120,7 +120,7 @@ fn entries(old: &[PdoEntry], new: &[PdoEntry], comparison: &mut Comparison<'_>) 
     }
 }
 
-/// Entries with the types that they name.
+/// Entries and the types that they refer to.
 struct Layout<'a> {
     entries: &'a [PdoEntry],
     types: &'a [TypeDef],
@@ -131,14 +131,14 @@ impl Layout<'_> {
         self.entries.iter().filter(|entry| entry.kind != PdoEntryKind::Padding)
     }
 
-    /// `0: UNSIGNED16 Controlword`, `16: INTEGER32 Target position`.
+    /// Returns texts such as `0: UNSIGNED16 Controlword` and `16: INTEGER32 Target position`.
     fn texts(&self) -> Vec<String> {
         let text =
             |entry: &PdoEntry| format!("{}: {} {}", entry.bit_offset, types::name(self.types, entry.ty), entry.name);
         self.fields().map(text).collect()
     }
 
-    /// The effects of another layout. Names and types of fields are those of a struct in Rust.
+    /// Returns the effects of another layout. Names and types of fields are those of a struct in Rust.
     fn effects_of(&self, new: &Layout<'_>) -> Judgement {
         let fields = |layout: &Layout<'_>| -> Vec<(String, String)> {
             layout.fields().map(|entry| (identifier(&entry.name), types::name(layout.types, entry.ty))).collect()
@@ -147,11 +147,12 @@ impl Layout<'_> {
         Judgement { api, wire: self.wire_effect_of(new), ..Judgement::NONE }
     }
 
-    /// Entries at other positions break the communication, and so do other types at the same ones.
+    /// Returns the effect on the bus. Other positions of entries, and other types at the same positions, break the
+    /// communication.
     fn wire_effect_of(&self, new: &Layout<'_>) -> Effect {
-        let places =
+        let positions =
             |layout: &Layout<'_>| layout.entries.iter().map(|entry| (entry.bit_offset, entry.bits)).collect::<Vec<_>>();
-        if places(self) != places(new) {
+        if positions(self) != positions(new) {
             return Effect::Breaking;
         }
         let types = self.entries.iter().zip(new.entries);
@@ -160,17 +161,17 @@ impl Layout<'_> {
     }
 }
 
-/// Entries belong together by name and place, and paddings by their order.
+/// Returns the keys of entries: names, and the order of paddings.
 fn entry_keys(entries: &[PdoEntry]) -> Vec<Key> {
     let mut paddings = 0_u32..;
     let name = |entry: &PdoEntry| match entry.kind {
         PdoEntryKind::Padding => format!("padding {}", paddings.next().unwrap_or_default()),
         _ => entry_title(entry),
     };
-    entries.iter().map(name).map(|name| Key { name, place: String::new() }).collect()
+    entries.iter().map(name).map(|name| Key { name, position: String::new() }).collect()
 }
 
-/// Padding has no place in the layout.
+/// Compares the lengths of entries, because the layout does not contain paddings.
 fn lengths(old: &[PdoEntry], new: &[PdoEntry], comparison: &mut Comparison<'_>) {
     let length = |entries: &[PdoEntry]| entries.iter().fold(0_u32, |bits, entry| bits.saturating_add(entry.bits));
     let of_all = |entries: &[PdoEntry]| format!("{} bits", length(entries));
@@ -183,14 +184,14 @@ fn lengths(old: &[PdoEntry], new: &[PdoEntry], comparison: &mut Comparison<'_>) 
     }
 }
 
-/// `Status at bit 16`.
+/// Returns a title such as `Status at bit 16`.
 fn entry_title(entry: &PdoEntry) -> String {
     format!("{} at bit {}", entry.name, entry.bit_offset).trim_start().to_owned()
 }
 
 fn entry(old: &PdoEntry, new: &PdoEntry, comparison: &mut Comparison<'_>) {
     compare_fields!(PdoEntry, old, new, comparison, {
-        // Only those of paddings differ here.
+        // Only the positions of paddings differ here.
         bit_offset: fact("first bit", Judgement::NONE),
         kind: fact_as("kind", Judgement::API, |kind| kind_name(*kind).to_owned()),
         name: text("name"),
@@ -200,7 +201,7 @@ fn entry(old: &PdoEntry, new: &PdoEntry, comparison: &mut Comparison<'_>) {
                 let (old, new) = (types::name(old_types, *one), types::name(new_types, *other));
                 comparison.texts("type", old, new, Judgement::NONE);
             }
-            // The layout has the types.
+            // The layout contains the types.
             _ => types::compare_definitions(*one, *other, comparison),
         },
         fixed: fact("part of every mapping", Judgement::BEHAVIOR),
@@ -219,7 +220,7 @@ fn kind_name(kind: PdoEntryKind) -> &'static str {
     }
 }
 
-/// The mapped objects, if other ones are at the same places.
+/// Compares the mapped objects if the positions are the same.
 fn objects(old: &[PdoEntry], new: &[PdoEntry], comparison: &mut Comparison<'_>) {
     let objects = |entries: &[PdoEntry]| -> Vec<String> {
         entries.iter().map(|entry| address::object(entry.index, entry.sub_index)).collect()
@@ -231,7 +232,7 @@ fn objects(old: &[PdoEntry], new: &[PdoEntry], comparison: &mut Comparison<'_>) 
     }
 }
 
-/// Replaces what both lists begin and end with.
+/// Replaces the common beginning and end of both lists.
 fn shorten(old: &mut Vec<String>, new: &mut Vec<String>) {
     let first = old.iter().zip(&*new).take_while(|(one, other)| one == other).count();
     let rest = (old.len() - first).min(new.len() - first);
@@ -260,7 +261,7 @@ fn sync_manager(old: &SyncManager, new: &SyncManager, comparison: &mut Compariso
     }, KEY => [number], POSITION => [origin]);
 }
 
-/// Images belong together by direction and name.
+/// Compares images, which are paired by direction and name.
 fn images() -> Elements<ProcessImage> {
     Elements { name: |image| format!("{:?} {}", image.direction, image.name), ..Elements::titled(image_title) }
 }

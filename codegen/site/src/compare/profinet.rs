@@ -7,7 +7,7 @@ use super::comparison::{
 use super::ethercat::joined;
 use super::identity::identity;
 use super::show::{index, Show};
-use super::slots::{places, Use};
+use super::slots::{compare_slots, Use};
 use super::texts::{documentation, extensions, renamed};
 use super::{groups, pdos, types};
 use lexibus_codegen::facts::{
@@ -49,7 +49,7 @@ fn lengths(lengths: &IoLengths) -> String {
     format!("input {}, output {}, both {}", input.show(), output.show(), data.show())
 }
 
-/// Names of subslots with their numbers.
+/// Formats the names of subslots with their numbers.
 pub(super) fn subslot_names(subslots: &[SubslotName]) -> String {
     joined(subslots, |subslot| {
         let SubslotName { number, name, names } = subslot;
@@ -73,7 +73,7 @@ fn menus(menus: &[Menu]) -> String {
     })
 }
 
-/// Submodules belong together by ident number and identifier.
+/// Returns the key that pairs submodules: ident number and identifier.
 pub(super) fn submodule_key(submodule: &Submodule) -> String {
     format!("{:08X} {}", submodule.ident, submodule.id)
 }
@@ -120,10 +120,10 @@ fn io_data(old: &IoData, new: &IoData, comparison: &mut Comparison<'_>) {
 
 fn io_item(item: &IoItem) -> String {
     let IoItem { name, names, data_type, bit_offset, bits, first_field, fields, subordinate } = item;
-    let place = facts::address::bits_of(*bit_offset, *bits);
+    let position = facts::address::bits_of(*bit_offset, *bits);
     let subordinate = if *subordinate { ", subordinate" } else { "" };
     let names = names.show();
-    format!("{data_type} {name} {names} in {place} ({bit_offset} + {bits}), {fields} fields from {first_field}{subordinate}")
+    format!("{data_type} {name} {names} in {position} ({bit_offset} + {bits}), {fields} fields from {first_field}{subordinate}")
 }
 
 fn channel(channel: &IoChannel) -> String {
@@ -169,15 +169,15 @@ pub(super) fn compare_uses(old: &[SubmoduleUse], new: &[SubmoduleUse], compariso
                 }
                 None => (format!("submodule number {}", one.submodule.0), one.submodule.0.to_string()),
             };
-            Use { title, key, places: one.places.clone() }
+            Use { title, key, slots: one.places.clone() }
         };
         uses.iter().map(used).collect()
     };
     let (old_catalog, new_catalog) = comparison.catalogs;
-    places(&uses(old_catalog, old), &uses(new_catalog, new), comparison);
+    compare_slots(&uses(old_catalog, old), &uses(new_catalog, new), comparison);
 }
 
-/// User structures of diagnosis belong together by API and identifier.
+/// Compares user structures of diagnosis, which are paired by API and identifier.
 pub(super) fn unit_diagnoses() -> impl Fn(&Vec<UnitDiagnosis>, &Vec<UnitDiagnosis>, &mut Comparison<'_>) {
     list(
         Elements::titled(|diagnosis: &UnitDiagnosis| {
@@ -193,7 +193,7 @@ fn diagnosis(old: &UnitDiagnosis, new: &UnitDiagnosis, comparison: &mut Comparis
         fields: list(Elements {
             title: |field: &UnitDiagnosisField| format!("field {}", field.name),
             name: |field| field.name.to_string(),
-            place: |field| field.bit_offset.to_string(),
+            position: |field| field.bit_offset.to_string(),
             added: |_| Judgement::API_AND_WIRE,
             removed: |_| Judgement::API_AND_WIRE,
         }, diagnosis_field),

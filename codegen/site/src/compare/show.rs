@@ -1,4 +1,4 @@
-//! Texts of values in reports.
+//! The texts of values in reports.
 
 use lexibus_codegen::facts;
 use lexibus_codegen::facts::number::{hex16, hex32};
@@ -8,12 +8,12 @@ use lexibus_codegen::ir::{
     ObjectCode, Oversampling, Places, Reference, SharedList, Trigger, Value, Zone,
 };
 
-/// A text for reports. Values that differ have different texts.
+/// A text for reports. Different values have different texts.
 pub(super) trait Show {
     fn show(&self) -> String;
 }
 
-/// Values that are printed as they are.
+/// Implements `Show` for values with a `Display` text.
 macro_rules! show_as_text {
     ($($type:ty),*) => {
         $(impl Show for $type {
@@ -32,7 +32,7 @@ impl<Id> Show for Reference<Id> {
     }
 }
 
-/// Names of alternatives.
+/// Implements `Show` for alternatives, with their names.
 macro_rules! show_as_name {
     ($($type:ident { $($pattern:pat => $name:expr),* $(,)? })*) => {
         $(impl Show for $type {
@@ -54,7 +54,7 @@ show_as_name! {
         Trigger::Toggle => "both edges",
         Trigger::SelfClearing => "cleared by the device",
     }
-    Zone { Zone::Reserved => "reserved", Zone::Vendor => "left to the vendor" }
+    Zone { Zone::Reserved => "reserved", Zone::Vendor => "vendor-specific" }
     Category {
         Category::Mandatory => "mandatory",
         Category::Optional => "optional",
@@ -120,12 +120,12 @@ impl<A: Show, B: Show> Show for (A, B) {
     }
 }
 
-/// An index in hexadecimal notation.
+/// Formats an index in hexadecimal notation.
 pub(super) fn index(number: &u16) -> String {
     hex16(*number)
 }
 
-/// An identity number in hexadecimal notation; empty if there is none.
+/// Formats an identity number in hexadecimal notation; empty if there is none.
 pub(super) fn ident(number: &Option<u32>) -> String {
     number.map(hex32).unwrap_or_default()
 }

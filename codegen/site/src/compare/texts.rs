@@ -1,4 +1,4 @@
-//! What a source says about an element in words, which has no effect.
+//! Texts of the source about an element. Changes have no effect.
 
 use super::change::Judgement;
 use super::comparison::{compare_fields, or_default, positioned, text, Comparison, CITATION};
@@ -7,7 +7,7 @@ use super::show::Show;
 use lexibus_codegen::facts::words::{origin_name, PLAIN};
 use lexibus_codegen::ir::{Documentation, Doubt, Doubts, Extensions, FactOrigin, Manual, ManualSection};
 
-/// Descriptions of an element.
+/// Compares the descriptions of an element.
 pub(super) fn documentation(
     old: &Option<Box<Documentation>>,
     new: &Option<Box<Documentation>>,
@@ -22,7 +22,7 @@ pub(super) fn documentation(
     })(old, new, comparison);
 }
 
-/// The origin of a fact without its position in a file.
+/// Formats the origin of a fact, without its position in a file.
 pub(super) fn origin(origin: &FactOrigin) -> String {
     match origin {
         FactOrigin::Overlay { file, replaces: false, .. } => format!("overlay {file}"),
@@ -35,14 +35,14 @@ fn text_from(from: &Option<Box<FactOrigin>>) -> String {
     from.as_deref().map(origin).unwrap_or_default()
 }
 
-/// The words of a description in one text.
+/// Joins the texts of a description.
 pub(super) fn described(documentation: Option<&Documentation>) -> String {
     let Some(Documentation { text, translations, text_from, cite: _ }) = documentation else { return String::new() };
     let parts = [text.clone(), translations.show(), self::text_from(text_from)];
     parts.into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join(" ")
 }
 
-/// Ambiguities of the source, with what was assumed.
+/// Compares the ambiguities in the source and the assumptions.
 pub(super) fn doubts(old: &Doubts, new: &Doubts, comparison: &mut Comparison<'_>) {
     positioned("assumptions", Judgement::NONE, |doubts: &Doubts| {
         doubts.iter().map(doubt).collect::<Vec<_>>().join(" ")
@@ -59,7 +59,7 @@ fn doubt(doubt: &Doubt) -> String {
     format!("({}{}) {text}", doubt.severity.name(), subject.unwrap_or_default())
 }
 
-/// Facts of the source for which the intermediate representation has no field.
+/// Compares the facts of the source for which the intermediate representation has no field.
 pub(super) fn extensions(old: &Extensions, new: &Extensions, comparison: &mut Comparison<'_>) {
     positioned("further keys", Judgement::NONE, |extensions: &Extensions| {
         extensions
@@ -70,7 +70,7 @@ pub(super) fn extensions(old: &Extensions, new: &Extensions, comparison: &mut Co
     })(old, new, comparison);
 }
 
-/// The manual that a description was transcribed from.
+/// Compares the manuals of two descriptions.
 pub(super) fn manual(old: &Option<Box<Manual>>, new: &Option<Box<Manual>>, comparison: &mut Comparison<'_>) {
     or_default(|old, new, comparison: &mut Comparison<'_>| {
         compare_fields!(Manual, old, new, comparison, {
@@ -85,7 +85,7 @@ pub(super) fn manual(old: &Option<Box<Manual>>, new: &Option<Box<Manual>>, compa
     })(old, new, comparison);
 }
 
-/// The effects of another name of an element with a method, field or constant: `snake_case`.
+/// Returns the effects of another name of an element. Its method, field or constant has this name in `snake_case`.
 pub(super) fn renamed<T: AsRef<str>>(old: &T, new: &T) -> Judgement {
     match identifier(old.as_ref()) == identifier(new.as_ref()) {
         true => Judgement::NONE,

@@ -1,4 +1,4 @@
-//! Types of values, with their names for bits and values.
+//! Types of values, including their names for bits and values.
 
 use std::collections::HashSet;
 
@@ -12,7 +12,7 @@ use lexibus_codegen::facts::words::PLAIN;
 use lexibus_codegen::ir::owner::Owner;
 use lexibus_codegen::ir::{BitFieldEntry, BitMeaning, EnumValue, Field, Shape, Type, TypeDef, TypeId};
 
-/// Compares the types of the current element, and the definitions of named types once for each pair.
+/// Compares the types of the current element. Each pair of definitions is compared once.
 pub(super) fn compare(old: &Type, new: &Type, comparison: &mut Comparison<'_>) {
     let (old_types, new_types) = comparison.types;
     let (old_text, new_text) = (name(old_types, *old), name(new_types, *new));
@@ -21,7 +21,7 @@ pub(super) fn compare(old: &Type, new: &Type, comparison: &mut Comparison<'_>) {
     compare_definitions(*old, *new, comparison);
 }
 
-/// Compares the definitions of named types once for each pair.
+/// Compares the definitions of named types. Each pair is compared once.
 pub(super) fn compare_definitions(old: Type, new: Type, comparison: &mut Comparison<'_>) {
     let (old_types, new_types) = comparison.types;
     match (definition(old_types, old), definition(new_types, new)) {
@@ -30,7 +30,7 @@ pub(super) fn compare_definitions(old: Type, new: Type, comparison: &mut Compari
             definitions(one, other, is_same_type, comparison);
         }
         (Some(_), Some(_)) | (None, None) => {}
-        // A name of a basic type; another definition has another text.
+        // These are names of a basic type. A definition would have another text.
         (one, other) if name(old_types, old) == name(new_types, new) => {
             let text = |value: Option<&TypeDef>| value.map(|value| value.name.to_string()).unwrap_or_default();
             comparison.push("name of the type", text(one), text(other), Judgement::NONE);
@@ -39,7 +39,7 @@ pub(super) fn compare_definitions(old: Type, new: Type, comparison: &mut Compari
     }
 }
 
-/// Compares a type that may be missing.
+/// Compares an optional type.
 pub(super) fn compare_optional(
     fact: &'static str,
     judgement: Judgement,
@@ -54,7 +54,7 @@ pub(super) fn compare_optional(
     }
 }
 
-/// Compares the types that no compared element has, by their names.
+/// Compares the types that no compared element uses, by their names.
 pub(super) fn compare_unused(comparison: &mut Comparison<'_>) {
     let (old_types, new_types) = comparison.types;
     let unused = |types: &[TypeDef], compared: HashSet<Type>| -> Vec<(TypeId, String)> {
@@ -77,7 +77,7 @@ pub(super) fn compare_unused(comparison: &mut Comparison<'_>) {
     );
 }
 
-/// `UNSIGNED16`, `values of UNSIGNED16`, `array of 4 × INTEGER16`.
+/// Returns `UNSIGNED16`, `values of UNSIGNED16` or `array of 4 × INTEGER16`, for example.
 pub(super) fn name(types: &[TypeDef], ty: Type) -> String {
     let shape = Owner::of_types(types).definition(ty).map(|definition| &definition.shape);
     match shape {
@@ -93,22 +93,22 @@ pub(super) fn name(types: &[TypeDef], ty: Type) -> String {
     }
 }
 
-/// The basic type below; `None` for arrays and records.
+/// Returns the basic type below a definition; `None` for arrays and records.
 fn basic_of(types: &[TypeDef], ty: Type) -> Option<Type> {
     Some(types::basic(types, ty)).filter(|basic| *basic != Type::Opaque(None))
 }
 
-/// The effects of another type.
+/// Returns the effects of another type.
 fn effects(old: Option<Type>, new: Option<Type>) -> Judgement {
     let (Some(old), Some(new)) = (old, new) else { return Judgement::API_AND_WIRE };
     match (old, new) {
-        // Names for bits and values are a type in Rust.
+        // In Rust, names for bits and values make another type.
         (old, new) if old == new => Judgement::API,
-        // The type in Rust has no length.
+        // The type in Rust is independent of the length.
         (Type::VisibleString(_), Type::VisibleString(_))
         | (Type::OctetString(_), Type::OctetString(_))
         | (Type::UnicodeString(_), Type::UnicodeString(_)) => Judgement::BEHAVIOR,
-        // The same bits, with another meaning of the highest one.
+        // Only the meaning of the highest bit differs.
         (Type::Integer(old), Type::Unsigned(new)) | (Type::Unsigned(old), Type::Integer(new)) if old == new => {
             Judgement { wire: Effect::Compatible, ..Judgement::API }
         }
@@ -116,7 +116,7 @@ fn effects(old: Option<Type>, new: Option<Type>) -> Judgement {
     }
 }
 
-/// The effect of another type on the bytes.
+/// Returns the effect of another type on the bytes.
 pub(super) fn wire_effect(old_types: &[TypeDef], old: Type, new_types: &[TypeDef], new: Type) -> Effect {
     match (basic_of(old_types, old), basic_of(new_types, new)) {
         (old, new) if old == new => Effect::Unaffected,
@@ -124,7 +124,7 @@ pub(super) fn wire_effect(old_types: &[TypeDef], old: Type, new_types: &[TypeDef
     }
 }
 
-/// Compares two definitions. `is_same_type`: another type has not been reported already.
+/// Compares two definitions. `is_same_type` says that no other type was reported.
 fn definitions(old: &TypeDef, new: &TypeDef, is_same_type: bool, comparison: &mut Comparison<'_>) {
     compare_fields!(TypeDef, old, new, comparison, {
         name: judged("name of the type", renamed),
@@ -162,12 +162,12 @@ fn shapes(old: &Shape, new: &Shape, comparison: &mut Comparison<'_>) {
             base(old_base, new_base, comparison);
             fact_as("scale", Judgement::API_AND_BEHAVIOR, |scale| PLAIN.scale(scale, ""))(old, new, comparison);
         }
-        // The name of the type says it, except if both are names of it.
+        // The name of the type shows the difference, unless both are names of it.
         _ => comparison.push("kind of the type", kind(old).to_owned(), kind(new).to_owned(), Judgement::API),
     }
 }
 
-/// The text of the type has the basic type below; its names are those of another definition.
+/// Compares the basic types below two definitions. The text of a type contains its basic type.
 fn base(old: &Type, new: &Type, comparison: &mut Comparison<'_>) {
     if matches!((old, new), (Type::Named(_), Type::Named(_))) {
         comparison.within("base", |comparison| compare(old, new, comparison));
@@ -189,7 +189,7 @@ fn fields(old: &[Field], new: &[Field], comparison: &mut Comparison<'_>) {
     let elements = Elements::<Field> {
         title: |field| format!("field {}", field.name),
         name: |field| field.name.to_string(),
-        place: |field| field.bit_offset.to_string(),
+        position: |field| field.bit_offset.to_string(),
         added: |_| Judgement::API_AND_WIRE,
         removed: |_| Judgement::API_AND_WIRE,
     };
@@ -228,7 +228,7 @@ fn bit_fields(old: &[BitFieldEntry], new: &[BitFieldEntry], comparison: &mut Com
 }
 
 fn bit_field(old: &BitFieldEntry, new: &BitFieldEntry, comparison: &mut Comparison<'_>) {
-    comparison.texts("position", place(old), place(new), Judgement::WIRE);
+    comparison.texts("position", position(old), position(new), Judgement::WIRE);
     compare_fields!(BitFieldEntry, old, new, comparison, {
         name, names,
         meaning: meanings,
@@ -240,8 +240,8 @@ fn bit_field(old: &BitFieldEntry, new: &BitFieldEntry, comparison: &mut Comparis
     }, COMPARED => [offset, bits], POSITION => [at]);
 }
 
-/// `bit 4`, `bits 7 to 4`.
-fn place(field: &BitFieldEntry) -> String {
+/// Returns `bit 4` or `bits 7 to 4`, for example.
+fn position(field: &BitFieldEntry) -> String {
     let last = u32::from(field.offset) + u32::from(field.bits).max(1) - 1;
     match field.bits {
         1 => format!("bit {last}"),
@@ -250,17 +250,17 @@ fn place(field: &BitFieldEntry) -> String {
     }
 }
 
-/// The bits, and when they have their meaning: `bits 7 to 4 while Mode is 1`.
+/// Returns the bits with the condition of their meaning: `bits 7 to 4 while Mode is 1`.
 fn bits(field: &BitFieldEntry) -> String {
     let when = field.when.as_ref().map(|condition| format!(" while {}", condition.show()));
-    place(field) + &when.unwrap_or_default()
+    position(field) + &when.unwrap_or_default()
 }
 
-/// What the getter of the bits returns.
+/// Compares the meanings of bits, which determine what the getter returns.
 fn meanings(old: &BitMeaning, new: &BitMeaning, comparison: &mut Comparison<'_>) {
     let judgement = match (old, new) {
         (BitMeaning::Reserved { .. }, BitMeaning::Reserved { .. }) => Judgement::BEHAVIOR,
-        // The methods are the same, and the bit is the opposite one.
+        // The methods are the same, but the bit is inverted.
         (BitMeaning::Flag { .. }, BitMeaning::Flag { .. }) => Judgement::WIRE,
         (BitMeaning::Reserved { .. }, _) => Judgement::API_COMPATIBLE,
         _ => Judgement::API,
@@ -274,7 +274,7 @@ fn meanings(old: &BitMeaning, new: &BitMeaning, comparison: &mut Comparison<'_>)
 fn meaning(bit_meaning: &BitMeaning) -> &'static str {
     match bit_meaning {
         BitMeaning::Flag { inverted: false } => "a flag",
-        BitMeaning::Flag { inverted: true } => "a flag that is set by 0",
+        BitMeaning::Flag { inverted: true } => "an inverted flag",
         BitMeaning::Number => "a number",
         BitMeaning::Enumeration(_) => "named values",
         BitMeaning::Reserved { write: None } => "reserved",

@@ -1,7 +1,8 @@
-//! A change of any leaf of the intermediate representation is reported by the comparison of versions, or the leaf is on a short list with a reason.
+//! The comparison of versions reports a change of any leaf of the intermediate representation, except for the leaves on
+//! a list with reasons.
 //!
-//! Every leaf of the serialized representation is changed: numbers, texts, truth values, alternatives, elements of lists, and what may be
-//! missing. Of the leaves with the same path, a few are changed: those of the smallest descriptions.
+//! The test changes every leaf of the serialized representation: numbers, texts, truth values, alternatives, list
+//! elements and optional parts. Of the leaves with the same path, it changes a few, in the smallest descriptions.
 
 #[allow(dead_code)]
 #[path = "../../../../tests/support/arbitrary_ir/mod.rs"]
@@ -25,7 +26,7 @@ use serde_json::Value;
 
 use crate::root::root;
 
-/// Facts that are not reported, with the reason: the end of the path of a field, in which `*` is any position.
+/// Facts that are not reported, with the reason. The key is the end of a path; `*` is any position in a list.
 const UNREPORTED: [(&str, &str); 12] = [
     ("/files", "the files that are compared"),
     ("/origin", "a position in the file"),
@@ -41,26 +42,28 @@ const UNREPORTED: [(&str, &str); 12] = [
     ("/manual/sections/*/start", "a position in the manual"),
 ];
 
-/// The entry of the list that a leaf is, or is a part of.
+/// Returns the reason why a leaf is not reported, if it or a part of it is on the list.
 fn unreported(pattern: &str) -> Option<&'static str> {
     let is_part = |end: &str| format!("{pattern}/").contains(&format!("{end}/"));
     UNREPORTED.iter().map(|(end, _)| *end).find(|end| is_part(end))
 }
 
-/// Whether nothing in a value is reported: all its parts are on the list, or state nothing.
+/// Returns whether nothing in a value is reported: each part is on the list or has its default.
 fn is_unreported(value: &Value, pattern: &str) -> bool {
-    let is_part_unreported = |own: &Value, pattern: &str| states_nothing(own) || is_unreported(own, pattern);
+    let is_part_unreported = |part: &Value, pattern: &str| is_default(part) || is_unreported(part, pattern);
     match value {
-        Value::Object(fields) => fields.iter().all(|(name, own)| is_part_unreported(own, &format!("{pattern}/{name}"))),
+        Value::Object(fields) => {
+            fields.iter().all(|(name, part)| is_part_unreported(part, &format!("{pattern}/{name}")))
+        }
         Value::Array(list) => {
-            !list.is_empty() && list.iter().all(|own| is_part_unreported(own, &format!("{pattern}/*")))
+            !list.is_empty() && list.iter().all(|part| is_part_unreported(part, &format!("{pattern}/*")))
         }
         _ => unreported(pattern).is_some(),
     }
 }
 
-/// Whether a value is the default of its type.
-fn states_nothing(value: &Value) -> bool {
+/// Returns whether a value is the default of its type.
+fn is_default(value: &Value) -> bool {
     match value {
         Value::Null | Value::Bool(false) => true,
         Value::String(text) => text.is_empty() || text == "unknown",
@@ -69,11 +72,12 @@ fn states_nothing(value: &Value) -> bool {
     }
 }
 
-/// Names of alternatives whose others all have a content that nothing here makes; the others become these.
+/// Names of alternatives without content in types whose other alternatives need one. The test can only change the
+/// others to these.
 const ALONE: [&str; 5] =
     ["/axes/rules/*/step", "/groups/*/kind", "/shape/bit_field/fields/*/meaning", "/request/*", "/reply/*"];
 
-/// A description, and its representation as JSON.
+/// A description and its JSON representation.
 struct Description {
     name: String,
     length: usize,
@@ -82,7 +86,7 @@ struct Description {
 }
 
 impl Description {
-    /// As it is read from its JSON. `None` if that has no number for one of its numbers.
+    /// Creates a description that is read from its JSON. Returns `None` if JSON cannot express one of its numbers.
     fn of(name: String, length: usize, catalog: &Catalog) -> Option<Self> {
         let json = serde_json::to_value(catalog).ok()?;
         let catalog = Catalog::deserialize(&json).ok()?;
@@ -96,7 +100,8 @@ impl Description {
     }
 }
 
-/// Inputs of the cases, the dictionaries, catalogs of any bytes, and in the full lane a part of the corpus; the smallest first.
+/// Returns the inputs of the UI cases, the dictionaries, catalogs from random bytes and, in the full lane, a part of
+/// the corpus, sorted by size.
 fn descriptions() -> Vec<Description> {
     let root = root();
     let mut paths = Vec::new();
@@ -113,7 +118,7 @@ fn descriptions() -> Vec<Description> {
         let catalog = arbitrary_ir::catalog(&mut Bytes::new(&seed::bytes(seed, BYTES)));
         Description::of(format!("seed {seed}"), BYTES, &catalog)
     }));
-    all.sort_by_key(|own| (own.length, own.name.clone()));
+    all.sort_by_key(|description| (description.length, description.name.clone()));
     all
 }
 
@@ -130,69 +135,70 @@ fn find(folder: &Path, paths: &mut Vec<PathBuf>) {
     }
 }
 
-/// Bytes of a catalog.
+/// Number of random bytes of a catalog.
 const BYTES: usize = 1500;
 
-/// What came of the changes of leaves.
+/// The results of changed leaves.
 #[derive(Default)]
 struct Tally {
-    /// How many leaves of each path were changed.
+    /// Number of changed leaves of each path.
     paths: BTreeMap<String, usize>,
     changes: usize,
     reported: usize,
-    /// Entries of the list that a leaf belongs to.
+    /// Entries of the list that apply to a leaf.
     listed: BTreeSet<&'static str>,
-    /// An example of each path that is not reported.
+    /// An example of each path without a report.
     missed: BTreeMap<String, String>,
-    /// An example of each path whose changes are none of its type. A part that cannot be missing is none of them.
+    /// An example of each path whose changes are all invalid. Removing a required part does not count.
     invalid: BTreeMap<String, String>,
 }
 
 impl Tally {
-    /// Changes the leaves of a description, of each path at most so many in all.
-    fn add(&mut self, own: &Description, most: usize, mutator: &mut Mutator) {
-        assert_eq!(compare(&own.catalog, &own.catalog), [], "{} differs from itself", own.name);
-        let mut json = own.json.clone();
-        for leaf in Leaf::all(&own.json) {
+    /// Changes the leaves of a description, at most `most` leaves of each path in total.
+    fn add(&mut self, description: &Description, most: usize, mutator: &mut Mutator) {
+        assert_eq!(compare(&description.catalog, &description.catalog), [], "{} differs from itself", description.name);
+        let mut json = description.json.clone();
+        for leaf in Leaf::all(&description.json) {
             let count = self.paths.entry(leaf.pattern()).or_default();
             *count += 1;
             if *count <= most {
-                self.leaf(own, &leaf, &mut json, mutator);
+                self.leaf(description, &leaf, &mut json, mutator);
             }
         }
     }
 
-    fn leaf(&mut self, own: &Description, leaf: &Leaf, json: &mut Value, mutator: &mut Mutator) {
+    fn leaf(&mut self, description: &Description, leaf: &Leaf, json: &mut Value, mutator: &mut Mutator) {
         let mut is_changed = false;
         for change in mutator.mutations(leaf, json) {
-            let example = format!("{} to {change} at {} of {}", leaf.value(json), leaf.pointer(), own.name);
+            let example = format!("{} to {change} at {} of {}", leaf.value(json), leaf.pointer(), description.name);
             let before = leaf.replace(json, change);
             let changed = Catalog::deserialize(&*json);
             leaf.replace(json, before);
             if let Ok(changed) = changed {
                 is_changed = true;
-                // A value that the representation leaves out when it is written is equal.
-                if changed != own.catalog {
-                    self.compare(own, &changed, leaf, example);
+                // A value is equal if the representation leaves it out.
+                if changed != description.catalog {
+                    self.compare(description, &changed, leaf, example);
                 }
             }
         }
         if !is_changed && leaf.is_value(json) {
-            self.invalid.insert(leaf.pattern(), format!("{} at {}", own.name, leaf.pointer()));
+            self.invalid.insert(leaf.pattern(), format!("{} at {}", description.name, leaf.pointer()));
         }
     }
 
-    fn compare(&mut self, own: &Description, changed: &Catalog, leaf: &Leaf, example: String) {
+    fn compare(&mut self, description: &Description, changed: &Catalog, leaf: &Leaf, example: String) {
         let pattern = leaf.pattern();
-        let is_reported = !compare(&own.catalog, changed).is_empty() && !compare(changed, &own.catalog).is_empty();
+        let is_reported =
+            !compare(&description.catalog, changed).is_empty() && !compare(changed, &description.catalog).is_empty();
         self.changes += 1;
         self.reported += usize::from(is_reported);
         match unreported(&pattern) {
             Some(entry) => {
-                assert!(!is_reported, "{example} is reported, and on the list");
+                assert!(!is_reported, "{example} is reported although it is on the list");
                 self.listed.insert(entry);
             }
-            None if !is_reported && !is_unreported(leaf.value(&own.json), &pattern) => {
+            None if !is_reported && !is_unreported(leaf.value(&description.json), &pattern) => {
                 self.missed.entry(pattern).or_insert(example);
             }
             None => {}
@@ -204,8 +210,8 @@ impl Tally {
 fn a_change_of_every_leaf_is_reported() {
     let most = if lane::is_full() { 4 } else { 1 };
     let (mut tally, mut mutator) = (Tally::default(), Mutator::default());
-    for own in descriptions() {
-        tally.add(&own, most, &mut mutator);
+    for description in descriptions() {
+        tally.add(&description, most, &mut mutator);
     }
     let Tally { paths, changes, reported, listed, missed, invalid } = tally;
     println!("{} paths, {changes} changes, {reported} reported", paths.len());
@@ -213,7 +219,7 @@ fn a_change_of_every_leaf_is_reported() {
         println!("missed: {pattern}: {example}");
     }
     let invalid: Vec<_> = invalid.iter().filter(|(path, _)| !ALONE.iter().any(|end| path.ends_with(end))).collect();
-    assert!(invalid.is_empty(), "no change was possible: {invalid:#?}");
-    assert!(missed.is_empty(), "{} paths are missed", missed.len());
-    assert_eq!(listed, UNREPORTED.iter().map(|(end, _)| *end).collect(), "the list has nothing that is not needed");
+    assert!(invalid.is_empty(), "no valid change of: {invalid:#?}");
+    assert!(missed.is_empty(), "{} paths have no report", missed.len());
+    assert_eq!(listed, UNREPORTED.iter().map(|(end, _)| *end).collect(), "the list has no unused entries");
 }

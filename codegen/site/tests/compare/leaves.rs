@@ -6,7 +6,7 @@ use lexibus_codegen::ir::Catalog;
 use serde::Deserialize;
 use serde_json::Value;
 
-/// A value within a larger one.
+/// A value within a larger value.
 pub struct Leaf {
     path: Vec<Key>,
 }
@@ -18,42 +18,43 @@ enum Key {
 }
 
 impl Leaf {
-    /// Every value within `root`: numbers, texts and truth values, and also what has parts, since it may be missing.
+    /// Returns every value within `root`: numbers, texts and truth values, and also lists and objects, because they can
+    /// be missing.
     pub fn all(root: &Value) -> Vec<Leaf> {
         let mut leaves = Vec::new();
         collect(root, &mut Vec::new(), &mut leaves);
         leaves
     }
 
-    /// The JSON pointer.
+    /// Returns the JSON pointer.
     pub fn pointer(&self) -> String {
-        let escaped = |own: &Key| match own {
+        let escaped = |key: &Key| match key {
             Key::Field(name) => format!("/{}", name.replace('~', "~0").replace('/', "~1")),
             Key::Position(position) => format!("/{position}"),
         };
         self.path.iter().map(escaped).collect()
     }
 
-    /// The pointer without positions.
+    /// Returns the pointer without positions.
     pub fn pattern(&self) -> String {
-        let name = |own: &Key| match own {
+        let name = |key: &Key| match key {
             Key::Field(name) => format!("/{name}"),
             Key::Position(_) => "/*".to_owned(),
         };
         self.path.iter().map(name).collect()
     }
 
-    /// The value itself.
+    /// Returns the value.
     pub fn value<'r>(&self, root: &'r Value) -> &'r Value {
         root.pointer(&self.pointer()).expect("a leaf")
     }
 
-    /// Whether it is a number, a text or a truth value.
+    /// Returns whether the leaf is a number, a text or a truth value.
     pub fn is_value(&self, root: &Value) -> bool {
         !matches!(self.value(root), Value::Object(_) | Value::Array(_))
     }
 
-    /// Puts another value in its place.
+    /// Replaces the value. Returns the old value.
     pub fn replace(&self, root: &mut Value, value: Value) -> Value {
         std::mem::replace(root.pointer_mut(&self.pointer()).expect("a leaf"), value)
     }
@@ -61,19 +62,19 @@ impl Leaf {
 
 fn collect(value: &Value, path: &mut Vec<Key>, leaves: &mut Vec<Leaf>) {
     match value {
-        // What is missing has no value to change; the removal of what is there is the same change the other way.
+        // A missing value has nothing to change. Its addition is the reverse of a removal.
         Value::Null => return,
         Value::Array(list) => {
-            for (position, own) in list.iter().enumerate() {
+            for (position, part) in list.iter().enumerate() {
                 path.push(Key::Position(position));
-                collect(own, path, leaves);
+                collect(part, path, leaves);
                 path.pop();
             }
         }
         Value::Object(fields) => {
-            for (name, own) in fields {
+            for (name, part) in fields {
                 path.push(Key::Field(name.clone()));
-                collect(own, path, leaves);
+                collect(part, path, leaves);
                 path.pop();
             }
         }
@@ -82,25 +83,25 @@ fn collect(value: &Value, path: &mut Vec<Key>, leaves: &mut Vec<Leaf>) {
     leaves.push(Leaf { path: path.clone() });
 }
 
-/// Makes other values of leaves.
+/// Creates other values of leaves.
 #[derive(Default)]
 pub struct Mutator {
-    /// The names of the alternatives at each path.
+    /// Names of the alternatives at each path.
     variants: HashMap<String, Vec<String>>,
 }
 
 impl Mutator {
-    /// Other values of a leaf. Some of them are none of its type.
+    /// Returns other values of a leaf. Some of them can be invalid.
     pub fn mutations(&mut self, leaf: &Leaf, root: &mut Value) -> Vec<Value> {
-        let own = leaf.value(root).clone();
-        let mut others = self.candidates(&own, leaf, root);
-        others.retain(|other| *other != own);
+        let value = leaf.value(root).clone();
+        let mut others = self.candidates(&value, leaf, root);
+        others.retain(|other| *other != value);
         others
     }
 
-    fn candidates(&mut self, own: &Value, leaf: &Leaf, root: &mut Value) -> Vec<Value> {
-        match own {
-            Value::Bool(own) => vec![Value::Bool(!own)],
+    fn candidates(&mut self, value: &Value, leaf: &Leaf, root: &mut Value) -> Vec<Value> {
+        match value {
+            Value::Bool(value) => vec![Value::Bool(!value)],
             Value::Number(number) => numbers(number),
             Value::String(text) => texts(text, self.variants(leaf, root)),
             Value::Array(list) => shorter(list),
@@ -115,7 +116,7 @@ impl Mutator {
         }
     }
 
-    /// The names of the alternatives that a place may have; none if it is no alternative.
+    /// Returns the names of the alternatives at a leaf; an empty list if it is no alternative.
     fn variants(&mut self, leaf: &Leaf, root: &mut Value) -> &[String] {
         self.variants.entry(leaf.pattern()).or_insert_with(|| variants(&leaf.pointer(), root))
     }
@@ -129,19 +130,19 @@ fn numbers(number: &serde_json::Number) -> Vec<Value> {
     }
 }
 
-/// Another text, or the other names of an alternative.
+/// Returns another text, or the other names of an alternative.
 fn texts(text: &str, variants: &[String]) -> Vec<Value> {
     match variants.is_empty() {
-        // A real number that is none is a text.
+        // JSON has no NaN or infinity, so these are texts.
         true => vec![Value::from(format!("{text}x")), Value::from(2.5)],
         false => variants.iter().map(|other| Value::from(other.as_str())).collect(),
     }
 }
 
-/// What the reader expects instead of a name that no alternative has.
+/// Returns the names that the deserializer expects instead of an unknown one.
 fn variants(pointer: &str, root: &mut Value) -> Vec<String> {
-    let place = root.pointer_mut(pointer).expect("a leaf");
-    let before = std::mem::replace(place, Value::from("no alternative"));
+    let target = root.pointer_mut(pointer).expect("a leaf");
+    let before = std::mem::replace(target, Value::from("no alternative"));
     let error = Catalog::deserialize(&*root).err().map(|error| error.to_string()).unwrap_or_default();
     *root.pointer_mut(pointer).expect("a leaf") = before;
     match error.split_once("unknown variant") {
@@ -150,7 +151,7 @@ fn variants(pointer: &str, root: &mut Value) -> Vec<String> {
     }
 }
 
-/// A list without its first element, and without its last one.
+/// Returns the list without its first element, and without its last one.
 fn shorter(list: &[Value]) -> Vec<Value> {
     match list {
         [] => Vec::new(),
@@ -159,7 +160,7 @@ fn shorter(list: &[Value]) -> Vec<Value> {
     }
 }
 
-/// The other alternatives, those without a content and those with the same one.
+/// Returns the other alternatives: those without content, and those with the same content.
 fn alternatives(content: &Value, variants: &[String]) -> Vec<Value> {
     let with_content = variants.iter().map(|name| Value::from_iter([(name.clone(), content.clone())]));
     with_content.chain(variants.iter().map(|name| Value::from(name.as_str()))).collect()

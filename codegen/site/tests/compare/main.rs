@@ -1,4 +1,4 @@
-//! What changed between two versions of a description, and whether it breaks code that was written for the old one.
+//! Changes between two versions of a description, and whether they break code for the old version.
 
 mod complete;
 mod leaves;
@@ -14,8 +14,9 @@ use lexibus_site::compare::{compare, Change, Effect};
 fn read(name: &str, text: &str) -> Catalog {
     let compilation =
         check(Source::new(name, text.as_bytes().to_vec()), &Options { no_profiles: true, ..Options::default() });
-    let said: Vec<String> = compilation.diagnostics.list().iter().map(|own| compilation.one_line(own)).collect();
-    assert!(compilation.is_usable(), "{said:#?}");
+    let reports: Vec<String> =
+        compilation.diagnostics.list().iter().map(|diagnostic| compilation.one_line(diagnostic)).collect();
+    assert!(compilation.is_usable(), "{reports:#?}");
     compilation.catalog.expect("a device")
 }
 
@@ -40,7 +41,7 @@ name = "Go"
 request = [{ bytes = [1] }, { field = "target", type = "i16" }]
 "#;
 
-/// What is told of a table in which these texts are replaced.
+/// Returns the changes of the table after these replacements.
 fn changes(replaced: &[(&str, &str)]) -> Vec<String> {
     let new = replaced.iter().fold(TABLE.to_owned(), |text, (old, new)| {
         assert!(text.contains(old), "{old}");
@@ -59,36 +60,36 @@ fn nothing_changed() {
 }
 
 #[test]
-fn what_changes_the_rust_of_a_value() {
+fn changes_of_a_value_that_affect_rust_code() {
     let one = |old: &str, new: &str| changes(&[(old, new)]).join("\n");
     assert_eq!(
         one(
             "bits = { 0 = \"ready\", 3 = \"fault\" }",
             "bits = { 0 = { name = \"ready\", inverted = true }, 3 = \"fault\" }"
         ),
-        "breaks wire: register 3 flags, bit 0: meaning a flag, now a flag that is set by 0"
+        "breaks wire: register 3 flags, bit 0: meaning a flag, now an inverted flag"
     );
     assert_eq!(
         one("scale = 0.1, unit", "scale = 0.1, na = { 0x7FFF = \"open\" }, unit"),
         "breaks api, behavior: register 4 gain: no number, 32767\n\
          no effect: register 4 gain: meaning of values that are no number, open"
     );
-    // A bus that is gone, and the second name of a register.
+    // Remove a bus, and the second name of a register.
     let object = |buses: &str| TABLE.replace("buses = [\"modbus\", \"serial\"]", buses);
     let both = "buses = [\"canopen\", \"modbus\", \"serial\"]";
     let on_both = object(both).replace("modbus = { table", "canopen = { index = 0x2000, sub = 0 }\nmodbus = { table");
     let only =
         on_both.replace("modbus = { table = \"holding\" }\n", "").replace(both, "buses = [\"canopen\", \"serial\"]");
-    let told = compare(&read("old.toml", &on_both), &read("new.toml", &only));
-    let speed = told.iter().map(Change::to_string).find(|line| line.contains("speed: buses"));
+    let changes = compare(&read("old.toml", &on_both), &read("new.toml", &only));
+    let speed = changes.iter().map(Change::to_string).find(|line| line.contains("speed: buses"));
     assert_eq!(speed.as_deref(), Some("breaks api, wire: 0x2001:00 speed: buses CANopen, Modbus, now CANopen"));
     let twice = TABLE
         .replace("level =", "percent = { reg = 5, type = \"u16\", access = \"ro\", same_as = \"level\" }\nlevel =");
-    let told = compare(
+    let changes = compare(
         &read("old.toml", &twice),
         &read("new.toml", &twice.replace("same_as = \"level\"", "same_as = \"level\", unit = \"%\"")),
     );
-    let lines: Vec<String> = told.iter().map(Change::to_string).collect();
+    let lines: Vec<String> = changes.iter().map(Change::to_string).collect();
     assert_eq!(lines, ["compatible: register 5 percent: unit, %"]);
 }
 
@@ -102,8 +103,8 @@ fn the_padding_of_a_pdo_is_a_part_of_its_length() {
              <Entry><Index>0</Index><BitLen>{bits}</BitLen></Entry></TxPdo></Device></Devices></Descriptions></EtherCATInfo>"
         )
     };
-    let told = compare(&read("old.xml", &esi(8)), &read("new.xml", &esi(16)));
-    let lines: Vec<String> = told.iter().map(Change::to_string).collect();
+    let changes = compare(&read("old.xml", &esi(8)), &read("new.xml", &esi(16)));
+    let lines: Vec<String> = changes.iter().map(Change::to_string).collect();
     assert_eq!(lines, ["breaks wire: TxPDO 0x1A00 P: length 16 bits, now 24 bits"]);
 }
 
@@ -133,7 +134,7 @@ fn facts_of_values() {
 }
 
 #[test]
-fn names_and_places() {
+fn names_and_addresses() {
     let one = |old: &str, new: &str| changes(&[(old, new)]).join("\n");
     assert_eq!(one("level = {", "height = {"), "breaks api: register 5 height: name level, now height");
     assert_eq!(one("level = {", "Level = {"), "no effect: register 5 Level: name level, now Level");
@@ -171,7 +172,7 @@ fn bits_values_codes_and_messages() {
     );
 }
 
-/// What is told of a file of the tests in which these texts are replaced.
+/// Returns the changes of a test file after these replacements.
 fn changes_of(path: &str, replaced: &[(&str, &str)]) -> Vec<String> {
     let path = root::root().join("tests/data").join(path);
     let old = std::fs::read_to_string(&path).expect("a description");
@@ -240,7 +241,7 @@ fn machines_and_procedures() {
     };
     assert_eq!(
         one("fault = { mask = 9, value = 9 }\n", "fault = { mask = 8, value = 8 }\n"),
-        "breaks wire: machine axis, state fault: bits 0x9 of 0x9, now 0x8 of 0x8"
+        "breaks wire: machine axis, state fault: bits 0x9 (mask 0x9), now 0x8 (mask 0x8)"
     );
     assert_eq!(one("fault = { mask = 9, value = 9 }\n", ""), "breaks api: machine axis, state fault: removed");
     assert_eq!(
@@ -271,7 +272,7 @@ fn layouts_of_pdos() {
         )
     };
     let changes = compare(&read("old.eds", &eds("0x60400010")), &read("new.eds", &eds("0x607A0020")));
-    let layout = changes.iter().find(|own| own.fact == "layout").expect("another layout");
+    let layout = changes.iter().find(|change| change.fact == "layout").expect("another layout");
     assert_eq!(
         (layout.old.as_str(), layout.new.as_str()),
         ("0: UNSIGNED16 Controlword", "0: INTEGER32 Target position")
@@ -296,13 +297,13 @@ fn a_description_differs_from_itself_in_nothing() {
     }
 }
 
-/// The changes between two tables.
+/// Returns the changes between two tables.
 fn between(old: &str, new: &str) -> Vec<String> {
     compare(&read("old.toml", old), &read("new.toml", new)).iter().map(Change::to_string).collect()
 }
 
 #[test]
-fn what_changes_the_bytes_only() {
+fn changes_that_affect_only_the_bytes() {
     let one = |old: &str, new: &str| changes(&[(old, new)]).join("\n");
     assert_eq!(
         one("3 = \"fault\"", "4 = \"fault\""),
@@ -324,11 +325,11 @@ fn ranges_of_values_that_can_be_written_and_of_those_that_cannot() {
             &format!("access = \"{access}\", unit = \"rpm\", min = 0, max = {max}"),
         )
     };
-    let told = |access: &str, max: u32| between(&with(access, 3000), &with(access, max)).join("\n");
-    assert_eq!(told("rw", 2000), "breaks behavior: register 1 speed: range 0 … 3000, now 0 … 2000");
-    assert_eq!(told("rw", 4000), "compatible: register 1 speed: range 0 … 3000, now 0 … 4000");
-    assert_eq!(told("ro", 2000), "compatible: register 1 speed: range 0 … 3000, now 0 … 2000");
-    assert_eq!(told("ro", 4000), "breaks behavior: register 1 speed: range 0 … 3000, now 0 … 4000");
+    let report = |access: &str, max: u32| between(&with(access, 3000), &with(access, max)).join("\n");
+    assert_eq!(report("rw", 2000), "breaks behavior: register 1 speed: range 0 … 3000, now 0 … 2000");
+    assert_eq!(report("rw", 4000), "compatible: register 1 speed: range 0 … 3000, now 0 … 4000");
+    assert_eq!(report("ro", 2000), "compatible: register 1 speed: range 0 … 3000, now 0 … 2000");
+    assert_eq!(report("ro", 4000), "breaks behavior: register 1 speed: range 0 … 3000, now 0 … 4000");
 }
 
 #[test]
@@ -339,8 +340,8 @@ fn a_further_element_of_a_name_changes_the_identifier() {
              [2001]\nParameterName={name}\nDataType=6\nAccessType=rw\n"
         )
     };
-    let told = compare(&read("old.eds", &two("Offset")), &read("new.eds", &two("gain")));
-    let lines: Vec<String> = told.iter().map(Change::to_string).collect();
+    let changes = compare(&read("old.eds", &two("Offset")), &read("new.eds", &two("gain")));
+    let lines: Vec<String> = changes.iter().map(Change::to_string).collect();
     assert_eq!(
         lines,
         ["breaks api: 0x2000 Gain: identifier gain, now gain_2000", "breaks api: 0x2001 gain: name Offset, now gain",]

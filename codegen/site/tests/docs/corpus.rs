@@ -1,4 +1,4 @@
-//! Documentation of every file of the corpus, in both formats: every link leads somewhere, and nothing is markup that isn't ours.
+//! Documentation of every file of the corpus, in both formats: all links are valid, and texts add no markup.
 
 use crate::corpus_support::{all_files, lane, File};
 use crate::docs_support::{html_links, markdown_links, values};
@@ -6,10 +6,10 @@ use lexibus_codegen::compile::{check, Options};
 use lexibus_codegen::source::Source;
 use lexibus_site::{Format, Site};
 
-/// Threads that share the work.
+/// Number of threads that share the work.
 const THREADS: usize = 2;
 
-/// Links of the pages of a file, in both formats; `None` where it has errors.
+/// Returns the number of links in the pages of a file, in both formats; `None` if the file has errors.
 fn links(file: &File) -> Option<(usize, usize)> {
     let compilation = check(Source::new(&*file.name, file.bytes.clone()), &Options::default());
     let pages = |format| {
@@ -36,12 +36,12 @@ fn every_file_has_pages() {
             scope.spawn(move || files.iter().skip(start).step_by(THREADS).map(links).collect::<Vec<_>>())
         };
         let parts: Vec<_> = (0..THREADS).map(part).collect();
-        parts.into_iter().flat_map(|part| part.join().expect("every link leads somewhere")).collect::<Vec<_>>()
+        parts.into_iter().flat_map(|part| part.join().expect("valid links")).collect::<Vec<_>>()
     });
     let (html, markdown) =
-        counts.iter().flatten().fold((0, 0), |(html, markdown), own| (html + own.0, markdown + own.1));
+        counts.iter().flatten().fold((0, 0), |(html, markdown), count| (html + count.0, markdown + count.1));
     println!("{} files, {html} links in HTML, {markdown} in Markdown", counts.iter().flatten().count());
-    // Those that are left are rejected by the compiler, with errors that other tests look at.
+    // The compiler rejects the other files, which other tests check.
     let percent = if lane::is_full() { 95 } else { 75 };
     assert!(counts.iter().flatten().count() * 100 > files.len() * percent);
 }

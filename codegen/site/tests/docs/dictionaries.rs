@@ -1,4 +1,4 @@
-//! Pages of the four drives that are transcribed from their manuals.
+//! Pages of the four drives whose manuals are transcribed.
 
 use std::collections::HashSet;
 
@@ -7,7 +7,7 @@ use lexibus_site::Site;
 
 use crate::doubts;
 
-/// The dictionaries.
+/// The dictionaries of the drives.
 const DRIVES: [&str; 4] = ["aec-vector-step.toml", "eco.toml", "hsd-sm137-sm140.toml", "kollmorgen-akd.toml"];
 
 #[test]
@@ -16,7 +16,7 @@ fn every_doubt_is_on_the_page_of_assumptions() {
         let catalog = doubts::catalog(file);
         let pages = Site::default().add("drive", &catalog);
         let page = pages.iter().find(|page| page.path.ends_with("assumptions.html")).expect("the page");
-        // A repeated row of the manual has its ambiguity once on the page, with a link to each item.
+        // The page lists the ambiguity of a repeated row once, with a link to each item.
         let all = doubts::doubts(&catalog);
         let fact = |doubt: &Doubt| {
             (doubt.says.clone(), doubt.chosen.clone(), doubt.cite.clone(), format!("{:?}", doubt.subject))

@@ -1,20 +1,20 @@
-//! The site of `lexibus docs`: each link leads somewhere, nothing of a description is markup, and it is as small as it should be.
+//! The site of `lexibus docs`: all links are valid, texts add no markup, and its size is limited.
 
 use crate::docs_support::{files, hostile, html_links, html_markup, site, values, ALL};
 use lexibus_codegen::source::Source;
 use lexibus_site::Format;
 
 #[test]
-fn each_link_leads_somewhere() {
+fn all_links_are_valid() {
     let count = html_links(&files(Format::Html, &ALL));
     assert!(count > 5000, "only {count} links");
 }
 
 #[test]
-fn the_search_finds_what_pages_have() {
+fn the_search_finds_the_entries_of_pages() {
     let pages = files(Format::Html, &["dictionaries/hsd-sm137-sm140.toml"]);
     let index = &pages.iter().find(|page| page.path == "hsd-sm137-sm140/search.js").expect("an index").text;
-    // A parameter, a message by its Italian name, a code.
+    // A parameter, the Italian name of a message, and a code.
     for text in ["KP_VEL\\t", "\\nCmdTraj\\tPosizionamento", "\\noverheated\\tALOVERHEATED\\t"] {
         assert!(index.contains(text), "{text}");
     }
@@ -100,7 +100,7 @@ fn repairs_stand_where_they_matter() {
         let first = pages.iter().find(|page| page.path.starts_with("pump/index") || page.path == "pump/index.md");
         assert!(first.expect("a first page").text.contains(all.trim_start_matches("pump/")));
     }
-    // What has none has no page of them.
+    // A file without diagnostics has no page of them.
     let pages = files(Format::Html, &["dictionaries/demo-drive.eds"]);
     assert!(pages.iter().all(|page| !page.path.ends_with("findings.html")));
 }
@@ -130,7 +130,7 @@ fn each_transition_of_cia_402_has_an_arrow() {
     let page = pages.iter().find(|page| page.path.ends_with("states-and-procedures.html")).expect("the state machine");
     let start = page.text.find("<svg class=\"states\"").expect("the diagram");
     let diagram = &page.text[start..start + page.text[start..].find("</svg>").expect("its end")];
-    // Transition 13 leaves any state.
+    // Transition 13 starts in any state.
     assert!(diagram.contains(">any state<"), "{diagram}");
     assert_eq!(diagram.matches("marker-end").count(), 16);
     for number in 1..=16 {

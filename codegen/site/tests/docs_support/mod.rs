@@ -1,4 +1,4 @@
-//! Sites of documentation that the tests of their formats have in common.
+//! Support for the tests of documentation formats.
 
 #![allow(dead_code, reason = "each test needs a part of it")]
 
@@ -15,19 +15,19 @@ use lexibus_site::{Format, Page, Site};
 use pulldown_cmark::{Event, Parser, Tag};
 use root::root;
 
-/// The pages of these sources.
+/// Returns the pages of these sources.
 pub fn site(format: Format, sources: Vec<(String, Source)>) -> Vec<Page> {
     let (mut site, mut pages) = (Site::new(format), Vec::new());
     for (name, source) in sources {
-        let own = site.add_compilation(&name, &check(source, &Options::default()));
-        assert!(!own.is_empty(), "{name}");
-        pages.extend(own);
+        let pages_of_source = site.add_compilation(&name, &check(source, &Options::default()));
+        assert!(!pages_of_source.is_empty(), "{name}");
+        pages.extend(pages_of_source);
     }
     pages.extend(site.finish());
     pages
 }
 
-/// The pages of these files of the repository.
+/// Returns the pages of these files of the repository.
 pub fn files(format: Format, paths: &[&str]) -> Vec<Page> {
     let read = |path: &&str| {
         let name = path.rsplit('/').next().unwrap_or(path).split('.').next().unwrap_or_default().to_owned();
@@ -36,7 +36,7 @@ pub fn files(format: Format, paths: &[&str]) -> Vec<Page> {
     site(format, paths.iter().map(read).collect())
 }
 
-/// Descriptions of every format.
+/// Descriptions in every format.
 pub const ALL: [&str; 10] = [
     "dictionaries/aec-vector-step.toml",
     "dictionaries/demo-drive.eds",
@@ -50,55 +50,55 @@ pub const ALL: [&str; 10] = [
     "tests/data/safe.gsdml.xml",
 ];
 
-/// The values of an attribute in double quotes.
+/// Returns the values of an attribute in double quotes.
 pub fn values<'p>(text: &'p str, attribute: &str) -> Vec<&'p str> {
     let start = format!(" {attribute}=\"");
     text.split(&start).skip(1).filter_map(|rest| rest.split('"').next()).collect()
 }
 
-/// Follows every link of a site.
+/// Follows every link of a site. Returns the number of links.
 ///
 /// # Panics
 ///
-/// Where one leads nowhere, or an address is given twice.
+/// If a link is invalid, or an id occurs twice.
 pub fn html_links(pages: &[Page]) -> usize {
     let mut ids: BTreeMap<&str, BTreeSet<&str>> = BTreeMap::new();
     for page in pages {
         let all = values(&page.text, "id");
-        let own: BTreeSet<&str> = all.iter().copied().collect();
-        assert_eq!(own.len(), all.len(), "{}: an id is given twice", page.path);
-        ids.insert(&page.path, own);
+        let ids_of_page: BTreeSet<&str> = all.iter().copied().collect();
+        assert_eq!(ids_of_page.len(), all.len(), "{}: an id is given twice", page.path);
+        ids.insert(&page.path, ids_of_page);
     }
     let mut count = 0;
     for page in pages.iter().filter(|page| page.path.ends_with(".html")) {
         let links = values(&page.text, "href").into_iter().chain(values(&page.text, "src"));
-        count += links.map(|link| follow(page, link, |path, id| ids.get(path).map(|own| own.contains(id)))).count();
+        count += links.map(|link| follow(page, link, |path, id| ids.get(path).map(|ids| ids.contains(id)))).count();
     }
     count
 }
 
-/// The same for Markdown.
+/// Follows every link of Markdown pages. Returns the number of links.
 ///
 /// # Panics
 ///
-/// As for a site.
+/// If a link is invalid, or an id occurs twice.
 pub fn markdown_links(all: &[Page]) -> usize {
     let mut ids: BTreeMap<&str, BTreeSet<String>> = BTreeMap::new();
     let mut links = Vec::new();
     for (page, seen) in pages(all) {
-        let own: Vec<&str> = seen.html.iter().filter_map(|html| id(html)).collect();
-        let once: BTreeSet<String> = own.iter().map(|own| (*own).to_owned()).collect();
-        assert_eq!(once.len(), own.len(), "{}: an id is given twice", page.path);
+        let ids_of_page: Vec<&str> = seen.html.iter().filter_map(|html| id(html)).collect();
+        let once: BTreeSet<String> = ids_of_page.iter().map(|id| (*id).to_owned()).collect();
+        assert_eq!(once.len(), ids_of_page.len(), "{}: an id is given twice", page.path);
         ids.insert(&page.path, once);
         links.extend(seen.links.into_iter().map(|link| (page, link)));
     }
     for (page, link) in &links {
-        follow(page, link, |path, id| ids.get(path).map(|own| own.contains(id)));
+        follow(page, link, |path, id| ids.get(path).map(|ids| ids.contains(id)));
     }
     links.len()
 }
 
-/// `has` tells whether a page has an address, and `None` of a page that isn't there.
+/// Checks a link. `has` returns whether a page has an id, or `None` if the page does not exist.
 fn follow(page: &Page, link: &str, has: impl Fn(&str, &str) -> Option<bool>) {
     let (file, anchor) = link.split_once('#').unwrap_or((link, ""));
     let folder = page.path.rsplit_once('/').map_or(String::new(), |(folder, _)| format!("{folder}/"));
@@ -111,7 +111,7 @@ fn follow(page: &Page, link: &str, has: impl Fn(&str, &str) -> Option<bool>) {
     assert!(anchor.is_empty() || is_there, "{}: {path} has no {anchor}", page.path);
 }
 
-/// What a reader of Markdown sees in a page, read as GitHub and `mdBook` do.
+/// The parts of a Markdown page that a reader sees, parsed as GitHub and `mdBook` do.
 #[derive(Default)]
 pub struct Seen {
     pub links: Vec<String>,
@@ -126,43 +126,43 @@ pub fn seen(page: &Page) -> Seen {
         match event {
             Event::Start(Tag::Link { dest_url, .. }) => seen.links.push(dest_url.into_string()),
             Event::Start(Tag::Image { .. }) => seen.images += 1,
-            Event::Html(own) | Event::InlineHtml(own) => seen.html.push(own.trim().to_owned()),
-            Event::Text(own) | Event::Code(own) => seen.text.push_str(&own),
+            Event::Html(text) | Event::InlineHtml(text) => seen.html.push(text.trim().to_owned()),
+            Event::Text(text) | Event::Code(text) => seen.text.push_str(&text),
             _ => {}
         }
     }
     seen
 }
 
-/// The address that `<a id="…">` gives.
+/// Returns the id in `<a id="…">`.
 pub fn id(html: &str) -> Option<&str> {
     html.strip_prefix("<a id=\"")?.strip_suffix("\">")
 }
 
-/// Each page with what is seen of it.
+/// Returns each page with its visible parts.
 pub fn pages(all: &[Page]) -> impl Iterator<Item = (&Page, Seen)> {
     all.iter().map(|page| (page, seen(page)))
 }
 
-/// Each page is where it belongs, whatever a description calls its devices.
+/// Checks that each path is within the folder, whatever the names of devices are.
 fn placed(pages: &[Page]) {
     for Page { path, .. } in pages {
         assert!(!path.contains("..") && !path.starts_with('/') && !path.contains(['<', '\\', ':']), "{path}");
     }
 }
 
-/// A description adds no element to the pages of a site.
+/// Checks that descriptions add no element to the pages of a site.
 ///
 /// # Panics
 ///
-/// Where one does.
+/// If a description adds an element.
 pub fn html_markup(all: &[Page]) {
     placed(all);
     for page in all.iter().filter(|page| page.path.ends_with(".html")) {
         assert_eq!(page.text.matches("<script").count(), 1, "{}", page.path);
         assert_eq!(page.text.matches("</title>").count(), 1, "{}", page.path);
         assert!(!page.text.contains("<img"), "{}", page.path);
-        // A quote would end an attribute, and what is behind it would be another one.
+        // A quote would end an attribute and begin another one.
         for tag in page.text.split('<').skip(1).filter_map(|rest| rest.split('>').next()) {
             let names = tag.split('"').step_by(2).collect::<String>();
             assert!(!names.contains("onerror") && !names.contains("onload"), "{}: <{tag}>", page.path);
@@ -170,11 +170,11 @@ pub fn html_markup(all: &[Page]) {
     }
 }
 
-/// The same for pages of Markdown, read as GitHub and `mdBook` do.
+/// Checks that descriptions add no markup to Markdown pages, parsed as GitHub and `mdBook` do.
 ///
 /// # Panics
 ///
-/// As for a site.
+/// If a description adds markup.
 pub fn markdown_markup(all: &[Page]) {
     placed(all);
     for (page, seen) in pages(all) {
