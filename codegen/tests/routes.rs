@@ -128,28 +128,28 @@ fn mistakes() {
         assert!(found.iter().any(|line| line.contains(words)), "{words}: {found:#?}");
     }
     assert_eq!(window(WINDOW), [""; 0]);
-    has(&window("indirect = {}"), "which has the value");
-    has(&window("indirect = { read = \"Value\" }"), "an item that takes the number");
-    has(&window("indirect = { write_address = \"Numbr\", read = \"Value\" }"), "no item called `Numbr`");
-    has(&window(&WINDOW.replace("0x8000..0x8FFF", "all")), "`all` are no numbers");
-    has(&window(&WINDOW.replace("first = \"value\"", "first = \"both\"")), "`both` is no order of writes");
+    has(&window("indirect = {}"), "for the value (`read`, `write`)");
+    has(&window("indirect = { read = \"Value\" }"), "an item for the number");
+    has(&window("indirect = { write_address = \"Numbr\", read = \"Value\" }"), "no item has the name `Numbr`");
+    has(&window(&WINDOW.replace("0x8000..0x8FFF", "all")), "`all` is not a range of numbers");
+    has(&window(&WINDOW.replace("first = \"value\"", "first = \"both\"")), "`both` is not a valid order of writes");
     has(
         &window("indirect = { write_address = \"Number\", read = { value = \"Value\", first = \"value\" } }"),
-        "before a value can be read",
+        "reading always writes the number first",
     );
-    has(&window(&WINDOW.replace("indirect = {", "indirect = { buses = [\"can\"],")), "`can` is no bus");
+    has(&window(&WINDOW.replace("indirect = {", "indirect = { buses = [\"can\"],")), "`can` is not a valid bus");
     let far = said(&table(
         "indirect = { write_address = \"Number\", read = \"Value\" }",
         "Far = { reg = 0x18000, type = \"u32\", access = \"ro\", buses = [\"canopen\"] }",
         "",
     ));
-    has(&far, "the number 98304 of `Far` doesn't fit `Number`, which has 16 bits");
+    has(&far, "the number 98304 of `Far` does not fit `Number`, which has 16 bits");
     let text = said(&table(
         "indirect = { write_address = \"Number\", read = \"Value\" }",
         "Name = { reg = 0x8000, type = \"str(4)\", access = \"ro\", buses = [\"canopen\"] }",
         "",
     ));
-    has(&text, "`Name` is only found behind a window");
+    has(&text, "`Name` is only accessible through a window");
     let variant = |text: &str| {
         said(&table(
             "",
@@ -158,7 +158,7 @@ fn mistakes() {
         ))
     };
     assert_eq!(variant("buses = [\"modbus\"], type = \"i16\""), [""; 0]);
-    has(&variant("buses = [\"modbus\"], type = \"f32\""), "an integer may have another width");
-    has(&variant("buses = [\"modbus\"], access = \"r\""), "`r` is no access");
-    has(&variant("models = [\"A\"], type = \"i16\""), "is one on some `buses`");
+    has(&variant("buses = [\"modbus\"], type = \"f32\""), "only change the length of an integer");
+    has(&variant("buses = [\"modbus\"], access = \"r\""), "`r` is not a valid access right");
+    has(&variant("models = [\"A\"], type = \"i16\""), "of a variant need `buses`");
 }

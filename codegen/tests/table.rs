@@ -118,10 +118,10 @@ fn choices_of_options() {
     let wrong = said(&read_with(table, &[("place", "hihg")]));
     assert_eq!(
         wrong,
-        ["error t.toml:4:10: there is no choice of the option `place` called `hihg` [TAB005] (there are: low, high)"]
+        ["error t.toml:4:10: no choice of the option `place` has the name `hihg` [TAB005] (known names: low, high)"]
     );
     let unknown = said(&read_with(table, &[("plaec", "low")]));
-    assert_eq!(unknown, ["error t.toml: there is no option of this table called `plaec` [TAB005] (there are: place)"]);
+    assert_eq!(unknown, ["error t.toml: no option of this table has the name `plaec` [TAB005] (known names: place)"]);
 }
 
 fn item<'c>(compilation: &'c Compilation, name: &str) -> &'c Item {

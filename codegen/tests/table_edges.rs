@@ -131,7 +131,8 @@ fn patterns_of_bits_are_signed_wherever_they_stand() {
 fn an_offset_is_a_finite_number() {
     let row = "[chapters.registers]\na = { reg = 0, type = \"i16\", access = \"rw\", offset = inf }\n";
     let compilation = read(SPACE, row);
-    let found = compilation.diagnostics.list().iter().filter(|found| found.message == "an offset is a finite number");
+    let found =
+        compilation.diagnostics.list().iter().filter(|found| found.message == "the offset is not a finite number");
     assert_eq!(found.count(), 1);
 }
 
@@ -153,14 +154,14 @@ fn ranges_that_turn_over_and_ranges_beyond() {
         let list = compilation.diagnostics.list().iter().filter(|found| found.code.id != "EDS063");
         list.map(|found| found.message.clone()).collect()
     };
-    let none = "`0..0xFFFF` is no value of INTEGER16, and no range of them";
+    let none = "`0..0xFFFF` is neither a value of INTEGER16 nor a range of them";
     assert_eq!(found("type = \"i16\", allowed = [\"0..0xFFFF\"], default = 5"), [none]);
     assert_eq!(found("type = \"i16\", allowed = [\"0x8000..0xFFFF\"], default = -5"), Vec::<String>::new());
     let beyond = found("type = \"u8\", max = 100, writable = [\"0..300\"]");
     assert_eq!(beyond.len(), 2, "{beyond:?}");
     assert!(beyond.iter().all(|message| message.contains("300")), "{beyond:?}");
     let many = found("type = \"u16\", writable = [\"0..1000\", \"2000..3000\"]");
-    assert_eq!(many, ["with 2000 to 3000 there are more than 1024 values"]);
+    assert_eq!(many, ["with 2000 to 3000, the list has more than 1024 values"]);
 }
 
 #[test]

@@ -192,5 +192,5 @@ fn mistakes_in_machines_and_procedures() {
 #[test]
 fn a_sync_manager_is_that_of_an_assigned_pdo() {
     let found = findings("[[pdos]]\nindex = 0x1A00\ndirection = \"tx\"\nentries = [\"pad/8\"]\nsm = 3\n");
-    assert!(found[0].contains("`sm` is the sync manager of a PDO that is assigned by default"), "{found:?}");
+    assert!(found[0].contains("`sm` applies only to a PDO that is assigned by default"), "{found:?}");
 }

@@ -77,10 +77,10 @@ fn models_and_buses_differ() {
     assert!(rust.contains("Of SM140: default 2, at most 20."), "{rust}");
     assert!(rust.contains("On modbus: 1 LSB = 0.1."), "{rust}");
     is_wrong(", variants = [{ default = 2 }]", "neither `models` nor `buses`");
-    is_wrong(", variants = [{ models = [\"SM140\"] }]", "nothing that differs");
-    is_wrong(", variants = [{ models = [\"SM150\"], default = 2 }]", "no model called `SM150`");
-    is_wrong(", variants = [{ buses = [\"can\"], default = 2 }]", "`can` is no bus");
-    is_wrong(", variants = [{ models = [\"SM140\"], default = \"x\" }]", "`x` is no value");
+    is_wrong(", variants = [{ models = [\"SM140\"] }]", "changes nothing");
+    is_wrong(", variants = [{ models = [\"SM150\"], default = 2 }]", "no model has the name `SM150`");
+    is_wrong(", variants = [{ buses = [\"can\"], default = 2 }]", "`can` is not a valid bus");
+    is_wrong(", variants = [{ models = [\"SM140\"], default = \"x\" }]", "`x` is not a value");
 }
 
 #[test]
@@ -103,20 +103,20 @@ fn scales() {
     for (scale, words) in [
         ("0", "the scale is 0"),
         ("nan", "the scale is NaN"),
-        ("{}", "the rule is empty"),
-        ("{ by = \"b\", offset = 1 }", "`offset` doesn't go with `by`"),
-        ("{ by = \"b\" }, offset = 1", "`offset` doesn't go with `by`"),
-        ("{ exponent = \"b\", factor = 2 }", "`factor` doesn't go with `exponent`"),
-        ("{ reciprocal = 2, by = \"b\" }", "`by` doesn't go with `reciprocal`"),
-        ("{ fraction = 15 }", "say `of` what"),
-        ("{ of = \"base\" }", "there is no `fraction`"),
-        ("{ base = 2 }", "there is no `exponent`"),
-        ("{ exponent = \"b\", base = 3 }", "`base` is 10 or 2"),
-        ("{ factor = 2, offset = 1 }, offset = 1", "write one of them"),
-        ("{ faktor = 2 }", "no key `faktor`"),
-        ("{ exponent = \"x\" }", "no item called `x`"),
-        ("{ times = \"x\" }", "no item called `x`"),
-        ("{ fraction = 15, of = \"x\" }", "no constant called `x`"),
+        ("{}", "the rule has no keys"),
+        ("{ by = \"b\", offset = 1 }", "`offset` and `by` cannot be in one rule"),
+        ("{ by = \"b\" }, offset = 1", "`offset` and `by` cannot be in one rule"),
+        ("{ exponent = \"b\", factor = 2 }", "`factor` and `exponent` cannot be in one rule"),
+        ("{ reciprocal = 2, by = \"b\" }", "`by` and `reciprocal` cannot be in one rule"),
+        ("{ fraction = 15 }", "`fraction` needs `of`"),
+        ("{ of = \"base\" }", "`of` is the base value"),
+        ("{ base = 2 }", "`base` is the base of an `exponent`"),
+        ("{ exponent = \"b\", base = 3 }", "`base` must be 10 or 2"),
+        ("{ factor = 2, offset = 1 }, offset = 1", "write only one of them"),
+        ("{ faktor = 2 }", "unknown key `faktor`"),
+        ("{ exponent = \"x\" }", "no item has the name `x`"),
+        ("{ times = \"x\" }", "no item has the name `x`"),
+        ("{ fraction = 15, of = \"x\" }", "no constant has the name `x`"),
     ] {
         is_wrong(&format!(", scale = {scale}"), words);
     }
@@ -126,7 +126,7 @@ fn scales() {
 fn a_scale_of_a_unit_is_found_at_its_place() {
     let text = a(", unit = \"speed\"") + "[units]\nspeed = { symbol = \"rpm\", scale = { by = \"nothing\" } }\n";
     let found = said(&text);
-    assert!(found.len() == 1 && found[0].starts_with("17:42: there is no item"), "{found:?}");
+    assert!(found.len() == 1 && found[0].starts_with("17:42: no item has the name"), "{found:?}");
 }
 
 #[test]
@@ -135,12 +135,12 @@ fn names_lead_somewhere() {
         a(", bits = \"B\"") + &format!("[bits.B.at]\n0 = {{ name = \"on\", models = [\"{models}\"] }}\n")
     };
     assert_eq!(said(&bits("SM1*")), [""; 0]);
-    assert!(said(&bits("SM9"))[0].contains("no model called `SM9`"));
+    assert!(said(&bits("SM9"))[0].contains("no model has the name `SM9`"));
     let values = a(", enum = \"E\"") + "[enums.E.values]\n0 = { name = \"on\", models = [\"SM9\"] }\n";
-    assert!(said(&values)[0].contains("no model called `SM9`"));
+    assert!(said(&values)[0].contains("no model has the name `SM9`"));
     let axes =
         a("") + "[axes]\ncount = 2\nmodels = [\"SM9\"]\nrules = [{ objects = \"0x6000..0x67FF\", index = 0x800 }]\n";
-    assert!(said(&axes)[0].contains("no model called `SM9`"));
+    assert!(said(&axes)[0].contains("no model has the name `SM9`"));
     let window = |name: &str| {
         a("").replace(
             "[[chapters]]",
@@ -148,7 +148,7 @@ fn names_lead_somewhere() {
         )
     };
     assert_eq!(said(&window("b")), [""; 0]);
-    assert!(said(&window("c"))[0].contains("no item called `c`"));
+    assert!(said(&window("c"))[0].contains("no item has the name `c`"));
 }
 
 #[test]
@@ -158,17 +158,17 @@ fn lists_and_ranges_of_values() {
     assert_eq!(own.limits.allowed[1], (Value::Int(3), Value::Int(7)));
     let behaviour = own.behaviour.as_ref().expect("a behaviour");
     assert_eq!((behaviour.writable_values.len(), behaviour.write_when[0].values.len()), (3, 4));
-    is_wrong(", allowed = [\"low\"]", "`low` is no value of UNSIGNED16, and no range of them");
-    is_wrong(", writable = [0.5]", "`0.5` is no value of UNSIGNED16");
-    is_wrong(", when = { b = \"on\" }", "`on` is no number");
+    is_wrong(", allowed = [\"low\"]", "`low` is neither a value of UNSIGNED16 nor a range of them");
+    is_wrong(", writable = [0.5]", "`0.5` is neither a value of UNSIGNED16");
+    is_wrong(", when = { b = \"on\" }", "`on` is neither a number");
     is_wrong(", when = { b = \"0..100000\" }", "more than 1024 values");
-    is_wrong(", step = 0.5", "`0.5` is no value of UNSIGNED16");
+    is_wrong(", step = 0.5", "`0.5` is not a value of the type UNSIGNED16");
 }
 
 #[test]
 fn words_that_are_no_command() {
-    is_wrong(", save = \"no\"", "`save` is `false`, or a command in quotes");
-    is_wrong(", save = \"yes\"", "`save` is `true`");
+    is_wrong(", save = \"no\"", "write `save = false` without quotes");
+    is_wrong(", save = \"yes\"", "write `save = true`");
 }
 
 #[test]
@@ -176,16 +176,16 @@ fn conditions_on_bits() {
     let text = a(", when = { b = { mask = 4, value = 0 } }");
     assert_eq!(said(&text), [""; 0]);
     assert!(rust(&text).contains("Can be written only while [b](B) \\& 0x4 is 0."));
-    is_wrong(", when = { b = { mask = 4, value = 1 } }", "never holds");
-    is_wrong(", when = { b = { mask = 4 } }", "never holds");
-    is_wrong(", when = { b = [1, { mask = 4 }] }", "one table of `mask` and `value`");
+    is_wrong(", when = { b = { mask = 4, value = 1 } }", "never true");
+    is_wrong(", when = { b = { mask = 4 } }", "never true");
+    is_wrong(", when = { b = [1, { mask = 4 }] }", "one table with `mask` and `value`");
     let values = a(", enum = \"E\"")
         + "[enums.E.values]\n0 = { name = \"off\", buses = [\"canopen\"] }\n1 = { name = \"on\", when = { b = 3 } }\n";
     assert_eq!(said(&values), [""; 0]);
     let text = rust(&values);
     assert!(text.contains("Only on CANopen.") && text.contains("Only while [b](super::objects::B) is 3."), "{text}");
     let never = values.replace("b = 3", "b = { mask = 4, value = 8 }");
-    assert!(said(&never)[0].contains("never holds"));
+    assert!(said(&never)[0].contains("never true"));
     let meanings = |other: &str| {
         a(", bits = \"B\"")
             + &format!(
@@ -200,7 +200,7 @@ fn conditions_on_bits() {
     assert_eq!(said(&bits), [""; 0]);
     let codes = a("") + "[codes.alarm.rows]\n1 = { name = \"hot\", models = [\"SM140\"], since = \"2.0\" }\n";
     assert_eq!(said(&codes), [""; 0]);
-    assert!(said(&codes.replace("SM140\"], since", "SM9\"], since"))[0].contains("no model called `SM9`"));
+    assert!(said(&codes.replace("SM140\"], since", "SM9\"], since"))[0].contains("no model has the name `SM9`"));
 }
 
 #[test]
@@ -219,15 +219,15 @@ fn objects_have_other_addresses_beside() {
     for (row, words) in [
         (
             "\"0x2000..0x2001\" = { name = \"a\", type = \"u8\", access = \"ro\", param = 1 }",
-            "stands for several objects",
+            "describes several objects",
         ),
-        ("0x2000 = { name = \"a\", type = \"u8\", access = \"ro\", count = 2 }", "`count` can't stand"),
-        ("0x2000 = { name = \"a\", type = \"u8\", access = \"ro\", obj = 0x2001 }", "`obj` can't stand"),
-        ("0x2000 = { name = \"a\", type = \"u8\", access = \"ro\", part = 1 }", "`part` can't stand"),
-        ("0x2000 = { name = \"a\", type = \"u8\", access = \"ro\", swap = true }", "`order` can't stand"),
-        ("0x2000 = { name = \"a\", type = \"u8\", access = \"ro\", why = \"x\" }", "`why` can't stand"),
-        ("0x2000 = { name = \"a\", code = \"record\", access = \"ro\" }", "`access` is said of a value"),
-        ("0x2000 = { name = \"a {m}\", type = \"u8\", access = \"ro\" }", "nothing fills `{`"),
+        ("0x2000 = { name = \"a\", type = \"u8\", access = \"ro\", count = 2 }", "`count` has no effect"),
+        ("0x2000 = { name = \"a\", type = \"u8\", access = \"ro\", obj = 0x2001 }", "`obj` has no effect"),
+        ("0x2000 = { name = \"a\", type = \"u8\", access = \"ro\", part = 1 }", "`part` has no effect"),
+        ("0x2000 = { name = \"a\", type = \"u8\", access = \"ro\", swap = true }", "`order` has no effect"),
+        ("0x2000 = { name = \"a\", type = \"u8\", access = \"ro\", why = \"x\" }", "`why` has no effect"),
+        ("0x2000 = { name = \"a\", code = \"record\", access = \"ro\" }", "`access` applies to a value"),
+        ("0x2000 = { name = \"a {m}\", type = \"u8\", access = \"ro\" }", "the placeholder in the name"),
         ("0x2000 = { name = \"a\", type = \"u8\", access = \"ro\", buses = [\"modbus\"] }", "on neither"),
     ] {
         let found = said(&objects(row));
@@ -250,49 +250,53 @@ fn several_of_the_same() {
     let range = rows("\"w{n}\" = { reg = \"66-72\", type = \"u16\", access = \"ro\", count = 7 }");
     assert_eq!(said(&range), [""; 0]);
     let short = said(&range.replace("66-72", "66-70"));
-    assert!(short.len() == 1 && short[0].contains("takes 1, or 7 for all"), "{short:?}");
+    assert!(short.len() == 1 && short[0].contains("needs 1, or 7 for all items"), "{short:?}");
     let found = |row: &str| said(&rows(row)).join("\n");
     assert!(found("\"w{n}\" = { reg = 1, type = \"u16\", access = \"ro\" }").contains("needs a `count`"));
-    assert!(found("\"w{m}\" = { reg = 1, type = \"u16\", access = \"ro\" }").contains("nothing fills `{`"));
+    assert!(found("\"w{m}\" = { reg = 1, type = \"u16\", access = \"ro\" }").contains("the placeholder in the name"));
     let bits = a(", bits = \"B\"") + "[bits.B.at]\n\"0..15\" = \"input {n+1}\"\n";
     assert_eq!(said(&bits), [""; 0]);
     assert!(rust(&bits).contains("input_16"));
-    assert!(said(&bits.replace("0..15", "0"))[0].contains("nothing fills `{`"));
+    assert!(said(&bits.replace("0..15", "0"))[0].contains("the placeholder in the name"));
 }
 
 #[test]
 fn keys_where_they_say_nothing() {
     for (more, words) in [
-        (", name = \"x\"", "`name` can't stand"),
-        (", code = \"var\"", "`code` can't stand"),
-        (", add = true", "`add` can't stand"),
-        (", why = \"x\"", "`why` can't stand"),
-        (", stride = 2", "`stride` can't stand"),
-        (", max_count = 2", "`max_count` can't stand"),
+        (", name = \"x\"", "`name` has no effect"),
+        (", code = \"var\"", "`code` has no effect"),
+        (", add = true", "`add` has no effect"),
+        (", why = \"x\"", "`why` has no effect"),
+        (", stride = 2", "`stride` has no effect"),
+        (", max_count = 2", "`max_count` has no effect"),
         (", part = 17", "ends at bit 17"),
-        (", bits = { 0 = \"x\" }, enum = { 0 = \"y\" }", "stand in one row"),
-        (", count = \"b\"", "nothing says how many rows there are"),
-        (", buses = [\"serial\"]", "no address on serial: the space `register` gives none there"),
+        (", bits = { 0 = \"x\" }, enum = { 0 = \"y\" }", "both `bits` and `enum`"),
+        (", count = \"b\"", "the maximum number of items is missing"),
+        (", buses = [\"serial\"]", "no address on serial: the space `register` has no rule for these buses"),
     ] {
         let text = a(more).replace("\"u16\", access = \"rw\", part", "\"bool\", access = \"rw\", part");
         let found = said(&text);
         assert!(found.iter().any(|line| line.contains(words)), "{more}: {found:#?}");
     }
     let by_object = rows("a = { obj = 0x2000, part = 1, type = \"bool\", access = \"ro\" }");
-    assert!(said(&by_object).iter().any(|line| line.contains("`part` can't stand")));
+    assert!(said(&by_object).iter().any(|line| line.contains("`part` has no effect")));
     let defaults = a("")
         .replace("[chapters.registers]", "defaults = { access = \"ro\", doc = \"x\", min = 1 }\n[chapters.registers]");
     let found = said(&defaults);
-    assert!(found.len() == 2 && found[0].contains("don't inherit `doc`") && found[1].contains("`min`"), "{found:?}");
+    assert!(found.len() == 2 && found[0].contains("do not inherit `doc`") && found[1].contains("`min`"), "{found:?}");
     let top = a("") + "[defaults]\nwhen = { b = 1 }\n";
-    assert!(said(&top)[0].contains("don't inherit `when`"));
+    assert!(said(&top)[0].contains("do not inherit `when`"));
 }
 
 #[test]
 fn buses_and_tables_of_modbus() {
     let on = |buses: &str| a("").replace("[device]\n", &format!("[device]\nbuses = [{buses}]\n"));
     let row = on("\"modbus\"").replace("access = \"rw\"", "access = \"rw\", buses = [\"canopen\"]");
-    assert!(said(&row).iter().any(|line| line.contains("the device isn't on canopen")), "{:?}", said(&row));
+    assert!(
+        said(&row).iter().any(|line| line.contains("the device does not have the bus canopen")),
+        "{:?}",
+        said(&row)
+    );
     let serial = on("\"modbus\", \"serial\"").replace("reg = 1,", "param = 1, buses = [\"serial\"],");
     assert_eq!(said(&serial), [""; 0]);
     let own = item(&read(&serial), "a").availability.clone().expect("buses");
@@ -318,16 +322,16 @@ fn buses_and_tables_of_modbus() {
     }
     let other =
         facts.replace("[[chapters]]", "[spaces.other]\nmodbus = { table = \"holding\", max_read = 9 }\n[[chapters]]");
-    assert!(said(&other)[0].contains("another space says otherwise"));
-    assert!(said(&facts.replace("1..90", "0..300"))[0].contains("numbers of nodes"));
+    assert!(said(&other)[0].contains("another space has other requests"));
+    assert!(said(&facts.replace("1..90", "0..300"))[0].contains("node IDs must be"));
     let wide = said(&facts.replace("max_read = 125", "max_read = 126"));
-    assert!(wide.len() == 1 && wide[0].contains("reads 125 registers at most"), "{wide:?}");
-    assert!(said(&facts.replace("max_write = 2", "max_write = 0"))[0].contains("one register at least"));
+    assert!(wide.len() == 1 && wide[0].contains("reads at most 125 registers"), "{wide:?}");
+    assert!(said(&facts.replace("max_write = 2", "max_write = 0"))[0].contains("at least one register"));
     assert!(rust(&facts.replace("max_write = 2", "split = true")).contains("max_write: 123,\n        split: true,"));
     let coils = rows("a = { reg = \"1-8\", type = \"u8\", access = \"rw\" }").replace("holding", "coil");
     assert_eq!(said(&coils), [""; 0]);
     let inputs = said(&a("").replace("holding", "input"));
-    assert!(inputs.len() == 1 && inputs[0].contains("inputs of Modbus can only be read"), "{inputs:?}");
+    assert!(inputs.len() == 1 && inputs[0].contains("Modbus inputs are read-only"), "{inputs:?}");
 }
 
 #[test]
@@ -347,14 +351,14 @@ fn one_address_of_two_models_and_one_name_in_two_chapters() {
     assert_eq!(said(&chapter("\"Two/a\"")), [""; 0]);
     assert!(rust(&chapter("\"Two/a\"")).contains("only while [Two/a](A_"));
     let found = said(&chapter("a"));
-    assert!(found.len() == 1 && found[0].contains("several chapters have `a`"), "{found:?}");
-    assert!(said(&chapter("\"Three/a\""))[0].contains("no item called `Three/a`"));
+    assert!(found.len() == 1 && found[0].contains("several chapters have an item `a`"), "{found:?}");
+    assert!(said(&chapter("\"Three/a\""))[0].contains("no item has the name `Three/a`"));
 }
 
 #[test]
 fn process_data_map_objects() {
     let text = a("") + "[[pdos]]\nindex = 0x1A00\ndirection = \"tx\"\nentries = [\"b\"]\n";
-    assert!(said(&text)[0].contains("`b` is no object, and PDOs map objects"));
+    assert!(said(&text)[0].contains("`b` is not an object, and PDOs map objects only"));
 }
 
 #[test]
@@ -364,11 +368,11 @@ fn findings_say_what_and_where() {
         assert!(found.len() == 1 && found[0].contains(words), "{words}: {found:#?}");
     };
     one(&rows("w = { reg = 1, type = \"u16\", access = \"ro\", count = 3 }"), "`w` is the name of 3 items");
-    one(&a(", default = [1, 2]"), "the list has 2 defaults, and the row stands for 1 items");
+    one(&a(", default = [1, 2]"), "the list has 2 defaults, but the row describes 1 items");
     let by_parameter = a("")
         .replace("modbus = { table = \"holding\" }", "parameter = true")
         .replace("reg = 1,", "reg = 1, swap = true,");
-    one(&by_parameter, "`a` is none");
+    one(&by_parameter, "`a` has none");
     let bits = a(", bits = \"B\"") + "[bits.B.at]\n0 = \"one\"\n\"1-0\" = \"two\"\n";
     one(&bits, "18:1: ");
     let values = a(", enum = \"E\"") + "[enums.E.values]\n0 = \"one\"\n\"0..3\" = \"two\"\n";

@@ -89,7 +89,7 @@ fn short_values_fill_their_registers() {
     let plain = rust(&format!("{WINDOWS}{rows}").replace("extend = true\n", ""));
     assert!(plain.contains("rt::Register::holding(32775).words_per_address(2)") && !plain.contains("sign_extended"));
     let found = said("[spaces.far]\nextend = true\ncanopen = { index = 0x2000 }\n");
-    assert_eq!(found, ["TAB004 `extend` is about registers of Modbus, and the space has none"]);
+    assert_eq!(found, ["TAB004 `extend` applies to Modbus registers, which the space does not have"]);
 }
 
 #[test]
@@ -130,7 +130,7 @@ fn pdos_of_one_bus_beside_those_of_another() {
     let both = PDOS.replace("buses = [\"ethercat\"]\n", "");
     assert!(said(&both)[0].starts_with("ESI042"));
     let neither = PDOS.replace("buses = [\"ethercat\"]\nentries", "buses = [\"modbus\"]\nentries");
-    assert_eq!(said(&neither)[0], "TAB004 PDOs are found on CANopen and EtherCAT, and this one is on neither");
+    assert_eq!(said(&neither)[0], "TAB004 PDOs exist on CANopen and EtherCAT only, and this one is on neither");
 }
 
 #[test]
@@ -165,9 +165,13 @@ fn numbers_in_several_items() {
     }
     assert!(!code.contains("pub const DEVICE: rt::Composite"));
     for (old, new, found) in [
-        ("parts = [\"high\", \"low\"], base = 100", "parts = [\"high\"], base = 100", "TAB004 `parts` are two items"),
-        ("base = 100", "base = 1", "TAB004 `base` is what a digit"),
-        (", negative = 2", "", "TAB004 `negative` is the value"),
+        (
+            "parts = [\"high\", \"low\"], base = 100",
+            "parts = [\"high\"], base = 100",
+            "TAB004 `parts` needs at least two items",
+        ),
+        ("base = 100", "base = 1", "TAB004 `base`, the ratio of a part"),
+        (", negative = 2", "", "TAB004 `negative`, the value of `sign`"),
         ("sign = \"sign\", ", "", "TAB004 `negative` is a value of `sign`"),
         ("\"low\"], base = 100", "\"lower\"], base = 100", "TAB005"),
     ] {

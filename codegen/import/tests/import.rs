@@ -544,7 +544,7 @@ fn items_18_and_19_indices_beside_numbers() {
     assert!(table.contains("modbus = { table = \"holding\", first = 0 }"), "{table}");
     let device = check(Source::new("list.toml", table.as_bytes().to_vec()), &Options::default());
     let codes: Vec<_> = device.diagnostics.list().iter().map(|own| (own.code.id, own.message.as_str())).collect();
-    let series = "the row says object 0x4803, and by the rows around it, it would be 0x4804";
+    let series = "the row has object 0x4803, but 0x4804 follows from the neighboring rows";
     assert_eq!(codes, [("TAB001", series)]);
     let device = device.catalog.expect("a catalogue").devices.remove(0);
     let bindings = &item(&device, "Ralmbuffres").bindings;

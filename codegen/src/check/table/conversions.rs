@@ -1,4 +1,4 @@
-//! Numbers that the manual converts as examples against the scales: each is at most one LSB from the value of the raw number.
+//! Checks the conversions that the manual prints as examples: each is at most 1 LSB from the physical value of the raw value.
 
 use super::physical;
 use crate::check::context::Context;
@@ -6,7 +6,7 @@ use crate::diagnostics::{codes, Diagnostics};
 use crate::ir::{Conversion, Device, Item, MachineUnit, Quantity, Scale};
 use crate::text::brief;
 
-/// As many digits behind the first one as show a count of 16 bits.
+/// The number of digits after the first one, enough for a raw value of 16 bits.
 const DIGITS: f64 = 6.0;
 
 pub(crate) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
@@ -17,13 +17,13 @@ pub(crate) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
         for conversion in &quantity.conversions {
             if let Some(text) = problem(device, item, quantity, conversion) {
                 let found = codes::CONVERSION_DIFFERS.at(conversion.at, text);
-                diagnostics.push(found.help("keep the numbers that fit each other, with a `doubt`"));
+                diagnostics.push(found.help("keep the consistent numbers, and add a `doubt`"));
             }
         }
     }
 }
 
-/// What is wrong with a conversion; a number beyond a count from what the raw one stands for, or one that can't be computed.
+/// Returns the problem of a conversion: it differs by more than 1 LSB, or cannot be computed.
 fn problem(device: &Device, item: &Item, quantity: &Quantity, conversion: &Conversion) -> Option<String> {
     let (raw, value) = (conversion.raw? as f64, conversion.value?);
     let name = brief(&item.name);
@@ -39,32 +39,32 @@ fn problem(device: &Device, item: &Item, quantity: &Quantity, conversion: &Conve
     let is_within = low <= value && value <= high || low.is_nan() || high.is_nan();
     let unit = if unit.is_empty() { String::new() } else { format!(" {unit}") };
     (!is_within)
-        .then(|| format!("`{name}`: {raw} stands for {}{unit}, and not for {value}", physical::rounded(exact, DIGITS)))
+        .then(|| format!("`{name}`: the raw value {raw} is {}{unit}, not {value}", physical::rounded(exact, DIGITS)))
 }
 
-/// The physical number that a raw one stands for.
+/// Returns the physical value of a raw value.
 fn physical(device: &Device, quantity: &Quantity, conversion: &Conversion, raw: f64) -> Result<f64, String> {
     let model = device.variants.iter().find(|variant| Some(&variant.name) == conversion.model.as_ref());
     physical::of_raw(quantity.scale.as_ref(), raw, |name| {
         let constant = matches!(quantity.scale, Some(Scale::Fraction { .. })).then(|| physical::constant(model, name));
-        constant.flatten().or(conversion.by).ok_or_else(|| format!("say `by`, the value of `{}`", brief(name)))
+        constant.flatten().or(conversion.by).ok_or_else(|| format!("write the value of `{}` as `by`", brief(name)))
     })
 }
 
-/// The number in the unit that the example has.
+/// Converts the physical value to the unit of the example.
 fn in_unit(device: &Device, quantity: &Quantity, conversion: &Conversion, number: f64) -> Result<f64, String> {
     let Some(unit) = conversion.unit.as_ref().filter(|unit| **unit != quantity.unit) else { return Ok(number) };
     match quantity.machine.as_deref().filter(|machine| machine.unit == *unit) {
         Some(machine) => Ok(number * ratio(device, machine, conversion)?),
-        None => Err(format!("`{}` is neither the item's unit nor the machine's", brief(unit))),
+        None => Err(format!("`{}` is neither the unit of the item nor that of the machine", brief(unit))),
     }
 }
 
-/// What a number of the machine is multiplied with.
+/// Returns the ratio of machine values to physical values.
 fn ratio(device: &Device, unit: &MachineUnit, conversion: &Conversion) -> Result<f64, String> {
     physical::ratio(unit, |name| {
         let given = conversion.given.iter().find(|(given, _)| given == name).map(|(_, number)| *number);
         let number = given.or_else(|| physical::given(device, conversion.model.as_deref(), name));
-        number.ok_or_else(|| format!("say what `{}` is, in `given`", brief(name)))
+        number.ok_or_else(|| format!("write the value of `{}` in `given`", brief(name)))
     })
 }

@@ -1,11 +1,11 @@
-//! PDOs that a table declares, and values of mapping objects without CANopen settings, against the items that they map.
+//! Checks the PDOs of a table, and the defaults of mapping objects without CANopen settings, against the mapped items.
 
 use crate::check::context::Context;
 use crate::check::mapped_object::{direction_of, Described, Mapped, CAN_BITS};
 use crate::diagnostics::{codes, Diagnostics};
 use crate::ir::{Device, Group, Item, Pdo, PdoEntryKind};
 
-/// Reports mapped objects that don't fit. Those of CANopen mapping objects and of EtherCAT have checks of their own.
+/// Reports mapped objects that do not fit. Other checks cover CANopen mapping objects and EtherCAT.
 pub(crate) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
     let device = context.device;
     let described = Described::new(device);
@@ -27,14 +27,14 @@ fn length(device: &Device, pdo: &Pdo, diagnostics: &mut Diagnostics) {
     let (bits, index) = (pdo.bits(), pdo.mapping_index);
     let mut report = |message| diagnostics.push(codes::PDO_TOO_LONG.at(pdo.origin.span, message));
     if let Some(max) = pdo.max_bytes.filter(|&max| bits > u32::from(max) * 8) {
-        report(format!("the PDO 0x{index:04X} has {bits} bits, and at most {max} bytes"));
+        report(format!("the PDO 0x{index:04X} has {bits} bits, but at most {max} bytes are allowed"));
     }
     if device.canopen.is_some() && device.ethercat.is_none() && bits > CAN_BITS {
-        report(format!("the PDO 0x{index:04X} has {bits} bits, and a CAN frame has 64"));
+        report(format!("the PDO 0x{index:04X} has {bits} bits, but a CAN frame has 64"));
     }
 }
 
-/// What a mapping object maps by its defaults.
+/// Checks the entries that a mapping object has by default.
 fn defaults(described: &Described<'_>, group: &Group, diagnostics: &mut Diagnostics) {
     let Some(direction) = group.index().and_then(direction_of) else { return };
     let count = group.sub(0).and_then(Item::default_integer).unwrap_or(i128::MAX);

@@ -1,4 +1,4 @@
-//! Words in texts that are nearly the name of an item: manuals spell a register one way in its row, and another way in the prose.
+//! Reports words in texts that are almost the name of an item: manuals often spell a register differently in its row and the text.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -8,10 +8,10 @@ use crate::ir::{texts, Device};
 use crate::limits;
 use crate::text::{brief, edit_distance};
 
-/// Names and words with fewer letters are told apart by too little.
+/// The lengths of names and words that are compared: shorter ones differ too little.
 const LETTERS: std::ops::RangeInclusive<usize> = 6..=48;
 
-/// Of so many names, nine tenths show how a table names its items.
+/// The minimum number of names with a prefix, which nine tenths of the names must have.
 const CONVENTION: usize = 4;
 
 pub(crate) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
@@ -20,18 +20,18 @@ pub(crate) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
     if names.like_identifiers.is_empty() || !diagnostics.wants(&codes::MENTIONED_OBJECT) {
         return;
     }
-    let (mut known, mut said) = (BTreeMap::new(), BTreeSet::new());
+    let (mut known, mut reported) = (BTreeMap::new(), BTreeSet::new());
     for text in texts::all(device) {
         for word in text.words.split(|c: char| !c.is_alphanumeric() && c != '_') {
             if known.len() > limits::MAX_SEARCHED_WORDS {
                 return;
             }
-            let meant = *known.entry(word).or_insert_with(|| names.meant(word));
-            let Some(meant) = meant.filter(|_| said.insert((text.span, word))) else { continue };
+            let suggestion = *known.entry(word).or_insert_with(|| names.suggestion(word));
+            let Some(suggestion) = suggestion.filter(|_| reported.insert((text.span, word))) else { continue };
             let of = if text.of.is_empty() { String::new() } else { format!(" in `{}`", brief(text.of)) };
-            let message = format!("`{}` is mentioned{of}, and no item is called so", brief(word));
+            let message = format!("a text mentions `{}`{of}, but no item has this name", brief(word));
             let found = codes::MENTIONED_OBJECT.at(text.span, message);
-            diagnostics.push(found.help(format!("did you mean `{}`?", brief(meant))));
+            diagnostics.push(found.help(format!("did you mean `{}`?", brief(suggestion))));
         }
     }
 }
@@ -39,7 +39,7 @@ pub(crate) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
 /// The names of a table's items.
 struct Names<'a> {
     all: BTreeSet<String>,
-    /// Those that can't be taken for words of a language.
+    /// Names that cannot be words of a language.
     like_identifiers: Vec<&'a str>,
 }
 
@@ -47,7 +47,7 @@ impl<'a> Names<'a> {
     fn new(device: &'a Device) -> Self {
         let items = device.items().map(|item| item.name.as_str());
         let of_items = || items.clone().chain(device.groups.iter().map(|group| group.name.as_str()));
-        // Types, procedures and messages have names of the same kind.
+        // The names of types, procedures and messages have the same form.
         let others = device.types.iter().map(|definition| definition.name.as_str());
         let others = others.chain(device.procedures.iter().map(|procedure| procedure.name.as_str()));
         let all = of_items().chain(others.chain(device.messages.iter().map(|message| message.name.as_str())));
@@ -59,14 +59,14 @@ impl<'a> Names<'a> {
         Names { all: all.map(str::to_lowercase).collect(), like_identifiers }
     }
 
-    /// The name that a word means and isn't.
-    fn meant(&self, word: &str) -> Option<&'a str> {
+    /// Returns the name that a misspelled word means.
+    fn suggestion(&self, word: &str) -> Option<&'a str> {
         let letters = word.chars().count();
         let lower = word.to_lowercase();
         if !LETTERS.contains(&letters) || self.all.contains(&lower) {
             return None;
         }
-        // The family of `Rdefinp0` to `Rdefinp15` is called `Rdefinp`, or `Rdefinpx`; and a plural is no misspelling.
+        // The family of `Rdefinp0` to `Rdefinp15` is called `Rdefinp` or `Rdefinpx`. A plural is not a misspelling.
         let stem = lower.trim_end_matches(['x', 'n', 's']);
         let of_a_family = self.all.range(stem.to_owned()..).next().is_some_and(|name| name.starts_with(stem));
         if of_a_family || self.all.contains(stem) {
@@ -81,7 +81,7 @@ impl<'a> Names<'a> {
     }
 }
 
-/// The capital letter that most of these names begin with, before a small one.
+/// Returns the capital letter with which most names begin, before a lower-case letter.
 fn prefix<'n>(names: impl Iterator<Item = &'n str>) -> Option<char> {
     let (mut count, mut by_letter) = (0, BTreeMap::new());
     for name in names {
@@ -99,13 +99,13 @@ fn has_prefix(name: &str, prefix: char) -> bool {
     letters.next() == Some(prefix) && letters.next().is_some_and(char::is_lowercase)
 }
 
-/// `target_speed`, `targetSpeed`, but not `Speed`.
+/// Returns whether a name is composed: `target_speed`, `targetSpeed`, but not `Speed`.
 fn is_composed(name: &str) -> bool {
     let pairs = name.chars().zip(name.chars().skip(1));
     name.trim_matches('_').contains('_') || pairs.clone().any(|(one, next)| one.is_lowercase() && next.is_uppercase())
 }
 
-/// Whether both begin alike, and have underscores and capitals alike.
+/// Returns whether both begin with the same letter, and have the same number of underscores and capitals.
 fn similar_case(name: &str, word: &str) -> bool {
     let shape = |text: &str| text.chars().filter(|c| *c == '_' || c.is_uppercase()).count();
     name.chars().next() == word.chars().next() && shape(name) == shape(word)

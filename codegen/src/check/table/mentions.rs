@@ -1,4 +1,4 @@
-//! Objects that texts mention and the table doesn't have.
+//! Reports objects that texts mention and that the table does not have.
 
 use std::ops::RangeInclusive;
 
@@ -7,7 +7,7 @@ use crate::check::mapped_object::indices;
 use crate::diagnostics::{codes, Diagnostics};
 use crate::ir::texts;
 
-/// Indices that are told from other numbers by themselves: those of the first axis of a drive profile.
+/// Indices that are recognized without further signs: those of the first axis of a drive profile.
 const PROFILE: RangeInclusive<u16> = 0x6000..=0x67FF;
 
 pub(crate) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
@@ -18,13 +18,13 @@ pub(crate) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
     }
     for text in texts::all(device) {
         for index in mentions(text.words).filter(|index| !known.contains(index)) {
-            let message = format!("object 0x{index:04X} is mentioned, and the table doesn't have it");
+            let message = format!("a text mentions object 0x{index:04X}, which the table does not have");
             diagnostics.push(codes::MENTIONED_OBJECT.at(text.span, message));
         }
     }
 }
 
-/// The indices that a text mentions: `0x60D0`, `object 0x2010`, `0x1003:1`.
+/// Returns the indices that a text mentions: `0x60D0`, `object 0x2010`, `0x1003:1`.
 fn mentions(text: &str) -> impl Iterator<Item = u16> + '_ {
     text.match_indices("0x").filter_map(|(at, _)| {
         let rest = text.get(at + 2..)?;
@@ -44,7 +44,7 @@ mod tests {
     use super::mentions;
 
     #[test]
-    fn objects_are_told_from_other_numbers() {
+    fn objects_are_distinguished_from_other_numbers() {
         let found = |text| mentions(text).collect::<Vec<_>>();
         assert_eq!(found("source in 0x60D0, not 0x60D01"), [0x60D0]);
         assert_eq!(found("object 0x2010 and 0x1003:1"), [0x2010, 0x1003]);

@@ -1,4 +1,4 @@
-//! Messages for which no code is generated, and what they lack.
+//! Reports messages for which no code is generated, with the reason.
 
 use std::collections::{BTreeMap, HashSet};
 
@@ -12,20 +12,20 @@ use crate::source::Span;
 use crate::text::brief;
 
 const SELECTOR: Problem =
-    "what `after` names isn't sent, has no code, or has data of any length, so that nothing can be remembered of it";
-const FIRST: Problem = "`default` says what is answered before any other message was sent, and there is no `after`";
-const NO_REFUSAL: Problem = "what comes instead of its reply has no reply of its own, no code, or data of any length";
-const NO_END: Problem = "they have no last byte";
-const UNKNOWN_CHECK: Problem = "the runtime has `xor`, `sum`, `lrc` and `crc16`";
+    "the message in `after` is not sent, has no code, or has data of any length, so the client cannot remember it";
+const FIRST: Problem = "`default` needs `after`, the message that selects another answer";
+const NO_REFUSAL: Problem = "its error message has no reply, no code, or data of any length";
+const NO_END: Problem = "frames have no last byte";
+const UNKNOWN_CHECK: Problem = "the runtime only supports the checks `xor`, `sum`, `lrc` and `crc16`";
 
-/// Reports messages and framings without code, and parameters that no message carries.
+/// Reports messages and framings without code, and parameters that no message transfers.
 pub(in crate::check) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
     let device = context.device;
     let shapes = shapes(device);
     every_message(device, &shapes, diagnostics);
     if let Some((framing, problem)) = device.framing.as_ref().and_then(|framing| Some((framing, no_framing(framing)?)))
     {
-        left_out(framing.origin.span, format!("no code for how frames are delimited: {problem}"), diagnostics);
+        left_out(framing.origin.span, format!("no code for the framing: {problem}"), diagnostics);
     }
     parameters(context, &shapes, diagnostics);
 }
@@ -49,16 +49,15 @@ fn every_message(device: &Device, shapes: &[Shaped<'_>], diagnostics: &mut Diagn
             continue;
         }
         if message.by_default && message.after.is_none() {
-            left_out(span, format!("no code for `{name}` as the device is after power-on: {FIRST}"), diagnostics);
+            left_out(span, format!("no code for `{name}` in its state after power-on: {FIRST}"), diagnostics);
         }
         if message.error.is_some() && refusal(shapes, message).is_none() {
-            left_out(span, format!("no code for a refused `{name}`: {NO_REFUSAL}"), diagnostics);
+            left_out(span, format!("no code for the error reply of `{name}`: {NO_REFUSAL}"), diagnostics);
         }
     }
 }
 
-/// Why no code is generated for a framing. Where nothing delimits frames, such as on a bus that has packets of its own, none is
-/// needed.
+/// Returns why no code is generated for a framing. A bus with packets needs no code, because nothing delimits frames.
 fn no_framing(framing: &Framing) -> Option<Problem> {
     let is_delimited = framing.start.is_some() || framing.escape.is_some() || !framing.check.is_empty();
     match framing.check.as_str() {
@@ -68,7 +67,7 @@ fn no_framing(framing: &Framing) -> Option<Problem> {
     }
 }
 
-/// Reports messages that can't carry the parameters that they should, and parameters that none carries.
+/// Reports messages that cannot transfer their parameters, and parameters that no message transfers.
 fn parameters(context: &Context<'_>, shapes: &[Shaped<'_>], diagnostics: &mut Diagnostics) {
     let mut carried: BTreeMap<u32, &str> = BTreeMap::new();
     for space in &context.device.parameter_spaces {
@@ -81,19 +80,19 @@ fn parameters(context: &Context<'_>, shapes: &[Shaped<'_>], diagnostics: &mut Di
             continue;
         }
         for (code, item) in numbered(context.device, &space.name) {
-            // Of a type that nobody knows, the length isn't known either.
+            // The length of an unknown type is unknown, too.
             let basic = context.owner.basic(item.ty);
             if !matches!(basic, Type::Opaque(None)) && basic.bits().is_none_or(|bits| bits > LONGEST) {
                 let name = brief(&item.name);
-                let text = format!("no message carries `{name}`: its value has no length of 1 to 8 bytes");
+                let text = format!("no message transfers `{name}`: the length of its value is not 1 to 8 bytes");
                 left_out(item.origin.span, text, diagnostics);
             }
             match carried.get(&code) {
                 None => _ = carried.insert(code, &space.name),
                 Some(first) => {
                     let (name, first) = (brief(&item.name), brief(first));
-                    let text = format!("`{name}` has the number {code:#X}, which is one of the space `{first}`, too");
-                    let text = text + ": clients reach that one alone";
+                    let text = format!("`{name}` has the number {code:#X}, which is also in the space `{first}`");
+                    let text = text + ": clients only transfer the parameter of that space";
                     diagnostics.push(codes::PARAMETERS_ALIKE.at(item.origin.span, text));
                 }
             }

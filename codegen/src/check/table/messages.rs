@@ -1,5 +1,5 @@
-//! Messages against each other: they are whole bytes, fit into a frame, and differ for a receiver; and against the tables of
-//! what commands do in each state.
+//! Checks messages: they consist of whole bytes, fit into a frame, and can be distinguished by the receiver. Also compares them
+//! with the tables of commands and states.
 
 use std::collections::BTreeMap;
 
@@ -9,7 +9,7 @@ use crate::ir::{CommandOutcomes, Device, Message, Outcome};
 use crate::resolve::messages::Frame;
 use crate::text::brief;
 
-/// So many other requests begin alike before one that doesn't looks like a misprint.
+/// The number of requests with the same first constant after which another constant is a probable misprint.
 const ALIKE: usize = 8;
 
 /// A message with its frames.
@@ -42,35 +42,36 @@ fn report(framed: &Framed<'_>, code: &'static Code, message: String) -> Diagnost
     code.at(framed.message.origin.span, message)
 }
 
-/// The same, beside another message.
+/// Reports a problem of two messages.
 fn both(framed: &Framed<'_>, other: &Framed<'_>, code: &'static Code, message: String) -> Diagnostic {
     report(framed, code, message).note_at(other.message.origin.span, "the other one")
 }
 
-/// Whole bytes, and no more than a frame holds.
+/// Checks that a message consists of whole bytes and fits into a frame.
 fn length(framed: &Framed<'_>, max: Option<usize>, diagnostics: &mut Diagnostics) {
     for (what, frame) in [("request", &framed.request), ("reply", &framed.reply)] {
         let name = brief(&framed.message.name);
         if let Some(bit) = frame.broken {
-            let message = format!("the {what} of `{name}` has bits up to bit {bit} that are no whole bytes");
+            let message = format!("the {what} of `{name}` has an incomplete byte that ends at bit {bit}");
             let found = report(framed, &codes::MESSAGE_LENGTH, message);
-            diagnostics.push(found.help("fields of less than a byte follow each other, and fill bytes"));
+            diagnostics.push(found.help("adjacent fields of less than a byte must fill whole bytes"));
         }
         let Some(max) = max else { continue };
         let problem = match (frame.least.div_ceil(8), frame.most.div_ceil(8)) {
-            (least, _) if least > max => format!("is at least {least} bytes long"),
-            (_, most) if most > max => format!("is {most} bytes long with all its repetitions"),
+            (shortest, _) if shortest > max => format!("is at least {shortest} bytes long"),
+            (_, longest) if longest > max => format!("is {longest} bytes long with all its repetitions"),
             _ => continue,
         };
-        let message = format!("the {what} of `{name}` {problem}, and a frame holds {max}");
+        let message = format!("the {what} of `{name}` {problem}, but a frame holds at most {max}");
         let found = report(framed, &codes::MESSAGE_LENGTH, message);
-        diagnostics.push(found.help("`max` of repeated fields is how many fit, or one of the lengths is another"));
+        diagnostics.push(found.help("correct a length, or the `max` of repeated fields"));
     }
 }
 
-/// Replies whose first constant is that of another message, and isn't in their framed requests.
+/// Reports replies whose first constant is in the request of another message, but not in their request.
 fn replies_of_others(all: &[Framed<'_>], diagnostics: &mut Diagnostics) {
-    let first = |framed: &Framed<'_>| framed.reply.constants.first_key_value().map(|(place, byte)| (*place, *byte));
+    let first =
+        |framed: &Framed<'_>| framed.reply.constants.first_key_value().map(|(position, byte)| (*position, *byte));
     let asks = |framed: &Framed<'_>, byte: u8| framed.request.constants.values().any(|constant| *constant == byte);
     let mut owners: BTreeMap<(usize, u8), &Framed<'_>> = BTreeMap::new();
     for framed in all {
@@ -79,34 +80,34 @@ fn replies_of_others(all: &[Framed<'_>], diagnostics: &mut Diagnostics) {
         }
     }
     for framed in all.iter().filter(|framed| !framed.request.constants.is_empty()) {
-        let Some((place, byte)) = first(framed).filter(|(_, byte)| !asks(framed, *byte)) else { continue };
-        let Some(other) = owners.get(&(place, byte)) else { continue };
+        let Some((position, byte)) = first(framed).filter(|(_, byte)| !asks(framed, *byte)) else { continue };
+        let Some(other) = owners.get(&(position, byte)) else { continue };
         let (name, other_name) = (brief(&framed.message.name), brief(&other.message.name));
         let message = format!(
-            "the reply of `{name}` has the constant 0x{byte:02X} of `{other_name}`, which its request doesn't have"
+            "the reply of `{name}` has the constant 0x{byte:02X} of `{other_name}`, which its request does not have"
         );
         let found = both(framed, other, &codes::REPLY_OF_ANOTHER, message);
-        diagnostics.push(found.help("the table of one was copied from the other: compare both with their texts"));
+        diagnostics
+            .push(found.help("compare both tables with the manual's text: one was probably copied from the other"));
     }
 }
 
-/// Replies that can't be told from what comes where the device refuses.
+/// Reports replies that cannot be distinguished from the error reply.
 fn like_their_errors(all: &[Framed<'_>], diagnostics: &mut Diagnostics) {
     for framed in all.iter().filter(|framed| !framed.message.reply.is_empty()) {
         let id = framed.message.error.as_ref().and_then(|error| error.id);
         let Some(other) = id.and_then(|id| all.get(id.0 as usize)) else { continue };
         if framed.reply.overlaps(&other.reply) {
             let (name, other_name) = (brief(&framed.message.name), brief(&other.message.name));
-            let message =
-                format!("the reply of `{name}` can have the same bytes as `{other_name}`, which comes in its place");
+            let message = format!("the reply of `{name}` can have the same bytes as its error reply `{other_name}`");
             let found = both(framed, other, &codes::ERROR_ALIKE, message);
-            diagnostics.push(found.help("where the device never refuses it, leave out `error`"));
+            diagnostics.push(found.help("delete `error` if the device never refuses the request"));
         }
     }
 }
 
-/// Requests that a device can't tell apart, where no earlier message decides. Sorted by their first constants, those that can be
-/// alike follow each other.
+/// Reports requests that a device cannot distinguish, unless an earlier message decides. After sorting by their first constants,
+/// requests that can be equal follow each other.
 fn requests_alike(all: &[Framed<'_>], diagnostics: &mut Diagnostics) {
     let runs = all.iter().enumerate().filter(|(_, framed)| !framed.message.request.is_empty());
     let mut runs: Vec<(Option<usize>, Vec<u8>, usize, &Framed<'_>)> = runs
@@ -114,9 +115,9 @@ fn requests_alike(all: &[Framed<'_>], diagnostics: &mut Diagnostics) {
         .collect();
     runs.sort_by(|one, other| (one.0, &one.1, one.2).cmp(&(other.0, &other.1, other.2)));
     let (mut before, mut found): (Vec<usize>, Vec<(usize, usize)>) = (Vec::new(), Vec::new());
-    for (at, (place, run, index, framed)) in runs.iter().enumerate() {
+    for (at, (position, run, index, framed)) in runs.iter().enumerate() {
         let begins = |other: &usize| {
-            runs.get(*other).is_some_and(|(others, shorter, ..)| others == place && run.starts_with(shorter))
+            runs.get(*other).is_some_and(|(others, shorter, ..)| others == position && run.starts_with(shorter))
         };
         while before.pop_if(|other| !begins(other)).is_some() {}
         let is_same = |other: &&Framed<'_>| {
@@ -133,16 +134,16 @@ fn requests_alike(all: &[Framed<'_>], diagnostics: &mut Diagnostics) {
         let names = (brief(&other.message.name), brief(&framed.message.name));
         let message = format!("the requests `{}` and `{}` can have the same bytes", names.0, names.1);
         let found = both(framed, other, &codes::MESSAGES_ALIKE, message);
-        diagnostics.push(found.help("one has a wrong constant; where an earlier message decides, say `after`"));
+        diagnostics.push(found.help("correct a constant, or write `after` if an earlier message decides"));
     }
 }
 
-/// The only request that begins with another constant than all others of several constants.
+/// Reports the only request with a different first constant. Only requests that begin with several constants count.
 fn odd_request(all: &[Framed<'_>], diagnostics: &mut Diagnostics) {
     let mut groups: BTreeMap<(usize, u8), Vec<&Framed<'_>>> = BTreeMap::new();
     for framed in all.iter().filter(|framed| framed.request.first_run().len() > 1) {
-        if let Some((place, byte)) = framed.request.constants.first_key_value() {
-            groups.entry((*place, *byte)).or_default().push(framed);
+        if let Some((position, byte)) = framed.request.constants.first_key_value() {
+            groups.entry((*position, *byte)).or_default().push(framed);
         }
     }
     let groups: Vec<_> = groups.into_iter().collect();
@@ -152,15 +153,15 @@ fn odd_request(all: &[Framed<'_>], diagnostics: &mut Diagnostics) {
     if others.1.len() < ALIKE {
         return;
     }
-    let (name, ((place, common), others)) = (brief(&framed.message.name), (others.0, others.1.len()));
+    let (name, ((position, common), others)) = (brief(&framed.message.name), (others.0, others.1.len()));
     let message = format!(
-        "`{name}` has the constant 0x{byte:02X} where {others} other requests have 0x{common:02X}, in byte {place}"
+        "`{name}` has the constant 0x{byte:02X} where {others} other requests have 0x{common:02X}, in byte {position}"
     );
     let found = report(framed, &codes::ODD_REQUEST, message);
-    diagnostics.push(found.help("it is an exception or a misprint: say which with a `doubt`, and allow this code"));
+    diagnostics.push(found.help("record in a `doubt` whether it is an exception or a misprint, and allow this code"));
 }
 
-/// What messages say of states in which they are accepted, and the tables of commands and states.
+/// Compares the states in which messages are accepted with the tables of commands and states.
 fn states(device: &Device, diagnostics: &mut Diagnostics) {
     let stated = device.messages.iter().filter(|message| !message.accepted_in.is_empty());
     let by_name: BTreeMap<&str, &Message> = stated.map(|message| (message.name.as_str(), message)).collect();
@@ -175,15 +176,15 @@ fn states(device: &Device, diagnostics: &mut Diagnostics) {
 
 fn cells(machine: &str, row: &CommandOutcomes, message: &Message, diagnostics: &mut Diagnostics) {
     for cell in row.cells.iter().filter(|cell| !cell.outcomes.is_empty()) {
-        let says = message.accepted_in.contains(&cell.state);
+        let is_stated = message.accepted_in.contains(&cell.state);
         let can = cell.outcomes.iter().any(|outcome| *outcome != Outcome::Refused);
-        if says == can {
+        if is_stated == can {
             continue;
         }
-        let (stated, table) = if says { ("accepted", "refuses") } else { ("not accepted", "accepts") };
+        let (stated, table) = if is_stated { ("accepted", "refuses") } else { ("not accepted", "accepts") };
         let (name, state, machine) = (brief(&message.name), brief(&cell.state), brief(machine));
-        let text = format!("`{name}` is {stated} in `{state}`, and the table of `{machine}` {table} it there");
+        let text = format!("`{name}` is {stated} in `{state}`, but the table of `{machine}` {table} it there");
         let found = codes::STATES_DIFFER.at(message.origin.span, text);
-        diagnostics.push(found.help("keep what the manual says state by state, with a `doubt`"));
+        diagnostics.push(found.help("keep the statement that lists the states one by one, and add a `doubt`"));
     }
 }

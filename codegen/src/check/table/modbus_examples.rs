@@ -1,4 +1,4 @@
-//! Example frames of Modbus against the registers, and against the lengths (Modbus application protocol, 6.1 to 6.12) and the CRC of
+//! Checks the example frames of Modbus against the registers, the lengths (MODBUS Application Protocol, 6.1 to 6.12) and the CRC of
 //! the serial line.
 
 use crate::check::context::Context;
@@ -18,7 +18,9 @@ pub(crate) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
         let mut report = |what: &str, span: Span, problems: Vec<String>| {
             for problem in problems {
                 let found = codes::EXAMPLE_DIFFERS.at(span, format!("the {what} {problem}"));
-                diagnostics.push(found.help("keep what the other frames of the manual support, with a `doubt`"));
+                diagnostics.push(
+                    found.help("keep the version that the other frames of the manual support, and add a `doubt`"),
+                );
             }
         };
         let request = Request::read(&example.request);
@@ -31,12 +33,12 @@ pub(crate) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
     }
 }
 
-/// A request for registers: what all functions have.
+/// The common part of all requests for registers.
 struct Request {
     node: u8,
     function: u8,
     start: u16,
-    /// How many registers; of a request that writes one, 1.
+    /// The number of registers: 1 for a request that writes one register.
     quantity: u16,
 }
 
@@ -52,7 +54,7 @@ impl Request {
         Some(Request { node, function, start: word(0)?, quantity })
     }
 
-    /// Bytes of node, function and data.
+    /// Returns the number of bytes of node, function and data.
     fn length(&self, bytes: &[u8]) -> usize {
         match self.function {
             16 => 7 + usize::from(bytes.get(6).copied().unwrap_or(0)),
@@ -68,7 +70,7 @@ impl Request {
             problems.push(format!("begins with the address 0x{:04X}, which no row has", self.start));
         } else if !of_space().any(|register| self.covers(register)) {
             let quantity = self.quantity;
-            problems.push(format!("is about {quantity} registers of 16 bits, and no value ends there"));
+            problems.push(format!("has {quantity} registers of 16 bits, but no value ends there"));
         }
         if self.function == 16 && bytes.get(6).is_some_and(|count| u16::from(*count) != self.quantity.saturating_mul(2))
         {
@@ -78,7 +80,7 @@ impl Request {
         problems
     }
 
-    /// Whether the last register that the request is about is the last one of this value.
+    /// Returns whether this value ends with the last register of the request.
     fn covers(&self, register: &RegisterBinding) -> bool {
         // A device answers a request for one register of a longer value with its lower half.
         if matches!(self.function, 3 | 4 | 6) && self.quantity == 1 {
@@ -90,19 +92,19 @@ impl Request {
     }
 }
 
-/// What is wrong with a reply.
+/// Returns the problems of a reply.
 fn reply(request: Option<&Request>, bytes: &[u8]) -> Vec<String> {
     let (Some(request), [node, function, ..]) = (request, bytes) else { return Vec::new() };
     let mut problems = Vec::new();
     if *node != request.node {
-        problems.push(format!("is of node {node}, and {} was asked", request.node));
+        problems.push(format!("is from node {node}, but the request is to node {}", request.node));
     }
     let length = match function {
         3 | 4 => {
             let count = bytes.get(2).copied().unwrap_or(0);
             if u16::from(count) != request.quantity.saturating_mul(2) {
                 let expected = request.quantity.saturating_mul(2);
-                problems.push(format!("has {count} bytes for {} registers, which are {expected}", request.quantity));
+                problems.push(format!("has {count} bytes for {} registers, which have {expected}", request.quantity));
             }
             3 + usize::from(count)
         }
@@ -111,22 +113,22 @@ fn reply(request: Option<&Request>, bytes: &[u8]) -> Vec<String> {
         _ => return problems,
     };
     if function & 0x7F != request.function {
-        problems.push(format!("has function {}, and {} was asked for", function & 0x7F, request.function));
+        problems.push(format!("has function {}, but the request has function {}", function & 0x7F, request.function));
     }
     problems.extend(ending(bytes, length));
     problems
 }
 
-/// What is wrong with the end of a frame whose node, function and data have so many bytes: the CRC may follow.
+/// Returns the problem of the end of a frame. `length` is that of node, function and data; a CRC may follow.
 fn ending(bytes: &[u8], length: usize) -> Option<String> {
     match bytes.len().checked_sub(length) {
         Some(0) => None,
         Some(2) => {
             let (data, check) = bytes.split_at(length);
             let crc = crc(data).to_le_bytes();
-            (check != crc).then(|| format!("ends in {:02X?}, and its CRC is {crc:02X?}", check))
+            (check != crc).then(|| format!("ends with {:02X?}, but its CRC is {crc:02X?}", check))
         }
-        _ => Some(format!("has {} bytes, and its fields take {length}", bytes.len())),
+        _ => Some(format!("has {} bytes, but its fields have {length}", bytes.len())),
     }
 }
 

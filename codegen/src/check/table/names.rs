@@ -1,4 +1,4 @@
-//! Names of rows: whether they exist, are in one piece, and differ in more than their case.
+//! Checks the names of rows: they exist, are not broken by a column, and differ in more than upper and lower case.
 
 use std::collections::HashMap;
 
@@ -9,7 +9,7 @@ use crate::ir::{CompactString, Device, Group, GroupKind, Item};
 use crate::source::Span;
 use crate::text::brief;
 
-/// A name of a register with more words is a description, where the others are single words.
+/// The number of words after which the name of a register is a description, if other names are single words.
 const NAME_WORDS: usize = 6;
 
 /// Reports names that are missing, broken by a column, or descriptions.
@@ -18,7 +18,7 @@ pub(crate) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
     context.device.groups.iter().for_each(|group| whole(group, are_words, diagnostics));
 }
 
-/// Whether every name is there, and in one piece.
+/// Checks that all names exist and are not broken.
 fn whole(group: &Group, are_words: bool, diagnostics: &mut Diagnostics) {
     match group.kind {
         GroupKind::Object { .. } => {
@@ -34,14 +34,14 @@ fn whole(group: &Group, are_words: bool, diagnostics: &mut Diagnostics) {
     }
 }
 
-/// Registers whose names differ by upper and lower case only. Equal names were told before.
+/// Reports registers whose names differ only in upper and lower case. Equal names were already reported.
 fn case_only<'g>(names: &mut HashMap<CompactString, &'g Item>, item: &'g Item, diagnostics: &mut Diagnostics) {
     let first = *names.entry(item.name.to_lowercase()).or_insert(item);
     if first.name != item.name {
         let (name, other) = (brief(&item.name), brief(&first.name));
-        let message = format!("`{name}` and `{other}` differ by upper and lower case only");
+        let message = format!("`{name}` and `{other}` differ only in upper and lower case");
         let found = codes::NAME_TWICE.at(place(item), message).note_at(place(first), "the other one");
-        diagnostics.push(found.help("manuals often spell one name in two ways"));
+        diagnostics.push(found.help("use one spelling if both are the same name"));
     }
 }
 
@@ -54,15 +54,15 @@ fn registers(group: &Group, are_words: bool, diagnostics: &mut Diagnostics) {
             diagnostics.push(codes::EMPTY_NAME.at(at, "the row has no name"));
         }
         if let Some(what) = description(&item.name, are_words) {
-            let message = format!("`{}` has {what} in it", brief(&item.name));
-            diagnostics.push(codes::BROKEN_NAME.at(at, message).help("write the name alone, and the rest as `doc`"));
+            let message = format!("`{}` contains {what}", brief(&item.name));
+            diagnostics.push(codes::BROKEN_NAME.at(at, message).help("write only the name, and the rest as `doc`"));
         } else if !unbroken(&item.name, at, diagnostics) {
             syllables(&item.name, at, diagnostics);
         }
     }
 }
 
-/// Whether a table's registers are called by single words, as three of four are. Descriptions don't count.
+/// Returns whether at least three of four registers have single words as names. Descriptions do not count.
 fn are_words(device: &Device) -> bool {
     let chapters = device.groups.iter().filter(|group| matches!(group.kind, GroupKind::Chapter));
     let words = chapters.flat_map(|group| &group.items).map(|item| item.name.split_whitespace().count());
@@ -74,7 +74,7 @@ fn are_words(device: &Device) -> bool {
     single > 3 * several
 }
 
-/// What stands in a name that is none: the cell beside it was pasted into its own.
+/// Returns what else a name contains: a neighboring cell was probably pasted into the cell of the name.
 fn description(name: &str, are_words: bool) -> Option<&'static str> {
     match () {
         () if name.contains('<') => Some("a tag"),
@@ -84,8 +84,8 @@ fn description(name: &str, are_words: bool) -> Option<&'static str> {
     }
 }
 
-/// A column breaks `Rcamstspctrl` into `Rcamstspc-trl`, too. `low-pass` is a word of small letters, and `CO-alarm` has an
-/// abbreviation in front.
+/// Reports a name that a column breaks with a hyphen, such as `Rcamstspc-trl` for `Rcamstspctrl`. Words in lower case (`low-pass`)
+/// and names that begin with an abbreviation (`CO-alarm`) are not reported.
 fn syllables(name: &str, at: Span, diagnostics: &mut Diagnostics) {
     let letters = || name.chars().zip(name.chars().skip(1)).zip(name.chars().skip(2));
     let is_broken = letters().any(|((before, mark), after)| {
@@ -96,7 +96,8 @@ fn syllables(name: &str, at: Span, diagnostics: &mut Diagnostics) {
     }
 }
 
-/// A column of a manual breaks `Rtouchprobefunc` into `Rtouchpro- befunc`. Returns whether this one is broken.
+/// Reports a name that a column breaks with a hyphen and a space, such as `Rtouchpro- befunc` for `Rtouchprobefunc`. Returns whether
+/// it is broken.
 fn unbroken(name: &str, at: Span, diagnostics: &mut Diagnostics) -> bool {
     let is_broken = name.split_once("- ").is_some_and(|(head, tail)| {
         head.ends_with(char::is_alphanumeric) && tail.trim_start().starts_with(char::is_alphanumeric)
@@ -108,7 +109,7 @@ fn unbroken(name: &str, at: Span, diagnostics: &mut Diagnostics) -> bool {
 }
 
 fn broken(name: &str, whole: &str, at: Span, diagnostics: &mut Diagnostics) {
-    let message = format!("`{}` has the hyphen of a line break in it", brief(name));
+    let message = format!("`{}` contains the hyphen of a line break", brief(name));
     let found = codes::BROKEN_NAME.at(at, message);
-    diagnostics.push(found.help(format!("write `{}`, if the manual's text does", brief(whole))));
+    diagnostics.push(found.help(format!("write `{}` if the manual's text does", brief(whole))));
 }

@@ -1,11 +1,11 @@
-//! Numbers of parameters that are missing between others.
+//! Reports numbers of parameters that are missing between others.
 
 use crate::check::context::Context;
 use crate::diagnostics::{codes, Diagnostics};
 use crate::ir::{Binding, Group, GroupKind, Item};
 use crate::text::brief;
 
-/// So many numbers in a row, on both sides of a gap, are how a chapter counts.
+/// The number of consecutive numbers on both sides of a gap that shows that a chapter counts up.
 const ROW: usize = 2;
 
 pub(crate) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
@@ -14,7 +14,7 @@ pub(crate) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
     }
 }
 
-/// Reports the places in a chapter where the next parameter isn't the next number, though its neighbours count up by one.
+/// Reports single missing numbers between parameters whose neighbors count up by one.
 fn chapter(group: &Group, diagnostics: &mut Diagnostics) {
     let numbered: Vec<(u32, &Item)> = group.items.iter().filter_map(|item| Some((code(item)?, item))).collect();
     for (at, pair) in numbered.windows(2).enumerate() {
@@ -30,9 +30,10 @@ fn chapter(group: &Group, diagnostics: &mut Diagnostics) {
         };
         if (at + 1).checked_sub(ROW).is_some_and(counts_up) && counts_up(at + 1) {
             let message =
-                format!("`{}` has the number 0x{after:04X}, and nothing has 0x{:04X}", brief(&item.name), before + 1);
+                format!("`{}` has the number 0x{after:04X}, but no row has 0x{:04X}", brief(&item.name), before + 1);
             let found = codes::NUMBER_GAP.at(item.at.name.or(item.origin.span), message);
-            diagnostics.push(found.help("a row of the manual's table is missing, or the device has no such parameter"));
+            diagnostics
+                .push(found.help("add the missing row of the manual's table, unless the device has no such parameter"));
         }
     }
 }

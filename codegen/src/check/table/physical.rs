@@ -1,8 +1,8 @@
-//! Physical numbers: what a raw number stands for, and what it is on the machine that the device drives.
+//! Physical values: the conversion of raw values, and values of the machine that the device drives.
 
 use crate::ir::{CompactString, Device, MachineUnit, Scale, Variant};
 
-/// What a raw number stands for. `other` knows the values that scales depend on: constants of a model, and other items.
+/// Returns the physical value of a raw value. `other` returns values that scales depend on: constants of a model, and other items.
 pub(super) fn of_raw<E>(
     scale: Option<&Scale>,
     raw: f64,
@@ -21,25 +21,25 @@ pub(super) fn of_raw<E>(
     })
 }
 
-/// What a number of the machine is multiplied with. `number` knows those that are given.
+/// Returns the ratio of machine values to physical values. `number` returns the given numbers.
 pub(super) fn ratio<E>(unit: &MachineUnit, number: impl Fn(&CompactString) -> Result<f64, E>) -> Result<f64, E> {
     let product = |list: &[CompactString]| list.iter().map(&number).product::<Result<f64, E>>();
     Ok(product(&unit.times)? / product(&unit.over)?)
 }
 
-/// A constant of a model.
+/// Returns a constant of a model.
 pub(super) fn constant(model: Option<&Variant>, name: &str) -> Option<f64> {
     model?.constants.iter().find(|(constant, _)| constant == name)?.1.as_real()
 }
 
-/// A given number that a model knows.
+/// Returns a given number that is fixed for a model.
 pub(super) fn given(device: &Device, model: Option<&str>, name: &str) -> Option<f64> {
     let given = device.given.iter().find(|given| given.name == name)?;
     let (_, value) = given.models.iter().find(|(other, _)| Some(other.as_str()) == model)?;
     value.as_real()
 }
 
-/// A number with so many digits behind its first one.
+/// Rounds a number to `digits` digits after the first one.
 pub(super) fn rounded(number: f64, digits: f64) -> f64 {
     let factor = 10f64.powf((digits - number.abs().log10().floor()).clamp(-300.0, 300.0));
     match (number * factor).round() / factor {

@@ -1,4 +1,4 @@
-//! Items that are one quantity in two scales: their defaults are the same physical number on every model.
+//! Checks items that are one quantity in two scales: their defaults are the same physical value on every model.
 
 use std::convert::Infallible;
 
@@ -8,10 +8,10 @@ use crate::diagnostics::{codes, Diagnostics};
 use crate::ir::{CompactString, Device, Item, MachineUnit, Scale, Value, Variant};
 use crate::text::{brief, glob};
 
-/// How far apart, as a part of the greater one, two defaults may be that were rounded to different counts.
+/// The relative difference that two defaults may have because they were rounded to different raw values.
 const TOLERANCE: f64 = 0.001;
 
-/// Five digits of a number are enough to see a difference of a thousandth.
+/// The number of digits after the first one: five digits show a difference of a thousandth.
 const DIGITS: f64 = 4.0;
 
 pub(crate) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
@@ -24,14 +24,14 @@ pub(crate) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
         if !differences.is_empty() {
             let (name, other_name, differences) = (brief(&item.name), brief(&other.name), differences.join("; "));
             let message =
-                format!("`{name}` is the same quantity as `{other_name}`, and the defaults differ: {differences}");
+                format!("`{name}` is the same quantity as `{other_name}`, but the defaults differ: {differences}");
             let found = codes::QUANTITIES_DIFFER.at(item.at.default.or(item.origin.span), message);
             diagnostics.push(found.note_at(other.at.default.or(other.origin.span), "the other one"));
         }
     }
 }
 
-/// The models on which the defaults differ, or why they can't be compared.
+/// Returns the differences of the defaults on each model, or why they cannot be compared.
 fn differences(device: &Device, one: &Item, other: &Item) -> Vec<String> {
     let models: Vec<Option<&Variant>> = match device.variants.as_slice() {
         [] => vec![None],
@@ -58,7 +58,7 @@ fn differences(device: &Device, one: &Item, other: &Item) -> Vec<String> {
     found
 }
 
-/// A default as a physical number, and as one of the machine where its unit says how.
+/// A default as a physical value, and as a machine value if its unit has one.
 struct Physical {
     number: f64,
     unit: CompactString,
@@ -87,7 +87,7 @@ impl Physical {
     }
 }
 
-/// What a number of the machine is multiplied with. Numbers that no model knows count as 1: both views have them.
+/// Returns the ratio of machine values to physical values. Unknown numbers count as 1, because both items depend on them.
 fn machine(device: &Device, unit: &MachineUnit, model: Option<&Variant>) -> f64 {
     let model = model.map(|model| model.name.as_str());
     let number = |name: &CompactString| Ok::<_, Infallible>(physical::given(device, model, name).unwrap_or(1.0));
@@ -95,7 +95,7 @@ fn machine(device: &Device, unit: &MachineUnit, model: Option<&Variant>) -> f64 
     ratio
 }
 
-/// The default of an item on a model.
+/// Returns the default of an item on a model.
 fn default(item: &Item, model: Option<&Variant>) -> Option<f64> {
     let is_model = |name: &CompactString| model.is_some_and(|model| glob(name, &model.name));
     let variants = item.variants.iter().filter(|variant| variant.models.iter().any(is_model));

@@ -1,4 +1,4 @@
-//! Windows against the numbers of the items behind them, and against the values of items that are nowhere else.
+//! Checks windows: the numbers of items fit them, and they can transfer the values of items that have no other address.
 
 use std::collections::HashSet;
 
@@ -10,31 +10,31 @@ use crate::ir::{Binding, Item, Type};
 use crate::text::brief;
 
 pub(crate) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
-    let mut told = HashSet::new();
+    let mut reported = HashSet::new();
     for item in behind(context) {
         for window in windows(item) {
             for side in [&window.read, &window.write].into_iter().flatten() {
-                let (taker, holder) = (context.device.referred(&side.number), context.device.referred(&side.value));
-                for (part, what) in [(taker, "the number"), (holder, "the value")] {
+                let (receiver, holder) = (context.device.referred(&side.number), context.device.referred(&side.value));
+                for (part, what) in [(receiver, "the number"), (holder, "the value")] {
                     let Some(part) = part.filter(|part| integer(context.owner, part).is_none()) else { continue };
-                    if told.insert(part.name.as_str()) {
+                    if reported.insert(part.name.as_str()) {
                         diagnostics.push(no_integer(part, what));
                     }
                 }
-                number(context.owner, item, window.number, taker, diagnostics);
+                number(context.owner, item, window.number, receiver, diagnostics);
             }
         }
         value(context.owner, item, diagnostics);
     }
 }
 
-/// A part of a window that is none.
+/// Reports an item of a window that is not an integer.
 fn no_integer(part: &Item, what: &str) -> Diagnostic {
-    let message = format!("`{}` has {what} of a window, which is an integer of up to 64 bits", brief(&part.name));
+    let message = format!("`{}` has {what} of a window, but is not an integer of up to 64 bits", brief(&part.name));
     codes::TABLE_VALUE.at(part.at.ty.or(part.at.name), message)
 }
 
-/// Bits of an integer.
+/// Returns the number of bits of an integer.
 fn integer(owner: Owner<'_>, item: &Item) -> Option<u32> {
     match owner.basic(item.ty) {
         Type::Boolean => Some(1),
@@ -43,25 +43,28 @@ fn integer(owner: Owner<'_>, item: &Item) -> Option<u32> {
     }
 }
 
-/// Whether the number of an item fits what takes it.
-fn number(owner: Owner<'_>, item: &Item, number: u32, taker: Option<&Item>, diagnostics: &mut Diagnostics) {
-    let Some((taker, bits)) = taker.and_then(|taker| Some((taker, integer(owner, taker)?))) else { return };
+/// Checks that the number of an item fits the item that receives it.
+fn number(owner: Owner<'_>, item: &Item, number: u32, receiver: Option<&Item>, diagnostics: &mut Diagnostics) {
+    let Some((receiver, bits)) = receiver.and_then(|receiver| Some((receiver, integer(owner, receiver)?))) else {
+        return;
+    };
     if u64::from(number).checked_shr(bits).unwrap_or(0) == 0 {
         return;
     }
-    let (name, taker) = (brief(&item.name), brief(&taker.name));
-    let message = format!("the number {number} of `{name}` doesn't fit `{taker}`, which has {bits} bits");
+    let (name, receiver) = (brief(&item.name), brief(&receiver.name));
+    let message = format!("the number {number} of `{name}` does not fit `{receiver}`, which has {bits} bits");
     let found = codes::TABLE_PLACE.at(item.at.name.or(item.origin.span), message);
-    diagnostics.push(found.help("`numbers` of the window says which it takes"));
+    diagnostics.push(found.help("limit the window to valid numbers with `numbers`"));
 }
 
-/// Whether a value that is nowhere else can come through a window.
+/// Checks that a window can transfer a value that has no other address.
 fn value(owner: Owner<'_>, item: &Item, diagnostics: &mut Diagnostics) {
     let is_only = item.bindings.iter().all(|binding| matches!(binding, Binding::Indirect(_)));
     let is_number = integer(owner, item).is_some() || matches!(owner.basic(item.ty), Type::Real32 | Type::Real64);
     if is_only && !is_number {
         let name = brief(&item.name);
-        let message = format!("`{name}` is only found behind a window, which has integers, and is none");
+        let message =
+            format!("`{name}` is only accessible through a window, which transfers integers, but it is not an integer");
         diagnostics.push(codes::TABLE_VALUE.at(item.at.ty.or(item.at.name), message));
     }
 }

@@ -1,4 +1,4 @@
-//! Windows against the values that go through them, and against the procedures that use them.
+//! Checks windows: they are wide enough for the values, and procedures write the value before the number.
 
 use std::collections::{BTreeMap, HashSet};
 
@@ -20,11 +20,11 @@ pub(crate) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
     }
 }
 
-/// Items with more bits than any of their windows has on a bus. One finding for each value stands for all its items.
+/// Reports items with more bits than their widest window on a bus. For each window, only the first item is reported.
 fn width<'d>(
     context: &Context<'d>,
     item: &'d Item,
-    told: &mut HashSet<&'d CompactString>,
+    reported: &mut HashSet<&'d CompactString>,
     diagnostics: &mut Diagnostics,
 ) {
     let bits_of = |item: &Item| context.owner.basic(item.ty).bits();
@@ -42,17 +42,17 @@ fn width<'d>(
         }
     }
     for ((verb, _), (width, name)) in widest {
-        if width < bits && told.insert(name) {
+        if width < bits && reported.insert(name) {
             let (item_name, through) = (brief(&item.name), brief(name));
             let message =
-                format!("`{item_name}` has {bits} bits, and is {verb} through `{through}`, which has {width}");
-            diagnostics.push(codes::NARROW_WINDOW.at(item.at.name, message).label("the first that doesn't fit"));
+                format!("`{item_name}` has {bits} bits, but is {verb} through `{through}`, which has {width}");
+            diagnostics.push(codes::NARROW_WINDOW.at(item.at.name, message).label("the first item that does not fit"));
         }
     }
 }
 
-/// A window, or its procedure, that writes the number first, where the device clears the number once it is done: it has begun
-/// before the value is there. The number and the value of a process image go together.
+/// Reports a window, or its procedure, that writes the number first although the device clears the number after the transfer: it
+/// starts before it has the value. The number and the value of a process image are sent together.
 fn order(
     context: &Context<'_>,
     side: &WindowSide,
@@ -67,11 +67,11 @@ fn order(
         return;
     }
     let (address, value) = (brief(&side.number), brief(&side.value));
-    let begins = "the device begins with the number";
+    let begins = "the device starts when it has the number";
     if side.number_first == Some(true) {
         let message = format!("the number is written to `{address}` before the value to `{value}`, and {begins}");
         let found = codes::WINDOW_ORDER.at(number.unwrap_or(item).at.name, message);
-        let help = "`first = \"value\"`, or no `clears` at the row where the device doesn't clear the number";
+        let help = "write `first = \"value\"`, or delete `clears` in the row if the device does not clear the number";
         diagnostics.push(found.help(help));
     }
     let Some(procedure) = procedure else { return };
@@ -80,15 +80,15 @@ fn order(
         _ => false,
     };
     let first = procedure.steps.iter().position(|step| writes(step, &side.number));
-    let behind = procedure.steps.iter().rposition(|step| writes(step, &side.value));
-    let Some((at, _)) = behind.zip(first).filter(|(behind, first)| first < behind) else { return };
+    let last_value = procedure.steps.iter().rposition(|step| writes(step, &side.value));
+    let Some((at, _)) = last_value.zip(first).filter(|(last_value, first)| first < last_value) else { return };
     let name = brief(&procedure.name);
     let message = format!("`{name}` writes the number to `{address}` before the value to `{value}`, and {begins}");
     let span = procedure.step_spans.get(at).copied().unwrap_or(procedure.origin.span);
     diagnostics.push(codes::WINDOW_ORDER.at(span, message).help("write the value first"));
 }
 
-/// How many bits the greatest value has, where none is below zero and the greatest is known; else any number.
+/// Returns the number of bits of the maximum, or `u32::MAX` if it is unknown or if values may be negative.
 fn needed(owner: Owner<'_>, item: &Item) -> u32 {
     let (low, high) = item.limits.integers();
     match (low.or_else(|| Some(owner.basic(item.ty).integer_range()?.0)), high) {

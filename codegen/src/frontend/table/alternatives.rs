@@ -1,4 +1,4 @@
-//! Values of the format that are one thing or another: a factor or a rule, values or bits.
+//! Values of the format that have alternatives: a factor or a rule, values or bits.
 
 use toml::de::DeValue;
 
@@ -37,12 +37,12 @@ impl Read for ConditionValues {
     fn read(node: &Node<'_>) -> Result<Self, Mistake> {
         let OneOrMany(list) = OneOrMany::<LiteralOrTable>::read(node)?;
         let mut values = Vec::new();
-        for own in list {
-            match own {
-                LiteralOrTable::Literal(own) => values.push(own),
+        for value in list {
+            match value {
+                LiteralOrTable::Literal(value) => values.push(value),
                 LiteralOrTable::Table(bits) if values.is_empty() => return Ok(ConditionValues::Bits(bits)),
                 LiteralOrTable::Table(_) => {
-                    let message = "a condition is values, or one table of `mask` and `value`".to_owned();
+                    let message = "a condition has values, or one table with `mask` and `value`".to_owned();
                     return Err(Mistake::value(node, message));
                 }
             }
@@ -51,7 +51,7 @@ impl Read for ConditionValues {
     }
 }
 
-/// A literal or the table of a condition. A table is never a value.
+/// A literal, or the table of a condition.
 enum LiteralOrTable {
     Literal(Literal),
     Table(ConditionTable),
@@ -63,7 +63,7 @@ impl Read for LiteralOrTable {
             DeValue::Table(_) => ConditionTable::read(node).map(LiteralOrTable::Table),
             _ => {
                 let literal = literal(node).map(LiteralOrTable::Literal);
-                literal.ok_or_else(|| Mistake::ty(node, "a value, or a table of `mask` and `value`"))
+                literal.ok_or_else(|| Mistake::ty(node, "a value, or a table with `mask` and `value`"))
             }
         }
     }

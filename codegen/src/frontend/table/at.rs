@@ -1,6 +1,6 @@
-//! Pieces that the format is made of: values with their place, entries in the order of the file, and alternatives.
+//! Parts of the format: values with their span, entries in the order of the file, and alternatives.
 
-/// A value and where it stands, in bytes of the file.
+/// A value and its span, in bytes of the file.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct At<T> {
     /// The value.
@@ -22,13 +22,13 @@ impl<T> Default for Entries<T> {
 }
 
 impl<T> Entries<T> {
-    /// Each key with its value.
+    /// Returns each key with its value.
     pub fn iter(&self) -> impl Iterator<Item = &(At<String>, At<T>)> {
         self.0.iter()
     }
 }
 
-/// A number, a text or a truth value.
+/// A number, a text or a Boolean.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Literal {
     /// `true`, `false`.
@@ -41,7 +41,7 @@ pub enum Literal {
     Text(String),
 }
 
-/// A text alone, or a table of which the text is the most important entry.
+/// A text, or a table that contains the text and more.
 #[derive(Clone, Debug, PartialEq)]
 pub enum TextOr<T> {
     /// The text.
@@ -53,7 +53,7 @@ pub enum TextOr<T> {
 /// `true`, `false` or a table.
 #[derive(Clone, Debug, PartialEq)]
 pub enum FlagOr<T> {
-    /// A truth value.
+    /// A Boolean.
     Flag(bool),
     /// The table.
     Table(Box<T>),
@@ -71,7 +71,7 @@ impl<T> Default for OneOrMany<T> {
 
 #[cfg(test)]
 mod schema {
-    //! What editors are told of them.
+    //! The JSON Schemas of these types.
 
     use std::borrow::Cow;
 
@@ -111,7 +111,7 @@ mod schema {
         }
     }
 
-    /// Schemas without a definition of their own.
+    /// Implements schemas that are inserted where they are used.
     macro_rules! inline {
         ($($name:ident $prefix:literal $inner:ident $schema:tt)*) => {$(
             impl<T: JsonSchema> JsonSchema for $name<T> {

@@ -1,23 +1,23 @@
-//! The addresses of a row: its numbers in a space, its objects, and those of other protocols.
+//! The addresses of a row: its register numbers in a space, its objects, and the addresses of other protocols.
 
 use smallvec::SmallVec;
 
 use super::at::{At, TextOr};
 use super::buses;
-use super::definitions::Kind;
+use super::definitions::DefinitionKind;
 use super::format::{NumberOrText, Row};
 use super::numbered::Numbered;
 use super::references::ITEM;
 use super::rows::{Named, Rows};
 use super::spaces::{self, Numbers};
 use super::tree::Reader;
-use super::{lints, place, types};
+use super::{lints, notation, types};
 use crate::diagnostics::{codes, Diagnostic};
 use crate::ir::{Binding, Buses, Item, ObjectBuses, RegisterSpace, Type};
 use crate::limits;
 use crate::text::brief;
 
-/// How many items a row stands for, and how many numbers lie between two.
+/// The number of items of a row, and the distance between their register numbers.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Repeat {
     pub count: u32,
@@ -32,7 +32,8 @@ impl Rows {
     pub(super) fn repetition(
         &mut self,
         reader: &mut Reader<'_, '_>,
-        (key, row): (&str, &Row),
+        key: &str,
+        row: &Row,
         space: Option<usize>,
     ) -> Repeat {
         let Some(given) = &row.count else { return Repeat::ONCE };
@@ -41,9 +42,9 @@ impl Rows {
             NumberOrText::Text(item) => {
                 self.references.push((At { value: item.clone(), start: given.start, end: given.end }, ITEM));
                 if row.max_count.is_none() {
-                    let message = "an item holds how many are valid, and nothing says how many rows there are";
+                    let message = "`count` names an item, but the maximum number of items is missing";
                     let found = Diagnostic::new(&codes::TABLE_VALUE, reader.span(given), message);
-                    reader.diagnostics.push(found.help("say it with `max_count`"));
+                    reader.diagnostics.push(found.help("write the maximum number of items as `max_count`"));
                 }
                 Some(row.max_count.unwrap_or(1))
             }
@@ -52,18 +53,18 @@ impl Rows {
             reader.report(
                 &codes::TABLE_VALUE,
                 reader.span(given),
-                format!("`count` goes from 1 to {}", limits::MAX_REPEAT),
+                format!("`count` must be from 1 to {}", limits::MAX_REPEAT),
             );
             return Repeat::ONCE;
         };
         let span = reader.span(given);
-        if !self.repeats.repeat(reader, (key, row), count, span) {
+        if !self.repeats.repeat(reader, key, row, count, span) {
             return Repeat::ONCE;
         }
         let unit = self.unit(space);
         let of_definition = match (&row.ty, &row.bits, &row.values) {
-            (None, Some(At { value: TextOr::Text(name), .. }), _) => Some((Kind::Bits, name)),
-            (None, _, Some(At { value: TextOr::Text(name), .. })) => Some((Kind::Enumeration, name)),
+            (None, Some(At { value: TextOr::Text(name), .. }), _) => Some((DefinitionKind::Bits, name)),
+            (None, _, Some(At { value: TextOr::Text(name), .. })) => Some((DefinitionKind::Enumeration, name)),
             _ => None,
         };
         let base = of_definition.and_then(|(kind, name)| self.definitions.base(reader, kind, name));
@@ -80,37 +81,38 @@ impl Rows {
         Repeat { count, step: row.stride.unwrap_or_else(of_type) }
     }
 
-    /// Reports more defaults than a row has items, and several items of one name.
+    /// Reports a list with more defaults than the row has items, and several items with one name.
     pub(super) fn each_has_one(&self, reader: &mut Reader<'_, '_>, key: &At<String>, row: &Row, count: u32) {
         // An array has a default for each of its elements.
         let is_array = row.ty.as_ref().and_then(|ty| types::named(&ty.value)).is_some_and(|ty| ty.elements.is_some());
         if let Some(given) = row.default.as_ref().filter(|given| given.value.0.len() > 1 && !is_array) {
             let defaults = given.value.0.len();
             if defaults > count as usize {
-                let message = format!("the list has {defaults} defaults, and the row stands for {count} items");
+                let message = format!("the list has {defaults} defaults, but the row describes {count} items");
                 reader.report(&codes::TABLE_VALUE, reader.span(given), message);
             }
         }
         if row.count.is_some() && count > 1 && !key.value.contains("{n") {
             let message = format!("`{}` is the name of {count} items", brief(&key.value));
             let found = Diagnostic::new(&codes::TABLE_VALUE, reader.span(key), message);
-            reader.diagnostics.push(found.help("put `{n}`, which counts from 0, or `{n+1}` into it"));
+            reader.diagnostics.push(found.help("write `{n}`, which counts from 0, or `{n+1}` in the name"));
         }
     }
 
-    /// Bits of one number of the space.
+    /// Returns the number of bits of one register number in the space.
     fn unit(&self, space: Option<usize>) -> u32 {
         space.and_then(|at| self.spaces.get(at)).map_or(16, |space| u32::from(space.bits))
     }
 
-    /// Every address of a row.
+    /// Returns all addresses of a row.
     pub(super) fn bindings(
         &mut self,
         reader: &mut Reader<'_, '_>,
         space: Option<usize>,
         named: Named<'_>,
         row: &Row,
-        (repeat, ty): (Repeat, Option<Type>),
+        repeat: Repeat,
+        ty: Option<Type>,
     ) -> SmallVec<[Binding; 1]> {
         let buses = self.buses_of(reader, row);
         let shift = named.number.saturating_mul(repeat.step);
@@ -118,7 +120,7 @@ impl Rows {
         let bits = ty.and_then(|ty| self.definitions.bits_of(ty));
         let mut by_rule = None;
         if let Some(reg) = &row.reg {
-            match self.numbers(reader, reg, row, (bits, named.number, repeat), space) {
+            match self.numbers(reader, row, bits, named.number, repeat, space) {
                 Some(mut numbers) => {
                     numbers.first = numbers.first.saturating_add(shift);
                     let span = reader.span(reg);
@@ -129,7 +131,11 @@ impl Rows {
                     self.numbered.push(Numbered { first: numbers.first, last, name: named.name.into() });
                     match found {
                         Some(space) => bindings.extend(space.bindings(reader, numbers, buses, span)),
-                        None => reader.report(&codes::UNRESOLVED_NAME, span, "there is no `[spaces]` for this number"),
+                        None => reader.report(
+                            &codes::UNRESOLVED_NAME,
+                            span,
+                            "the table has no `[spaces]` for this register number",
+                        ),
                     }
                 }
                 None => return bindings,
@@ -137,45 +143,49 @@ impl Rows {
         }
         if let Some(object) = &row.obj {
             let buses = self.object_buses(reader, row, object);
-            self.explicit_object(reader, object, (by_rule, shift), buses, &mut bindings);
+            self.explicit_object(reader, object, by_rule, shift, buses, &mut bindings);
         }
-        self.other_addresses(reader, (named, None), row, (shift, bits), &mut bindings);
-        let is_register = bindings.iter().any(|own| matches!(own, Binding::Register(_)));
+        bindings.extend(self.other_addresses(reader, named, None, row, shift, bits));
+        let is_register = bindings.iter().any(|binding| matches!(binding, Binding::Register(_)));
         if let Some(part) = row.part.as_ref().filter(|_| row.reg.is_some() && !is_register && named.number == 0) {
-            let message = "a `part` is one of a register on Modbus, and the row has none";
+            let message = "`part` needs a Modbus register, which the row does not have";
             reader.report(&codes::TABLE_PLACE, reader.span(part), message);
         }
         bindings
     }
 
-    /// Addresses that follow from no space.
+    /// Returns the addresses that do not depend on a space.
     pub(super) fn other_addresses(
         &self,
         reader: &mut Reader<'_, '_>,
-        (named, sub_index): (Named<'_>, Option<u8>),
+        named: Named<'_>,
+        sub_index: Option<u8>,
         row: &Row,
-        (shift, bits): (u32, Option<u32>),
-        bindings: &mut SmallVec<[Binding; 1]>,
-    ) {
+        shift: u32,
+        bits: Option<u32>,
+    ) -> SmallVec<[Binding; 1]> {
+        let mut bindings = SmallVec::new();
         if let Some(given) = &row.esc {
             let length = row.length.as_ref().map(|length| length.value);
             let length = length.unwrap_or_else(|| bits.map_or(1, |bits| bits.div_ceil(8) as u16));
-            // The memory counts bytes.
+            // The memory is addressed in bytes.
             let shift = named.number.saturating_mul(row.stride.unwrap_or(length.into()));
             match u16::try_from(u32::from(given.value).saturating_add(shift)) {
                 Ok(address) => bindings.push(Binding::EscMemory { address, length }),
                 Err(_) => {
-                    let message = format!("number {} of `{}` lies beyond 0xFFFF", named.number + 1, brief(named.name));
+                    let message =
+                        format!("the address of item {} of `{}` is above 0xFFFF", named.number + 1, brief(named.name));
                     reader.report(&codes::TABLE_PLACE, reader.span(given), message);
                 }
             }
         }
         if let Some(name) = &row.ascii {
-            bindings.push(Binding::Ascii(place::filled(name, named.number, sub_index).into()));
+            bindings.push(Binding::Ascii(notation::filled(name, named.number, sub_index).into()));
         }
         if let Some(code) = &row.param {
             bindings.push(Binding::Parameter { space: "parameter".into(), code: code.value.saturating_add(shift) });
         }
+        bindings
     }
 
     /// Reports that a row has no address, or none on the buses that it names.
@@ -184,12 +194,16 @@ impl Rows {
         let message = match (&row.reg, &row.buses, space.and_then(|at| self.spaces.get(at))) {
             (Some(_), Some(buses), Some(space)) => {
                 let buses: Vec<&str> = buses.iter().map(|bus| brief(&bus.value)).collect();
-                format!("`{key}` has no address on {}: the space `{}` gives none there", buses.join(", "), space.name)
+                format!(
+                    "`{key}` has no address on {}: the space `{}` has no rule for these buses",
+                    buses.join(", "),
+                    space.name
+                )
             }
             (Some(_), None, Some(space)) => {
-                format!("`{key}` has no address: the space `{}` gives none on the device's buses", space.name)
+                format!("`{key}` has no address: the space `{}` has no rule for the buses of the device", space.name)
             }
-            _ => format!("`{key}` has no address: `reg`, `obj`, `param`, `esc` or `ascii`"),
+            _ => format!("`{key}` has no address: write `reg`, `obj`, `param`, `esc` or `ascii`"),
         };
         reader.report(&codes::ROW_WITHOUT_ADDRESS, reader.span(named.key), message);
     }
@@ -197,24 +211,26 @@ impl Rows {
     fn numbers(
         &mut self,
         reader: &mut Reader<'_, '_>,
-        reg: &At<NumberOrText>,
         row: &Row,
-        (bits, number, repeat): (Option<u32>, u32, Repeat),
+        bits: Option<u32>,
+        number: u32,
+        repeat: Repeat,
         space: Option<usize>,
     ) -> Option<Numbers> {
+        let reg = row.reg.as_ref()?;
         let (first, last) = match &reg.value {
             NumberOrText::Number(number) => match u32::try_from(*number) {
                 Ok(number) => (number, None),
                 Err(_) => {
-                    let message = format!("`{number}` is no number of a register: they go from 0 to {}", u32::MAX);
+                    let message = format!("`{number}` is not a register number, which is from 0 to {}", u32::MAX);
                     reader.report(&codes::TABLE_PLACE, reader.span(reg), message);
                     return None;
                 }
             },
-            NumberOrText::Text(text) => match place::registers(text) {
+            NumberOrText::Text(text) => match notation::registers(text) {
                 Some((first, last)) => (first, Some(last)),
                 None => {
-                    let message = format!("`{}` is no number of a register: write `63` or `\"63-64\"`", brief(text));
+                    let message = format!("`{}` is not a register number: write `63` or `\"63-64\"`", brief(text));
                     reader.report(&codes::TABLE_PLACE, reader.span(reg), message);
                     return None;
                 }
@@ -223,21 +239,22 @@ impl Rows {
         let unit = self.unit(space);
         if let (Some(last), Some(bits), 0) = (last, bits, number) {
             let (printed, needed) = ((last - first).saturating_add(1), bits.div_ceil(unit));
-            // The printed range may be that of the first of several, or of all of them.
+            // The printed range is that of the first item, or of all items.
             let all = repeat.step.saturating_mul(repeat.count - 1).saturating_add(needed);
             if ![needed, all, repeat.step.saturating_mul(repeat.count)].contains(&printed) {
-                let of_all = if repeat.count > 1 { format!(", or {all} for all") } else { String::new() };
-                let numbers = if printed == 1 { "number" } else { "numbers" };
-                let message = format!("{printed} {numbers} of {unit} bits, and the type takes {needed}{of_all}");
+                let of_all = if repeat.count > 1 { format!(", or {all} for all items") } else { String::new() };
+                let numbers = if printed == 1 { "register number" } else { "register numbers" };
+                let message =
+                    format!("the row has {printed} {numbers} of {unit} bits, but the type needs {needed}{of_all}");
                 reader
                     .diagnostics
                     .push(Diagnostic::new(&codes::REGISTER_SPAN, reader.span(reg), message).label("the type is used"));
             }
         }
-        // Of a type without a length, the numbers tell it.
+        // The register numbers give the length of a type that has none.
         let printed = last.map(|last| (last - first).saturating_add(1).saturating_mul(unit));
         let bits = bits.or(printed.filter(|_| repeat.count == 1));
-        let bit_offset = row.part.as_ref().and_then(|part| self.part(reader, part, (bits, unit)));
+        let bit_offset = row.part.as_ref().and_then(|part| self.part(reader, part, bits, unit));
         Some(Numbers {
             first,
             bits,
@@ -247,25 +264,20 @@ impl Rows {
         })
     }
 
-    /// The first bit of a part of a register.
-    fn part(
-        &self,
-        reader: &mut Reader<'_, '_>,
-        part: &At<NumberOrText>,
-        (bits, unit): (Option<u32>, u32),
-    ) -> Option<u8> {
+    /// Returns the first bit of a part of a register.
+    fn part(&self, reader: &mut Reader<'_, '_>, part: &At<NumberOrText>, bits: Option<u32>, unit: u32) -> Option<u8> {
         let text = part.value.to_string();
-        let Some((offset, count)) = place::bits(&text) else {
-            let message = format!("`{}` are no bits: write `7` or `\"7-0\"`", brief(&text));
+        let Some((offset, count)) = notation::bits(&text) else {
+            let message = format!("`{}` is not a bit or a range of bits: write `7` or `\"7-0\"`", brief(&text));
             reader.report(&codes::TABLE_PLACE, reader.span(part), message);
             return None;
         };
         if bits.is_some_and(|bits| bits != u32::from(count)) {
-            let message = format!("the part has {count} bits, and the type {}", bits.unwrap_or(0));
+            let message = format!("the part has {count} bits, but the type has {}", bits.unwrap_or(0));
             reader.report(&codes::REGISTER_SPAN, reader.span(part), message);
         }
         if u32::from(offset) + u32::from(count) > unit {
-            let message = format!("the part ends at bit {}, and a register has {unit} bits", offset + count - 1);
+            let message = format!("the part ends at bit {}, but a register has {unit} bits", offset + count - 1);
             reader.report(&codes::TABLE_PLACE, reader.span(part), message);
             return None;
         }
@@ -276,7 +288,8 @@ impl Rows {
         &self,
         reader: &mut Reader<'_, '_>,
         object: &At<NumberOrText>,
-        (by_rule, shift): (Option<(u16, u8)>, u32),
+        by_rule: Option<(u16, u8)>,
+        shift: u32,
         buses: ObjectBuses,
         bindings: &mut SmallVec<[Binding; 1]>,
     ) {
@@ -285,10 +298,10 @@ impl Rows {
             NumberOrText::Number(number) => format!("0x{number:04X}"),
             NumberOrText::Text(text) => text.clone(),
         };
-        let found = place::objects(&text).filter(|found| found.indices.0 == found.indices.1);
+        let found = notation::objects(&text).filter(|found| found.indices.0 == found.indices.1);
         let index = found.and_then(|found| u16::try_from(u32::from(found.indices.0).checked_add(shift)?).ok());
         let (Some(found), Some(index)) = (found, index) else {
-            let message = format!("`{}` is no object: write `0x6040` or `\"0x2000:1\"`", brief(&text));
+            let message = format!("`{}` is not an object: write `0x6040` or `\"0x2000:1\"`", brief(&text));
             reader.report(&codes::TABLE_PLACE, reader.span(object), message);
             return;
         };
@@ -296,10 +309,10 @@ impl Rows {
         if let Some((ruled, ruled_sub)) = by_rule {
             if ruled != index || sub_index.is_some_and(|sub| sub != ruled_sub) {
                 let message =
-                    format!("the row says object {text}, and the rule of its space 0x{ruled:04X}:{ruled_sub}");
+                    format!("the row has object {text}, but the rule of its space gives 0x{ruled:04X}:{ruled_sub}");
                 reader.diagnostics.push(
                     Diagnostic::new(&codes::REGISTER_FORMULA, reader.span(object), message)
-                        .label("what the row says is used")
+                        .label("the object of the row is used")
                         .help(lints::FORMULA),
                 );
             }
@@ -309,53 +322,55 @@ impl Rows {
         bindings.insert(0, Binding::Object { buses, index, sub_index });
     }
 
-    /// The buses on which a row exists.
+    /// Returns the buses on which a row exists.
     pub(super) fn buses_of(&self, reader: &mut Reader<'_, '_>, row: &Row) -> Buses {
         let Some(list) = &row.buses else { return self.buses };
         let mut found = Buses::NONE;
         for name in list {
             let bus = buses::read(reader, std::slice::from_ref(name));
             if !bus.is_empty() && bus.and(self.buses).is_empty() {
-                let message = format!("the device isn't on {}", brief(&name.value));
+                let message = format!("the device does not have the bus {}", brief(&name.value));
                 let wrong = Diagnostic::new(&codes::TABLE_VALUE, reader.span(name), message);
-                reader.diagnostics.push(wrong.help("`buses` of `[device]` has those that it is on"));
+                reader.diagnostics.push(wrong.help("add the bus to `buses` of `[device]`, or remove it here"));
             }
             found = found.or(bus);
         }
         found.and(self.buses)
     }
 
-    /// The buses of the object of a row, on one of which it has to be.
+    /// Returns the buses of the object of a row. A row without a bus for objects is reported.
     pub(super) fn object_buses(&self, reader: &mut Reader<'_, '_>, row: &Row, at: &At<impl Clone>) -> ObjectBuses {
         let objects = self.buses_of(reader, row).with_objects();
         if Buses::from(objects).is_empty() {
-            let message = "objects are found on CANopen and EtherCAT, and the row is on neither";
+            let message = "objects exist on CANopen and EtherCAT only, and the row is on neither";
             let found = Diagnostic::new(&codes::TABLE_PLACE, reader.span(at), message);
-            reader.diagnostics.push(found.help("`buses` of the row, its defaults or the device leaves both out"));
+            reader
+                .diagnostics
+                .push(found.help("add one of them to `buses` of the row, of its defaults or of the device"));
         }
         ObjectBuses { canopen: objects.canopen || !objects.coe, ..objects }
     }
 }
 
-/// Reports an item that can be written by its row, and not by its table of Modbus, which is the only place it has.
+/// Reports a writable item whose only addresses are Modbus inputs, which are read-only.
 pub(super) fn read_only_table(reader: &mut Reader<'_, '_>, item: &Item) {
     let is_input = |binding: &Binding| match binding {
-        Binding::Register(own) => matches!(own.space, RegisterSpace::Input | RegisterSpace::DiscreteInput),
+        Binding::Register(register) => matches!(register.space, RegisterSpace::Input | RegisterSpace::DiscreteInput),
         _ => false,
     };
     if item.access.writable() && item.bindings.iter().all(is_input) {
-        let message =
-            format!("`{}` is {}, and inputs of Modbus can only be read", brief(&item.name), item.access.name());
+        let message = format!("`{}` is {}, but Modbus inputs are read-only", brief(&item.name), item.access.name());
         reader.report(&codes::ACCESS_CONFLICT, item.at.access.or(item.at.name), message);
     }
 }
 
-/// Reports the order of words of a row that says it, and whose space gives no register on Modbus.
+/// Reports a word order in a row whose space has no Modbus registers.
 pub(super) fn words_without_register(reader: &mut Reader<'_, '_>, row: &Row, items: &[Item]) {
     let Some(item) = items.first() else { return };
     let has_register = item.bindings.iter().any(|binding| matches!(binding, Binding::Register(_)));
     if row.reg.is_some() && !has_register && (row.order.is_some() || row.swap.is_some()) {
-        let message = format!("`order` and `swap` are about registers on Modbus, and `{}` is none", brief(&item.name));
+        let message =
+            format!("`order` and `swap` apply to Modbus registers only, and `{}` has none", brief(&item.name));
         reader.report(&codes::TABLE_VALUE, item.at.name, message);
     }
 }

@@ -1,41 +1,41 @@
-//! Definitions that are found by their names.
+//! Lookup of definitions by name.
 
 use std::collections::HashMap;
 use std::sync::Arc;
 
 use super::at::At;
 
-/// Definitions of one kind in the order of the table. A table may have as many of them as it has rows, each of which looks for its
-/// own. Those of a profile are shared by all devices that it completes.
+/// Definitions in the order of the table. Rows look up definitions by name, so a lookup takes constant time. All devices that a
+/// profile completes share its definitions.
 #[derive(Debug)]
-pub(super) struct ByName<T>(Arc<Definitions<T>>);
+pub(super) struct ByName<T>(Arc<Lookup<T>>);
 
 #[derive(Debug)]
-struct Definitions<T> {
+struct Lookup<T> {
     all: Vec<(At<String>, T)>,
-    /// Where in `all` the first of a name is.
-    places: HashMap<String, usize>,
+    /// Positions in `all`, by name. The first definition of a name counts.
+    positions: HashMap<String, usize>,
 }
 
 impl<T> ByName<T> {
     pub fn new(all: Vec<(At<String>, T)>) -> Self {
-        let mut places = HashMap::with_capacity(all.len());
+        let mut positions = HashMap::with_capacity(all.len());
         for (at, (name, _)) in all.iter().enumerate() {
-            places.entry(name.value.clone()).or_insert(at);
+            positions.entry(name.value.clone()).or_insert(at);
         }
-        ByName(Arc::new(Definitions { all, places }))
+        ByName(Arc::new(Lookup { all, positions }))
     }
 
-    /// The definition of this name, and where the name stands.
+    /// Returns the definition of this name, with its span.
     pub fn get(&self, name: &str) -> Option<&(At<String>, T)> {
-        self.0.all.get(*self.0.places.get(name)?)
+        self.0.all.get(*self.0.positions.get(name)?)
     }
 
     pub fn iter(&self) -> impl Iterator<Item = &(At<String>, T)> {
         self.0.all.iter()
     }
 
-    /// Their names.
+    /// Returns all names.
     pub fn names(&self) -> impl Iterator<Item = &At<String>> {
         self.0.all.iter().map(|(name, _)| name)
     }

@@ -1,24 +1,24 @@
-//! Codes with a meaning: alarms, emergency codes, abort codes.
+//! Reads codes with a meaning: alarms, emergency codes, abort codes.
 
 use std::collections::hash_map::{Entry, HashMap};
 
 use super::at::{At, Literal, TextOr};
 use super::format::{CodeTableRow, CodesTable};
 use super::tree::Reader;
-use super::{buses, place, value};
+use super::{buses, notation, value};
 use crate::diagnostics::{codes, Diagnostic};
 use crate::ir::{Availability, CodeRow, CodeTable, CompactString, Device, SubjectKind, Type, Value};
 use crate::text::brief;
 
-/// A table of codes.
+/// Reads a table of codes.
 pub(super) fn table(reader: &mut Reader<'_, '_>, name: &At<String>, table: &CodesTable, device: &mut Device) {
     let owner = name.value.as_str();
     let mut rows = Vec::with_capacity(table.rows.0.len());
     let plain = CodeTableRow::default();
     let mut distinct = table.distinct.then(Distinct::default);
     for (key, row) in table.rows.iter() {
-        let Some((first, last)) = place::range(&key.value).filter(|(first, last)| first <= last) else {
-            let message = format!("`{}` is no code: write `0x8110` or `\"0xFF13..0xFF15\"`", brief(&key.value));
+        let Some((first, last)) = notation::range(&key.value).filter(|(first, last)| first <= last) else {
+            let message = format!("`{}` is not a code: write `0x8110` or `\"0xFF13..0xFF15\"`", brief(&key.value));
             reader.report(&codes::TABLE_PLACE, reader.span(key), message);
             continue;
         };
@@ -28,14 +28,15 @@ pub(super) fn table(reader: &mut Reader<'_, '_>, name: &At<String>, table: &Code
         };
         let origin = reader.origin(key);
         device.doubts.extend(reader.doubts_about(row, origin, SubjectKind::Codes, owner, &key.value));
-        let as_before = distinct.as_mut().and_then(|distinct| distinct.before(key, row));
-        if let Some(other) = as_before {
+        let same_cells = distinct.as_mut().and_then(|distinct| distinct.before(key, row));
+        if let Some(other) = same_cells {
             let message = format!("the codes {} and {} have the same cells", brief(&other.value), brief(&key.value));
             let found = Diagnostic::new(&codes::CELLS_TWICE, reader.span(key), message);
             reader.diagnostics.push(found.note_at(reader.span(other), "the first one"));
         }
-        let cell =
-            |own: &At<Literal>| value::convert(&own.value, Type::Opaque(None), false).unwrap_or(Value::Bool(false));
+        let cell = |literal: &At<Literal>| {
+            value::convert(&literal.value, Type::Opaque(None), false).unwrap_or(Value::Bool(false))
+        };
         rows.push(CodeRow {
             printed: printed(&key.value, table.prefix.as_deref().unwrap_or_default()),
             printed_cells: printed_cells(reader, &row.cells),
@@ -58,7 +59,7 @@ pub(super) fn table(reader: &mut Reader<'_, '_>, name: &At<String>, table: &Code
     });
 }
 
-/// The code of a row as the table writes it: `0x8700`, `F125` with the prefix `F`; empty for decimal numbers.
+/// Returns the code of a row as the table writes it: `0x8700`, or `F125` with the prefix `F`. Decimal numbers give an empty text.
 fn printed(key: &str, prefix: &str) -> CompactString {
     let is_decimal = key.chars().all(|letter| letter.is_ascii_digit() || letter == '-');
     match prefix {
@@ -70,7 +71,7 @@ fn printed(key: &str, prefix: &str) -> CompactString {
     }
 }
 
-/// The cells that are written in hexadecimal; none if there is no such cell.
+/// Returns the text of the cells that are hexadecimal. The list is empty if no cell is.
 fn printed_cells(reader: &Reader<'_, '_>, cells: &[At<Literal>]) -> Vec<CompactString> {
     let is_pattern = |cell: &At<Literal>| matches!(cell.value, Literal::Int(_)) && reader.is_pattern(cell);
     if !cells.iter().any(is_pattern) {
@@ -83,17 +84,17 @@ fn printed_cells(reader: &Reader<'_, '_>, cells: &[At<Literal>]) -> Vec<CompactS
     cells.iter().map(text).collect()
 }
 
-/// The first code of all that have the same cells.
+/// The first code for each combination of cells.
 #[derive(Default)]
 struct Distinct<'t>(HashMap<Vec<Cell<'t>>, &'t At<String>>);
 
 impl<'t> Distinct<'t> {
-    /// A code in front of `key` that has the cells of `row`, where it has any.
+    /// Returns an earlier code that has the cells of `row`, if the row has any.
     fn before(&mut self, key: &'t At<String>, row: &'t CodeTableRow) -> Option<&'t At<String>> {
         let cells = row
             .cells
             .iter()
-            .map(|own| Cell::of(&own.value))
+            .map(|literal| Cell::of(&literal.value))
             .collect::<Option<Vec<_>>>()
             .filter(|cells| !cells.is_empty())?;
         match self.0.entry(cells) {
@@ -106,7 +107,7 @@ impl<'t> Distinct<'t> {
     }
 }
 
-/// A literal that can be looked up.
+/// A literal as a key of a map.
 #[derive(PartialEq, Eq, Hash)]
 enum Cell<'t> {
     Bool(bool),
@@ -116,26 +117,26 @@ enum Cell<'t> {
 }
 
 impl<'t> Cell<'t> {
-    /// What isn't a number is equal to nothing.
+    /// Returns the key of a literal, or `None` for NaN, which is equal to nothing.
     fn of(literal: &'t Literal) -> Option<Self> {
         Some(match literal {
             Literal::Bool(value) => Cell::Bool(*value),
             Literal::Int(value) => Cell::Int(*value),
             Literal::Real(value) if value.is_nan() => return None,
-            // The zero with a sign is equal to the other one.
+            // The negative zero is equal to the positive one.
             Literal::Real(value) => Cell::Real((value + 0.0).to_bits()),
             Literal::Text(text) => Cell::Text(text),
         })
     }
 }
 
-/// Models and firmware that have a code.
+/// Returns the models and firmware that have a code.
 fn availability(row: &CodeTableRow) -> Option<Box<Availability>> {
-    let own = Availability {
+    let availability = Availability {
         models: row.models.iter().flatten().map(|model| model.value.as_str().into()).collect(),
         since: row.since.as_deref().map(Into::into),
         until: row.until.as_deref().map(Into::into),
         ..Availability::default()
     };
-    (own != Availability::default()).then(|| Box::new(own))
+    (availability != Availability::default()).then(|| Box::new(availability))
 }

@@ -1,4 +1,4 @@
-//! Numbers that are split over several items.
+//! Reads numbers that are split over several items.
 
 use super::at::At;
 use super::format::CompositeTable;
@@ -7,7 +7,7 @@ use super::tree::Reader;
 use crate::diagnostics::codes;
 use crate::ir::{Composite, Device, SubjectKind};
 
-/// Adds one.
+/// Reads a composite.
 pub(super) fn composite(
     reader: &mut Reader<'_, '_>,
     name: &At<String>,
@@ -20,10 +20,10 @@ pub(super) fn composite(
     references.extend(table.parts.iter().map(|part| (part.clone(), ITEM)));
     references.extend(table.sign.iter().map(|sign| (sign.clone(), ITEM)));
     let message = match (table.parts.len(), table.base, table.sign.is_some(), table.negative.is_some()) {
-        (0..=1, ..) => "`parts` are two items at least, the most significant one first",
-        (_, None | Some(0..=1), ..) => "`base` is what a digit is worth of the next: two at least",
-        (_, _, true, false) => "`negative` is the value that `sign` has below zero",
-        (_, _, false, true) => "`negative` is a value of `sign`, and there is none",
+        (0..=1, ..) => "`parts` needs at least two items, the most significant one first",
+        (_, None | Some(0..=1), ..) => "`base`, the ratio of a part to the next one, must be at least 2",
+        (_, _, true, false) => "`negative`, the value of `sign` for negative numbers, is missing",
+        (_, _, false, true) => "`negative` is a value of `sign`, which is missing",
         _ => "",
     };
     if !message.is_empty() {

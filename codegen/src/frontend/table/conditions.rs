@@ -1,4 +1,4 @@
-//! When something exists or is allowed: values of other items, models, firmware, buses.
+//! Conditions for the existence of an element or for writing it: values of other items, models, firmware, buses.
 
 use compact_str::CompactString;
 
@@ -11,16 +11,16 @@ use super::value;
 use crate::diagnostics::codes;
 use crate::ir::{Availability, Condition, ElementRef, Type};
 
-/// Who has an element, as a table says it.
-pub(super) struct Window<'t> {
+/// The availability of an element, as a table states it.
+pub(super) struct GivenAvailability<'t> {
     pub models: Option<&'t Vec<At<String>>>,
-    /// The first firmware that has it, and the first that doesn't.
+    /// The first firmware that has the element, and the first that does not.
     pub versions: [Option<&'t str>; 2],
     pub replaced_by: Option<&'t str>,
     pub buses: Option<&'t Vec<At<String>>>,
 }
 
-/// "While the item has one of these values", for what depends on one item at most.
+/// Reads the condition of a bit or value, which depends on one item at most.
 pub(super) fn condition(
     reader: &mut Reader<'_, '_>,
     references: &mut References,
@@ -28,13 +28,13 @@ pub(super) fn condition(
 ) -> Option<Condition> {
     let given = when?;
     if let Some((second, _)) = given.0.get(1) {
-        let message = "bits and values depend on one other item at most";
+        let message = "the condition of a bit or value depends on more than one item";
         reader.report(&codes::TABLE_VALUE, reader.span(second), message);
     }
     conditions(reader, references, given).into_iter().next()
 }
 
-/// The same, for several items.
+/// Reads conditions on the values of other items.
 pub(super) fn conditions(
     reader: &mut Reader<'_, '_>,
     references: &mut References,
@@ -45,13 +45,14 @@ pub(super) fn conditions(
         references.push((item.clone(), ITEM));
         let (mask, literals) = match &given.value {
             ConditionValues::Values(OneOrMany(values)) => (None, values.as_slice()),
-            ConditionValues::Bits(bits) => (bits.mask, bits.value.as_ref().map_or(&[][..], |own| own.0.as_slice())),
+            ConditionValues::Bits(bits) => (bits.mask, bits.value.as_ref().map_or(&[][..], |value| value.0.as_slice())),
         };
         let span = reader.span(given);
-        let values = value::listed(reader, (literals, (given.start, given.end)), Type::Opaque(None));
-        let outside = |mask: u64| values.iter().filter_map(|own| own.as_int()).any(|own| own & !i128::from(mask) != 0);
+        let values = value::listed(reader, literals, (given.start, given.end), Type::Opaque(None));
+        let outside =
+            |mask: u64| values.iter().filter_map(|value| value.as_int()).any(|value| value & !i128::from(mask) != 0);
         if literals.is_empty() || mask.is_some_and(outside) || mask == Some(0) {
-            let message = "the condition never holds: it has no value, or one with bits outside of its `mask`";
+            let message = "the condition is never true: it has no value, or a value with bits outside of its `mask`";
             reader.report(&codes::TABLE_VALUE, span, message);
         }
         conditions.push(Condition { item: reader.reference(item), values, names: Vec::new(), mask });
@@ -59,16 +60,16 @@ pub(super) fn conditions(
     conditions
 }
 
-/// Models, firmware and buses; `None` where all have it.
+/// Reads models, firmware and buses. Returns `None` if the element exists everywhere.
 pub(super) fn availability(
     reader: &mut Reader<'_, '_>,
     references: &mut References,
-    given: Window<'_>,
+    given: GivenAvailability<'_>,
 ) -> Option<Box<Availability>> {
     let models = given.models.into_iter().flatten();
     references.extend(models.clone().map(|model| (model.clone(), "model")));
     let [since, until] = given.versions;
-    let own = Availability {
+    let availability = Availability {
         models: models.map(|model| model.value.as_str().into()).collect(),
         since: since.map(CompactString::from),
         until: until.map(CompactString::from),
@@ -76,5 +77,5 @@ pub(super) fn availability(
         buses: given.buses.map(|list| buses::read(reader, list)).unwrap_or_default(),
         ..Availability::default()
     };
-    (own != Availability::default()).then(|| Box::new(own))
+    (availability != Availability::default()).then(|| Box::new(availability))
 }

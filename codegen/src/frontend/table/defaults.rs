@@ -1,4 +1,4 @@
-//! What rows inherit from `defaults`.
+//! Applies `defaults` to rows.
 
 use toml::de::DeValue;
 
@@ -7,13 +7,13 @@ use super::tree::{Node, Reader};
 use crate::diagnostics::{codes, Diagnostic};
 use crate::source::Span;
 
-/// The keys of `defaults`, each with the field of a row that it fills.
+/// Declares the keys of `defaults`, each with the field of a row that it sets.
 macro_rules! inherited {
     ($($key:literal $field:ident)*) => {
         const INHERITED: &[&str] = &[$($key),*];
 
         impl Row {
-            /// The row with what `defaults` say where it says nothing.
+            /// Returns the row with `defaults` in place of missing values.
             pub(super) fn or(mut self, defaults: &Row) -> Row {
                 $( if self.$field.is_none() { self.$field.clone_from(&defaults.$field); } )*
                 self
@@ -45,8 +45,8 @@ inherited! {
     "pdi" pdi
 }
 
-/// Keys of rows that each row has for itself.
-const OWN: &[&str] = &[
+/// Keys that rows do not inherit.
+const NOT_INHERITED: &[&str] = &[
     "reg",
     "obj",
     "esc",
@@ -108,17 +108,17 @@ pub(super) fn of_chapter(reader: &mut Reader<'_, '_>, chapter: &mut Node<'_>) {
     }
 }
 
-/// Takes out what no row would inherit, and says so.
+/// Removes and reports keys that rows do not inherit.
 fn check(reader: &mut Reader<'_, '_>, node: &mut Node<'_>) {
     let DeValue::Table(table) = node.get_mut() else { return };
-    let is_own = |key: &str| OWN.contains(&key) && !INHERITED.contains(&key);
-    let found: Vec<_> = table.keys().filter(|key| is_own(key.get_ref())).cloned().collect();
+    let is_excluded = |key: &str| NOT_INHERITED.contains(&key) && !INHERITED.contains(&key);
+    let found: Vec<_> = table.keys().filter(|key| is_excluded(key.get_ref())).cloned().collect();
     for key in found {
         table.remove(&key);
         let (span, name) = (key.span(), key.get_ref());
-        let message = format!("rows don't inherit `{name}` from `defaults`: each has its own");
+        let message = format!("rows do not inherit `{name}` from `defaults`: write it in each row");
         let span = Span::new(reader.file, span.start as u32, span.end as u32);
         let found = Diagnostic::new(&codes::TABLE_VALUE, span, message);
-        reader.diagnostics.push(found.help(format!("inherited are {}", INHERITED.join(", "))));
+        reader.diagnostics.push(found.help(format!("rows inherit {}", INHERITED.join(", "))));
     }
 }

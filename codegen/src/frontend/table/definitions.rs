@@ -6,14 +6,14 @@ use compact_str::{format_compact, CompactString};
 
 use super::at::{At, TextOr};
 use super::by_name::ByName;
-use super::conditions::{self, Window};
+use super::conditions::{self, GivenAvailability};
 use super::format::{
     BitEntries, BitTable, BitsTable, Documented, Doubted, EnumTable, NumberOrText, UnitTable, ValueEntries, ValueTable,
 };
 use super::references::References;
 use super::tree::Reader;
 use super::words::ACCESSES;
-use super::{lints, place, types, value};
+use super::{lints, notation, types, value};
 use crate::diagnostics::{codes, Diagnostic};
 use crate::ir::{
     BitFieldEntry, BitMeaning, Doubts, EnumValue, Mark, Shape, SubjectKind, Trigger, Type, TypeDef, TypeId, Zone,
@@ -21,9 +21,9 @@ use crate::ir::{
 use crate::source::Origin;
 use crate::text::brief;
 
-/// What a name may stand for.
+/// What a name of a definition refers to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub(super) enum Kind {
+pub(super) enum DefinitionKind {
     Enumeration,
     Bits,
 }
@@ -36,15 +36,15 @@ pub(super) struct Definitions {
     pub units: ByName<UnitTable>,
     /// The types made so far.
     pub types: Vec<TypeDef>,
-    /// Contradictions of definitions.
+    /// Ambiguities of definitions.
     pub doubts: Doubts,
-    /// Those of a name, each over another integer.
-    pub made: HashMap<(Kind, String), Vec<(Type, TypeId)>>,
-    /// Names that definitions refer to, with their places.
+    /// The types of each definition, one for each underlying integer type.
+    pub made: HashMap<(DefinitionKind, String), Vec<(Type, TypeId)>>,
+    /// Names that definitions use, with their spans.
     pub mentioned: References,
 }
 
-/// What is said of a definition as a whole.
+/// The facts about a definition as a whole.
 struct About<'t> {
     name: CompactString,
     doc: Option<&'t str>,
@@ -53,57 +53,63 @@ struct About<'t> {
 }
 
 impl Definitions {
-    /// The type of this name over the integer `base`. A name that isn't defined is reported.
-    pub fn named(&mut self, reader: &mut Reader<'_, '_>, kind: Kind, name: &At<String>, base: Type) -> Option<Type> {
+    /// Returns the type of a definition over the integer type `base`. A name without a definition is reported.
+    pub fn named(
+        &mut self,
+        reader: &mut Reader<'_, '_>,
+        kind: DefinitionKind,
+        name: &At<String>,
+        base: Type,
+    ) -> Option<Type> {
         let key = (kind, name.value.clone());
-        let made = self.made.get(&key).and_then(|made| made.iter().find(|(own, _)| *own == base));
+        let made = self.made.get(&key).and_then(|made| made.iter().find(|(type_base, _)| *type_base == base));
         if let Some(&(_, id)) = made {
             return Some(Type::Named(id));
         }
-        // The integer that the definition names has its plain name.
+        // The type over the base of the definition has no suffix.
         let suffix = match self.base(reader, kind, &name.value) {
-            Some(own) if own != base => base.integer_suffix(),
+            Some(default_base) if default_base != base => base.integer_suffix(),
             _ => String::new(),
         };
         let id = match kind {
-            Kind::Enumeration => {
-                let Some((place, table)) = self.enums.get(&name.value).cloned() else {
-                    let known = self.enums.names().map(|own| own.value.as_str());
+            DefinitionKind::Enumeration => {
+                let Some((found_name, table)) = self.enums.get(&name.value).cloned() else {
+                    let known = self.enums.names().map(|known_name| known_name.value.as_str());
                     reader.unresolved("enumeration", &name.value, reader.span(name), known);
                     return None;
                 };
-                let mut about = self.about(reader, &place, &table);
+                let mut about = self.about(reader, &found_name, &table);
                 about.name.push_str(&suffix);
                 self.enumeration(reader, about, base, table.closed, &table.values)
             }
-            Kind::Bits => {
-                let Some((place, table)) = self.bits.get(&name.value).cloned() else {
-                    let known = self.bits.names().map(|own| own.value.as_str());
+            DefinitionKind::Bits => {
+                let Some((found_name, table)) = self.bits.get(&name.value).cloned() else {
+                    let known = self.bits.names().map(|known_name| known_name.value.as_str());
                     reader.unresolved("bit field", &name.value, reader.span(name), known);
                     return None;
                 };
-                let mut about = self.about(reader, &place, &table);
+                let mut about = self.about(reader, &found_name, &table);
                 about.name.push_str(&suffix);
-                self.bit_field(reader, about, base, (&table.at, table.address))
+                self.bit_field(reader, about, base, &table.at, table.address)
             }
         };
         self.made.entry(key).or_default().push((base, id));
         Some(Type::Named(id))
     }
 
-    /// The integer that a definition names as its base.
-    pub fn base(&self, reader: &mut Reader<'_, '_>, kind: Kind, name: &str) -> Option<Type> {
+    /// Returns the integer type that a definition names as its base.
+    pub fn base(&self, reader: &mut Reader<'_, '_>, kind: DefinitionKind, name: &str) -> Option<Type> {
         let base = match kind {
-            Kind::Enumeration => self.enums.get(name).and_then(|(_, table)| table.base.as_ref()),
-            Kind::Bits => self.bits.get(name).and_then(|(_, table)| table.base.as_ref()),
+            DefinitionKind::Enumeration => self.enums.get(name).and_then(|(_, table)| table.base.as_ref()),
+            DefinitionKind::Bits => self.bits.get(name).and_then(|(_, table)| table.base.as_ref()),
         }?;
         integer(reader, base)
     }
 
-    /// The basic type below a bit field, an enumeration or an alias.
+    /// Returns the basic type of a bit field, an enumeration or an alias.
     pub fn underlying(&self, ty: Type) -> Type {
         let mut ty = ty;
-        // Definitions never lead back: each refers to earlier ones.
+        // Definitions form no cycle: each refers to earlier ones.
         while let Type::Named(TypeId(id)) = ty {
             match self.types.get(id as usize).map(|def| &def.shape) {
                 Some(Shape::Alias(base) | Shape::BitField { base, .. } | Shape::Enumeration { base, .. }) => ty = *base,
@@ -114,7 +120,7 @@ impl Definitions {
         ty
     }
 
-    /// The bits of a type, also of one with a name; `None` if its length varies.
+    /// Returns the length of a type in bits, including named types, or `None` if it varies.
     pub fn bits_of(&self, ty: Type) -> Option<u32> {
         match ty {
             Type::Named(TypeId(id)) => self.types.get(id as usize).and_then(|def| def.bits),
@@ -126,12 +132,12 @@ impl Definitions {
         }
     }
 
-    /// Makes the definitions that no row uses, so that their mistakes are found and they are part of the output.
+    /// Creates the types of unused definitions, so that their errors are reported and they are part of the output.
     pub fn make_unused(&mut self, reader: &mut Reader<'_, '_>) {
-        let enums = self.enums.names().map(|name| (Kind::Enumeration, name.clone()));
-        let all: Vec<_> = enums.chain(self.bits.names().map(|name| (Kind::Bits, name.clone()))).collect();
+        let enums = self.enums.names().map(|name| (DefinitionKind::Enumeration, name.clone()));
+        let all: Vec<_> = enums.chain(self.bits.names().map(|name| (DefinitionKind::Bits, name.clone()))).collect();
         for (kind, name) in all {
-            // One may have been made for another one.
+            // Creating another definition may have created this one.
             if !self.made.contains_key(&(kind, name.value.clone())) {
                 let base = self.base(reader, kind, &name.value).unwrap_or(Type::Unsigned(16));
                 self.named(reader, kind, &name, base);
@@ -142,19 +148,20 @@ impl Definitions {
     fn about<'t, T: Documented + Doubted>(
         &mut self,
         reader: &mut Reader<'_, '_>,
-        place: &At<String>,
+        name: &At<String>,
         table: &'t T,
     ) -> About<'t> {
-        let origin = reader.origin(place);
-        self.doubts.extend(reader.doubts_about(table, origin, SubjectKind::Type, &place.value, ""));
-        About { name: place.value.as_str().into(), doc: table.doc(), cite: table.cited(), origin }
+        let origin = reader.origin(name);
+        self.doubts.extend(reader.doubts_about(table, origin, SubjectKind::Type, &name.value, ""));
+        About { name: name.value.as_str().into(), doc: table.doc(), cite: table.cited(), origin }
     }
 
-    /// An enumeration that is written in its row.
+    /// Returns the type of an enumeration that a row contains.
     pub fn inline_values(
         &mut self,
         reader: &mut Reader<'_, '_>,
-        (name, origin): (&str, Origin),
+        name: &str,
+        origin: Origin,
         base: Type,
         values: &ValueEntries,
     ) -> Type {
@@ -162,16 +169,17 @@ impl Definitions {
         Type::Named(self.enumeration(reader, about, base, false, values))
     }
 
-    /// A bit field that is written in its row.
+    /// Returns the type of a bit field that a row contains.
     pub fn inline_bits(
         &mut self,
         reader: &mut Reader<'_, '_>,
-        (name, origin): (&str, Origin),
+        name: &str,
+        origin: Origin,
         base: Type,
         bits: &BitEntries,
     ) -> Type {
         let about = About { name: name.into(), doc: None, cite: None, origin };
-        Type::Named(self.bit_field(reader, about, base, (bits, None)))
+        Type::Named(self.bit_field(reader, about, base, bits, None))
     }
 
     fn push(&mut self, reader: &Reader<'_, '_>, about: About<'_>, base: Type, shape: Shape) -> TypeId {
@@ -198,10 +206,10 @@ impl Definitions {
         let mut values = Vec::with_capacity(entries.0.len());
         for (key, entry) in entries.iter() {
             let is_pattern = reader.is_pattern(key);
-            let range = place::range(&key.value).filter(|(first, last)| first <= last);
-            let range = range.map(|(first, last)| [first, last].map(|own| value::integer(own, base, is_pattern)));
+            let range = notation::range(&key.value).filter(|(first, last)| first <= last);
+            let range = range.map(|(first, last)| [first, last].map(|number| value::integer(number, base, is_pattern)));
             let Some([first, last]) = range.filter(|[first, last]| first <= last) else {
-                let message = format!("`{}` is no value: write `3`, `0x10`, `-1` or `\"3..7\"`", brief(&key.value));
+                let message = format!("`{}` is not a value: write `3`, `0x10`, `-1` or `\"3..7\"`", brief(&key.value));
                 reader.report(&codes::TABLE_PLACE, reader.span(key), message);
                 continue;
             };
@@ -225,7 +233,7 @@ impl Definitions {
                 zone,
                 names: reader.original(more.orig.as_deref()),
                 when: conditions::condition(reader, &mut self.mentioned, more.when.as_ref()),
-                availability: conditions::availability(reader, &mut self.mentioned, window(more)),
+                availability: conditions::availability(reader, &mut self.mentioned, given_availability(more)),
                 documentation: reader.documentation_of(more),
                 at: Mark(reader.span(key)),
             });
@@ -238,11 +246,12 @@ impl Definitions {
         reader: &mut Reader<'_, '_>,
         about: About<'_>,
         base: Type,
-        (entries, address): (&BitEntries, Option<u32>),
+        entries: &BitEntries,
+        address: Option<u32>,
     ) -> TypeId {
         let mut fields = Vec::new();
         for (key, meanings) in entries.iter() {
-            let Some((offset, bits)) = bits_of_key(reader, key, (base, address)) else { continue };
+            let Some((offset, bits)) = bits_of_key(reader, key, base, address) else { continue };
             for meaning in &meanings.value.0 {
                 let plain = BitTable::default();
                 let (name, table) = match meaning {
@@ -251,13 +260,13 @@ impl Definitions {
                 };
                 if name.is_some_and(|name| name.contains("{n")) && bits > 1 {
                     for number in 0..bits {
-                        let name = name.map(|name| place::filled(name, number.into(), None));
-                        let place = (offset.saturating_add(number), 1);
-                        fields.push(self.field(reader, (&about.name, key), place, name.as_deref(), table));
+                        let name = name.map(|name| notation::filled(name, number.into(), None));
+                        let position = (offset.saturating_add(number), 1);
+                        fields.push(self.field(reader, &about.name, key, position, name.as_deref(), table));
                     }
                     continue;
                 }
-                fields.push(self.field(reader, (&about.name, key), (offset, bits), name, table));
+                fields.push(self.field(reader, &about.name, key, (offset, bits), name, table));
             }
         }
         fields.sort_by_key(|field| field.offset);
@@ -267,18 +276,20 @@ impl Definitions {
     fn field(
         &mut self,
         reader: &mut Reader<'_, '_>,
-        (owner, key): (&str, &At<String>),
-        (offset, bits): (u8, u8),
+        owner: &str,
+        key: &At<String>,
+        position: (u8, u8),
         name: Option<&str>,
         table: &BitTable,
     ) -> BitFieldEntry {
+        let (offset, bits) = position;
         let origin = reader.origin(key);
         unfilled(reader, key, name);
         self.doubts.extend(reader.doubts_about(table, origin, SubjectKind::Type, owner, &key.value));
         let name = name.filter(|name| table.reserved.is_some() || !nameless(reader, name, key, owner, "bit"));
         let is_named = name.is_some();
         let name = name.map_or_else(|| format_compact!("bit {}", key.value), CompactString::from);
-        let meaning = self.meaning(reader, (owner, &name, key), bits, table);
+        let meaning = self.meaning(reader, owner, &name, key, bits, table);
         let triggers = [
             ("rising", Trigger::Rising),
             ("falling", Trigger::Falling),
@@ -297,11 +308,11 @@ impl Definitions {
             meaning,
             when: conditions::condition(reader, &mut self.mentioned, table.when.as_ref()),
             trigger: table.trigger.as_ref().and_then(|trigger| reader.word(trigger, "trigger", &triggers)),
-            access: table.access.as_ref().and_then(|access| reader.word(access, "access", &ACCESSES)),
+            access: table.access.as_ref().and_then(|access| reader.word(access, "access right", &ACCESSES)),
             availability: conditions::availability(
                 reader,
                 &mut self.mentioned,
-                Window {
+                GivenAvailability {
                     models: table.models.as_ref(),
                     versions: [table.since.as_deref(), table.until.as_deref()],
                     replaced_by: table.replaced_by.as_deref(),
@@ -316,7 +327,9 @@ impl Definitions {
     fn meaning(
         &mut self,
         reader: &mut Reader<'_, '_>,
-        (owner, name, key): (&str, &str, &At<String>),
+        owner: &str,
+        name: &str,
+        key: &At<String>,
         bits: u8,
         table: &BitTable,
     ) -> BitMeaning {
@@ -326,7 +339,7 @@ impl Definitions {
                 NumberOrText::Number(1) => Some(true),
                 NumberOrText::Text(text) if text == "keep" => None,
                 _ => {
-                    let message = "reserved bits are written as 0, 1 or \"keep\"";
+                    let message = "`reserved` must be 0, 1 or \"keep\"";
                     reader.report(&codes::TABLE_VALUE, reader.span(key), message);
                     None
                 }
@@ -335,7 +348,7 @@ impl Definitions {
         }
         let base = Type::Unsigned(bits);
         if let Some(named) = &table.enumeration {
-            return match self.named(reader, Kind::Enumeration, named, base) {
+            return match self.named(reader, DefinitionKind::Enumeration, named, base) {
                 Some(Type::Named(id)) => BitMeaning::Enumeration(id),
                 _ => BitMeaning::Number,
             };
@@ -352,38 +365,38 @@ impl Definitions {
     }
 }
 
-/// First bit and number of bits that a key stands for; behind the address of a byte, the bits of that byte.
-fn bits_of_key(reader: &mut Reader<'_, '_>, key: &At<String>, (base, first): (Type, Option<u32>)) -> Option<(u8, u8)> {
+/// Returns the first bit and the number of bits of a key. A key may name the address of a byte and bits in this byte.
+fn bits_of_key(reader: &mut Reader<'_, '_>, key: &At<String>, base: Type, first: Option<u32>) -> Option<(u8, u8)> {
     let Some((byte, bits)) = key.value.split_once(':') else {
-        let found = place::bits(&key.value);
+        let found = notation::bits(&key.value);
         if found.is_none() {
-            let message = format!("`{}` are no bits: write `7` or `\"3-2\"`", brief(&key.value));
+            let message = format!("`{}` is not a bit or a range of bits: write `7` or `\"3-2\"`", brief(&key.value));
             reader.report(&codes::TABLE_PLACE, reader.span(key), message);
         }
         return found;
     };
-    let byte = place::integer(byte);
-    let bits = place::bits(bits).filter(|(offset, bits)| offset + bits <= 8);
+    let byte = notation::integer(byte);
+    let bits = notation::bits(bits).filter(|(offset, bits)| offset + bits <= 8);
     let (Some(byte), Some((offset, bits)), Some(first)) = (byte, bits, first) else {
-        let message = format!("`{}` are no bits of a byte", brief(&key.value));
+        let message = format!("`{}` is not a range of bits in a byte", brief(&key.value));
         let found = Diagnostic::new(&codes::TABLE_PLACE, reader.span(key), message);
-        reader.diagnostics.push(found.help("write `\"0x221:3-2\"`, and in the bit field its `address`"));
+        reader.diagnostics.push(found.help("write `\"0x221:3-2\"`, and `address` in the bit field"));
         return None;
     };
     let bytes = base.bits().unwrap_or(0).div_ceil(8);
     let number = byte.checked_sub(first.into()).and_then(|number| u8::try_from(number).ok());
     let number = number.filter(|&number| u32::from(number) < bytes);
     if number.is_none() {
-        let message = format!("the byte {byte:#06X} lies outside of {base} at {first:#06X}").replace("0X", "0x");
+        let message = format!("the byte {byte:#06X} is outside of {base} at {first:#06X}").replace("0X", "0x");
         let found = Diagnostic::new(&codes::BIT_OUTSIDE_TYPE, reader.span(key), message);
         reader.diagnostics.push(found.label("left out"));
     }
-    // An integer has 64 bits at most.
+    // An integer has at most 64 bits.
     Some((number?.saturating_mul(8).saturating_add(offset), bits))
 }
 
-fn window(value: &ValueTable) -> Window<'_> {
-    Window {
+fn given_availability(value: &ValueTable) -> GivenAvailability<'_> {
+    GivenAvailability {
         models: value.models.as_ref(),
         versions: [value.since.as_deref(), value.until.as_deref()],
         replaced_by: value.replaced_by.as_deref(),
@@ -391,14 +404,14 @@ fn window(value: &ValueTable) -> Window<'_> {
     }
 }
 
-/// Reports a label that is empty.
+/// Reports an empty name of a value or bit.
 fn nameless(reader: &mut Reader<'_, '_>, name: &str, key: &At<String>, owner: &str, what: &str) -> bool {
     let is_empty = name.trim().is_empty();
     if is_empty {
-        let message = format!("{what} {} of `{}` has an empty name", brief(&key.value), brief(owner));
+        let message = format!("the {what} {} of `{}` has an empty name", brief(&key.value), brief(owner));
         let found = Diagnostic::new(&codes::EMPTY_NAME, reader.span(key), message);
-        let help = "give it a name, say that it is reserved, or leave it out where the manual does";
-        reader.diagnostics.push(found.label(format!("called `{what} {}`", brief(&key.value))).help(help));
+        let help = "write a name, mark it as reserved, or delete it if the manual does not have it";
+        reader.diagnostics.push(found.label(format!("named `{what} {}`", brief(&key.value))).help(help));
     }
     is_empty
 }
@@ -410,21 +423,21 @@ fn zone_name(zone: Zone) -> &'static str {
     }
 }
 
-/// Reports a name with a place for a number that nothing fills.
+/// Reports a name with a placeholder for a number that is not filled.
 pub(super) fn unfilled(reader: &mut Reader<'_, '_>, key: &At<String>, name: Option<&str>) {
     if let Some(name) = name.filter(|name| name.contains('{')) {
-        let message = format!("nothing fills `{{` of the name `{}`", brief(name));
+        let message = format!("the placeholder in the name `{}` has no value", brief(name));
         let found = Diagnostic::new(&codes::TABLE_VALUE, reader.span(key), message);
         reader.diagnostics.push(found.help("`{n}` needs several bits, or a `count`; `{sub}` needs objects"));
     }
 }
 
-/// An integer type by its name; anything else is reported.
+/// Returns an integer type by its name. Any other name is reported.
 pub(super) fn integer(reader: &mut Reader<'_, '_>, name: &At<String>) -> Option<Type> {
     let ty = types::named(&name.value).filter(|named| named.elements.is_none()).map(|named| named.ty);
     let integer = ty.filter(|ty| matches!(ty, Type::Unsigned(_) | Type::Integer(_)));
     if integer.is_none() {
-        let message = format!("`{}` is no integer type such as `u16`", brief(&name.value));
+        let message = format!("`{}` is not an integer type such as `u16`", brief(&name.value));
         reader.report(&codes::TABLE_VALUE, reader.span(name), message);
     }
     integer

@@ -1,9 +1,9 @@
-//! The head of a table: the device, its models, its axes.
+//! Reads the head of a table: the device, its models, its axes.
 
 use super::at::At;
 use super::buses;
 use super::format::{AxesTable, DeviceTable, ManualTable, ModelTable, NumberOrText};
-use super::place;
+use super::notation;
 use super::tree::Reader;
 use super::{lints, value};
 use crate::diagnostics::{codes, Diagnostic};
@@ -13,89 +13,89 @@ use crate::ir::{
 };
 use crate::text::brief;
 
-/// Puts what `[device]` says into the device, and gives the buses that it is on.
+/// Adds the facts of `[device]` to the device. Returns its buses.
 pub(super) fn head(reader: &mut Reader<'_, '_>, table: &At<DeviceTable>, device: &mut Device) -> Buses {
-    let own = &table.value;
+    let head = &table.value;
     device.origin = reader.origin(table);
-    match &own.name {
+    match &head.name {
         Some(name) => device.name = name.value.as_str().into(),
         None => reader.report(&codes::TABLE_VALUE, reader.span(table), "the device has no `name`"),
     }
-    device.names = reader.original(own.orig.as_deref());
+    device.names = reader.original(head.orig.as_deref());
     device.identity = Identity {
-        vendor_id: own.vendor_id,
-        vendor_name: own.vendor.as_deref().unwrap_or_default().into(),
-        product_code: own.product_code,
+        vendor_id: head.vendor_id,
+        vendor_name: head.vendor.as_deref().unwrap_or_default().into(),
+        product_code: head.product_code,
         product_name: device.name.clone(),
-        revision_number: own.revision,
-        order_code: own.order_code.as_deref().unwrap_or_default().into(),
+        revision_number: head.revision,
+        order_code: head.order_code.as_deref().unwrap_or_default().into(),
         ..Identity::default()
     };
-    device.profiles.clone_from(&own.profiles);
-    device.node_ids = own.node_ids.as_ref().and_then(|given| node_ids(reader, given));
-    device.documentation = reader.documentation_of(own);
-    device.doubts = reader.doubts_of(own, device.origin);
-    let buses = own.buses.as_ref().map_or(Buses::ALL, |list| buses::read(reader, list));
-    if buses.contains(Bus::CanOpen) && own.buses.is_some() {
+    device.profiles.clone_from(&head.profiles);
+    device.node_ids = head.node_ids.as_ref().and_then(|given| node_ids(reader, given));
+    device.documentation = reader.documentation_of(head);
+    device.doubts = reader.doubts_of(head, device.origin);
+    let buses = head.buses.as_ref().map_or(Buses::ALL, |list| buses::read(reader, list));
+    if buses.contains(Bus::CanOpen) && head.buses.is_some() {
         device.canopen = Some(Box::new(CanOpenSettings {
-            bit_rates: own.bit_rates.clone(),
-            granularity: own.granularity,
-            rx_pdos: own.rx_pdos,
-            tx_pdos: own.tx_pdos,
-            lss: own.lss,
+            bit_rates: head.bit_rates.clone(),
+            granularity: head.granularity,
+            rx_pdos: head.rx_pdos,
+            tx_pdos: head.tx_pdos,
+            lss: head.lss,
             ..CanOpenSettings::default()
         }));
     }
-    if buses.contains(Bus::EtherCat) && own.buses.is_some() {
+    if buses.contains(Bus::EtherCat) && head.buses.is_some() {
         device.ethercat = Some(Box::<EtherCatSettings>::default());
     }
     buses
 }
 
-/// First and last of the numbers that a node may have.
+/// Reads the node-ID range.
 fn node_ids(reader: &mut Reader<'_, '_>, given: &At<NumberOrText>) -> Option<(u8, u8)> {
     let range = match &given.value {
         NumberOrText::Number(number) => Some((i128::from(*number), i128::from(*number))),
-        NumberOrText::Text(text) => place::range(text),
+        NumberOrText::Text(text) => notation::range(text),
     };
     let number = |number: i128| u8::try_from(number).ok().filter(|&number| number > 0);
     let found = range.and_then(|(first, last)| Some((number(first)?, number(last)?)));
     let found = found.filter(|(first, last)| first <= last);
     if found.is_none() {
-        reader.report(&codes::TABLE_VALUE, reader.span(given), "numbers of nodes go from 1 to 255: write `\"1..127\"`");
+        reader.report(&codes::TABLE_VALUE, reader.span(given), "node IDs must be from 1 to 255: write `\"1..127\"`");
     }
     found
 }
 
-/// The facts about the manual.
+/// Reads the facts about the manual.
 pub(super) fn manual(reader: &mut Reader<'_, '_>, table: &At<ManualTable>) -> Box<Manual> {
-    let own = &table.value;
+    let manual = &table.value;
     let text = |text: &Option<String>| CompactString::from(text.as_deref().unwrap_or_default());
-    reader.language = text(&own.language);
+    reader.language = text(&manual.language);
     let units = [("page", CiteUnit::Page), ("line", CiteUnit::Line)];
-    let counts = own.cites.as_ref().and_then(|word| reader.word(word, "unit of citations", &units));
+    let counts = manual.cites.as_ref().and_then(|word| reader.word(word, "unit of citations", &units));
     Box::new(Manual {
-        title: text(&own.title),
-        edition: text(&own.edition),
-        language: text(&own.language),
+        title: text(&manual.title),
+        edition: text(&manual.edition),
+        language: text(&manual.language),
         counts,
-        documentation: own.doc.clone().unwrap_or_default(),
-        sections: sections(reader, own),
+        documentation: manual.doc.clone().unwrap_or_default(),
+        sections: sections(reader, manual),
     })
 }
 
-/// The sections of a manual in their order. A key that is no number is reported.
+/// Returns the sections of a manual in order. A key that is not a number is reported.
 fn sections(reader: &mut Reader<'_, '_>, table: &ManualTable) -> Vec<ManualSection> {
     let mut sections = Vec::new();
     for (key, title) in table.sections.iter() {
         match key.value.parse() {
             Ok(start) => sections.push(ManualSection { start, title: title.value.as_str().into() }),
             Err(_) => {
-                let message = format!("`{}` is no page or line", brief(&key.value));
+                let message = format!("`{}` is not a page or line", brief(&key.value));
                 let found = Diagnostic::new(&codes::TABLE_VALUE, reader.span(key), message);
                 reader
                     .diagnostics
-                    .push(found.help("write the number of the first one: `2170 = \"Motion parameters\"`"));
+                    .push(found.help("write the number of the first page or line: `2170 = \"Motion parameters\"`"));
             }
         }
     }
@@ -103,45 +103,47 @@ fn sections(reader: &mut Reader<'_, '_>, table: &ManualTable) -> Vec<ManualSecti
     sections
 }
 
-/// A model, or a version of the firmware.
+/// Reads a model, or a version of the firmware.
 pub(super) fn model(reader: &mut Reader<'_, '_>, table: &At<ModelTable>, device: &mut Device) {
-    let own = &table.value;
-    let Some(name) = &own.name else {
+    let model = &table.value;
+    let Some(name) = &model.name else {
         reader.report(&codes::TABLE_VALUE, reader.span(table), "the model has no `name`");
         return;
     };
     let origin = reader.origin(name);
-    device.doubts.extend(reader.doubts_about(own, origin, SubjectKind::Model, &name.value, ""));
+    device.doubts.extend(reader.doubts_about(model, origin, SubjectKind::Model, &name.value, ""));
     let constant = |literal: &super::at::Literal| value::convert(literal, Type::Opaque(None), false);
     device.variants.push(Variant {
         name: name.value.as_str().into(),
         identity: Identity {
-            product_code: own.product_code,
-            revision_number: own.revision,
-            order_code: own.order_code.as_deref().unwrap_or_default().into(),
+            product_code: model.product_code,
+            revision_number: model.revision,
+            order_code: model.order_code.as_deref().unwrap_or_default().into(),
             product_name: name.value.as_str().into(),
             ..Identity::default()
         },
-        constants: own
+        constants: model
             .constants
             .iter()
             .filter_map(|(key, literal)| Some((key.value.as_str().into(), constant(&literal.value)?)))
             .collect(),
-        documentation: reader.documentation_of(own),
+        documentation: reader.documentation_of(model),
         origin,
     });
 }
 
-/// How the objects of further axes follow from those of the first.
+/// Reads how the objects of further axes follow from those of the first one.
 pub(super) fn axes(reader: &mut Reader<'_, '_>, table: &At<AxesTable>, device: &mut Device) {
-    let own = &table.value;
+    let axes = &table.value;
     let origin = reader.origin(table);
-    device.doubts.extend(reader.doubts_of(own, origin));
+    device.doubts.extend(reader.doubts_of(axes, origin));
     let mut rules = Vec::new();
-    for rule in &own.rules {
+    for rule in &axes.rules {
         let objects = rule.value.objects.as_ref().and_then(|objects| match &objects.value {
             NumberOrText::Number(index) => u16::try_from(*index).ok().map(|index| (index, index)),
-            NumberOrText::Text(text) => place::objects(text).filter(|own| own.subs.is_none()).map(|own| own.indices),
+            NumberOrText::Text(text) => {
+                notation::objects(text).filter(|objects| objects.subs.is_none()).map(|objects| objects.indices)
+            }
         });
         let step = match (&rule.value.index, &rule.value.sub, &rule.value.sub_stride) {
             (Some(index), None, None) => Some(AxisStep::Index(*index)),
@@ -153,17 +155,18 @@ pub(super) fn axes(reader: &mut Reader<'_, '_>, table: &At<AxesTable>, device: &
             (Some(indices), Some(step)) => rules.push(AxisRange { indices, step }),
             _ => {
                 let text = brief(reader.source.slice(reader.span(rule)));
-                let message =
-                    format!("`{text}` is no rule: `objects` and one of `index`, `sub = \"axis\"`, `sub_stride`");
+                let message = format!(
+                    "`{text}` is not a rule: write `objects` and one of `index`, `sub = \"axis\"`, `sub_stride`"
+                );
                 let found = Diagnostic::new(&codes::TABLE_VALUE, reader.span(rule), message);
                 let digits = rule.value.objects.as_ref().and_then(|given| lints::digits_of_index(reader, given));
                 reader.diagnostics.push(match digits {
                     Some(digits) => found.help(digits),
-                    None => found.help("such as `{ objects = \"0x6000..0x67FF\", index = 0x800 }`"),
+                    None => found.help("write a rule such as `{ objects = \"0x6000..0x67FF\", index = 0x800 }`"),
                 });
             }
         }
     }
-    let models = own.models.iter().flatten().map(|model| model.value.as_str().into()).collect();
-    device.axes = Some(AxisRule { axes: own.count, models, rules });
+    let models = axes.models.iter().flatten().map(|model| model.value.as_str().into()).collect();
+    device.axes = Some(AxisRule { axes: axes.count, models, rules });
 }

@@ -1,4 +1,4 @@
-//! What a master has to know of an EtherCAT slave beside its objects and PDOs: mailbox protocols and sync managers.
+//! Reads the settings of an EtherCAT slave besides objects and PDOs: mailbox protocols and sync managers.
 
 use super::at::{At, FlagOr};
 use super::format::{CoeTable, EtherCatTable, SyncManagerTable};
@@ -16,17 +16,18 @@ const PURPOSES: [(&str, SyncManagerPurpose); 4] = [
 
 /// Reads `[ethercat]`.
 pub(super) fn settings(reader: &mut Reader<'_, '_>, table: &At<EtherCatTable>, buses: Buses, device: &mut Device) {
-    let own = &table.value;
+    let settings_table = &table.value;
     if !buses.contains(Bus::EtherCat) {
-        let found = Diagnostic::new(&codes::TABLE_VALUE, reader.span(table), "the device isn't on EtherCAT");
-        reader.diagnostics.push(found.help("`buses` of `[device]` has those that it is on"));
+        let found =
+            Diagnostic::new(&codes::TABLE_VALUE, reader.span(table), "the device does not have the bus EtherCAT");
+        reader.diagnostics.push(found.help("add the bus to `buses` of `[device]`, or delete the table"));
         return;
     }
     let settings = device.ethercat.get_or_insert_with(Box::default);
-    settings.mailbox = mailbox(own).map(Box::new);
+    settings.mailbox = mailbox(settings_table).map(Box::new);
     let origin = reader.origin(table);
-    device.doubts.extend(reader.doubts_of(own, origin));
-    for given in &own.sync_managers {
+    device.doubts.extend(reader.doubts_of(settings_table, origin));
+    for given in &settings_table.sync_managers {
         if let Some(manager) = sync_manager(reader, given, device) {
             device.process_data.sync_managers.push(manager);
         }
@@ -66,22 +67,22 @@ fn coe(table: &CoeTable) -> Coe {
 }
 
 fn sync_manager(reader: &mut Reader<'_, '_>, given: &At<SyncManagerTable>, device: &mut Device) -> Option<SyncManager> {
-    let own = &given.value;
+    let manager = &given.value;
     let origin = reader.origin(given);
-    device.doubts.extend(reader.doubts_of(own, origin));
-    let purpose = own.purpose.as_ref().and_then(|word| reader.word(word, "purpose", &PURPOSES));
-    let (Some(number), Some(start_address), Some(purpose)) = (own.number, own.start, purpose) else {
-        let message = "a sync manager has a `number`, a `start` and a `purpose`";
+    device.doubts.extend(reader.doubts_of(manager, origin));
+    let purpose = manager.purpose.as_ref().and_then(|word| reader.word(word, "purpose", &PURPOSES));
+    let (Some(number), Some(start_address), Some(purpose)) = (manager.number, manager.start, purpose) else {
+        let message = "a sync manager needs a `number`, a `start` and a `purpose`";
         reader.report(&codes::TABLE_VALUE, reader.span(given), message);
         return None;
     };
     if device.process_data.sync_managers.iter().any(|other| other.number == number) {
-        let message = format!("there are two sync managers with the number {number}");
+        let message = format!("two sync managers have the number {number}");
         reader.report(&codes::TABLE_DUPLICATE, reader.span(given), message);
         return None;
     }
-    if own.size.zip(own.max).is_some_and(|(size, max)| size > max) {
-        let message = format!("the sync manager {number} is longer by default than it can be");
+    if manager.size.zip(manager.max).is_some_and(|(size, max)| size > max) {
+        let message = format!("the default size of the sync manager {number} exceeds its maximum size");
         reader.report(&codes::TABLE_VALUE, reader.span(given), message);
     }
     Some(SyncManager {
@@ -89,9 +90,9 @@ fn sync_manager(reader: &mut Reader<'_, '_>, given: &At<SyncManagerTable>, devic
         purpose,
         label: purpose.label().into(),
         start_address,
-        default_size: own.size,
-        size_range: (own.min, own.max),
-        control: own.control.unwrap_or(0),
+        default_size: manager.size,
+        size_range: (manager.min, manager.max),
+        control: manager.control.unwrap_or(0),
         enable: true,
         op_only: false,
         is_virtual: false,

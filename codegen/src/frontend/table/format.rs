@@ -374,7 +374,7 @@ tables! {
         /// Numbers of its device profiles.
         pub profiles: Vec<u32>,
         /// Node-ID range, or range of server addresses (`"1..90"`).
-        #[cfg_attr(test, schemars(transform = schema::place("#(\\.\\.=?#)?")))]
+        #[cfg_attr(test, schemars(transform = schema::notation("#(\\.\\.=?#)?")))]
         pub node_ids: Option<At<NumberOrText>>,
         /// CANopen bit rates in kbit/s.
         pub bit_rates: Vec<u16>,
@@ -595,10 +595,10 @@ tables! {
     /// One item of the device.
     pub struct Row: meaning window orig doc cite doubt allow {
         /// Register number, or range of numbers (`"63-64"`).
-        #[cfg_attr(test, schemars(transform = schema::place("#( *[-–] *#)?")))]
+        #[cfg_attr(test, schemars(transform = schema::notation("#( *[-–] *#)?")))]
         pub reg: Option<At<NumberOrText>>,
         /// Object and sub-index (`"0x2000:1"`).
-        #[cfg_attr(test, schemars(transform = schema::place("#(:#)?")))]
+        #[cfg_attr(test, schemars(transform = schema::notation("#(:#)?")))]
         pub obj: Option<At<NumberOrText>>,
         /// Address in the memory of an EtherCAT slave controller.
         pub esc: Option<At<u16>>,
@@ -675,7 +675,7 @@ tables! {
         /// Distance of the register numbers of two repetitions.
         pub stride: Option<u32>,
         /// Bits of the register that the row describes (`"7-0"`).
-        #[cfg_attr(test, schemars(transform = schema::place(schema::BITS)))]
+        #[cfg_attr(test, schemars(transform = schema::notation(schema::BITS)))]
         pub part: Option<At<NumberOrText>>,
         /// Word order: `high_first` or `low_first`.
         #[cfg_attr(test, schemars(transform = schema::words(&["high_first", "low_first"])))]
@@ -871,7 +871,7 @@ tables! {
     /// Rule that derives the object of the next axis.
     pub struct AxisRuleTable {
         /// Objects (`"0x6000..0x67FF"`).
-        #[cfg_attr(test, schemars(transform = schema::place("#(\\.\\.=?#)?")))]
+        #[cfg_attr(test, schemars(transform = schema::notation("#(\\.\\.=?#)?")))]
         pub objects: Option<At<NumberOrText>>,
         /// Offset added to the index.
         pub index: Option<u16>,

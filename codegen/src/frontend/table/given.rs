@@ -1,4 +1,4 @@
-//! Numbers of the machine that a device drives, and units that are made of them.
+//! Reads the numbers of the machine that a device drives, and units that consist of them.
 
 use super::at::At;
 use super::format::{GivenTable, MachineUnitTable};
@@ -9,7 +9,7 @@ use crate::diagnostics::{codes, Diagnostic};
 use crate::ir::{GivenNumber, MachineUnit, Type};
 use crate::text::brief;
 
-/// A number of `[given]`.
+/// Reads a number of `[given]`.
 pub(super) fn number(
     reader: &mut Reader<'_, '_>,
     name: &At<String>,
@@ -35,7 +35,7 @@ pub(super) fn number(
     }
 }
 
-/// The unit that `[units]` says the machine has for a physical number.
+/// Reads the unit on the machine that `[units]` defines.
 pub(super) fn unit(
     reader: &mut Reader<'_, '_>,
     table: &MachineUnitTable,
@@ -45,14 +45,14 @@ pub(super) fn unit(
     references.extend(given.map(|name| (name.clone(), "given number")));
     let unit = table.unit.as_ref()?;
     symbol(reader, unit);
-    let names = |list: &[At<String>]| list.iter().map(|own| own.value.as_str().into()).collect();
+    let names = |list: &[At<String>]| list.iter().map(|name| name.value.as_str().into()).collect();
     let unit = unit.value.as_str().into();
     Some(Box::new(MachineUnit { unit, times: names(&table.times), over: names(&table.over) }))
 }
 
 fn symbol(reader: &mut Reader<'_, '_>, unit: &At<String>) {
     if !units::is_known(&unit.value) {
-        let message = format!("`{}` is no unit that is known", brief(&unit.value));
+        let message = format!("`{}` is not a known unit", brief(&unit.value));
         let found = Diagnostic::new(&codes::UNKNOWN_UNIT, reader.span(unit), message);
         reader.diagnostics.push(match units::usual(&unit.value) {
             Some(usual) => found.help(format!("did you mean `{usual}`?")),

@@ -1,4 +1,4 @@
-//! Default, limits and only values of a row, and what of them excludes the others.
+//! Reads default, limits and allowed values of a row, and reports contradictions between them.
 
 use super::at::{At, Literal, OneOrMany};
 use super::format::Row;
@@ -10,34 +10,36 @@ use crate::ir::{excluded, Access, Item, Limits, Shape, Type, TypeId, Value};
 use crate::source::Span;
 
 impl Rows {
-    /// Puts what a row says of its values into the item.
+    /// Adds the default, limits and allowed values of a row to the item.
     pub(super) fn values(&self, reader: &mut Reader<'_, '_>, item: &mut Item, named: Named<'_>, row: &Row) {
         let (base, count) = self.element(item.ty);
-        let mut own = Limits::default();
+        let mut row_limits = Limits::default();
         if let Some(low) = &row.min {
-            own.low = Some(value::value(reader, low, base));
-            (item.limits.low, item.at.low) = (own.low.clone(), reader.span(low));
+            row_limits.low = Some(value::value(reader, low, base));
+            (item.limits.low, item.at.low) = (row_limits.low.clone(), reader.span(low));
         }
         if let Some(high) = &row.max {
-            own.high = Some(value::value(reader, high, base));
-            (item.limits.high, item.at.high) = (own.high.clone(), reader.span(high));
+            row_limits.high = Some(value::value(reader, high, base));
+            (item.limits.high, item.at.high) = (row_limits.high.clone(), reader.span(high));
         }
-        allowed(reader, item, row, base, &mut own);
+        allowed(reader, item, row, base, &mut row_limits);
         match (&row.default, count) {
-            (Some(given), Some(count)) if given.value.0.len() > 1 => elements(reader, item, given, (base, count), &own),
+            (Some(given), Some(count)) if given.value.0.len() > 1 => {
+                elements(reader, item, given, base, count, &row_limits)
+            }
             (Some(given), _) => default(reader, item, named, given, base),
             (None, _) => {}
         }
-        writable(reader, row, base, &own);
+        writable(reader, row, base, &row_limits);
         if let Some(fixed) = &row.fixed {
-            self::fixed(reader, item, (fixed, row), base, &own);
+            self::fixed(reader, item, fixed, row, base, &row_limits);
             if row.access.is_none() {
                 item.access = Access::Constant;
             }
         }
     }
 
-    /// The basic type of a value, and how many of it there are in an array.
+    /// Returns the basic type of a value, and the number of elements of an array.
     fn element(&self, ty: Type) -> (Type, Option<u32>) {
         let base = self.definitions.underlying(ty);
         let Type::Named(TypeId(id)) = base else { return (base, None) };
@@ -50,49 +52,50 @@ impl Rows {
     }
 }
 
-/// Reports a value that the rest of its row excludes.
+/// Reports a value that contradicts the rest of its row.
 fn exclude(reader: &mut Reader<'_, '_>, span: Span, message: String) {
     let found = Diagnostic::new(&codes::DEFAULT_OUT_OF_LIMITS, span, message);
-    reader
-        .diagnostics
-        .push(found.help("one of the two is misprinted: keep what the manual's text supports, with a `doubt`"));
+    reader.diagnostics.push(
+        found.help("one of the two is misprinted: keep the value that the manual's text supports, and add a `doubt`"),
+    );
 }
 
-/// The default of a row, or its share of a list.
+/// Reads the default of a row, or the item's element of a list of defaults.
 fn default(reader: &mut Reader<'_, '_>, item: &mut Item, named: Named<'_>, given: &At<OneOrMany<Literal>>, base: Type) {
     let list = &given.value.0;
     let at = if list.len() > 1 { named.number as usize } else { 0 };
-    let Some(own) = list.get(at) else {
-        let message = format!("the list has {} defaults, and this is number {}", list.len(), named.number + 1);
+    let Some(literal) = list.get(at) else {
+        let message = format!("the list has {} defaults, but none for item {}", list.len(), named.number + 1);
         reader.report(&codes::TABLE_VALUE, reader.span(given), message);
         return;
     };
-    let (start, end) = reader.place(list.len(), at, (given.start, given.end));
-    let own = At { value: own.clone(), start, end };
-    item.default = Some(value::value(reader, &own, base));
-    item.at.default = reader.span(&own);
+    let (start, end) = reader.element_range(list.len(), at, (given.start, given.end));
+    let literal = At { value: literal.clone(), start, end };
+    item.default = Some(value::value(reader, &literal, base));
+    item.at.default = reader.span(&literal);
 }
 
-/// The defaults of an array, one for each element. The item keeps the first.
+/// Reads the defaults of an array, one for each element. The item keeps the first one.
 fn elements(
     reader: &mut Reader<'_, '_>,
     item: &mut Item,
     given: &At<OneOrMany<Literal>>,
-    (base, count): (Type, u32),
+    base: Type,
+    count: u32,
     limits: &Limits,
 ) {
     let (list, span) = (&given.value.0, reader.span(given));
     if list.len() != count as usize {
-        let message = format!("the list has {} defaults, and the array {count} elements", list.len());
+        let message = format!("the list has {} defaults, but the array has {count} elements", list.len());
         reader.report(&codes::TABLE_VALUE, span, message);
         return;
     }
     let each = reader.each(list, (given.start, given.end));
-    let values: Vec<Value> = each.iter().map(|own| value::value(reader, own, base)).collect();
-    // The first is the item's, and checked with it.
-    for ((own, given), number) in values.iter().zip(&each).zip(1..).skip(1) {
-        if let Some(reason) = excluded(limits, own) {
-            exclude(reader, reader.span(given), format!("the default {own} of element {number} is {reason}"));
+    let values: Vec<Value> = each.iter().map(|literal| value::value(reader, literal, base)).collect();
+    // The first value is checked as the default of the item.
+    for ((value, given), number) in values.iter().zip(&each).zip(1..).skip(1) {
+        if let Some(reason) = excluded(limits, value) {
+            exclude(reader, reader.span(given), format!("the default {value} of element {number} is {reason}"));
             break;
         }
     }
@@ -100,11 +103,11 @@ fn elements(
     item.at.default = span;
 }
 
-/// The only values. Limits beside them don't exclude any.
+/// Reads the allowed values. The separate limits must not exclude any of them.
 fn allowed(reader: &mut Reader<'_, '_>, item: &mut Item, row: &Row, base: Type, limits: &mut Limits) {
     let Some(given) = &row.allowed else { return };
     let span = reader.span(given);
-    let ranges = value::ranges(reader, (&given.value, (given.start, given.end)), base);
+    let ranges = value::ranges(reader, &given.value, (given.start, given.end), base);
     for (first, last) in &ranges {
         lints::range(reader, first, base, span);
         if last != first {
@@ -119,37 +122,31 @@ fn allowed(reader: &mut Reader<'_, '_>, item: &mut Item, row: &Row, base: Type, 
     item.limits.allowed.clone_from(&limits.allowed);
 }
 
-/// The values that may be written are among those that there are.
+/// Checks that the writable values are among the allowed ones.
 fn writable(reader: &mut Reader<'_, '_>, row: &Row, base: Type, limits: &Limits) {
     let Some(given) = &row.writable else { return };
-    for own in reader.each(&given.value, (given.start, given.end)) {
-        // What is no value is reported where the item gets them.
-        let Some((first, last)) = value::range(reader, &own, base) else { continue };
+    for literal in reader.each(&given.value, (given.start, given.end)) {
+        // Invalid values are reported when the item stores them.
+        let Some((first, last)) = value::range(reader, &literal, base) else { continue };
         let is_one = first == last;
         for value in [Some(first), Some(last).filter(|_| !is_one)].into_iter().flatten() {
-            lints::range(reader, &value, base, reader.span(&own));
+            lints::range(reader, &value, base, reader.span(&literal));
             if let Some(reason) = excluded(limits, &value) {
-                exclude(reader, reader.span(&own), format!("the value {value}, which may be written, is {reason}"));
+                exclude(reader, reader.span(&literal), format!("the writable value {value} is {reason}"));
             }
         }
     }
 }
 
-/// The only value is both limits and the default, and contradicts none that the row gives besides.
-fn fixed(
-    reader: &mut Reader<'_, '_>,
-    item: &mut Item,
-    (given, row): (&At<Literal>, &Row),
-    base: Type,
-    limits: &Limits,
-) {
+/// Reads the fixed value, which sets both limits and the default. Reports other values of the row that differ.
+fn fixed(reader: &mut Reader<'_, '_>, item: &mut Item, given: &At<Literal>, row: &Row, base: Type, limits: &Limits) {
     let (value, span) = (value::value(reader, given, base), reader.span(given));
     if let Some(reason) = excluded(limits, &value) {
         exclude(reader, span, format!("the fixed value {value} is {reason}"));
     }
     let default = item.default.as_ref().filter(|_| row.default.is_some());
     if let Some(default) = default.filter(|default| **default != value) {
-        let message = format!("the default {default} isn't the fixed value {value}");
+        let message = format!("the default {default} differs from the fixed value {value}");
         exclude(reader, item.at.default, message);
     }
     (item.limits.low, item.limits.high) = (Some(value.clone()), Some(value.clone()));

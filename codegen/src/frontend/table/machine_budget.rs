@@ -1,5 +1,5 @@
-//! How much the state machines of a device may be: what leaves any state is written for each, and what a row says is copied for
-//! each state that it is about.
+//! Limits the size of the state machines of a device. A transition from any state is written for each state, and the texts of a
+//! row are copied for each of its states.
 
 use std::collections::HashMap;
 use std::fmt::Debug;
@@ -14,7 +14,7 @@ use crate::ir::Device;
 use crate::limits::{MAX_MACHINE_ROWS, ROW_BYTES_PER_ITEM};
 use crate::text::brief;
 
-/// What is left of [`MAX_MACHINE_ROWS`].
+/// The unused part of [`MAX_MACHINE_ROWS`].
 pub(super) struct MachineBudget(usize);
 
 impl MachineBudget {
@@ -22,11 +22,12 @@ impl MachineBudget {
         MachineBudget(MAX_MACHINE_ROWS)
     }
 
-    /// Takes a machine into account; reports it and tells so where that is too much.
+    /// Subtracts the size of a machine. If the limit is exceeded, reports the machine and returns `false`.
     pub fn take(
         &mut self,
         reader: &mut Reader<'_, '_>,
-        (name, table): (&At<String>, &MachineTable),
+        name: &At<String>,
+        table: &MachineTable,
         device: &Device,
     ) -> bool {
         if let Some(left) = self.0.checked_sub(weight(table, device)) {
@@ -35,49 +36,52 @@ impl MachineBudget {
         }
         let message = format!(
             "with `{}`, the state machines have more than {MAX_MACHINE_ROWS} states, commands, transitions and rows, or \
-             long texts for many of them",
+             long texts that many of them share",
             brief(&name.value)
         );
         let found = Diagnostic::new(&codes::INPUT_TOO_LARGE, reader.span(name), message);
-        reader.diagnostics.push(found.label("this one and those behind it are left out"));
+        reader.diagnostics.push(found.label("this machine and those after it are left out"));
         false
     }
 }
 
-/// As how many rows a machine counts.
+/// Returns the size of a machine in rows.
 fn weight(table: &MachineTable, device: &Device) -> usize {
-    let states = match table.states.as_ref().map(|own| &own.value) {
-        Some(TextOr::Table(own)) => own.iter().count(),
-        Some(TextOr::Text(name)) => enumeration(device, name).map_or(0, |(_, own)| own.iter().map(copy).sum()),
+    let states = match table.states.as_ref().map(|states| &states.value) {
+        Some(TextOr::Table(patterns)) => patterns.iter().count(),
+        Some(TextOr::Text(name)) => enumeration(device, name).map_or(0, |(_, values)| values.iter().map(copy).sum()),
         None => 0,
     };
-    let transitions = table.transitions.iter().map(|own| {
-        let from = own.value.from.as_ref().map_or(1, |list| list.value.0.len().max(1));
+    let transitions = table.transitions.iter().map(|transition| {
+        let from = transition.value.from.as_ref().map_or(1, |list| list.value.0.len().max(1));
         match from {
             1 => 1,
-            copies => {
-                copies.saturating_mul(copy(&(&own.value.to, &own.value.command, &own.value.doc, &own.value.cite)))
-            }
+            copies => copies.saturating_mul(copy(&(
+                &transition.value.to,
+                &transition.value.command,
+                &transition.value.doc,
+                &transition.value.cite,
+            ))),
         }
     });
-    let matrix = table.matrix.as_ref().map_or(0, |own| of_matrix(&own.value));
+    let matrix = table.matrix.as_ref().map_or(0, |matrix| of_matrix(&matrix.value));
     [1, states, table.commands.iter().count(), matrix].into_iter().chain(transitions).fold(0, usize::saturating_add)
 }
 
-/// The rows of a table of commands and states, with the names of states and the notes that are copied into them.
+/// Returns the size of a table of commands and states in rows, with the copied names of states and notes.
 fn of_matrix(table: &MatrixTable) -> usize {
     let rows = table.rows.iter().count().saturating_mul(copy(&table.states));
     let notes = table.notes.iter().map(|(name, text)| (name.value.as_str(), text.value.len() / ROW_BYTES_PER_ITEM));
     let long: HashMap<&str, usize> = notes.filter(|(_, length)| *length > 0).collect();
     let cells = table.rows.iter().flat_map(|(_, row)| &row.value.cells);
     let copied = cells.filter(|_| !long.is_empty()).filter_map(|cell| match &cell.value {
-        TextOr::Table(own) => long.get(own.note.as_ref()?.value.to_string().as_str()),
+        TextOr::Table(cell) => long.get(cell.note.as_ref()?.value.to_string().as_str()),
         TextOr::Text(_) => None,
     });
     rows.saturating_add(table.states.len()).saturating_add(table.notes.iter().count()).saturating_add(copied.sum())
 }
 
-/// As how many rows a copy counts.
+/// Returns the size of a copy in rows.
 fn copy(of: &impl Debug) -> usize {
     1 + length(of) / ROW_BYTES_PER_ITEM
 }

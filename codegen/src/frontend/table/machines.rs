@@ -1,4 +1,4 @@
-//! State machines and procedures.
+//! Reads state machines and procedures.
 
 use super::at::At;
 use super::format::{MachineTable, ProcedureTable, StepTable, TransitionTable};
@@ -17,16 +17,17 @@ fn text(at: &At<String>) -> CompactString {
     at.value.as_str().into()
 }
 
-/// A state machine. States that transitions name have to exist, and so have commands; a command may be a message. Tells
-/// whether it was read: there is one that is too much for `budget`, and then no further one is to be read.
+/// Reads a state machine. Reports transitions with unknown states or commands. A command may be a message. Returns `false` if the
+/// machine exceeds `budget`: then no further machine may be read.
 pub(super) fn machine(
     reader: &mut Reader<'_, '_>,
-    (name, table): (&At<String>, &MachineTable),
+    name: &At<String>,
+    table: &MachineTable,
     device: &mut Device,
     budget: &mut MachineBudget,
     references: &mut References,
 ) -> bool {
-    if !budget.take(reader, (name, table), device) {
+    if !budget.take(reader, name, table, device) {
         return false;
     }
     lints::machine(reader, table);
@@ -65,39 +66,39 @@ pub(super) fn machine(
     true
 }
 
-/// Whether the text is `Message.field`, a field of the reply to a message.
+/// Returns whether the text names a field of the reply to a message: `Message.field`.
 fn is_field_of_reply(device: &Device, text: &str) -> bool {
     text.rsplit_once('.').is_some_and(|(message, field)| {
-        let reply = device.messages.iter().find(|own| own.name == message).map(|own| own.reply.as_slice());
-        reply.unwrap_or_default().iter().any(|own| match own {
+        let reply = device.messages.iter().find(|known| known.name == message).map(|known| known.reply.as_slice());
+        reply.unwrap_or_default().iter().any(|reply_field| match reply_field {
             MessageField::Value(value) => value.item.name == field,
             _ => false,
         })
     })
 }
 
-/// A row of transitions: one for each state that it leaves.
+/// Reads a row of transitions: one transition for each state that it leaves.
 fn transition(reader: &mut Reader<'_, '_>, given: &At<TransitionTable>, names: &Names<'_>) -> Vec<Transition> {
-    let own = &given.value;
-    let from: Vec<&String> = own.from.iter().flat_map(|list| &list.value.0).collect();
-    if let Some(list) = &own.from {
+    let row = &given.value;
+    let from: Vec<&String> = row.from.iter().flat_map(|list| &list.value.0).collect();
+    if let Some(list) = &row.from {
         from.iter().for_each(|name| names.state(reader, name, reader.span(list)));
     }
-    if let Some(to) = &own.to {
+    if let Some(to) = &row.to {
         names.state(reader, &to.value, reader.span(to));
     }
-    if let Some(command) = &own.command {
+    if let Some(command) = &row.command {
         names.command(reader, &command.value, reader.span(command));
     }
-    if own.to.is_none() {
-        reader.report(&codes::TABLE_VALUE, reader.span(given), "a transition leads `to` a state");
+    if row.to.is_none() {
+        reader.report(&codes::TABLE_VALUE, reader.span(given), "a transition needs `to`, the next state");
     }
     let one = |from: Option<&String>| Transition {
-        number: own.number,
+        number: row.number,
         from: from.map(|name| name.as_str().into()),
-        to: own.to.as_ref().map(text).unwrap_or_default(),
-        command: own.command.as_ref().map(|command| reader.reference(command)),
-        documentation: reader.documentation_of(own),
+        to: row.to.as_ref().map(text).unwrap_or_default(),
+        command: row.command.as_ref().map(|command| reader.reference(command)),
+        documentation: reader.documentation_of(row),
     };
     match from.is_empty() {
         true => vec![one(None)],
@@ -105,7 +106,7 @@ fn transition(reader: &mut Reader<'_, '_>, given: &At<TransitionTable>, names: &
     }
 }
 
-/// A sequence of steps.
+/// Reads a sequence of steps.
 pub(super) fn procedure(
     reader: &mut Reader<'_, '_>,
     name: &At<String>,
@@ -115,10 +116,10 @@ pub(super) fn procedure(
 ) {
     let origin = reader.origin(name);
     device.doubts.extend(reader.doubts_about(table, origin, SubjectKind::Procedure, &name.value, ""));
-    for own in table.steps.iter().filter_map(|step| step.value.argument.as_ref()) {
-        if !table.arguments.iter().any(|known| known.value == own.value) {
+    for argument in table.steps.iter().filter_map(|step| step.value.argument.as_ref()) {
+        if !table.arguments.iter().any(|known| known.value == argument.value) {
             let known = table.arguments.iter().map(|known| known.value.as_str());
-            reader.unresolved("argument", &own.value, reader.span(own), known);
+            reader.unresolved("argument", &argument.value, reader.span(argument), known);
         }
     }
     let mut steps = Vec::with_capacity(table.steps.len());
@@ -140,51 +141,51 @@ pub(super) fn procedure(
     });
 }
 
-/// What a step is, as its keys are combined.
+/// The message for an invalid combination of keys in a step.
 const STEP: &str =
-    "a step is one of: `write` with `value` (and `mask`) or `argument`; `read`; `wait` with `value` (and \
+    "a step must be one of: `write` with `value` (and `mask`) or `argument`; `read`; `wait` with `value` (and \
                     `mask`, `timeout`); `delay`; `send`; `exchange`; `manual`";
 
 fn step(reader: &mut Reader<'_, '_>, given: &At<StepTable>, references: &mut References) -> Option<Step> {
-    let own = &given.value;
-    let number = own.value.as_ref().and_then(|literal| value::convert(literal, Type::Opaque(None), false));
-    let kinds = [
-        own.write.is_some(),
-        own.read.is_some(),
-        own.wait.is_some(),
-        own.delay.is_some(),
-        own.send.is_some(),
-        own.exchange.is_some(),
-        own.manual.is_some(),
+    let row = &given.value;
+    let number = row.value.as_ref().and_then(|literal| value::convert(literal, Type::Opaque(None), false));
+    let given_keys = [
+        row.write.is_some(),
+        row.read.is_some(),
+        row.wait.is_some(),
+        row.delay.is_some(),
+        row.send.is_some(),
+        row.exchange.is_some(),
+        row.manual.is_some(),
     ];
-    let is_one = kinds.iter().filter(|is_given| **is_given).count() == 1;
-    let has_value = own.value.is_some() || own.mask.is_some() || own.timeout.is_some() || own.argument.is_some();
+    let is_one = given_keys.iter().filter(|is_given| **is_given).count() == 1;
+    let has_value = row.value.is_some() || row.mask.is_some() || row.timeout.is_some() || row.argument.is_some();
     let found = if !is_one {
         None
-    } else if let Some(item) = &own.write {
+    } else if let Some(item) = &row.write {
         references.push((item.clone(), "item"));
-        written(own, reader.reference(item), number)
-    } else if let Some(item) = &own.wait {
+        written(row, reader.reference(item), number)
+    } else if let Some(item) = &row.wait {
         references.push((item.clone(), "item"));
-        let mask = own.mask.as_ref().map_or(u64::MAX, |mask| mask.value);
-        let timeout = own.timeout.as_ref().map(|timeout| timeout.value);
+        let mask = row.mask.as_ref().map_or(u64::MAX, |mask| mask.value);
+        let timeout = row.timeout.as_ref().map(|timeout| timeout.value);
         number
-            .filter(|_| own.argument.is_none())
+            .filter(|_| row.argument.is_none())
             .map(|value| Step::WaitFor(reader.reference(item), mask, value, timeout))
     } else if has_value {
         None
-    } else if let Some(item) = &own.read {
+    } else if let Some(item) = &row.read {
         references.push((item.clone(), "item"));
         Some(Step::Read(reader.reference(item)))
-    } else if let Some(message) = &own.send {
+    } else if let Some(message) = &row.send {
         references.push((message.clone(), "message"));
         Some(Step::Send(reader.reference(message)))
-    } else if let Some(exchange) = &own.exchange {
+    } else if let Some(exchange) = &row.exchange {
         return process::direction(reader, Some(exchange)).map(Step::Exchange);
-    } else if let Some(words) = &own.manual {
+    } else if let Some(words) = &row.manual {
         Some(Step::Manual(words.clone()))
     } else {
-        own.delay.map(Step::Delay)
+        row.delay.map(Step::Delay)
     };
     if found.is_none() {
         reader.report(&codes::TABLE_VALUE, reader.span(given), STEP);

@@ -1,4 +1,4 @@
-//! Messages of a command protocol, and the spaces whose numbers they carry.
+//! Reads the messages of a command protocol, and the spaces whose parameters they transfer.
 
 use std::collections::HashSet;
 
@@ -9,7 +9,7 @@ use super::format::{
 use super::references::{References, ITEM_OR_FIELD};
 use super::rows::{Named, Rows};
 use super::tree::Reader;
-use super::{conditions, framing, place, types, value, Table};
+use super::{conditions, framing, notation, types, value, Table};
 use crate::diagnostics::{codes, Diagnostic};
 use crate::ir::{
     Access, Availability, Binding, CompactString, Completion, Device, Doubts, Item, Message, MessageExample,
@@ -18,14 +18,14 @@ use crate::ir::{
 use crate::limits;
 use crate::text::brief;
 
-/// How deep repeated fields are read.
+/// The maximum depth of nested repeated fields.
 const MAX_DEPTH: usize = 4;
 
 fn text(at: &At<String>) -> CompactString {
     at.value.as_str().into()
 }
 
-/// The messages of a table, how their frames are delimited, and the spaces whose numbers they carry.
+/// Reads the messages of a table, the delimiters of their frames, and the spaces whose parameters they transfer.
 pub(super) fn read<'a>(reader: &mut Reader<'a, '_>, file: &mut Table<'a>, rows: &mut Rows, device: &mut Device) {
     let mut names = HashSet::new();
     for table in file.list::<MessageTable>(reader, "messages") {
@@ -34,7 +34,7 @@ pub(super) fn read<'a>(reader: &mut Reader<'a, '_>, file: &mut Table<'a>, rows: 
             too_many(reader, &table);
             break;
         }
-        message(reader, rows, &table, (device, &mut names));
+        message(reader, rows, &table, device, &mut names);
     }
     if let Some(table) = file.take(reader, "framing") {
         framing::read(reader, &table, device);
@@ -43,7 +43,7 @@ pub(super) fn read<'a>(reader: &mut Reader<'a, '_>, file: &mut Table<'a>, rows: 
     spaces(reader, tables, device, &mut rows.references);
 }
 
-/// The spaces whose numbers are those of parameters.
+/// Reads the spaces whose numbers are parameter numbers.
 fn spaces<'t>(
     reader: &mut Reader<'_, '_>,
     tables: impl Iterator<Item = (&'t At<String>, &'t SpaceTable)>,
@@ -53,7 +53,7 @@ fn spaces<'t>(
     for (name, table) in tables {
         let Some(FlagOr::Table(rule)) = &table.parameter else { continue };
         let messages = [&rule.read, &rule.write, &rule.store];
-        references.extend(messages.into_iter().flatten().map(|own| (own.clone(), "message")));
+        references.extend(messages.into_iter().flatten().map(|name| (name.clone(), "message")));
         device.parameter_spaces.push(ParameterSpace {
             name: text(name),
             read: rule.read.as_ref().map(|name| reader.reference(name)),
@@ -66,83 +66,82 @@ fn spaces<'t>(
     }
 }
 
-/// Where a message ends, with its fields and examples.
+/// Returns the end of a message, including its fields and examples.
 fn end(table: &At<MessageTable>) -> u32 {
-    let own = &table.value;
-    let fields = own.request.iter().chain(&own.reply).map(|field| field.end);
-    let frames = own.examples.iter().flat_map(|example| [example.value.request.end, example.value.reply.end]);
+    let message = &table.value;
+    let fields = message.request.iter().chain(&message.reply).map(|field| field.end);
+    let frames = message.examples.iter().flat_map(|example| [example.value.request.end, example.value.reply.end]);
     fields.chain(frames).fold(table.end, u32::max)
 }
 
-/// A request and its reply.
-///
-/// `names` are those of the messages that were read before.
+/// Reads a request and its reply. `names` holds the names of earlier messages.
 fn message(
     reader: &mut Reader<'_, '_>,
     rows: &mut Rows,
     table: &At<MessageTable>,
-    (device, names): (&mut Device, &mut HashSet<String>),
+    device: &mut Device,
+    names: &mut HashSet<String>,
 ) {
-    let own = &table.value;
-    let Some(name) = &own.name else {
-        reader.report(&codes::TABLE_VALUE, reader.span(table), "a message has a `name`");
+    let given = &table.value;
+    let Some(name) = &given.name else {
+        reader.report(&codes::TABLE_VALUE, reader.span(table), "the message has no `name`");
         return;
     };
     let origin = reader.origin(name);
     if !names.insert(name.value.clone()) {
-        let message = format!("there are two messages called `{}`", brief(&name.value));
+        let message = format!("two messages have the name `{}`", brief(&name.value));
         reader.report(&codes::TABLE_DUPLICATE, reader.span(name), message);
     }
     let mut with = Fields { reader, rows, request: Vec::new() };
-    let request = with.list(&own.request, 0);
+    let request = with.list(&given.request, 0);
     with.request = field_names(&request).cloned().collect();
-    let reply = with.list(&own.reply, 0);
-    for (list, fields) in [(&own.request, &request), (&own.reply, &reply)] {
+    let reply = with.list(&given.reply, 0);
+    for (list, fields) in [(&given.request, &request), (&given.reply, &reply)] {
         with.numbers(list, fields);
     }
     let replies: Vec<CompactString> = field_names(&reply).cloned().collect();
-    let completion = completion(reader, rows, own.completion.as_ref(), &replies);
-    references(own, &mut rows.references);
-    let availability = availability(own);
-    let mut doubts = reader.doubts_of(own, origin);
-    for (fields, tables) in [(&request, &own.request), (&reply, &own.reply)] {
+    let completion = completion(reader, rows, given.completion.as_ref(), &replies);
+    references(given, &mut rows.references);
+    let availability = availability(given);
+    let mut doubts = reader.doubts_of(given, origin);
+    for (fields, tables) in [(&request, &given.request), (&reply, &given.reply)] {
         counted(reader, fields, tables);
     }
-    let examples = own.examples.iter().map(|given| example(reader, given, &mut doubts)).collect();
-    let effects = own.effects.iter().flat_map(|effects| &effects.0);
+    let examples = given.examples.iter().map(|frames| example(reader, frames, &mut doubts)).collect();
+    let effects = given.effects.iter().flat_map(|effects| &effects.0);
     device.messages.push(Message {
         name: text(name),
         request,
         reply,
         completion,
-        reply_time: own.reply_time,
-        after: own.after.as_ref().map(|name| reader.reference(name)),
-        by_default: own.default,
-        error: own.error.as_ref().map(|name| reader.reference(name)),
+        reply_time: given.reply_time,
+        after: given.after.as_ref().map(|name| reader.reference(name)),
+        by_default: given.default,
+        error: given.error.as_ref().map(|name| reader.reference(name)),
         side_effects: effects.map(|effect| effect.as_str().into()).collect(),
-        accepted_when: own
+        accepted_when: given
             .when
             .as_ref()
             .map(|when| conditions::conditions(reader, &mut rows.definitions.mentioned, when))
             .unwrap_or_default(),
-        names: reader.original(own.orig.as_deref()),
+        names: reader.original(given.orig.as_deref()),
         availability: (availability != Availability::default()).then(|| Box::new(availability)),
-        accepted_in: own.accepted_in.iter().map(text).collect(),
+        accepted_in: given.accepted_in.iter().map(text).collect(),
         examples,
-        documentation: reader.documentation_of(own),
+        documentation: reader.documentation_of(given),
         doubts,
         origin,
     });
 }
 
-/// Reports the first message that isn't read because there are so many.
+/// Reports the first message beyond the maximum number.
 fn too_many(reader: &mut Reader<'_, '_>, table: &At<MessageTable>) {
-    let message = format!("there are more than {} messages", limits::MAX_MESSAGES);
+    let message = format!("the table has more than {} messages", limits::MAX_MESSAGES);
     let found = Diagnostic::new(&codes::INPUT_TOO_LARGE, reader.span(table), message);
-    reader.diagnostics.push(found.label("this one and those behind it are left out"));
+    reader.diagnostics.push(found.label("this message and those after it are left out"));
 }
 
-/// Reports lengths that count from a field that their frame doesn't have.
+/// Reports lengths that are counted from a field that the frame does not have.
 fn counted(reader: &mut Reader<'_, '_>, fields: &[MessageField], tables: &[At<FieldTable>]) {
     let echoes = fields.iter().filter_map(|field| match field {
         MessageField::Echo { field, .. } => Some(field),
@@ -150,23 +149,23 @@ fn counted(reader: &mut Reader<'_, '_>, fields: &[MessageField], tables: &[At<Fi
     });
     let known: Vec<&CompactString> = field_names(fields).chain(echoes).collect();
     for counts in tables.iter().filter_map(|table| table.value.counts.as_ref()) {
-        if !known.iter().any(|own| **own == counts.value) {
-            reader.unresolved("field", &counts.value, reader.span(counts), known.iter().map(|own| own.as_str()));
+        if !known.iter().any(|name| **name == counts.value) {
+            reader.unresolved("field", &counts.value, reader.span(counts), known.iter().map(|name| name.as_str()));
         }
     }
 }
 
-/// Frames as the manual prints them.
+/// Reads example frames of the manual.
 fn example(reader: &mut Reader<'_, '_>, given: &At<ExampleTable>, doubts: &mut Doubts) -> MessageExample {
-    let own = &given.value;
+    let example = &given.value;
     let origin = reader.origin(given);
-    doubts.extend(reader.doubts_of(own, origin));
+    doubts.extend(reader.doubts_of(example, origin));
     MessageExample {
-        request: own.request.value.clone(),
-        reply: own.reply.value.clone(),
-        documentation: reader.documentation_of(own),
-        request_at: reader.span(&own.request),
-        reply_at: reader.span(&own.reply),
+        request: example.request.value.clone(),
+        reply: example.reply.value.clone(),
+        documentation: reader.documentation_of(example),
+        request_at: reader.span(&example.request),
+        reply_at: reader.span(&example.reply),
     }
 }
 
@@ -180,7 +179,7 @@ fn availability(message: &MessageTable) -> Availability {
     }
 }
 
-/// The names that a message refers to.
+/// Collects the names that a message uses.
 fn references(message: &MessageTable, all: &mut References) {
     let messages = [&message.after, &message.error, &message.replaced_by];
     all.extend(messages.into_iter().flatten().map(|name| (name.clone(), "message")));
@@ -203,13 +202,13 @@ fn completion(
         },
         TextOr::Table(table) => match (&table.poll, table.delay) {
             (Some(item), None) => {
-                // A bit behind a dot is a part of the item, or of the field.
+                // The part after a dot is a bit of the item or field.
                 let whole = item.value.split('.').next().unwrap_or_default();
-                if !replies.iter().any(|own| own == whole) {
+                if !replies.iter().any(|field| field == whole) {
                     let name = At { value: whole.to_owned(), start: item.start, end: item.end };
                     rows.references.push((name, ITEM_OR_FIELD));
                 }
-                let value = table.value.as_ref().and_then(|own| value::convert(own, Type::Opaque(None), false));
+                let value = table.value.as_ref().and_then(|literal| value::convert(literal, Type::Opaque(None), false));
                 Some(Completion::Polled {
                     item: reader.reference(item),
                     mask: table.mask,
@@ -225,14 +224,14 @@ fn completion(
     };
     if found.is_none() {
         let message =
-            "`completion` is `\"immediate\"`, `\"reply\"`, `{ poll = \"item\" }` (and `mask`, `value`, `in_reply`) or \
+            "`completion` must be `\"immediate\"`, `\"reply\"`, `{ poll = \"item\" }` (with `mask`, `value`, `in_reply`) or \
                        `{ delay = 100 }`";
         reader.report(&codes::TABLE_VALUE, reader.span(given), message);
     }
     found.unwrap_or_default()
 }
 
-/// The names of the values in fields, those of repeated ones too.
+/// Returns the names of the values in fields, including repeated fields.
 pub(super) fn field_names(fields: &[MessageField]) -> Box<dyn Iterator<Item = &CompactString> + '_> {
     Box::new(fields.iter().flat_map(|field| -> Box<dyn Iterator<Item = &CompactString>> {
         match field {
@@ -243,11 +242,11 @@ pub(super) fn field_names(fields: &[MessageField]) -> Box<dyn Iterator<Item = &C
     }))
 }
 
-/// Reads fields.
+/// Reads the fields of a message.
 struct Fields<'r, 's, 'd> {
     reader: &'r mut Reader<'s, 'd>,
     rows: &'r mut Rows,
-    /// The values in the request, for its reply.
+    /// The values in the request, which fields of the reply may echo.
     request: Vec<CompactString>,
 }
 
@@ -256,61 +255,61 @@ impl Fields<'_, '_, '_> {
         let mut fields: Vec<MessageField> = Vec::new();
         let mut before = HashSet::new();
         for field in list {
-            let own = self.one(field, &before, depth);
-            before.extend(field_names(own.as_slice()).cloned());
-            fields.extend(own);
+            let message_field = self.one(field, &before, depth);
+            before.extend(field_names(message_field.as_slice()).cloned());
+            fields.extend(message_field);
         }
         fields
     }
 
     fn one(&mut self, field: &At<FieldTable>, before: &HashSet<CompactString>, depth: usize) -> Option<MessageField> {
-        let own = &field.value;
-        let kinds = [
-            own.field.is_some(),
-            own.bytes.is_some(),
-            own.fixed.is_some() && own.field.is_none(),
-            own.echo.is_some(),
-            own.copy.is_some(),
-            own.code.is_some(),
-            own.value_of.is_some(),
-            own.zeros_for.is_some(),
-            own.pad.is_some(),
-            own.repeat.is_some(),
-            own.rest,
+        let given = &field.value;
+        let given_keys = [
+            given.field.is_some(),
+            given.bytes.is_some(),
+            given.fixed.is_some() && given.field.is_none(),
+            given.echo.is_some(),
+            given.copy.is_some(),
+            given.code.is_some(),
+            given.value_of.is_some(),
+            given.zeros_for.is_some(),
+            given.pad.is_some(),
+            given.repeat.is_some(),
+            given.rest,
         ];
-        let is_one = kinds.iter().filter(|is_given| **is_given).count() == 1;
-        if !is_one || (own.repeat.is_some() && depth >= MAX_DEPTH) {
+        let is_one = given_keys.iter().filter(|is_given| **is_given).count() == 1;
+        if !is_one || (given.repeat.is_some() && depth >= MAX_DEPTH) {
             let message =
-                "a field is one of `field`, `bytes`, `fixed`, `echo`, `copy`, `code`, `value_of`, `zeros_for`, `pad`, \
+                "a field must have one of `field`, `bytes`, `fixed`, `echo`, `copy`, `code`, `value_of`, `zeros_for`, `pad`, \
                            `repeat`, `rest`";
             self.reader.report(&codes::TABLE_VALUE, self.reader.span(field), message);
             return None;
         }
-        if let Some(name) = &own.field {
+        if let Some(name) = &given.field {
             return self.typed(field, name);
         }
-        if let Some(echo) = &own.echo {
+        if let Some(echo) = &given.echo {
             return Some(self.echo(echo, field));
         }
-        if let Some(fixed) = &own.fixed {
+        if let Some(fixed) = &given.fixed {
             return self.fixed(fixed, field);
         }
-        if let Some(copy) = &own.copy {
+        if let Some(copy) = &given.copy {
             return self.bytes(copy).map(|(first, last)| MessageField::Copy { first, last });
         }
-        if let Some(space) = &own.code {
+        if let Some(space) = &given.code {
             self.space(space);
             return Some(MessageField::ItemCode { space: text(space), bits: self.code_bits(field) });
         }
-        if let Some(space) = &own.value_of {
+        if let Some(space) = &given.value_of {
             self.space(space);
             return Some(MessageField::ItemValue { space: text(space) });
         }
-        if let Some(space) = &own.zeros_for {
+        if let Some(space) = &given.zeros_for {
             self.space(space);
             return Some(MessageField::ItemPadding { space: text(space) });
         }
-        if let Some(repeat) = &own.repeat {
+        if let Some(repeat) = &given.repeat {
             if let Some(count) = repeat.count.as_ref().filter(|count| !before.contains(count.value.as_str())) {
                 let mut known: Vec<&str> = match self.reader.helps() {
                     true => before.iter().map(CompactString::as_str).collect(),
@@ -322,11 +321,11 @@ impl Fields<'_, '_, '_> {
             let fields = self.list(&repeat.fields, depth + 1);
             return Some(MessageField::Repeat { count: repeat.count.as_ref().map(text), max: repeat.max, fields });
         }
-        let fixed = own.bytes.clone().map(MessageField::Constant).or(own.pad.map(MessageField::Padding));
+        let fixed = given.bytes.clone().map(MessageField::Constant).or(given.pad.map(MessageField::Padding));
         Some(fixed.unwrap_or(MessageField::Rest))
     }
 
-    /// The printed numbers of bytes count on from field to field, up to the first one whose length isn't known.
+    /// Checks the printed byte numbers of fields, up to the first field without a fixed length.
     fn numbers(&mut self, list: &[At<FieldTable>], fields: &[MessageField]) {
         if list.len() != fields.len() {
             return;
@@ -338,7 +337,7 @@ impl Fields<'_, '_, '_> {
                 let first = *first.get_or_insert(number);
                 if number != first {
                     let message = format!(
-                        "the field has byte number {}, and would have {}",
+                        "the field has the printed byte number {}, but {} follows from the fields before it",
                         at.value,
                         first + i64::from(bits / 8)
                     );
@@ -346,14 +345,14 @@ impl Fields<'_, '_, '_> {
                     return;
                 }
             }
-            match self.bits(field).and_then(|own| bits.checked_add(own)) {
+            match self.bits(field).and_then(|length| bits.checked_add(length)) {
                 Some(all) => bits = all,
                 None => return,
             }
         }
     }
 
-    /// The length of a field, where it is always the same.
+    /// Returns the length of a field in bits, if it is fixed.
     fn bits(&self, field: &MessageField) -> Option<u32> {
         match field {
             MessageField::Constant(bytes) => Some(bytes.len() as u32 * 8),
@@ -367,7 +366,7 @@ impl Fields<'_, '_, '_> {
     }
 
     fn echo(&mut self, echo: &At<String>, field: &At<FieldTable>) -> MessageField {
-        if !self.request.iter().any(|own| *own == echo.value) {
+        if !self.request.iter().any(|name| *name == echo.value) {
             let known = self.request.iter().map(CompactString::as_str);
             self.reader.unresolved("field of the request", &echo.value, self.reader.span(echo), known);
         }
@@ -375,23 +374,23 @@ impl Fields<'_, '_, '_> {
         MessageField::Echo { field: text(echo), bytes }
     }
 
-    /// First and last of some bytes.
+    /// Reads the first and last of a range of bytes.
     fn bytes<T: TryFrom<i128> + PartialOrd>(&mut self, given: &At<NumberOrText>) -> Option<(T, T)> {
-        let range = place::range(&given.value.to_string());
+        let range = notation::range(&given.value.to_string());
         let found = range.and_then(|(first, last)| Some((T::try_from(first).ok()?, T::try_from(last).ok()?)));
         let found = found.filter(|(first, last)| first <= last);
         if found.is_none() {
-            let message = "a range of bytes, the first on the wire being 0: write `\"1..3\"`";
+            let message = "not a range of bytes, where 0 is the first on the wire: write `\"1..3\"`";
             self.reader.report(&codes::TABLE_PLACE, self.reader.span(given), message);
         }
         found
     }
 
-    /// Fixed bits: an integer of less than 64 bits, and a value that it can have.
+    /// Reads fixed bits: an unsigned integer of less than 64 bits, and its value.
     fn fixed(&mut self, fixed: &At<Literal>, field: &At<FieldTable>) -> Option<MessageField> {
         let ty = field.value.ty.as_ref().and_then(|ty| types::named(&ty.value)).map(|named| named.ty);
         let Some(ty @ Type::Unsigned(bits @ 1..=63)) = ty else {
-            let message = "fixed bits have a `type` such as `u4`; whole bytes are `bytes = [0x00]`";
+            let message = "fixed bits need a `type` such as `u4`; write whole bytes as `bytes = [0x00]`";
             self.reader.report(&codes::TABLE_VALUE, self.reader.span(field), message);
             return None;
         };
@@ -408,52 +407,53 @@ impl Fields<'_, '_, '_> {
         }
     }
 
-    /// Length of a code; 16 bits where the field doesn't say.
+    /// Returns the length of a code in bits: that of the type, or 16 if the field has none.
     fn code_bits(&mut self, field: &At<FieldTable>) -> u8 {
         let Some(ty) = &field.value.ty else { return 16 };
         match types::named(&ty.value).map(|named| named.ty) {
             Some(Type::Unsigned(bits)) => bits,
             _ => {
-                let message = format!("`{}` is no type of a code such as `u16`", brief(&ty.value));
+                let message = format!("`{}` is not a type of codes such as `u16`", brief(&ty.value));
                 self.reader.report(&codes::TABLE_VALUE, self.reader.span(ty), message);
                 16
             }
         }
     }
 
-    /// A value in a message: read as a row is, with what a field has in common with it.
+    /// Reads a value in a message like a row, with the keys that fields and rows share.
     fn typed(&mut self, field: &At<FieldTable>, name: &At<String>) -> Option<MessageField> {
-        let own = &field.value;
-        let row = Row { offset: own.offset, fixed: own.fixed.clone(), ..field_row!(own) };
+        let given = &field.value;
+        let row = Row { offset: given.offset, fixed: given.fixed.clone(), ..field_row!(given) };
         let named = Named { name: &name.value, key: name, number: 0, end: field.end };
         let ty = self.rows.ty(self.reader, named, &row)?;
         let mut item = Item::new(Binding::Ascii(CompactString::default()));
         item.bindings.clear();
         item.access = Access::ReadWrite;
         self.rows.fill(self.reader, &mut item, named, &row, Some(ty));
-        let byte_order = own.order.as_ref().map(|order| byte_order(self.reader, order)).unwrap_or_default();
+        let byte_order = given.order.as_ref().map(|order| byte_order(self.reader, order)).unwrap_or_default();
         let bytes = self.rows.definitions.underlying(ty).bits().map(|bits| bits.div_ceil(8) as usize);
         if let Some((order, bytes)) =
-            own.order.as_ref().zip(bytes.filter(|&bytes| !byte_order.is_empty() && byte_order.len() != bytes))
+            given.order.as_ref().zip(bytes.filter(|&bytes| !byte_order.is_empty() && byte_order.len() != bytes))
         {
-            let message = format!("the order has {} bytes, and the type {bytes}", byte_order.len());
+            let message = format!("the order has {} bytes, but the type has {bytes}", byte_order.len());
             self.reader.report(&codes::TABLE_VALUE, self.reader.span(order), message);
         }
-        let counts = own.counts.as_ref().map(text);
+        let counts = given.counts.as_ref().map(text);
         Some(MessageField::Value(Box::new(MessageValue { item, byte_order, counts })))
     }
 }
 
-/// `CDAB`: the bytes in the order of the wire, the most significant one being `A`.
+/// Reads a byte order such as `CDAB`: the bytes in the order of the wire, with `A` as the most significant one.
 fn byte_order(reader: &mut Reader<'_, '_>, order: &At<String>) -> Vec<u8> {
     let bytes: Vec<u8> = order.value.bytes().map(|letter| letter.wrapping_sub(b'A')).collect();
     let mut sorted = bytes.clone();
     sorted.sort_unstable();
-    let is_order = (1..=8).contains(&bytes.len()) && sorted.iter().zip(0u8..).all(|(own, expected)| *own == expected);
+    let is_order = (1..=8).contains(&bytes.len()) && sorted.iter().zip(0u8..).all(|(byte, expected)| *byte == expected);
     if is_order {
         return bytes;
     }
-    let message = format!("`{}` is no order of bytes: each letter from `A` on once, as in `CDAB`", brief(&order.value));
+    let message =
+        format!("`{}` is not a byte order: write each letter from `A` on once, as in `CDAB`", brief(&order.value));
     reader.report(&codes::TABLE_VALUE, reader.span(order), message);
     Vec::new()
 }

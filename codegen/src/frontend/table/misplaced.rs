@@ -1,45 +1,45 @@
-//! Keys of a row that would say nothing where they stand.
+//! Reports keys that have no effect in their row.
 
 use super::at::At;
 use super::format::{NumberOrText, Row};
 use super::tree::Reader;
 use crate::diagnostics::{codes, Diagnostic};
 
-/// Keys, whether a row has them, and why they can't stand there.
+/// Keys, whether a row has them, and why they have no effect.
 type Misplaced<'r> = &'r [(&'r str, bool, &'r str)];
 
-/// A row of `[chapters.registers]` of a table.
+/// Checks a row of `[chapters.registers]` of a table.
 pub(super) fn register(reader: &mut Reader<'_, '_>, key: &At<String>, row: &At<Row>) {
-    let own = &row.value;
+    let register = &row.value;
     report(
         reader,
         key,
         &[
-            ("name", own.name.is_some(), "the key of a register is its name"),
-            ("code", own.code.is_some(), "only objects have an object code: put the row into `[chapters.objects]`"),
+            ("name", register.name.is_some(), "the key of a register is its name"),
+            ("code", register.code.is_some(), "only objects have an object code: move the row to `[chapters.objects]`"),
             (
                 "reserved",
-                own.reserved.is_some(),
-                "only a sub-index is reserved: leave out a register that means nothing",
+                register.reserved.is_some(),
+                "only a sub-index can be reserved: delete a register without a meaning",
             ),
         ],
     );
-    everywhere(reader, key, own);
+    everywhere(reader, key, register);
 }
 
-/// A row of `[chapters.objects]` of a table.
+/// Checks a row of `[chapters.objects]` of a table.
 pub(super) fn object(reader: &mut Reader<'_, '_>, key: &At<String>, row: &At<Row>) {
-    let own = &row.value;
-    let repeats = own.count.is_some() || own.max_count.is_some() || own.stride.is_some();
+    let object = &row.value;
+    let repeats = object.count.is_some() || object.max_count.is_some() || object.stride.is_some();
     report(
         reader,
         key,
         &[
-            ("obj", own.obj.is_some(), "the key of the row is the object"),
-            ("count", repeats, "a key such as `\"0x1400..0x1403:1\"` says how many objects are meant"),
+            ("obj", object.obj.is_some(), "the key of the row is the object"),
+            ("count", repeats, "write several objects as a key such as `\"0x1400..0x1403:1\"`"),
         ],
     );
-    everywhere(reader, key, own);
+    everywhere(reader, key, object);
 }
 
 fn everywhere(reader: &mut Reader<'_, '_>, key: &At<String>, row: &Row) {
@@ -49,48 +49,53 @@ fn everywhere(reader: &mut Reader<'_, '_>, key: &At<String>, row: &Row) {
         reader,
         key,
         &[
-            ("why", row.why.is_some(), "it says why an overlay changes something, and this is no overlay"),
-            ("add", row.add.is_some(), "only an overlay adds to a description"),
-            ("remove", row.remove.is_some(), "only an overlay takes something away: leave the row out"),
-            ("part", row.part.is_some() && row.reg.is_none(), "it is bits of a register, and the row has no `reg`"),
-            ("order", words && row.reg.is_none(), "it is about the words of registers, and the row has no `reg`"),
+            ("why", row.why.is_some(), "it is the reason of a change, and only overlays change something"),
+            ("add", row.add.is_some(), "only an overlay adds items to a description"),
+            ("remove", row.remove.is_some(), "only an overlay removes items: delete the row"),
+            (
+                "part",
+                row.part.is_some() && row.reg.is_none(),
+                "it selects bits of a register, and the row has no `reg`",
+            ),
+            ("order", words && row.reg.is_none(), "it is the word order of registers, and the row has no `reg`"),
             (
                 "stride",
                 row.stride.is_some() && row.count.is_none(),
-                "it lies between two of several: the row has no `count`",
+                "it is the distance between several items, and the row has no `count`",
             ),
-            ("max_count", row.max_count.is_some() && !by_item, "it goes with a `count` that an item holds"),
+            ("max_count", row.max_count.is_some() && !by_item, "it needs a `count` that names an item"),
         ],
     );
 }
 
-/// A row of an overlay or a profile: items keep the addresses that they have.
+/// Checks a row of an overlay or a profile, which cannot change addresses.
 pub(super) fn overlay(reader: &mut Reader<'_, '_>, key: &At<String>, row: &At<Row>) {
-    let own = &row.value;
-    let repeats = own.count.is_some() || own.max_count.is_some() || own.stride.is_some();
-    let words = own.order.is_some() || own.swap.is_some();
-    let kept = "items keep the registers and objects that the description gives them";
+    let patch = &row.value;
+    let repeats = patch.count.is_some() || patch.max_count.is_some() || patch.stride.is_some();
+    let words = patch.order.is_some() || patch.swap.is_some();
+    let kept = "the description sets the registers and objects of items";
     report(
         reader,
         key,
         &[
-            ("reg", own.reg.is_some(), kept),
-            ("obj", own.obj.is_some(), kept),
-            ("part", own.part.is_some(), kept),
+            ("reg", patch.reg.is_some(), kept),
+            ("obj", patch.obj.is_some(), kept),
+            ("part", patch.part.is_some(), kept),
             ("order", words, kept),
-            ("count", repeats, "a row is about the items that the description has"),
+            ("count", repeats, "a row applies to the items of the description"),
         ],
     );
 }
 
 fn report(reader: &mut Reader<'_, '_>, key: &At<String>, list: Misplaced<'_>) {
     for (name, _, why) in list.iter().filter(|(_, is_there, _)| *is_there) {
-        let found = Diagnostic::new(&codes::TABLE_VALUE, reader.span(key), format!("`{name}` can't stand in this row"));
+        let found =
+            Diagnostic::new(&codes::TABLE_VALUE, reader.span(key), format!("`{name}` has no effect in this row"));
         reader.diagnostics.push(found.help(*why));
     }
 }
 
-/// The first key of a row that says something of a value, which an object with sub-entries hasn't.
+/// Returns the first key of a row that describes a value, which an object with sub-entries does not have.
 pub(super) fn of_value(row: &Row) -> Option<&'static str> {
     macro_rules! first {
         ($($key:literal $field:ident)*) => {

@@ -1,26 +1,26 @@
-//! Register tables (`*.toml`) to IR. The format is told in `dictionaries/README.md`.
+//! Reads register tables (`*.toml`). `dictionaries/README.md` describes the format.
 //!
 //! | file | subject |
 //! |---|---|
-//! | `format`, `at`, `alternatives`, `read` | the tables of the format, the pieces they are made of, and how both are read |
-//! | `tree` | from the text to those tables, with every error at its place; options |
-//! | `place`, `types`, `value`, `units`, `words` | numbers and places, names of types, literals, symbols of units, words for access rights and the like |
+//! | `format`, `at`, `alternatives`, `read` | the tables of the format, their parts, and how both are read |
+//! | `tree` | reads the text into those tables, and reports errors with their spans; options |
+//! | `notation`, `types`, `value`, `units`, `words` | numbers, ranges and addresses as text; type names; literals; unit symbols; words for access rights and others |
 //! | `definitions`, `given` | units, enumerations, bit fields; numbers of the machine |
-//! | `scale` | how raw numbers become physical ones |
-//! | `conditions`, `variants` | when something exists; what differs between models and buses |
-//! | `references`, `numbered` | names that lead to something else, and numbers in their place |
-//! | `repeats`, `machine_budget` | how much short rows, long defaults and state machines may stand for |
-//! | `taken` | names and addresses that are in use |
+//! | `scale` | conversion of raw values to physical values |
+//! | `conditions`, `variants` | conditions for elements; differences between models and buses |
+//! | `references`, `numbered` | names that refer to other elements, and register numbers in place of names |
+//! | `repeats`, `machine_budget` | limits on the items that rows produce, and on the size of state machines |
+//! | `in_use` | names and addresses that are in use |
 //! | `buses`, `spaces`, `windows` | sets of buses; the addresses of a register on each bus |
-//! | `rows`, `bindings`, `limits`, `registers`, `objects` | rows to items and objects; their addresses; default, limits and only values |
-//! | `defaults`, `misplaced` | what rows inherit; keys that say nothing where they stand |
+//! | `rows`, `bindings`, `limits`, `registers`, `objects` | items and objects of rows; their addresses; defaults, limits and allowed values |
+//! | `defaults`, `misplaced` | values that rows inherit; keys that have no effect in their row |
 //! | `device` | the head: device, models, axes |
 //! | `process`, `images` | process data: PDOs, fixed process images |
-//! | `code_tables`, `machines`, `states`, `outcomes`, `messages`, `framing` | codes; state machines and procedures; their states; what commands do in each state; messages and their frames |
+//! | `code_tables`, `machines`, `states`, `outcomes`, `messages`, `framing` | codes; state machines and procedures; their states; effects of commands in each state; messages and their frames |
 //! | `composites` | numbers that are split over several items |
-//! | `overlay` | tables that say something of what another file describes |
-//! | `lints`, `summary` | what needs the table as it is written; what another place of the manual says |
-//! | `schema` | derives the JSON Schema of the format, in tests only; the result is the file `schema/table.json` |
+//! | `overlay` | tables that change the objects of another file |
+//! | `lints`, `summary` | checks of the notation; comparison of a row with other sections of the manual |
+//! | `schema` | derives the JSON Schema of the format, in tests only; the file `schema/table.json` holds the result |
 
 mod alternatives;
 mod at;
@@ -40,6 +40,7 @@ mod frames;
 mod framing;
 mod given;
 mod images;
+mod in_use;
 mod limits;
 mod lints;
 mod machine_budget;
@@ -47,11 +48,11 @@ mod machines;
 #[cfg(feature = "messages")]
 mod messages;
 mod misplaced;
+mod notation;
 mod numbered;
 mod objects;
 mod outcomes;
 pub mod overlay;
-mod place;
 mod process;
 mod read;
 mod references;
@@ -64,7 +65,6 @@ mod schema;
 mod spaces;
 mod states;
 mod summary;
-mod taken;
 mod tree;
 mod types;
 mod units;
@@ -83,14 +83,14 @@ use at::{At, Entries};
 use by_name::ByName;
 use definitions::Definitions;
 use format::{ChapterTable, DeviceTable, OptionTable, Row};
+use in_use::InUse;
 use objects::Dictionary;
 use read::Read;
 use repeats::Repeats;
 use rows::Rows;
-use taken::Taken;
 use tree::{Node, Reader};
 
-/// JSON Schema (draft 7) of register tables, by which editors complete and check them. `lexibus schema` prints it.
+/// JSON Schema (draft 7) of register tables, which editors use to complete and check tables. `lexibus schema` prints it.
 pub const SCHEMA: &str = include_str!("../../../schema/table.json");
 
 /// Returns the unit symbol for another spelling of a unit, such as `°C` for `degC` and `rpm` for `1/min`. Returns `None` if the
@@ -118,10 +118,10 @@ pub fn is_unit(symbol: &str) -> bool {
     units::is_known(symbol)
 }
 
-/// The version of the format that is read here.
+/// The supported version of the format.
 const VERSION: u32 = 1;
 
-/// The keys of a table, and the order in which they are read: what others refer to comes first.
+/// The keys of a table in the order in which they are read: referenced elements come first.
 const KEYS: [&str; 25] = [
     "lexibus",
     "device",
@@ -150,9 +150,9 @@ const KEYS: [&str; 25] = [
     "frames",
 ];
 
-/// Reads the device that a table describes. `chosen` are the choices of its options.
+/// Reads the device that a table describes. `chosen` holds the choices of its options.
 ///
-/// Returns `None` for what is no table of a device; then there is an error.
+/// Returns `None` if the table does not describe a device. The reason is then reported as an error.
 pub fn read(
     source: &Source,
     file: FileId,
@@ -164,7 +164,7 @@ pub fn read(
     let Some(head) = table.take::<DeviceTable>(&mut reader, "device") else {
         let found = Diagnostic::new(&codes::TABLE_VALUE, Span::new(file, 0, 0), "the table has no `[device]`");
         reader.diagnostics.push(match table.node("overlay") {
-            Some(_) => found.help("it is an overlay: name it with `--overlay` beside the description that it is for"),
+            Some(_) => found.help("pass the overlay with `--overlay`, next to the description that it changes"),
             None => found,
         });
         return None;
@@ -183,19 +183,19 @@ pub fn read(
     let mut rows = table.rows(&mut reader, buses);
     device.modbus = std::mem::take(&mut rows.modbus);
     let mut dictionary = Dictionary::new();
-    let mut taken = Taken::default();
+    let mut in_use = InUse::default();
     for chapter in table.nodes(&mut reader, "chapters") {
-        device.groups.extend(self::chapter(&mut reader, &mut rows, (&mut dictionary, &mut taken), chapter));
+        device.groups.extend(self::chapter(&mut reader, &mut rows, &mut dictionary, &mut in_use, chapter));
     }
     summary::objects(&mut reader, &rows.definitions, &rows.summaries, &dictionary);
     for item in dictionary.values().flat_map(|group| &group.items) {
-        taken.place(&mut reader, item);
+        in_use.addresses(&mut reader, item);
     }
     device.groups.extend(dictionary.into_values());
     for (name, given) in table.named::<format::GivenTable>(&mut reader, "given") {
         device.given.push(given::number(&mut reader, &name, &given, &mut rows.references));
     }
-    // Their fields have types as rows do.
+    // The fields of images and messages have types, as rows do.
     table.frames(&mut reader, &mut rows, &mut device);
     rows.definitions.make_unused(&mut reader);
     device.types = std::mem::take(&mut rows.definitions.types);
@@ -216,7 +216,7 @@ struct Table<'a> {
 }
 
 impl<'a> Table<'a> {
-    /// Parses a file, and puts the chosen values into the places of its options.
+    /// Parses a file, and replaces the options with the chosen values.
     fn new(reader: &mut Reader<'a, '_>, chosen: &[(String, String)]) -> Option<Self> {
         let mut parts: Vec<_> =
             tree::sorted(reader.parse()?).into_iter().map(|(key, node)| (key, Some(node))).collect();
@@ -250,33 +250,34 @@ impl<'a> Table<'a> {
         match self.take::<u32>(reader, "lexibus") {
             Some(version) if version.value == VERSION => {}
             Some(version) => {
-                let message = format!("this is version {} of the format, and {VERSION} is read here", version.value);
+                let message =
+                    format!("version {} of the format is not supported, only version {VERSION}", version.value);
                 reader.report(&codes::TABLE_VALUE, reader.span(&version), message);
             }
             None => {
-                let message = "the file doesn't say that it is a table: its first key is `lexibus = 1`";
+                let message = "the version of the format is missing: begin the file with `lexibus = 1`";
                 reader.report(&codes::TABLE_VALUE, Span::new(reader.file, 0, 0), message);
             }
         }
     }
 
     fn node(&mut self, key: &str) -> Option<Node<'a>> {
-        self.parts.iter_mut().find(|(own, _)| own.value == key)?.1.take()
+        self.parts.iter_mut().find(|(name, _)| name.value == key)?.1.take()
     }
 
-    /// A table.
+    /// Reads the table of a key.
     fn take<T: Read>(&mut self, reader: &mut Reader<'a, '_>, key: &str) -> Option<At<T>> {
         let node = self.node(key)?;
         let (start, end) = (node.span().start as u32, node.span().end as u32);
         Some(At { value: reader.piece(node)?, start, end })
     }
 
-    /// The elements of an array of tables.
+    /// Returns the elements of an array of tables.
     fn nodes(&mut self, reader: &mut Reader<'a, '_>, key: &str) -> Vec<Node<'a>> {
         self.node(key).map(|node| reader.elements(node, key)).unwrap_or_default()
     }
 
-    /// The same, read.
+    /// Reads the elements of an array of tables.
     fn list<T: Read>(&mut self, reader: &mut Reader<'a, '_>, key: &str) -> Vec<At<T>> {
         let nodes = self.nodes(reader, key);
         nodes
@@ -288,18 +289,18 @@ impl<'a> Table<'a> {
             .collect()
     }
 
-    /// Tables by name.
+    /// Returns the tables below a key, with their names.
     fn entries(&mut self, reader: &mut Reader<'a, '_>, key: &str) -> Vec<(At<String>, Node<'a>)> {
         self.node(key).map(|node| reader.entries(node, key)).unwrap_or_default()
     }
 
-    /// The same, read.
+    /// Reads the tables below a key, with their names.
     fn named<T: Read>(&mut self, reader: &mut Reader<'a, '_>, key: &str) -> Vec<(At<String>, T)> {
         let entries = self.entries(reader, key);
         entries.into_iter().filter_map(|(name, node)| Some((name, reader.piece(node)?))).collect()
     }
 
-    /// What rows need: definitions, spaces and defaults.
+    /// Returns the state that rows need: definitions, spaces and defaults.
     fn rows(&mut self, reader: &mut Reader<'a, '_>, buses: Buses) -> Rows {
         let definitions = Definitions {
             units: ByName::new(self.named(reader, "units")),
@@ -326,7 +327,7 @@ impl<'a> Table<'a> {
         }
     }
 
-    /// What has fields: process images and messages.
+    /// Reads the elements with fields: process images and messages.
     fn frames(&mut self, reader: &mut Reader<'a, '_>, rows: &mut Rows, device: &mut Device) {
         let mut images = images::Images::new(device);
         for image in self.list(reader, "images") {
@@ -349,7 +350,7 @@ impl<'a> Table<'a> {
         }
     }
 
-    /// What doesn't hold items: axes, PDOs, codes, sequences.
+    /// Reads the elements without items: axes, PDOs, codes, sequences.
     fn rest(&mut self, reader: &mut Reader<'a, '_>, rows: &mut Rows, device: &mut Device) {
         if let Some(axes) = self.take::<format::AxesTable>(reader, "axes") {
             let models = axes.value.models.iter().flatten();
@@ -378,8 +379,8 @@ impl<'a> Table<'a> {
         for (name, option) in &self.options {
             let (origin, cite) = (reader.origin(name), option.cite.as_ref().map(tree::cited));
             let doubts = [option.doubt.as_ref(), option.doubts.as_ref()];
-            let own = reader.doubts(doubts, origin, cite.as_deref());
-            device.doubts.extend(tree::about(own, crate::ir::SubjectKind::Option, &name.value, ""));
+            let doubts_of_option = reader.doubts(doubts, origin, cite.as_deref());
+            device.doubts.extend(tree::about(doubts_of_option, crate::ir::SubjectKind::Option, &name.value, ""));
         }
         for doubt in self.list::<format::DoubtTable>(reader, "doubts") {
             let origin = reader.origin(&doubt);
@@ -388,11 +389,11 @@ impl<'a> Table<'a> {
         }
     }
 
-    /// State machines and procedures.
+    /// Reads state machines, procedures and composites.
     fn sequences(&mut self, reader: &mut Reader<'a, '_>, rows: &mut Rows, device: &mut Device) {
         let mut budget = MachineBudget::new();
         for (name, table) in self.named(reader, "machines") {
-            if !machines::machine(reader, (&name, &table), device, &mut budget, &mut rows.references) {
+            if !machines::machine(reader, &name, &table, device, &mut budget, &mut rows.references) {
                 break;
             }
         }
@@ -407,19 +408,20 @@ impl<'a> Table<'a> {
     }
 }
 
-/// The rows of a chapter: its registers as a group, its objects into `dictionary`.
+/// Reads the rows of a chapter. Returns its registers as a group, and adds its objects to `dictionary`.
 fn chapter<'a>(
     reader: &mut Reader<'a, '_>,
     rows: &mut Rows,
-    (dictionary, taken): (&mut Dictionary, &mut Taken),
+    dictionary: &mut Dictionary,
+    in_use: &mut InUse,
     node: Node<'a>,
 ) -> Option<Group> {
     let (start, end) = (node.span().start as u32, node.span().end as u32);
     let (registers, objects, mut node) = divide(reader, node)?;
     defaults::of_chapter(reader, &mut node);
-    let own: ChapterTable = reader.piece(node)?;
+    let chapter: ChapterTable = reader.piece(node)?;
     let at = At { value: (), start, end };
-    let space = match &own.space {
+    let space = match &chapter.space {
         Some(name) => {
             let found = rows.spaces.iter().position(|space| space.name == name.value);
             if found.is_none() {
@@ -430,41 +432,41 @@ fn chapter<'a>(
         }
         None => (!rows.spaces.is_empty()).then_some(0),
     };
-    let defaults = own.defaults.as_ref().map(|row| &row.value);
+    let defaults = chapter.defaults.as_ref().map(|row| &row.value);
     rows.repeats.chapter(defaults);
     let mut group = Group::object(0, ObjectCode::Record);
     group.kind = GroupKind::Chapter;
-    group.name = own.title.as_deref().unwrap_or_default().into();
-    group.names = reader.original(own.orig.as_deref());
+    group.name = chapter.title.as_deref().unwrap_or_default().into();
+    group.names = reader.original(chapter.orig.as_deref());
     group.origin = reader.origin(&at);
-    group.documentation = reader.documentation_of(&own);
-    group.doubts = reader.doubts_of(&own, group.origin);
+    group.documentation = reader.documentation_of(&chapter);
+    group.doubts = reader.doubts_of(&chapter, group.origin);
     lints::series(reader, &registers, space.and_then(|at| rows.spaces.get(at)));
     lints::unprinted(reader, &registers, space.and_then(|at| rows.spaces.get(at)));
     for (key, row) in registers {
         misplaced::register(reader, &key, &row);
-        let items = registers::items(reader, rows, space, (&key, &row), defaults);
-        let part = row.value.part.as_ref().and_then(|part| place::bits(&part.value.to_string()));
-        items.iter().for_each(|item| taken.register(reader, &group.name, item, part));
+        let items = registers::items(reader, rows, space, &key, &row, defaults);
+        let part = row.value.part.as_ref().and_then(|part| notation::bits(&part.value.to_string()));
+        items.iter().for_each(|item| in_use.register(reader, &group.name, item, part));
         group.items.extend(items);
     }
     for (key, row) in objects {
         misplaced::object(reader, &key, &row);
-        objects::add(reader, rows, dictionary, (&key, &row), (space, defaults));
+        objects::add(reader, rows, dictionary, &key, &row, space, defaults);
     }
     let says_something = !group.doubts.is_empty() || group.documentation.is_some();
     (!group.items.is_empty() || says_something).then_some(group)
 }
 
-/// Rows of one kind.
+/// The rows of a chapter's registers, or of its objects.
 type RowList = Vec<(At<String>, At<Row>)>;
 
-/// Reads the rows of a chapter one by one, so that a mistake in one of them costs no other.
+/// Reads the rows of a chapter one by one, so that an error in one row does not affect the others.
 fn divide<'a>(reader: &mut Reader<'a, '_>, node: Node<'a>) -> Option<(RowList, RowList, Node<'a>)> {
     let mut node = node;
     let span = node.span();
     let DeValue::Table(table) = node.get_mut() else {
-        let message = "a chapter is a table: write `[[chapters]]`";
+        let message = "a chapter must be a table: write `[[chapters]]`";
         reader.report(&codes::TABLE_VALUE, Span::new(reader.file, span.start as u32, span.end as u32), message);
         return None;
     };
@@ -484,7 +486,7 @@ fn divide<'a>(reader: &mut Reader<'a, '_>, node: Node<'a>) -> Option<(RowList, R
     Some((registers, objects, node))
 }
 
-/// Reports names that rows and sequences refer to and that don't exist.
+/// Reports names that rows and sequences use and that have no definition.
 fn resolve(reader: &mut Reader<'_, '_>, rows: &Rows, device: &Device) {
     let all = rows.references.iter().chain(&rows.definitions.mentioned);
     references::resolve(reader, all.map(|(name, what)| (name, *what)), device, &rows.numbered);

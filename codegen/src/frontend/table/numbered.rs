@@ -1,56 +1,57 @@
-//! Numbers of registers that stand where the name of an item is wanted, or in texts, as manuals print them: "replaced by
-//! register 10015".
+//! Register numbers in place of item names, or in texts, as manuals print them: "replaced by register 10015".
 
 use std::collections::BTreeSet;
 
 use compact_str::CompactString;
 
-use super::place;
+use super::notation;
 use super::tree::Reader;
 use crate::diagnostics::{codes, Diagnostic};
 use crate::ir::{texts, Device};
 use crate::source::Span;
 use crate::text::brief;
 
-/// So many items are listed where a range has several.
+/// The maximum number of items that a message lists for a range.
 const MAX_LISTED: usize = 4;
 
-/// First and last number of an item, and its name.
+/// An item with its first and last register number.
 pub(super) struct Numbered {
     pub first: u32,
     pub last: u32,
     pub name: CompactString,
 }
 
-/// Reports a name that is the number of a register, or a range of them. `false` where it is none.
+/// Reports a name that is a register number or a range of them. Returns `false` if it is neither.
 pub(super) fn report(reader: &mut Reader<'_, '_>, list: &[Numbered], text: &str, span: Span) -> bool {
-    let Some((first, last)) = place::registers(text).filter(|_| !list.is_empty() && !text.starts_with("0x")) else {
+    let Some((first, last)) = notation::registers(text).filter(|_| !list.is_empty() && !text.starts_with("0x")) else {
         return false;
     };
-    let own: Vec<&str> =
+    let found: Vec<&str> =
         list.iter().filter(|item| item.first <= last && first <= item.last).map(|item| brief(&item.name)).collect();
     let text = brief(text);
-    let (message, help) = match own.as_slice() {
-        [] => (format!("there is no register {text}"), "write the name of an item that the table has".to_owned()),
-        [one] => (format!("register {text} is `{one}`, and its name is wanted"), format!("write `{one}`")),
+    let (message, help) = match found.as_slice() {
+        [] => (format!("the table has no register {text}"), "write the name of an item".to_owned()),
+        [one] => {
+            (format!("`{text}` is a register number, but the name of an item is expected"), format!("write `{one}`"))
+        }
         several => {
             let names: Vec<String> = several.iter().take(MAX_LISTED).map(|name| format!("`{name}`")).collect();
             let rest = several.len().saturating_sub(MAX_LISTED);
             let more = if rest > 0 { format!(" and {rest} more") } else { String::new() };
-            let message = format!("registers {text} are not one item, but {}{more}", names.join(", "));
-            (message, "write the name of the one that is meant, and a doubt".to_owned())
+            let message = format!("registers {text} are several items: {}{more}", names.join(", "));
+            (message, "write the name of the correct item, and a `doubt`".to_owned())
         }
     };
     reader.diagnostics.push(Diagnostic::new(&codes::UNRESOLVED_NAME, span, message).help(help));
     true
 }
 
-/// Reports registers that texts mention by their number, and that the table doesn't have.
+/// Reports registers that texts mention by number and that the table does not have.
 pub(super) fn mentioned(reader: &mut Reader<'_, '_>, list: &[Numbered], device: &Device) {
     if list.is_empty() {
         return;
     }
-    // By their first number, each with the last one of those so far: what covers a number begins at or below it.
+    // Sorted by first number. The end of each range becomes the maximum of all ends so far, so one comparison decides.
     let mut ranges: Vec<(u32, u32)> = list.iter().map(|item| (item.first, item.last)).collect();
     ranges.sort_unstable();
     let mut last = 0;
@@ -58,20 +59,20 @@ pub(super) fn mentioned(reader: &mut Reader<'_, '_>, list: &[Numbered], device: 
         last = range.1.max(last);
         range.1 = last;
     }
-    let mut said = BTreeSet::new();
+    let mut reported = BTreeSet::new();
     for text in texts::all(device) {
         for number in mentions(text.words) {
             let below = ranges.partition_point(|(first, _)| *first <= number);
             let exists = ranges.get(..below).and_then(<[_]>::last).is_some_and(|(_, last)| *last >= number);
-            if !exists && said.insert((text.span, number)) {
-                let message = format!("register {number} is mentioned, and the table doesn't have it");
+            if !exists && reported.insert((text.span, number)) {
+                let message = format!("a text mentions register {number}, which the table does not have");
                 reader.report(&codes::MENTIONED_OBJECT, text.span, message);
             }
         }
     }
 }
 
-/// The numbers behind the word for a register: `register 10015`, `registro 10086-87`.
+/// Returns the numbers after the word for a register: `register 10015`, `registro 10086-87`.
 fn mentions(text: &str) -> impl Iterator<Item = u32> + '_ {
     const WORDS: [&str; 4] = ["register", "registers", "registro", "registri"];
     let words = text.split(|c: char| c.is_whitespace() || matches!(c, '(' | ')' | '<' | '>'));
@@ -79,7 +80,7 @@ fn mentions(text: &str) -> impl Iterator<Item = u32> + '_ {
     pairs.filter(|(word, _)| WORDS.contains(&word.to_lowercase().as_str())).filter_map(|(_, number)| {
         let number = number.trim_end_matches(['.', ',', ';', ':']);
         let is_number = number.chars().all(|c| c.is_ascii_digit() || c == '-') && number.len() >= 2;
-        place::registers(number).filter(|_| is_number).map(|(first, _)| first)
+        notation::registers(number).filter(|_| is_number).map(|(first, _)| first)
     })
 }
 
@@ -88,7 +89,7 @@ mod tests {
     use super::mentions;
 
     #[test]
-    fn numbers_of_registers_are_told_from_others() {
+    fn only_numbers_after_the_word_are_registers() {
         let found = |text| mentions(text).collect::<Vec<_>>();
         assert_eq!(found("Da firmware 6 sostituito da registro 10015"), [10015]);
         assert_eq!(found("see registers 10086-87, and Register 63."), [10086, 63]);

@@ -1,11 +1,11 @@
-//! Rows of `[chapters.objects]` to objects.
+//! Converts rows of `[chapters.objects]` to objects.
 
 use std::collections::BTreeMap;
 
 use super::at::At;
 use super::bindings::Repeat;
 use super::format::Row;
-use super::place::{self, Objects};
+use super::notation::{self, Objects};
 use super::rows::{Named, Rows};
 use super::tree::Reader;
 use super::words::OBJECT_CODES;
@@ -16,17 +16,21 @@ use crate::text::brief;
 /// The objects of a table, by index.
 pub(super) type Dictionary = BTreeMap<u16, Group>;
 
-/// Adds what a row of `[chapters.objects]` stands for.
+/// Adds the objects or sub-entries of a row of `[chapters.objects]`.
 pub(super) fn add(
     reader: &mut Reader<'_, '_>,
     rows: &mut Rows,
     dictionary: &mut Dictionary,
-    (key, row): (&At<String>, &At<Row>),
-    (space, chapter): (Option<usize>, Option<&Row>),
+    key: &At<String>,
+    row: &At<Row>,
+    space: Option<usize>,
+    chapter: Option<&Row>,
 ) {
-    let Some(objects) = place::objects(&key.value) else {
-        let message =
-            format!("`{}` is no object: write `0x6040`, `\"0x1018:1\"` or `\"0x1400..0x1403:1\"`", brief(&key.value));
+    let Some(objects) = notation::objects(&key.value) else {
+        let message = format!(
+            "`{}` is not an object: write `0x6040`, `\"0x1018:1\"` or `\"0x1400..0x1403:1\"`",
+            brief(&key.value)
+        );
         let found = Diagnostic::new(&codes::TABLE_PLACE, reader.span(key), message);
         reader.diagnostics.push(match super::lints::digits_of_index(reader, key) {
             Some(digits) => found.help(digits),
@@ -37,60 +41,64 @@ pub(super) fn add(
     rows.allow(reader, key, row);
     super::lints::index(reader, key);
     let complete = match objects.subs {
-        // What an object says about itself isn't a value's: it takes no defaults but its own.
+        // The facts about an object as a whole are not those of a value, so it inherits no defaults.
         None if row.value.ty.is_none() && has_no_value(&row.value) => row.value.clone(),
-        _ => rows.complete(reader, (key, &row.value), chapter),
+        _ => rows.complete(reader, key, &row.value, chapter),
     };
-    let objects = affordable(reader, rows, (objects, &complete), key);
+    let objects = affordable(reader, rows, objects, &complete, key);
     let count = u32::from(objects.indices.1 - objects.indices.0) + 1;
     rows.each_has_one(reader, key, &complete, count);
+    let given = GivenRow { key, row, complete: &complete };
     for index in objects.indices.0..=objects.indices.1 {
         let number = u32::from(index - objects.indices.0);
         match objects.subs {
-            None => head(reader, rows, dictionary, (key, row, &complete), (index, number), space),
-            Some(_) => subs(reader, rows, dictionary, (key, row, &complete), (objects, index, number), space),
+            None => head(reader, rows, dictionary, given, index, number, space),
+            Some(_) => subs(reader, rows, dictionary, given, objects, index, space),
         }
     }
 }
 
-/// The range of a row, or its first object where the table stands for too many items.
-fn affordable(
-    reader: &mut Reader<'_, '_>,
-    rows: &mut Rows,
-    (objects, row): (Objects, &Row),
-    key: &At<String>,
-) -> Objects {
+/// Returns the objects of a row, or only the first one if the table has too many items.
+fn affordable(reader: &mut Reader<'_, '_>, rows: &mut Rows, objects: Objects, row: &Row, key: &At<String>) -> Objects {
     let ((first, last), subs) = (objects.indices, objects.subs);
     let of_each = subs.map_or(1, |(first, last)| u32::from(last - first) + 1);
     let span = reader.span(key);
-    if rows.repeats.repeat(reader, (&key.value, row), (u32::from(last - first) + 1) * of_each, span) {
+    if rows.repeats.repeat(reader, &key.value, row, (u32::from(last - first) + 1) * of_each, span) {
         return objects;
     }
     Objects { indices: (first, first), subs: subs.map(|(first, _)| (first, first)) }
 }
 
-/// Whether a row only names an object whose values are its sub-entries.
+/// Returns whether a row only names an object whose values are its sub-entries.
 fn has_no_value(row: &Row) -> bool {
     let has_subs = row.code.as_ref().is_some_and(|code| matches!(code.value.as_str(), "array" | "record"));
     has_subs && row.bits.is_none() && row.values.is_none()
 }
 
-type Given<'r> = (&'r At<String>, &'r At<Row>, &'r Row);
+/// A row with its key, and the same row with the inherited defaults.
+#[derive(Clone, Copy)]
+struct GivenRow<'r> {
+    key: &'r At<String>,
+    row: &'r At<Row>,
+    complete: &'r Row,
+}
 
 fn head(
     reader: &mut Reader<'_, '_>,
     rows: &mut Rows,
     dictionary: &mut Dictionary,
-    (key, row, complete): Given<'_>,
-    (index, number): (u16, u32),
+    given: GivenRow<'_>,
+    index: u16,
+    number: u32,
     space: Option<usize>,
 ) {
+    let GivenRow { key, row, complete } = given;
     let code = complete.code.as_ref().and_then(|code| reader.word(code, "object code", &OBJECT_CODES));
     let mut group = Group::object(index, code.unwrap_or(ObjectCode::Var));
     group.origin = reader.origin(key);
     unfilled_name(reader, complete, number, None);
     if let Some(name) = &complete.name {
-        (group.name, group.name_at) = (place::filled(&name.value, number, None).into(), reader.span(name));
+        (group.name, group.name_at) = (notation::filled(&name.value, number, None).into(), reader.span(name));
     }
     group.names = reader.original(complete.orig.as_deref());
     group.documentation = super::rows::documentation(reader, complete);
@@ -98,30 +106,30 @@ fn head(
         group.doubts = reader.doubts_of(complete, group.origin);
         if let Some(of_value) = super::misplaced::of_value(&row.value).filter(|_| number == 0) {
             let key_text = brief(&key.value);
-            let message = format!("`{key_text}` has sub-entries, and `{of_value}` is said of a value");
+            let message = format!("`{key_text}` has sub-entries, but `{of_value}` applies to a value");
             let found = crate::diagnostics::Diagnostic::new(&codes::TABLE_PLACE, reader.span(key), message);
-            reader.diagnostics.push(found.help(format!("say it of one of them, as in `\"{key_text}:1\"`")));
+            reader.diagnostics.push(found.help(format!("write it for one of them, as in `\"{key_text}:1\"`")));
         }
         rows.summaries.extend(complete.summary.clone().map(|summary| (index, summary)));
     } else {
         let name = group.name.to_string();
         let named = Named { name: &name, key, number, end: row.end };
-        let item = item(reader, rows, named, complete, (index, 0), space);
+        let item = item(reader, rows, named, complete, index, 0, space);
         group.items = vec![item];
     }
     if let Some(first) = dictionary.get(&index) {
         let diagnostic =
             Diagnostic::new(&codes::TABLE_DUPLICATE, reader.span(key), format!("object 0x{index:04X} occurs twice"));
-        reader.diagnostics.push(diagnostic.note_at(first.origin.span, "the first is here"));
+        reader.diagnostics.push(diagnostic.note_at(first.origin.span, "the first one is here"));
         return;
     }
     dictionary.insert(index, group);
 }
 
-/// Reports what no number of an object fills in its name.
+/// Reports placeholders in a name that are not filled.
 fn unfilled_name(reader: &mut Reader<'_, '_>, row: &Row, number: u32, sub: Option<u8>) {
     if let Some(name) = row.name.as_ref().filter(|_| number == 0) {
-        super::definitions::unfilled(reader, name, Some(&place::filled(&name.value, number, sub)));
+        super::definitions::unfilled(reader, name, Some(&notation::filled(&name.value, number, sub)));
     }
 }
 
@@ -129,12 +137,15 @@ fn subs(
     reader: &mut Reader<'_, '_>,
     rows: &mut Rows,
     dictionary: &mut Dictionary,
-    (key, row, complete): Given<'_>,
-    (objects, index, number): (Objects, u16, u32),
+    given: GivenRow<'_>,
+    objects: Objects,
+    index: u16,
     space: Option<usize>,
 ) {
+    let GivenRow { key, row, complete } = given;
+    let number = u32::from(index - objects.indices.0);
     dictionary.entry(index).or_insert_with(|| {
-        let message = format!("object 0x{index:04X} has no row of its own above its sub-entries");
+        let message = format!("object 0x{index:04X} has sub-entries, but no row above them");
         reader.report(&codes::TABLE_PLACE, reader.span(key), message);
         Group { origin: reader.origin(key), ..Group::object(index, ObjectCode::Record) }
     });
@@ -142,12 +153,12 @@ fn subs(
     unfilled_name(reader, complete, number, Some(first));
     for sub_index in first..=last {
         let name = complete.name.as_ref().map_or("", |name| name.value.as_str());
-        let name = place::filled(name, number, Some(sub_index));
+        let name = notation::filled(name, number, Some(sub_index));
         let named = Named { name: &name, key, number, end: row.end };
-        let item = item(reader, rows, named, complete, (index, sub_index), space);
+        let item = item(reader, rows, named, complete, index, sub_index, space);
         let Some(group) = dictionary.get_mut(&index) else { continue };
         if group.object_code() == Some(ObjectCode::Var) {
-            let message = format!("object 0x{index:04X} is one value: give it a `code` such as \"record\"");
+            let message = format!("object 0x{index:04X} is a single value: add a `code` such as \"record\"");
             reader.report(&codes::TABLE_PLACE, reader.span(key), message);
             return;
         }
@@ -156,7 +167,7 @@ fn subs(
                 let first = group.items.get(at).map(|item| item.at.name).unwrap_or_default();
                 let message = format!("sub-index {sub_index} of object 0x{index:04X} occurs twice");
                 let diagnostic = Diagnostic::new(&codes::TABLE_DUPLICATE, reader.span(key), message);
-                reader.diagnostics.push(diagnostic.note_at(first, "the first is here"));
+                reader.diagnostics.push(diagnostic.note_at(first, "the first one is here"));
             }
             Err(at) => group.items.insert(at, item),
         }
@@ -168,7 +179,8 @@ fn item(
     rows: &mut Rows,
     named: Named<'_>,
     row: &Row,
-    (index, sub_index): (u16, u8),
+    index: u16,
+    sub_index: u8,
     space: Option<usize>,
 ) -> Item {
     let buses = rows.object_buses(reader, row, named.key);
@@ -177,7 +189,7 @@ fn item(
         Some(true) if row.ty.is_none() => Some(Type::Opaque(None)),
         _ => rows.ty(reader, named, row),
     };
-    beside(reader, rows, (space, &mut item), named, row, ty);
+    further_addresses(reader, rows, space, &mut item, named, row, ty);
     rows.fill(reader, &mut item, named, row, ty);
     if row.access.is_none() && row.reserved != Some(true) {
         rows.no_access(reader, named);
@@ -186,35 +198,39 @@ fn item(
     item
 }
 
-/// The addresses that a row gives an object beside its own: those of its register, and of other protocols.
-fn beside(
+/// Adds the further addresses in a row of an object: its register, and addresses of other protocols.
+fn further_addresses(
     reader: &mut Reader<'_, '_>,
     rows: &mut Rows,
-    (space, item): (Option<usize>, &mut Item),
+    space: Option<usize>,
+    item: &mut Item,
     named: Named<'_>,
     row: &Row,
     ty: Option<Type>,
 ) {
-    let is_single = place::objects(&named.key.value)
-        .is_none_or(|own| own.indices.0 == own.indices.1 && own.subs.is_none_or(|(first, last)| first == last));
+    let is_single = notation::objects(&named.key.value).is_none_or(|objects| {
+        objects.indices.0 == objects.indices.1 && objects.subs.is_none_or(|(first, last)| first == last)
+    });
     let has_number = row.reg.is_some() || row.esc.is_some() || row.param.is_some();
     if has_number && !is_single {
-        let message = "`reg`, `esc` and `param` are one item's, and the row stands for several objects";
+        let message = "`reg`, `esc` and `param` apply to one item, but the row describes several objects";
         let found = crate::diagnostics::Diagnostic::new(&codes::TABLE_PLACE, reader.span(named.key), message);
-        reader.diagnostics.push(found.help("give each object a row of its own"));
+        reader.diagnostics.push(found.help("write one row per object"));
         return;
     }
-    let own = item.object();
+    let object = item.object();
     if row.reg.is_some() {
         let found = rows.bindings(
             reader,
             space,
             named,
             &Row { ascii: None, esc: None, param: None, ..row.clone() },
-            (Repeat::ONCE, ty),
+            Repeat::ONCE,
+            ty,
         );
         item.bindings.extend(found.into_iter().filter(|binding| !matches!(binding, Binding::Object { .. })));
     }
     let bits = ty.and_then(|ty| rows.definitions.bits_of(ty));
-    rows.other_addresses(reader, (named, own.map(|(_, sub)| sub)), row, (0, bits), &mut item.bindings);
+    let found = rows.other_addresses(reader, named, object.map(|(_, sub)| sub), row, 0, bits);
+    item.bindings.extend(found);
 }

@@ -1,4 +1,4 @@
-//! What commands do in each state: the table of commands and states that a manual has of a machine.
+//! Reads the effects of commands in each state: the manual's table of commands and states of a machine.
 
 use std::collections::HashSet;
 
@@ -14,31 +14,31 @@ use crate::ir::{
 use crate::source::Span;
 use crate::text::brief;
 
-/// What transitions and cells may name: states of the machine, its commands and the device's messages.
+/// The names that transitions and cells may use: states of the machine, its commands, and the messages of the device.
 pub(super) struct Names<'n> {
     states: HashSet<&'n str>,
     commands: HashSet<&'n str>,
-    /// The same, in the order of the source.
+    /// States and commands in the order of the source.
     listed: [Vec<&'n str>; 2],
 }
 
 impl<'n> Names<'n> {
     pub fn new(states: &'n [Pattern], commands: &'n [Pattern], device: &'n Device) -> Self {
-        let states: Vec<&str> = states.iter().map(|own| own.name.as_str()).collect();
-        let messages = device.messages.iter().map(|own| own.name.as_str());
-        let commands: Vec<&str> = commands.iter().map(|own| own.name.as_str()).chain(messages).collect();
+        let states: Vec<&str> = states.iter().map(|state| state.name.as_str()).collect();
+        let messages = device.messages.iter().map(|message| message.name.as_str());
+        let commands: Vec<&str> = commands.iter().map(|command| command.name.as_str()).chain(messages).collect();
         let set = |list: &[&'n str]| list.iter().copied().collect();
         Names { states: set(&states), commands: set(&commands), listed: [states, commands] }
     }
 
-    /// Reports a state that there isn't.
+    /// Reports a state that does not exist.
     pub fn state(&self, reader: &mut Reader<'_, '_>, name: &str, span: Span) {
         if !self.states.contains(name) {
             reader.unresolved("state", name, span, self.listed[0].iter().copied());
         }
     }
 
-    /// Reports a command that there isn't.
+    /// Reports a command that does not exist.
     pub fn command(&self, reader: &mut Reader<'_, '_>, name: &str, span: Span) {
         if !self.commands.contains(name) {
             reader.unresolved("command", name, span, self.listed[1].iter().copied());
@@ -46,7 +46,7 @@ impl<'n> Names<'n> {
     }
 }
 
-/// The rows of the table.
+/// Reads the rows of the table.
 pub(super) fn read(
     reader: &mut Reader<'_, '_>,
     table: &MatrixTable,
@@ -58,12 +58,12 @@ pub(super) fn read(
     }
     let mut rows = Vec::new();
     for (name, row) in table.rows.iter() {
-        rows.push(self::row(reader, table, (name, row), names, references));
+        rows.push(self::row(reader, table, name, row, names, references));
     }
     rows
 }
 
-/// The doubts of the table and of its rows, which belong to this machine.
+/// Returns the ambiguities of the table and of its rows, all of them about this machine.
 pub(super) fn doubts(reader: &mut Reader<'_, '_>, table: &At<MatrixTable>, machine: &str) -> Doubts {
     let mut found = reader.doubts_about(&table.value, reader.origin(table), SubjectKind::Machine, machine, "");
     for (name, row) in table.value.rows.iter() {
@@ -76,36 +76,37 @@ pub(super) fn doubts(reader: &mut Reader<'_, '_>, table: &At<MatrixTable>, machi
 fn row(
     reader: &mut Reader<'_, '_>,
     table: &MatrixTable,
-    (name, row): (&At<String>, &At<MatrixRow>),
+    name: &At<String>,
+    row: &At<MatrixRow>,
     names: &Names<'_>,
     references: &mut References,
 ) -> CommandOutcomes {
-    let own = &row.value;
-    let commands = match &own.commands {
+    let cells_row = &row.value;
+    let commands = match &cells_row.commands {
         Some(list) => list.clone(),
         None => vec![name.clone()],
     };
     for command in &commands {
         names.command(reader, &command.value, reader.span(command));
     }
-    references.extend(own.models.iter().flatten().map(|model| (model.clone(), "model")));
-    if own.cells.len() != table.states.len() {
+    references.extend(cells_row.models.iter().flatten().map(|model| (model.clone(), "model")));
+    if cells_row.cells.len() != table.states.len() {
         let message = format!(
-            "`{}` has {} cells, and the table {} states",
+            "`{}` has {} cells, but the table has {} states",
             brief(&name.value),
-            own.cells.len(),
+            cells_row.cells.len(),
             table.states.len()
         );
         reader.report(&codes::TABLE_VALUE, reader.span(name), message);
     }
-    let mut cells = Vec::with_capacity(own.cells.len());
-    for (state, given) in table.states.iter().zip(&own.cells) {
+    let mut cells = Vec::with_capacity(cells_row.cells.len());
+    for (state, given) in table.states.iter().zip(&cells_row.cells) {
         let (outcomes, documentation) = cell(reader, table, given, names);
         cells.push(StateOutcome { state: state.value.as_str().into(), outcomes, documentation });
     }
     let availability = Availability {
-        models: own.models.iter().flatten().map(|model| model.value.as_str().into()).collect(),
-        since: own.since.as_deref().map(Into::into),
+        models: cells_row.models.iter().flatten().map(|model| model.value.as_str().into()).collect(),
+        since: cells_row.since.as_deref().map(Into::into),
         ..Availability::default()
     };
     CommandOutcomes {
@@ -113,12 +114,12 @@ fn row(
         commands: commands.iter().map(|command| command.value.as_str().into()).collect(),
         availability: (availability != Availability::default()).then(|| Box::new(availability)),
         cells,
-        documentation: reader.documentation_of(own),
+        documentation: reader.documentation_of(cells_row),
         origin: reader.origin(name),
     }
 }
 
-/// The outcomes of a cell, and what is said of them.
+/// Reads the effects in a cell, and their documentation.
 fn cell(
     reader: &mut Reader<'_, '_>,
     table: &MatrixTable,
@@ -126,16 +127,16 @@ fn cell(
     names: &Names<'_>,
 ) -> (Vec<Outcome>, Option<Box<Documentation>>) {
     let span = reader.span(given);
-    let own = match &given.value {
+    let cell = match &given.value {
         TextOr::Text(text) => return (outcomes(reader, text, span, names), None),
-        TextOr::Table(own) => own,
+        TextOr::Table(cell) => cell,
     };
-    let Some(to) = &own.to else {
-        reader.report(&codes::TABLE_VALUE, span, "a cell says `to` what the command leads");
+    let Some(to) = &cell.to else {
+        reader.report(&codes::TABLE_VALUE, span, "a cell needs `to`, the effect of the command");
         return (Vec::new(), None);
     };
-    let mut words: Vec<&str> = own.doc.as_deref().into_iter().collect();
-    if let Some(note) = &own.note {
+    let mut words: Vec<&str> = cell.doc.as_deref().into_iter().collect();
+    if let Some(note) = &cell.note {
         let key = note.value.to_string();
         match table.notes.iter().find(|(name, _)| name.value == key) {
             Some((_, text)) => words.push(&text.value),
@@ -146,11 +147,11 @@ fn cell(
         }
     }
     let text = (!words.is_empty()).then(|| words.join(". "));
-    let documentation = reader.documentation(text.as_deref(), own.cite.as_ref().map(cited));
+    let documentation = reader.documentation(text.as_deref(), cell.cite.as_ref().map(cited));
     (outcomes(reader, &to.value, reader.span(to), names), documentation)
 }
 
-/// `same`, `refused`, `?` or states that follow each other; several of these with `or` between them.
+/// Reads `same`, `refused`, `?` or a sequence of states, and alternatives with `or` between them.
 fn outcomes(reader: &mut Reader<'_, '_>, text: &str, span: Span, names: &Names<'_>) -> Vec<Outcome> {
     if text.trim() == "?" {
         return Vec::new();
@@ -169,8 +170,8 @@ fn outcomes(reader: &mut Reader<'_, '_>, text: &str, span: Span, names: &Names<'
             }
         };
         if !known.insert(outcome.clone()) {
-            let message = format!("the cell says `{}` twice", brief(one));
-            let help = "one of them is another outcome: compare the cell with the manual";
+            let message = format!("the cell has `{}` twice", brief(one));
+            let help = "compare the cell with the manual: one of them is another effect";
             reader.diagnostics.push(Diagnostic::new(&codes::TABLE_DUPLICATE, span, message).help(help));
             continue;
         }

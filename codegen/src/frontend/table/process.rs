@@ -1,24 +1,24 @@
-//! Process data that the table itself describes.
+//! Reads the process data that a table describes.
 
 use super::at::At;
 use super::buses;
 use super::format::{NumberOrText, PdoTable};
-use super::place;
+use super::notation;
 use super::tree::Reader;
 use super::types;
 use crate::diagnostics::{codes, Diagnostic};
 use crate::ir::{Device, Direction, Entries, Item, ItemNames, ObjectBuses, Pdo, PdoEntry, PdoEntryKind, Type};
 use crate::text::brief;
 
-/// As many PDOs as a device has in one direction (CiA 301 7.5.2.35).
+/// The maximum number of PDOs of a device in one direction (CiA 301 7.5.2.35).
 const MAX_EXCLUDED: usize = 512;
 
-/// A direction, seen from the device.
+/// Reads a direction, as seen from the device.
 pub(super) fn direction(reader: &mut Reader<'_, '_>, given: Option<&At<String>>) -> Option<Direction> {
     reader.word(given?, "direction", &[("rx", Direction::Receive), ("tx", Direction::Transmit)])
 }
 
-/// What the entries of PDOs name.
+/// The objects and items that entries of PDOs may name.
 pub(super) struct Targets<'d> {
     device: &'d Device,
     entries: Entries<'d>,
@@ -30,7 +30,7 @@ impl<'d> Targets<'d> {
         Targets { device, entries: Entries::new(&device.groups), names: ItemNames::new(&device.groups) }
     }
 
-    /// The first item of this name, or that at this path.
+    /// Returns the first item with this name, or the item at this path.
     fn by_name(&self, name: &str) -> Option<&'d Item> {
         self.names.by_name(name).or_else(|| self.names.by_path(name))
     }
@@ -38,90 +38,91 @@ impl<'d> Targets<'d> {
 
 /// Reads a PDO.
 pub(super) fn pdo(reader: &mut Reader<'_, '_>, table: &At<PdoTable>, targets: &Targets<'_>) -> Option<Pdo> {
-    let own = &table.value;
-    let direction = direction(reader, own.direction.as_ref());
-    let (Some(index), Some(direction)) = (&own.index, direction) else {
-        reader.report(&codes::TABLE_VALUE, reader.span(table), "a PDO has an `index` and a `direction`");
+    let given = &table.value;
+    let direction = direction(reader, given.direction.as_ref());
+    let (Some(index), Some(direction)) = (&given.index, direction) else {
+        reader.report(&codes::TABLE_VALUE, reader.span(table), "a PDO needs an `index` and a `direction`");
         return None;
     };
     let mut pdo = Pdo::new(direction, index.value);
     pdo.origin = reader.origin(table);
-    pdo.name = own.name.as_deref().unwrap_or_default().into();
-    (pdo.fixed, pdo.mandatory) = (own.fixed, own.mandatory);
-    if let Some(sm) = own.sm.as_ref().filter(|_| !own.default) {
+    pdo.name = given.name.as_deref().unwrap_or_default().into();
+    (pdo.fixed, pdo.mandatory) = (given.fixed, given.mandatory);
+    if let Some(sm) = given.sm.as_ref().filter(|_| !given.default) {
         let found = Diagnostic::new(
             &codes::TABLE_VALUE,
             reader.span(sm),
-            "`sm` is the sync manager of a PDO that is assigned by default",
+            "`sm` applies only to a PDO that is assigned by default",
         );
-        reader.diagnostics.push(found.help("write `default = true` as well, or leave `sm` out"));
+        reader.diagnostics.push(found.help("add `default = true`, or delete `sm`"));
     }
-    pdo.sync_manager = own.sm.as_ref().map(|sm| sm.value).filter(|_| own.default);
-    for excluded in &own.excludes {
+    pdo.sync_manager = given.sm.as_ref().map(|sm| sm.value).filter(|_| given.default);
+    for excluded in &given.excludes {
         let found = match excluded {
             NumberOrText::Number(index) => u16::try_from(*index).ok().map(|index| (index, index)),
-            NumberOrText::Text(text) => place::objects(text).map(|own| own.indices),
+            NumberOrText::Text(text) => notation::objects(text).map(|objects| objects.indices),
         };
         match found {
             Some((first, last)) if usize::from(last.saturating_sub(first)) + pdo.excludes.len() > MAX_EXCLUDED => {
-                let message = format!("a PDO excludes {MAX_EXCLUDED} others at most: as many as there are");
+                let message = format!("`excludes` has more than {MAX_EXCLUDED} PDOs, the maximum of a device");
                 reader.report(&codes::TABLE_VALUE, reader.span(table), message);
             }
             Some((first, last)) => pdo.excludes.extend((first..=last).filter(|&other| other != index.value)),
-            None => reader.report(&codes::TABLE_PLACE, reader.span(table), "`excludes` has indices of PDOs"),
+            None => reader.report(&codes::TABLE_PLACE, reader.span(table), "`excludes` must have indices of PDOs"),
         }
     }
-    if let Some(list) = &own.buses {
+    if let Some(list) = &given.buses {
         let buses = buses::read(reader, list);
         pdo.buses = Some(buses.with_objects());
         if buses.with_objects() == ObjectBuses::NONE {
-            let message = "PDOs are found on CANopen and EtherCAT, and this one is on neither";
+            let message = "PDOs exist on CANopen and EtherCAT only, and this one is on neither";
             reader.report(&codes::TABLE_VALUE, reader.span(table), message);
         }
     }
-    pdo.documentation = reader.documentation_of(own);
-    pdo.max_bytes = own.max;
-    pdo.doubts = reader.doubts_of(own, pdo.origin);
+    pdo.documentation = reader.documentation_of(given);
+    pdo.max_bytes = given.max;
+    pdo.doubts = reader.doubts_of(given, pdo.origin);
     let mut bit_offset = 0u32;
-    for text in &own.entries {
+    for text in &given.entries {
         if let Some(entry) = entry(reader, text, targets) {
-            let behind = bit_offset.saturating_add(entry.bits);
+            let end = bit_offset.saturating_add(entry.bits);
             pdo.entries.push(PdoEntry { bit_offset, ..entry });
-            bit_offset = behind;
+            bit_offset = end;
         }
     }
-    printed_lengths(reader, own, &pdo);
+    printed_lengths(reader, given, &pdo);
     Some(pdo)
 }
 
-/// Holds the lengths that the manual prints against the entries.
+/// Compares the lengths that the manual prints with the length of the entries.
 fn printed_lengths(reader: &mut Reader<'_, '_>, table: &PdoTable, pdo: &Pdo) {
     let Some(printed) = &table.length else { return };
     let (index, bits) = (pdo.mapping_index, pdo.bits());
     for bytes in printed.value.0.iter().filter(|bytes| bytes.saturating_mul(8) != bits) {
-        let message = format!("the PDO 0x{index:04X} is printed with {bytes} bytes, and its entries have {bits} bits");
+        let message =
+            format!("the manual prints {bytes} bytes for the PDO 0x{index:04X}, but its entries have {bits} bits");
         reader.report(&codes::LENGTH_MISMATCH, reader.span(printed), message);
     }
 }
 
-/// `0x6040:0/16`, `item`, `item/16`, `pad/8`, `? name/16`, `? name/i16`.
+/// Reads an entry: `0x6040:0/16`, `item`, `item/16`, `pad/8`, `? name/16`, `? name/i16`.
 fn entry(reader: &mut Reader<'_, '_>, text: &At<String>, targets: &Targets<'_>) -> Option<PdoEntry> {
     let (what, length) = match text.value.rsplit_once('/') {
         Some((what, length)) => (what.trim(), Some(length)),
         None => (text.value.trim(), None),
     };
-    let bits = length.and_then(place::integer).and_then(|bits| u32::try_from(bits).ok());
+    let bits = length.and_then(notation::integer).and_then(|bits| u32::try_from(bits).ok());
     let origin = reader.origin(text);
     if what == "pad" {
         let bits = bits.filter(|&bits| bits > 0);
         if bits.is_none() {
-            reader.report(&codes::TABLE_PLACE, reader.span(text), "padding has a length: write `pad/8`");
+            reader.report(&codes::TABLE_PLACE, reader.span(text), "padding needs a length: write `pad/8`");
         }
         return Some(PdoEntry { origin, kind: PdoEntryKind::Padding, ..PdoEntry::new(0, 0, bits?) });
     }
     if let Some(name) = what.strip_prefix('?').map(str::trim) {
-        let typed = length.and_then(types::named).filter(|own| own.elements.is_none());
-        let ty = typed.map_or(Type::Opaque(None), |own| own.ty);
+        let typed = length.and_then(types::named).filter(|named| named.elements.is_none());
+        let ty = typed.map_or(Type::Opaque(None), |named| named.ty);
         let bits = bits.or(ty.bits()).filter(|&bits| bits > 0 && !name.is_empty());
         if bits.is_none() {
             let message = "an entry without an object needs a name and a length or type: `? torque limit/16`, `? torque limit/i16`";
@@ -131,15 +132,15 @@ fn entry(reader: &mut Reader<'_, '_>, text: &At<String>, targets: &Targets<'_>) 
         return Some(PdoEntry { origin, kind: PdoEntryKind::Unnumbered, name: name.into(), ..entry });
     }
     let by_name = || targets.by_name(what);
-    let by_place = || {
-        let found = place::objects(what).filter(|own| own.indices.0 == own.indices.1)?;
+    let by_address = || {
+        let found = notation::objects(what).filter(|objects| objects.indices.0 == objects.indices.1)?;
         Some((found.indices.0, found.subs.map_or(0, |(first, _)| first)))
     };
-    let Some((index, sub_index)) = by_place().or_else(|| by_name().and_then(Item::object)) else {
+    let Some((index, sub_index)) = by_address().or_else(|| by_name().and_then(Item::object)) else {
         if by_name().is_some() {
-            let message = format!("`{}` is no object, and PDOs map objects", brief(what));
+            let message = format!("`{}` is not an object, and PDOs map objects only", brief(what));
             let found = crate::diagnostics::Diagnostic::new(&codes::UNRESOLVED_NAME, reader.span(text), message);
-            reader.diagnostics.push(found.help("give it an `obj`, or its space a rule for CANopen or EtherCAT"));
+            reader.diagnostics.push(found.help("add `obj` to the row, or a rule for CANopen or EtherCAT to its space"));
             return None;
         }
         let names = targets.device.groups.iter().flat_map(|group| &group.items).map(|item| item.name.as_str());
@@ -152,7 +153,7 @@ fn entry(reader: &mut Reader<'_, '_>, text: &At<String>, targets: &Targets<'_>) 
         ty => ty.bits(),
     });
     let Some(bits) = bits.or(known).filter(|&bits| bits > 0) else {
-        let message = format!("nothing tells the length of `{}`: write `{}/16`", brief(what), brief(what));
+        let message = format!("the length of `{}` is unknown: write `{}/16`", brief(what), brief(what));
         reader.report(&codes::TABLE_PLACE, reader.span(text), message);
         return None;
     };

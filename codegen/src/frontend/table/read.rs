@@ -1,4 +1,4 @@
-//! From values of TOML to the types of `format`.
+//! Converts TOML values to the types of `format`.
 
 use std::ops::Range;
 
@@ -10,13 +10,13 @@ use super::at::{At, Entries, FlagOr, Literal, OneOrMany, TextOr};
 /// A value of the file.
 pub(super) type Node<'a> = Spanned<DeValue<'a>>;
 
-/// What is read from a value.
+/// A type that can be read from a TOML value.
 pub(super) trait Read: Sized {
     /// Reads a value.
     fn read(node: &Node<'_>) -> Result<Self, Mistake>;
 }
 
-/// Why a value can't be read.
+/// Why a value cannot be read.
 #[derive(Debug)]
 pub(super) struct Mistake {
     /// First byte, and one past the last.
@@ -26,9 +26,9 @@ pub(super) struct Mistake {
 
 #[derive(Debug)]
 pub(super) enum MistakeKind {
-    /// A key that the table doesn't have.
+    /// A key that the table does not have.
     UnknownKey { key: String, known: &'static [&'static str] },
-    /// Anything else, in words.
+    /// Any other error, as a message.
     Value(String),
 }
 
@@ -57,7 +57,7 @@ impl Mistake {
     }
 }
 
-/// The entries of a table. `expected` is what the message says if the value is none.
+/// Returns the entries of a table. `expected` is the message for any other value.
 pub(super) fn table<'n, 'a>(node: &'n Node<'a>, expected: &str) -> Result<&'n DeTable<'a>, Mistake> {
     match node.get_ref() {
         DeValue::Table(table) => Ok(table),
@@ -65,7 +65,7 @@ pub(super) fn table<'n, 'a>(node: &'n Node<'a>, expected: &str) -> Result<&'n De
     }
 }
 
-/// A key with its place.
+/// Returns a key with its span.
 pub(super) fn key(key: &Spanned<DeString<'_>>) -> At<String> {
     let span = key.span();
     At { value: key.get_ref().to_string(), start: span.start as u32, end: span.end as u32 }
@@ -79,7 +79,7 @@ fn decimal(number: &DeInteger<'_>) -> String {
     integer(number).map_or_else(|| number.to_string(), |number| number.to_string())
 }
 
-/// The number, where the value is one.
+/// Returns the number, if the value is one.
 pub(super) fn number(node: &Node<'_>) -> Option<f64> {
     match node.get_ref() {
         DeValue::Integer(number) => integer(number).map(|number| number as f64),
@@ -153,7 +153,7 @@ impl<T: Read> Read for Entries<T> {
     fn read(node: &Node<'_>) -> Result<Self, Mistake> {
         let entry = |(key, value): (&Spanned<DeString<'_>>, &Node<'_>)| Ok((self::key(key), At::read(value)?));
         let mut list = table(node, "a table")?.iter().map(entry).collect::<Result<Vec<_>, Mistake>>()?;
-        // The parser sorts by name.
+        // The parser sorts entries by name.
         list.sort_by_key(|(key, _)| key.start);
         Ok(Entries(list))
     }
@@ -188,7 +188,7 @@ impl<T: Read> Read for FlagOr<T> {
     }
 }
 
-/// The literal, where the value is one.
+/// Returns the literal, if the value is one.
 pub(super) fn literal(node: &Node<'_>) -> Option<Literal> {
     match node.get_ref() {
         DeValue::Boolean(flag) => Some(Literal::Bool(*flag)),

@@ -1,27 +1,27 @@
-//! Names that lead to something else in the table: items, models, constants, messages, procedures.
+//! Names that refer to other elements of the table: items, models, constants, messages, procedures.
 
 use std::cell::OnceCell;
 use std::collections::{HashMap, HashSet};
 
 use super::at::At;
+use super::notation;
 use super::numbered::{self, Numbered};
-use super::place;
 use super::tree::Reader;
 use crate::diagnostics::{codes, Diagnostic};
 use crate::ir::{Device, Entries, GroupKind, ItemNames, Shape};
 use crate::text::brief;
 use crate::text::glob;
 
-/// Names with their places, and what they lead to: an `item`, a `model`, a `constant`, a `message`, a `procedure`.
+/// Names with their spans, and what they refer to: `item`, `model`, `constant`, `message`, `procedure`.
 pub(super) type References = Vec<(At<String>, &'static str)>;
 
-/// The kind of most names.
+/// What most names refer to.
 pub(super) const ITEM: &str = "item";
 
-/// What tells that a message is carried out: an item, or a field of replies.
+/// What shows that a command is complete: an item, or a field of replies.
 pub(super) const ITEM_OR_FIELD: &str = "item or field";
 
-/// Reports names that don't exist, and those that several chapters have.
+/// Reports names without a definition, and names that several chapters have.
 pub(super) fn resolve<'r>(
     reader: &mut Reader<'_, '_>,
     references: impl Iterator<Item = (&'r At<String>, &'static str)>,
@@ -31,7 +31,7 @@ pub(super) fn resolve<'r>(
     let known = Known::new(device);
     let mut seen = HashSet::new();
     for (name, kind) in references {
-        // What a unit or a space says is said of each row that uses it.
+        // Each row that uses a unit or a space repeats its names.
         if !seen.insert((name.start, name.value.as_str(), kind)) {
             continue;
         }
@@ -51,7 +51,7 @@ pub(super) fn resolve<'r>(
 fn ambiguous(reader: &mut Reader<'_, '_>, known: &Known<'_>, name: &At<String>) {
     let Some([first, second, ..]) = known.chapters.get(name.value.as_str()).map(Vec::as_slice) else { return };
     let text = brief(&name.value);
-    let message = format!("several chapters have `{text}`: `{}` and `{}`, for instance", brief(first), brief(second));
+    let message = format!("several chapters have an item `{text}`, such as `{}` and `{}`", brief(first), brief(second));
     let found = Diagnostic::new(&codes::UNRESOLVED_NAME, reader.span(name), message);
     reader.diagnostics.push(found.help(format!("write `\"{}/{text}\"`", brief(first))));
 }
@@ -61,13 +61,13 @@ struct Known<'d> {
     entries: Entries<'d>,
     names: ItemNames<'d>,
     items: HashSet<&'d str>,
-    /// The chapters that have a name.
+    /// The chapters that have an item, by the item's name.
     chapters: HashMap<&'d str, Vec<&'d str>>,
-    /// The names of each of `KINDS`, once one is looked for.
+    /// The names of each of `KINDS`, collected at the first lookup.
     others: [OnceCell<HashSet<&'d str>>; KINDS.len()],
 }
 
-/// What goes by names of its own.
+/// Elements whose names are separate from the names of items.
 const KINDS: [&str; 5] = ["constant", "given number", "message", "procedure", "state"];
 
 impl<'d> Known<'d> {
@@ -88,40 +88,42 @@ impl<'d> Known<'d> {
     fn has(&self, kind: &str, text: &str) -> bool {
         let device = self.device;
         match kind {
-            "model" => device.variants.is_empty() || device.variants.iter().any(|own| glob(text, &own.name)),
+            "model" => device.variants.is_empty() || device.variants.iter().any(|model| glob(text, &model.name)),
             _ if KINDS.contains(&kind) => {
-                let names = KINDS.iter().position(|own| *own == kind).and_then(|at| self.others.get(at));
+                let names = KINDS.iter().position(|known| *known == kind).and_then(|at| self.others.get(at));
                 names.is_some_and(|names| names.get_or_init(|| self.names(kind).into_iter().collect()).contains(text))
             }
-            _ => self.items.contains(text) || self.by_place(text) || self.names.by_path(text).is_some(),
+            _ => self.items.contains(text) || self.is_object(text) || self.names.by_path(text).is_some(),
         }
     }
 
-    fn by_place(&self, name: &str) -> bool {
-        let found = place::objects(name).filter(|own| own.indices.0 == own.indices.1);
-        found.is_some_and(|own| self.entries.get(own.indices.0, own.subs.map_or(0, |(first, _)| first)).is_some())
+    fn is_object(&self, name: &str) -> bool {
+        let found = notation::objects(name).filter(|objects| objects.indices.0 == objects.indices.1);
+        found.is_some_and(|objects| {
+            self.entries.get(objects.indices.0, objects.subs.map_or(0, |(first, _)| first)).is_some()
+        })
     }
 
     fn names(&self, kind: &str) -> Vec<&'d str> {
         let device = self.device;
         match kind {
-            "model" => device.variants.iter().map(|own| own.name.as_str()).collect(),
+            "model" => device.variants.iter().map(|model| model.name.as_str()).collect(),
             "constant" => {
-                device.variants.iter().flat_map(|own| &own.constants).map(|(name, _)| name.as_str()).collect()
+                device.variants.iter().flat_map(|model| &model.constants).map(|(name, _)| name.as_str()).collect()
             }
-            "given number" => device.given.iter().map(|own| own.name.as_str()).collect(),
-            "message" => device.messages.iter().map(|own| own.name.as_str()).collect(),
-            "procedure" => device.procedures.iter().map(|own| own.name.as_str()).collect(),
+            "given number" => device.given.iter().map(|number| number.name.as_str()).collect(),
+            "message" => device.messages.iter().map(|message| message.name.as_str()).collect(),
+            "procedure" => device.procedures.iter().map(|procedure| procedure.name.as_str()).collect(),
             "state" => states(device).collect(),
-            _ => device.groups.iter().flat_map(|group| &group.items).map(|own| own.name.as_str()).collect(),
+            _ => device.groups.iter().flat_map(|group| &group.items).map(|item| item.name.as_str()).collect(),
         }
     }
 }
 
-/// The states of a device: those of its machines, and the names in its enumerations, as a state may be told by one.
+/// Returns the states of a device: those of its machines, and the values of its enumerations, which may report a state.
 fn states(device: &Device) -> impl Iterator<Item = &str> {
     let machines = device.machines.iter().flat_map(|machine| machine.states.iter().map(|state| state.name.as_str()));
-    let values = device.types.iter().flat_map(|own| match &own.shape {
+    let values = device.types.iter().flat_map(|definition| match &definition.shape {
         Shape::Enumeration { values, .. } => values.as_slice(),
         _ => &[],
     });

@@ -1,35 +1,36 @@
-//! Rows of `[chapters.registers]` to items.
+//! Converts rows of `[chapters.registers]` to items.
 
 use super::at::At;
 use super::bindings::{read_only_table, words_without_register};
 use super::definitions::unfilled;
 use super::format::Row;
-use super::place;
+use super::notation;
 use super::rows::{Named, Rows};
 use super::tree::Reader;
 use crate::diagnostics::codes;
 use crate::ir::Item;
 use crate::text::brief;
 
-/// The items of a row of `[chapters.registers]`.
+/// Returns the items of a row of `[chapters.registers]`.
 pub(super) fn items(
     reader: &mut Reader<'_, '_>,
     rows: &mut Rows,
     space: Option<usize>,
-    (key, row): (&At<String>, &At<Row>),
+    key: &At<String>,
+    row: &At<Row>,
     chapter: Option<&Row>,
 ) -> Vec<Item> {
-    let complete = rows.complete(reader, (key, &row.value), chapter);
+    let complete = rows.complete(reader, key, &row.value, chapter);
     rows.allow(reader, key, row);
-    let repeat = rows.repetition(reader, (&key.value, &complete), space);
+    let repeat = rows.repetition(reader, &key.value, &complete, space);
     if row.value.count.is_none() && key.value.contains("{n") {
-        let message = format!("`{}` needs a `count`: nothing says how many `{{n}}` counts", brief(&key.value));
+        let message = format!("`{}` needs a `count` for `{{n}}`", brief(&key.value));
         reader.report(&codes::TABLE_VALUE, reader.span(key), message);
     }
     rows.each_has_one(reader, key, &complete, repeat.count);
     let mut items: Vec<Item> = Vec::new();
     for number in 0..repeat.count {
-        let name = place::filled(&key.value, number, None);
+        let name = notation::filled(&key.value, number, None);
         if number == 0 {
             unfilled(reader, key, Some(&name));
         }
@@ -39,9 +40,9 @@ pub(super) fn items(
         let named = Named { name: &name, key, number, end: row.end };
         let ty = rows.ty(reader, named, &complete);
         let before = reader.diagnostics.total();
-        let bindings = rows.bindings(reader, space, named, &complete, (repeat, ty));
+        let bindings = rows.bindings(reader, space, named, &complete, repeat, ty);
         if bindings.is_empty() {
-            // A wrong address was reported already.
+            // An invalid address was already reported.
             if reader.diagnostics.total() > before {
                 break;
             }

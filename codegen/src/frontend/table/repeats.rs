@@ -1,4 +1,4 @@
-//! What rows copy: one may stand for many items, and long defaults count for every row.
+//! Limits what rows copy: one row may describe many items, and each row copies long defaults.
 
 use std::fmt::{Debug, Write};
 
@@ -11,11 +11,11 @@ use crate::ir::Value;
 use crate::limits::{MAX_DERIVED_ITEMS, MAX_FREE_ROW_BYTES, MAX_LISTED_VALUES, ROW_BYTES_PER_ITEM};
 use crate::source::Span;
 
-/// How much may still be copied.
+/// The number of items that may still be created.
 pub(super) struct Repeats {
-    /// Items; `None` once it was told that there are more.
+    /// Items; `None` after the excess was reported.
     left: Option<usize>,
-    /// What the defaults of the file and those of the chapter are, in items.
+    /// The size of the defaults of the file and of the chapter, in items.
     defaults: [usize; 2],
 }
 
@@ -24,34 +24,34 @@ impl Repeats {
         Repeats { left: Some(MAX_DERIVED_ITEMS), defaults: [of_file.map_or(0, items), 0] }
     }
 
-    /// Begins a chapter.
+    /// Starts a chapter.
     pub fn chapter(&mut self, defaults: Option<&Row>) {
         self.defaults[1] = defaults.map_or(0, items);
     }
 
-    /// Whether a row may inherit the defaults.
+    /// Returns whether a row may inherit the defaults.
     pub fn inherit(&mut self, reader: &mut Reader<'_, '_>, span: Span) -> bool {
         self.take(reader, self.defaults.iter().sum(), span)
     }
 
-    /// Whether a row may name a unit, whose texts it copies.
+    /// Returns whether a row may use a unit, whose texts it copies.
     pub fn unit(&mut self, reader: &mut Reader<'_, '_>, units: &ByName<UnitTable>, name: &str, span: Span) -> bool {
         let items = units.get(name).map_or(0, |(_, unit)| beyond(length(unit)));
         self.take(reader, items, span)
     }
 
-    /// Whether a row with this key may stand for `count` items.
-    pub fn repeat(&mut self, reader: &mut Reader<'_, '_>, (key, row): (&str, &Row), count: u32, span: Span) -> bool {
+    /// Returns whether a row with this key may describe `count` items.
+    pub fn repeat(&mut self, reader: &mut Reader<'_, '_>, key: &str, row: &Row, count: u32, span: Span) -> bool {
         let each = || 1 + items(row) + beyond(key.len()) + expanded(row);
         count < 2 || self.take(reader, (count as usize - 1).saturating_mul(each()), span)
     }
 
-    /// Whether a row may say something of `count` items that are there.
+    /// Returns whether a row of an overlay may change `count` items.
     pub fn patch(&mut self, reader: &mut Reader<'_, '_>, row: &Row, count: usize, span: Span) -> bool {
         count < 2 || self.take(reader, (count - 1).saturating_mul(items(row)), span)
     }
 
-    /// Takes so many items. The first that are too many are reported.
+    /// Subtracts a number of items. Reports the first row that exceeds the limit.
     fn take(&mut self, reader: &mut Reader<'_, '_>, items: usize, span: Span) -> bool {
         if items == 0 {
             return true;
@@ -59,11 +59,11 @@ impl Repeats {
         let left = self.left.and_then(|left| left.checked_sub(items));
         if left.is_none() && self.left.is_some() {
             let message = format!(
-                "what follows from `count`, ranges of objects and long texts of `defaults` and `units` are more than \
+                "`count`, ranges of objects and long texts of `defaults` and `units` give more than \
                  {MAX_DERIVED_ITEMS} items"
             );
             let found = Diagnostic::new(&codes::INPUT_TOO_LARGE, span, message);
-            let label = "this row and those below stand for one item each, and don't copy long texts";
+            let label = "this row and those below describe one item each, and do not copy long texts";
             reader.diagnostics.push(found.label(label));
         }
         self.left = left;
@@ -71,30 +71,31 @@ impl Repeats {
     }
 }
 
-/// As how many items a row counts beside itself.
+/// Returns the size of a row in items, in addition to the item itself.
 fn items(row: &Row) -> usize {
     beyond(length(row))
 }
 
-/// As how many items the ranges of values count that each item has one by one.
+/// Returns the size in items of the value ranges that each item stores value by value.
 fn expanded(row: &Row) -> usize {
-    let has_range = |list: &[Literal]| list.iter().any(|own| matches!(own, Literal::Text(text) if text.contains("..")));
+    let has_range =
+        |list: &[Literal]| list.iter().any(|literal| matches!(literal, Literal::Text(text) if text.contains("..")));
     let conditions = row.when.iter().flat_map(|when| when.iter());
     let conditions = conditions.map(|(_, given)| match &given.value {
         ConditionValues::Values(OneOrMany(values)) => has_range(values),
-        ConditionValues::Bits(bits) => bits.value.as_ref().is_some_and(|own| has_range(&own.0)),
+        ConditionValues::Bits(bits) => bits.value.as_ref().is_some_and(|values| has_range(&values.0)),
     });
     let writable = row.writable.as_ref().map(|list| has_range(&list.value));
     conditions.chain(writable).filter(|has_range| *has_range).count() * MAX_LISTED_VALUES as usize * size_of::<Value>()
         / ROW_BYTES_PER_ITEM
 }
 
-/// As how many items a text of so many bytes counts.
+/// Returns the size of a text of this length, in items.
 fn beyond(length: usize) -> usize {
     length.saturating_sub(MAX_FREE_ROW_BYTES) / ROW_BYTES_PER_ITEM
 }
 
-/// About how long something is. Its place in the file doesn't tell: that of a table with a header ends behind the header.
+/// Returns the approximate length of a value. Its span is unsuitable: that of a table with a header ends after the header.
 pub(super) fn length(of: &impl Debug) -> usize {
     struct Count(usize);
     impl Write for Count {
@@ -104,7 +105,7 @@ pub(super) fn length(of: &impl Debug) -> usize {
         }
     }
     let mut count = Count(0);
-    // Counting doesn't fail.
+    // Counting cannot fail.
     let _ = write!(count, "{of:?}");
     count.0
 }

@@ -1,9 +1,9 @@
-//! Rows to items.
+//! Converts rows to items.
 
 use compact_str::CompactString;
 
 use super::at::{At, Entries, Literal, OneOrMany, TextOr};
-use super::definitions::{Definitions, Kind};
+use super::definitions::{DefinitionKind, Definitions};
 use super::format::{ConversionTable, FlagOrText, NumberOrText, Row};
 use super::numbered::Numbered;
 use super::references::{References, ITEM};
@@ -21,27 +21,27 @@ use crate::ir::{
 use crate::source::Span;
 use crate::text::brief;
 
-/// What rows have in common while they are read.
+/// The common state of all rows while they are read.
 pub(super) struct Rows {
     pub definitions: Definitions,
     pub spaces: Vec<Space>,
-    /// What spaces say of the requests of Modbus.
+    /// The Modbus requests that the device supports.
     pub modbus: Vec<ModbusTable>,
     pub buses: Buses,
     pub defaults: Option<Row>,
-    /// Names that rows refer to, and what for.
+    /// Names that rows use, with what they refer to.
     pub references: References,
-    /// The items that have numbers of registers.
+    /// The items with register numbers.
     pub numbered: Vec<Numbered>,
-    /// Findings that a row takes upon itself.
+    /// Diagnostics that a row allows.
     pub allowed: Vec<(Span, &'static Code)>,
-    /// What is said elsewhere of objects that have sub-entries.
+    /// Statements of other sections about objects that have sub-entries.
     pub summaries: Vec<(u16, Summaries)>,
-    /// How much rows may still copy.
+    /// The limit on what rows copy.
     pub repeats: Repeats,
 }
 
-/// The name of an item, its number among those of its row, and where the row stands.
+/// The name of an item, its number among the items of its row, and the span of the row.
 #[derive(Clone, Copy)]
 pub(super) struct Named<'k> {
     pub name: &'k str,
@@ -52,13 +52,8 @@ pub(super) struct Named<'k> {
 }
 
 impl Rows {
-    /// The row with the defaults of its chapter and of the file.
-    pub fn complete(
-        &mut self,
-        reader: &mut Reader<'_, '_>,
-        (key, row): (&At<String>, &Row),
-        chapter: Option<&Row>,
-    ) -> Row {
+    /// Returns the row with the defaults of its chapter and of the file.
+    pub fn complete(&mut self, reader: &mut Reader<'_, '_>, key: &At<String>, row: &Row, chapter: Option<&Row>) -> Row {
         let row = row.clone();
         if !self.repeats.inherit(reader, reader.span(key)) {
             return row;
@@ -67,28 +62,29 @@ impl Rows {
         self.defaults.as_ref().map_or(row.clone(), |defaults| row.or(defaults))
     }
 
-    /// Findings that the row's doubt explains.
+    /// Allows the diagnostics in `allow` of a row.
     pub fn allow(&mut self, reader: &mut Reader<'_, '_>, key: &At<String>, row: &At<Row>) {
         self.allow_in(reader, Span::new(reader.file, key.start, row.end), &row.value.allow);
     }
 
-    /// Findings that the doubts of definitions explain: at their names, and in what they define.
+    /// Allows the diagnostics in `allow` of definitions, at their names and in their contents.
     pub fn allow_of_definitions(&mut self, reader: &mut Reader<'_, '_>) {
         fn whole<T>(reader: &Reader<'_, '_>, name: &At<String>, entries: &Entries<T>) -> Span {
-            let places = entries.iter().map(|(key, value)| (key.start, value.end));
-            let (start, end) = places.fold((name.start, name.end), |all, own| (all.0.min(own.0), all.1.max(own.1)));
+            let spans = entries.iter().map(|(key, value)| (key.start, value.end));
+            let (start, end) =
+                spans.fold((name.start, name.end), |all, entry| (all.0.min(entry.0), all.1.max(entry.1)));
             Span::new(reader.file, start, end)
         }
         let enums = self.definitions.enums.iter();
-        let enums = enums.map(|(name, own)| (whole(reader, name, &own.values), own.allow.clone()));
+        let enums = enums.map(|(name, table)| (whole(reader, name, &table.values), table.allow.clone()));
         let bits = self.definitions.bits.iter();
-        let bits = bits.map(|(name, own)| (whole(reader, name, &own.at), own.allow.clone()));
+        let bits = bits.map(|(name, table)| (whole(reader, name, &table.at), table.allow.clone()));
         for (span, names) in enums.chain(bits).collect::<Vec<_>>() {
             self.allow_in(reader, span, &names);
         }
     }
 
-    /// Findings of an element of the table that is no row.
+    /// Allows the diagnostics in `allow` of an element that is not a row.
     pub fn allow_at(&mut self, reader: &mut Reader<'_, '_>, at: (u32, u32), names: &Option<Vec<At<String>>>) {
         self.allow_in(reader, Span::new(reader.file, at.0, at.1), names);
     }
@@ -105,33 +101,33 @@ impl Rows {
         }
     }
 
-    /// Reports that nothing says how an item may be accessed.
+    /// Reports missing access rights of an item.
     pub fn no_access(&self, reader: &mut Reader<'_, '_>, named: Named<'_>) {
-        let message = format!("nothing says how `{}` may be accessed", brief(named.name));
+        let message = format!("`{}` has no access rights", brief(named.name));
         let diagnostic = Diagnostic::new(&codes::ACCESS_NOT_GIVEN, reader.span(named.key), message);
         reader
             .diagnostics
-            .push(diagnostic.label("read-only").help("give it an `access`, or one for all in `defaults`"));
+            .push(diagnostic.label("read-only").help("add `access` to the row, or to `defaults` for all rows"));
     }
 
-    /// The type of a row; an error where it has none.
+    /// Returns the type of a row. A missing type is an error.
     pub fn ty(&mut self, reader: &mut Reader<'_, '_>, named: Named<'_>, row: &Row) -> Option<Type> {
         let written = row.ty.as_ref().and_then(|ty| {
             let found = types::named(&ty.value);
             if found.is_none() {
-                let what = format!("`{}` is no type", brief(&ty.value));
-                let similar = types::meant(&ty.value);
+                let what = format!("`{}` is not a type", brief(&ty.value));
+                let similar = types::suggestion(&ty.value);
                 let diagnostic = Diagnostic::new(&codes::TABLE_VALUE, reader.span(ty), what);
                 reader.diagnostics.push(match similar {
                     Some(name) => diagnostic.help(format!("did you mean `{name}`?")),
-                    None => diagnostic.help("a type such as `u16`, `i32`, `f32`, `bool`, `str(25)` or `u16[10]`"),
+                    None => diagnostic.help("write a type such as `u16`, `i32`, `f32`, `bool`, `str(25)` or `u16[10]`"),
                 });
             }
             found
         });
         let by_definition = || match (&row.bits, &row.values) {
-            (Some(At { value: TextOr::Text(name), .. }), _) => Some((Kind::Bits, name.clone())),
-            (_, Some(At { value: TextOr::Text(name), .. })) => Some((Kind::Enumeration, name.clone())),
+            (Some(At { value: TextOr::Text(name), .. }), _) => Some((DefinitionKind::Bits, name.clone())),
+            (_, Some(At { value: TextOr::Text(name), .. })) => Some((DefinitionKind::Enumeration, name.clone())),
             _ => None,
         };
         let (base, elements) = match written {
@@ -152,11 +148,11 @@ impl Rows {
         })
     }
 
-    /// The bit field or enumeration of a row over its integer.
+    /// Returns the bit field or enumeration of a row over its integer type.
     pub fn meaning(&mut self, reader: &mut Reader<'_, '_>, named: Named<'_>, row: &Row, base: Type) -> Option<Type> {
         let origin = reader.origin(named.key);
         if let (Some(_), Some(values)) = (&row.bits, &row.values) {
-            let message = "`bits` and `enum` stand in one row: the value is one or the other";
+            let message = "the row has both `bits` and `enum`, which exclude each other";
             reader.report(&codes::TABLE_VALUE, reader.span(values), message);
         }
         if let Some(bits) = &row.bits {
@@ -164,9 +160,9 @@ impl Rows {
                 TextOr::Text(name) if name.is_empty() => None,
                 TextOr::Text(name) => {
                     let name = At { value: name.clone(), start: bits.start, end: bits.end };
-                    self.definitions.named(reader, Kind::Bits, &name, base)
+                    self.definitions.named(reader, DefinitionKind::Bits, &name, base)
                 }
-                TextOr::Table(table) => Some(self.definitions.inline_bits(reader, (named.name, origin), base, table)),
+                TextOr::Table(table) => Some(self.definitions.inline_bits(reader, named.name, origin, base, table)),
             };
         }
         match &row.values.as_ref()?.value {
@@ -174,9 +170,9 @@ impl Rows {
             TextOr::Text(name) => {
                 let at = row.values.as_ref()?;
                 let name = At { value: name.clone(), start: at.start, end: at.end };
-                self.definitions.named(reader, Kind::Enumeration, &name, base)
+                self.definitions.named(reader, DefinitionKind::Enumeration, &name, base)
             }
-            TextOr::Table(table) => Some(self.definitions.inline_values(reader, (named.name, origin), base, table)),
+            TextOr::Table(table) => Some(self.definitions.inline_values(reader, named.name, origin, base, table)),
         }
     }
 
@@ -194,7 +190,7 @@ impl Rows {
         Type::Named(id)
     }
 
-    /// Puts what a row says into its item. An overlay's row says little of it.
+    /// Adds the facts of a row to its item. A row of an overlay has few facts.
     pub fn fill(
         &mut self,
         reader: &mut Reader<'_, '_>,
@@ -226,21 +222,19 @@ impl Rows {
         }
     }
 
-    /// A printed length, where it isn't that of an address. One of the defaults is meant for addresses.
+    /// Checks a printed length, unless it is that of an address. A length from the defaults is that of addresses.
     fn length(&self, reader: &mut Reader<'_, '_>, item: &Item, named: Named<'_>, row: &Row) {
         let Some(length) = row.length.as_ref().filter(|_| row.esc.is_none()) else { return };
-        let is_own = named.key.start <= length.start && length.end <= named.end;
+        let is_in_row = named.key.start <= length.start && length.end <= named.end;
         let Some(bits) =
-            self.definitions.bits_of(item.ty).filter(|bits| is_own && bits.div_ceil(8) != u32::from(length.value))
+            self.definitions.bits_of(item.ty).filter(|bits| is_in_row && bits.div_ceil(8) != u32::from(length.value))
         else {
             return;
         };
         let (name, bytes) = (brief(named.name), bits.div_ceil(8));
-        let message = format!("`{name}` is printed with {} bytes, and its type takes {bytes}", length.value);
+        let message = format!("the manual prints {} bytes for `{name}`, but its type has {bytes}", length.value);
         let found = Diagnostic::new(&codes::LENGTH_MISMATCH, reader.span(length), message).label("the type is used");
-        reader
-            .diagnostics
-            .push(found.help("give it the type of this length, or leave the `length` out with a `doubt`"));
+        reader.diagnostics.push(found.help("correct the type, or delete `length` and add a `doubt`"));
     }
 
     fn access(&mut self, reader: &mut Reader<'_, '_>, item: &mut Item, row: &Row) {
@@ -248,7 +242,7 @@ impl Rows {
             let rule = (access.value == "?").then_some(FactOrigin::Rule(Rule::UnstatedAccess));
             item.origins.set(Fact::Access, rule);
             let known = ACCESSES.iter().copied().chain([("?", Access::ReadWrite)]).collect::<Vec<_>>();
-            item.access = reader.word(access, "access", &known).unwrap_or(item.access);
+            item.access = reader.word(access, "access right", &known).unwrap_or(item.access);
             item.at.access = reader.span(access);
         }
         // A reserved sub-index has no value to write, whatever access rights its row inherits.
@@ -257,9 +251,11 @@ impl Rows {
             item.access = Access::ReadOnly;
             item.origins.set(Fact::Access, Some(FactOrigin::Rule(Rule::ReservedEntry)));
         }
-        // Inputs of Modbus have no function that writes.
+        // Modbus has no function that writes inputs.
         let is_input = |binding: &Binding| match binding {
-            Binding::Register(own) => matches!(own.space, RegisterSpace::Input | RegisterSpace::DiscreteInput),
+            Binding::Register(register) => {
+                matches!(register.space, RegisterSpace::Input | RegisterSpace::DiscreteInput)
+            }
             _ => false,
         };
         if item.is_access_assumed() && item.bindings.iter().all(is_input) {
@@ -280,23 +276,22 @@ impl Rows {
         let base = self.definitions.underlying(item.ty);
         let mut quantity = item.quantity.take().map_or_else(Quantity::default, |quantity| *quantity);
         let units = &self.definitions.units;
-        let own = row.unit.as_ref().and_then(|unit| units.get(&unit.value));
-        let own = own.map(|(_, table)| table.clone());
+        let unit_table = row.unit.as_ref().and_then(|unit| units.get(&unit.value));
+        let unit_table = unit_table.map(|(_, table)| table.clone());
         let mut affordable = |unit: &At<String>| self.repeats.unit(reader, units, &unit.value, reader.span(unit));
         if let Some(unit) = row.unit.as_ref().filter(|unit| affordable(unit)) {
-            quantity.unit = match &own {
+            quantity.unit = match &unit_table {
                 Some(table) => table.symbol.as_deref().unwrap_or_default().into(),
                 None => unit.value.as_str().into(),
             };
-            quantity.units = reader.original(own.as_ref().and_then(|table| table.orig.as_deref()));
-            let machine = own.as_ref().and_then(|table| table.machine.as_ref());
+            quantity.units = reader.original(unit_table.as_ref().and_then(|table| table.orig.as_deref()));
+            let machine = unit_table.as_ref().and_then(|table| table.machine.as_ref());
             quantity.machine = machine.and_then(|machine| given::unit(reader, machine, &mut self.references));
-            if own.is_none() && !unit.value.is_empty() && !super::units::is_known(&unit.value) {
+            if unit_table.is_none() && !unit.value.is_empty() && !super::units::is_known(&unit.value) {
                 let names = self.definitions.units.names().map(|name| name.value.as_str());
                 let names = names.take_while(|_| reader.helps());
                 let similar = super::tree::similar(&unit.value, names).or_else(|| super::units::usual(&unit.value));
-                let message =
-                    format!("`{}` is neither a name of `[units]` nor a unit that is known", brief(&unit.value));
+                let message = format!("`{}` is neither a name of `[units]` nor a known unit", brief(&unit.value));
                 let diagnostic = Diagnostic::new(&codes::UNKNOWN_UNIT, reader.span(unit), message);
                 reader.diagnostics.push(match similar {
                     Some(name) => diagnostic.help(format!("did you mean `{name}`?")),
@@ -304,39 +299,39 @@ impl Rows {
                 });
             }
         }
-        let (scale, offset) = match &own {
+        let (scale, offset) = match &unit_table {
             Some(table) if row.scale.is_none() => (table.scale.as_ref(), row.offset.or(table.offset)),
             _ => (row.scale.as_ref(), row.offset),
         };
-        if own.is_some() || row.scale.is_some() || row.offset.is_some() {
-            quantity.scale = scale::read(reader, (scale, offset), item.at.name, &mut self.references);
+        if unit_table.is_some() || row.scale.is_some() || row.offset.is_some() {
+            quantity.scale = scale::read(reader, scale, offset, item.at.name, &mut self.references);
         }
         for (key, meaning) in row.na.iter().flat_map(|na| na.iter()) {
             let literal = At { value: Literal::Text(key.value.clone()), start: key.start, end: key.end };
             quantity.sentinels.push((value::value(reader, &literal, base), meaning.value.as_str().into()));
         }
         quantity.step = row.step.as_ref().map(|step| value::value(reader, step, base)).or(quantity.step);
-        quantity.conversions.extend(row.conversions.iter().map(|own| self.conversion(reader, own)));
+        quantity.conversions.extend(row.conversions.iter().map(|conversion| self.conversion(reader, conversion)));
         item.quantity = Some(Box::new(quantity));
     }
 
-    /// A number that the manual converts as an example.
+    /// Reads a conversion that the manual prints as an example.
     fn conversion(&mut self, reader: &mut Reader<'_, '_>, given: &At<ConversionTable>) -> Conversion {
-        let own = &given.value;
-        if own.raw.is_none() || own.value.is_none() {
-            let message = "a conversion has a `raw` number and a `value`";
+        let example = &given.value;
+        if example.raw.is_none() || example.value.is_none() {
+            let message = "a conversion needs a `raw` value and a physical `value`";
             reader.report(&codes::TABLE_VALUE, reader.span(given), message);
         }
-        self.references.extend(own.model.iter().map(|name| (name.clone(), "model")));
-        self.references.extend(own.given.iter().map(|(name, _)| (name.clone(), "given number")));
+        self.references.extend(example.model.iter().map(|name| (name.clone(), "model")));
+        self.references.extend(example.given.iter().map(|(name, _)| (name.clone(), "given number")));
         Conversion {
-            raw: own.raw.map(Into::into),
-            value: own.value,
-            unit: own.unit.as_ref().map(|unit| unit.value.as_str().into()),
-            given: own.given.iter().map(|(name, number)| (name.value.as_str().into(), number.value)).collect(),
-            model: own.model.as_ref().map(|model| model.value.as_str().into()),
-            by: own.by,
-            documentation: reader.documentation_of(own),
+            raw: example.raw.map(Into::into),
+            value: example.value,
+            unit: example.unit.as_ref().map(|unit| unit.value.as_str().into()),
+            given: example.given.iter().map(|(name, number)| (name.value.as_str().into(), number.value)).collect(),
+            model: example.model.as_ref().map(|model| model.value.as_str().into()),
+            by: example.by,
+            documentation: reader.documentation_of(example),
             at: reader.span(given),
         }
     }
@@ -349,7 +344,9 @@ impl Rows {
             Some(FlagOrText::Flag(false)) => behaviour.storage = Storage::Volatile,
             Some(FlagOrText::Text(word)) if ["yes", "no", "true", "false"].contains(&word.as_str()) => {
                 let flag = matches!(word.as_str(), "yes" | "true");
-                let message = format!("`save` is `{flag}`, or a command in quotes, and `{word}` is none");
+                let message = format!(
+                    "`{word}` is not a command: write `save = {flag}` without quotes, or the name of a command"
+                );
                 reader.report(&codes::TABLE_VALUE, item.at.name, message);
             }
             Some(FlagOrText::Text(command)) => behaviour.storage = Storage::OnCommand(command.as_str().into()),
@@ -362,14 +359,14 @@ impl Rows {
             behaviour.write_when = conditions::conditions(reader, &mut self.definitions.mentioned, when);
         }
         if let Some(values) = &row.writable {
-            behaviour.writable_values = value::listed(reader, (&values.value, (values.start, values.end)), base);
+            behaviour.writable_values = value::listed(reader, &values.value, (values.start, values.end), base);
         }
         behaviour.self_clearing = row.clears.unwrap_or(behaviour.self_clearing);
         behaviour.write_once = row.once.unwrap_or(behaviour.write_once);
         if let Some(pdi) = &row.pdi {
-            behaviour.pdi_access = reader.word(pdi, "access", &ACCESSES);
+            behaviour.pdi_access = reader.word(pdi, "access right", &ACCESSES);
             if !item.bindings.iter().any(|binding| matches!(binding, crate::ir::Binding::EscMemory { .. })) {
-                let message = "`pdi` is about the memory of a slave controller, and the row has no address there";
+                let message = "`pdi` applies to the memory of a slave controller, where the row has no address";
                 reader.report(&codes::TABLE_VALUE, reader.span(pdi), message);
             }
         }
@@ -384,41 +381,43 @@ impl Rows {
     }
 
     fn availability(&mut self, reader: &mut Reader<'_, '_>, item: &mut Item, row: &Row) {
-        let mut own = item.availability.take().map_or_else(Availability::default, |own| *own);
+        let mut availability =
+            item.availability.take().map_or_else(Availability::default, |availability| *availability);
         if let Some(models) = &row.models {
-            own.models = models.iter().map(|model| model.value.as_str().into()).collect();
+            availability.models = models.iter().map(|model| model.value.as_str().into()).collect();
             self.references.extend(models.iter().map(|model| (model.clone(), "model")));
         }
-        let text = |given: &Option<String>, own: Option<CompactString>| given.as_deref().map(Into::into).or(own);
-        (own.since, own.until) = (text(&row.since, own.since), text(&row.until, own.until));
+        let text = |given: &Option<String>, old: Option<CompactString>| given.as_deref().map(Into::into).or(old);
+        (availability.since, availability.until) =
+            (text(&row.since, availability.since), text(&row.until, availability.until));
         if let Some(replaced) = &row.replaced_by {
-            own.replaced_by = Some(reader.reference(replaced));
+            availability.replaced_by = Some(reader.reference(replaced));
             self.references.push((replaced.clone(), ITEM));
         }
-        // Of other buses, the addresses tell.
+        // The addresses of the item show the other buses.
         let buses = row.buses.iter().flatten().filter_map(|bus| Bus::from_name(&bus.value)).collect::<Buses>();
         if buses.contains(Bus::Profinet) || buses.contains(Bus::Serial) {
-            own.buses = buses;
+            availability.buses = buses;
         }
         if let Some(OneOrMany(needs)) = &row.needs {
-            own.options = needs.iter().map(|need| need.as_str().into()).collect();
+            availability.options = needs.iter().map(|need| need.as_str().into()).collect();
         }
-        item.availability = (own != Availability::default()).then(|| Box::new(own));
+        item.availability = (availability != Availability::default()).then(|| Box::new(availability));
         self.related(reader, item, row);
     }
 
     fn related(&mut self, reader: &Reader<'_, '_>, item: &mut Item, row: &Row) {
         let names = [&row.upper, &row.same_quantity, &row.same_as];
         self.references.extend(names.into_iter().flatten().map(|name| (name.clone(), ITEM)));
-        let mut own = item.related.take().map_or_else(RelatedItems::default, |own| *own);
+        let mut related = item.related.take().map_or_else(RelatedItems::default, |related| *related);
         let found = |name: &Option<At<String>>| name.as_ref().map(|name| reader.reference(name));
-        own.upper_half = found(&row.upper).or(own.upper_half);
-        own.same_quantity = found(&row.same_quantity).or(own.same_quantity);
-        own.same_as = found(&row.same_as).or(own.same_as);
+        related.upper_half = found(&row.upper).or(related.upper_half);
+        related.same_quantity = found(&row.same_quantity).or(related.same_quantity);
+        related.same_as = found(&row.same_as).or(related.same_as);
         if let Some(At { value: NumberOrText::Text(count), start, end }) = &row.count {
-            own.valid_count = Some(ItemRef::new(count.as_str(), Span::new(reader.file, *start, *end)));
+            related.valid_count = Some(ItemRef::new(count.as_str(), Span::new(reader.file, *start, *end)));
         }
-        item.related = (own != RelatedItems::default()).then(|| Box::new(own));
+        item.related = (related != RelatedItems::default()).then(|| Box::new(related));
     }
 
     fn words(&mut self, reader: &mut Reader<'_, '_>, item: &mut Item, row: &Row) {
@@ -439,17 +438,13 @@ impl Rows {
     }
 }
 
-/// `doc_from` of a text that only spells out the name of the element.
+/// The value of `doc_from` for a text that only spells out the name of the element.
 const PRINTED_NAME: &str = "name";
 
-/// What a row says of its element in words, and where the words come from.
+/// Returns the documentation of a row, with the origin of the text.
 pub(super) fn documentation(reader: &mut Reader<'_, '_>, row: &Row) -> Option<Box<Documentation>> {
     if let (Some(from), None) = (&row.doc_from, &row.doc) {
-        reader.report(
-            &codes::TABLE_VALUE,
-            reader.span(from),
-            "`doc_from` tells where `doc` comes from: write `doc` as well",
-        );
+        reader.report(&codes::TABLE_VALUE, reader.span(from), "`doc_from` is the origin of `doc`, which is missing");
     }
     let mut documentation = reader.documentation_of(row);
     if let (Some(from), Some(documentation)) = (&row.doc_from, &mut documentation) {
@@ -462,7 +457,7 @@ pub(super) fn documentation(reader: &mut Reader<'_, '_>, row: &Row) -> Option<Bo
     documentation
 }
 
-/// Whether a row states that the manual names no bits and no values: `bits = ""` or `enum = ""`.
+/// Returns whether a row states that the manual names no bits or values: `bits = ""` or `enum = ""`.
 fn states_no_meaning(row: &Row) -> bool {
     matches!(&row.bits, Some(At { value: TextOr::Text(name), .. }) if name.is_empty())
         || matches!(&row.values, Some(At { value: TextOr::Text(name), .. }) if name.is_empty())

@@ -1,4 +1,4 @@
-//! How a raw number relates to a physical one.
+//! Reads the conversion of raw values to physical values.
 
 use super::at::At;
 use super::format::{ScaleRule, Scaling};
@@ -8,19 +8,20 @@ use crate::diagnostics::{codes, Diagnostic};
 use crate::ir::{ItemRef, Scale};
 use crate::source::Span;
 
-/// The greatest number of fractional bits.
+/// The maximum number of fractional bits.
 const MAX_FRACTION: u8 = 63;
 
-/// Reads a scale and the offset beside it; `None` where the raw number is the physical one. What makes no sense is
-/// reported, in the row where it has no place of its own, and no scale.
+/// Reads a scale and the separate offset. Returns `None` if raw and physical values are equal. An invalid scale is reported, at
+/// the row if it has no span, and ignored.
 pub(super) fn read(
     reader: &mut Reader<'_, '_>,
-    (given, offset): (Option<&At<Scaling>>, Option<f64>),
+    given: Option<&At<Scaling>>,
+    offset: Option<f64>,
     row: Span,
     references: &mut References,
 ) -> Option<Scale> {
     match (given, offset) {
-        (Some(given), _) => said(reader, given, offset, references).flatten(),
+        (Some(given), _) => explicit(reader, given, offset, references).flatten(),
         (None, Some(offset)) if !offset.is_finite() => {
             reader.report(&codes::TABLE_VALUE, row, NO_OFFSET);
             None
@@ -29,20 +30,20 @@ pub(super) fn read(
     }
 }
 
-const NO_OFFSET: &str = "an offset is a finite number";
+const NO_OFFSET: &str = "the offset is not a finite number";
 
-/// What is said of a variant: a scale of 1, too, as the row's is another one.
+/// Reads the scale of a variant. A factor of 1 counts as a scale, because it replaces that of the row.
 pub(super) fn of_variant(
     reader: &mut Reader<'_, '_>,
     given: Option<&At<Scaling>>,
     references: &mut References,
 ) -> Option<Scale> {
-    let found = said(reader, given?, None, references)?;
+    let found = explicit(reader, given?, None, references)?;
     Some(found.unwrap_or(Scale::Linear { factor: 1.0, offset: 0.0 }))
 }
 
-/// A scale that is given, which is none where it is 1; `None` where it makes no sense.
-fn said(
+/// Reads an explicit scale: `Some(None)` for a factor of 1, and `None` if it is invalid.
+fn explicit(
     reader: &mut Reader<'_, '_>,
     given: &At<Scaling>,
     offset: Option<f64>,
@@ -57,7 +58,7 @@ fn said(
         Ok(scale) => Some(scale),
         Err(message) => {
             let found = Diagnostic::new(&codes::TABLE_VALUE, reader.span(given), message);
-            reader.diagnostics.push(found.help("dictionaries/README.md has all forms of a scale"));
+            reader.diagnostics.push(found.help("dictionaries/README.md lists all forms of a scale"));
             None
         }
     }
@@ -67,15 +68,15 @@ fn linear(factor: f64, offset: f64) -> Option<Scale> {
     (factor != 1.0 || offset != 0.0).then_some(Scale::Linear { factor, offset })
 }
 
-/// A factor: with 0, or what is no number, every raw number would be the same.
+/// Checks a factor. With 0 or NaN, all raw values would be equal.
 fn number(what: &str, factor: f64) -> Result<f64, String> {
     if factor.is_finite() && factor != 0.0 {
         return Ok(factor);
     }
-    Err(format!("{what} is {factor}: no raw number stands for a physical one then"))
+    Err(format!("{what} is {factor}, so no raw value has a physical value"))
 }
 
-/// The key that a rule is about, and those that may stand beside it.
+/// The key that defines each form of a rule, and the further keys of this form.
 const FORMS: [(&str, &[&str]); 8] = [
     ("exponent", &["base", "fraction"]),
     ("reciprocal", &[]),
@@ -87,11 +88,11 @@ const FORMS: [(&str, &[&str]); 8] = [
     ("factor", &["offset"]),
 ];
 
-fn rule(rule: &ScaleRule, beside: Option<f64>, references: &mut References) -> Result<Option<Scale>, String> {
-    if beside.is_some() && rule.offset.is_some() {
-        return Err("`offset` stands in the rule and beside it: write one of them".to_owned());
+fn rule(rule: &ScaleRule, separate: Option<f64>, references: &mut References) -> Result<Option<Scale>, String> {
+    if separate.is_some() && rule.offset.is_some() {
+        return Err("`offset` is in the rule and next to it: write only one of them".to_owned());
     }
-    let offset = rule.offset.or(beside);
+    let offset = rule.offset.or(separate);
     let given = [
         ("exponent", rule.exponent.is_some()),
         ("reciprocal", rule.reciprocal.is_some()),
@@ -105,15 +106,15 @@ fn rule(rule: &ScaleRule, beside: Option<f64>, references: &mut References) -> R
     ];
     let given: Vec<&str> = given.into_iter().filter(|(_, is_given)| *is_given).map(|(key, _)| key).collect();
     let form = FORMS.into_iter().find(|(key, _)| given.contains(key));
-    let Some((key, beside)) = form.or((given == ["offset"]).then_some(("offset", &[]))) else {
-        return Err("the rule is empty: it says nothing of the scale".to_owned());
+    let Some((key, further)) = form.or((given == ["offset"]).then_some(("offset", &[]))) else {
+        return Err("the rule has no keys".to_owned());
     };
-    if let Some(other) = given.iter().find(|other| **other != key && !beside.contains(other)) {
-        return Err(format!("`{other}` doesn't go with `{key}`: no rule has both"));
+    if let Some(other) = given.iter().find(|other| **other != key && !further.contains(other)) {
+        return Err(format!("`{other}` and `{key}` cannot be in one rule"));
     }
     let factor = rule.factor.map_or(Ok(1.0), |factor| number("`factor`", factor))?;
-    let item = |given: &Option<At<String>>| given.as_ref().map(|own| own.value.as_str().into()).unwrap_or_default();
-    let constant = rule.of.as_ref().map(|own| own.value.as_str().into()).unwrap_or_default();
+    let item = |given: &Option<At<String>>| given.as_ref().map(|name| name.value.as_str().into()).unwrap_or_default();
+    let constant = rule.of.as_ref().map(|name| name.value.as_str().into()).unwrap_or_default();
     for (given, kind) in [(&rule.by, ITEM), (&rule.times, ITEM), (&rule.exponent, ITEM), (&rule.of, "constant")] {
         references.extend(given.iter().map(|given| (given.clone(), kind)));
     }
@@ -125,10 +126,10 @@ fn rule(rule: &ScaleRule, beside: Option<f64>, references: &mut References) -> R
         }
         "by" => Some(Scale::ByItem { item: item(&rule.by), factor }),
         "times" => Some(Scale::TimesItem { item: item(&rule.times), factor }),
-        "fraction" if rule.of.is_none() => return Err("a `fraction` is one of something: say `of` what".to_owned()),
+        "fraction" if rule.of.is_none() => return Err("`fraction` needs `of`, the name of its base value".to_owned()),
         "fraction" => Some(Scale::Fraction { bits: fraction(rule)?, base: constant }),
-        "of" => return Err("`of` says what a `fraction` is one of, and there is no `fraction`".to_owned()),
-        "base" => return Err("`base` is what an `exponent` raises, and there is no `exponent`".to_owned()),
+        "of" => return Err("`of` is the base value of a `fraction`, which the rule does not have".to_owned()),
+        "base" => return Err("`base` is the base of an `exponent`, which the rule does not have".to_owned()),
         _ => linear(factor, offset.filter(|offset| offset.is_finite()).unwrap_or(0.0)),
     })
 }
@@ -136,7 +137,7 @@ fn rule(rule: &ScaleRule, beside: Option<f64>, references: &mut References) -> R
 fn exponent(rule: &ScaleRule, exponent: ItemRef) -> Result<Scale, String> {
     let base = rule.base.unwrap_or(10);
     if !matches!(base, 2 | 10) {
-        return Err(format!("`base` is 10 or 2, and not {base}"));
+        return Err(format!("`base` must be 10 or 2, but is {base}"));
     }
     let fraction = if rule.fraction.is_some() { fraction(rule)? } else { 0 };
     Ok(Scale::Exponent { exponent, base, fraction })
@@ -145,6 +146,6 @@ fn exponent(rule: &ScaleRule, exponent: ItemRef) -> Result<Scale, String> {
 fn fraction(rule: &ScaleRule) -> Result<u8, String> {
     match rule.fraction {
         Some(bits @ 1..=MAX_FRACTION) => Ok(bits),
-        other => Err(format!("`fraction` goes from 1 to {MAX_FRACTION} bits, and not {}", other.unwrap_or(0))),
+        other => Err(format!("`fraction` must be from 1 to {MAX_FRACTION} bits, but is {}", other.unwrap_or(0))),
     }
 }

@@ -1,9 +1,9 @@
-//! The JSON Schema of the format, by which editors complete and check tables.
+//! The JSON Schema of the format, which editors use to complete and check tables.
 //!
-//! The module is compiled for unit tests only: [`super::SCHEMA`] is the file that the test below compares with the schema, so
-//! that the compiler doesn't depend on `schemars`.
+//! The module is compiled for unit tests only, so that the compiler does not depend on `schemars`. The test below compares the
+//! schema with the file [`super::SCHEMA`].
 //!
-//! `format` derives it; here is what `serde` can't tell: words, grammars of keys, and that options stand anywhere.
+//! `format` derives the schema. This module adds the words, the grammars of keys, and options in place of values.
 
 use std::path::Path;
 
@@ -15,13 +15,13 @@ use serde_json::{json, Map, Value};
 use super::format::Document;
 use crate::output::write_if_changed;
 
-/// An integer as keys have it.
+/// The grammar of an integer in a key.
 const NUMBER: &str = r"(0[xX][0-9A-Fa-f_]+|0[bB][01_]+|0[oO][0-7_]+|[0-9][0-9_]*)";
 
-/// A value that an option gives.
+/// The grammar of an option in place of a value.
 const OPTION: &str = r"^\$[a-z]";
 
-/// The schema, as text.
+/// Returns the schema as text.
 fn text() -> String {
     let mut settings = SchemaSettings::draft07();
     settings.transforms.insert(0, Box::new(RecursiveTransform(without_null)));
@@ -29,12 +29,12 @@ fn text() -> String {
     let mut schema = settings.into_generator().into_root_schema_for::<Document>();
     schema.insert("title".into(), "Lexibus register table".into());
     schema.insert("required".into(), json!(["lexibus"]));
-    let kinds = ["device", "overlay", "profile"].map(|kind| json!({ "required": [kind] }));
-    schema.insert("oneOf".into(), json!(kinds));
+    let roots = ["device", "overlay", "profile"].map(|root| json!({ "required": [root] }));
+    schema.insert("oneOf".into(), json!(roots));
     format!("{:#}\n", schema.as_value())
 }
 
-/// TOML has no null: what may be left out is left out.
+/// Removes `null`, which TOML does not have: optional keys are left out.
 fn without_null(schema: &mut Schema) {
     let null = json!("null");
     if schema.get("default") == Some(&Value::Null) {
@@ -47,9 +47,9 @@ fn without_null(schema: &mut Schema) {
             schema.insert("type".into(), only);
         }
     }
-    let Some(Value::Array(kinds)) = schema.get_mut("anyOf") else { return };
-    kinds.retain(|kind| kind.get("type") != Some(&null));
-    if let [Value::Object(only)] = kinds.as_slice() {
+    let Some(Value::Array(alternatives)) = schema.get_mut("anyOf") else { return };
+    alternatives.retain(|alternative| alternative.get("type") != Some(&null));
+    if let [Value::Object(only)] = alternatives.as_slice() {
         let only = only.clone();
         schema.remove("anyOf");
         for (key, value) in only {
@@ -58,7 +58,7 @@ fn without_null(schema: &mut Schema) {
     }
 }
 
-/// `"$name"` stands for the choice of an option, wherever a number or a truth value does.
+/// Allows `"$name"`, the choice of an option, in place of a number or a Boolean.
 fn with_options(schema: &mut Schema) {
     let Some(Value::String(ty)) = schema.get("type") else { return };
     let is_fixed = schema.get("const").is_some();
@@ -85,7 +85,7 @@ fn texts(schema: &mut Schema, change: &mut dyn FnMut(&mut Map<String, Value>)) {
     }
 }
 
-/// One of a few words.
+/// Allows the words only.
 pub(super) fn words(words: &'static [&'static str]) -> impl FnMut(&mut Schema) {
     move |schema| {
         texts(schema, &mut |text| {
@@ -94,7 +94,7 @@ pub(super) fn words(words: &'static [&'static str]) -> impl FnMut(&mut Schema) {
     }
 }
 
-/// The names of types.
+/// Allows type names only.
 pub(super) fn types(schema: &mut Schema) {
     let grammar = concat!(
         r"^((bool|[ui]([1-9]|[1-5][0-9]|6[0-4])|f32|f64|(str|wstr|bytes)( *\( *[0-9]+ *\))?",
@@ -105,23 +105,23 @@ pub(super) fn types(schema: &mut Schema) {
     });
 }
 
-/// A number or a text of this grammar, in which `#` stands for a number.
-pub(super) fn place(grammar: &'static str) -> impl FnMut(&mut Schema) {
+/// Allows a number, or a text of this grammar, in which `#` is a number.
+pub(super) fn notation(grammar: &'static str) -> impl FnMut(&mut Schema) {
     move |schema| {
         let grammar = format!(r"^ *({}|\$[a-z].*) *$", grammar.replace('#', NUMBER));
-        let own = json_schema!({ "anyOf": [
+        let alternatives = json_schema!({ "anyOf": [
             { "type": "integer", "minimum": 0 },
             { "type": "string", "pattern": grammar },
         ]});
         let description = schema.remove("description");
-        *schema = own;
+        *schema = alternatives;
         if let Some(description) = description {
             schema.insert("description".into(), description);
         }
     }
 }
 
-/// Keys of this grammar, in which `#` stands for a number.
+/// Allows keys of this grammar only, in which `#` is a number.
 pub(super) fn keys(grammar: &'static str) -> impl FnMut(&mut Schema) {
     move |schema| grammar_of_keys(schema, &format!("^{}$", grammar.replace('#', NUMBER)))
 }
@@ -135,17 +135,17 @@ fn grammar_of_keys(schema: &mut Schema, grammar: &str) {
             }
         }
         _ => {
-            let kinds = schema.get_mut("anyOf").and_then(Value::as_array_mut);
-            for kind in kinds.into_iter().flatten() {
-                if let Ok(kind) = <&mut Schema>::try_from(kind) {
-                    grammar_of_keys(kind, grammar);
+            let alternatives = schema.get_mut("anyOf").and_then(Value::as_array_mut);
+            for alternative in alternatives.into_iter().flatten() {
+                if let Ok(alternative) = <&mut Schema>::try_from(alternative) {
+                    grammar_of_keys(alternative, grammar);
                 }
             }
         }
     }
 }
 
-/// What keys of objects, bits and values look like.
+/// Grammars of keys for objects, bits and values.
 pub(super) const OBJECTS: &str = r"#(\.\.=?#)?(:#(\.\.=?#)?)?";
 pub(super) const BITS: &str = r"\[?#((\.\.|-)#)?\]?";
 pub(super) const BITS_OF_BYTES: &str = r"(#:)?\[?#((\.\.|-)#)?\]?";
@@ -157,7 +157,7 @@ pub(super) const PURPOSES: &[&str] = &["mailbox_out", "mailbox_in", "outputs", "
 pub(super) const CHECKS: &[&str] = &["xor", "sum", "lrc", "crc8", "crc16"];
 pub(super) const TRIGGERS: &[&str] = &["rising", "falling", "toggle", "self_clearing"];
 
-/// Compares the schema with the file, or writes the file if the environment variable `LEXIBUS_BLESS` is `1`.
+/// Compares the schema with the file. Writes the file instead if the environment variable `LEXIBUS_BLESS` is `1`.
 #[test]
 fn the_file_has_the_derived_schema() {
     let derived = text();

@@ -1,4 +1,4 @@
-//! What the number of a register means on each bus.
+//! Maps register numbers to addresses on each bus.
 
 use compact_str::{format_compact, CompactString};
 
@@ -10,27 +10,27 @@ use crate::diagnostics::codes;
 use crate::ir::{Binding, Bus, Buses, ModbusTable, ObjectBuses, RegisterBinding, RegisterSpace};
 use crate::source::Span;
 
-/// Bits of a number where the space doesn't say.
+/// Bits of a register number, if the space has no `bits`.
 const REGISTER_BITS: u8 = 16;
 
-/// A space of numbers.
+/// A space of register numbers.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Space {
     pub name: String,
-    /// Bits that one number holds.
+    /// Bits of one register number.
     pub bits: u8,
     modbus: Option<Modbus>,
-    canopen: Option<Objects>,
-    ethercat: Option<Objects>,
+    canopen: Option<ObjectBase>,
+    ethercat: Option<ObjectBase>,
     parameter: bool,
     esc: bool,
-    /// Whether a shorter value fills all bits of its numbers.
+    /// Whether a shorter value fills all bits of its registers.
     extend: bool,
     windows: Vec<Window>,
-    /// What the manual prints before each number on Modbus, and the minimum number of digits.
+    /// The text that the manual prints before each number on Modbus, and the minimum number of digits.
     pub prefix: CompactString,
     pub digits: u8,
-    /// Whether the order of words is an assumption.
+    /// Whether the word order is an assumption.
     pub is_order_assumed: bool,
 }
 
@@ -43,16 +43,16 @@ struct Modbus {
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-struct Objects {
+struct ObjectBase {
     index: i64,
     sub_index: u8,
 }
 
-/// Numbers of a register, and how its row wants its words.
+/// The register numbers of a row, and its word order.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Numbers {
     pub first: u32,
-    /// Bits of the value, where known.
+    /// Bits of the value, if known.
     pub bits: Option<u32>,
     pub low_word_first: Option<bool>,
     pub bytes_swapped: Option<bool>,
@@ -68,10 +68,10 @@ pub(super) fn read(reader: &mut Reader<'_, '_>, tables: &Entries<SpaceTable>) ->
 fn space(reader: &mut Reader<'_, '_>, name: &At<String>, table: &SpaceTable) -> Space {
     let rule = table.modbus.as_ref();
     let modbus = rule.map(|rule| modbus(reader, rule));
-    // A number of a table of bits is one bit.
-    let is_bit = modbus.is_some_and(|own| matches!(own.space, RegisterSpace::Coil | RegisterSpace::DiscreteInput));
+    // A register number in a table of bits is one bit.
+    let is_bit = modbus.is_some_and(|rule| matches!(rule.space, RegisterSpace::Coil | RegisterSpace::DiscreteInput));
     if table.extend && modbus.is_none_or(|_| is_bit) {
-        let message = "`extend` is about registers of Modbus, and the space has none";
+        let message = "`extend` applies to Modbus registers, which the space does not have";
         reader.report(&codes::TABLE_VALUE, reader.span(name), message);
     }
     Space {
@@ -90,7 +90,7 @@ fn space(reader: &mut Reader<'_, '_>, name: &At<String>, table: &SpaceTable) -> 
     }
 }
 
-/// What `[spaces]` say of the requests that the device takes.
+/// Reads the Modbus requests that the device supports, by the Modbus tables of its spaces.
 pub(super) fn modbus_tables(reader: &mut Reader<'_, '_>, tables: &Entries<SpaceTable>) -> Vec<ModbusTable> {
     let mut found: Vec<ModbusTable> = Vec::new();
     for (name, rule) in tables.iter().filter_map(|(name, table)| Some((name, table.value.modbus.as_ref()?))) {
@@ -99,26 +99,26 @@ pub(super) fn modbus_tables(reader: &mut Reader<'_, '_>, tables: &Entries<SpaceT
         }
         let space = modbus(reader, rule).space;
         widths(reader, rule, space);
-        let own = ModbusTable {
+        let table = ModbusTable {
             space,
             functions: rule.functions.iter().flat_map(|list| list.value.iter().copied()).collect(),
-            max_read: rule.max_read.as_ref().map(|own| own.value),
-            max_write: rule.max_write.as_ref().map(|own| own.value),
+            max_read: rule.max_read.as_ref().map(|limit| limit.value),
+            max_write: rule.max_write.as_ref().map(|limit| limit.value),
             split: rule.split.unwrap_or(false),
         };
-        match found.iter().find(|other| other.space == own.space) {
-            Some(other) if *other != own => {
-                let message = "another space says otherwise which requests the same table of Modbus takes";
+        match found.iter().find(|other| other.space == table.space) {
+            Some(other) if *other != table => {
+                let message = "another space has other requests for the same Modbus table";
                 reader.report(&codes::TABLE_VALUE, reader.span(name), message);
             }
             Some(_) => {}
-            None => found.push(own),
+            None => found.push(table),
         }
     }
     found
 }
 
-/// Requests have a length, and Modbus itself limits it (MODBUS Application Protocol V1.1b3, 6.1 to 6.12).
+/// Checks the limits of requests against those of the standard (MODBUS Application Protocol V1.1b3, 6.1 to 6.12).
 fn widths(reader: &mut Reader<'_, '_>, rule: &ModbusRule, space: RegisterSpace) {
     let (read, write, what) = match space {
         RegisterSpace::Coil | RegisterSpace::DiscreteInput => (2000, 1968, "bits"),
@@ -127,9 +127,9 @@ fn widths(reader: &mut Reader<'_, '_>, rule: &ModbusRule, space: RegisterSpace) 
     for (given, most, verb) in [(&rule.max_read, read, "reads"), (&rule.max_write, write, "writes")] {
         let Some(given) = given else { continue };
         if given.value == 0 {
-            reader.report(&codes::TABLE_VALUE, reader.span(given), "a request is about one register at least");
+            reader.report(&codes::TABLE_VALUE, reader.span(given), "a request has at least one register");
         } else if given.value > most {
-            let message = format!("a request of Modbus {verb} {most} {what} at most");
+            let message = format!("a Modbus request {verb} at most {most} {what}");
             reader.report(&codes::TABLE_VALUE, reader.span(given), message);
         }
     }
@@ -142,7 +142,7 @@ fn modbus(reader: &mut Reader<'_, '_>, rule: &ModbusRule) -> Modbus {
         ("coil", RegisterSpace::Coil),
         ("discrete", RegisterSpace::DiscreteInput),
     ];
-    let table = rule.table.as_ref().and_then(|table| reader.word(table, "table of Modbus", &tables));
+    let table = rule.table.as_ref().and_then(|table| reader.word(table, "Modbus table", &tables));
     let order = rule.order.as_ref().and_then(|order| word_order(reader, order));
     Modbus {
         space: table.unwrap_or(RegisterSpace::Holding),
@@ -152,24 +152,24 @@ fn modbus(reader: &mut Reader<'_, '_>, rule: &ModbusRule) -> Modbus {
     }
 }
 
-/// Whether the less significant word comes first.
+/// Returns whether the less significant word comes first.
 pub(super) fn word_order(reader: &mut Reader<'_, '_>, order: &At<String>) -> Option<bool> {
-    reader.word(order, "order of words", &[("high_first", false), ("low_first", true)])
+    reader.word(order, "word order", &[("high_first", false), ("low_first", true)])
 }
 
-fn objects(rule: &ObjectRule) -> Objects {
+fn objects(rule: &ObjectRule) -> ObjectBase {
     let index = rule.index.as_ref().map_or(0, |index| index.value);
-    Objects { index, sub_index: rule.sub.as_ref().map_or(0, |sub| sub.value) }
+    ObjectBase { index, sub_index: rule.sub.as_ref().map_or(0, |sub| sub.value) }
 }
 
 impl Space {
-    /// Index and sub-index of a register, where it is an object.
+    /// Returns index and sub-index of a register, if the space has a rule for objects.
     pub fn object(&self, number: u32) -> Option<(u16, u8)> {
         let rule = self.canopen.or(self.ethercat)?;
         Some((u16::try_from(rule.index.checked_add(number.into())?).ok()?, rule.sub_index))
     }
 
-    /// Where a register is on each bus. A number that a bus has no address for is reported.
+    /// Returns the addresses of a register on each bus. A register number without an address on a bus is reported.
     pub fn bindings(&self, reader: &mut Reader<'_, '_>, numbers: Numbers, buses: Buses, span: Span) -> Vec<Binding> {
         let mut bindings = self.object_bindings(reader, numbers, buses, span);
         if let Some(rule) = self.modbus.filter(|_| buses.contains(Bus::Modbus)) {
@@ -193,7 +193,7 @@ impl Space {
         let canopen = self.canopen.filter(|_| buses.contains(Bus::CanOpen));
         let ethercat = self.ethercat.filter(|_| buses.contains(Bus::EtherCat));
         let mut bindings = Vec::new();
-        let mut add = |rule: Option<Objects>, buses: ObjectBuses| {
+        let mut add = |rule: Option<ObjectBase>, buses: ObjectBuses| {
             let Some(rule) = rule else { return };
             match u16::try_from(rule.index.saturating_add(numbers.first.into())) {
                 Ok(index) => bindings.push(Binding::Object { buses, index, sub_index: rule.sub_index }),
@@ -215,12 +215,12 @@ impl Space {
             return None;
         };
         let bits = numbers.bits.unwrap_or(u32::from(self.bits));
-        // A table of bits counts bits; registers of Modbus have 16 of them, however many a number stands for.
+        // A table of bits counts bits. Modbus registers have 16 bits, whatever the bits of a register number.
         let unit = match rule.space {
             RegisterSpace::Coil | RegisterSpace::DiscreteInput => 1,
             _ => 16,
         };
-        // A part of a number is written into all of it, and fills nothing.
+        // A part of a register is written into it, and is not extended.
         let extended = self.extend && unit > 1 && numbers.bit_offset.is_none();
         let bits = if extended { bits.next_multiple_of(self.bits.into()) } else { bits };
         let mut register = RegisterBinding {
@@ -232,7 +232,7 @@ impl Space {
             low_word_first: numbers.low_word_first.unwrap_or(rule.low_word_first),
             bytes_swapped: numbers.bytes_swapped.unwrap_or(rule.bytes_swapped),
             bit_offset: numbers.bit_offset,
-            // A number of 32 bits is one address, and two registers.
+            // A register number of 32 bits is one address, but two registers.
             words_per_address: if unit == 16 { (self.bits / 16).max(1) } else { 1 },
             extended,
         };
@@ -240,7 +240,7 @@ impl Space {
         Some(Binding::Register(Box::new(register)))
     }
 
-    /// The numbers as the manual prints them.
+    /// Returns the register numbers as the manual prints them.
     fn printed(&self, first: u32, register: &RegisterBinding) -> CompactString {
         let (prefix, digits) = (self.prefix.as_str(), usize::from(self.digits));
         match u32::from(register.last() - register.address) {
@@ -251,5 +251,5 @@ impl Space {
 }
 
 fn no_address(reader: &mut Reader<'_, '_>, span: Span, number: u32, bus: &str) {
-    reader.report(&codes::TABLE_PLACE, span, format!("number {number} has no address on {bus}"));
+    reader.report(&codes::TABLE_PLACE, span, format!("register number {number} has no address on {bus}"));
 }

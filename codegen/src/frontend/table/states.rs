@@ -1,4 +1,4 @@
-//! States and commands of a state machine: patterns of bits, or the values of an enumeration.
+//! Reads the states and commands of a state machine: bit patterns, or the values of an enumeration.
 
 use super::at::{Entries, TextOr};
 use super::format::{MachineTable, PatternTable};
@@ -7,15 +7,15 @@ use crate::diagnostics::codes;
 use crate::ir::{Device, EnumValue, Pattern, Shape, Type, TypeRef};
 use crate::text::brief;
 
-/// The type and the values of the enumeration that is called so.
+/// Returns the base type and the values of the enumeration with this name.
 pub(super) fn enumeration<'d>(device: &'d Device, name: &str) -> Option<(Type, &'d [EnumValue])> {
-    device.types.iter().filter(|own| own.name == name).find_map(|own| match &own.shape {
+    device.types.iter().filter(|definition| definition.name == name).find_map(|definition| match &definition.shape {
         Shape::Enumeration { base, values, .. } => Some((*base, &**values)),
         _ => None,
     })
 }
 
-/// The states of a machine: patterns that it lists, or the values of an enumeration.
+/// Reads the states of a machine: its patterns, or the values of an enumeration.
 pub(super) fn states(
     reader: &mut Reader<'_, '_>,
     table: &MachineTable,
@@ -23,12 +23,16 @@ pub(super) fn states(
 ) -> (Option<TypeRef>, Vec<Pattern>) {
     let Some(given) = &table.states else { return (None, Vec::new()) };
     let name = match &given.value {
-        TextOr::Table(own) => return (None, patterns(reader, own)),
+        TextOr::Table(entries) => return (None, patterns(reader, entries)),
         TextOr::Text(name) => name,
     };
     let Some((base, values)) = enumeration(device, name) else {
         let is_enumeration = |shape: &Shape| matches!(shape, Shape::Enumeration { .. });
-        let known = device.types.iter().filter(|own| is_enumeration(&own.shape)).map(|own| own.name.as_str());
+        let known = device
+            .types
+            .iter()
+            .filter(|definition| is_enumeration(&definition.shape))
+            .map(|definition| definition.name.as_str());
         reader.unresolved("enumeration", name, reader.span(given), known);
         return (None, Vec::new());
     };
@@ -44,13 +48,13 @@ pub(super) fn states(
     (Some(TypeRef::new(name.as_str(), reader.span(given))), single.map(pattern).collect())
 }
 
-/// Reads patterns of bits: states or commands. One without a mask or value is reported.
+/// Reads bit patterns of states or commands. A pattern without mask or value is reported.
 pub(super) fn patterns(reader: &mut Reader<'_, '_>, entries: &Entries<PatternTable>) -> Vec<Pattern> {
     let mut patterns = Vec::new();
-    for (name, own) in entries.iter() {
-        let own = &own.value;
-        let (Some(mask), Some(value)) = (own.mask, own.value) else {
-            let message = format!("`{}` has a `mask` and a `value`", brief(&name.value));
+    for (name, pattern) in entries.iter() {
+        let pattern = &pattern.value;
+        let (Some(mask), Some(value)) = (pattern.mask, pattern.value) else {
+            let message = format!("`{}` needs a `mask` and a `value`", brief(&name.value));
             reader.report(&codes::TABLE_VALUE, reader.span(name), message);
             continue;
         };
@@ -58,8 +62,8 @@ pub(super) fn patterns(reader: &mut Reader<'_, '_>, entries: &Entries<PatternTab
             name: name.value.as_str().into(),
             mask,
             value,
-            names: reader.original(own.orig.as_deref()),
-            documentation: reader.documentation_of(own),
+            names: reader.original(pattern.orig.as_deref()),
+            documentation: reader.documentation_of(pattern),
         });
     }
     patterns

@@ -1,4 +1,4 @@
-//! What another place of the manual says of a row, held against the row.
+//! Compares a row with what other sections of the manual say about it.
 
 use std::collections::BTreeMap;
 
@@ -13,10 +13,10 @@ use crate::ir::{Access, Group, Item, Mappable, ObjectCode, Texts, Type, Value};
 use crate::source::Span;
 use crate::text::brief;
 
-/// What is said elsewhere of a row.
+/// The statements of other sections about a row.
 pub(super) type Summaries = At<OneOrMany<SummaryTable>>;
 
-/// Of an item.
+/// Compares an item with the statements about its row.
 pub(super) fn item(reader: &mut Reader<'_, '_>, definitions: &Definitions, given: &Summaries, item: &Item) {
     let is_domain = definitions.underlying(item.ty) == Type::Domain;
     for summary in &given.value.0 {
@@ -24,13 +24,13 @@ pub(super) fn item(reader: &mut Reader<'_, '_>, definitions: &Definitions, given
         names(reader, summary, &item.name, &item.names);
         code(reader, summary, if is_domain { ObjectCode::Domain } else { ObjectCode::Var });
         if let Some(subs) = summary.subs.as_ref().filter(|subs| subs.value != 1) {
-            let message = format!("the summary says {} sub-indices, and it is one value", subs.value);
+            let message = format!("the summary has {} sub-indices, but the row is one value", subs.value);
             report(reader, summary, reader.span(subs), message);
         }
     }
 }
 
-/// Of objects that have sub-entries: each of them but sub-index 0 is meant.
+/// Compares objects that have sub-entries. The statements apply to all sub-entries except sub-index 0.
 pub(super) fn objects(
     reader: &mut Reader<'_, '_>,
     definitions: &Definitions,
@@ -41,7 +41,7 @@ pub(super) fn objects(
         let Some(group) = dictionary.get(index) else { continue };
         for summary in &given.value.0 {
             names(reader, summary, &group.name, &group.names);
-            group.object_code().iter().for_each(|own| code(reader, summary, *own));
+            group.object_code().iter().for_each(|described| code(reader, summary, *described));
             let elements = group.items.iter().filter(|item| item.object().is_some_and(|(_, sub)| sub > 0));
             for item in elements.filter(|item| item.ty != Type::Opaque(None)) {
                 let sub_index = item.object().map_or(0, |(_, sub)| sub);
@@ -51,7 +51,7 @@ pub(super) fn objects(
             }
             let (Some(subs), count) = (&summary.subs, group.items.len()) else { continue };
             if subs.value as usize != count && group.object_code() != Some(ObjectCode::Var) {
-                let message = format!("the summary says {} sub-indices, and {count} are described", subs.value);
+                let message = format!("the summary has {} sub-indices, but the table has {count}", subs.value);
                 report(reader, summary, reader.span(subs), message);
             }
         }
@@ -60,43 +60,44 @@ pub(super) fn objects(
 
 fn report(reader: &mut Reader<'_, '_>, summary: &SummaryTable, span: Span, message: String) {
     let found = Diagnostic::new(&codes::SUMMARY_DIFFERS, span, message).label("the row is used");
-    let found = found.help("put what holds into the row, and the other into a `doubt`; then allow this code there");
+    let found =
+        found.help("write the correct value in the row and the other one in a `doubt`, and allow this code there");
     reader.diagnostics.push(match &summary.cite {
         Some(cite) => found.note(format!("cited from {}", cited(cite))),
         None => found,
     });
 }
 
-/// The object code, where the summary has one.
+/// Compares the object code, if the summary has one.
 fn code(reader: &mut Reader<'_, '_>, summary: &SummaryTable, described: ObjectCode) {
     let Some(given) = &summary.code else { return };
-    let said = reader.word(given, "object code", &OBJECT_CODES);
-    if said.is_some_and(|said| said != described) {
+    let stated = reader.word(given, "object code", &OBJECT_CODES);
+    if stated.is_some_and(|stated| stated != described) {
         let word = OBJECT_CODES.iter().find(|(_, code)| *code == described).map_or("another", |(word, _)| word);
-        let message = format!("the summary says code {}, and the row {word}", brief(&given.value));
+        let message = format!("the summary has the code {}, but the row has {word}", brief(&given.value));
         report(reader, summary, reader.span(given), message);
     }
 }
 
-/// The name, where the summary has one: without regard to case and punctuation that of the row or of its language.
+/// Compares the name, if the summary has one, with those of the row in all languages. Case and punctuation do not count.
 fn names(reader: &mut Reader<'_, '_>, summary: &SummaryTable, name: &str, names: &Texts) {
     let Some(given) = &summary.name else { return };
     let plain =
         |name: &str| -> String { name.chars().filter(|c| c.is_alphanumeric()).flat_map(char::to_lowercase).collect() };
-    let said = plain(&given.value);
-    if said != plain(name) && !names.iter().any(|other| plain(&other.text) == said) {
-        let message = format!("the summary says the name `{}`, and the row `{}`", brief(&given.value), brief(name));
+    let stated = plain(&given.value);
+    if stated != plain(name) && !names.iter().any(|other| plain(&other.text) == stated) {
+        let message = format!("the summary has the name `{}`, but the row has `{}`", brief(&given.value), brief(name));
         report(reader, summary, reader.span(given), message);
     }
 }
 
-/// Whether anything differs. `whose` is what the messages call the item.
+/// Compares an item with the summary. Returns whether anything differs. `subject` is the name of the item in messages.
 fn of_item(
     reader: &mut Reader<'_, '_>,
     definitions: &Definitions,
     summary: &SummaryTable,
     item: &Item,
-    whose: &str,
+    subject: &str,
 ) -> bool {
     let base = definitions.underlying(item.ty);
     let mut differs = Vec::new();
@@ -108,14 +109,14 @@ fn of_item(
             }
             Some(_) => {}
             None => {
-                let message = format!("`{}` is no type", brief(&given.value));
+                let message = format!("`{}` is not a type", brief(&given.value));
                 reader.report(&codes::TABLE_VALUE, reader.span(given), message);
             }
         }
     }
     let rights = |access: Access| (access.readable(), access.writable());
     if let Some(given) = &summary.access {
-        let access = reader.word(given, "access", &ACCESSES);
+        let access = reader.word(given, "access right", &ACCESSES);
         if access.is_some_and(|access| rights(access) != rights(item.access)) {
             differs.push((reader.span(given), given.value.clone(), item.access.name().to_owned()));
         }
@@ -135,12 +136,12 @@ fn of_item(
     numbers(reader, summary, item, base, &mut differs);
     let found = !differs.is_empty();
     for (span, says, has) in differs {
-        report(reader, summary, span, format!("the summary says {}, and {whose} {has}", brief(&says)));
+        report(reader, summary, span, format!("the summary has {}, but {subject} has {has}", brief(&says)));
     }
     found
 }
 
-/// Limits and default, where both places give them.
+/// Compares limits and default, if both the summary and the item have them.
 fn numbers(
     reader: &Reader<'_, '_>,
     summary: &SummaryTable,

@@ -1,4 +1,4 @@
-//! From the text of a table to the pieces of `format`, with every error at its place.
+//! Reads the text of a table into the types of `format`, and reports each error with its span.
 
 use std::cell::RefCell;
 use std::collections::HashMap;
@@ -20,14 +20,14 @@ use crate::limits::MAX_UNKNOWN_KEYS;
 use crate::source::{FileId, Origin, Source, Span};
 use crate::text::{brief, edit_distance, standard_and_clause};
 
-/// So many names are listed where none is like the one that was looked for.
+/// The maximum number of names that a message lists if no name is similar.
 const MAX_LISTED: usize = 12;
 
-/// Behind so many findings no names are suggested.
+/// The number of diagnostics after which no names are suggested.
 const MAX_HELPED: usize = 1000;
 
-/// First byte, and one past the last.
-type Place = (u32, u32);
+/// The first byte, and the byte after the last.
+type ByteRange = (u32, u32);
 
 /// The state of reading one file.
 pub(super) struct Reader<'a, 'd> {
@@ -38,12 +38,12 @@ pub(super) struct Reader<'a, 'd> {
     pub language: CompactString,
     /// The standard that the file restates; empty in a description of a device.
     pub standard: CompactString,
-    /// Where the elements of lists stand, by the places of the lists.
-    pub lists: RefCell<HashMap<Place, Rc<[Place]>>>,
+    /// The ranges of the elements of lists, by the ranges of the lists.
+    pub lists: RefCell<HashMap<ByteRange, Rc<[ByteRange]>>>,
 }
 
 impl<'a, 'd> Reader<'a, 'd> {
-    /// A reader of a file whose language and standard are not known yet.
+    /// Creates a reader of a file whose language and standard are not known yet.
     pub fn new(source: &'a Source, file: FileId, diagnostics: &'d mut Diagnostics) -> Self {
         let (language, standard, lists) = Default::default();
         Reader { source, file, diagnostics, language, standard, lists }
@@ -51,18 +51,18 @@ impl<'a, 'd> Reader<'a, 'd> {
 }
 
 impl<'a> Reader<'a, '_> {
-    /// The tables of the file; `None` where it is no TOML.
+    /// Parses the file. Returns `None` if it is not valid TOML.
     pub fn parse(&mut self) -> Option<DeTable<'a>> {
         let source = self.source;
         let (table, errors) = DeTable::parse_recoverable(source.text());
-        // One mistake brings others behind it, of which those on its line, or nowhere, say nothing new.
+        // An error causes follow-up errors, of which those on the same line, or without a span, are not useful.
         let mut last_line = 0;
         for (position, error) in errors.iter().enumerate() {
             let span = self.range(error.span());
             let line = self.source.line_at(span.start);
             let follows = std::mem::replace(&mut last_line, line) == line || error.span().is_none();
             if position == 0 || !follows {
-                let message = format!("this is no TOML: {}", first_line(error.message()));
+                let message = format!("not valid TOML: {}", first_line(error.message()));
                 let diagnostic = Diagnostic::new(&codes::TABLE_SYNTAX, self.visible(span), message);
                 self.diagnostics.push(match hint(error.message()) {
                     Some(hint) => diagnostic.help(hint),
@@ -73,82 +73,82 @@ impl<'a> Reader<'a, '_> {
         errors.is_empty().then(|| table.into_inner())
     }
 
-    /// Reads a piece. What is wrong with it is reported; unknown keys are left out, so that the rest counts.
+    /// Reads a value. Errors are reported. Unknown keys are removed, so that the rest is read.
     pub fn piece<T: Read>(&mut self, mut node: Node<'a>) -> Option<T> {
-        // Each costs another reading.
-        for told in 0..=MAX_UNKNOWN_KEYS {
+        // Each unknown key needs another attempt.
+        for attempt in 0..=MAX_UNKNOWN_KEYS {
             let mistake = match T::read(&node) {
                 Ok(piece) => return Some(piece),
                 Err(mistake) => mistake,
             };
             let span = self.range(Some(mistake.span));
             match mistake.kind {
-                MistakeKind::UnknownKey { .. } if told == MAX_UNKNOWN_KEYS => break,
+                MistakeKind::UnknownKey { .. } if attempt == MAX_UNKNOWN_KEYS => break,
                 MistakeKind::UnknownKey { key, known } => {
                     self.unknown_key(&key, known, span);
-                    // A key that is misspelt is read as the one that was meant, so that nothing more is said of it.
-                    let meant = similar(&key, known.iter().copied());
-                    if !remove(node.get_mut(), span, &key, meant) {
+                    // A misspelled key is read as the most similar one, to avoid follow-up errors.
+                    let suggestion = similar(&key, known.iter().copied());
+                    if !remove(node.get_mut(), span, &key, suggestion) {
                         return None;
                     }
                 }
                 MistakeKind::Value(message) => {
                     let diagnostic = Diagnostic::new(&codes::TABLE_VALUE, span, message);
                     self.diagnostics
-                        .push(diagnostic.help("`lexibus schema` and dictionaries/README.md say what it may be"));
+                        .push(diagnostic.help("`lexibus schema` and dictionaries/README.md list the valid values"));
                     return None;
                 }
             }
         }
         let whole = self.range(Some(node.span()));
-        let message = format!("more than {MAX_UNKNOWN_KEYS} keys that the format doesn't have");
+        let message = format!("the table has more than {MAX_UNKNOWN_KEYS} unknown keys");
         let diagnostic = Diagnostic::new(&codes::TABLE_VALUE, whole, message);
-        self.diagnostics.push(diagnostic.label("all of this is left out"));
+        self.diagnostics.push(diagnostic.label("the whole table is left out"));
         None
     }
 
-    /// The entries of a table in the order of the file.
+    /// Returns the entries of a table in the order of the file.
     pub fn entries(&mut self, node: Node<'a>, what: &str) -> Vec<(At<String>, Node<'a>)> {
         let span = node.span();
         let DeValue::Table(table) = node.into_inner() else {
-            let message = format!("`{what}` is a table");
+            let message = format!("`{what}` must be a table");
             self.diagnostics.push(Diagnostic::new(&codes::TABLE_VALUE, self.range(Some(span)), message));
             return Vec::new();
         };
         sorted(table)
     }
 
-    /// The elements of an array of tables.
+    /// Returns the elements of an array of tables.
     pub fn elements(&mut self, node: Node<'a>, what: &str) -> Vec<Node<'a>> {
         let span = node.span();
         match node.into_inner() {
             DeValue::Array(list) => list.into_iter().collect(),
             _ => {
-                let message = format!("`{what}` is a list of tables: write `[[{what}]]`");
+                let message = format!("`{what}` must be a list of tables: write `[[{what}]]`");
                 self.diagnostics.push(Diagnostic::new(&codes::TABLE_VALUE, self.range(Some(span)), message));
                 Vec::new()
             }
         }
     }
 
-    /// Reports a key that the format doesn't have.
+    /// Reports an unknown key.
     pub fn unknown_key(&mut self, key: &str, known: &[&str], span: Span) {
-        let message = format!("the format has no key `{}` here", brief(key));
+        let message = format!("unknown key `{}`", brief(key));
         let diagnostic = Diagnostic::new(&codes::UNKNOWN_TABLE_KEY, span, message);
         let is_number = key.starts_with(|letter: char| letter.is_ascii_digit() || letter == '-');
         let inner = ["at", "values"].into_iter().find(|inner| is_number && known.contains(inner));
         self.diagnostics.push(match similar(key, known.iter().copied()) {
-            _ if inner == Some("at") => diagnostic.help("bits stand in `at`: write `[bits.NAME.at]`"),
-            _ if inner.is_some() => diagnostic.help("values stand in `values`: write `[enums.NAME.values]`"),
+            _ if inner == Some("at") => diagnostic.help("write bits in `[bits.NAME.at]`"),
+            _ if inner.is_some() => diagnostic.help("write values in `[enums.NAME.values]`"),
             Some(name) => diagnostic.help(format!("did you mean `{name}`?")),
-            None if known.len() <= MAX_LISTED => diagnostic.help(format!("known here: {}", known.join(", "))),
-            None => diagnostic.help("dictionaries/README.md has all keys"),
+            None if known.len() <= MAX_LISTED => diagnostic.help(format!("known keys: {}", known.join(", "))),
+            None => diagnostic.help("dictionaries/README.md lists all keys"),
         });
     }
 
-    /// Reports a name that leads nowhere.
+    /// Reports a name without a definition.
     pub fn unresolved<'n>(&mut self, what: &str, name: &str, span: Span, known: impl Iterator<Item = &'n str>) {
-        let message = format!("there is no {what} called `{}`", brief(name));
+        let message = format!("no {what} has the name `{}`", brief(name));
         let diagnostic = Diagnostic::new(&codes::UNRESOLVED_NAME, span, message);
         let known = known.take_while(|_| self.helps());
         let known: Vec<&str> = known.filter(|known| !known.trim().is_empty()).collect();
@@ -156,7 +156,7 @@ impl<'a> Reader<'a, '_> {
             Some(name) => diagnostic.help(format!("did you mean `{name}`?")),
             None if (1..=MAX_LISTED).contains(&known.len()) => {
                 let known: Vec<&str> = known.into_iter().map(brief).collect();
-                diagnostic.help(format!("there are: {}", known.join(", ")))
+                diagnostic.help(format!("known names: {}", known.join(", ")))
             }
             None => diagnostic,
         });
@@ -166,13 +166,13 @@ impl<'a> Reader<'a, '_> {
         self.diagnostics.push(Diagnostic::new(code, span, message));
     }
 
-    /// One of a few words; anything else is reported.
+    /// Returns the value of a word. Any other word is reported.
     pub fn word<T: Copy>(&mut self, given: &At<String>, what: &str, words: &[(&str, T)]) -> Option<T> {
         let found = words.iter().find(|(word, _)| *word == given.value).map(|&(_, value)| value);
         if found.is_none() {
             let known: Vec<&str> = words.iter().map(|&(word, _)| word).collect();
-            let message = format!("`{}` is no {what}", brief(&given.value));
-            let help = format!("one of {}", known.join(", "));
+            let message = format!("`{}` is not a valid {what}", brief(&given.value));
+            let help = format!("write one of {}", known.join(", "));
             self.diagnostics.push(Diagnostic::new(&codes::TABLE_VALUE, self.span(given), message).help(help));
         }
         found
@@ -182,7 +182,7 @@ impl<'a> Reader<'a, '_> {
         Span::new(self.file, at.start, at.end)
     }
 
-    /// A reference to the element of this name.
+    /// Creates a reference to the element with this name.
     pub fn reference<Id>(&self, name: &At<String>) -> Reference<Id> {
         Reference::new(name.value.as_str(), self.span(name))
     }
@@ -191,7 +191,7 @@ impl<'a> Reader<'a, '_> {
         Origin { span: self.span(at), line: self.source.line_at(at.start) }
     }
 
-    /// A place that can be shown: where nothing is marked, the letter before.
+    /// Returns a span that can be shown: for an empty span, the character before it.
     fn visible(&self, span: Span) -> Span {
         let before =
             self.source.text().get(..span.start as usize).and_then(|text| text.trim_end().char_indices().last());
@@ -206,45 +206,44 @@ impl<'a> Reader<'a, '_> {
         Span::new(self.file, range.start as u32, range.end as u32)
     }
 
-    /// The literals of a list that stands between these bytes, each at its own place.
-    pub fn each(&self, list: &[Literal], whole: (u32, u32)) -> Vec<At<Literal>> {
-        let places = self.places(whole);
-        let place = |at: usize| if places.len() == list.len() { places[at] } else { whole };
-        let at = |(at, value): (usize, &Literal)| At { value: value.clone(), start: place(at).0, end: place(at).1 };
+    /// Returns the literals of the list in the range `whole`, each with its span.
+    pub fn each(&self, list: &[Literal], whole: ByteRange) -> Vec<At<Literal>> {
+        let ranges = self.element_ranges(whole);
+        let range = |at: usize| if ranges.len() == list.len() { ranges[at] } else { whole };
+        let at = |(at, value): (usize, &Literal)| At { value: value.clone(), start: range(at).0, end: range(at).1 };
         list.iter().enumerate().map(at).collect()
     }
 
-    /// The place of an element of a list of so many.
-    pub fn place(&self, length: usize, at: usize, whole: (u32, u32)) -> (u32, u32) {
-        let places = self.places(whole);
-        places.get(at).copied().filter(|_| places.len() == length).unwrap_or(whole)
+    /// Returns the range of an element of a list with `length` elements.
+    pub fn element_range(&self, length: usize, at: usize, whole: ByteRange) -> ByteRange {
+        let ranges = self.element_ranges(whole);
+        ranges.get(at).copied().filter(|_| ranges.len() == length).unwrap_or(whole)
     }
 
-    /// The places of the elements of a list between these bytes. A row may stand for many items, each of which looks.
-    fn places(&self, (start, end): (u32, u32)) -> Rc<[(u32, u32)]> {
+    /// Returns the ranges of the elements of a list. Each item of a row needs them, so they are kept.
+    fn element_ranges(&self, list: ByteRange) -> Rc<[ByteRange]> {
         let mut known = self.lists.borrow_mut();
         let find = || {
-            let parsed = DeValue::parse(self.source.slice(Span::new(self.file, start, end))).ok();
+            let parsed = DeValue::parse(self.source.slice(Span::new(self.file, list.0, list.1))).ok();
             let Some(DeValue::Array(elements)) = parsed.as_ref().map(Spanned::get_ref) else { return Rc::from([]) };
-            let place = |span: std::ops::Range<usize>| (start + span.start as u32, start + span.end as u32);
-            elements.iter().map(|element| place(element.span())).collect()
+            let range = |span: std::ops::Range<usize>| (list.0 + span.start as u32, list.0 + span.end as u32);
+            elements.iter().map(|element| range(element.span())).collect()
         };
-        Rc::clone(known.entry((start, end)).or_insert_with(find))
+        Rc::clone(known.entry(list).or_insert_with(find))
     }
 
-    /// Whether a finding still says what was meant: behind so many nobody reads that, and each name would be compared with every
-    /// one that there is.
+    /// Returns whether messages still suggest names. After many diagnostics, comparing all names takes too long.
     pub fn helps(&self) -> bool {
         self.diagnostics.list().len() < MAX_HELPED
     }
 
-    /// Whether a number is written in hexadecimal, or as bits.
+    /// Returns whether a number is hexadecimal or binary.
     pub fn is_pattern<T>(&self, at: &At<T>) -> bool {
         let text = self.source.slice(self.span(at)).trim_start_matches(['"', '\'']);
         text.starts_with("0x") || text.starts_with("0X") || text.starts_with("0b")
     }
 
-    /// What the source says about an element.
+    /// Returns the documentation of an element.
     pub fn documentation(&self, doc: Option<&str>, cite: Option<String>) -> Option<Box<Documentation>> {
         if doc.is_none() && cite.is_none() {
             return None;
@@ -252,29 +251,29 @@ impl<'a> Reader<'a, '_> {
         let text = doc.unwrap_or_default().to_owned();
         let (cite, text_from) = match self.standard.as_str() {
             "" => (cite.map(CompactString::from), None),
-            // What has no clause of its own is within something that has one.
+            // An element without a clause is in an element that has one.
             standard => (None, cite.map(|clause| FactOrigin::Standard(standard_and_clause(standard, &clause).into()))),
         };
         Some(Box::new(Documentation { text, cite, text_from: text_from.map(Box::new), ..Documentation::default() }))
     }
 
-    /// A name in the manual's language.
+    /// Returns a name in the manual's language.
     pub fn original(&self, orig: Option<&str>) -> Texts {
         let language = || if self.language.is_empty() { "und".into() } else { self.language.clone() };
         orig.map(|text| LocalText { language: language(), text: text.into() }).into_iter().collect()
     }
 
-    /// The same of a table.
+    /// Returns the documentation of a table.
     pub fn documentation_of(&self, table: &(impl Documented + Cited)) -> Option<Box<Documentation>> {
         self.documentation(table.doc(), table.cited())
     }
 
-    /// The doubts of a table.
+    /// Returns the ambiguities of a table.
     pub fn doubts_of(&mut self, table: &impl Doubted, origin: Origin) -> Doubts {
         self.doubts(table.doubt_tables(), origin, table.cited().as_deref())
     }
 
-    /// The doubts of a table that stands for an element of the device.
+    /// Returns the ambiguities of a table that describes an element of the device.
     pub fn doubts_about(
         &mut self,
         table: &impl Doubted,
@@ -293,7 +292,7 @@ impl<'a> Reader<'a, '_> {
         cite: Option<&str>,
     ) -> Doubts {
         let tables = lists.into_iter().flatten().flat_map(|list| &list.0);
-        let words = [Severity::Hazard, Severity::Value, Severity::Print].map(|own| (own.name(), own));
+        let words = [Severity::Hazard, Severity::Value, Severity::Print].map(|severity| (severity.name(), severity));
         let doubt = |table: &DoubtTable| Doubt {
             says: table.says.clone(),
             chosen: table.chose.clone(),
@@ -307,41 +306,41 @@ impl<'a> Reader<'a, '_> {
     }
 }
 
-/// Doubts about an element of the device.
+/// Marks ambiguities as those of an element of the device.
 pub(super) fn about(doubts: Doubts, kind: SubjectKind, name: &str, element: &str) -> Doubts {
     let subject = Subject { kind, name: name.into(), element: element.into() };
     let about = |doubt| Doubt { subject: Some(Box::new(subject.clone())), ..doubt };
     doubts.into_iter().map(about).collect()
 }
 
-/// Pages or lines as one text.
+/// Returns pages or lines as one text.
 pub(super) fn cited(list: &super::at::OneOrMany<NumberOrText>) -> String {
     list.0.iter().map(NumberOrText::to_string).collect::<Vec<_>>().join(", ")
 }
 
-/// The most similar of the names that exist, if any is similar at all.
+/// Returns the most similar of the known names, unless none is similar.
 pub(super) fn similar<'n>(name: &str, known: impl Iterator<Item = &'n str>) -> Option<&'n str> {
     let lower = brief(name).to_lowercase();
     let best = known.map(|other| (edit_distance(&lower, &other.to_lowercase()), other)).min()?;
     (best.0 * 3 <= lower.chars().count().max(3)).then_some(best.1)
 }
 
-/// Entries by their place: the parser sorts by name.
+/// Returns entries in the order of the file. The parser sorts them by name.
 pub(super) fn sorted<'a>(table: DeTable<'a>) -> Vec<(At<String>, Node<'a>)> {
     let mut entries: Vec<_> = table.into_iter().map(|(key, value)| (read::key(&key), value)).collect();
     entries.sort_by_key(|(key, _)| key.start);
     entries
 }
 
-/// What is usually meant where a table isn't TOML.
+/// Returns the usual cause of an error in TOML.
 fn hint(message: &str) -> Option<&'static str> {
     let has = |part: &str| message.contains(part);
     match () {
-        () if has("key with no value") => Some("a name of several words stands in quotes: `\"pump speed\" = { … }`"),
+        () if has("key with no value") => Some("write a name of several words in quotes: `\"pump speed\" = { … }`"),
         () if has("invalid date") || has("invalid time") || has("invalid datetime") => {
-            Some("a range of registers stands in quotes: `reg = \"63-64\"`")
+            Some("write a range of registers in quotes: `reg = \"63-64\"`")
         }
-        () if has("duplicate key") => Some("two rows of one chapter, or two keys of one row, can't have the same name"),
+        () if has("duplicate key") => Some("rows of a chapter, and keys of a row, must have different names"),
         () => None,
     }
 }
@@ -350,29 +349,31 @@ fn first_line(message: &str) -> &str {
     message.lines().next().unwrap_or_default()
 }
 
-/// Takes the key that stands at `span` out of the tables of `value`, or makes it the one that was meant.
-fn remove(value: &mut DeValue<'_>, span: Span, key: &str, meant: Option<&str>) -> bool {
+/// Removes the key at `span` from the tables of `value`, or renames it to `suggestion`. Returns whether it was found.
+fn remove(value: &mut DeValue<'_>, span: Span, key: &str, suggestion: Option<&str>) -> bool {
     match value {
         DeValue::Table(table) => {
-            let here =
-                table.keys().find(|own| own.get_ref() == key && own.span().start == span.start as usize).cloned();
-            match here {
-                Some(own) => {
-                    let value = table.remove(&own);
-                    if let Some((meant, value)) = meant.filter(|meant| !table.contains_key(*meant)).zip(value) {
-                        table.insert(Spanned::new(own.span(), meant.to_owned().into()), value);
+            let found_key =
+                table.keys().find(|known| known.get_ref() == key && known.span().start == span.start as usize).cloned();
+            match found_key {
+                Some(found_key) => {
+                    let value = table.remove(&found_key);
+                    if let Some((suggestion, value)) =
+                        suggestion.filter(|suggestion| !table.contains_key(*suggestion)).zip(value)
+                    {
+                        table.insert(Spanned::new(found_key.span(), suggestion.to_owned().into()), value);
                     }
                     true
                 }
-                None => table.iter_mut().any(|(_, inner)| remove(inner.get_mut(), span, key, meant)),
+                None => table.iter_mut().any(|(_, inner)| remove(inner.get_mut(), span, key, suggestion)),
             }
         }
-        DeValue::Array(list) => list.iter_mut().any(|inner| remove(inner.get_mut(), span, key, meant)),
+        DeValue::Array(list) => list.iter_mut().any(|inner| remove(inner.get_mut(), span, key, suggestion)),
         _ => false,
     }
 }
 
-/// Puts the chosen values in the places of `$name`. Returns the names that no option has, with their places.
+/// Replaces `$name` with the chosen values.
 pub(super) fn choose<'a>(value: &mut Node<'a>, chosen: &HashMap<String, DeValue<'a>>) {
     match value.get_mut() {
         DeValue::String(text) => {
@@ -386,7 +387,7 @@ pub(super) fn choose<'a>(value: &mut Node<'a>, chosen: &HashMap<String, DeValue<
     }
 }
 
-/// The value of each option: what the caller chose, else its default.
+/// Returns the value of each option: the choice of the caller, otherwise the default.
 pub(super) fn choices<'a>(
     reader: &mut Reader<'a, '_>,
     options: &[(At<String>, OptionTable, Node<'a>)],
@@ -394,7 +395,7 @@ pub(super) fn choices<'a>(
 ) -> HashMap<String, DeValue<'a>> {
     let mut values = HashMap::new();
     for (name, option, node) in options {
-        let by_caller = chosen.iter().rev().find(|(own, _)| *own == name.value);
+        let by_caller = chosen.iter().rev().find(|(option_name, _)| *option_name == name.value);
         let (choice, span) = match (by_caller, &option.default) {
             (Some((_, choice)), _) => (choice.as_str(), reader.span(name)),
             (None, Some(default)) => (default.value.as_str(), reader.span(default)),
@@ -411,26 +412,26 @@ pub(super) fn choices<'a>(
             let known = option.choices.iter().map(|(key, _)| key.value.as_str());
             reader.unresolved(&format!("choice of the option `{}`", name.value), choice, span, known);
         }
-        // With any of the others the rest of the table can be read.
+        // The rest of the table can be read with any choice.
         if let Some(value) = value.or_else(|| choices?.values().next()) {
             values.insert(name.value.clone(), value.get_ref().clone());
         }
     }
     for (name, _) in chosen {
-        if !options.iter().any(|(own, ..)| own.value == *name) {
-            let known = options.iter().map(|(own, ..)| own.value.as_str());
+        if !options.iter().any(|(option_name, ..)| option_name.value == *name) {
+            let known = options.iter().map(|(option_name, ..)| option_name.value.as_str());
             reader.unresolved("option of this table", name, Span::new(reader.file, 0, 0), known);
         }
     }
     values
 }
 
-/// Texts `$name` that no option replaced.
+/// Reports texts `$name` that no option replaced.
 pub(super) fn undecided(reader: &mut Reader<'_, '_>, value: &Node<'_>, known: &[String]) {
     match value.get_ref() {
         DeValue::String(text) => {
             let is_name = |name: &str| name.starts_with(|c: char| c.is_ascii_lowercase());
-            let is_known = |name: &str| known.iter().any(|own| own == name);
+            let is_known = |name: &str| known.iter().any(|known_name| known_name == name);
             if let Some(name) = text.strip_prefix('$').filter(|name| is_name(name) && !is_known(name)) {
                 let span = reader.range(Some(value.span()));
                 reader.unresolved("option", name, span, known.iter().map(String::as_str));
@@ -442,7 +443,7 @@ pub(super) fn undecided(reader: &mut Reader<'_, '_>, value: &Node<'_>, known: &[
     }
 }
 
-/// A literal as text.
+/// Returns a literal as text.
 pub(super) fn text_of(literal: &Literal) -> String {
     match literal {
         Literal::Bool(value) => value.to_string(),

@@ -1,23 +1,23 @@
-//! The names of types.
+//! Reads type names.
 
 use crate::ir::Type;
 
-/// What the name of a type stands for: the type, and the number of elements of an array.
+/// The type of a name, and the number of elements of an array.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Named {
+pub(super) struct NamedType {
     pub ty: Type,
     pub elements: Option<u32>,
 }
 
-/// `u16`, `i32`, `f32`, `bool`, `str(25)`, `wstr(10)`, `bytes(6)`, times, `domain`, `?`; `u16[10]` is an array.
-pub(super) fn named(text: &str) -> Option<Named> {
+/// Reads `u16`, `i32`, `f32`, `bool`, `str(25)`, `wstr(10)`, `bytes(6)`, times, `domain`, `?`, or an array such as `u16[10]`.
+pub(super) fn named(text: &str) -> Option<NamedType> {
     let text = text.trim();
     match text.strip_suffix(']').and_then(|rest| rest.split_once('[')) {
         Some((element, count)) => {
             let elements = count.trim().parse().ok().filter(|&count| count > 0)?;
-            Some(Named { ty: single(element.trim())?, elements: Some(elements) })
+            Some(NamedType { ty: single(element.trim())?, elements: Some(elements) })
         }
-        None => single(text).map(|ty| Named { ty, elements: None }),
+        None => single(text).map(|ty| NamedType { ty, elements: None }),
     }
 }
 
@@ -49,12 +49,12 @@ fn single(text: &str) -> Option<Type> {
     })
 }
 
-/// The type that another name means, or that has a similar one.
-pub(super) fn meant(text: &str) -> Option<&'static str> {
+/// Returns the type name for another common name, or the most similar type name.
+pub(super) fn suggestion(text: &str) -> Option<&'static str> {
     let lower = text.to_lowercase().replace(['_', ' '], "");
     let (letters, digits) = lower.split_at(lower.find(|c: char| c.is_ascii_digit()).unwrap_or(lower.len()));
     let digits = digits.trim_end_matches('t');
-    let of = |names: [&'static str; 4]| names.into_iter().find(|own| own[1..] == *digits);
+    let of = |names: [&'static str; 4]| names.into_iter().find(|name| name[1..] == *digits);
     let usual = match (letters, digits) {
         ("uint" | "unsigned" | "unsignedint", _) => of(["u8", "u16", "u32", "u64"]),
         ("int" | "sint" | "s" | "signed" | "integer", _) => of(["i8", "i16", "i32", "i64"]),
@@ -69,7 +69,7 @@ pub(super) fn meant(text: &str) -> Option<&'static str> {
     usual.or_else(|| super::tree::similar(text, NAMES.into_iter()))
 }
 
-/// The names that a suggestion is taken from, and that editors offer.
+/// The type names that suggestions and editors offer.
 pub(super) const NAMES: [&str; 18] = [
     "bool",
     "u8",
@@ -97,16 +97,16 @@ mod tests {
 
     #[test]
     fn names_of_types() {
-        let is = |text: &str, ty: Type| assert_eq!(named(text), Some(Named { ty, elements: None }), "{text}");
+        let is = |text: &str, ty: Type| assert_eq!(named(text), Some(NamedType { ty, elements: None }), "{text}");
         is("u16", Type::Unsigned(16));
         is("i24", Type::Integer(24));
         is("str(25)", Type::VisibleString(Some(25)));
         is("bytes", Type::OctetString(None));
         is("?", Type::Opaque(None));
-        assert_eq!(named("u16[10]"), Some(Named { ty: Type::Unsigned(16), elements: Some(10) }));
+        assert_eq!(named("u16[10]"), Some(NamedType { ty: Type::Unsigned(16), elements: Some(10) }));
         let usual = [("uint16", "u16"), ("INT32", "i32"), ("uint16_t", "u16"), ("float", "f32"), ("boool", "bool")];
         for (text, name) in usual {
-            assert_eq!(meant(text), Some(name), "{text}");
+            assert_eq!(suggestion(text), Some(name), "{text}");
         }
         for text in ["", "u", "u0", "u65", "i", "u16(2)", "u16[0]", "u16[x]", "int", "é", "str(x)"] {
             assert_eq!(named(text), None, "{text}");

@@ -1,6 +1,6 @@
-//! Symbols of units.
+//! Unit symbols.
 
-/// Symbols of single units: the SI's and those of drives. Products, quotients and powers are made of them.
+/// Symbols of single units: SI units and those of drives. Products, quotients and powers consist of them.
 const SYMBOLS: [&str; 90] = [
     "%", "%RH", "1", "A", "Ah", "Bd", "C", "F", "GHz", "H", "Hz", "J", "K", "MB", "MHz", "Mbit", "MΩ", "N", "Nm", "Pa",
     "V", "VA", "VAh", "W", "Wh", "bar", "bit", "byte", "cm", "count", "counts", "d", "dB", "deg", "g", "h", "in", "kA",
@@ -9,10 +9,10 @@ const SYMBOLS: [&str; 90] = [
     "Ω", "L", "hPa", "kPa", "kvar", "lm", "lx", "mL", "mS", "mg", "ml", "mol", "pH", "psi", "t", "dBm", "S",
 ];
 
-/// Those with a sign in front of a letter.
+/// Symbols with `°` or `µ`.
 const SIGNS: [&str; 13] = ["°", "°C", "°F", "µs", "µA", "µm", "µV", "µH", "µF", "μs", "μm", "µS", "µg"];
 
-/// Whether this is the symbol of a unit: `rev/s²`, `kg·m²`, `mNm/A`.
+/// Returns whether the text is a unit symbol: `rev/s²`, `kg·m²`, `mNm/A`.
 pub(super) fn is_known(symbol: &str) -> bool {
     symbol.split(['/', '·']).all(|part| {
         let single = part.trim_end_matches(['²', '³']);
@@ -20,7 +20,7 @@ pub(super) fn is_known(symbol: &str) -> bool {
     })
 }
 
-/// The symbol of a unit that is spelled in another way.
+/// Returns the symbol of a unit for another spelling of it.
 pub(super) fn usual(text: &str) -> Option<&'static str> {
     const SPELLINGS: &[(&str, &[&str])] = &[
         (
@@ -66,9 +66,9 @@ pub(super) fn usual(text: &str) -> Option<&'static str> {
     ];
     let lower = text.to_lowercase();
     let known = SPELLINGS.iter().find(|(_, spellings)| spellings.contains(&lower.as_str()));
-    // A lower case of V, A or W is no other unit.
+    // The lower-case forms of V, A or W are not other units.
     let cased = ["V", "A", "W", "kW", "kWh", "Wh", "kV", "mV", "mA", "kVA", "VA", "Hz", "kHz", "var", "bar", "Nm"];
-    let cased = || cased.into_iter().find(|own| own.to_lowercase() == lower && !matches!(text, "a" | "mw"));
+    let cased = || cased.into_iter().find(|symbol| symbol.to_lowercase() == lower && !matches!(text, "a" | "mw"));
     known.map(|&(symbol, _)| symbol).or_else(cased)
 }
 
@@ -77,7 +77,7 @@ mod tests {
     use super::{is_known, usual};
 
     #[test]
-    fn symbols_and_what_is_made_of_them() {
+    fn single_and_composed_symbols() {
         for symbol in ["rpm", "rev/s²", "kg·m²", "mNm/A", "mm/count", "°C", "µs", "kbit/s"] {
             assert!(is_known(symbol), "{symbol}");
         }

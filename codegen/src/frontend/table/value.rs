@@ -1,9 +1,9 @@
-//! Literals to values of a type.
+//! Converts literals to values of a type.
 
 use thin_vec::ThinVec;
 
 use super::at::{At, Literal};
-use super::place;
+use super::notation;
 use super::tree::{text_of, Reader};
 use crate::diagnostics::{codes, Diagnostic};
 use crate::ir::{Type, Value};
@@ -11,7 +11,7 @@ use crate::limits::MAX_LISTED_VALUES;
 use crate::source::Span;
 use crate::text::brief;
 
-/// The value of a literal, for a type that is no alias; a literal that can't be one is reported and kept as text.
+/// Converts a literal to a value of a type that is not an alias. An unsuitable literal is reported and kept as text.
 pub(super) fn value(reader: &mut Reader<'_, '_>, given: &At<Literal>, ty: Type) -> Value {
     let is_pattern = reader.is_pattern(given);
     match convert(&given.value, ty, is_pattern) {
@@ -22,11 +22,14 @@ pub(super) fn value(reader: &mut Reader<'_, '_>, given: &At<Literal>, ty: Type) 
         None => {
             let text = text_of(&given.value);
             let span = reader.span(given);
-            let diagnostic =
-                Diagnostic::new(&codes::TABLE_VALUE, span, format!("`{}` is no value of {ty}", brief(&text)));
+            let diagnostic = Diagnostic::new(
+                &codes::TABLE_VALUE,
+                span,
+                format!("`{}` is not a value of the type {ty}", brief(&text)),
+            );
             let is_real = matches!(given.value, Literal::Real(_));
             reader.diagnostics.push(match is_real {
-                true => diagnostic.help("limits and defaults are what the device holds, before `scale`"),
+                true => diagnostic.help("write raw values: limits and defaults apply before `scale`"),
                 false => diagnostic,
             });
             Value::Raw(text.into())
@@ -34,19 +37,20 @@ pub(super) fn value(reader: &mut Reader<'_, '_>, given: &At<Literal>, ty: Type) 
     }
 }
 
-/// The values of a list, and first and last of its ranges (`"3..7"`).
+/// Converts a list of values and ranges (`"3..7"`) to pairs of first and last value.
 pub(super) fn ranges(
     reader: &mut Reader<'_, '_>,
-    (given, place): (&[Literal], (u32, u32)),
+    list: &[Literal],
+    whole: (u32, u32),
     ty: Type,
 ) -> ThinVec<(Value, Value)> {
-    let mut found = ThinVec::with_capacity(given.len());
-    for literal in reader.each(given, place) {
+    let mut found = ThinVec::with_capacity(list.len());
+    for literal in reader.each(list, whole) {
         match range(reader, &literal, ty) {
             Some(range) => found.push(range),
             None => {
                 let what = if matches!(ty, Type::Opaque(_)) { "number".to_owned() } else { format!("value of {ty}") };
-                let message = format!("`{}` is no {what}, and no range of them", brief(&text_of(&literal.value)));
+                let message = format!("`{}` is neither a {what} nor a range of them", brief(&text_of(&literal.value)));
                 let diagnostic = Diagnostic::new(&codes::TABLE_VALUE, reader.span(&literal), message);
                 reader.diagnostics.push(diagnostic.help("write `3`, or `\"3..7\"` for a range"));
             }
@@ -55,14 +59,14 @@ pub(super) fn ranges(
     found
 }
 
-/// The values that an element of a list stands for: first and last. `None` where it is none of them.
+/// Returns the first and last value of an element of a list, or `None` if it is invalid.
 pub(super) fn range(reader: &Reader<'_, '_>, literal: &At<Literal>, ty: Type) -> Option<(Value, Value)> {
     match &literal.value {
         Literal::Text(text) if has_numbers(ty) => {
-            let (first, last) = place::range(text)?;
+            let (first, last) = notation::range(text)?;
             let is_pattern = text.contains("0x") || text.contains("0b");
             let one = |number| convert(&Literal::Int(number), ty, is_pattern).unwrap_or(Value::Int(number));
-            // What is in order as patterns may not be as numbers.
+            // Numbers in ascending order may be patterns of signed values in descending order.
             let in_order = first <= last && one(first).as_int() <= one(last).as_int();
             in_order.then(|| (one(first), one(last)))
         }
@@ -70,25 +74,25 @@ pub(super) fn range(reader: &Reader<'_, '_>, literal: &At<Literal>, ty: Type) ->
     }
 }
 
-/// Whether values of this type are numbers; of a type that isn't known they are.
+/// Returns whether the values of a type are numbers. An unknown type counts as numeric.
 fn has_numbers(ty: Type) -> bool {
     matches!(ty, Type::Integer(_) | Type::Unsigned(_) | Type::Opaque(_) | Type::Boolean)
 }
 
-/// The same, each value of a range by itself.
-pub(super) fn listed(reader: &mut Reader<'_, '_>, (given, place): (&[Literal], (u32, u32)), ty: Type) -> Vec<Value> {
+/// Converts a list of values and ranges to a list of single values.
+pub(super) fn listed(reader: &mut Reader<'_, '_>, list: &[Literal], whole: (u32, u32), ty: Type) -> Vec<Value> {
     let mut values: Vec<Value> = Vec::new();
     let fits = |values: &[Value], low: i128, high: i128| {
         high.checked_sub(low).is_some_and(|more| more.saturating_add(values.len() as i128) < MAX_LISTED_VALUES)
     };
-    for (first, last) in ranges(reader, (given, place), ty) {
+    for (first, last) in ranges(reader, list, whole, ty) {
         match (first.as_int(), last.as_int()) {
             (Some(low), Some(high)) if low < high && fits(&values, low, high) => {
                 values.extend((low..=high).map(Value::Int));
             }
             (Some(low), Some(high)) if low < high => {
-                let message = format!("with {low} to {high} there are more than {MAX_LISTED_VALUES} values");
-                reader.report(&codes::TABLE_VALUE, Span::new(reader.file, place.0, place.1), message);
+                let message = format!("with {low} to {high}, the list has more than {MAX_LISTED_VALUES} values");
+                reader.report(&codes::TABLE_VALUE, Span::new(reader.file, whole.0, whole.1), message);
             }
             _ => values.push(first),
         }
@@ -96,7 +100,7 @@ pub(super) fn listed(reader: &mut Reader<'_, '_>, (given, place): (&[Literal], (
     values
 }
 
-/// The value of a literal; `is_pattern` where its digits are bits, of which the first is the sign.
+/// Converts a literal to a value. `is_pattern` means that its digits are bits, the first of them the sign.
 pub(super) fn convert(literal: &Literal, ty: Type, is_pattern: bool) -> Option<Value> {
     if let Literal::Text(text) = literal {
         return of_text(text, ty);
@@ -114,7 +118,7 @@ pub(super) fn convert(literal: &Literal, ty: Type, is_pattern: bool) -> Option<V
     })
 }
 
-/// What a number, or a pattern of bits, means in a type.
+/// Returns the value of a number, or of a bit pattern, in a type.
 pub(super) fn integer(value: i128, ty: Type, is_pattern: bool) -> i128 {
     match ty {
         Type::Integer(bits) => signed(value, bits, is_pattern),
@@ -122,7 +126,7 @@ pub(super) fn integer(value: i128, ty: Type, is_pattern: bool) -> i128 {
     }
 }
 
-/// A bit pattern has no other way to be negative.
+/// Returns the value of a number. A bit pattern with the sign bit set is negative.
 fn signed(value: i128, bits: u8, is_pattern: bool) -> i128 {
     let modulus = 1i128 << bits.min(64);
     if is_pattern && value >= modulus / 2 && value < modulus {
@@ -142,13 +146,13 @@ fn of_text(text: &str, ty: Type) -> Option<Value> {
         Type::Boolean => None,
         _ => node_id(text).map(Value::NodeId).or_else(|| {
             let digits = text.trim_start_matches(['+', '-']);
-            let value = place::integer(text)?;
+            let value = notation::integer(text)?;
             convert(&Literal::Int(value), ty, digits.starts_with("0x") || digits.starts_with("0b"))
         }),
     }
 }
 
-/// `$NODEID`, `$NODEID+0x80`, `0x80+$NODEID`.
+/// Reads `$NODEID`, `$NODEID+0x80`, `0x80+$NODEID`.
 fn node_id(text: &str) -> Option<i128> {
     let text: String = text.chars().filter(|c| !c.is_whitespace()).collect();
     let rest = match (text.strip_prefix("$NODEID"), text.strip_suffix("+$NODEID")) {
@@ -159,10 +163,10 @@ fn node_id(text: &str) -> Option<i128> {
     if rest.is_empty() {
         return Some(0);
     }
-    place::integer(rest)
+    notation::integer(rest)
 }
 
-/// `01 02`, `0x01,0x02`, `0102`.
+/// Reads `01 02`, `0x01,0x02`, `0102`.
 fn octets(text: &str) -> Option<Vec<u8>> {
     let digits = text.replace("0x", "").replace([' ', ',', ':'], "");
     if !digits.is_ascii() || !digits.len().is_multiple_of(2) {

@@ -1,9 +1,9 @@
-//! Windows: items through which the values of a space are reached by their numbers.
+//! Reads windows: items through which the values of a space are accessed by number.
 
 use super::at::{At, Entries, TextOr};
 use super::buses;
 use super::format::{IndirectRule, SpaceTable, WindowTable};
-use super::place;
+use super::notation;
 use super::references::{References, ITEM};
 use super::tree::Reader;
 use crate::diagnostics::codes;
@@ -19,7 +19,7 @@ pub(super) struct Window {
     write: Option<WindowSide>,
 }
 
-/// The windows of a space.
+/// Reads the windows of a space.
 pub(super) fn read(reader: &mut Reader<'_, '_>, name: &At<String>, table: &SpaceTable) -> Vec<Window> {
     let rules = table.indirect.iter().flat_map(|rules| &rules.0);
     rules.map(|rule| window(reader, name, rule)).collect()
@@ -27,16 +27,15 @@ pub(super) fn read(reader: &mut Reader<'_, '_>, name: &At<String>, table: &Space
 
 fn window(reader: &mut Reader<'_, '_>, name: &At<String>, rule: &IndirectRule) -> Window {
     let sides = [(&rule.read, false), (&rule.write, true)];
-    let [read, write] = sides.map(|(given, is_write)| side(reader, name, rule, (given.as_ref()?, is_write)));
+    let [read, write] = sides.map(|(given, is_write)| side(reader, name, rule, given.as_ref()?, is_write));
     if rule.read.is_none() && rule.write.is_none() {
-        let message =
-            "`indirect` says which item takes the number (`write_address`), and which has the value (`read`, `write`)";
+        let message = "`indirect` needs the items for the number (`write_address`) and for the value (`read`, `write`)";
         reader.report(&codes::TABLE_VALUE, reader.span(name), message);
     }
     let numbers = rule.numbers.as_ref().and_then(|given| {
-        let found = place::range(&given.value).filter(|(first, last)| first <= last);
+        let found = notation::range(&given.value).filter(|(first, last)| first <= last);
         if found.is_none() {
-            let message = format!("`{}` are no numbers: write `\"0x8000..0x8FFF\"`", given.value);
+            let message = format!("`{}` is not a range of numbers: write `\"0x8000..0x8FFF\"`", given.value);
             reader.report(&codes::TABLE_VALUE, reader.span(given), message);
         }
         found
@@ -49,39 +48,43 @@ fn side(
     reader: &mut Reader<'_, '_>,
     name: &At<String>,
     rule: &IndirectRule,
-    (given, is_write): (&At<TextOr<WindowTable>>, bool),
+    given: &At<TextOr<WindowTable>>,
+    is_write: bool,
 ) -> Option<WindowSide> {
     let plain = WindowTable::default();
-    let (own, value) = match &given.value {
+    let (side, value) = match &given.value {
         TextOr::Text(value) => (&plain, Some(value)),
-        TextOr::Table(own) => (&**own, own.value.as_ref().map(|value| &value.value)),
+        TextOr::Table(side) => (&**side, side.value.as_ref().map(|value| &value.value)),
     };
-    let number = own.address.as_ref().or(rule.write_address.as_ref());
+    let number = side.address.as_ref().or(rule.write_address.as_ref());
     let (Some(number), Some(value)) = (number, value) else {
-        let message =
-            "a window has an item that takes the number (`write_address`, or `address`), and one for the value";
+        let message = "a window needs an item for the number (`write_address`, or `address`), and one for the value";
         reader.report(&codes::TABLE_VALUE, reader.span(name), message);
         return None;
     };
-    let order = own.first.as_ref().and_then(|word| {
+    let order = side.first.as_ref().and_then(|word| {
         if !is_write {
-            reader.report(&codes::TABLE_VALUE, reader.span(word), "before a value can be read, its number is written");
+            reader.report(
+                &codes::TABLE_VALUE,
+                reader.span(word),
+                "`first` applies to writing only: reading always writes the number first",
+            );
         }
         reader.word(word, "order of writes", &[("address", true), ("value", false)])
     });
-    let procedure = own.procedure.as_ref().or(rule.procedure.as_ref());
+    let procedure = side.procedure.as_ref().or(rule.procedure.as_ref());
     Some(WindowSide {
         number: reader.reference(number),
         value: value.as_str().into(),
         number_first: order,
-        clears: own.clears.or(rule.clears),
-        wait: own.wait.or(rule.wait),
-        timeout: own.timeout.or(rule.timeout),
+        clears: side.clears.or(rule.clears),
+        wait: side.wait.or(rule.wait),
+        timeout: side.timeout.or(rule.timeout),
         procedure: procedure.map(|procedure| procedure.value.as_str().into()),
     })
 }
 
-/// The items and procedures that windows name.
+/// Returns the names of the items and procedures that windows use.
 pub(super) fn references(tables: &Entries<SpaceTable>) -> References {
     let mut found = References::new();
     let mut add = |name: &Option<At<String>>, kind: &'static str| {
@@ -96,10 +99,10 @@ pub(super) fn references(tables: &Entries<SpaceTable>) -> References {
                 TextOr::Text(name) => {
                     add(&Some(At { value: name.clone(), start: given.start, end: given.end }), ITEM);
                 }
-                TextOr::Table(own) => {
-                    add(&own.address, ITEM);
-                    add(&own.value, ITEM);
-                    add(&own.procedure, "procedure");
+                TextOr::Table(side) => {
+                    add(&side.address, ITEM);
+                    add(&side.value, ITEM);
+                    add(&side.procedure, "procedure");
                 }
             }
         }
@@ -107,7 +110,7 @@ pub(super) fn references(tables: &Entries<SpaceTable>) -> References {
     found
 }
 
-/// The windows behind which number `first` of the space is found, on these buses.
+/// Returns the windows through which number `first` of the space is accessed on these buses.
 pub(super) fn bindings<'w>(
     space: &'w str,
     windows: &'w [Window],

@@ -1,13 +1,13 @@
-//! An overlay, and the devices and modules that it is for.
+//! Applies an overlay to its devices and modules.
 
 use std::collections::{HashMap, HashSet};
 
-use super::super::definitions::Kind;
+use super::super::definitions::DefinitionKind;
 use super::super::format::AppliesTable;
 use super::super::machine_budget::MachineBudget;
 use super::super::tree::{similar, Reader};
 use super::super::{code_tables, device, machines, resolve};
-use super::change::{ObjectSet, Outcome, RowPatcher};
+use super::change::{ObjectSet, RowEffect, RowPatcher};
 use super::{Overlay, PatchRow, Target};
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
 use crate::ir::object_names::{item_name, name_conditions};
@@ -19,7 +19,7 @@ use crate::source::{FileId, Source, Span};
 use crate::text::brief;
 use crate::text::glob;
 
-/// Applies the overlay `source` to the devices or modules of `catalog` that it is for.
+/// Applies the overlay `source` to the devices or modules of `catalog` that it names.
 pub fn apply(source: &Source, file: FileId, catalog: &mut Catalog, diagnostics: &mut Diagnostics) {
     let first = diagnostics.list().len();
     let mut reader = Reader::new(source, file, diagnostics);
@@ -27,26 +27,26 @@ pub fn apply(source: &Source, file: FileId, catalog: &mut Catalog, diagnostics: 
         reader.language.clone_from(&overlay.patch.language);
         Applied::new(&overlay).run(&mut reader, catalog);
     }
-    // What is wrong with a row is wrong for each of several devices.
+    // An error in a row is found again for each device.
     diagnostics.forget_repeated(first);
 }
 
 /// An overlay while it is applied.
 struct Applied<'o> {
     patcher: RowPatcher<'o>,
-    /// What came of each row.
-    outcomes: Vec<Outcome>,
-    /// Definitions that a row named.
-    used: HashSet<(Kind, String)>,
+    /// The effect of each row.
+    effects: Vec<RowEffect>,
+    /// Definitions that a row used.
+    used: HashSet<(DefinitionKind, String)>,
     /// Names of items, for suggestions.
     names: Vec<CompactString>,
 }
 
 impl<'o> Applied<'o> {
     fn new(overlay: &'o Overlay) -> Self {
-        let outcomes = vec![Outcome::NoMatch; overlay.patch.rows.len()];
+        let effects = vec![RowEffect::NoMatch; overlay.patch.rows.len()];
         let patcher = RowPatcher { overlay, rows: overlay.patch.filler() };
-        Applied { patcher, outcomes, used: HashSet::new(), names: Vec::new() }
+        Applied { patcher, effects, used: HashSet::new(), names: Vec::new() }
     }
 
     fn run(&mut self, reader: &mut Reader<'_, '_>, catalog: &mut Catalog) {
@@ -64,28 +64,28 @@ impl<'o> Applied<'o> {
             return self.report(reader);
         }
         let what = if applies.module.is_some() { "module" } else { "device" };
-        let message = format!("the overlay is for no {what} of the description");
+        let message = format!("the overlay matches no {what} of the description");
         let mut found = Diagnostic::new(&codes::OVERLAY_NOT_FOR, reader.span(&self.patcher.overlay.head), message);
         if let Some(device) = catalog.devices.first() {
-            found = found.note(format!("it describes {}", described(device)));
+            found = found.note(format!("the description contains {}", described(device)));
         }
         reader.diagnostics.push(found);
     }
 
-    /// The number of devices that it was applied to.
+    /// Applies the overlay to devices, and returns their number.
     fn devices(&mut self, reader: &mut Reader<'_, '_>, catalog: &mut Catalog, applies: &AppliesTable) -> usize {
-        let elsewhere = Elsewhere::new(catalog, applies);
+        let others = OtherDevices::new(catalog, applies);
         let Catalog { devices, submodules, types, .. } = catalog;
         let mut count = 0;
-        // Several devices may take a submodule, and it is changed once.
+        // Several devices may share a submodule, which is changed once.
         let mut done = HashSet::new();
         for device in devices.iter_mut().filter(|device| is_for(device, applies)) {
             count += 1;
             self.device(reader, device);
-            for own in device.submodules.iter().filter(|own| done.insert(own.submodule)) {
-                if let Some(submodule) = submodules.get_mut(own.submodule.0 as usize) {
-                    if self.submodule(reader, submodule, types, &mut device.doubts) == Outcome::Changed {
-                        let other = elsewhere.submodules.get(&own.submodule);
+            for usage in device.submodules.iter().filter(|usage| done.insert(usage.submodule)) {
+                if let Some(submodule) = submodules.get_mut(usage.submodule.0 as usize) {
+                    if self.submodule(reader, submodule, types, &mut device.doubts) == RowEffect::Changed {
+                        let other = others.submodules.get(&usage.submodule);
                         self.shared(reader, &submodule.name, other);
                     }
                 }
@@ -100,33 +100,33 @@ impl<'o> Applied<'o> {
         submodule: &mut Submodule,
         types: &mut Vec<TypeDef>,
         doubts: &mut Doubts,
-    ) -> Outcome {
-        let outcome = self.place(reader, ObjectSet::of_submodule(submodule, types));
+    ) -> RowEffect {
+        let effect = self.apply_rows(reader, ObjectSet::of_submodule(submodule, types));
         self.resolve(reader, &mut submodule.records, types);
         self.keep_doubts(doubts);
-        outcome
+        effect
     }
 
-    /// The objects of a module.
-    fn module(&mut self, reader: &mut Reader<'_, '_>, module: &mut Module, doubts: &mut Doubts) -> Outcome {
+    /// Applies the overlay to the objects of a module.
+    fn module(&mut self, reader: &mut Reader<'_, '_>, module: &mut Module, doubts: &mut Doubts) -> RowEffect {
         let buses = buses_of_module(module);
         let Module { groups, fixed_objects, types, extensions, .. } = module;
-        let outcome = self.place(reader, ObjectSet { groups, types, extensions, buses });
-        let outcome = outcome.max(self.place(reader, ObjectSet { groups: fixed_objects, types, extensions, buses }));
-        // Modules of CiA 306 have the one, those of ETG.2000 the other: together they are as sorted as alone.
-        let own = groups.len();
+        let effect = self.apply_rows(reader, ObjectSet { groups, types, extensions, buses });
+        let effect = effect.max(self.apply_rows(reader, ObjectSet { groups: fixed_objects, types, extensions, buses }));
+        // CiA 306 modules have `groups`, ETG.2000 modules `fixed_objects`. One list is empty, so the joined list is sorted.
+        let count = groups.len();
         groups.append(fixed_objects);
         self.resolve(reader, groups, types);
-        *fixed_objects = groups.split_off(own);
+        *fixed_objects = groups.split_off(count);
         self.keep_doubts(doubts);
-        outcome
+        effect
     }
 
-    /// Holds the names that rows and definitions gave against the items of the place to which they were applied.
+    /// Checks the names in rows and definitions against the items to which they were applied.
     fn resolve(&mut self, reader: &mut Reader<'_, '_>, groups: &mut Vec<Group>, types: &mut Vec<TypeDef>) {
-        let mut place = Device { groups: std::mem::take(groups), types: std::mem::take(types), ..Device::default() };
-        self.resolve_in(reader, &place);
-        (*groups, *types) = (std::mem::take(&mut place.groups), std::mem::take(&mut place.types));
+        let mut device = Device { groups: std::mem::take(groups), types: std::mem::take(types), ..Device::default() };
+        self.resolve_in(reader, &device);
+        (*groups, *types) = (std::mem::take(&mut device.groups), std::mem::take(&mut device.types));
     }
 
     fn resolve_in(&mut self, reader: &mut Reader<'_, '_>, device: &Device) {
@@ -135,7 +135,7 @@ impl<'o> Applied<'o> {
         self.patcher.rows.definitions.mentioned.clear();
     }
 
-    /// Doubts of definitions, once however many places use them.
+    /// Keeps the ambiguities of definitions, each of them once.
     fn keep_doubts(&mut self, kept: &mut Doubts) {
         for doubt in std::mem::take(&mut self.patcher.rows.definitions.doubts) {
             if !kept.contains(&doubt) {
@@ -144,19 +144,19 @@ impl<'o> Applied<'o> {
         }
     }
 
-    /// Tells that what was changed is also a part of a device that the overlay isn't for.
+    /// Reports that a changed part also belongs to a device that the overlay does not name.
     fn shared(&self, reader: &mut Reader<'_, '_>, name: &str, other: Option<&CompactString>) {
         let Some(other) = other else { return };
         let (name, other) = (brief(name), brief(other));
-        let message = format!("`{name}` is also a part of `{other}`, which the overlay isn't for");
+        let message = format!("`{name}` is also a part of `{other}`, which the overlay does not name");
         let found = Diagnostic::new(&codes::OVERLAY_SHARED, reader.span(&self.patcher.overlay.head), message);
-        reader.diagnostics.push(found.label("it is changed there, too"));
+        reader.diagnostics.push(found.label("also changed in the other device"));
     }
 
     fn device(&mut self, reader: &mut Reader<'_, '_>, device: &mut Device) {
         let buses = buses_of(device);
         let Device { groups, types, extensions, .. } = device;
-        self.place(reader, ObjectSet { groups, types, extensions, buses });
+        self.apply_rows(reader, ObjectSet { groups, types, extensions, buses });
         self.keep_doubts(&mut device.doubts);
         let patch = &self.patcher.overlay.patch;
         if let Some(axes) = &patch.axes {
@@ -169,34 +169,34 @@ impl<'o> Applied<'o> {
         let mut budget = MachineBudget::new();
         for (name, table) in &patch.machines {
             let before = device.machines.len();
-            if !machines::machine(reader, (name, table), device, &mut budget, &mut self.patcher.rows.references) {
+            if !machines::machine(reader, name, table, device, &mut budget, &mut self.patcher.rows.references) {
                 break;
             }
-            // It takes the place of one of the same name.
+            // The new machine replaces one with the same name.
             let mut at = 0..;
-            device.machines.retain(|own| at.next().is_some_and(|at| at >= before) || own.name != name.value);
+            device.machines.retain(|machine| at.next().is_some_and(|at| at >= before) || machine.name != name.value);
             if let Some(machine) = device.machines.last_mut() {
                 machine.status_item = item_name(&device.groups, &machine.status_item);
                 machine.control_item = item_name(&device.groups, &machine.control_item);
             }
         }
         for (name, table) in &patch.procedures {
-            device.procedures.retain(|own| own.name != name.value);
+            device.procedures.retain(|procedure| procedure.name != name.value);
             machines::procedure(reader, name, table, device, &mut self.patcher.rows.references);
         }
-        self.own_doubts(reader, &mut device.doubts);
+        self.overlay_doubts(reader, &mut device.doubts);
         self.resolve_in(reader, device);
     }
 
-    /// The doubts of the overlay as a whole.
-    fn own_doubts(&self, reader: &mut Reader<'_, '_>, kept: &mut Doubts) {
+    /// Adds the ambiguities of the overlay as a whole.
+    fn overlay_doubts(&self, reader: &mut Reader<'_, '_>, kept: &mut Doubts) {
         for doubt in &self.patcher.overlay.patch.doubts {
             let list = super::super::at::OneOrMany(vec![doubt.value.clone()]);
             kept.extend(reader.doubts([Some(&list), None], reader.origin(doubt), None));
         }
     }
 
-    /// Tells of what an overlay for modules says and only a device has.
+    /// Reports parts of an overlay for modules that only a device can have.
     fn behaviour_of_module(&self, reader: &mut Reader<'_, '_>) {
         let patch = &self.patcher.overlay.patch;
         let axes = patch.axes.iter().map(|axes| ("axes", reader.span(axes)));
@@ -205,13 +205,13 @@ impl<'o> Applied<'o> {
         let procedures = patch.procedures.iter().map(|(name, _)| ("procedures", reader.span(name)));
         let all: Vec<_> = axes.chain(codes).chain(machines).chain(procedures).collect();
         for (key, span) in all {
-            let message = format!("a module has no `{key}`: they belong to the device that takes it");
+            let message = format!("a module cannot have `{key}`, which belong to its device");
             let found = Diagnostic::new(&codes::TABLE_VALUE, span, message);
-            reader.diagnostics.push(found.help("put them into an overlay whose `for` has no `module`"));
+            reader.diagnostics.push(found.help("move them to an overlay whose `for` has no `module`"));
         }
     }
 
-    /// The number of modules and submodules that it was applied to.
+    /// Applies the overlay to modules and submodules, and returns their number.
     fn modules(
         &mut self,
         reader: &mut Reader<'_, '_>,
@@ -219,43 +219,44 @@ impl<'o> Applied<'o> {
         applies: &AppliesTable,
         pattern: &str,
     ) -> usize {
-        let takes = |place: usize| -> bool {
-            let own = |device: &Device| device.modules.iter().any(|own| own.module.0 as usize == place);
-            !says_device(applies) || catalog.devices.iter().any(|device| is_for(device, applies) && own(device))
+        let takes = |position: usize| -> bool {
+            let has = |device: &Device| device.modules.iter().any(|usage| usage.module.0 as usize == position);
+            !says_device(applies) || catalog.devices.iter().any(|device| is_for(device, applies) && has(device))
         };
         let wanted: Vec<bool> = catalog
             .modules
             .iter()
             .enumerate()
-            .map(|(place, module)| is_called(pattern, [&module.name, &module.id], module.number) && takes(place))
+            .map(|(position, module)| is_called(pattern, [&module.name, &module.id], module.number) && takes(position))
             .collect();
-        let chosen = |wanted: &[bool], place: usize| wanted.get(place).copied().unwrap_or(false);
-        let parts = |own: &[SubmoduleUse]| -> Vec<usize> { own.iter().map(|own| own.submodule.0 as usize).collect() };
-        let modules = catalog.modules.iter().enumerate().filter(|(place, _)| chosen(&wanted, *place));
+        let chosen = |wanted: &[bool], position: usize| wanted.get(position).copied().unwrap_or(false);
+        let parts =
+            |uses: &[SubmoduleUse]| -> Vec<usize> { uses.iter().map(|usage| usage.submodule.0 as usize).collect() };
+        let modules = catalog.modules.iter().enumerate().filter(|(position, _)| chosen(&wanted, *position));
         let of_modules: HashSet<usize> = modules.flat_map(|(_, module)| parts(&module.submodules)).collect();
-        let elsewhere = Elsewhere::new(catalog, applies);
+        let others = OtherDevices::new(catalog, applies);
         let Catalog { devices, modules, submodules, types, .. } = catalog;
         let (mut count, mut doubts) = (0, Doubts::new());
-        for (place, module) in modules.iter_mut().enumerate().filter(|(place, _)| chosen(&wanted, *place)) {
+        for (position, module) in modules.iter_mut().enumerate().filter(|(position, _)| chosen(&wanted, *position)) {
             count += 1;
-            if self.module(reader, module, &mut doubts) == Outcome::Changed {
-                self.shared(reader, &module.name, elsewhere.modules.get(&ModuleId(place as u32)));
+            if self.module(reader, module, &mut doubts) == RowEffect::Changed {
+                self.shared(reader, &module.name, others.modules.get(&ModuleId(position as u32)));
             }
         }
-        for (place, submodule) in submodules.iter_mut().enumerate() {
+        for (position, submodule) in submodules.iter_mut().enumerate() {
             let is_called = is_called(pattern, [&submodule.name, &submodule.id], submodule.ident);
-            if of_modules.contains(&place) || (is_called && !says_device(applies)) {
+            if of_modules.contains(&position) || (is_called && !says_device(applies)) {
                 count += 1;
-                if self.submodule(reader, submodule, types, &mut doubts) == Outcome::Changed {
-                    self.shared(reader, &submodule.name, elsewhere.submodules.get(&SubmoduleId(place as u32)));
+                if self.submodule(reader, submodule, types, &mut doubts) == RowEffect::Changed {
+                    self.shared(reader, &submodule.name, others.submodules.get(&SubmoduleId(position as u32)));
                 }
             }
         }
         if count > 0 {
-            self.own_doubts(reader, &mut doubts);
+            self.overlay_doubts(reader, &mut doubts);
         }
-        // A module has no place for doubts: the devices that take it do, or all where none does.
-        let takes = |device: &Device| device.modules.iter().any(|own| chosen(&wanted, own.module.0 as usize));
+        // A module cannot have ambiguities: its devices get them, or all devices if none has the module.
+        let takes = |device: &Device| device.modules.iter().any(|usage| chosen(&wanted, usage.module.0 as usize));
         let any_takes = devices.iter().any(|device| is_for(device, applies) && takes(device));
         for device in devices.iter_mut().filter(|device| is_for(device, applies) && (takes(device) || !any_takes)) {
             device.doubts.extend(doubts.iter().cloned());
@@ -263,63 +264,63 @@ impl<'o> Applied<'o> {
         count
     }
 
-    /// Applies the rows to the groups of a device, module or submodule; tells what came of the one that did most.
-    fn place(&mut self, reader: &mut Reader<'_, '_>, mut place: ObjectSet<'_>) -> Outcome {
-        let items = place.groups.iter().flat_map(|group| &group.items);
+    /// Applies the rows to the groups of a device, module or submodule. Returns the maximum effect of a row.
+    fn apply_rows(&mut self, reader: &mut Reader<'_, '_>, mut set: ObjectSet<'_>) -> RowEffect {
+        let items = set.groups.iter().flat_map(|group| &group.items);
         self.names.extend(items.map(|item| item.name.clone()));
-        let made = place.types.len();
-        self.patcher.rows.definitions.types = std::mem::take(place.types);
+        let made = set.types.len();
+        self.patcher.rows.definitions.types = std::mem::take(set.types);
         self.patcher.rows.definitions.made.clear();
-        self.patcher.rows.buses = Buses::from_iter([Bus::Modbus, Bus::Profinet, Bus::Serial]).or(place.buses.into());
+        self.patcher.rows.buses = Buses::from_iter([Bus::Modbus, Bus::Profinet, Bus::Serial]).or(set.buses.into());
         let overlay = self.patcher.overlay;
-        let mut best = Outcome::NoMatch;
+        let mut best = RowEffect::NoMatch;
         for (position, row) in overlay.patch.rows.iter().enumerate() {
             self.patcher.rows.allow(reader, &row.key, &row.row);
-            let outcome = self.patcher.row(reader, &mut place, row);
-            best = best.max(outcome);
-            if let Some(own) = self.outcomes.get_mut(position) {
-                *own = (*own).max(outcome);
+            let effect = self.patcher.row(reader, &mut set, row);
+            best = best.max(effect);
+            if let Some(best_so_far) = self.effects.get_mut(position) {
+                *best_so_far = (*best_so_far).max(effect);
             }
         }
         let names = self.patcher.rows.definitions.made.keys().cloned();
         self.used.extend(names);
-        *place.types = std::mem::take(&mut self.patcher.rows.definitions.types);
-        name_conditions(place.groups, place.types.get_mut(made..).unwrap_or_default(), &|_| None);
+        *set.types = std::mem::take(&mut self.patcher.rows.definitions.types);
+        name_conditions(set.groups, set.types.get_mut(made..).unwrap_or_default(), &|_| None);
         best
     }
 
-    /// Tells of rows that match nothing or change nothing, and of definitions that nothing names.
+    /// Reports rows that match or change nothing, and unused definitions.
     fn report(&self, reader: &mut Reader<'_, '_>) {
         let errors = reader.diagnostics.error_spans();
-        for (row, outcome) in self.patcher.overlay.patch.rows.iter().zip(&self.outcomes) {
+        for (row, effect) in self.patcher.overlay.patch.rows.iter().zip(&self.effects) {
             let span = Span { end: row.row.end, ..reader.span(&row.key) };
             if errors.any_in(span) {
                 continue;
             }
-            match outcome {
-                Outcome::NoMatch => self.no_match(reader, row),
-                Outcome::NoChange => {
-                    let message = format!("`{}` is as the overlay wants it already", brief(&row.key.value));
+            match effect {
+                RowEffect::NoMatch => self.no_match(reader, row),
+                RowEffect::NoChange => {
+                    let message = format!("the description already has the values of `{}`", brief(&row.key.value));
                     let found = Diagnostic::new(&codes::OVERLAY_NO_CHANGE, reader.span(&row.key), message);
                     reader.diagnostics.push(found.label("changes nothing"));
                 }
-                Outcome::Changed => {}
+                RowEffect::Changed => {}
             }
         }
-        // A row that couldn't be applied is what would have named them.
+        // A row that was not applied might have used them.
         let whole = Span::new(reader.file, 0, u32::MAX);
-        if self.outcomes.contains(&Outcome::NoMatch) || reader.diagnostics.error_spans().any_in(whole) {
+        if self.effects.contains(&RowEffect::NoMatch) || reader.diagnostics.error_spans().any_in(whole) {
             return;
         }
         let definitions = &self.patcher.overlay.patch.definitions;
-        let enums = definitions.enums.names().map(|name| (Kind::Enumeration, name));
-        let all = enums.chain(definitions.bits.names().map(|name| (Kind::Bits, name)));
+        let enums = definitions.enums.names().map(|name| (DefinitionKind::Enumeration, name));
+        let all = enums.chain(definitions.bits.names().map(|name| (DefinitionKind::Bits, name)));
         let unused = all.filter(|(kind, name)| !self.used.contains(&(*kind, name.value.clone()))).map(|(_, name)| name);
         let rows = || self.patcher.overlay.patch.rows.iter().filter_map(|row| row.row.value.unit.as_ref());
         let units = definitions.units.names();
         let units = units.filter(|name| !rows().any(|unit| unit.value == name.value));
         for name in unused.chain(units) {
-            let message = format!("no row of the overlay names `{}`", brief(&name.value));
+            let message = format!("no row of the overlay uses `{}`", brief(&name.value));
             reader.report(&codes::OVERLAY_NO_MATCH, reader.span(name), message);
         }
     }
@@ -334,11 +335,11 @@ impl<'o> Applied<'o> {
                 if removes {
                     found
                 } else {
-                    found.help("`add = true` adds what the description lacks")
+                    found.help("write `add = true` to add the object to the description")
                 }
             }
             Target::Name => {
-                let found = found(format!("no item is called `{key}`"));
+                let found = found(format!("no item has the name `{key}`"));
                 match similar(
                     &row.key.value,
                     self.names.iter().map(CompactString::as_str).take_while(|_| reader.helps()),
@@ -352,31 +353,31 @@ impl<'o> Applied<'o> {
     }
 }
 
-/// What devices have that the overlay isn't for, each with the name of the first such device.
-struct Elsewhere {
+/// The modules and submodules of devices that the overlay does not name, with the name of the first such device.
+struct OtherDevices {
     modules: HashMap<ModuleId, CompactString>,
     submodules: HashMap<SubmoduleId, CompactString>,
 }
 
-impl Elsewhere {
+impl OtherDevices {
     fn new(catalog: &Catalog, applies: &AppliesTable) -> Self {
-        let mut own = Elsewhere { modules: HashMap::new(), submodules: HashMap::new() };
+        let mut others = OtherDevices { modules: HashMap::new(), submodules: HashMap::new() };
         for device in catalog.devices.iter().filter(|device| !is_for(device, applies)) {
-            own.submodules(&device.submodules, device);
+            others.submodules(&device.submodules, device);
             for plugged in &device.modules {
-                let is_new = !own.modules.contains_key(&plugged.module);
+                let is_new = !others.modules.contains_key(&plugged.module);
                 if let Some(module) = catalog.modules.get(plugged.module.0 as usize).filter(|_| is_new) {
-                    own.modules.insert(plugged.module, device.name.clone());
-                    own.submodules(&module.submodules, device);
+                    others.modules.insert(plugged.module, device.name.clone());
+                    others.submodules(&module.submodules, device);
                 }
             }
         }
-        own
+        others
     }
 
     fn submodules(&mut self, uses: &[SubmoduleUse], device: &Device) {
-        for own in uses {
-            self.submodules.entry(own.submodule).or_insert_with(|| device.name.clone());
+        for usage in uses {
+            self.submodules.entry(usage.submodule).or_insert_with(|| device.name.clone());
         }
     }
 }
@@ -388,14 +389,14 @@ impl<'c> ObjectSet<'c> {
     }
 }
 
-/// Puts the last table of codes into an earlier one of its name: a code that occurs in both means what the last one says.
+/// Merges the last table of codes into an earlier one with its name. If both have a code, the last table wins.
 fn merge(tables: &mut Vec<CodeTable>) {
     let Some(last) = tables.pop() else { return };
-    let Some(own) = tables.iter_mut().find(|own| own.name == last.name) else {
+    let Some(table) = tables.iter_mut().find(|table| table.name == last.name) else {
         tables.push(last);
         return;
     };
-    let rows = own.rows.to_mut();
+    let rows = table.rows.to_mut();
     let mut known: HashMap<(i128, Option<i128>), usize> = HashMap::with_capacity(rows.len());
     for (position, row) in rows.iter().enumerate() {
         known.entry((row.code, row.last)).or_insert(position);
@@ -403,13 +404,13 @@ fn merge(tables: &mut Vec<CodeTable>) {
     for row in &last.rows {
         let position = *known.entry((row.code, row.last)).or_insert(rows.len());
         match rows.get_mut(position) {
-            Some(own) => *own = row.clone(),
+            Some(earlier) => *earlier = row.clone(),
             None => rows.push(row.clone()),
         }
     }
 }
 
-/// Whether anything is said of the device.
+/// Returns whether the overlay names a device.
 fn says_device(applies: &AppliesTable) -> bool {
     let numbers = [applies.vendor_id, applies.product_code, applies.revision];
     applies.device.is_some() || numbers.iter().any(Option::is_some)
@@ -421,12 +422,13 @@ fn is_for(device: &Device, applies: &AppliesTable) -> bool {
         [(applies.vendor_id, *vendor_id), (applies.product_code, *product_code), (applies.revision, *revision_number)];
     let names = [&device.name, product_name, order_code, &device.id];
     let by_name = |pattern: &String| names.iter().any(|name| glob(&pattern.to_lowercase(), &name.to_lowercase()));
-    numbers.iter().all(|(wanted, own)| wanted.is_none() || wanted == own) && applies.device.as_ref().is_none_or(by_name)
+    numbers.iter().all(|(wanted, actual)| wanted.is_none() || wanted == actual)
+        && applies.device.as_ref().is_none_or(by_name)
 }
 
-/// Whether a module goes by `pattern`: its name, its identifier or its number.
+/// Returns whether `pattern` matches the name, the identifier or the number of a module.
 fn is_called(pattern: &str, names: [&CompactString; 2], number: u32) -> bool {
-    let by_number = super::place::range(pattern).is_some_and(|(first, _)| first == i128::from(number));
+    let by_number = super::notation::range(pattern).is_some_and(|(first, _)| first == i128::from(number));
     by_number || names.iter().any(|name| glob(pattern, &name.to_lowercase()))
 }
 
@@ -437,7 +439,7 @@ fn described(device: &Device) -> String {
     format!("`{}`: vendor {vendor}, product code {product}, revision {revision}", brief(&device.name))
 }
 
-/// The buses of objects that are added.
+/// Returns the buses of added objects.
 fn buses_of(device: &Device) -> ObjectBuses {
     let by_items = buses_of_items(&device.groups);
     let coe = device.ethercat.is_some() || device.dictionary_only;

@@ -1,12 +1,12 @@
-//! A row of an overlay changes what is described, and its reason is kept.
+//! Applies a row of an overlay to a description, and keeps the reason of the change.
 
 use std::collections::BTreeMap;
 
 use super::super::at::TextOr;
-use super::super::definitions::Kind;
+use super::super::definitions::DefinitionKind;
 use super::super::format::Row;
+use super::super::notation::{self, Objects};
 use super::super::objects;
-use super::super::place::{self, Objects};
 use super::super::rows::{Named, Rows};
 use super::super::tree::Reader;
 use super::super::words::OBJECT_CODES;
@@ -24,34 +24,34 @@ use crate::text::brief;
 pub(super) struct ObjectSet<'c> {
     pub groups: &'c mut Vec<Group>,
     pub types: &'c mut Vec<TypeDef>,
-    /// Where what is taken away leaves its reason.
+    /// The extensions that record the reasons of removals.
     pub extensions: &'c mut Extensions,
-    /// The buses of objects that are added.
+    /// The buses of added objects.
     pub buses: ObjectBuses,
 }
 
-/// What came of a row; of several devices, the best counts.
+/// The effect of a row, from none to a change. For several devices, the maximum counts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) enum Outcome {
-    /// It matches nothing.
+pub(super) enum RowEffect {
+    /// The row matches nothing.
     NoMatch,
-    /// What it matches is so already.
+    /// The row matches, but everything it states is already in the description.
     NoChange,
-    /// It changed something, or its mistake was told.
+    /// The row changed something, or its error was reported.
     Changed,
 }
 
-impl From<bool> for Outcome {
+impl From<bool> for RowEffect {
     fn from(changed: bool) -> Self {
         if changed {
-            Outcome::Changed
+            RowEffect::Changed
         } else {
-            Outcome::NoChange
+            RowEffect::NoChange
         }
     }
 }
 
-/// The rows of an overlay while they change what is described.
+/// The rows of an overlay while they are applied.
 pub(super) struct RowPatcher<'o> {
     pub overlay: &'o Overlay,
     pub rows: Rows,
@@ -59,17 +59,17 @@ pub(super) struct RowPatcher<'o> {
 
 impl RowPatcher<'_> {
     /// Applies a row.
-    pub(super) fn row(&mut self, reader: &mut Reader<'_, '_>, set: &mut ObjectSet<'_>, row: &PatchRow) -> Outcome {
+    pub(super) fn row(&mut self, reader: &mut Reader<'_, '_>, set: &mut ObjectSet<'_>, row: &PatchRow) -> RowEffect {
         let (adds, removes) = (row.row.value.add == Some(true), row.row.value.remove == Some(true));
         match (row.target, adds, removes) {
             (_, true, true) => {
-                reader.report(&codes::TABLE_VALUE, reader.span(&row.key), "a row can't both add and remove");
-                Outcome::Changed
+                reader.report(&codes::TABLE_VALUE, reader.span(&row.key), "a row has both `add` and `remove`");
+                RowEffect::Changed
             }
             (Target::Name, true, _) => {
-                let message = "only objects can be added: put the row into `[chapters.objects]`";
+                let message = "only objects can be added: move the row to `[chapters.objects]`";
                 reader.report(&codes::TABLE_VALUE, reader.span(&row.key), message);
-                Outcome::Changed
+                RowEffect::Changed
             }
             (_, _, true) => self.remove(reader, set, row),
             (Target::Objects(objects), true, _) => self.add(reader, set, row, objects),
@@ -78,7 +78,7 @@ impl RowPatcher<'_> {
         }
     }
 
-    /// Why a row is there.
+    /// Returns the reason of a row: its `why`, or that of the overlay.
     fn why<'r>(&'r self, row: &'r Row) -> &'r str {
         row.why.as_deref().or(self.overlay.head.value.why.as_deref()).unwrap_or_default()
     }
@@ -89,15 +89,15 @@ impl RowPatcher<'_> {
         groups: &mut [Group],
         row: &PatchRow,
         objects: Objects,
-    ) -> Outcome {
-        let mut outcome = Outcome::NoMatch;
+    ) -> RowEffect {
+        let mut effect = RowEffect::NoMatch;
         let groups = in_range(groups, objects.indices.0, objects.indices.1);
         let is_meant = |item: &&Item| {
             item.object().is_some_and(|(_, sub)| objects.subs.is_none_or(|(first, last)| (first..=last).contains(&sub)))
         };
         let count = groups.iter().map(|group| group.items.iter().filter(is_meant).count()).sum();
         if !self.rows.repeats.patch(reader, &row.row.value, count, reader.span(&row.key)) {
-            return Outcome::Changed;
+            return RowEffect::Changed;
         }
         for group in groups {
             let number = u32::from(group.index().unwrap_or_default().saturating_sub(objects.indices.0));
@@ -107,16 +107,16 @@ impl RowPatcher<'_> {
                 None => {
                     let head = self.group_name(reader, group, &row.row.value, number);
                     let items = group.items.iter_mut().filter(|item| item.object().is_some_and(|(_, sub)| sub == 0));
-                    Outcome::from(head).max(self.items(reader, items, row, number))
+                    RowEffect::from(head).max(self.items(reader, items, row, number))
                 }
                 Some((first, last)) => {
                     let wanted = |item: &&mut Item| item.object().is_some_and(|(_, sub)| (first..=last).contains(&sub));
                     self.items(reader, group.items.iter_mut().filter(wanted), row, number)
                 }
             };
-            outcome = outcome.max(changed);
+            effect = effect.max(changed);
         }
-        outcome
+        effect
     }
 
     fn items<'i>(
@@ -125,50 +125,51 @@ impl RowPatcher<'_> {
         items: impl Iterator<Item = &'i mut Item>,
         row: &PatchRow,
         number: u32,
-    ) -> Outcome {
-        let mut outcome = Outcome::NoMatch;
+    ) -> RowEffect {
+        let mut effect = RowEffect::NoMatch;
         for item in items {
             let sub = item.object().map(|(_, sub)| sub);
-            let name = row.row.value.name.as_ref().map(|name| place::filled(&name.value, number, sub));
-            outcome = outcome.max(self.item(reader, item, row, (name, number)).into());
+            let name = row.row.value.name.as_ref().map(|name| notation::filled(&name.value, number, sub));
+            effect = effect.max(self.item(reader, item, row, name, number).into());
         }
-        outcome
+        effect
     }
 
-    /// The one item that the key names: an item, or its group and the item with a slash between.
-    fn named(&mut self, reader: &mut Reader<'_, '_>, groups: &mut [Group], row: &PatchRow) -> Outcome {
+    /// Changes the item that the key names: by its name, or by group and item with a slash between them.
+    fn named(&mut self, reader: &mut Reader<'_, '_>, groups: &mut [Group], row: &PatchRow) -> RowEffect {
         let mut found = find(groups, &row.key.value);
         if found.len() > 1 {
-            let message = format!("{} items are called `{}`", found.len(), brief(&row.key.value));
+            let message = format!("{} items have the name `{}`", found.len(), brief(&row.key.value));
             let found = crate::diagnostics::Diagnostic::new(&codes::TABLE_PLACE, reader.span(&row.key), message);
-            reader.diagnostics.push(found.help("write `\"Group/Item\"`, or the object in `[chapters.objects]`"));
-            return Outcome::Changed;
+            reader.diagnostics.push(found.help("write `\"Group/Item\"`, or name the object in `[chapters.objects]`"));
+            return RowEffect::Changed;
         }
-        let Some(item) = found.pop() else { return Outcome::NoMatch };
+        let Some(item) = found.pop() else { return RowEffect::NoMatch };
         let name = row.row.value.name.as_ref().map(|name| name.value.clone());
-        self.item(reader, item, row, (name, 0)).into()
+        self.item(reader, item, row, name, 0).into()
     }
 
-    /// Changes an item; tells whether that made a difference.
+    /// Changes an item. Returns whether it differs afterward.
     fn item(
         &mut self,
         reader: &mut Reader<'_, '_>,
         item: &mut Item,
         row: &PatchRow,
-        (name, number): (Option<String>, u32),
+        name: Option<String>,
+        number: u32,
     ) -> bool {
         let before = item.clone();
         let types = self.rows.definitions.types.len();
-        let own = &row.row.value;
+        let patch = &row.row.value;
         let text = name.as_deref().unwrap_or(&before.name);
         let named = Named { name: text, key: &row.key, number, end: row.row.end };
-        let ty = self.new_type(reader, named, own, item.ty);
-        self.further_addresses(reader, item, named, own);
-        self.rows.fill(reader, item, named, own, ty);
-        // The item stands where it stood; only what is said anew stands here.
+        let ty = self.new_type(reader, named, patch, item.ty);
+        self.further_addresses(reader, item, named, patch);
+        self.rows.fill(reader, item, named, patch, ty);
+        // The item keeps its position. Only the spans of new facts are in the overlay.
         item.origin = before.origin;
-        item.at.name = own.name.as_ref().map_or(before.at.name, |name| reader.span(name));
-        if own.doc.is_none() {
+        item.at.name = patch.name.as_ref().map_or(before.at.name, |name| reader.span(name));
+        if patch.doc.is_none() {
             keep_words(&mut item.documentation, before.documentation.as_deref());
         }
         if self.is_same(item, &before) {
@@ -177,47 +178,46 @@ impl RowPatcher<'_> {
             return false;
         }
         record(reader, item, &before, row);
-        let (why, span) = (self.why(own).to_owned(), reader.span(&row.key));
+        let (why, span) = (self.why(patch).to_owned(), reader.span(&row.key));
         explain("Changed", &why, span, &mut item.documentation, &mut item.extensions);
         true
     }
 
-    /// Addresses in other protocols that the description lacks.
+    /// Adds addresses in other protocols that the description lacks.
     fn further_addresses(&mut self, reader: &mut Reader<'_, '_>, item: &mut Item, named: Named<'_>, row: &Row) {
-        let mut found = smallvec::SmallVec::new();
         let (bits, sub) = (self.rows.definitions.bits_of(item.ty), item.object().map(|(_, sub)| sub));
-        self.rows.other_addresses(reader, (named, sub), row, (0, bits), &mut found);
+        let found = self.rows.other_addresses(reader, named, sub, row, 0, bits);
         let new: Vec<_> = found.into_iter().filter(|binding| !item.bindings.contains(binding)).collect();
         item.bindings.extend(new);
     }
 
-    /// The type that a row gives an item that has one.
+    /// Returns the new type of an item, if the row gives one.
     fn new_type(&mut self, reader: &mut Reader<'_, '_>, named: Named<'_>, row: &Row, old: Type) -> Option<Type> {
         if row.ty.is_some() {
             return self.rows.ty(reader, named, row);
         }
         let (kind, span, name) = match (&row.bits, &row.values) {
-            (Some(bits), _) => (Kind::Bits, reader.span(bits), name_of(&bits.value)),
-            (_, Some(values)) => (Kind::Enumeration, reader.span(values), name_of(&values.value)),
+            (Some(bits), _) => (DefinitionKind::Bits, reader.span(bits), name_of(&bits.value)),
+            (_, Some(values)) => (DefinitionKind::Enumeration, reader.span(values), name_of(&values.value)),
             _ => return None,
         };
         let base = self.rows.definitions.underlying(old);
         if !matches!(base, Type::Integer(_) | Type::Unsigned(_) | Type::Boolean) {
-            let message = format!("the item is {base}, which has no bits and no values with names");
+            let message = format!("the item has the type {base}, which cannot have named bits or values");
             reader.report(&codes::TABLE_VALUE, span, message);
             return None;
         }
         let wanted = name.as_deref().and_then(|name| self.rows.definitions.base(reader, kind, name));
         if let Some(wanted) = wanted.filter(|wanted| wanted.bits() != base.bits()) {
-            let message = format!("`{}` is of {wanted}, and the item is {base}", name.unwrap_or_default());
+            let message = format!("`{}` has the type {wanted}, but the item has {base}", name.unwrap_or_default());
             let found = crate::diagnostics::Diagnostic::new(&codes::TABLE_VALUE, span, message);
-            reader.diagnostics.push(found.help("give the row a `type` too, if the description has the wrong one"));
+            reader.diagnostics.push(found.help("give the row a `type` too, if the type in the description is wrong"));
             return None;
         }
         self.rows.meaning(reader, named, row, base)
     }
 
-    /// Whether nothing differs but where it stands.
+    /// Returns whether the items differ in nothing but their spans.
     fn is_same(&self, item: &Item, before: &Item) -> bool {
         let types = &self.rows.definitions.types;
         let shape = |ty: Type| match ty {
@@ -230,7 +230,7 @@ impl RowPatcher<'_> {
         same_type && moved == *before
     }
 
-    /// Takes back types that nothing names.
+    /// Removes the types beyond `length`, which nothing uses.
     fn forget_types(&mut self, length: usize) {
         self.rows.definitions.types.truncate(length);
         self.rows.definitions.made.retain(|_, made| {
@@ -239,38 +239,38 @@ impl RowPatcher<'_> {
         });
     }
 
-    /// What a row says of an object whose values are its sub-entries.
-    fn head(&mut self, reader: &mut Reader<'_, '_>, group: &mut Group, row: &PatchRow, number: u32) -> Outcome {
-        let own = &row.row.value;
-        if super::super::misplaced::of_value(own).is_some() {
+    /// Changes an object whose values are its sub-entries.
+    fn head(&mut self, reader: &mut Reader<'_, '_>, group: &mut Group, row: &PatchRow, number: u32) -> RowEffect {
+        let patch = &row.row.value;
+        if super::super::misplaced::of_value(patch).is_some() {
             let key = brief(&row.key.value);
-            let message = format!("`{key}` has sub-entries: say it of one of them, as in `\"{key}:1\"`");
+            let message = format!("`{key}` has sub-entries: write the row for one of them, as in `\"{key}:1\"`");
             reader.report(&codes::TABLE_PLACE, reader.span(&row.key), message);
-            return Outcome::Changed;
+            return RowEffect::Changed;
         }
         let before = (group.names.clone(), group.documentation.clone(), group.doubts.len());
-        let mut changed = self.group_name(reader, group, own, number);
-        if own.orig.is_some() {
-            group.names = reader.original(own.orig.as_deref());
+        let mut changed = self.group_name(reader, group, patch, number);
+        if patch.orig.is_some() {
+            group.names = reader.original(patch.orig.as_deref());
         }
-        if own.doc.is_some() {
-            group.documentation = reader.documentation_of(own);
+        if patch.doc.is_some() {
+            group.documentation = reader.documentation_of(patch);
         }
         let origin = reader.origin(&row.key);
-        group.doubts.extend(reader.doubts_of(own, origin));
+        group.doubts.extend(reader.doubts_of(patch, origin));
         changed |= before != (group.names.clone(), group.documentation.clone(), group.doubts.len());
         if changed {
-            let (why, span) = (self.why(own).to_owned(), reader.span(&row.key));
+            let (why, span) = (self.why(patch).to_owned(), reader.span(&row.key));
             explain("Changed", &why, span, &mut group.documentation, &mut group.extensions);
         }
         changed.into()
     }
 
-    /// The name and object code of an object.
+    /// Changes the name and object code of an object. Returns whether anything differs.
     fn group_name(&mut self, reader: &mut Reader<'_, '_>, group: &mut Group, row: &Row, number: u32) -> bool {
         let mut changed = false;
         if let Some(name) = &row.name {
-            let text = place::filled(&name.value, number, None);
+            let text = notation::filled(&name.value, number, None);
             changed |= group.name != text;
             (group.name, group.name_at) = (text.into(), reader.span(name));
         }
@@ -282,11 +282,11 @@ impl RowPatcher<'_> {
         changed
     }
 
-    fn remove(&mut self, reader: &mut Reader<'_, '_>, set: &mut ObjectSet<'_>, row: &PatchRow) -> Outcome {
+    fn remove(&mut self, reader: &mut Reader<'_, '_>, set: &mut ObjectSet<'_>, row: &PatchRow) -> RowEffect {
         let count = |groups: &[Group]| (groups.len(), groups.iter().map(|group| group.items.len()).sum::<usize>());
         let before = count(set.groups);
         match row.target {
-            Target::Objects(objects) => take_objects(set.groups, objects),
+            Target::Objects(objects) => remove_objects(set.groups, objects),
             Target::Name => {
                 let mut found = find(set.groups, &row.key.value);
                 if found.len() > 1 {
@@ -301,14 +301,14 @@ impl RowPatcher<'_> {
             }
         }
         if count(set.groups) == before {
-            return Outcome::NoMatch;
+            return RowEffect::NoMatch;
         }
         set.extensions.push(Extension {
             key: format!("overlay/removed {}", row.key.value).into(),
             value: self.why(&row.row.value).into(),
             span: reader.span(&row.key),
         });
-        Outcome::Changed
+        RowEffect::Changed
     }
 
     fn add(
@@ -317,18 +317,18 @@ impl RowPatcher<'_> {
         set: &mut ObjectSet<'_>,
         row: &PatchRow,
         objects: Objects,
-    ) -> Outcome {
+    ) -> RowEffect {
         if exists(set.groups, objects) {
-            return Outcome::NoChange;
+            return RowEffect::NoChange;
         }
-        // The objects themselves may be there, and get a further sub-entry.
+        // The objects themselves may exist, and get a further sub-entry.
         let mut dictionary = BTreeMap::new();
         let wanted = objects.indices.0..=objects.indices.1;
         let is_meant = |group: &Group| group.index().is_some_and(|index| wanted.contains(&index));
         for group in set.groups.extract_if(.., |group| is_meant(group)) {
             dictionary.insert(group.index().unwrap_or_default(), group);
         }
-        objects::add(reader, &mut self.rows, &mut dictionary, (&row.key, &row.row), (None, None));
+        objects::add(reader, &mut self.rows, &mut dictionary, &row.key, &row.row, None, None);
         let (why, span) = (self.why(&row.row.value).to_owned(), reader.span(&row.key));
         let is_new = |origin: Span| (origin.file, origin.start) == (span.file, span.start);
         for group in dictionary.values_mut() {
@@ -338,11 +338,11 @@ impl RowPatcher<'_> {
         }
         set.groups.extend(dictionary.into_values());
         set.groups.sort_by_key(Group::index);
-        Outcome::Changed
+        RowEffect::Changed
     }
 }
 
-/// Records the overlay as the origin of what its row changed. An assumption that the row states stays one.
+/// Records the overlay as the origin of the facts that its row changed. An assumed access right stays assumed.
 fn record(reader: &Reader<'_, '_>, item: &mut Item, before: &Item, row: &PatchRow) {
     let file = reader.source.name().rsplit(['/', '\\']).next().unwrap_or_default();
     let line = reader.origin(&row.key).line;
@@ -364,7 +364,7 @@ fn name_of<T>(given: &TextOr<T>) -> Option<String> {
     }
 }
 
-/// The items that go by `key`: their name, or the name of their group and theirs.
+/// Returns the items that `key` names: by their name, or by group and item with a slash between them.
 fn find<'g>(groups: &'g mut [Group], key: &str) -> Vec<&'g mut Item> {
     let mut found = Vec::new();
     for group in groups {
@@ -375,8 +375,8 @@ fn find<'g>(groups: &'g mut [Group], key: &str) -> Vec<&'g mut Item> {
     found
 }
 
-/// Takes away objects, or sub-entries and the objects that have none any more.
-fn take_objects(groups: &mut Vec<Group>, objects: Objects) {
+/// Removes objects, or sub-entries and the objects that have none left.
+fn remove_objects(groups: &mut Vec<Group>, objects: Objects) {
     let is_meant = |index: u16| (objects.indices.0..=objects.indices.1).contains(&index);
     let Some((first, last)) = objects.subs else {
         groups.retain(|group| !group.index().is_some_and(is_meant));
@@ -391,7 +391,7 @@ fn take_objects(groups: &mut Vec<Group>, objects: Objects) {
     });
 }
 
-/// Whether all that a row would add is there.
+/// Returns whether everything that a row would add already exists.
 fn exists(groups: &[Group], objects: Objects) -> bool {
     (objects.indices.0..=objects.indices.1).all(|index| {
         let group = groups.binary_search_by_key(&Some(index), Group::index).ok().and_then(|at| groups.get(at));
@@ -403,16 +403,18 @@ fn exists(groups: &[Group], objects: Objects) -> bool {
     })
 }
 
-/// Puts back the words that a row without `doc` must not take away.
+/// Restores the documentation that a row without `doc` must not remove.
 fn keep_words(documentation: &mut Option<Box<Documentation>>, before: Option<&Documentation>) {
     let Some(before) = before else { return };
     match documentation {
-        Some(own) => (own.text, own.translations) = (before.text.clone(), before.translations.clone()),
+        Some(documentation) => {
+            (documentation.text, documentation.translations) = (before.text.clone(), before.translations.clone())
+        }
         None => *documentation = Some(Box::new(before.clone())),
     }
 }
 
-/// Keeps the reason of a change: for people with the documentation, for programs as an extension.
+/// Records the reason of a change: in the documentation for readers, and as an extension for programs.
 fn explain(
     what: &str,
     why: &str,
@@ -420,12 +422,12 @@ fn explain(
     documentation: &mut Option<Box<Documentation>>,
     extensions: &mut Extensions,
 ) {
-    let own = documentation.get_or_insert_default();
-    if !own.text.is_empty() {
-        own.text.push('\n');
+    let documentation = documentation.get_or_insert_default();
+    if !documentation.text.is_empty() {
+        documentation.text.push('\n');
     }
     let end = if why.ends_with(['.', '!', '?']) { "" } else { "." };
-    own.text += &format!("{what} by an overlay: {why}{end}");
+    documentation.text += &format!("{what} by an overlay: {why}{end}");
     match extensions.iter_mut().find(|extension| extension.key == "overlay") {
         Some(extension) => extension.value.push_str(&format!("; {why}")),
         None => extensions.push(Extension { key: "overlay".into(), value: why.into(), span }),

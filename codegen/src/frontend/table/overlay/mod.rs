@@ -1,10 +1,10 @@
-//! Overlays and profiles: tables that say something of objects which another file describes.
+//! Overlays and profiles: tables that change or complete objects which another file describes.
 //!
 //! | file | subject |
 //! |---|---|
-//! | `apply` | an overlay, and the devices and modules that it is for |
-//! | `change` | a row of an overlay changes what is described, and its reason is kept |
-//! | `profile` | a profile as plain data, in tests only: the compiler contains the result (`profiles`) |
+//! | `apply` | applies an overlay to its devices and modules |
+//! | `change` | applies a row of an overlay, and keeps the reason of the change |
+//! | `profile` | reads a profile, in tests only: the compiler contains the result (`profiles`) |
 
 mod apply;
 mod change;
@@ -18,7 +18,7 @@ use super::definitions::Definitions;
 use super::format::{
     AxesTable, ChapterTable, CodesTable, DoubtTable, MachineTable, ManualTable, OverlayTable, ProcedureTable, Row,
 };
-use super::place::{self, Objects};
+use super::notation::{self, Objects};
 use super::repeats::Repeats;
 use super::rows::Rows;
 use super::tree::Reader;
@@ -28,11 +28,11 @@ use crate::ir::{Buses, CompactString};
 use crate::source::Span;
 use crate::text::brief;
 
-/// What a table says of objects that another file describes.
+/// The contents of a table that changes or completes objects of another file.
 #[derive(Clone, Debug, Default)]
 struct Patch {
     rows: Vec<PatchRow>,
-    /// Its definitions; no type is made of them yet.
+    /// The definitions, from which no types are made yet.
     definitions: Definitions,
     axes: Option<At<AxesTable>>,
     codes: Vec<(At<String>, CodesTable)>,
@@ -43,7 +43,7 @@ struct Patch {
     language: CompactString,
 }
 
-/// A row, and what it is about.
+/// A row and its target.
 #[derive(Clone, Debug)]
 struct PatchRow {
     key: At<String>,
@@ -51,7 +51,7 @@ struct PatchRow {
     target: Target,
 }
 
-/// What a row is about.
+/// The target of a row.
 #[derive(Clone, Copy, Debug)]
 enum Target {
     /// Objects or their sub-entries.
@@ -60,14 +60,14 @@ enum Target {
     Name,
 }
 
-/// Keys that overlays and profiles have beside their head.
+/// Keys that overlays and profiles have in addition to their head.
 const KEYS: [&str; 9] = ["lexibus", "manual", "units", "enums", "bits", "chapters", "codes", "machines", "doubts"];
 
-/// Those that only overlays have.
+/// Keys that only overlays have.
 const OVERLAY_KEYS: [&str; 3] = ["overlay", "axes", "procedures"];
 
 impl Patch {
-    /// Reads a file that has `keys` in addition to those that all files have.
+    /// Reads a file that has `keys` in addition to the keys of all such files.
     fn read<'a>(reader: &mut Reader<'a, '_>, table: &mut Table<'a>, keys: &[&str]) -> Patch {
         let known: Vec<&str> = keys.iter().chain(&KEYS).copied().collect();
         for (key, node) in &mut table.parts {
@@ -80,7 +80,7 @@ impl Patch {
             reader.language = manual.value.language.as_deref().unwrap_or_default().into();
         }
         let definitions = table.rows(reader, Buses::ALL).definitions;
-        // Mistakes in them are told once, whatever uses them.
+        // Reports the errors of definitions once, however many rows use them.
         definitions.clone().make_unused(reader);
         Patch {
             definitions,
@@ -94,7 +94,7 @@ impl Patch {
         }
     }
 
-    /// What rows need to be filled in.
+    /// Returns the state that is needed to fill in rows.
     fn filler(&self) -> Rows {
         Rows {
             definitions: self.definitions.clone(),
@@ -111,7 +111,7 @@ impl Patch {
     }
 }
 
-/// The rows of all chapters, each with the defaults of its chapter.
+/// Returns the rows of all chapters, each with the defaults of its chapter.
 fn rows<'a>(reader: &mut Reader<'a, '_>, table: &mut Table<'a>) -> Vec<PatchRow> {
     let mut rows = Vec::new();
     let mut repeats = Repeats::new(None);
@@ -131,11 +131,11 @@ fn rows<'a>(reader: &mut Reader<'a, '_>, table: &mut Table<'a>) -> Vec<PatchRow>
         };
         rows.extend(registers.into_iter().map(|(key, row)| complete(reader, key, row, Target::Name)));
         for (key, row) in objects {
-            match place::objects(&key.value) {
+            match notation::objects(&key.value) {
                 Some(objects) => rows.push(complete(reader, key, row, Target::Objects(objects))),
                 None => {
                     let message = format!(
-                        "`{}` is no object: write `0x6040`, `\"0x1018:1\"` or `\"0x1400..0x1403:1\"`",
+                        "`{}` is not an object: write `0x6040`, `\"0x1018:1\"` or `\"0x1400..0x1403:1\"`",
                         brief(&key.value)
                     );
                     reader.report(&codes::TABLE_PLACE, reader.span(&key), message);
@@ -146,7 +146,7 @@ fn rows<'a>(reader: &mut Reader<'a, '_>, table: &mut Table<'a>) -> Vec<PatchRow>
     rows
 }
 
-/// An overlay as it was read.
+/// The contents of an overlay.
 struct Overlay {
     head: At<OverlayTable>,
     patch: Patch,
@@ -158,15 +158,15 @@ impl Overlay {
         let Some(head) = table.take::<OverlayTable>(reader, "overlay") else {
             let message = "the table has no `[overlay]`";
             let found = Diagnostic::new(&codes::TABLE_VALUE, Span::new(reader.file, 0, 0), message);
-            reader.diagnostics.push(found.help("a table with `[device]` is an input of its own"));
+            reader.diagnostics.push(found.help("pass a table with `[device]` as an input, not as an overlay"));
             return None;
         };
         let patch = Patch::read(reader, &mut table, &OVERLAY_KEYS);
         if head.value.why.is_none() {
             for row in patch.rows.iter().filter(|row| row.row.value.why.is_none()) {
-                let message = format!("nothing says why `{}` is changed", brief(&row.key.value));
+                let message = format!("the change of `{}` has no reason", brief(&row.key.value));
                 let found = Diagnostic::new(&codes::TABLE_VALUE, reader.span(&row.key), message);
-                reader.diagnostics.push(found.help("give the row a `why`, or all of them one in `[overlay]`"));
+                reader.diagnostics.push(found.help("add `why` to the row, or to `[overlay]` for all rows"));
             }
         }
         Some(Overlay { head, patch })

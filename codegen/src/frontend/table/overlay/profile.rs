@@ -1,4 +1,4 @@
-//! Profiles as plain data. The compiler contains the result, so that only tests read the tables.
+//! Reads profiles as plain data. The compiler contains the result, so only tests read the tables.
 
 use std::mem;
 
@@ -6,7 +6,7 @@ use super::super::format::{ImageTable, NumberOrText, ProfileTable};
 use super::super::machine_budget::MachineBudget;
 use super::super::rows::{Named, Rows};
 use super::super::tree::{cited, Reader};
-use super::super::{buses, code_tables, machines, place, process, types, Table};
+use super::super::{buses, code_tables, machines, notation, process, types, Table};
 use super::{Patch, PatchRow, Target};
 use crate::diagnostics::{codes, Diagnostics};
 use crate::ir::{Binding, Buses, CodeTable, CompactString, Device, Doubts, Item, StateMachine, Type, TypeDef, TypeId};
@@ -30,10 +30,10 @@ pub(crate) fn read(source: &Source, diagnostics: &mut Diagnostics) -> Option<Pro
     let when = head.when.as_ref().and_then(|when| {
         let index = match &when.value {
             NumberOrText::Number(number) => u16::try_from(*number).ok(),
-            NumberOrText::Text(text) => place::objects(text).map(|objects| objects.indices.0),
+            NumberOrText::Text(text) => notation::objects(text).map(|objects| objects.indices.0),
         };
         if index.is_none() {
-            reader.report(&codes::TABLE_PLACE, reader.span(when), "`when` is an object such as `0x6040`");
+            reader.report(&codes::TABLE_PLACE, reader.span(when), "`when` must be an object such as `0x6040`");
         }
         index
     });
@@ -84,12 +84,13 @@ fn named(row: &PatchRow) -> Named<'_> {
     Named { name: "", key: &row.key, number: 0, end: row.row.end }
 }
 
-/// The bits or values of a row: a definition over the integer that it names.
+/// Returns the bits or values of a row: a definition over the integer type that it names.
 fn meaning(reader: &mut Reader<'_, '_>, rows: &mut Rows, row: &PatchRow, ty: Option<Type>) -> Option<TypeId> {
     let before = rows.definitions.types.len();
     let meaning = rows.meaning(reader, named(row), &row.row.value, ty?);
     if rows.definitions.types.len() > before {
-        let message = "a row of a profile has bits or values by their name, and the type that these name as their base";
+        let message =
+            "a row of a profile must refer to bits or values by name, and have the base type of their definition";
         reader.report(&codes::TABLE_VALUE, reader.span(&row.key), message);
     }
     match meaning? {
@@ -98,7 +99,7 @@ fn meaning(reader: &mut Reader<'_, '_>, rows: &mut Rows, row: &PatchRow, ty: Opt
     }
 }
 
-/// What a row says of its objects, except where they are and of which type.
+/// Returns the facts that a row states about its objects, except their addresses and type.
 fn described(reader: &mut Reader<'_, '_>, rows: &mut Rows, row: &PatchRow, ty: Option<Type>) -> Described {
     let mut item = Item { ty: ty.unwrap_or(Type::Opaque(None)), ..Item::new(Binding::canopen(0, 0)) };
     rows.fill(reader, &mut item, named(row), &row.row.value, None);
@@ -121,7 +122,7 @@ fn telegram(reader: &mut Reader<'_, '_>, image: &ImageTable) -> Option<Telegram>
     Some(Telegram { name, direction, signals: signals.collect() })
 }
 
-/// Codes with their doubts, as a device has them that has nothing but the definitions. They are in no file of a device.
+/// Reads a table of codes with its ambiguities. Their origin is empty, because no file of a device contains them.
 fn code_tables(reader: &mut Reader<'_, '_>, patch: &Patch, types: &[TypeDef]) -> Vec<(CodeTable, Doubts)> {
     let mut device = Device { types: types.to_vec(), ..Device::default() };
     let mut tables = Vec::new();
@@ -129,19 +130,22 @@ fn code_tables(reader: &mut Reader<'_, '_>, patch: &Patch, types: &[TypeDef]) ->
         code_tables::table(reader, name, table, &mut device);
         let doubts = without_origin(&mut device.doubts);
         tables.extend(
-            device.code_tables.drain(..).map(|own| (CodeTable { origin: Origin::default(), ..own }, doubts.clone())),
+            device
+                .code_tables
+                .drain(..)
+                .map(|table| (CodeTable { origin: Origin::default(), ..table }, doubts.clone())),
         );
     }
     tables
 }
 
-/// State machines with their doubts. Whether their items exist is another matter with each device.
+/// Reads state machines with their ambiguities. Each device decides later whether their items exist.
 fn machines(reader: &mut Reader<'_, '_>, patch: &Patch, types: &[TypeDef]) -> Vec<(StateMachine, Doubts)> {
     let mut device = Device { types: types.to_vec(), ..Device::default() };
     let mut machines = Vec::new();
     let mut budget = MachineBudget::new();
     for (name, table) in &patch.machines {
-        if !machines::machine(reader, (name, table), &mut device, &mut budget, &mut Vec::new()) {
+        if !machines::machine(reader, name, table, &mut device, &mut budget, &mut Vec::new()) {
             break;
         }
         let doubts = without_origin(&mut device.doubts);
@@ -190,7 +194,7 @@ mod tests {
         assert_eq!(states, [("Off", 0), ("On", 1)]);
         assert_eq!(device.machines[0].state_type, None, "the device has no such type");
         let device = completed(Type::Unsigned(16), profile().types);
-        assert_eq!(device.machines[0].state_type.as_ref().map(|own| own.as_str()), Some("Phase"));
+        assert_eq!(device.machines[0].state_type.as_ref().map(|state_type| state_type.as_str()), Some("Phase"));
     }
 
     #[test]
@@ -201,7 +205,7 @@ mod tests {
         assert!(device.doubts.iter().all(|doubt| doubt.origin == Origin::default()));
     }
 
-    /// An object of the other sign has the values that the profile has.
+    /// The values of an enumeration are the same for a signed and an unsigned object.
     #[test]
     fn values_are_the_same_for_either_sign() {
         let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../dictionaries/profiles");
@@ -212,7 +216,7 @@ mod tests {
             let mut table = Table::new(&mut reader, &[]).expect("a table");
             let mut definitions = table.rows(&mut reader, Buses::ALL).definitions;
             for name in definitions.enums.names().cloned().collect::<Vec<_>>() {
-                let kind = super::super::super::definitions::Kind::Enumeration;
+                let kind = super::super::super::definitions::DefinitionKind::Enumeration;
                 let base = definitions.base(&mut reader, kind, &name.value).expect("a base");
                 let other = match base {
                     Type::Integer(bits) => Type::Unsigned(bits),

@@ -1,4 +1,4 @@
-//! Names and addresses that are in use: each has one item.
+//! Names and addresses that are in use. Each may belong to one item only.
 
 use std::collections::hash_map::Entry;
 use std::collections::{BTreeMap, HashMap};
@@ -12,17 +12,17 @@ use crate::ir::{Availability, Binding, Buses, Item, ObjectBuses, RegisterBinding
 use crate::source::Span;
 use crate::text::brief;
 
-/// What is in use so far, and where.
+/// The names and addresses in use, with the spans of their items.
 #[derive(Default)]
-pub(super) struct Taken {
-    /// Numbers of chapters, by their titles.
+pub(super) struct InUse {
+    /// Numbers of chapters, by title.
     chapters: HashMap<CompactString, usize>,
-    /// Names by their chapter.
+    /// Spans of names, by chapter and name.
     names: HashMap<(usize, CompactString), Span>,
     addresses: HashMap<CompactString, Vec<Holder>>,
-    /// Registers by their first number.
-    registers: BTreeMap<(&'static str, u32), Stretch>,
-    /// Parts of an address.
+    /// Registers, by space and first wire address.
+    registers: BTreeMap<(&'static str, u32), RegisterRange>,
+    /// Parts of registers, by address.
     parts: HashMap<CompactString, Vec<Part>>,
 }
 
@@ -30,14 +30,14 @@ pub(super) struct Taken {
 struct Holder {
     span: Span,
     name: CompactString,
-    /// The item of which it is another name.
+    /// The item that has the same value under another name.
     same_as: Option<CompactString>,
     availability: Option<Box<Availability>>,
     buses: Option<ObjectBuses>,
 }
 
 impl Holder {
-    /// Whether no device has both on one bus, or one is another name of the other: as long, or with fewer or more bits.
+    /// Returns whether the items may share an address: no device has both on one bus, or one item is another view of the other.
     fn is_apart(&self, other: &Holder) -> bool {
         let is_same = |one: &Holder, other: &Holder| one.same_as.as_ref() == Some(&other.name);
         if is_same(self, other) || is_same(other, self) {
@@ -49,15 +49,15 @@ impl Holder {
     }
 }
 
-/// Registers of one item.
-struct Stretch {
+/// The registers of an item.
+struct RegisterRange {
     last: u32,
     name: CompactString,
     span: Span,
     availability: Option<Box<Availability>>,
 }
 
-/// First bit and number of bits.
+/// The first bit and the number of bits.
 type Bits = (u8, u8);
 
 struct Part {
@@ -67,9 +67,9 @@ struct Part {
     availability: Option<Box<Availability>>,
 }
 
-impl Taken {
-    /// Takes name and addresses of a register's item; `part` are the bits that it is about, where it isn't all of it. A name is
-    /// an item's own in its chapter.
+impl InUse {
+    /// Adds the name and addresses of a register's item. `part` holds the bits of an item that is a part of a register. A name may
+    /// occur once in a chapter.
     pub fn register(&mut self, reader: &mut Reader<'_, '_>, chapter: &CompactString, item: &Item, part: Option<Bits>) {
         let next = self.chapters.len();
         let chapter = match self.chapters.get(chapter) {
@@ -81,25 +81,26 @@ impl Taken {
                 free.insert(item.at.name);
             }
             Entry::Occupied(first) => {
-                let help = "chapters tell rows of one name apart: give each a `title` of its own";
+                let help = "write a `title` in each chapter: names must be unique in a chapter only";
                 twice(reader, &format!("the name `{}`", brief(&item.name)), item, *first.get(), Some(help));
             }
         }
         match part {
             Some(bits) => self.part(reader, item, bits),
-            None => self.place(reader, item),
+            None => self.addresses(reader, item),
         }
     }
 
-    /// Takes the addresses of an item. Of two items at one, no model and no firmware may have both.
-    pub fn place(&mut self, reader: &mut Reader<'_, '_>, item: &Item) {
+    /// Adds the addresses of an item. Two items may share an address only if no device has both.
+    pub fn addresses(&mut self, reader: &mut Reader<'_, '_>, item: &Item) {
         for binding in &item.bindings {
             let Some(address) = address(binding) else { continue };
             let buses = match binding {
                 Binding::Object { buses, .. } => Some(*buses),
                 _ => None,
             };
-            let same_as = item.related.as_ref().and_then(|own| own.same_as.as_ref()).map(|own| own.name.clone());
+            let same_as =
+                item.related.as_ref().and_then(|related| related.same_as.as_ref()).map(|name| name.name.clone());
             let (span, name) = (item.at.name, item.name.clone());
             let holder = Holder { span, name, same_as, availability: item.availability.clone(), buses };
             let holders = self.addresses.entry(address.clone()).or_default();
@@ -109,14 +110,14 @@ impl Taken {
             }
             let is_first = holders.is_empty();
             holders.push(holder);
-            if let (Binding::Register(own), true) = (binding, is_first) {
-                self.stretch(reader, item, own);
+            if let (Binding::Register(register), true) = (binding, is_first) {
+                self.register_range(reader, item, register);
             }
         }
     }
 
-    /// Registers that begin elsewhere and reach into these.
-    fn stretch(&mut self, reader: &mut Reader<'_, '_>, item: &Item, register: &RegisterBinding) {
+    /// Adds the registers of an item. Reports registers that another item has, too.
+    fn register_range(&mut self, reader: &mut Reader<'_, '_>, item: &Item, register: &RegisterBinding) {
         let (space, first) = (space_name(register.space), u32::from(register.address));
         let last = u32::from(register.last());
         let before = self.registers.range((space, 0)..(space, first)).next_back();
@@ -125,7 +126,7 @@ impl Taken {
         let other = other.filter(|(_, other)| !apart(other.availability.as_deref(), item.availability.as_deref()));
         if let Some(((_, start), other)) = other {
             let message = format!(
-                "`{}` takes {space} register {}, and `{}` takes {}",
+                "`{}` occupies {space} register {}, and `{}` occupies {}",
                 brief(&item.name),
                 numbers(first, last),
                 brief(&other.name),
@@ -133,14 +134,16 @@ impl Taken {
             );
             let found = Diagnostic::new(&codes::SHARED_REGISTERS, item.at.name, message);
             let found = found.note_at(other.span, "the other one is here");
-            reader.diagnostics.push(found.help("one of the two has the wrong number, or a type that is too long"));
+            reader
+                .diagnostics
+                .push(found.help("one of the two has a wrong register number, or a type that is too long"));
         }
         let availability = item.availability.clone();
-        let stretch = Stretch { last, name: item.name.clone(), span: item.at.name, availability };
-        self.registers.insert((space, first), stretch);
+        let range = RegisterRange { last, name: item.name.clone(), span: item.at.name, availability };
+        self.registers.insert((space, first), range);
     }
 
-    /// Parts of one register share an address, and no bits.
+    /// Adds the part of a register. Parts share an address, but no bits.
     fn part(&mut self, reader: &mut Reader<'_, '_>, item: &Item, bits: Bits) {
         let Some(address) = item.bindings.iter().find_map(address) else { return };
         let parts = self.parts.entry(address.clone()).or_default();
@@ -151,11 +154,11 @@ impl Taken {
                 && !apart(other.availability.as_deref(), item.availability.as_deref())
         };
         if let Some(other) = parts.iter().find(shares) {
-            let (own, its) = (brief(&item.name), brief(&other.name));
-            let message = format!("`{own}` and `{its}` are parts of {address} and share bits");
+            let (name, other_name) = (brief(&item.name), brief(&other.name));
+            let message = format!("`{name}` and `{other_name}` are parts of {address} and share bits");
             let found = Diagnostic::new(&codes::SHARED_REGISTERS, item.at.name, message);
             let found = found.note_at(other.span, "the other one is here");
-            reader.diagnostics.push(found.help("one of the two has the wrong bits in `part`, or the wrong number"));
+            reader.diagnostics.push(found.help("one of the two has wrong bits in `part`, or a wrong register number"));
         }
         let availability = item.availability.clone();
         parts.push(Part { bits, name: item.name.clone(), span: item.at.name, availability });
@@ -165,7 +168,7 @@ impl Taken {
 /// Reports the second use of a name or an address.
 fn twice(reader: &mut Reader<'_, '_>, what: &str, item: &Item, first: Span, help: Option<&'static str>) {
     let found = Diagnostic::new(&codes::TABLE_DUPLICATE, item.at.name, format!("{what} occurs twice"));
-    let found = found.note_at(first, "the first is here");
+    let found = found.note_at(first, "the first one is here");
     reader.diagnostics.push(match help {
         Some(help) => found.help(help),
         None => found,
@@ -188,11 +191,11 @@ fn space_name(space: RegisterSpace) -> &'static str {
     }
 }
 
-/// How a binding is told apart from others; `None` where two items may share it.
+/// Returns the text that identifies an address, or `None` if items may share the address.
 fn address(binding: &Binding) -> Option<CompactString> {
     Some(match binding {
         Binding::Object { index, sub_index, .. } => format_compact!("object 0x{index:04X}:{sub_index}"),
-        Binding::Register(own) => format_compact!("{} register {}", space_name(own.space), own.address),
+        Binding::Register(register) => format_compact!("{} register {}", space_name(register.space), register.address),
         Binding::Parameter { space, code } => format_compact!("parameter {code} of `{space}`"),
         Binding::Ascii(name) => format_compact!("`{name}`"),
         _ => return None,

@@ -1,6 +1,6 @@
-//! Numbers and places as the format writes them: integers, ranges, numbers of registers, objects, bits.
+//! Numbers, ranges and addresses as the format writes them: integers, register numbers, objects, bits.
 
-/// An integer: `16`, `0x10`, `0b10000`, with a sign in front and `_` between digits.
+/// Reads an integer: `16`, `0x10`, `0b10000`, with an optional sign and `_` between digits.
 pub(super) fn integer(text: &str) -> Option<i128> {
     let text = text.trim();
     let (negative, digits) = match text.strip_prefix('-') {
@@ -14,7 +14,7 @@ pub(super) fn integer(text: &str) -> Option<i128> {
         _ => (10, digits),
     };
     let digits: String = digits.chars().filter(|&c| c != '_').collect();
-    // `from_str_radix` would take a second sign.
+    // `from_str_radix` would accept a second sign.
     if !digits.starts_with(|c: char| c.is_digit(radix)) {
         return None;
     }
@@ -22,7 +22,7 @@ pub(super) fn integer(text: &str) -> Option<i128> {
     Some(if negative { -value } else { value })
 }
 
-/// An integer, or first and last of a range (`3..7`).
+/// Reads an integer, or the first and last of a range (`3..7`).
 pub(super) fn range(text: &str) -> Option<(i128, i128)> {
     match text.split_once("..") {
         Some((first, last)) => Some((integer(first)?, integer(last.trim_start_matches('='))?)),
@@ -30,8 +30,8 @@ pub(super) fn range(text: &str) -> Option<(i128, i128)> {
     }
 }
 
-/// First and last number of a register as manuals print it: `63`, `63-64`, and `10099-100`, whose end leaves out what
-/// it shares with its start.
+/// Reads the first and last register number as manuals print them: `63`, `63-64`, and `10099-100`, where the end omits the leading
+/// digits of the start.
 pub(super) fn registers(text: &str) -> Option<(u32, u32)> {
     let Some((first, last)) = text.split_once(['-', '–']) else {
         let number = u32::try_from(integer(text)?).ok()?;
@@ -43,13 +43,13 @@ pub(super) fn registers(text: &str) -> Option<(u32, u32)> {
     if end >= start {
         return Some((start, end));
     }
-    // The end has the leading digits of the start, or those that follow where it turns over.
+    // The end has the leading digits of the start, or the next ones if it would be below the start.
     let modulus = 10u32.checked_pow(u32::try_from(last.len()).ok()?)?;
     let end = (start / modulus * modulus).checked_add(end)?;
     Some((start, if end < start { end.checked_add(modulus)? } else { end }))
 }
 
-/// Objects and sub-indices that a key of `[chapters.objects]` stands for.
+/// The objects and sub-indices that a key of `[chapters.objects]` names.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Objects {
     /// First and last index.
@@ -58,7 +58,7 @@ pub(super) struct Objects {
     pub subs: Option<(u8, u8)>,
 }
 
-/// `0x6040`, `0x1018:1`, `0x1400..0x1403:1`, `0x1600..0x1603:1..8`.
+/// Reads objects: `0x6040`, `0x1018:1`, `0x1400..0x1403:1`, `0x1600..0x1603:1..8`.
 pub(super) fn objects(text: &str) -> Option<Objects> {
     let (indices, subs) = match text.split_once(':') {
         Some((indices, subs)) => (indices, Some(subs)),
@@ -77,7 +77,7 @@ pub(super) fn objects(text: &str) -> Option<Objects> {
     in_order.then_some(Objects { indices, subs })
 }
 
-/// First bit and number of bits: `7`, `3-2`, `2..3`, `[2..3]`.
+/// Reads the first bit and the number of bits: `7`, `3-2`, `2..3`, `[2..3]`.
 pub(super) fn bits(text: &str) -> Option<(u8, u8)> {
     let text = text.trim().trim_start_matches('[').trim_end_matches(']');
     let (one, other) = match text.split_once("..").or_else(|| text.split_once('-')) {
@@ -88,7 +88,7 @@ pub(super) fn bits(text: &str) -> Option<(u8, u8)> {
     (high < 64).then_some((low, high - low + 1))
 }
 
-/// `text` with `{n}`, `{n+1}` and `{sub}` filled in.
+/// Returns `text` with the values of `{n}`, `{n+1}` and `{sub}` inserted.
 pub(super) fn filled(text: &str, number: u32, sub: Option<u8>) -> String {
     let mut filled = String::with_capacity(text.len());
     let mut pieces = text.split('{');
