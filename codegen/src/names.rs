@@ -1,10 +1,12 @@
-//! The namer: gives every element a Rust identifier that is unique in its scope, legal, and stable.
+//! The namer: gives every element a Rust identifier that is unique in its scope, legal and stable.
 //!
-//! An item has one name in generated code: its constant, its accessor, its entry of `mappable` and the field of a PDO that maps it are called
-//! alike, after the name of the object in the dictionary. What a PDO calls an entry counts only if the dictionary doesn't have the object.
+//! An item has one name in generated code. Its constant, its accessor, its entry in `mappable` and the PDO field that
+//! maps it share the name of the object in the dictionary. The name in the PDO is used only if the dictionary does not
+//! contain the object.
 //!
-//! Identifiers are the source's names in Rust's case. Of elements with equal names each gets its address as a suffix, so
-//! that neither the order of anything nor a further element with that name changes an identifier that had one before.
+//! Identifiers are the names of the description in Rust's case. Elements with equal names get their address as a
+//! suffix. The order of elements therefore does not affect identifiers, and a new element does not change the
+//! identifiers of others unless it shares their name.
 
 use std::borrow::Cow;
 use std::collections::HashMap;
@@ -12,63 +14,65 @@ use std::collections::HashSet;
 
 use crate::limits::MAX_IDENTIFIER;
 
-/// How a scope's identifiers are written.
+/// Case of the identifiers of a scope.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Case {
-    /// `target_position`: methods, fields and modules.
+    /// `target_position`, for methods, fields and modules.
     Snake,
-    /// `TargetPosition`: types.
+    /// `TargetPosition`, for types.
     Pascal,
 }
 
-/// An element that wants a name.
+/// An element that needs an identifier.
 #[derive(Clone, Debug)]
-pub struct Wish<'a> {
-    /// What the source calls it.
+pub struct NameRequest<'a> {
+    /// Name of the element in the description.
     pub name: &'a str,
-    /// What to call it where the source has no usable name, such as `object_6040`.
+    /// Name to use if the description has no usable name, such as `object 6040`.
     pub fallback: String,
-    /// What tells it from others of its name, such as `6040`; unique in the scope.
+    /// Suffix that distinguishes the element from others with the same name, such as `6040`. It is unique in the scope.
     pub suffix: String,
 }
 
-impl<'a> Wish<'a> {
-    /// Of an element that `suffix` tells from others, and that goes by it and its kind where it has no usable name.
+impl<'a> NameRequest<'a> {
+    /// Creates the request of an element. The fallback name consists of `kind` and `suffix`.
     pub fn new(name: &'a str, kind: &str, suffix: impl ToString) -> Self {
         let suffix = suffix.to_string();
-        Wish { name, fallback: format!("{kind} {suffix}"), suffix }
+        NameRequest { name, fallback: format!("{kind} {suffix}"), suffix }
     }
 }
 
-/// Wishes for elements of a kind that nothing but their position tells apart, which is counted from 0.
-pub fn numbered<'a>(names: impl IntoIterator<Item = &'a str>, kind: &str) -> Vec<Wish<'a>> {
-    names.into_iter().enumerate().map(|(position, name)| Wish::new(name, kind, position)).collect()
+/// Returns name requests for elements of a kind that only their position, counted from 0, distinguishes.
+pub fn numbered<'a>(names: impl IntoIterator<Item = &'a str>, kind: &str) -> Vec<NameRequest<'a>> {
+    names.into_iter().enumerate().map(|(position, name)| NameRequest::new(name, kind, position)).collect()
 }
 
-/// Identifiers for all of `wishes`, in their order; none of them is in `reserved`. Longer names are cut at a word.
-pub fn unique(wishes: &[Wish<'_>], reserved: &[&str], case: Case) -> Vec<String> {
-    unique_up_to(wishes, reserved, case, MAX_IDENTIFIER)
+/// Returns the identifiers for `name_requests`, in the same order. None of them is in `reserved`. Longer names are cut at a
+/// word.
+pub fn unique(name_requests: &[NameRequest<'_>], reserved: &[&str], case: Case) -> Vec<String> {
+    unique_up_to(name_requests, reserved, case, MAX_IDENTIFIER)
 }
 
-/// The same, with names cut to `length` characters before they get a suffix.
-pub fn unique_up_to(wishes: &[Wish<'_>], reserved: &[&str], case: Case, length: usize) -> Vec<String> {
-    let plain: Vec<String> = wishes.iter().map(|wish| plain(wish, case, length)).collect();
-    distinct(&plain, wishes.iter().map(|wish| wish.suffix.as_str()), reserved, case)
+/// Returns unique identifiers like [`unique`], with names cut to `length` characters before they get a suffix.
+pub fn unique_up_to(name_requests: &[NameRequest<'_>], reserved: &[&str], case: Case, length: usize) -> Vec<String> {
+    let plain: Vec<String> = name_requests.iter().map(|name_request| plain(name_request, case, length)).collect();
+    distinct(&plain, name_requests.iter().map(|name_request| name_request.suffix.as_str()), reserved, case)
 }
 
-/// The identifier of an element that is alone in its scope.
-pub fn identifier(wish: &Wish<'_>, case: Case) -> String {
-    plain(wish, case, MAX_IDENTIFIER)
+/// Returns the identifier of an element that is the only one in its scope.
+pub fn identifier(name_request: &NameRequest<'_>, case: Case) -> String {
+    plain(name_request, case, MAX_IDENTIFIER)
 }
 
-/// The identifier of an element outside of its owner: that of the owner in front of its own. A long one is cut at a word.
+/// Returns the identifier of an element outside of its owner: the owner's name followed by the element's name. A long
+/// one is cut at a word.
 pub fn joined(owner: &str, name: &str) -> String {
     let mut joined = prefixed(&format!("{owner}_"), name);
     cut(&mut joined, MAX_IDENTIFIER);
     joined
 }
 
-/// Tells equal identifiers apart by their suffixes; none of the results is in `reserved`.
+/// Makes equal identifiers unique by appending their suffixes. None of the results is in `reserved`.
 pub fn distinct<'s>(
     plain: &[String],
     suffixes: impl Iterator<Item = &'s str>,
@@ -80,11 +84,11 @@ pub fn distinct<'s>(
         *count.entry(name).or_default() += 1;
     }
     let is_reserved = |name: &str| reserved.contains(&name);
-    // Names that are unique by themselves come first, so that a suffixed one never takes their place.
-    let mut taken: HashSet<String> =
+    // Names that are already unique are reserved first, so that no suffixed name can equal one of them.
+    let mut used: HashSet<String> =
         plain.iter().filter(|name| count[name.as_str()] == 1 && !is_reserved(name)).cloned().collect();
     let mut names = Vec::with_capacity(plain.len());
-    // The last number behind a name that two suffixes didn't make unique.
+    // Last number appended to each name that stays ambiguous with two suffixes.
     let mut numbers: HashMap<String, u32> = HashMap::new();
     for (suffix, name) in suffixes.zip(plain) {
         if count[name.as_str()] == 1 && !is_reserved(name) {
@@ -93,13 +97,13 @@ pub fn distinct<'s>(
         }
         let suffix = address(suffix);
         let once = join(name, &suffix, case);
-        let mut take = |candidate: &str| !is_reserved(candidate) && taken.insert(candidate.to_owned());
-        if take(&once) {
+        let mut claim = |candidate: &str| !is_reserved(candidate) && used.insert(candidate.to_owned());
+        if claim(&once) {
             names.push(once);
             continue;
         }
         let twice = join(&once, &suffix, case);
-        if take(&twice) {
+        if claim(&twice) {
             names.push(twice);
             continue;
         }
@@ -107,7 +111,7 @@ pub fn distinct<'s>(
         names.push(loop {
             *number += 1;
             let candidate = join(&twice, &number.to_string(), case);
-            if take(&candidate) {
+            if claim(&candidate) {
                 break candidate;
             }
         });
@@ -115,17 +119,17 @@ pub fn distinct<'s>(
     names
 }
 
-fn plain(wish: &Wish<'_>, case: Case, length: usize) -> String {
-    let words = words(wish.name);
-    // A fallback is an address, which is no text to find words in. Whoever has none wants no name then.
-    let parts = wish.fallback.split(' ').filter(|part| !part.is_empty());
+fn plain(name_request: &NameRequest<'_>, case: Case, length: usize) -> String {
+    let words = words(name_request.name);
+    // Address parts are not split into words. A fallback without words is only used for elements that need no name.
+    let parts = name_request.fallback.split(' ').filter(|part| !part.is_empty());
     let words = if words.is_empty() { parts.map(|part| address(part).to_ascii_lowercase()).collect() } else { words };
     let mut name = write(&words, case);
     cut(&mut name, length);
     name
 }
 
-/// Cuts a long name, at a word where one ends in the second half, so that the rest still reads as a name.
+/// Cuts a long name. Cuts at a word if one ends in the second half of the name.
 fn cut(name: &mut String, length: usize) {
     if name.len() > length {
         let end = name[..length].rfind('_').filter(|&end| end > length / 2).unwrap_or(length);
@@ -133,7 +137,8 @@ fn cut(name: &mut String, length: usize) {
     }
 }
 
-/// An address as a part of an identifier: as it is, or where it names something else its words. It is never empty.
+/// Returns an address as a part of an identifier: unchanged if possible, otherwise its words. The result is never
+/// empty.
 fn address(text: &str) -> Cow<'_, str> {
     let is_plain = text.chars().all(|letter| letter.is_ascii_alphanumeric() || letter == '_');
     if is_plain && text.contains(|letter: char| letter != '_') {
@@ -152,7 +157,7 @@ fn join(name: &str, suffix: &str, case: Case) -> String {
         Case::Snake => format!("{}_{}", name.trim_end_matches('_'), suffix.to_ascii_lowercase()),
         Case::Pascal => {
             let is_digit = |letter: char| letter.is_ascii_digit();
-            // Only between digits is it no camel case without.
+            // Only two adjacent digits need a separator in camel case.
             let separator = if name.ends_with(is_digit) && suffix.starts_with(is_digit) { "_" } else { "" };
             format!("{name}{separator}{suffix}")
         }
@@ -170,7 +175,7 @@ fn write(words: &[String], case: Case) -> String {
                 name.push_str(word);
             }
             Case::Pascal => {
-                // Two numbers side by side must not become another number.
+                // Two adjacent numbers must not become one number.
                 let digits =
                     name.ends_with(|c: char| c.is_ascii_digit()) && word.starts_with(|c: char| c.is_ascii_digit());
                 if digits {
@@ -191,30 +196,33 @@ fn write(words: &[String], case: Case) -> String {
     name
 }
 
-/// The words of a name in lower-case ASCII: split at everything that is no letter or digit, and where the case changes.
+/// Returns the words of a name in lower-case ASCII. Words end at every character that is no letter or digit, and where
+/// the case changes.
 fn words(name: &str) -> Vec<String> {
     let mut words = Vec::new();
     let mut word = String::new();
-    let mut previous = Kind::Other;
+    let mut previous = CharacterClass::Other;
     let mut letters = name.chars().peekable();
     while let Some(letter) = letters.next() {
-        let kind = Kind::of(letter);
-        let next = letters.peek().map_or(Kind::Other, |&next| Kind::of(next));
-        let starts = match (previous, kind) {
-            (_, Kind::Other) => true,
-            (Kind::Lower | Kind::Digit, Kind::Upper) => true,
+        let class = CharacterClass::of(letter);
+        let next = letters.peek().map_or(CharacterClass::Other, |&next| CharacterClass::of(next));
+        let starts = match (previous, class) {
+            (_, CharacterClass::Other) => true,
+            (CharacterClass::Lower | CharacterClass::Digit, CharacterClass::Upper) => true,
             // The last capital of an abbreviation starts the next word: `PDOMapping`, but not `RxPDOs`.
-            (Kind::Upper, Kind::Upper) => next == Kind::Lower && !is_plural(letters.clone()),
+            (CharacterClass::Upper, CharacterClass::Upper) => {
+                next == CharacterClass::Lower && !is_plural(letters.clone())
+            }
             _ => false,
         };
         if starts && !word.is_empty() {
             words.push(std::mem::take(&mut word));
         }
-        match kind {
-            Kind::Other => spell(letter, &mut words),
+        match class {
+            CharacterClass::Other => spell(letter, &mut words),
             _ => push_ascii(letter, &mut word),
         }
-        previous = kind;
+        previous = class;
     }
     if !word.is_empty() {
         words.push(word);
@@ -225,28 +233,29 @@ fn words(name: &str) -> Vec<String> {
     words
 }
 
-/// Whether what is left of a word is the `s` of several.
+/// Returns whether the rest of a word is the plural `s` of an abbreviation.
 fn is_plural(mut rest: impl Iterator<Item = char>) -> bool {
-    rest.next() == Some('s') && rest.next().is_none_or(|behind| Kind::of(behind) != Kind::Lower)
+    rest.next() == Some('s')
+        && rest.next().is_none_or(|following| CharacterClass::of(following) != CharacterClass::Lower)
 }
 
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Kind {
+enum CharacterClass {
     Lower,
     Upper,
     Digit,
     Other,
 }
 
-impl Kind {
+impl CharacterClass {
     fn of(letter: char) -> Self {
         match letter {
-            'a'..='z' => Kind::Lower,
-            'A'..='Z' => Kind::Upper,
-            '0'..='9' => Kind::Digit,
-            _ if transliteration(letter).is_empty() => Kind::Other,
-            _ if letter.is_uppercase() => Kind::Upper,
-            _ => Kind::Lower,
+            'a'..='z' => CharacterClass::Lower,
+            'A'..='Z' => CharacterClass::Upper,
+            '0'..='9' => CharacterClass::Digit,
+            _ if transliteration(letter).is_empty() => CharacterClass::Other,
+            _ if letter.is_uppercase() => CharacterClass::Upper,
+            _ => CharacterClass::Lower,
         }
     }
 }
@@ -259,7 +268,7 @@ fn push_ascii(letter: char, word: &mut String) {
     }
 }
 
-/// Signs that carry a meaning become a word; all others only separate words.
+/// Adds the word for a sign with a meaning. All other signs only separate words.
 fn spell(sign: char, words: &mut Vec<String>) {
     let word = match sign {
         '%' => "percent",
@@ -273,7 +282,7 @@ fn spell(sign: char, words: &mut Vec<String>) {
     words.push(word.to_owned());
 }
 
-/// ASCII letters for a letter of a European language or a prefix of a unit; empty for any other.
+/// Returns ASCII letters for a letter of a European language or the prefix of a unit; empty for any other character.
 fn transliteration(letter: char) -> &'static str {
     match letter {
         'ä' | 'Ä' | 'æ' | 'Æ' => "ae",
@@ -302,13 +311,13 @@ fn transliteration(letter: char) -> &'static str {
     }
 }
 
-/// `name` behind a prefix that is a word of its own, such as `set_`: without what keywords, and names that start with a digit, have in
-/// front.
+/// Returns `name` with a prefix that is a separate word, such as `set_`. The raw prefix of keywords and the underscore
+/// before a digit are removed.
 pub fn prefixed(prefix: &str, name: &str) -> String {
     format!("{prefix}{}", name.trim_start_matches("r#").trim_start_matches('_'))
 }
 
-/// `name` as it has to be written where an identifier is wanted: raw where it is a keyword of any edition.
+/// Returns `name` as a valid identifier: raw if it is a keyword of any edition.
 pub fn escaped(name: &str) -> String {
     const KEYWORDS: [&str; 48] = [
         "abstract", "as", "async", "await", "become", "box", "break", "const", "continue", "do", "dyn", "else", "enum",
@@ -352,16 +361,17 @@ mod tests {
     }
 
     #[test]
-    fn names_that_suffixes_dont_tell_apart_are_counted() {
+    fn names_with_equal_suffixes_are_numbered() {
         let names = names(&[("a", "1"), ("a", "1"), ("a", "1"), ("a_1_1_3", "x"), ("a", "1"), ("a", "2")]);
         assert_eq!(names, ["a_1", "a_1_1", "a_1_1_4", "a_1_1_3", "a_1_1_5", "a_2"]);
         let many = vec![("a", "1"); 20_000];
-        assert!(self::names(&many).iter().all(|name| name.len() < 16), "none grows with their number");
+        assert!(self::names(&many).iter().all(|name| name.len() < 16), "no name grows with the number of elements");
     }
 
-    fn names(wanted: &[(&str, &str)]) -> Vec<String> {
-        let wishes: Vec<Wish<'_>> = wanted.iter().map(|&(name, suffix)| Wish::new(name, "object", suffix)).collect();
-        unique(&wishes, &["new"], Case::Snake)
+    fn names(pairs: &[(&str, &str)]) -> Vec<String> {
+        let name_requests: Vec<NameRequest<'_>> =
+            pairs.iter().map(|&(name, suffix)| NameRequest::new(name, "object", suffix)).collect();
+        unique(&name_requests, &["new"], Case::Snake)
     }
 
     #[test]
@@ -371,7 +381,7 @@ mod tests {
     }
 
     #[test]
-    fn a_suffixed_name_never_takes_one_that_is_there() {
+    fn a_suffixed_name_never_equals_an_existing_one() {
         let got = names(&[("a 2000", "1000"), ("a", "2000"), ("a", "2001")]);
         assert_eq!(got, ["a_2000", "a_2000_2000", "a_2001"]);
     }
@@ -380,12 +390,16 @@ mod tests {
     fn suffixes_of_any_text_are_parts_of_identifiers() {
         let got = names(&[("a", "Chapter/Speed_64"), ("a", "\u{65e5}"), ("", "\u{df}_2"), ("new", "__"), ("new", "")]);
         assert_eq!(got, ["a_chapter_speed_64", "a_other", "object_ss_2", "new_other", "new_other_other"]);
-        let wishes = [Wish::new("A 2", "object", "U64"), Wish::new("a2", "object", "7")];
-        assert_eq!(unique(&wishes, &[], Case::Pascal), ["A2U64", "A2_7"], "camel case has lines between digits only");
+        let name_requests = [NameRequest::new("A 2", "object", "U64"), NameRequest::new("a2", "object", "7")];
+        assert_eq!(
+            unique(&name_requests, &[], Case::Pascal),
+            ["A2U64", "A2_7"],
+            "camel case has underscores only between digits"
+        );
     }
 
     #[test]
-    fn prefixes_stand_in_front_of_words() {
+    fn prefixes_precede_words() {
         let got = ["speed", "_2nd", "r#type"].map(|name| prefixed("set_", name));
         assert_eq!(got, ["set_speed", "set_2nd", "set_type"]);
     }

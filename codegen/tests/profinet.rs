@@ -285,7 +285,7 @@ fn every_data_type_compiles_in_every_place() {
         &RustOptions::default(),
     );
     accept("types", &text);
-    assert!(text.contains("1 parameters that don't lie within its bytes are left out."), "{text}");
+    assert!(text.contains("1 parameters are left out because they are not within the bytes of the record."), "{text}");
     assert!(text.contains("const STATUS_LEN: usize = 2;"));
 }
 
@@ -304,7 +304,7 @@ fn lengths_out_of_all_proportion_cost_nothing() {
         &RustOptions::default(),
     );
     assert!(text.len() < 10_000, "{text}");
-    assert!(text.contains("2 records without bytes, or of more than 65,535, are left out."), "{text}");
+    assert!(text.contains("2 records with no bytes, or more than 65,535, are left out."), "{text}");
     accept("huge", &text);
 }
 

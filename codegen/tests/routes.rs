@@ -79,7 +79,7 @@ fn code_of_a_window() {
                 Far = { reg = 0x9000, type = \"i32\", access = \"rw\" }";
     let text = rust(&table(WINDOW, rows, ""));
     insta::assert_snapshot!("window", part(&text, "pub mod windows", "pub mod objects"));
-    insta::assert_snapshot!("maker", part(&text, "const fn place_1", "    }"));
+    insta::assert_snapshot!("maker", part(&text, "const fn location_1", "    }"));
     insta::assert_snapshot!("behind_a_window", part(&text, "    /// Gain.", "pub const FAR"));
 }
 
@@ -107,7 +107,10 @@ fn code_of_an_image() {
     let images = "[[images]]\nname = \"out\"\ndirection = \"rx\"\nbytes = 8\n[images.fields]\nTarget = { at = 3 }\nMode = { at = 2, type = \"i8\" }\n\
                   [[images]]\nname = \"in\"\ndirection = \"tx\"\nbytes = 8\norder = \"little\"\n[images.fields]\nAlarm = { at = 7 }\nTorque = { at = 1, type = \"i16\" }\n";
     let text = rust(&table("", rows, images));
-    insta::assert_snapshot!("image", part(&text, "pub mod objects", "A register or an entry that can be read."));
+    insta::assert_snapshot!(
+        "image",
+        part(&text, "pub mod objects", "Handle of a register or an entry that is read-only.")
+    );
     insta::assert_snapshot!("widths", part(&text, "    /// Mode.", "    /// Alarm."));
     let compilation = read(&table("", rows, images));
     let mode = item(&compilation, "Mode");

@@ -87,8 +87,8 @@ fn references_are_links() {
             "tests/data/press.toml",
             &[
                 "    /// Constant: [`objects::CONTROL`]. Values: [`Control`](types::Control).",
-                "    /// [`Control`] while [mode](super::objects::MODE) is press (1).",
-                "    /// States of ram, as [status](super::objects::STATUS) tells them.",
+                "    /// View of [`Control`] with the bits that apply while [mode](super::objects::MODE) is press (1).",
+                "    /// States of ram, read from [status](super::objects::STATUS).",
                 "    /// | [`Ready`](Self::Ready) | `xxxx xxxx xxxx x001` |",
                 "    /// 0x200C:01, Modbus 12 (holding; wire 12; FC 3), INTEGER16, ro, physical value = raw × 0.5 / [gain](GAIN) N.",
                 "    /// Before firmware 2\\.0. Replaced by [position](POSITION_8).",
@@ -97,20 +97,20 @@ fn references_are_links() {
         (
             "tests/data/hoist.toml",
             &[
-                "    /// Means this after [Select load](messages::SelectLoad).",
-                "    /// Means this after [Select load](SelectLoad).",
+                "    /// Has this meaning after [Select load](messages::SelectLoad).",
+                "    /// Has this meaning after [Select load](SelectLoad).",
                 "    /// Replaced by [Go](messages::Go).",
                 "    /// Sends [`messages::Go`].",
             ],
         ),
         (
             "tests/data/one-drive.toml",
-            &["    /// On CANopen: [Read address](super::objects::reading::READ_ADDRESS) takes a number, and \
-               [Read value](super::objects::reading::READ_VALUE) gives its value."],
+            &["    /// On CANopen: [Read address](super::objects::reading::READ_ADDRESS) selects an item by its number, and \
+               [Read value](super::objects::reading::READ_VALUE) returns its value."],
         ),
         (
             "dictionaries/eco.toml",
-            &["    /// Its layout: [`pdo::Velocity`](super::pdo::Velocity).", "    /// Constant: [`objects::P1`]. Part of [`PULSES_PER_TURN`]."],
+            &["    /// Layout: [`pdo::Velocity`](super::pdo::Velocity).", "    /// Constant: [`objects::P1`]. Part of [`PULSES_PER_TURN`]."],
         ),
         (
             "dictionaries/demo-drive.eds",

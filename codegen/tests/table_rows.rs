@@ -183,7 +183,10 @@ fn conditions_on_bits() {
         + "[enums.E.values]\n0 = { name = \"off\", buses = [\"canopen\"] }\n1 = { name = \"on\", when = { b = 3 } }\n";
     assert_eq!(said(&values), [""; 0]);
     let text = rust(&values);
-    assert!(text.contains("Only on CANopen.") && text.contains("Only while [b](super::objects::B) is 3."), "{text}");
+    assert!(
+        text.contains("Only on CANopen.") && text.contains("Valid only while [b](super::objects::B) is 3."),
+        "{text}"
+    );
     let never = values.replace("b = 3", "b = { mask = 4, value = 8 }");
     assert!(said(&never)[0].contains("never true"));
     let meanings = |other: &str| {
@@ -215,7 +218,7 @@ fn objects_have_other_addresses_beside() {
     assert_eq!(bindings.len(), 5, "{bindings:?}");
     assert!(matches!(&bindings[1], Binding::Register(own) if own.low_word_first && own.count == 2));
     let rust = rust(&text);
-    assert!(rust.contains("Called VL.KP in the device's ASCII protocol."), "{rust}");
+    assert!(rust.contains("Name in the device's ASCII protocol: VL.KP."), "{rust}");
     for (row, words) in [
         (
             "\"0x2000..0x2001\" = { name = \"a\", type = \"u8\", access = \"ro\", param = 1 }",

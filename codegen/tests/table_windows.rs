@@ -157,7 +157,7 @@ fn numbers_in_several_items() {
     assert_eq!(said(&text), [""; 0]);
     let code = rust(&text);
     for part in [
-        "/// offset in [high](objects::HIGH), [low](objects::LOW) to the base 100. [sign](objects::SIGN) is 2 below zero. In pulse. From the marker.",
+        "/// offset, split into [high](objects::HIGH), [low](objects::LOW) to the base 100. [sign](objects::SIGN) is 2 if the number is negative. Unit: pulse. From the marker.",
         "pub const OFFSET: rt::Composite<2> = rt::Composite::signed(100, 2);",
         "rt::Composite<2> = rt::Composite::new(16);",
     ] {

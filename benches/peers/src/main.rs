@@ -24,30 +24,30 @@ Without a stage, all of them. With files, these are read instead of the inputs t
 
 const STAGES: [&str; 4] = ["read", "generate", "compile", "growth"];
 
-/// What is asked for.
+/// The arguments of the command line.
 #[derive(Default)]
-struct Wish {
+struct Arguments {
     stages: Vec<String>,
     files: Vec<PathBuf>,
     json: bool,
 }
 
-impl Wish {
-    fn of_arguments() -> Option<Self> {
-        let mut wish = Wish::default();
+impl Arguments {
+    fn parse() -> Option<Self> {
+        let mut arguments = Arguments::default();
         for argument in std::env::args().skip(1) {
             match argument.as_str() {
-                "--json" => wish.json = true,
-                stage if STAGES.contains(&stage) => wish.stages.push(argument),
+                "--json" => arguments.json = true,
+                stage if STAGES.contains(&stage) => arguments.stages.push(argument),
                 option if option.starts_with('-') => return None,
-                _ => wish.files.push(argument.into()),
+                _ => arguments.files.push(argument.into()),
             }
         }
-        if wish.stages.is_empty() {
-            let stages = if wish.files.is_empty() { &STAGES[..] } else { &STAGES[..1] };
-            wish.stages = stages.iter().map(|stage| (*stage).to_owned()).collect();
+        if arguments.stages.is_empty() {
+            let stages = if arguments.files.is_empty() { &STAGES[..] } else { &STAGES[..1] };
+            arguments.stages = stages.iter().map(|stage| (*stage).to_owned()).collect();
         }
-        Some(wish)
+        Some(arguments)
     }
 
     fn has(&self, stage: &str) -> bool {
@@ -56,24 +56,24 @@ impl Wish {
 }
 
 fn main() {
-    let Some(wish) = Wish::of_arguments() else {
+    let Some(arguments) = Arguments::parse() else {
         eprintln!("{USAGE}");
         std::process::exit(2);
     };
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("target/inputs");
     std::fs::create_dir_all(&folder).expect("a folder for inputs");
-    let mut tables = Tables { json: wish.json, made: Vec::new() };
-    if wish.has("read") {
-        read(&wish.files, &folder, &mut tables);
+    let mut tables = Tables { json: arguments.json, made: Vec::new() };
+    if arguments.has("read") {
+        read(&arguments.files, &folder, &mut tables);
     }
-    if wish.has("generate") {
+    if arguments.has("generate") {
         generate::compare().into_iter().for_each(|table| tables.add(&table));
     }
-    if wish.has("compile") {
+    if arguments.has("compile") {
         tables.add(&compile::compare(&folder));
     }
-    let growth = if wish.has("growth") { growth::report(!wish.json) } else { Vec::new() };
-    if wish.json {
+    let growth = if arguments.has("growth") { growth::report(!arguments.json) } else { Vec::new() };
+    if arguments.json {
         println!("{:#}", json!({ "tables": tables.made, "growth": growth }));
     }
 }

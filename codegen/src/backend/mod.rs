@@ -1,3 +1,3 @@
-//! What the compiler emits. No back end looks at a source format.
+//! Back ends of the compiler. They do not depend on a source format.
 
 pub mod rust;

@@ -2,11 +2,11 @@
 
 use lexibus_codegen::facts::address;
 use lexibus_codegen::ir::{Group, GroupKind, Item, ObjectCode};
-use lexibus_codegen::names::{self, unique, Case, Wish};
+use lexibus_codegen::names::{self, unique, Case, NameRequest};
 
 /// Returns the identifier of a unique name.
 pub(super) fn identifier(name: &str) -> String {
-    names::identifier(&Wish::new(name, "item", ""), Case::Snake)
+    names::identifier(&NameRequest::new(name, "item", ""), Case::Snake)
 }
 
 /// The identifiers of the groups and items of a device or module.
@@ -22,8 +22,8 @@ impl Identifiers {
     /// Returns the identifiers in these groups. They follow from names; names that several elements share get an
     /// address.
     pub fn of(groups: &[&Group]) -> Self {
-        let wishes: Vec<Wish<'_>> = groups.iter().flat_map(|group| wishes(group)).collect();
-        let mut names = unique(&wishes, &[], Case::Snake).into_iter();
+        let name_requests: Vec<NameRequest<'_>> = groups.iter().flat_map(|group| name_requests(group)).collect();
+        let mut names = unique(&name_requests, &[], Case::Snake).into_iter();
         let mut identifiers = Identifiers { groups: Vec::new(), items: Vec::new() };
         for group in groups {
             let (name, items) = match group.index() {
@@ -38,10 +38,10 @@ impl Identifiers {
 }
 
 /// Returns the requested identifiers of a group: one for an object, and one for each register of a chapter or image.
-fn wishes(group: &Group) -> Vec<Wish<'_>> {
+fn name_requests(group: &Group) -> Vec<NameRequest<'_>> {
     match group.kind {
-        GroupKind::Object { index, .. } => vec![Wish::new(&group.name, "object", format!("{index:04X}"))],
-        _ => group.items.iter().map(|item| Wish::new(&item.name, "register", suffix(item))).collect(),
+        GroupKind::Object { index, .. } => vec![NameRequest::new(&group.name, "object", format!("{index:04X}"))],
+        _ => group.items.iter().map(|item| NameRequest::new(&item.name, "register", suffix(item))).collect(),
     }
 }
 
@@ -50,8 +50,9 @@ fn entries(group: &Group) -> Vec<String> {
         return vec![String::new(); group.items.len()];
     }
     let sub_index = |item: &Item| item.object().map_or(0, |(_, sub_index)| sub_index);
-    let wishes: Vec<Wish<'_>> = group.items.iter().map(|item| Wish::new(&item.name, "sub", sub_index(item))).collect();
-    unique(&wishes, &[], Case::Snake)
+    let name_requests: Vec<NameRequest<'_>> =
+        group.items.iter().map(|item| NameRequest::new(&item.name, "sub", sub_index(item))).collect();
+    unique(&name_requests, &[], Case::Snake)
 }
 
 /// Returns whether an object is a module of several values in Rust.

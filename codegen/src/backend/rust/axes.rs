@@ -1,18 +1,18 @@
-//! Further axes: the constant `AXES`, from which the runtime knows their addresses.
+//! Multiple axes: the constant `AXES`, from which the runtime computes addresses.
 
 use super::code::{Data, Doc};
 use super::docs;
 use crate::ir::{AxisRange, AxisRule, AxisStep, Device};
 
-/// Axes, ready to be written.
+/// Axes, ready to be printed.
 pub(super) struct AxesModel {
-    /// The models that have them, as a part of a sentence; empty = all.
+    /// Models that have the axes, as a part of a sentence; empty if all models have them.
     pub models: String,
-    /// `AXES`.
+    /// Value of `AXES`.
     pub constant: Doc,
 }
 
-/// The axes of a device that has more than one.
+/// Returns the axes of a device with more than one axis.
 pub(super) fn model(device: &Device) -> Option<AxesModel> {
     let rule = device.axes.as_ref().filter(|rule| rule.axes > 1)?;
     let names: Vec<String> = rule.models.iter().map(|name| docs::escape(name)).collect();
@@ -21,9 +21,10 @@ pub(super) fn model(device: &Device) -> Option<AxesModel> {
 }
 
 fn axes(device: &Device, rule: &AxisRule) -> Doc {
-    let is_within = |index: u16| rule.rules.iter().any(|own| (own.indices.0..=own.indices.1).contains(&index));
+    let is_within = |index: u16| rule.rules.iter().any(|range| (range.indices.0..=range.indices.1).contains(&index));
     let items = device.groups.iter().flat_map(|group| &group.items).filter(|item| item.shared_by_axes);
-    let mut shared: Vec<(u16, u8)> = items.filter_map(|item| item.object()).filter(|own| is_within(own.0)).collect();
+    let mut shared: Vec<(u16, u8)> =
+        items.filter_map(|item| item.object()).filter(|object| is_within(object.0)).collect();
     shared.sort_unstable();
     shared.dedup();
     let object = |(index, sub): (u16, u8)| Data::call("rt::Object::new", vec![Data::index(index), number(sub)]);

@@ -1,4 +1,4 @@
-//! Bit fields: integers whose bits have names.
+//! Bit fields: integers with named bits.
 
 use std::collections::HashSet;
 
@@ -7,31 +7,31 @@ use super::context::Context;
 use super::doc_table;
 use super::docs;
 use super::docs::WORDS;
-use super::links::{self, Here};
+use super::links::{self, DocModule};
 use super::literal;
-use super::method_names::{beside, method_allow};
+use super::method_names::{method_allow, unused_name};
 use super::naming::types::{value_names, NamedType, View};
 use super::options::{Presence, RustOptions};
 use super::value_type::native;
 use crate::ir::{BitFieldEntry, BitMeaning, Condition, Shape, Trigger, Value};
-use crate::names::{self, Case, Wish};
+use crate::names::{self, Case, NameRequest};
 
-/// A bit field, ready to be written.
+/// A bit field, ready to be printed.
 pub(super) struct BitFieldModel {
     pub name: String,
     pub docs: Vec<String>,
     pub derives: Vec<String>,
-    /// `Debug`, where it is wanted.
+    /// `Debug` implementation, if it is requested.
     pub debug: Option<DebugModel>,
-    /// The type of the value below, in terms of the runtime.
+    /// Path of the base type in the runtime.
     pub base: &'static str,
-    /// The type of its numbers.
+    /// Primitive integer that holds the raw value.
     pub native: &'static str,
-    /// What a new value is: reserved bits that have to be 1.
+    /// Initial value: the reserved bits that must be 1.
     pub initial: String,
-    /// The number that `raw` stands for, where its type has more bits.
+    /// Expression that removes bits of `raw` that are beyond the width of the bit field.
     pub cut: String,
-    /// What is written, where reserved bits have to be 0 or 1.
+    /// Expression of the value to write; `None` if no reserved bit must be 0 or 1.
     pub written: Option<String>,
     pub allow: Option<String>,
     pub fields: Vec<FieldModel>,
@@ -39,65 +39,65 @@ pub(super) struct BitFieldModel {
 }
 
 impl BitFieldModel {
-    /// The names of the type and of its views.
+    /// Returns the names of the type and of its views.
     pub(super) fn names(&self) -> Vec<&str> {
         std::iter::once(&self.name).chain(self.views.iter().map(|view| &view.name)).map(String::as_str).collect()
     }
 
-    /// The types of all fields.
+    /// Returns the types of all fields.
     pub(super) fn type_names(&self) -> impl Iterator<Item = &str> {
         self.fields.iter().chain(self.views.iter().flat_map(|view| &view.fields)).map(|field| field.ty.as_str())
     }
 }
 
-/// How a bit field is printed.
+/// The `Debug` implementation of a bit field.
 pub(super) struct DebugModel {
-    /// The attribute in front of it.
+    /// Attribute that makes the implementation conditional.
     pub gate: Option<String>,
     pub raw: String,
-    /// The name of the type, and names and masks of its fields, for `debug_bits` of the runtime.
+    /// Name of the type, and names and masks of its fields, in the format of the runtime's `debug_bits`.
     pub layout: String,
-    /// The values of fields that have types of their own.
+    /// Values of the fields that are printed by their type.
     pub values: Vec<Doc>,
 }
 
-/// A flag or a field of several bits.
+/// A flag, or a field of several bits.
 pub(super) struct FieldModel {
     pub docs: String,
     pub getter: String,
-    /// The getter as documentation names it.
+    /// Link to the getter.
     pub title: String,
     pub setter: String,
     pub ty: String,
-    /// Its value, from `self.0`.
+    /// Expression that reads the field from `self.0`.
     pub get: Doc,
-    /// All bits with `value` in its place.
+    /// Expression of the bit field with `value` in the field.
     pub set: Doc,
-    /// Its name and mask in the layout for `Debug`.
+    /// Name and mask of the field in the layout for `Debug`.
     debug: String,
     /// Whether `Debug` prints the value that the getter returns.
     prints_value: bool,
-    /// Its first bit, and its row in the table of the bit field.
+    /// Row of the field in the table of the bit field.
     row: Row,
 }
 
-/// The first bit of a field; its bits, its name and its meaning.
+/// First bit of a field, and the cells of its row: bits, name and meaning.
 type Row = (u8, [String; 3]);
 
-/// The bits that have their meaning under one condition.
+/// A view: the bits that apply under one condition.
 pub(super) struct ViewModel {
     pub name: String,
     pub title: String,
-    /// The method that gives the view.
+    /// Method of the bit field that returns the view.
     pub method: String,
-    /// The method that gives all bits again.
+    /// Method of the view that returns the bit field.
     pub back: String,
     pub fields: Vec<FieldModel>,
     pub allow: Option<String>,
 }
 
-/// Names that methods of a bit field itself have, those that clippy takes for methods of traits, and those of methods that every type
-/// has, and which would be called instead.
+/// Names that getters must not have: other methods of a bit field, methods that clippy expects to belong to a trait,
+/// and methods that every type has and that would be called instead.
 const RESERVED: [&str; 16] = [
     "self",
     "super",
@@ -117,26 +117,26 @@ const RESERVED: [&str; 16] = [
     "not",
 ];
 
-/// The bits of an integer's numbers.
+/// Returns a mask of this many bits.
 fn mask(bits: u32) -> u64 {
     u64::MAX.checked_shr(64 - bits.min(64)).unwrap_or(0)
 }
 
-/// When the bits of a view have their meaning.
+/// Returns the condition of a view as words.
 fn title(context: &Context<'_>, condition: &Condition) -> String {
     let Some(names) = value_names(context, condition) else {
-        return format!("while {}", docs::holds(condition, context, Here::TYPES));
+        return format!("while {}", docs::holds(condition, context, DocModule::TYPES));
     };
     let numbers = condition.values.iter().map(Value::to_string).collect::<Vec<_>>().join(" or ");
-    let item = context.link(&condition.item, Here::TYPES).unwrap_or_else(|| docs::escape(&condition.item));
+    let item = context.link(&condition.item, DocModule::TYPES).unwrap_or_else(|| docs::escape(&condition.item));
     format!("while {item} is {} ({numbers})", docs::escape(&names.join(" or ")))
 }
 
-/// The bit field at this position, under its names.
+/// Returns the model of the bit field at this position.
 pub(super) fn model(
     context: &Context<'_>,
     position: u32,
-    own: &NamedType,
+    named: &NamedType,
     views: &[View],
     machine_methods: &[&str],
     options: &RustOptions,
@@ -146,18 +146,18 @@ pub(super) fn model(
         Shape::BitField { fields, .. } => fields.as_slice(),
         _ => &[],
     };
-    let NamedType { name, base, native, bits, .. } = own;
+    let NamedType { name, base, native, bits, .. } = named;
     let bits = *bits;
     let fits = |entry: &&BitFieldEntry| entry.bits > 0 && u32::from(entry.offset) + u32::from(entry.bits) <= bits;
     let entries: Vec<&BitFieldEntry> = entries.iter().filter(fits).collect();
-    let with = Fields { context, native, bits };
+    let generator = Fields { context, native, bits };
 
-    let mut taken: Vec<&str> = RESERVED.to_vec();
-    taken.extend(machine_methods);
-    let methods = view_methods(views, &taken);
-    let back = beside(|name| methods.contains(name), snake(name));
-    taken.extend(methods.iter().map(String::as_str));
-    let fields = with.fields(&entries, None, &taken, &|name| format!("[`{name}`](Self::{name})"));
+    let mut reserved_names: Vec<&str> = RESERVED.to_vec();
+    reserved_names.extend(machine_methods);
+    let methods = view_methods(views, &reserved_names);
+    let back = unused_name(|name| methods.contains(name), snake(name));
+    reserved_names.extend(methods.iter().map(String::as_str));
+    let fields = generator.fields(&entries, None, &reserved_names, &|name| format!("[`{name}`](Self::{name})"));
     let (zeros, ones) = reserved(&entries);
     let mut docs = docs::of_type(context, position);
     for (bits, number) in [(zeros, 0), (ones, 1)] {
@@ -167,7 +167,8 @@ pub(super) fn model(
     }
     let views = views.iter().zip(&methods).map(|(view, method)| {
         let link = |name: &str| format!("[`{method}().{name}()`]({}::{name})", view.name);
-        let fields = with.fields(&entries, Some(&view.condition), &[&RESERVED[..], &[back.as_str()]].concat(), &link);
+        let fields =
+            generator.fields(&entries, Some(&view.condition), &[&RESERVED[..], &[back.as_str()]].concat(), &link);
         ViewModel {
             allow: method_allow(fields.iter().map(|field| field.getter.as_str())),
             name: view.name.clone(),
@@ -186,7 +187,7 @@ pub(super) fn model(
         base,
         native,
         initial: hexadecimal_or_zero(ones),
-        cut: if mask(bits) == mask(with.native_bits()) {
+        cut: if mask(bits) == mask(generator.native_bits()) {
             "raw".into()
         } else {
             format!("raw & {}", hexadecimal(mask(bits)))
@@ -199,12 +200,12 @@ pub(super) fn model(
     }
 }
 
-fn view_methods(views: &[View], taken: &[&str]) -> Vec<String> {
-    let wishes = names::numbered(views.iter().map(|view| view.words.as_str()), "view");
-    names::unique(&wishes, taken, Case::Snake)
+fn view_methods(views: &[View], reserved: &[&str]) -> Vec<String> {
+    let name_requests = names::numbered(views.iter().map(|view| view.words.as_str()), "view");
+    names::unique(&name_requests, reserved, Case::Snake)
 }
 
-/// The lines of the table of all bits.
+/// Returns the lines of the table of all bits.
 fn table<'f>(entries: &[&BitFieldEntry], fields: impl Iterator<Item = &'f FieldModel>) -> Vec<String> {
     let reserved = |entry: &&BitFieldEntry| {
         let BitMeaning::Reserved { write } = entry.meaning else { return None };
@@ -220,7 +221,7 @@ fn table<'f>(entries: &[&BitFieldEntry], fields: impl Iterator<Item = &'f FieldM
     doc_table::table(["Bits", "Name", "Meaning"], &rows)
 }
 
-/// `3`, `4–6`.
+/// Returns the bits of a field as words: `3`, `4–6`.
 fn span(entry: &BitFieldEntry) -> String {
     match entry.bits {
         1 => entry.offset.to_string(),
@@ -228,33 +229,33 @@ fn span(entry: &BitFieldEntry) -> String {
     }
 }
 
-/// What makes a field act, and when it holds.
+/// Returns sentences about the edge on which a field acts, and about inverted flags.
 fn marks(entry: &BitFieldEntry) -> impl Iterator<Item = String> {
-    let inverted = matches!(entry.meaning, BitMeaning::Flag { inverted: true });
+    let is_inverted = matches!(entry.meaning, BitMeaning::Flag { inverted: true });
     let trigger = entry.trigger.map(|trigger| match trigger {
-        Trigger::Rising => "Acts on the change from 0 to 1.",
-        Trigger::Falling => "Acts on the change from 1 to 0.",
-        Trigger::Toggle => "Each change of the bit counts.",
-        Trigger::SelfClearing => "The device clears it by itself.",
+        Trigger::Rising => "Acts on the rising edge.",
+        Trigger::Falling => "Acts on the falling edge.",
+        Trigger::Toggle => "Acts on both edges.",
+        Trigger::SelfClearing => "The device clears the bit.",
     });
-    inverted.then_some("Holds while the bit is 0.").into_iter().chain(trigger).map(str::to_owned)
+    is_inverted.then_some("Active low: true if the bit is 0.").into_iter().chain(trigger).map(str::to_owned)
 }
 
-/// The name of a type as that of a method.
+/// Returns the name of a type as the name of a method.
 fn snake(name: &str) -> String {
-    let wish = Wish { name, fallback: "bits".to_owned(), suffix: "bits".to_owned() };
-    names::unique(&[wish], &RESERVED, Case::Snake).remove(0)
+    let name_request = NameRequest { name, fallback: "bits".to_owned(), suffix: "bits".to_owned() };
+    names::unique(&[name_request], &RESERVED, Case::Snake).remove(0)
 }
 
-/// Bits that have to be written as 0, and those as 1.
+/// Returns the reserved bits that must be written as 0, and those that must be written as 1.
 fn reserved(entries: &[&BitFieldEntry]) -> (u64, u64) {
-    let place = |entry: &BitFieldEntry| mask(entry.bits.into()) << entry.offset;
+    let bits_of = |entry: &BitFieldEntry| mask(entry.bits.into()) << entry.offset;
     let (mut zeros, mut ones, mut used) = (0, 0, 0);
     for entry in entries {
         match entry.meaning {
-            BitMeaning::Reserved { write: Some(false) } if entry.when.is_none() => zeros |= place(entry),
-            BitMeaning::Reserved { write: Some(true) } if entry.when.is_none() => ones |= place(entry),
-            _ => used |= place(entry),
+            BitMeaning::Reserved { write: Some(false) } if entry.when.is_none() => zeros |= bits_of(entry),
+            BitMeaning::Reserved { write: Some(true) } if entry.when.is_none() => ones |= bits_of(entry),
+            _ => used |= bits_of(entry),
         }
     }
     (zeros & !used, ones & !used)
@@ -297,7 +298,7 @@ fn debug(name: &str, native: &str, fields: &[FieldModel], options: &RustOptions)
     })
 }
 
-/// What the code of every field depends on.
+/// Generates the code of fields.
 struct Fields<'c, 's> {
     context: &'c Context<'s>,
     native: &'static str,
@@ -309,7 +310,7 @@ impl Fields<'_, '_> {
         native_bits(self.native)
     }
 
-    /// The fields that have their meaning under `condition`. The table shows `link` of their names.
+    /// Returns the fields that apply under `condition`. The table shows the link that `link` returns for a name.
     fn fields(
         &self,
         all: &[&BitFieldEntry],
@@ -321,22 +322,22 @@ impl Fields<'_, '_> {
             !matches!(entry.meaning, BitMeaning::Reserved { .. }) && entry.when.as_ref() == condition
         };
         let entries: Vec<&BitFieldEntry> = all.iter().filter(is_field).copied().collect();
-        // One name for one bit twice: two versions of the firmware mean different things by it.
+        // Two versions of the firmware may give a bit of the same name different meanings.
         let mut seen = HashSet::new();
-        let wishes: Vec<Wish<'_>> = entries
+        let name_requests: Vec<NameRequest<'_>> = entries
             .iter()
             .enumerate()
             .map(|(position, entry)| {
                 let is_again = !seen.insert((&entry.name, entry.offset));
-                let place = if is_again { format!("_{position}") } else { String::new() };
-                Wish::new(&entry.name, "bit", format!("{}{place}", entry.offset))
+                let position_suffix = if is_again { format!("_{position}") } else { String::new() };
+                NameRequest::new(&entry.name, "bit", format!("{}{position_suffix}", entry.offset))
             })
             .collect();
-        let names = names::unique(&wishes, reserved, Case::Snake);
-        let mut taken: HashSet<String> = names.iter().cloned().collect();
+        let names = names::unique(&name_requests, reserved, Case::Snake);
+        let mut used: HashSet<String> = names.iter().cloned().collect();
         let fields = entries.iter().zip(&names).map(|(entry, name)| {
-            let setter = beside(|name| taken.contains(name), names::prefixed("with_", name));
-            taken.insert(setter.clone());
+            let setter = unused_name(|name| used.contains(name), names::prefixed("with_", name));
+            used.insert(setter.clone());
             self.field(entry, name, setter, link(name))
         });
         fields.collect()
@@ -357,7 +358,7 @@ impl Fields<'_, '_> {
         let title = format!("[`{name}`](Self::{name})");
         let (docs, Code { ty, get, set, is_named }) = (self.docs(entry), code);
         let mut meaning = vec![doc_table::meaning(&entry.name, name, entry.documentation.as_deref())];
-        meaning.extend(is_named.then(|| format!("Values: {}.", links::beside(&ty))));
+        meaning.extend(is_named.then(|| format!("Values: {}.", links::sibling(&ty))));
         meaning.extend(marks(entry));
         meaning.retain(|part| !part.is_empty());
         let row = (entry.offset, [span(entry), link, meaning.join(" ")]);
@@ -366,14 +367,14 @@ impl Fields<'_, '_> {
 
     fn code(&self, entry: &BitFieldEntry) -> Code {
         let bits = u32::from(entry.bits);
-        let place = hexadecimal(mask(bits) << entry.offset);
+        let mask = hexadecimal(mask(bits) << entry.offset);
         if let (BitMeaning::Flag { inverted }, 1) = (&entry.meaning, bits) {
             let not = if *inverted { "!" } else { "" };
             return Code {
                 is_named: false,
                 ty: "bool".to_owned(),
-                get: seq![not, self.call("flag", &place, None)],
-                set: call!("Self", self.call("with_flag", &place, Some(&format!("{not}value")))),
+                get: seq![not, self.call("flag", &mask, None)],
+                set: call!("Self", self.call("with_flag", &mask, Some(&format!("{not}value")))),
             };
         }
         let number = native(false, bits);
@@ -384,16 +385,16 @@ impl Fields<'_, '_> {
             }
             _ => None,
         };
-        let all = bits == self.bits && bits == self.native_bits();
+        let is_whole = bits == self.bits && bits == self.native_bits();
         let value = if named.is_some() { "value.raw()" } else { "value" };
-        let (read, set) = if all {
+        let (read, set) = if is_whole {
             (Doc::from("self.0"), call!("Self", value))
         } else if number == self.native {
-            (self.call("field", &place, None), call!("Self", self.call("with_field", &place, Some(value))))
+            (self.call("field", &mask, None), call!("Self", self.call("with_field", &mask, Some(value))))
         } else {
             let widened = format!("{value} as {}", self.native);
-            let read = seq![self.call("field", &place, None), " as ", number];
-            (read, call!("Self", self.call("with_field", &place, Some(&widened))))
+            let read = seq![self.call("field", &mask, None), " as ", number];
+            (read, call!("Self", self.call("with_field", &mask, Some(&widened))))
         };
         match named {
             Some(named) => {
@@ -404,7 +405,7 @@ impl Fields<'_, '_> {
         }
     }
 
-    /// A call of a function of the runtime for integers of this type.
+    /// Returns a call of a function of the runtime for integers of this type.
     fn call(&self, function: &str, mask: &str, value: Option<&str>) -> Doc {
         let path = seq!["rt::bits", self.native_bits(), "::", function];
         match value {
@@ -414,18 +415,18 @@ impl Fields<'_, '_> {
     }
 
     fn docs(&self, entry: &BitFieldEntry) -> String {
-        let place = match (entry.offset, entry.bits) {
+        let bits = match (entry.offset, entry.bits) {
             (offset, 1) => format!("Bit {offset}"),
             (offset, bits) => format!("Bits {} to {offset}", offset + bits - 1),
         };
         let mut sentences = vec![match entry.name.is_empty() {
-            true => format!("{place}."),
-            false => format!("{place}: {}", docs::sentence(&docs::escape(&entry.name))),
+            true => format!("{bits}."),
+            false => format!("{bits}: {}", docs::sentence(&docs::escape(&entry.name))),
         }];
         sentences.extend(marks(entry));
         docs::words(entry.documentation.as_deref(), &mut sentences);
         if let Some(access) = entry.access {
-            sentences.push(format!("Access {}.", access.name()));
+            sentences.push(format!("Access rights: {}.", access.name()));
         }
         if let Some(availability) = &entry.availability {
             sentences.push(WORDS.availability(availability));
@@ -438,7 +439,7 @@ impl Fields<'_, '_> {
 /// The code of a field.
 struct Code {
     ty: String,
-    /// Whether that is an enumeration.
+    /// Whether the type is an enumeration.
     is_named: bool,
     get: Doc,
     set: Doc,

@@ -1,24 +1,24 @@
-//! What a master has to know of a device on Modbus, and of the numbers that nodes may have: constants.
+//! Constants with properties of a device on its buses: Modbus limits and the node-ID range.
 
 use std::collections::BTreeMap;
 
 use super::code::{seq, Data, Doc};
 use crate::ir::{Availability, Binding, Device, Item, ModbusTable, RegisterBinding, RegisterSpace};
 
-/// A constant, ready to be written.
+/// A constant, ready to be printed.
 pub(super) struct FactModel {
     pub docs: String,
     pub code: Doc,
 }
 
-/// The names of these constants, as modules name things.
+/// Names of these constants in lower case.
 pub(super) const RESERVED: [&str; 2] = ["node_ids", "modbus"];
 
 pub(super) fn models(device: &Device) -> Vec<FactModel> {
     let mut facts = Vec::new();
     if let Some((first, last)) = device.node_ids {
         facts.push(FactModel {
-            docs: "The numbers that a node may have.".to_owned(),
+            docs: "Node-ID range of the device.".to_owned(),
             code: seq!["pub const NODE_IDS: core::ops::RangeInclusive<u8> = ", first, "..=", last, ";"],
         });
     }
@@ -26,7 +26,8 @@ pub(super) fn models(device: &Device) -> Vec<FactModel> {
     facts
 }
 
-/// The tables of Modbus: field and constant of the runtime, and how much Modbus itself reads and writes at once.
+/// Modbus tables: the field and the constant in the runtime, and the maximum numbers of values that Modbus reads and
+/// writes at once.
 const TABLES: [(RegisterSpace, &str, &str, u16, u16); 4] = [
     (RegisterSpace::Holding, "holding", "rt::modbus::TableLimits::HOLDING", 125, 123),
     (RegisterSpace::Input, "input", "rt::modbus::TableLimits::INPUT", 125, 0),
@@ -34,83 +35,95 @@ const TABLES: [(RegisterSpace, &str, &str, u16, u16); 4] = [
     (RegisterSpace::DiscreteInput, "discrete", "rt::modbus::TableLimits::DISCRETE", 2000, 0),
 ];
 
-/// `MODBUS`, of a device that has registers.
+/// Returns the constant `MODBUS` of a device with registers.
 fn modbus(device: &Device) -> Option<FactModel> {
     let has_registers = items(device).any(|item| registers(item).next().is_some());
     if !has_registers && device.modbus.is_empty() {
         return None;
     }
     let table = |(space, field, standard, max_read, max_write)| {
-        let own = device.modbus.iter().find(|own| own.space == space);
+        let stated = device.modbus.iter().find(|stated| stated.space == space);
         let spans = spans(device, space, max_read);
-        let data = match (own, spans.is_empty()) {
+        let data = match (stated, spans.is_empty()) {
             (None, true) => Doc::from(standard),
-            _ => limits(own, (max_read, max_write), spans),
+            _ => limits(stated, max_read, max_write, spans),
         };
         (field, data)
     };
     let data = Data::fields("rt::modbus::Limits", TABLES.map(table));
     Some(FactModel {
-        docs: "Which requests the device takes on Modbus, and which registers can be read together.".to_owned(),
+        docs: "Modbus requests that the device supports, and the registers that can be read together.".to_owned(),
         code: seq!["pub const MODBUS: rt::modbus::Limits = ", data, ";"],
     })
 }
 
-fn limits(own: Option<&ModbusTable>, (max_read, max_write): (u16, u16), spans: Vec<Doc>) -> Doc {
-    let functions = own.map_or(&[][..], |own| &own.functions);
-    let number = |given: Option<u16>, standard: u16| Doc::from(given.unwrap_or(standard).to_string());
+fn limits(stated: Option<&ModbusTable>, max_read: u16, max_write: u16, spans: Vec<Doc>) -> Doc {
+    let functions = stated.map_or(&[][..], |table| &table.functions);
+    let number = |value: Option<u16>, standard: u16| Doc::from(value.unwrap_or(standard).to_string());
     Data::fields(
         "rt::modbus::TableLimits",
         vec![
-            ("functions", Data::slice(functions.iter().map(|own| Doc::from(own.to_string())))),
-            ("max_read", number(own.and_then(|own| own.max_read), max_read)),
-            ("max_write", number(own.and_then(|own| own.max_write), max_write)),
-            ("split", Doc::from((own.is_some_and(|own| own.split)).to_string())),
+            ("functions", Data::slice(functions.iter().map(|function| Doc::from(function.to_string())))),
+            ("max_read", number(stated.and_then(|table| table.max_read), max_read)),
+            ("max_write", number(stated.and_then(|table| table.max_write), max_write)),
+            ("split", Doc::from((stated.is_some_and(|table| table.split)).to_string())),
             ("readable", Data::slice(spans)),
         ],
     )
 }
 
-/// The addresses of a table that can be read along with their neighbours. What is longer than Modbus reads at once never is.
+/// Returns the addresses of a table that can be read together with their neighbors. Registers longer than one Modbus
+/// request are excluded.
 fn spans(device: &Device, space: RegisterSpace, longest: u16) -> Vec<Doc> {
     let mut addresses: BTreeMap<u16, Option<u8>> = BTreeMap::new();
-    let all = items(device).flat_map(|item| registers(item).map(move |own| (item, own)));
-    for (item, register) in all.filter(|(_, own)| own.space == space && own.count <= longest) {
-        let kind = is_read_along(item).then_some(register.words_per_address);
+    let all = items(device).flat_map(|item| registers(item).map(move |register| (item, register)));
+    for (item, register) in all.filter(|(_, register)| register.space == space && register.count <= longest) {
+        let word_count = is_read_along(item).then_some(register.words_per_address);
         for address in register.address..=register.last() {
-            // What one item forbids, another one of the same address doesn't allow.
-            let known = addresses.entry(address).or_insert(kind);
-            *known = known.filter(|_| *known == kind);
+            // An address can be read only if all items at the address allow it.
+            let known = addresses.entry(address).or_insert(word_count);
+            *known = known.filter(|_| *known == word_count);
         }
     }
     let mut spans: Vec<(u16, u16, u8)> = Vec::new();
-    for (address, kind) in addresses.into_iter().filter_map(|(address, kind)| Some((address, kind?))) {
+    for (address, word_count) in addresses.into_iter().filter_map(|(address, word_count)| Some((address, word_count?)))
+    {
         match spans.last_mut() {
-            Some((_, last, own)) if *own == kind && last.checked_add(1) == Some(address) => *last = address,
-            _ => spans.push((address, address, kind)),
+            Some((_, last, span_words)) if *span_words == word_count && last.checked_add(1) == Some(address) => {
+                *last = address
+            }
+            _ => spans.push((address, address, word_count)),
         }
     }
     spans.into_iter().map(span).collect()
 }
 
-fn span((first, last, words): (u16, u16, u8)) -> Doc {
+fn span(span: (u16, u16, u8)) -> Doc {
+    let (first, last, words) = span;
     match words {
         1 => Data::call("rt::modbus::Span::new", vec![Doc::from(first.to_string()), Doc::from(last.to_string())]),
         _ => Doc::from(format!("rt::modbus::Span::new({first}, {last}).words_per_address({words})")),
     }
 }
 
-/// Whether reading the item unasked does no harm: every device has it, at any time, and nothing happens.
+/// Returns whether reading the item without a request by the program is harmless: every model has it in all states, and
+/// reading has no side effect.
 fn is_read_along(item: &Item) -> bool {
-    /// ObjFlags of CiA 306: not to be read on a scan.
+    /// ObjFlags of CiA 306: the object must not be read during a scan.
     const REFUSES_SCAN: u32 = 2;
-    let is_everywhere = |own: &Availability| {
-        own.models.is_empty() && own.options.is_empty() && own.since.is_none() && own.until.is_none()
+    let is_everywhere = |availability: &Availability| {
+        availability.models.is_empty()
+            && availability.options.is_empty()
+            && availability.since.is_none()
+            && availability.until.is_none()
     };
     item.access.readable()
         && item.flags & REFUSES_SCAN == 0
         && item.availability.as_deref().is_none_or(is_everywhere)
-        && item.behaviour.as_deref().is_none_or(|own| own.side_effects.is_empty() && own.read_states.is_empty())
+        && item
+            .behaviour
+            .as_deref()
+            .is_none_or(|behaviour| behaviour.side_effects.is_empty() && behaviour.read_states.is_empty())
 }
 
 fn items(device: &Device) -> impl Iterator<Item = &Item> {
@@ -119,7 +132,7 @@ fn items(device: &Device) -> impl Iterator<Item = &Item> {
 
 fn registers(item: &Item) -> impl Iterator<Item = &RegisterBinding> {
     item.bindings.iter().filter_map(|binding| match binding {
-        Binding::Register(own) => Some(&**own),
+        Binding::Register(register) => Some(&**register),
         _ => None,
     })
 }

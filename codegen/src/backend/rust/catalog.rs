@@ -1,4 +1,4 @@
-//! All devices and modules of a file in one Rust module.
+//! All devices and modules of a file as one Rust module.
 
 use std::collections::{HashMap, HashSet};
 
@@ -10,9 +10,9 @@ use super::model::Model;
 use super::options::RustOptions;
 use super::{docs, header, print};
 use crate::ir::{Catalog, Device, FileInfo, Module, ModuleId};
-use crate::names::{self, Case, Wish};
+use crate::names::{self, Case, NameRequest};
 
-/// Names that a device's module can't have: within it are modules of the others.
+/// Names that the module of a device must not have, because modules inside of it use them.
 const RESERVED: [&str; 18] = [
     "self",
     "super",
@@ -51,79 +51,80 @@ pub(super) fn emit(catalog: &Catalog, file: &FileInfo, options: &RustOptions) ->
             for (device, name) in devices.iter().zip(device_names(devices, file)) {
                 let mut model = Model::new(device, file, options, &paths);
                 definitions.share(&mut model, &name);
-                code.module(&heading(&device.name, &name), &name, |code| print::model(code, &model));
+                code.module(&title(&device.name, &name), &name, |code| print::model(code, &model));
             }
         }
     }
     if !modules.is_empty() {
-        let about = "Modules that can be plugged in. Indices that depend on the slot are those of slot 0.";
-        code.module(about, "modules", |code| {
+        let heading = "Modules that can be plugged in. Indices that depend on the slot are those of slot 0.";
+        code.module(heading, "modules", |code| {
             let mut definitions = Definitions::new(&options.runtime);
             for ((_, module), name) in modules.iter().zip(&names) {
                 let mut model = Model::of_module(module, options);
                 definitions.share(&mut model, name);
-                code.module(&heading(&module.name, name), name, |code| print::model(code, &model));
+                code.module(&title(&module.name, name), name, |code| print::model(code, &model));
             }
         });
     }
     Some(code.finish())
 }
 
-/// The modules that a device takes, or all where there is no device.
+/// Returns the modules that can be plugged into a device, or all modules if the file has no device.
 fn reachable(catalog: &Catalog) -> Vec<(ModuleId, &Module)> {
     let all = catalog.modules.iter().zip(0..).map(|(module, position)| (ModuleId(position), module));
     if catalog.devices.is_empty() {
         return all.collect();
     }
-    let taken: HashSet<ModuleId> = catalog
+    let pluggable: HashSet<ModuleId> = catalog
         .devices
         .iter()
         .filter(|device| device.ethercat.is_some())
-        .flat_map(|device| device.modules.iter().map(|own| own.module))
+        .flat_map(|device| device.modules.iter().map(|usage| usage.module))
         .collect();
-    all.filter(|(id, _)| taken.contains(id)).collect()
+    all.filter(|(id, _)| pluggable.contains(id)).collect()
 }
 
 fn module_names(modules: &[(ModuleId, &Module)]) -> Vec<String> {
-    let mut same: HashMap<u32, usize> = HashMap::new();
+    let mut same_number: HashMap<u32, usize> = HashMap::new();
     for (_, module) in modules {
-        *same.entry(module.number).or_default() += 1;
+        *same_number.entry(module.number).or_default() += 1;
     }
-    let wishes: Vec<Wish<'_>> = modules
+    let name_requests: Vec<NameRequest<'_>> = modules
         .iter()
         .map(|(id, module)| {
             let name = if module.id.is_empty() { &module.name } else { &module.id };
-            let place = if same[&module.number] > 1 { format!("_{}", id.0) } else { String::new() };
-            Wish::new(name, "module", format!("{:08X}{place}", module.number))
+            let position = if same_number[&module.number] > 1 { format!("_{}", id.0) } else { String::new() };
+            NameRequest::new(name, "module", format!("{:08X}{position}", module.number))
         })
         .collect();
-    escaped(names::unique(&wishes, &RESERVED, Case::Snake))
+    escaped(names::unique(&name_requests, &RESERVED, Case::Snake))
 }
 
-/// Devices go by their order code, which is shorter than their name; revisions are told apart by their number.
+/// Returns the names of the devices: their order codes, which are shorter than their names. The revision number is the
+/// suffix of ambiguous names.
 fn device_names(devices: &[Device], file: &FileInfo) -> Vec<String> {
     let names: Vec<String> = devices.iter().map(|device| module_name(device, file)).collect();
     let mut seen = HashSet::new();
-    let mut same: HashMap<(&str, Option<u32>), usize> = HashMap::new();
+    let mut same_revision: HashMap<(&str, Option<u32>), usize> = HashMap::new();
     for (device, name) in devices.iter().zip(&names) {
-        *same.entry((name, device.identity.revision_number)).or_default() += 1;
+        *same_revision.entry((name, device.identity.revision_number)).or_default() += 1;
     }
-    let wishes: Vec<Wish<'_>> = devices
+    let name_requests: Vec<NameRequest<'_>> = devices
         .iter()
         .zip(&names)
         .enumerate()
         .map(|(position, (device, name))| {
             let identity = &device.identity;
             let twice = !seen.insert((identity.product_code, identity.revision_number));
-            let place = if twice { format!("_{position}") } else { String::new() };
+            let position_suffix = if twice { format!("_{position}") } else { String::new() };
             let revision = identity.revision_number.unwrap_or(0);
-            let is_one_of_several = same[&(name.as_str(), identity.revision_number)] > 1;
+            let is_one_of_several = same_revision[&(name.as_str(), identity.revision_number)] > 1;
             let product =
                 if is_one_of_several { format!("{:08X}_", identity.product_code.unwrap_or(0)) } else { String::new() };
-            Wish::new(name, "device", format!("{product}{revision:08X}{place}"))
+            NameRequest::new(name, "device", format!("{product}{revision:08X}{position_suffix}"))
         })
         .collect();
-    escaped(names::unique(&wishes, &RESERVED, Case::Snake))
+    escaped(names::unique(&name_requests, &RESERVED, Case::Snake))
 }
 
 fn escaped(names: Vec<String>) -> Vec<String> {
@@ -134,8 +135,8 @@ fn paths(modules: &[(ModuleId, &Module)], names: &[String], outer: &str) -> Modu
     modules.iter().zip(names).map(|((id, _), name)| (*id, format!("{outer}::{name}::MODULE"))).collect()
 }
 
-/// What a device or module is called in the source, else its name in Rust.
-fn heading(original: &str, name: &str) -> String {
+/// Returns the name of a device or module in the description, or its Rust name if it has none.
+fn title(original: &str, name: &str) -> String {
     let title = docs::escape(original);
     docs::sentence(if title.is_empty() { name } else { &title })
 }

@@ -1,5 +1,5 @@
-//! Rust code as a document: text with the places at which a line may be broken, and the writer that breaks lines where and how
-//! `prettyplease` would.
+//! Rust code as a document: text with the positions at which lines may be broken, and the writer that breaks lines as
+//! `prettyplease` does.
 
 mod doc;
 mod layout;

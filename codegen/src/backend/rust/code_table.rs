@@ -1,4 +1,4 @@
-//! Tables of codes: alarms, emergency codes, abort codes.
+//! Code tables: alarms, emergency codes, abort codes.
 
 use super::bus_facts;
 use super::code::{call, slice, Doc};
@@ -12,42 +12,43 @@ use super::options::RustOptions;
 use crate::ir::{CodeRow, CodeTable, Device, SubjectKind, Value};
 use crate::names::{self, Case};
 
-/// A table, ready to be written.
+/// A code table, ready to be printed.
 pub(super) struct CodeTableModel {
     pub name: String,
-    /// A link to it from beside it.
+    /// Link to the table from its module.
     pub link: String,
     pub docs: Vec<String>,
     pub rows: Vec<Doc>,
-    /// Whether a cell may resemble a mathematical constant, which clippy would point out.
+    /// Whether a cell may resemble a mathematical constant, which clippy reports.
     pub has_real: bool,
-    /// The type of its codes.
+    /// Type of the codes.
     pub ty: Option<CodeTypeModel>,
 }
 
 pub(super) fn models(context: &Context<'_>, device: &Device, options: &RustOptions) -> Vec<CodeTableModel> {
     let tables: Vec<&CodeTable> = device.code_tables.iter().filter(|table| !table.rows.is_empty()).collect();
-    let wishes = names::numbered(tables.iter().map(|table| table.name.as_str()), "codes");
-    let names = names::unique(&wishes, &bus_facts::RESERVED, Case::Snake);
-    let types = names::unique(&wishes, &["Self"], Case::Pascal);
+    let name_requests = names::numbered(tables.iter().map(|table| table.name.as_str()), "codes");
+    let names = names::unique(&name_requests, &bus_facts::RESERVED, Case::Snake);
+    let types = names::unique(&name_requests, &["Self"], Case::Pascal);
     let named = tables.iter().zip(names.iter().zip(types));
-    named.map(|(table, (name, ty))| model(table, (name.to_ascii_uppercase(), ty), context, options)).collect()
+    named.map(|(table, (name, ty))| model(table, name.to_ascii_uppercase(), ty, context, options)).collect()
 }
 
 fn model(
     table: &CodeTable,
-    (name, ty): (String, String),
+    name: String,
+    type_name: String,
     context: &Context<'_>,
     options: &RustOptions,
 ) -> CodeTableModel {
     let manual = &context.manual;
     let mut docs = vec![docs::sentence(&docs::escape(&table.name))];
-    let text = table.documentation.as_ref().map_or("", |own| own.text.as_str());
+    let text = table.documentation.as_ref().map_or("", |documentation| documentation.text.as_str());
     if !text.is_empty() {
         docs.extend([String::new(), docs::sentence(&docs::escape(text))]);
     }
     docs.extend(
-        WORDS.place(manual, "", table.documentation.as_deref(), &[]).into_iter().flat_map(|own| [String::new(), own]),
+        WORDS.place(manual, "", table.documentation.as_deref(), &[]).into_iter().flat_map(|text| [String::new(), text]),
     );
     docs::doubts_about(context, SubjectKind::Codes, &table.name, &mut docs);
     if !table.buses.is_empty() {
@@ -57,22 +58,22 @@ fn model(
         let columns: Vec<String> = table.columns.iter().map(|column| docs::escape(column)).collect();
         docs.extend([String::new(), format!("Further columns: {}.", columns.join(", "))]);
     }
-    let rows = table.rows.iter().filter_map(|own| row(own, table.columns.len())).collect();
-    let ty = code_type::model(table, manual, options).map(|own| CodeTypeModel { name: ty, ..own });
-    // Of one letter, both have the same name.
+    let rows = table.rows.iter().filter_map(|code_row| row(code_row, table.columns.len())).collect();
+    let ty = code_type::model(table, manual, options).map(|model| CodeTypeModel { name: type_name, ..model });
+    // The table and its type have the same name if that is one letter.
     let link = |name: &str, kind: &str, other: &str| match name == other || is_derive(name) {
         true => format!("[`{name}`]({kind}@{name})"),
         false => format!("[`{name}`]"),
     };
-    let static_link = link(&name, "static", ty.as_ref().map_or("", |own| own.name.as_str()));
-    if let Some(own) = &ty {
-        docs.extend([String::new(), format!("As a type: {}.", link(&own.name, "enum", &name))]);
+    let static_link = link(&name, "static", ty.as_ref().map_or("", |model| model.name.as_str()));
+    if let Some(model) = &ty {
+        docs.extend([String::new(), format!("Type of the codes: {}.", link(&model.name, "enum", &name))]);
     }
     let has_real = table.rows.iter().flat_map(|row| &row.cells).any(|cell| matches!(cell, Value::Real(_)));
     CodeTableModel { name, link: static_link, docs, rows, has_real, ty }
 }
 
-/// `None` for a code beyond 64 bits.
+/// Returns the expression of a row; `None` for a code that does not fit in 64 bits.
 fn row(row: &CodeRow, columns: usize) -> Option<Doc> {
     let (first, last) = (i64::try_from(row.code).ok()?, i64::try_from(row.last.unwrap_or(row.code)).ok()?);
     let mut text = row.documentation.as_ref().map_or_else(String::new, |documentation| documentation.text.clone());
@@ -92,7 +93,7 @@ fn cell(value: &Value) -> Doc {
     let text = |text: &str| call!("rt::codes::Cell::Text", literal::string(text));
     match value {
         Value::Real(real) if real.is_finite() => Doc::from(format!("rt::codes::Cell::Real({real:?})")),
-        Value::Text(own) => text(own),
+        Value::Text(string) => text(string),
         other => match other.as_int().and_then(|number| i64::try_from(number).ok()) {
             Some(number) => Doc::from(format!("rt::codes::Cell::Number({number})")),
             None => text(&other.to_string()),

@@ -1,4 +1,4 @@
-//! The type of a table's codes: an enumeration, so that a program can tell alarms apart by their names.
+//! The type of a table's codes: an enumeration, so that a program can match alarms by name.
 
 use std::collections::{BTreeMap, HashSet};
 
@@ -8,35 +8,35 @@ use super::docs::WORDS;
 use super::options::RustOptions;
 use crate::facts::code;
 use crate::ir::{CodeRow, CodeTable, Manual};
-use crate::names::{self, Case, Wish};
+use crate::names::{self, Case, NameRequest};
 
-/// A type, ready to be written.
+/// A code type, ready to be printed.
 pub(super) struct CodeTypeModel {
     pub name: String,
-    /// The table of its codes.
+    /// Lines of the table of all codes.
     pub table: Vec<String>,
     pub derives: Vec<String>,
-    /// The integer of a code.
+    /// Primitive integer of a code.
     pub native: &'static str,
     pub variants: Vec<CodeVariant>,
-    /// The arms of the match from a code to its variant: pattern and variant.
+    /// Arms of the match from a code to its variant: pattern and variant.
     pub arms: Vec<(String, String)>,
-    /// Whether each number is in a row.
+    /// Whether every number of the integer is in a row.
     pub complete: bool,
 }
 
-/// A code, or a range of codes.
+/// A variant: a code, or a range of codes.
 pub(super) struct CodeVariant {
     pub name: String,
     pub docs: String,
-    /// The code; `None` where the variant has one of several.
+    /// The code; `None` for a range of codes.
     pub code: Option<String>,
 }
 
-/// Variants of every type of codes, and what its code names.
+/// Names that variants must not have, because the generated code uses them.
 const RESERVED: [&str; 2] = ["Self", "Unknown"];
 
-/// Integers of codes. The lowest has 16 bits, as codes of emergency messages have (CiA 301 7.2.7).
+/// Integers of codes. The smallest has 16 bits, as the emergency error codes of CANopen do (CiA 301 7.2.7).
 const NATIVES: [(&str, i64, i64); 4] = [
     ("u16", 0, u16::MAX as i64),
     ("u32", 0, u32::MAX as i64),
@@ -46,19 +46,20 @@ const NATIVES: [(&str, i64, i64); 4] = [
 
 type Span = (i64, i64);
 
-/// The type of `table`, without a name as yet; `None` where no row has a code of 64 bits.
+/// Returns the type of `table`, without a name; `None` if no row has a code that fits in 64 bits.
 pub(super) fn model<'a>(table: &'a CodeTable, manual: &Manual, options: &RustOptions) -> Option<CodeTypeModel> {
     let mut seen = HashSet::new();
-    // Of rows for several models of a device, the first one names the code.
-    let first_of_its_span = |row: &'a CodeRow| Some((span(row).filter(|own| seen.insert(*own))?, row));
+    // If several rows describe a code, for several models of a device, the first one names it.
+    let first_of_its_span = |row: &'a CodeRow| Some((span(row).filter(|row_span| seen.insert(*row_span))?, row));
     let rows: Vec<(Span, &CodeRow)> = table.rows.iter().filter_map(first_of_its_span).collect();
     let low = rows.iter().map(|(span, _)| span.0).min()?;
     let high = rows.iter().map(|(span, _)| span.1).max()?;
     let (native, first, last) = *NATIVES.iter().find(|native| native.1 <= low && high <= native.2)?;
-    let wish =
-        |(span, row): &(Span, &'a CodeRow)| Wish::new(&row.name, "code", span.0.to_string().replace('-', "Minus"));
-    let wishes: Vec<Wish<'a>> = rows.iter().map(wish).collect();
-    let names = names::unique(&wishes, &RESERVED, Case::Pascal);
+    let name_request = |(span, row): &(Span, &'a CodeRow)| {
+        NameRequest::new(&row.name, "code", span.0.to_string().replace('-', "Minus"))
+    };
+    let name_requests: Vec<NameRequest<'a>> = rows.iter().map(name_request).collect();
+    let names = names::unique(&name_requests, &RESERVED, Case::Pascal);
     let spans: Vec<Span> = rows.iter().map(|(span, _)| *span).collect();
     let pieces = disjoint(&spans);
     let covered: i128 = pieces.iter().map(|(_, span)| i128::from(span.1) - i128::from(span.0) + 1).sum();
@@ -84,17 +85,18 @@ fn span(row: &CodeRow) -> Option<Span> {
     (first <= last).then_some((first, last))
 }
 
-/// What of each span no narrower one has, in ascending order. Of spans of one length, the first has what they share.
+/// Returns the part of each span that no narrower span covers, in ascending order. If spans of equal length overlap,
+/// the first one covers the overlap.
 fn disjoint(spans: &[Span]) -> Vec<(usize, Span)> {
     let mut order: Vec<usize> = (0..spans.len()).collect();
     order.sort_by_key(|at| spans[*at].0.abs_diff(spans[*at].1));
-    // What the spans so far cover together: the last code to each first. A span takes those that it meets into its own, so
-    // that each is met once.
+    // The codes that the spans so far cover: the first code of each covered span, with the last one. A new span absorbs
+    // the spans that it meets, so that each is visited once.
     let mut covered: BTreeMap<i64, i64> = BTreeMap::new();
     let mut pieces = Vec::new();
     for at in order {
         let (mut first, mut last) = spans[at];
-        // What is left, up to here; below `first` nothing is.
+        // End of the part that is left. Nothing is left below `first`.
         let mut end = Some(last);
         while let Some((low, high)) = last_meeting(&covered, spans[at]) {
             covered.remove(&low);
@@ -109,13 +111,14 @@ fn disjoint(spans: &[Span]) -> Vec<(usize, Span)> {
     pieces
 }
 
-/// The last of the disjoint spans that share a code with `own`.
-fn last_meeting(spans: &BTreeMap<i64, i64>, own: Span) -> Option<Span> {
-    let (first, last) = spans.range(..=own.1).next_back()?;
-    (*last >= own.0).then_some((*first, *last))
+/// Returns the last of the disjoint spans that shares a code with `span`.
+fn last_meeting(spans: &BTreeMap<i64, i64>, span: Span) -> Option<Span> {
+    let (first, last) = spans.range(..=span.1).next_back()?;
+    (*last >= span.0).then_some((*first, *last))
 }
 
-fn pattern((first, last): Span) -> String {
+fn pattern(span: Span) -> String {
+    let (first, last) = span;
     if first == last {
         number(first)
     } else {
@@ -123,7 +126,7 @@ fn pattern((first, last): Span) -> String {
     }
 }
 
-/// A code as a literal: in hexadecimal from 10 on.
+/// Returns a code as a literal: in hexadecimal from 10 on.
 pub(super) fn number(code: i64) -> String {
     if code > 9 {
         format!("{code:#X}").replacen("0X", "0x", 1)
@@ -138,7 +141,7 @@ fn variant(span: Span, row: &CodeRow, name: &str, manual: &Manual) -> CodeVarian
     let mut text = if title.is_empty() { format!("{codes}.") } else { format!("{codes}: {}", docs::sentence(&title)) };
     let mut sentences = Vec::new();
     docs::words(row.documentation.as_deref(), &mut sentences);
-    sentences.extend(row.availability.as_ref().map(|own| WORDS.availability(own)));
+    sentences.extend(row.availability.as_ref().map(|availability| WORDS.availability(availability)));
     sentences.extend(WORDS.place(manual, "", row.documentation.as_deref(), &row.names));
     for sentence in sentences {
         text.push(' ');
@@ -163,7 +166,7 @@ mod tests {
         assert_eq!(disjoint(&[(0, 1), (0, 0), (1, 1)]), [(1, (0, 0)), (2, (1, 1))]);
     }
 
-    /// The same, code by code.
+    /// Returns the same result as `disjoint`, computed code by code.
     fn disjoint_by_code(spans: &[Span]) -> Vec<(usize, Span)> {
         let mut pieces: Vec<(usize, Span)> = Vec::new();
         let codes = spans.iter().map(|span| span.0).min().unwrap()..=spans.iter().map(|span| span.1).max().unwrap();
@@ -179,7 +182,7 @@ mod tests {
     }
 
     #[test]
-    fn spans_that_overlap_in_any_way() {
+    fn overlapping_spans() {
         let mut state = 1_u32;
         let mut below = |limit: i64| {
             state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
@@ -194,7 +197,7 @@ mod tests {
         }
     }
 
-    /// `count` codes with one between each two, in a span of all.
+    /// Returns `count` codes with a gap after each, and a span that covers all of them.
     fn holes(count: i64) -> Vec<Span> {
         (0..count).map(|at| (2 * at + 1, 2 * at + 1)).chain([(0, 2 * count)]).collect()
     }

@@ -1,10 +1,10 @@
-//! Numbers that are split over several items: a constant for each, which joins and splits them.
+//! Composite numbers, which are split over several items: a constant that joins and splits each of them.
 
 use super::bus_facts::FactModel;
 use super::code::{seq, Data, Doc};
 use super::context::Context;
 use super::docs;
-use super::links::Here;
+use super::links::DocModule;
 use crate::ir::{Composite, ItemRef};
 
 pub(super) fn models(context: &Context<'_>) -> Vec<FactModel> {
@@ -12,19 +12,19 @@ pub(super) fn models(context: &Context<'_>) -> Vec<FactModel> {
 }
 
 fn model(context: &Context<'_>, composite: &Composite, name: &str) -> FactModel {
-    let link = |item: &ItemRef| context.link(item, Here::TOP).unwrap_or_else(|| docs::escape(item));
+    let link = |item: &ItemRef| context.link(item, DocModule::TOP).unwrap_or_else(|| docs::escape(item));
     let parts: Vec<String> = composite.parts.iter().map(link).collect();
     let mut sentences = vec![docs::sentence(&format!(
-        "{} in {} to the base {}",
+        "{}, split into {} to the base {}",
         docs::escape(&composite.name),
         parts.join(", "),
         composite.base
     ))];
     if let Some((item, value)) = &composite.sign {
-        sentences.push(format!("{} is {value} below zero.", link(item)));
+        sentences.push(format!("{} is {value} if the number is negative.", link(item)));
     }
     if !composite.unit.is_empty() {
-        sentences.push(format!("In {}.", docs::escape(&composite.unit)));
+        sentences.push(format!("Unit: {}.", docs::escape(&composite.unit)));
     }
     let text = composite.documentation.as_ref().map_or("", |documentation| documentation.text.as_str());
     if !text.is_empty() {

@@ -1,4 +1,4 @@
-//! The call that makes a handle.
+//! The call that creates a handle.
 
 use super::code::{call, list, seq, Doc};
 use super::item_addresses::ItemAddresses;
@@ -8,33 +8,33 @@ use super::value_type::ValueType;
 use super::variant;
 use crate::ir::{Item, Value};
 
-/// What shorter constructors leave out.
+/// Default arguments, which short constructors omit.
 const FULL: &str = "rt::Range::Full";
 const UNKNOWN: &str = "rt::Initial::Unknown";
 const NO_FLAGS: &str = "rt::Flags::NONE";
 
-/// What the constructors of a handle take beside its address.
+/// Arguments of a handle's constructor, except its address.
 pub(super) struct Arguments<'i> {
     name: String,
     range: Doc,
     initial: Doc,
-    /// The default, where it can be told as a literal.
+    /// Default value, if it can be written as a literal.
     default: Option<Doc>,
     unit: &'i str,
     flags: &'static str,
 }
 
 impl<'i> Arguments<'i> {
-    /// `outer` leads from the handle's place to the device's.
+    /// Returns the arguments of an item. `outer` is the path from the handle to the device's module.
     pub fn of(item: &'i Item, name: &str, ty: &ItemType<'_>, outer: &str) -> Self {
         let wrap = |literal: String| match ty.named {
             Some(_) => call!(seq![ty.path(outer), "::from_raw"], literal),
             None => Doc::from(literal),
         };
-        // A truth value is the number of an enumeration.
+        // The Boolean default of an enumeration is converted to a number.
         let number = item.default.as_ref().filter(|_| ty.named.is_some()).and_then(Value::as_int).map(Value::Int);
         let default = number.as_ref().or(item.default.as_ref());
-        // Byte strings have the type of an array, which only a conversion of its own turns into a slice.
+        // Byte strings have an array type, which needs a conversion to a slice.
         let literal = default.filter(|_| !matches!(ty.basic, ValueType::Bytes(_)));
         Arguments {
             name: literal::string(name),
@@ -46,8 +46,8 @@ impl<'i> Arguments<'i> {
         }
     }
 
-    /// The shortest call that says everything, and whether it needs the runtime's name: every argument costs `rustc` a tenth of what the
-    /// rest of the handle does.
+    /// Returns the shortest complete call, and whether it names the runtime. Each argument adds a tenth to the time in
+    /// which `rustc` compiles a handle.
     pub fn constructor(&self, addresses: &ItemAddresses<'_>, location: impl FnOnce() -> Doc) -> (Doc, bool) {
         if let Some(call) = self.of_object(addresses) {
             return (call, self.flags != NO_FLAGS);
@@ -59,17 +59,17 @@ impl<'i> Arguments<'i> {
         (call, true)
     }
 
-    /// The arguments in which models of a device differ: range and initial value.
+    /// Returns the arguments that may differ between models of a device: range and initial value.
     pub fn of_model(&self) -> [&Doc; 2] {
         [&self.range, &self.initial]
     }
 
-    /// Whether every value of the type is one of the item's, and it has no unit.
+    /// Returns whether all values of the type are allowed, and the item has no unit.
     fn is_plain(&self) -> bool {
         self.range.text() == FULL && self.unit.is_empty()
     }
 
-    /// The call for what is an object, and nothing else.
+    /// Returns the call for an item that is an object and has no other address.
     fn of_object(&self, addresses: &ItemAddresses<'_>) -> Option<Doc> {
         let (object, index, sub) = addresses.only_object().filter(|_| self.is_plain())?;
         let (name, flags) = (&self.name, self.flags);
@@ -85,7 +85,7 @@ impl<'i> Arguments<'i> {
         }
     }
 
-    /// The call for a register, which may be an object as well.
+    /// Returns the call for a register, which may also be an object.
     fn of_register(&self, addresses: &ItemAddresses<'_>) -> Option<Doc> {
         let address = addresses.with_register().filter(|_| self.initial.text() == UNKNOWN)?;
         let Arguments { name, range, flags, .. } = self;
@@ -101,7 +101,7 @@ impl<'i> Arguments<'i> {
     }
 }
 
-/// Into which PDOs an item can be mapped.
+/// Returns the flags for the PDOs into which an item can be mapped.
 pub(super) fn flags(item: &Item) -> &'static str {
     match (item.mappable.rpdo, item.mappable.tpdo) {
         (true, true) => "rt::Flags::PDO",

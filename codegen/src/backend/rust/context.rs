@@ -1,15 +1,15 @@
-//! What lowering knows of a device or a module: its elements, where they are found, their names, and what documentation links to.
+//! Input of the lowering: the elements of a device or module, their addresses, their names and their links.
 
 use std::ops::Deref;
 
-use super::links::{Here, Links};
+use super::links::{DocModule, Links};
 use super::located::Located;
 use super::naming::types::NamedType;
 use super::naming::Names;
 use super::words;
 use crate::ir::{ElementId, Reference, Type};
 
-/// A device or a module with the results of all stages before lowering.
+/// A device or module with the results of all stages before lowering.
 pub(super) struct Context<'a> {
     pub located: Located<'a>,
     pub names: Names<'a>,
@@ -25,19 +25,23 @@ impl<'a> Deref for Context<'a> {
 }
 
 impl Context<'_> {
-    /// The enumeration or the bit field of a type that is one.
+    /// Returns the enumeration or bit field of a type; `None` for other types.
     pub fn enumeration(&self, ty: Type) -> Option<&NamedType> {
         let (position, _) = self.resolve(ty).1?;
         self.names.types.get(position)
     }
 
-    /// A link from `here` to the element that a reference leads to, if it has a path.
-    pub fn link<Id: Copy + Into<ElementId>>(&self, reference: &Reference<Id>, here: Here<'_>) -> Option<String> {
-        self.link_to(reference.id?.into(), &reference.name, here)
+    /// Returns a link from `doc_module` to the referenced element if it has a path.
+    pub fn link<Id: Copy + Into<ElementId>>(
+        &self,
+        reference: &Reference<Id>,
+        doc_module: DocModule<'_>,
+    ) -> Option<String> {
+        self.link_to(reference.id?.into(), &reference.name, doc_module)
     }
 
-    /// A link from `here` to an element that shows this name, if it has a path.
-    pub fn link_to(&self, id: ElementId, name: &str, here: Here<'_>) -> Option<String> {
-        Some(here.text(&words::escape(name), self.links.path(id)?))
+    /// Returns a link from `doc_module` to an element, with `name` as its text, if the element has a path.
+    pub fn link_to(&self, id: ElementId, name: &str, doc_module: DocModule<'_>) -> Option<String> {
+        Some(doc_module.text(&words::escape(name), self.links.path(id)?))
     }
 }

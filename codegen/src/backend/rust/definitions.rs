@@ -1,4 +1,4 @@
-//! Definitions that several devices or modules of a file have in common: the first one has them, the others re-export them.
+//! Definitions that several devices or modules of a file share. The first one contains them, the others re-export them.
 
 use std::collections::HashMap;
 
@@ -12,22 +12,24 @@ use super::objects::ObjectModel;
 use super::print;
 use super::reexport::{Reexport, Section};
 
-/// The definitions of all devices so far.
+/// Definitions of all devices so far.
 pub(super) struct Definitions {
     runtime: String,
-    /// By the code and the numbers of the definitions that the code names: equal code may name different types.
+    /// Numbers of definitions, by their code and by the numbers of the definitions that the code names. Equal code may
+    /// name different types.
     numbers: HashMap<(String, Vec<usize>), usize>,
-    /// The module of the device that has each definition, by its number.
+    /// Module of the device that contains each definition, by the definition's number.
     homes: Vec<String>,
 }
 
 impl Definitions {
-    /// No definitions. Their code names the runtime by this path.
+    /// Creates an empty set of definitions. `runtime` is the path of the runtime in their code.
     pub fn new(runtime: &str) -> Self {
         Definitions { runtime: runtime.to_owned(), numbers: HashMap::new(), homes: Vec::new() }
     }
 
-    /// Replaces the definitions of `model`, which is in `module`, that an earlier device has by re-exports.
+    /// Replaces definitions of `model` that an earlier device contains with re-exports. `module` is the module of
+    /// `model`.
     pub fn share(&mut self, model: &mut Model, module: &str) {
         model.is_one_of_several = true;
         let mut device = Device { all: self, module, numbers: HashMap::new(), reexports: Vec::new() };
@@ -39,17 +41,18 @@ impl Definitions {
     }
 }
 
-/// The definitions of one device.
+/// Definitions of one device.
 struct Device<'d> {
     all: &'d mut Definitions,
     module: &'d str,
-    /// The numbers of the definitions so far, by section and name.
+    /// Numbers of the definitions so far, by section and name.
     numbers: HashMap<(Section, String), usize>,
     reexports: Vec<Reexport>,
 }
 
 impl Device<'_> {
-    /// Adds a definition of these names, whose code names `used` as far as the device has them. Returns whether no earlier device has it.
+    /// Adds a definition with these names. `used` are the names in its code that may refer to other definitions.
+    /// Returns whether no earlier device contains the definition.
     fn is_new<'n>(
         &mut self,
         sections: &[Section],
@@ -78,8 +81,8 @@ impl Device<'_> {
     fn reexport(&mut self, section: Section, number: usize, names: &[&str]) {
         let home = &self.all.homes[number];
         let names = names.iter().map(|name| (*name).to_owned());
-        match self.reexports.iter_mut().find(|own| own.section == section && own.home == *home) {
-            Some(own) => own.names.extend(names),
+        match self.reexports.iter_mut().find(|reexport| reexport.section == section && reexport.home == *home) {
+            Some(reexport) => reexport.names.extend(names),
             None => self.reexports.push(Reexport { section, home: home.clone(), names: names.collect() }),
         }
     }
@@ -90,37 +93,37 @@ impl Device<'_> {
             let write = |code: &mut Code| print::types::enumeration(code, enumeration);
             self.is_new(&[Section::Types], &[&enumeration.name], std::iter::empty(), &write)
         });
-        // Machines add methods to bit fields, so these are only shared together.
+        // A state machine adds methods to its bit fields, so both are shared together.
         let machines = std::mem::take(&mut types.machines);
         let has_methods =
-            |own: &BitFieldModel| machines.iter().flat_map(MachineModel::bit_fields).any(|name| name == own.name);
-        types.bit_fields.retain(|(_, own)| {
-            let write = |code: &mut Code| print::bit_field::write(code, own);
-            has_methods(own) || self.is_new(&[Section::Types], &own.names(), in_types(own.type_names()), &write)
+            |bits: &BitFieldModel| machines.iter().flat_map(MachineModel::bit_fields).any(|name| name == bits.name);
+        types.bit_fields.retain(|(_, bits)| {
+            let write = |code: &mut Code| print::bit_field::write(code, bits);
+            has_methods(bits) || self.is_new(&[Section::Types], &bits.names(), in_types(bits.type_names()), &write)
         });
         if machines.is_empty() {
             return;
         }
         let with_methods: Vec<&BitFieldModel> =
-            types.bit_fields.iter().map(|(_, own)| own).filter(|own| has_methods(own)).collect();
+            types.bit_fields.iter().map(|(_, bits)| bits).filter(|bits| has_methods(bits)).collect();
         let names =
-            machines.iter().flat_map(MachineModel::names).chain(with_methods.iter().flat_map(|own| own.names()));
+            machines.iter().flat_map(MachineModel::names).chain(with_methods.iter().flat_map(|bits| bits.names()));
         let write = |code: &mut Code| {
-            with_methods.iter().for_each(|own| print::bit_field::write(code, own));
-            machines.iter().for_each(|own| print::types::machine(code, own));
+            with_methods.iter().for_each(|bits| print::bit_field::write(code, bits));
+            machines.iter().for_each(|machine| print::types::machine(code, machine));
         };
-        let used = in_types(with_methods.iter().flat_map(|own| own.type_names()));
+        let used = in_types(with_methods.iter().flat_map(|bits| bits.type_names()));
         if self.is_new(&[Section::Types], &names.collect::<Vec<_>>(), used, &write) {
             types.machines = machines;
         } else {
-            types.bit_fields.retain(|(_, own)| !has_methods(own));
+            types.bit_fields.retain(|(_, bits)| !has_methods(bits));
         }
     }
 
     fn share_codes(&mut self, model: &mut Model) {
         model.code_tables.retain(|table| {
             let mut names = vec![table.name.as_str()];
-            names.extend(table.ty.as_ref().map(|own| own.name.as_str()).filter(|name| *name != table.name));
+            names.extend(table.ty.as_ref().map(|ty| ty.name.as_str()).filter(|name| *name != table.name));
             self.is_new(&[Section::Codes], &names, std::iter::empty(), &|code| print::codes::table(code, table))
         });
     }
@@ -139,7 +142,7 @@ impl Device<'_> {
                 print::objects::object(code, model, object);
             };
             let used = in_types(object.items.iter().filter_map(|item| item.type_name.as_deref()));
-            // A constant and a module may have one name without letters, which would re-export both.
+            // A name without letters may denote a constant and a module. A re-export would include both.
             is_cased(&object.name) && !self.is_new(&[Section::Objects], &[name], used, &write)
         };
         let reexported: Vec<bool> = model.objects.iter().map(is_reexported).collect();

@@ -1,69 +1,71 @@
-//! The models of a device: their constants, and the items in whose values they differ, each with those of its model.
+//! Models of a device: their constants, and the items whose range or initial value differs between models.
 
 use super::code::{list, Doc};
 use super::constructor::Arguments;
 use super::context::Context;
 use super::docs;
-use super::given::{in_unit, wish};
+use super::given::{in_unit, name_request};
 use super::item_type::ItemType;
 use super::literal;
 use super::objects::ObjectModel;
 use super::variant;
 use crate::ir::{Device, Value, Variant};
-use crate::names::{self, Case, Wish};
+use crate::names::{self, Case, NameRequest};
 
-/// A model of the device that has something of its own.
+/// A model of the device that differs from other models.
 pub(super) struct DeviceModel {
     pub name: String,
     pub docs: Vec<String>,
-    /// Names, documentation, values.
+    /// Constants: name, documentation and value.
     pub constants: Vec<(String, String, String)>,
-    pub items: Vec<OwnItem>,
+    pub items: Vec<ModelItem>,
 }
 
 impl DeviceModel {
-    /// Whether its handles name types of the device.
+    /// Returns whether the handles name types of the device.
     pub(super) fn names_types(&self) -> bool {
-        self.items.iter().any(|own| own.is_named)
+        self.items.iter().any(|item| item.is_named)
     }
 }
 
-/// A handle, ready to be written.
-pub(super) struct OwnItem {
+/// A handle for one model, ready to be printed.
+pub(super) struct ModelItem {
     pub name: String,
     pub docs: String,
-    /// Its type, as the device's place names it.
+    /// Type of the handle, as the device's module names it.
     pub ty: Doc,
-    /// Whether its value is an enumeration or a bit field of the device.
+    /// Whether the value is an enumeration or bit field of the device.
     pub is_named: bool,
     pub range: Doc,
     pub initial: Doc,
 }
 
-/// The models that have constants or items of their own. `objects` are the handles of all models.
+/// Returns the models that have constants, or items that differ. `objects` are the handles for all models.
 pub(super) fn models(context: &Context<'_>, device: &Device, objects: &[ObjectModel]) -> Vec<DeviceModel> {
-    let all = device.variants.iter().map(|own| {
-        let with = objects.iter().filter(|object| !object.is_module);
-        let items: Vec<OwnItem> = with.filter_map(|object| self::own(context, object, &own.name)).collect();
-        (own, constants(device, &own.name, &own.constants), items)
+    let all = device.variants.iter().map(|variant| {
+        let single_values = objects.iter().filter(|object| !object.is_module);
+        let items: Vec<ModelItem> =
+            single_values.filter_map(|object| model_item(context, object, &variant.name)).collect();
+        (variant, constants(device, &variant.name, &variant.constants), items)
     });
-    let with: Vec<_> = all.filter(|(_, constants, items)| !constants.is_empty() || !items.is_empty()).collect();
-    let wishes: Vec<Wish<'_>> = with.iter().map(|(own, ..)| wish(&own.name)).collect();
-    let names = names::unique(&wishes, &["self", "super", "crate"], Case::Snake);
-    let model = |((own, constants, items), name): ((&Variant, _, _), String)| {
+    let different: Vec<_> = all.filter(|(_, constants, items)| !constants.is_empty() || !items.is_empty()).collect();
+    let name_requests: Vec<NameRequest<'_>> =
+        different.iter().map(|(variant, ..)| name_request(&variant.name)).collect();
+    let names = names::unique(&name_requests, &["self", "super", "crate"], Case::Snake);
+    let model = |((variant, constants, items), name): ((&Variant, _, _), String)| {
         let name = names::escaped(&name);
-        DeviceModel { name, docs: documentation(context, own), constants, items }
+        DeviceModel { name, docs: documentation(context, variant), constants, items }
     };
-    with.into_iter().zip(names).map(model).collect()
+    different.into_iter().zip(names).map(model).collect()
 }
 
-fn documentation(context: &Context<'_>, own: &Variant) -> Vec<String> {
-    let mut lines = vec![docs::sentence(&docs::escape(&own.name))];
-    docs::described(own.documentation.as_deref(), &context.manual, &mut lines);
+fn documentation(context: &Context<'_>, variant: &Variant) -> Vec<String> {
+    let mut lines = vec![docs::sentence(&docs::escape(&variant.name))];
+    docs::described(variant.documentation.as_deref(), &context.manual, &mut lines);
     lines
 }
 
-fn own(context: &Context<'_>, object: &ObjectModel, model: &str) -> Option<OwnItem> {
+fn model_item(context: &Context<'_>, object: &ObjectModel, model: &str) -> Option<ModelItem> {
     let handle = object.items.first()?;
     let item = context.item(handle.id)?;
     let on_model = variant::on_model(item, model)?;
@@ -74,7 +76,7 @@ fn own(context: &Context<'_>, object: &ObjectModel, model: &str) -> Option<OwnIt
     facts.extend(docs::limits(&on_model));
     let shown = |value: &Value| docs::WORDS.of_item(&on_model, value, &docs::value);
     facts.extend(on_model.default.as_ref().map(|value| format!("default {}", shown(value))));
-    Some(OwnItem {
+    Some(ModelItem {
         name: handle.constant.clone(),
         docs: format!(
             "{}: {}. Handle for all models: [`objects::{}`].",
@@ -89,13 +91,18 @@ fn own(context: &Context<'_>, object: &ObjectModel, model: &str) -> Option<OwnIt
     })
 }
 
-fn constants(device: &Device, model: &str, own: &[(crate::ir::CompactString, Value)]) -> Vec<(String, String, String)> {
-    let given = device.given.iter().flat_map(|own| own.models.iter().map(move |(name, value)| (own, name, value)));
+fn constants(
+    device: &Device,
+    model: &str,
+    stated: &[(crate::ir::CompactString, Value)],
+) -> Vec<(String, String, String)> {
+    let given =
+        device.given.iter().flat_map(|number| number.models.iter().map(move |(name, value)| (number, name, value)));
     let given = given.filter(|(_, name, _)| *name == model);
-    let given = given.map(|(own, _, value)| (&own.name, value, in_unit(&own.unit)));
-    let all: Vec<_> = own.iter().map(|(name, value)| (name, value, String::new())).chain(given).collect();
-    let wishes: Vec<Wish<'_>> = all.iter().map(|(name, ..)| wish(name)).collect();
-    let names = names::unique(&wishes, &[], Case::Snake);
+    let given = given.map(|(number, _, value)| (&number.name, value, in_unit(&number.unit)));
+    let all: Vec<_> = stated.iter().map(|(name, value)| (name, value, String::new())).chain(given).collect();
+    let name_requests: Vec<NameRequest<'_>> = all.iter().map(|(name, ..)| name_request(name)).collect();
+    let names = names::unique(&name_requests, &[], Case::Snake);
     let constant = |((name, value, unit), constant): ((&crate::ir::CompactString, &Value, String), String)| {
         let real = literal::real(value.as_real()?, 64)?;
         Some((constant.to_ascii_uppercase(), docs::sentence(&(docs::escape(name) + &unit)), real))

@@ -3,14 +3,15 @@
 use super::docs;
 use crate::ir::Documentation;
 
-/// The most rows of a table. A longer one would hide what stands below it, and rustdoc lists fields and variants, each with its
-/// own documentation, all the same.
+/// Maximum number of rows of a table. A longer table would hide the content below it. Rustdoc lists all fields and
+/// variants with their documentation in any case.
 pub(super) const MAX_ROWS: usize = 64;
 
-/// The most letters of a description in a cell; all of it stands at the element itself.
+/// Maximum number of characters of a description in a cell. The element's documentation contains all of it.
 const MAX_LETTERS: usize = 100;
 
-/// The lines of a table, behind an empty one; none where it has no rows, or more than [`MAX_ROWS`].
+/// Returns the lines of a table, after an empty line. Returns no lines for a table without rows or with more than
+/// [`MAX_ROWS`].
 pub(super) fn table<const N: usize>(head: [&str; N], rows: &[[String; N]]) -> Vec<String> {
     if rows.len() > MAX_ROWS {
         Vec::new()
@@ -19,7 +20,8 @@ pub(super) fn table<const N: usize>(head: [&str; N], rows: &[[String; N]]) -> Ve
     }
 }
 
-/// The same of any number of rows, for what stands nowhere else. A column without any text is left out.
+/// Returns the lines of a table of any length, for content that is documented nowhere else. Columns without text are
+/// omitted.
 pub(super) fn whole<const N: usize>(head: [&str; N], rows: &[[String; N]]) -> Vec<String> {
     if rows.is_empty() {
         return Vec::new();
@@ -38,7 +40,8 @@ pub(super) fn whole<const N: usize>(head: [&str; N], rows: &[[String; N]]) -> Ve
     lines
 }
 
-/// A link from a struct to its field. A method called the same would be what the link leads to.
+/// Returns a link from a struct to its field. If a method has the same name, there is no link, because it would lead to
+/// the method.
 pub(super) fn field_link(name: &str, methods: &[&str]) -> String {
     match methods.contains(&name) {
         true => format!("`{name}`"),
@@ -46,29 +49,30 @@ pub(super) fn field_link(name: &str, methods: &[&str]) -> String {
     }
 }
 
-/// What an element is, in a cell: its name, where `rust` isn't the same words, and the start of what the source says of it.
+/// Returns the meaning of an element for a cell: its name unless `rust` has the same words, and the start of its
+/// documentation.
 pub(super) fn meaning(name: &str, rust: &str, documentation: Option<&Documentation>) -> String {
     let mut parts = Vec::new();
     if !is_same(name, rust) {
         parts.push(docs::sentence(&docs::escape(name)));
     }
-    let text = documentation.map_or("", |own| own.text.as_str());
+    let text = documentation.map_or("", |documentation| documentation.text.as_str());
     parts.push(start(text));
     parts.retain(|part| !part.trim().is_empty());
     parts.join(" ")
 }
 
-/// Whether a name in Rust says the same as the name that it was made of.
+/// Returns whether a name in Rust has the same words as the original name.
 fn is_same(name: &str, rust: &str) -> bool {
     let letters = |text: &str| {
-        let own = text.chars().filter(|letter| letter.is_alphanumeric());
-        own.flat_map(char::to_lowercase).collect::<String>()
+        let characters = text.chars().filter(|letter| letter.is_alphanumeric());
+        characters.flat_map(char::to_lowercase).collect::<String>()
     };
     let is_plain = |letter: char| letter.is_alphanumeric() || matches!(letter, ' ' | '_' | '-' | '.');
     name.chars().all(is_plain) && letters(name) == letters(rust)
 }
 
-/// The start of a text, on one line.
+/// Returns the start of a text, on one line.
 fn start(text: &str) -> String {
     let text = text.split_whitespace().collect::<Vec<_>>().join(" ");
     match text.char_indices().nth(MAX_LETTERS) {
@@ -99,7 +103,7 @@ mod tests {
     }
 
     #[test]
-    fn a_long_table_is_none() {
+    fn long_tables_are_omitted() {
         let rows = vec![row("1", "2"); MAX_ROWS + 1];
         assert!(table(["A", "B"], &rows).is_empty());
         assert_eq!(table(["A", "B"], &rows[1..]).len(), MAX_ROWS + 3);

@@ -1,10 +1,10 @@
-//! Doc comments: what the source says, so that Markdown shows it as it is.
+//! Doc comments: texts of the description, escaped so that Markdown shows them literally.
 
 use std::fmt::Write;
 
 use super::context::Context;
 use super::item_addresses::ItemAddresses;
-use super::links::Here;
+use super::links::DocModule;
 use super::naming::handles::NamedItem;
 use super::variant;
 pub(super) use super::words::{escape, WORDS};
@@ -15,23 +15,23 @@ use crate::facts::words::{capital, row_of};
 use crate::facts::{self};
 use crate::ir::{Binding, Condition, Documentation, Doubt, ElementId, Item, Manual, SubjectKind, Type, TypeId, Value};
 
-/// Sentences for doc comments that link to the elements which they name.
+/// Returns a sentence builder for doc comments that link to the elements which they mention.
 pub(super) fn linked(link: &dyn Fn(ElementId, &str) -> Option<String>) -> Words<'_> {
     Words { escape, link }
 }
 
-/// The lines about an item, for the constant that stands `here`: its name, then its address, type, access and values, then what
-/// belongs to it, and what else is known.
+/// Returns the documentation of an item, for its constant. The name is followed by the address, the type, the access
+/// rights and the values. Related elements and further facts follow. Links start at `doc_module`.
 pub(super) fn item(
     entry: &NamedItem<'_>,
     name: &str,
     chapter: Option<&str>,
     context: &Context<'_>,
-    here: Here<'_>,
+    doc_module: DocModule<'_>,
 ) -> Vec<String> {
     let item = entry.item;
-    // What replaces an item may be called the same.
-    let link = |id, name: &str| (id != entry.id.into()).then(|| context.link_to(id, name, here))?;
+    // The replacement of an item may have the same name.
+    let link = |id, name: &str| (id != entry.id.into()).then(|| context.link_to(id, name, doc_module))?;
     let words = linked(&link);
     let mut lines = Vec::with_capacity(6);
     if !name.trim().is_empty() {
@@ -39,8 +39,8 @@ pub(super) fn item(
         lines.push(String::new());
     }
     lines.push(facts(item, context, &words));
-    let beside = context.links.beside_constant(entry, type_name(context, item), here);
-    lines.extend(Some(beside).filter(|line| !line.is_empty()));
+    let related = context.links.related_to_constant(entry, type_name(context, item), doc_module);
+    lines.extend(Some(related).filter(|line| !line.is_empty()));
     documentation(item, &mut lines);
     let mut paragraphs = Vec::new();
     paragraphs.extend(WORDS.access(item));
@@ -76,44 +76,51 @@ pub(super) fn item(
     lines
 }
 
-/// The lines about an item, for the method that stands `here`: `heading`, what the source says, and what belongs to it.
-pub(super) fn method(entry: &NamedItem<'_>, heading: &str, context: &Context<'_>, here: Here<'_>) -> Vec<String> {
+/// Returns the documentation of an item, for its accessor: `heading`, the description's text and related elements.
+/// Links start at `doc_module`.
+pub(super) fn method(
+    entry: &NamedItem<'_>,
+    heading: &str,
+    context: &Context<'_>,
+    doc_module: DocModule<'_>,
+) -> Vec<String> {
     let mut lines = vec![heading.to_owned()];
     documentation(entry.item, &mut lines);
     if lines.len() > 1 {
         lines.push(String::new());
     }
-    lines.push(context.links.beside_method(entry, type_name(context, entry.item), here));
+    lines.push(context.links.related_to_method(entry, type_name(context, entry.item), doc_module));
     lines
 }
 
-/// The name of the enumeration or the bit field of an item that has one.
+/// Returns the name of the enumeration or bit field of an item; `None` for other types.
 fn type_name<'c>(context: &'c Context<'_>, item: &Item) -> Option<&'c str> {
     context.enumeration(item.ty).map(|named| named.name.as_str())
 }
 
-/// An address that no client of the runtime has.
+/// Returns a sentence about an address that no client of the runtime supports.
 fn elsewhere(binding: &Binding) -> Option<String> {
     match binding {
-        Binding::Ascii(name) => Some(format!("Called {} in the device's ASCII protocol.", escape(name))),
+        Binding::Ascii(name) => Some(format!("Name in the device's ASCII protocol: {}.", escape(name))),
         Binding::EscMemory { address, length } => {
-            Some(format!("Memory of the slave controller: {length} bytes from 0x{address:04X} on."))
+            Some(format!("Memory of the slave controller: {length} bytes from 0x{address:04X}."))
         }
         _ => None,
     }
 }
 
-/// `Mode is 1 or 2`, `Status & 0x4 is 0`, with a link from `here` to the item.
-pub(super) fn holds(condition: &Condition, context: &Context<'_>, here: Here<'_>) -> String {
-    linked(&|id, name| context.link_to(id, name, here)).holds(condition)
+/// Returns a condition as words, such as `Mode is 1 or 2` or `Status & 0x4 is 0`. The link to the item starts at
+/// `doc_module`.
+pub(super) fn holds(condition: &Condition, context: &Context<'_>, doc_module: DocModule<'_>) -> String {
+    linked(&|id, name| context.link_to(id, name, doc_module)).holds(condition)
 }
 
-/// The words of a description, as sentences.
+/// Adds the sentences of a description.
 pub(super) fn words(documentation: Option<&Documentation>, sentences: &mut Vec<String>) {
     sentences.extend(WORDS.description(documentation));
 }
 
-/// What a source says of an element and where it says so, in paragraphs of their own.
+/// Adds the documentation of an element and its citation, each as a separate paragraph.
 pub(super) fn described(documentation: Option<&Documentation>, manual: &Manual, lines: &mut Vec<String>) {
     let mut sentences = Vec::new();
     words(documentation, &mut sentences);
@@ -123,14 +130,14 @@ pub(super) fn described(documentation: Option<&Documentation>, manual: &Manual, 
     }
 }
 
-/// Ambiguities, the most severe first.
+/// Returns the sentences about ambiguities, the most severe first.
 fn doubts<'d>(list: impl Iterator<Item = &'d Doubt>, manual: &Manual) -> Vec<String> {
     let mut list: Vec<&Doubt> = list.collect();
     list.sort_by_key(|doubt| doubt.severity);
     list.into_iter().map(|doubt| WORDS.doubt(manual, doubt)).collect()
 }
 
-/// The ambiguities of a device about an element, in paragraphs.
+/// Adds the ambiguities of a device that concern an element, as paragraphs.
 pub(super) fn doubts_about(context: &Context<'_>, kind: SubjectKind, name: &str, lines: &mut Vec<String>) {
     let all = context.device.into_iter().flat_map(|device| &device.doubts);
     for doubt in doubts(all.filter(|doubt| doubt.is_about(kind, name)), &context.manual) {
@@ -138,13 +145,13 @@ pub(super) fn doubts_about(context: &Context<'_>, kind: SubjectKind, name: &str,
     }
 }
 
-/// The first lines about the type at this position: its name, what the source says of it, and whose values are of it.
+/// Returns the first lines about the type at this position: its name, its documentation, and the items that have it.
 pub(super) fn of_type(context: &Context<'_>, position: u32) -> Vec<String> {
     let Some(definition) = context.types.get(position as usize) else { return Vec::new() };
     let mut lines = vec![sentence(&escape(&definition.name))];
     described(definition.documentation.as_deref(), &context.manual, &mut lines);
     doubts_about(context, SubjectKind::Type, &definition.name, &mut lines);
-    let users = context.links.users(position, Here::TYPES);
+    let users = context.links.users(position, DocModule::TYPES);
     if !users.is_empty() {
         lines.extend([String::new(), users]);
     }
@@ -154,15 +161,15 @@ pub(super) fn of_type(context: &Context<'_>, position: u32) -> Vec<String> {
 fn facts(item: &Item, context: &Context<'_>, words: &Words<'_>) -> String {
     let base = context.base(item.ty);
     let mut line = String::with_capacity(64);
-    let place = ItemAddresses::of(context, item).facts(context, item);
-    if !place.is_empty() {
-        let _ = write!(line, "{}, ", capital(&place));
+    let addresses = ItemAddresses::of(context, item).facts(context, item);
+    if !addresses.is_empty() {
+        let _ = write!(line, "{}, ", capital(&addresses));
     }
     let _ = write!(line, "{base}, {}", item.access_name());
     if let Some(pdos) = facts::item::mappable(item.mappable) {
         let _ = write!(line, ", mappable into {pdos}");
     }
-    let raw = |own: &Value| if item.quantity.is_some() { value(own) } else { typed(own, base) };
+    let raw = |shown: &Value| if item.quantity.is_some() { value(shown) } else { typed(shown, base) };
     let shown = |value: &Value| WORDS.of_item(item, value, &raw);
     if let Some(default) = &item.default {
         let _ = write!(line, ", default {}", shown(default));
@@ -180,7 +187,7 @@ fn facts(item: &Item, context: &Context<'_>, words: &Words<'_>) -> String {
     line
 }
 
-/// A value of this type.
+/// Returns a value of this type as text.
 pub(super) fn typed(shown: &Value, ty: Type) -> String {
     match shown {
         Value::Int(number) => facts::item::integer(*number, matches!(ty, Type::Unsigned(_))),
@@ -214,7 +221,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn markup_is_shown_not_obeyed() {
+    fn markup_is_shown_literally() {
         assert_eq!(escape("a[b] <i> `x` *y*"), r"a\[b\] \<i\> \`x\` \*y\*");
         assert_eq!(escape("- 1"), r"\- 1");
         assert_eq!(escape("1. x"), r"1\. x");

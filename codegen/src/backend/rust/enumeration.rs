@@ -6,43 +6,43 @@ use super::context::Context;
 use super::doc_table;
 use super::docs;
 use super::docs::WORDS;
-use super::links::Here;
+use super::links::DocModule;
 use super::naming::types::NamedType;
 use super::options::RustOptions;
 use super::value_type;
 use crate::ir::{EnumValue, Shape, Zone};
-use crate::names::{self, Case, Wish};
+use crate::names::{self, Case, NameRequest};
 
-/// An enumeration, ready to be written.
+/// An enumeration, ready to be printed.
 pub(super) struct EnumerationModel {
     pub name: String,
     pub docs: Vec<String>,
     pub derives: Vec<String>,
-    /// The type of the value below, in terms of the runtime: `u8`, `rt::Uint<3>`.
+    /// Path of the base type in the runtime: `u8`, `rt::Uint<3>`.
     pub base: &'static str,
-    /// The type of its numbers: `u8`.
+    /// Primitive integer that holds the raw value: `u8`.
     pub native: &'static str,
-    /// The bits of its numbers, where each number of so many bits has a name.
+    /// Mask of the bits of the value, if every number of this many bits has a name.
     pub complete: Option<String>,
     pub variants: Vec<VariantModel>,
 }
 
-/// A value.
+/// A value of an enumeration.
 pub(super) struct VariantModel {
     pub name: String,
     pub docs: String,
     pub value: String,
 }
 
-/// The most bits of an enumeration that may name every number.
+/// Maximum number of bits of an enumeration that names every number.
 const COMPLETE: u32 = 6;
 
-/// Variants of every enumeration, and what its code names.
+/// Names that variants must not have, because the generated code uses them.
 const RESERVED: [&str; 2] = ["Self", "Unknown"];
 
-/// The enumeration at this position.
+/// Returns the model of the enumeration at this position.
 ///
-/// One that a bit field has, and that names every number of so many bits, has no variant for others.
+/// An enumeration of a bit field has no variant for other numbers if it names every number of the field.
 pub(super) fn model(
     context: &Context<'_>,
     position: u32,
@@ -75,7 +75,8 @@ pub(super) fn model(
     }
 }
 
-/// The table of all values: variants unless they are too many, and ranges, whose values are `Unknown`.
+/// Returns the table of all values. It contains the variants, unless there are too many, and the ranges, whose values
+/// are `Unknown`.
 fn table(all: &[EnumValue], values: &[&EnumValue], variants: &[VariantModel]) -> Vec<String> {
     let mut rows: Vec<(i128, [String; 3])> = Vec::new();
     if variants.len() <= doc_table::MAX_ROWS {
@@ -99,17 +100,17 @@ fn table(all: &[EnumValue], values: &[&EnumValue], variants: &[VariantModel]) ->
 }
 
 fn variants(values: &[&EnumValue], context: &Context<'_>) -> Vec<VariantModel> {
-    let wishes: Vec<Wish<'_>> = values
+    let name_requests: Vec<NameRequest<'_>> = values
         .iter()
-        .map(|value| Wish::new(&value.name, "value", value.value.to_string().replace('-', "Minus")))
+        .map(|value| NameRequest::new(&value.name, "value", value.value.to_string().replace('-', "Minus")))
         .collect();
-    let names = names::unique(&wishes, &RESERVED, Case::Pascal);
+    let names = names::unique(&name_requests, &RESERVED, Case::Pascal);
     let variant = |(value, name): (&&EnumValue, String)| {
         let number = value_type::number(value.value, value.value > 0);
         let title = docs::escape(&value.name);
         let mut docs =
             if title.is_empty() { format!("{number}.") } else { format!("{number}: {}", docs::sentence(&title)) };
-        for more in about(value, context) {
+        for more in further_facts(value, context) {
             docs.push(' ');
             docs.push_str(&more);
         }
@@ -118,13 +119,13 @@ fn variants(values: &[&EnumValue], context: &Context<'_>) -> Vec<VariantModel> {
     values.iter().zip(names).map(variant).collect()
 }
 
-/// What else is known of a value.
-fn about(value: &EnumValue, context: &Context<'_>) -> Vec<String> {
+/// Returns further sentences about a value.
+fn further_facts(value: &EnumValue, context: &Context<'_>) -> Vec<String> {
     let mut sentences = Vec::new();
     sentences.extend(zone(value).map(str::to_owned));
     docs::words(value.documentation.as_deref(), &mut sentences);
     if let Some(condition) = &value.when {
-        sentences.push(format!("Only while {}.", docs::holds(condition, context, Here::TYPES)));
+        sentences.push(format!("Valid only while {}.", docs::holds(condition, context, DocModule::TYPES)));
     }
     if let Some(availability) = &value.availability {
         sentences.push(WORDS.availability(availability));
@@ -135,7 +136,7 @@ fn about(value: &EnumValue, context: &Context<'_>) -> Vec<String> {
 
 fn zone(value: &EnumValue) -> Option<&'static str> {
     Some(match value.zone? {
-        Zone::Reserved => "Must not be used.",
-        Zone::Vendor => "Left to the vendor.",
+        Zone::Reserved => "Reserved: do not use.",
+        Zone::Vendor => "Vendor-specific.",
     })
 }

@@ -1,29 +1,29 @@
-//! How the bits of a value are written in Rust, and turned into an integer and back.
+//! Rust types of the bits of a value, and the conversion between these types and integers.
 
 use super::code::{call, seq, Break, Doc};
 use super::context::Context;
 use super::naming::types::NamedType;
 use crate::ir::Type;
 
-/// Bits of a word.
+/// Number of bits in a word.
 const WORD: u32 = 64;
 
-/// How bits are written in Rust.
+/// The Rust type of bits.
 pub(super) enum FieldType {
     Bool,
-    /// An integer of Rust's own.
+    /// A primitive integer.
     Native(&'static str),
-    /// An integer of another width.
+    /// An integer of another width: whether it is signed, and its number of bits.
     Odd(bool, u32),
     Real(u32),
     Time(&'static str),
     Bytes(u32),
-    /// An enumeration: its name, and the type of its numbers.
+    /// An enumeration: its name, and the primitive integer of its raw value.
     Named(String, &'static str),
 }
 
 impl FieldType {
-    /// The type in Rust; `outer` leads to the device's place.
+    /// Returns the Rust type. `outer` is the path to the device's module.
     pub fn path(&self, outer: &str) -> String {
         match self {
             FieldType::Bool => "bool".to_owned(),
@@ -37,29 +37,29 @@ impl FieldType {
         }
     }
 
-    /// The bits of the value that `own` names as an `u64`. Of an enumeration, those beyond its width may be set.
-    pub fn encode(&self, own: &str, bits: u32) -> String {
+    /// Returns the expression of the bits of `value` as a `u64`. For an enumeration, bits beyond its width may be set.
+    pub fn encode(&self, value: &str, bits: u32) -> String {
         match self {
             FieldType::Named(_, native) => match native.strip_prefix('i') {
-                Some("64") => format!("{own}.raw() as u64"),
-                Some(bits) => format!("{own}.raw() as u{bits} as u64"),
-                None if *native == "u64" => format!("{own}.raw()"),
-                None => format!("{own}.raw() as u64"),
+                Some("64") => format!("{value}.raw() as u64"),
+                Some(bits) => format!("{value}.raw() as u{bits} as u64"),
+                None if *native == "u64" => format!("{value}.raw()"),
+                None => format!("{value}.raw() as u64"),
             },
-            FieldType::Native("u64") => own.to_owned(),
-            // A signed number is cut to its width before it is widened, or its sign would spread over the word.
+            FieldType::Native("u64") => value.to_owned(),
+            // A signed number is cut to its width first. Otherwise its sign would extend over the whole word.
             FieldType::Native(signed) if signed.starts_with('i') && bits < WORD => {
-                format!("{own} as u{bits} as u64")
+                format!("{value} as u{bits} as u64")
             }
-            FieldType::Bool | FieldType::Native(_) => format!("{own} as u64"),
-            FieldType::Odd(..) | FieldType::Time(_) => format!("{own}.raw()"),
-            FieldType::Real(32) => format!("{own}.to_bits() as u64"),
-            FieldType::Real(_) => format!("{own}.to_bits()"),
-            FieldType::Bytes(_) => format!("rt::pdo::from_bytes(&{own})"),
+            FieldType::Bool | FieldType::Native(_) => format!("{value} as u64"),
+            FieldType::Odd(..) | FieldType::Time(_) => format!("{value}.raw()"),
+            FieldType::Real(32) => format!("{value}.to_bits() as u64"),
+            FieldType::Real(_) => format!("{value}.to_bits()"),
+            FieldType::Bytes(_) => format!("rt::pdo::from_bytes(&{value})"),
         }
     }
 
-    /// The value from its bits, of which a truth value is the lowest; `path` is that of the type.
+    /// Returns the expression of the value from its bits. A Boolean is the lowest bit. `path` is the path of the type.
     pub fn decode(&self, path: &str, bits: &Doc) -> Doc {
         match self {
             FieldType::Named(_, "u64") | FieldType::Time(_) => call!(seq![path, "::from_raw"], bits),
@@ -75,7 +75,7 @@ impl FieldType {
         }
     }
 
-    /// Whether the bits are part of an expression, so that operators in them need brackets.
+    /// Returns whether the decoded bits are part of a larger expression. Operators in the bits then need parentheses.
     pub fn is_cast(&self) -> bool {
         match self {
             FieldType::Native(native) | FieldType::Named(_, native) => *native != "u64",
@@ -84,7 +84,7 @@ impl FieldType {
         }
     }
 
-    /// The bits that the field has of its Rust type, where these are fewer and its own conversions don't say so.
+    /// Returns the mask of the field's bits, if its Rust type has more bits and its conversions don't remove them.
     pub fn cut(&self, bits: u32) -> Option<String> {
         match self {
             FieldType::Named(_, native) if native_bits(native) > bits => {
@@ -95,14 +95,14 @@ impl FieldType {
     }
 }
 
-/// `value as ty`, broken in front of `as`.
+/// Returns `value as ty`, which breaks before `as`.
 fn cast(value: &Doc, ty: &str) -> Doc {
     seq![value, Break, " as ", ty]
 }
 
-/// How `bits` bits of a type are written.
+/// Returns the Rust type of `bits` bits of a type.
 pub(super) fn field_type(context: &Context<'_>, ty: Type, bits: u32) -> FieldType {
-    // The sign of a number has its place at the top of an integer of Rust's own.
+    // The sign bit of a number must be the most significant bit of a primitive integer.
     let is_whole = |named: &NamedType| !named.is_signed() || native_bits(named.native) == bits;
     if let Some(named) = context.enumeration(ty).filter(|named| named.bits == bits && is_whole(named)) {
         return FieldType::Named(named.name.clone(), named.native);
@@ -125,7 +125,7 @@ pub(super) fn field_type(context: &Context<'_>, ty: Type, bits: u32) -> FieldTyp
     }
 }
 
-/// Bits of an integer of Rust's own.
+/// Returns the number of bits of a primitive integer.
 fn native_bits(native: &str) -> u32 {
     native[1..].parse().unwrap_or(0)
 }

@@ -1,50 +1,51 @@
-//! Numbers that no device holds and only whoever builds the machine knows.
+//! Properties of the machine that the device does not know.
 
 use super::context::Context;
 use super::docs;
 use super::docs::WORDS;
 use super::options::RustOptions;
 use crate::ir::{Device, Item, MachineUnit};
-use crate::names::{self, Case, Wish};
+use crate::names::{self, Case, NameRequest};
 
-/// A type with the numbers that are given, and what units become by them.
+/// A type with the properties of the machine, and the conversions of units that depend on them.
 pub(super) struct GivenModel {
     pub derives: Vec<String>,
     pub numbers: Vec<NumberModel>,
     pub units: Vec<UnitModel>,
 }
 
-/// A number that is given.
+/// A property of the machine.
 pub(super) struct NumberModel {
     pub name: String,
     pub docs: Vec<String>,
 }
 
-/// A unit of the machine: the names of the functions, and their expressions.
+/// Conversions between a unit and a unit of the machine: names of the functions, their expressions, and the symbols of
+/// both units.
 pub(super) struct UnitModel {
     pub to: [String; 2],
     pub back: [String; 2],
     pub symbols: [String; 2],
 }
 
-pub(super) fn wish(name: &str) -> Wish<'_> {
-    Wish { name, fallback: "number".to_owned(), suffix: "other".to_owned() }
+pub(super) fn name_request(name: &str) -> NameRequest<'_> {
+    NameRequest { name, fallback: "number".to_owned(), suffix: "other".to_owned() }
 }
 
-/// `None` where nothing is given.
+/// Returns the model; `None` if the device declares no properties of the machine.
 pub(super) fn model(context: &Context<'_>, device: &Device, options: &RustOptions) -> Option<GivenModel> {
-    let wishes: Vec<Wish<'_>> = device.given.iter().map(|own| wish(&own.name)).collect();
-    let names = names::unique(&wishes, &["self", "super", "crate"], Case::Snake);
+    let name_requests: Vec<NameRequest<'_>> = device.given.iter().map(|number| name_request(&number.name)).collect();
+    let names = names::unique(&name_requests, &["self", "super", "crate"], Case::Snake);
     let field = |name: &str| {
-        let at = device.given.iter().position(|own| own.name == name)?;
+        let at = device.given.iter().position(|number| number.name == name)?;
         names.get(at).map(|name| format!("self.{}", names::escaped(name)))
     };
-    let numbers = device.given.iter().zip(&names).map(|(own, name)| {
-        let mut lines = vec![format!("{}{}.", docs::escape(&own.name), in_unit(&own.unit))];
+    let numbers = device.given.iter().zip(&names).map(|(number, name)| {
+        let mut lines = vec![format!("{}{}.", docs::escape(&number.name), in_unit(&number.unit))];
         let mut sentences = Vec::new();
-        docs::words(own.documentation.as_deref(), &mut sentences);
-        sentences.extend(WORDS.place(&context.manual, "", own.documentation.as_deref(), &[]));
-        sentences.extend(own.doubts.iter().map(|own| WORDS.doubt(&context.manual, own)));
+        docs::words(number.documentation.as_deref(), &mut sentences);
+        sentences.extend(WORDS.place(&context.manual, "", number.documentation.as_deref(), &[]));
+        sentences.extend(number.doubts.iter().map(|doubt| WORDS.doubt(&context.manual, doubt)));
         lines.extend(sentences.into_iter().flat_map(|sentence| [String::new(), sentence]));
         NumberModel { name: names::escaped(name), docs: lines }
     });
@@ -53,7 +54,7 @@ pub(super) fn model(context: &Context<'_>, device: &Device, options: &RustOption
     (!numbers.is_empty()).then(|| GivenModel { derives: options.derives(true), numbers, units })
 }
 
-/// Each unit of the machine once, in the order of the items that have it.
+/// Returns the units of the machine, each once, in the order of the items that use them.
 fn units(device: &Device, field: &dyn Fn(&str) -> Option<String>) -> Vec<UnitModel> {
     let mut found: Vec<(&str, &MachineUnit)> = Vec::new();
     let items = device.groups.iter().flat_map(|group| &group.items);
@@ -61,16 +62,16 @@ fn units(device: &Device, field: &dyn Fn(&str) -> Option<String>) -> Vec<UnitMod
     let quantities = items.chain(fields).filter_map(|item: &Item| item.quantity.as_ref());
     for quantity in quantities {
         let Some(machine) = quantity.machine.as_deref() else { continue };
-        let own = (quantity.unit.as_str(), machine);
-        if !found.contains(&own) {
-            found.push(own);
+        let conversion = (quantity.unit.as_str(), machine);
+        if !found.contains(&conversion) {
+            found.push(conversion);
         }
     }
     let texts: Vec<[String; 2]> = found.iter().map(|(from, to)| [words(from), words(&to.unit)]).collect();
     let texts: Vec<String> =
         texts.iter().flat_map(|[from, to]| [format!("{from} to {to}"), format!("{to} to {from}")]).collect();
-    let wishes = names::numbered(texts.iter().map(String::as_str), "conversion");
-    let names = names::unique(&wishes, &["self"], Case::Snake);
+    let name_requests = names::numbered(texts.iter().map(String::as_str), "conversion");
+    let names = names::unique(&name_requests, &["self"], Case::Snake);
     let expression = |times: &[_], over: &[_]| -> Option<String> {
         let mut text = "value".to_owned();
         for (names, operator) in [(times, '*'), (over, '/')] {
@@ -91,7 +92,7 @@ fn units(device: &Device, field: &dyn Fn(&str) -> Option<String>) -> Vec<UnitMod
     found.iter().zip(names.chunks(2)).filter_map(unit).collect()
 }
 
-/// The unit behind a name.
+/// Returns the unit as words that follow a name.
 pub(super) fn in_unit(unit: &str) -> String {
     if unit.is_empty() {
         return String::new();
@@ -99,7 +100,7 @@ pub(super) fn in_unit(unit: &str) -> String {
     format!(", in {}", docs::escape(unit))
 }
 
-/// A symbol as words: `mm/s²` is `mm per s2`.
+/// Returns a symbol as words: `mm/s²` is `mm per s2`.
 fn words(symbol: &str) -> String {
     symbol.replace('/', " per ").replace('²', "2").replace('%', "percent").replace('°', "deg")
 }

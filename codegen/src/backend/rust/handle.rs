@@ -1,4 +1,4 @@
-//! The types of handles: short names, one for each access, and private names of those that there are.
+//! Types of handles: public short names for each access, and private aliases of the types that are used.
 
 use std::collections::BTreeMap;
 
@@ -6,7 +6,7 @@ use super::code::Doc;
 use super::item::ItemModel;
 use super::objects::ObjectModel;
 
-/// A short name of the handles with one access.
+/// Short name of the handles with one access.
 #[derive(Clone, Copy)]
 pub(super) struct Alias {
     pub name: &'static str,
@@ -15,21 +15,21 @@ pub(super) struct Alias {
 }
 
 const ALIASES: [Alias; 4] = [
-    Alias { name: "ReadOnly", marker: "rt::Ro", text: "that can be read" },
-    Alias { name: "WriteOnly", marker: "rt::Wo", text: "that can be written" },
-    Alias { name: "ReadWrite", marker: "rt::Rw", text: "that can be read and written" },
-    Alias { name: "Constant", marker: "rt::Const", text: "that can be read and never changes" },
+    Alias { name: "ReadOnly", marker: "rt::Ro", text: "read-only" },
+    Alias { name: "WriteOnly", marker: "rt::Wo", text: "write-only" },
+    Alias { name: "ReadWrite", marker: "rt::Rw", text: "read-write" },
+    Alias { name: "Constant", marker: "rt::Const", text: "constant" },
 ];
 
-/// The short names that there is a handle for.
+/// Returns the short names that some handle uses.
 pub(super) fn aliases(objects: &[ObjectModel]) -> Vec<Alias> {
     let items = || objects.iter().flat_map(|object| &object.items);
     ALIASES.into_iter().filter(|alias| items().any(|item| item.access == alias.name)).collect()
 }
 
-/// Each type of a handle once, sorted by name.
+/// Returns the handle types, each once, sorted by name.
 pub(super) fn types<'o>(objects: impl IntoIterator<Item = &'o ObjectModel>) -> Vec<(String, &'static str, Vec<Doc>)> {
     let all = objects.into_iter().flat_map(|object| &object.items);
     let names: BTreeMap<&str, &ItemModel> = all.map(|item| (item.alias.as_str(), item)).collect();
-    names.into_iter().map(|(name, item)| (name.to_owned(), item.access, item.arguments_beside.clone())).collect()
+    names.into_iter().map(|(name, item)| (name.to_owned(), item.access, item.arguments_in_objects.clone())).collect()
 }

@@ -1,9 +1,9 @@
-//! Who made a device, ready to be written.
+//! Identity of a device, ready to be printed.
 
 use super::literal;
 use crate::ir::Device;
 
-/// Numbers and names, as literals.
+/// Numbers and names of the identity, as literals.
 pub(super) struct IdentityModel {
     pub vendor_id: String,
     pub product_code: String,

@@ -1,4 +1,4 @@
-//! An entry or a register, ready to be written as a handle.
+//! Items: entries and registers, ready to be printed as handles.
 
 use super::code::{call, seq, Doc};
 use super::constructor::Arguments;
@@ -6,45 +6,48 @@ use super::context::Context;
 use super::docs;
 use super::item_addresses::ItemAddresses;
 use super::item_type::ItemType;
-use super::links::Here;
+use super::links::DocModule;
 use super::locations::Locations;
 use super::naming::handles::NamedItem;
 use crate::ir::{Access, ItemId};
 use crate::names;
 
-/// An entry.
+/// An item, ready to be printed.
 pub(super) struct ItemModel {
     pub id: ItemId,
     pub constant: String,
     pub method: String,
     pub docs: Vec<String>,
-    /// What is said of the method.
+    /// Documentation of the accessor.
     pub method_docs: Vec<String>,
     pub heading: String,
     pub access: &'static str,
-    /// The type of the value and, where there are others, that of the location, as the handle's place names them, as the device's
-    /// does, and as the types of handles do.
+    /// Arguments of the handle's type, as the handle's module names them: the type of the value and, if there are
+    /// several locations, the type of the location.
     pub arguments: Vec<Doc>,
+    /// Arguments of the handle's type, as the device's module names them.
     pub arguments_at_top: Vec<Doc>,
-    pub arguments_beside: Vec<Doc>,
-    /// The enumeration or the bit field that the value is.
+    /// Arguments of the handle's type, as the module of the handles names them.
+    pub arguments_in_objects: Vec<Doc>,
+    /// Enumeration or bit field of the value.
     pub type_name: Option<String>,
-    /// The private name of the handle's type: one without parameters, so that `rustc` has nothing to infer.
+    /// Private alias of the handle's type. It has no parameters, so that `rustc` has nothing to infer.
     pub alias: String,
-    /// The call that makes the handle, without its type.
+    /// Call that creates the handle, without its type.
     pub constructor: Doc,
-    /// Whether the handle needs the runtime's name.
+    /// Whether the handle names the runtime.
     pub names_runtime: bool,
-    /// Whether a literal may resemble a mathematical constant.
+    /// Whether a literal may resemble a mathematical constant, which clippy reports.
     pub real: bool,
-    /// The object on the bus of the PDOs.
+    /// Object on the bus of the PDOs.
     pub object: Option<(u16, u8)>,
-    /// The arguments of the type that says how it is mapped into PDOs.
+    /// Arguments of the type that describes how the item is mapped into PDOs.
     pub mappable: Option<[String; 3]>,
 }
 
 impl ItemModel {
-    /// The name under which `lexibus::pdo!` finds it: that of the method, unless that would hide a type.
+    /// Returns the name under which `lexibus::pdo!` finds the item: the name of the accessor, with a suffix if it would
+    /// hide a primitive type.
     pub(super) fn mappable_name(&self) -> String {
         const PRIMITIVES: [&str; 15] = [
             "bool", "char", "str", "u8", "u16", "u32", "u64", "u128", "usize", "i8", "i16", "i32", "i64", "f32", "f64",
@@ -53,7 +56,8 @@ impl ItemModel {
         format!("{}{}", self.method, if hides { "_" } else { "" })
     }
 
-    /// The expression that joins a handle to the device's client. A long name would break the chain of calls.
+    /// Returns the expression that joins the handle with the device's client. With a long name, it is a function call,
+    /// because a method chain would be broken over lines.
     pub(super) fn at_client(&self) -> Doc {
         const LONG: usize = 48;
         match self.constant.len() > LONG {
@@ -63,26 +67,36 @@ impl ItemModel {
     }
 }
 
-/// What the source calls an item, and the title of its chapter.
+/// Name of an item in the description, and the title of its chapter.
 #[derive(Clone, Copy)]
 pub(super) struct Title<'n> {
     pub original: &'n str,
     pub chapter: Option<&'n str>,
 }
 
-/// The handle of an item that stands in this module of objects, or beside these; `outer` leads from there to the device's place.
+/// The module that contains the handle of an item.
+#[derive(Clone, Copy)]
+pub(super) struct ItemModule<'n> {
+    /// Name of the object whose module it is; `None` for the module of all handles.
+    pub name: Option<&'n str>,
+    /// Path to the device's module.
+    pub outer: &'n str,
+}
+
+/// Returns the model of an item whose handle is in `module`.
 pub(super) fn model(
     context: &Context<'_>,
     locations: &Locations,
     entry: &NamedItem<'_>,
-    Title { original, chapter }: Title<'_>,
-    (module, outer): (Option<&str>, &str),
+    title: Title<'_>,
+    module: ItemModule<'_>,
 ) -> ItemModel {
     let NamedItem { id, item, name } = entry;
+    let (Title { original, chapter }, ItemModule { name: module, outer }) = (title, module);
     let path = module.map(|module| format!("objects::{module}::"));
-    let (here, of_method) = match &path {
-        Some(path) => (Here::new(outer, path), Here::new(outer, path)),
-        None => (Here::OBJECTS, Here::TOP),
+    let (doc_module, method_module) = match &path {
+        Some(path) => (DocModule::new(outer, path), DocModule::new(outer, path)),
+        None => (DocModule::OBJECTS, DocModule::TOP),
     };
     let addresses = ItemAddresses::of(context, item);
     let heading = heading(original, &addresses.heading());
@@ -97,9 +111,9 @@ pub(super) fn model(
         id: *id,
         constant: name.to_ascii_uppercase(),
         method: names::escaped(name),
-        docs: docs::item(entry, original, chapter, context, here),
+        docs: docs::item(entry, original, chapter, context, doc_module),
         method_docs: if context.links.has_methods {
-            docs::method(entry, &heading, context, of_method)
+            docs::method(entry, &heading, context, method_module)
         } else {
             Vec::new()
         },
@@ -107,7 +121,7 @@ pub(super) fn model(
         access: alias(item.access),
         arguments: types(outer),
         arguments_at_top: types(""),
-        arguments_beside: types("super::"),
+        arguments_in_objects: types("super::"),
         type_name: ty.named.map(str::to_owned),
         alias: format!("{}{}{on}", alias(item.access), ty.word()),
         names_runtime: ty.names_runtime() || is_location_of_runtime || does_call_name_runtime,
@@ -118,7 +132,7 @@ pub(super) fn model(
     }
 }
 
-/// What the entry is called, and where it is.
+/// Returns the heading of an entry: its name and its address.
 pub(super) fn heading(name: &str, address: &str) -> String {
     match name.trim() {
         "" => format!("{address}."),
@@ -126,7 +140,7 @@ pub(super) fn heading(name: &str, address: &str) -> String {
     }
 }
 
-/// The short name of the handles with an access.
+/// Returns the short name of the handles with this access.
 fn alias(access: Access) -> &'static str {
     match access {
         Access::ReadOnly => "ReadOnly",

@@ -1,4 +1,4 @@
-//! The addresses of an item, and the routes to it.
+//! Addresses of an item, and the routes to it.
 
 mod buses;
 mod field;
@@ -14,10 +14,10 @@ use super::scope::{ObjectBus, Scope};
 use crate::ir::{Binding, Item, RegisterBinding, Type};
 use field::Field;
 
-/// Index and sub-index.
+/// Index and sub-index of an object.
 pub(super) type ObjectAddress = (u16, u8);
 
-/// An item's address on each bus that generated code can reach, and the routes to it.
+/// The addresses of an item on each bus that generated code supports, and the routes to it.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct ItemAddresses<'i> {
     canopen: Option<(u16, u8)>,
@@ -27,24 +27,25 @@ pub(super) struct ItemAddresses<'i> {
     image: Option<Field<'i>>,
     esc: Option<(u16, u16)>,
     routes: [Route<'i>; 6],
-    /// Bits of the value, where a part of a register is meant.
+    /// Number of bits of the value, for a value that is a part of a register.
     bits: u32,
-    /// Whether the value is a sequence of bytes, and no number.
+    /// Whether the value is a sequence of bytes.
     is_bytes: bool,
-    /// Whether it is a text of 16 bits a letter: a register holds a letter, as a number.
+    /// Whether the value is a text with 16-bit characters: each register holds one character as a number.
     is_wide: bool,
-    /// Whether it is a number with a sign.
+    /// Whether the value is a signed number.
     is_signed: bool,
 }
 
-/// The code that makes the address of an item on a bus, where it has one there, and it can be read or written.
+/// Returns the code that creates the address of an item on a bus; `None` if the bus does not give this access to the
+/// item.
 pub(super) fn address(scope: &Scope<'_>, item: &Item, bus: RouteBus, writes: bool) -> Option<String> {
     let addresses = ItemAddresses::without_routes(scope, item);
     addresses.is_possible(item, bus, writes).then(|| addresses.address(bus))?
 }
 
 impl<'i> ItemAddresses<'i> {
-    /// The addresses of an item, as yet without routes.
+    /// Returns the addresses of an item, without routes.
     fn without_routes(scope: &Scope<'_>, item: &'i Item) -> Self {
         let base = scope.base(item.ty);
         let mut addresses = ItemAddresses::of_value(base);
@@ -54,7 +55,7 @@ impl<'i> ItemAddresses<'i> {
         addresses
     }
 
-    /// No address yet, of a value of this type.
+    /// Creates an empty set of addresses for a value of this type.
     fn of_value(base: Type) -> Self {
         ItemAddresses {
             bits: base.bits().unwrap_or(0),
@@ -65,7 +66,7 @@ impl<'i> ItemAddresses<'i> {
         }
     }
 
-    /// Adds an address. Of several on a bus, the first counts.
+    /// Adds an address. If a bus has several addresses, the first one is used.
     fn add(&mut self, scope: &Scope<'_>, base: Type, binding: &'i Binding) {
         match binding {
             Binding::Object { buses, index, sub_index } => {
@@ -81,7 +82,7 @@ impl<'i> ItemAddresses<'i> {
         }
     }
 
-    /// Whether the item has an address on a bus.
+    /// Returns whether the item has an address on a bus.
     fn has(&self, bus: RouteBus) -> bool {
         match bus {
             RouteBus::CanOpen => self.canopen.is_some(),
@@ -97,7 +98,7 @@ impl<'i> ItemAddresses<'i> {
         Buses::of(&self.routes)
     }
 
-    /// The object on the bus of `scope`, or on the other one that has objects.
+    /// Returns the object of the item on this bus, otherwise on the other bus with objects.
     pub fn object_on(&self, bus: ObjectBus) -> Option<(u16, u8)> {
         match bus {
             ObjectBus::CanOpen => self.canopen.or(self.coe),
@@ -105,12 +106,12 @@ impl<'i> ItemAddresses<'i> {
         }
     }
 
-    /// The objects: that of the dictionary, and where CANopen and EtherCAT have different ones, the one on EtherCAT.
+    /// Returns the object of the dictionary, and the object on EtherCAT if it differs.
     pub fn objects(&self) -> [Option<(u16, u8)>; 2] {
         [self.canopen.or(self.coe), self.coe.filter(|coe| self.canopen.is_some_and(|canopen| canopen != *coe))]
     }
 
-    /// Whether the object is one on CANopen.
+    /// Returns whether the item is an object on CANopen.
     pub fn is_on_canopen(&self) -> bool {
         self.canopen.is_some()
     }

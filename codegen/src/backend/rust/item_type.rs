@@ -7,10 +7,10 @@ use super::value_type::ValueType;
 use crate::ir::Item;
 use crate::names;
 
-/// The type of an item's value: an enumeration or a bit field, a quantity, or nothing but the basic type.
+/// The type of an item's value: an enumeration or bit field, a quantity, or the basic type.
 pub(super) struct ItemType<'s> {
     pub basic: ValueType,
-    /// The name of the enumeration or the bit field.
+    /// Name of the enumeration or bit field.
     pub named: Option<&'s str>,
     quantity: Option<QuantityType>,
 }
@@ -19,14 +19,14 @@ impl<'s> ItemType<'s> {
     pub fn of(context: &'s Context<'_>, item: &Item) -> Self {
         let named = context.enumeration(item.ty);
         ItemType {
-            // The number below an enumeration may be a truth value, which its code writes as one bit.
+            // The raw value of an enumeration may be a Boolean, which its code represents as one bit.
             basic: named.map_or_else(|| context.value_type(item.ty), |named| ValueType::of(named.ty)),
             named: named.map(|named| named.name.as_str()),
             quantity: if named.is_none() { quantity::of(context, item) } else { None },
         }
     }
 
-    /// Its path; `outer` leads from where it stands to the device's place.
+    /// Returns the path of the type. `outer` is the path to the device's module.
     pub fn path(&self, outer: &str) -> Doc {
         match (self.named, &self.quantity) {
             (Some(name), _) => seq![outer, "types::", name],
@@ -35,15 +35,15 @@ impl<'s> ItemType<'s> {
         }
     }
 
-    /// Whether its path needs the runtime's name.
+    /// Returns whether the path names the runtime.
     pub fn names_runtime(&self) -> bool {
         self.named.is_none() && (self.quantity.is_some() || !matches!(self.basic, ValueType::Native { .. }))
     }
 
-    /// Its name as a part of another one.
+    /// Returns the name of the type as a part of other names.
     pub fn word(&self) -> String {
         match (self.named, &self.quantity) {
-            // A name that begins with a digit has a `_` in front, which no name in camel case has within.
+            // A name that begins with a digit has a leading `_`, which no name in camel case has inside.
             (Some(name), _) => names::prefixed("Named", name),
             (None, Some(quantity)) => quantity.word.clone(),
             (None, None) => self.basic.word(),

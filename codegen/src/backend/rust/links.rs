@@ -1,6 +1,7 @@
-//! Links of documentation: the paths of what is generated, by the elements of the description that it is made of.
+//! Links of documentation: the paths of generated elements, by the elements of the description from which they are
+//! generated.
 //!
-//! Paths are relative, so that they hold wherever the generated module stands.
+//! Paths are relative, so that they are valid wherever the generated module is.
 
 use std::collections::HashMap;
 
@@ -13,58 +14,59 @@ use super::options::RustOptions;
 use super::scope::Scope;
 use crate::ir::{Device, ElementId, ItemId, MessageId, PdoEntryKind, Type};
 
-/// Where a doc comment stands.
+/// The module in which a doc comment is. Links start there.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Here<'h> {
-    /// The way to the device's place: `super::`.
+pub(super) struct DocModule<'h> {
+    /// Path from the module to the device's module: `super::`.
     outer: &'h str,
-    /// The module, as seen from there: `objects::`.
+    /// Path from the device's module to the module: `objects::`.
     module: &'h str,
 }
 
-impl<'h> Here<'h> {
-    /// At the device's place.
-    pub const TOP: Here<'static> = Here::new("", "");
-    pub const OBJECTS: Here<'static> = Here::new("super::", "objects::");
-    pub const TYPES: Here<'static> = Here::new("super::", "types::");
-    /// The views of PDOs stand in a module of their own, from which the way is the same.
-    pub const PDO: Here<'static> = Here::new("super::", "pdo::");
+impl<'h> DocModule<'h> {
+    /// The device's module.
+    pub const TOP: DocModule<'static> = DocModule::new("", "");
+    pub const OBJECTS: DocModule<'static> = DocModule::new("super::", "objects::");
+    pub const TYPES: DocModule<'static> = DocModule::new("super::", "types::");
+    /// The module of PDO structs. The views of PDOs are in another module with the same path to the device's module.
+    pub const PDO: DocModule<'static> = DocModule::new("super::", "pdo::");
     #[cfg(feature = "messages")]
-    pub const MESSAGES: Here<'static> = Here::new("super::", "messages::");
-    /// Any other module at the device's place, which nothing is linked in.
-    pub const BESIDE: Here<'static> = Here::new("super::", "::");
+    pub const MESSAGES: DocModule<'static> = DocModule::new("super::", "messages::");
+    /// Any other module in the device's module that no link leads to.
+    pub const OTHER: DocModule<'static> = DocModule::new("super::", "::");
 
     pub const fn new(outer: &'h str, module: &'h str) -> Self {
-        Here { outer, module }
+        DocModule { outer, module }
     }
 
-    /// Whether this is the device's place.
+    /// Returns whether this is the device's module.
     pub fn is_top(self) -> bool {
         self.outer.is_empty()
     }
 
-    /// Whether a path leads to something of this module.
+    /// Returns whether a path leads to an element of this module.
     fn is_of(self, path: &str) -> bool {
         !self.is_top() && path.starts_with(self.module)
     }
 
-    /// The path from here of what has this one from the device's place. What precedes `@` tells elements of one name apart.
+    /// Returns the path relative to this module, for a path relative to the device's module. A prefix before `@`
+    /// distinguishes elements with the same name.
     fn path(self, path: &str) -> String {
         let (kind, path) = path.split_once('@').map_or(("", path), |(kind, path)| (kind, path));
         let at = if kind.is_empty() { "" } else { "@" };
         match path.strip_prefix(self.module) {
-            Some(own) if kind.is_empty() && is_derive(own) => format!("type@{own}"),
-            Some(own) => format!("{kind}{at}{own}"),
+            Some(name) if kind.is_empty() && is_derive(name) => format!("type@{name}"),
+            Some(name) => format!("{kind}{at}{name}"),
             None => format!("{kind}{at}{}{path}", self.outer),
         }
     }
 
-    /// A link that shows the last name of a path as code.
+    /// Returns a link whose text is the last name of the path, as code.
     pub fn code(self, path: &str) -> String {
         self.code_as(last(path), path)
     }
 
-    /// A link that shows `name` as code.
+    /// Returns a link whose text is `name`, as code.
     pub fn code_as(self, name: &str, path: &str) -> String {
         let path = self.path(path);
         if path == name {
@@ -74,7 +76,7 @@ impl<'h> Here<'h> {
         }
     }
 
-    /// A link that shows the whole way from here.
+    /// Returns a link whose text is the whole relative path.
     pub fn whole(self, path: &str) -> String {
         let path = self.path(path);
         match path.split_once('@') {
@@ -83,65 +85,65 @@ impl<'h> Here<'h> {
         }
     }
 
-    /// A link that shows `text`, in which every markup is escaped.
+    /// Returns a link whose text is `text`. Markup in `text` must be escaped.
     pub fn text(self, text: &str, path: &str) -> String {
-        let own = self.path(path);
-        // Rustdoc minds the path of a link whose text leads there by itself.
-        if text.is_empty() || own == text.replace('\\', "") {
+        let relative = self.path(path);
+        // Rustdoc warns about an explicit path that equals the text of the link.
+        if text.is_empty() || relative == text.replace('\\', "") {
             return self.code(path);
         }
-        format!("[{text}]({own})")
+        format!("[{text}]({relative})")
     }
 }
 
-/// A link to a type that stands in the same module.
-pub(super) fn beside(name: &str) -> String {
+/// Returns a link to a type in the same module.
+pub(super) fn sibling(name: &str) -> String {
     match is_derive(name) {
         true => format!("[`{name}`](type@{name})"),
         false => format!("[`{name}`]"),
     }
 }
 
-/// Whether a type of this name is called like a macro of the prelude, so that rustdoc has to be told which is meant.
+/// Returns whether a type has the name of a derive macro of the prelude. Links must then name its kind.
 pub(super) fn is_derive(name: &str) -> bool {
     const DERIVES: [&str; 9] = ["Clone", "Copy", "Debug", "Default", "Eq", "Hash", "Ord", "PartialEq", "PartialOrd"];
     DERIVES.contains(&name)
 }
 
-/// The last name of a path.
+/// Returns the last name of a path.
 fn last(path: &str) -> &str {
     path.rsplit(['@', ':']).next().unwrap_or(path)
 }
 
-/// The paths of an item's handle, from the device's place.
+/// The paths of an item's handle, relative to the device's module.
 #[derive(Clone, Debug)]
 struct Handle {
     constant: String,
-    /// The method that reads and writes it.
+    /// The accessor of the item.
     method: Option<String>,
 }
 
-/// How many elements a sentence lists.
+/// Maximum number of elements that a sentence lists.
 const LISTED: usize = 8;
 
-/// The paths of what is generated for a device or a module, from its place.
+/// The paths of the elements that are generated for a device or module, relative to the device's module.
 #[derive(Debug, Default)]
 pub(super) struct Links {
     handles: HashMap<ItemId, Handle>,
-    /// The names of the structs that carry an object by default.
+    /// Names of the structs of the PDOs that map an object by default.
     carriers: HashMap<(u16, u8), Vec<String>>,
-    /// The items of each type, by its position.
+    /// Items of each type, by the type's position.
     users: HashMap<u32, Vec<ItemId>>,
-    /// The paths of requests, or of what only the device sends.
+    /// Paths of messages: of the request, or of the reply of a message that only the device sends.
     messages: HashMap<MessageId, String>,
-    /// The constants of numbers that items are parts of.
+    /// Names of the constants of composite numbers that contain an item.
     wholes: HashMap<ItemId, Vec<String>>,
     /// Whether the device has a type with methods.
     pub has_methods: bool,
 }
 
 impl Links {
-    /// `device_name` is the name of the device's type.
+    /// Collects the paths. `device_name` is the name of the device's type.
     pub fn of(scope: &Located<'_>, names: &Names<'_>, options: &RustOptions, device_name: &str) -> Self {
         let mut links = Links::default();
         let has_objects = !names.handles.is_empty() && scope.device.is_some_and(has_object_access);
@@ -164,7 +166,7 @@ impl Links {
         links
     }
 
-    /// Returns whether there are requests.
+    /// Adds the messages. Returns whether there are requests.
     #[cfg(feature = "messages")]
     fn add_messages(&mut self, names: &Names<'_>) -> bool {
         self.messages = names.messages.paths().map(|message| (message.id, message.path)).collect();
@@ -190,7 +192,7 @@ impl Links {
 
     fn add_handle(&mut self, scope: &Scope<'_>, entry: &NamedItem<'_>, device: Option<&str>) {
         let name = &entry.name;
-        // A module may be called the same.
+        // A module may have the same name.
         let kind = if is_cased(name) { "" } else { "const@" };
         let constant = format!("{kind}objects::{}", name.to_ascii_uppercase());
         self.add(scope, entry, Handle { constant, method: device.map(|device| format!("{device}::{name}")) });
@@ -213,7 +215,7 @@ impl Links {
         }
     }
 
-    /// The path of the constant of an item, or of the type of a message.
+    /// Returns the path of an item's constant or of a message's type.
     pub fn path(&self, id: ElementId) -> Option<&str> {
         match id {
             ElementId::Item(id) => Some(&self.handles.get(&id)?.constant),
@@ -221,61 +223,64 @@ impl Links {
         }
     }
 
-    /// A sentence about the items whose values have the type at this position; empty where none has a handle.
-    pub fn users(&self, position: u32, here: Here<'_>) -> String {
+    /// Returns a sentence about the items whose values have the type at this position; empty if none has a handle.
+    pub fn users(&self, position: u32, doc_module: DocModule<'_>) -> String {
         let users = self.users.get(&position).map_or(&[][..], Vec::as_slice);
         let paths = users.iter().filter_map(|id| Some(self.handles.get(id)?.constant.as_str()));
-        sentence("Values of", &paths.collect::<Vec<_>>(), here)
+        sentence("Values of", &paths.collect::<Vec<_>>(), doc_module)
     }
 
-    /// What belongs to an item, for the method that reads and writes it: its constant, its type, and the PDOs that carry it.
-    pub fn beside_method(&self, entry: &NamedItem<'_>, ty: Option<&str>, here: Here<'_>) -> String {
-        let constant = self.path(entry.id.into()).map(|path| format!("Constant: {}.", here.whole(path)));
-        self.beside(entry, [constant, values(ty, here)], here)
+    /// Returns the elements that are related to an item, for its accessor: its constant, its type, and the PDOs that
+    /// map it.
+    pub fn related_to_method(&self, entry: &NamedItem<'_>, ty: Option<&str>, doc_module: DocModule<'_>) -> String {
+        let constant = self.path(entry.id.into()).map(|path| format!("Constant: {}.", doc_module.whole(path)));
+        self.related(entry, [constant, values(ty, doc_module)], doc_module)
     }
 
-    /// The same for its constant, with its method.
-    pub fn beside_constant(&self, entry: &NamedItem<'_>, ty: Option<&str>, here: Here<'_>) -> String {
+    /// Returns the elements that are related to an item, for its constant: its accessor, its type, and the PDOs that
+    /// map it.
+    pub fn related_to_constant(&self, entry: &NamedItem<'_>, ty: Option<&str>, doc_module: DocModule<'_>) -> String {
         let method = self.handles.get(&entry.id).and_then(|handle| handle.method.as_ref());
-        let link = |path: &String| if here.is_of(path) { here.whole(path) } else { here.code(path) };
+        let link = |path: &String| if doc_module.is_of(path) { doc_module.whole(path) } else { doc_module.code(path) };
         let method = method.map(|path| format!("Accessor: {}.", link(path)));
-        self.beside(entry, [method, values(ty, here)], here)
+        self.related(entry, [method, values(ty, doc_module)], doc_module)
     }
 
-    fn beside(&self, entry: &NamedItem<'_>, first: [Option<String>; 2], here: Here<'_>) -> String {
+    fn related(&self, entry: &NamedItem<'_>, first: [Option<String>; 2], doc_module: DocModule<'_>) -> String {
         let carriers = entry.item.object().and_then(|object| self.carriers.get(&object));
         let carriers: Vec<String> = carriers.into_iter().flatten().map(|name| format!("pdo::{name}")).collect();
         let carriers: Vec<&str> = carriers.iter().map(String::as_str).collect();
         let wholes = self.wholes.get(&entry.id).into_iter().flatten();
-        let wholes = sentence("Part of", &wholes.map(String::as_str).collect::<Vec<_>>(), here);
-        let behind = [wholes, sentence("Carried by", &carriers, here)];
-        first.into_iter().flatten().chain(behind).filter(|one| !one.is_empty()).collect::<Vec<_>>().join(" ")
+        let wholes = sentence("Part of", &wholes.map(String::as_str).collect::<Vec<_>>(), doc_module);
+        let last = [wholes, sentence("Carried by", &carriers, doc_module)];
+        first.into_iter().flatten().chain(last).filter(|sentence| !sentence.is_empty()).collect::<Vec<_>>().join(" ")
     }
 }
 
-/// The sentence about the type of an item's values.
-fn values(ty: Option<&str>, here: Here<'_>) -> Option<String> {
-    Some(format!("Values: {}.", here.code(&format!("types::{}", ty?))))
+/// Returns the sentence about the type of an item's values.
+fn values(ty: Option<&str>, doc_module: DocModule<'_>) -> Option<String> {
+    Some(format!("Values: {}.", doc_module.code(&format!("types::{}", ty?))))
 }
 
-/// Whether a client can reach the objects: those that PDOs prove of a slave without CoE are nowhere but in its PDOs.
+/// Returns whether a client can access the objects. Objects of a slave without CoE that are derived from its PDOs are
+/// only in the PDOs.
 fn has_object_access(device: &Device) -> bool {
     let Some(ethercat) = &device.ethercat else { return true };
     let coe = ethercat.mailbox.as_ref().is_some_and(|mailbox| mailbox.coe.is_some());
     coe || device.groups.iter().any(|group| group.origin.line > 0)
 }
 
-/// `Carried by …, … and 3 more.`; empty where there is nothing to list.
-fn sentence(start: &str, paths: &[&str], here: Here<'_>) -> String {
+/// Returns a sentence such as `Carried by …, … and 3 more.`; empty if there is nothing to list.
+fn sentence(start: &str, paths: &[&str], doc_module: DocModule<'_>) -> String {
     if paths.is_empty() {
         return String::new();
     }
-    // Constants of objects share their names; modules at the device's place tell nothing.
+    // Constants of objects may share their names. The names of top-level modules are omitted.
     let name = |path: &str| {
         let path = path.split_once('@').map_or(path, |(_, path)| path);
         path.split_once("::").map_or(path, |(_, name)| name).to_owned()
     };
-    let shown: Vec<String> = paths.iter().take(LISTED).map(|path| here.code_as(&name(path), path)).collect();
+    let shown: Vec<String> = paths.iter().take(LISTED).map(|path| doc_module.code_as(&name(path), path)).collect();
     let more = match paths.len() {
         all if all > LISTED => format!(" and {} more", all - LISTED),
         _ => String::new(),
@@ -289,32 +294,32 @@ mod tests {
 
     #[test]
     fn paths_are_relative() {
-        let object = Here::new("super::super::", "objects::identity::");
+        let object = DocModule::new("super::super::", "objects::identity::");
         assert_eq!(object.code("objects::identity::VENDOR_ID"), "[`VENDOR_ID`]");
         assert_eq!(object.code("Drive::speed"), "[`speed`](super::super::Drive::speed)");
-        assert_eq!(Here::TOP.whole("objects::SPEED"), "[`objects::SPEED`]");
-        assert_eq!(Here::TYPES.code("types::Mode"), "[`Mode`]");
-        assert_eq!(Here::BESIDE.code("types::Mode"), "[`Mode`](super::types::Mode)");
-        assert_eq!(Here::OBJECTS.code("const@objects::_1"), "[`_1`](const@_1)");
-        assert_eq!(Here::TOP.whole("const@objects::_1"), "[`objects::_1`](const@objects::_1)");
+        assert_eq!(DocModule::TOP.whole("objects::SPEED"), "[`objects::SPEED`]");
+        assert_eq!(DocModule::TYPES.code("types::Mode"), "[`Mode`]");
+        assert_eq!(DocModule::OTHER.code("types::Mode"), "[`Mode`](super::types::Mode)");
+        assert_eq!(DocModule::OBJECTS.code("const@objects::_1"), "[`_1`](const@_1)");
+        assert_eq!(DocModule::TOP.whole("const@objects::_1"), "[`objects::_1`](const@objects::_1)");
     }
 
     #[test]
-    fn a_text_that_is_the_path_is_a_link_by_itself() {
-        assert_eq!(Here::OBJECTS.text("speed", "objects::SPEED"), "[speed](SPEED)");
-        assert_eq!(Here::OBJECTS.text("P\\_1", "objects::P_1"), "[`P_1`]");
-        assert_eq!(Here::OBJECTS.text("", "objects::P_1"), "[`P_1`]");
-        assert_eq!(Here::TYPES.text("P\\_1", "objects::P_1"), "[P\\_1](super::objects::P_1)");
+    fn a_text_that_equals_the_path_needs_no_explicit_path() {
+        assert_eq!(DocModule::OBJECTS.text("speed", "objects::SPEED"), "[speed](SPEED)");
+        assert_eq!(DocModule::OBJECTS.text("P\\_1", "objects::P_1"), "[`P_1`]");
+        assert_eq!(DocModule::OBJECTS.text("", "objects::P_1"), "[`P_1`]");
+        assert_eq!(DocModule::TYPES.text("P\\_1", "objects::P_1"), "[P\\_1](super::objects::P_1)");
     }
 
     #[test]
     fn long_lists_are_cut() {
         let names: Vec<String> = (0..10).map(|number| format!("pdo::P{number}")).collect();
         let names: Vec<&str> = names.iter().map(String::as_str).collect();
-        let listed = sentence("Carried by", &names, Here::PDO);
+        let listed = sentence("Carried by", &names, DocModule::PDO);
         assert!(listed.starts_with("Carried by [`P0`], [`P1`]") && listed.ends_with("[`P7`] and 2 more."), "{listed}");
-        assert_eq!(sentence("Of", &[], Here::PDO), "");
-        let of_object = sentence("Of", &["objects::store::SAVE"], Here::TYPES);
+        assert_eq!(sentence("Of", &[], DocModule::PDO), "");
+        let of_object = sentence("Of", &["objects::store::SAVE"], DocModule::TYPES);
         assert_eq!(of_object, "Of [`store::SAVE`](super::objects::store::SAVE).");
     }
 }

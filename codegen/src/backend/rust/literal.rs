@@ -1,8 +1,8 @@
-//! Literals: text from a description can't break out of them.
+//! Literals. Text of a description cannot end a literal.
 
 use std::fmt::Write;
 
-/// A string literal. Signs that could mislead a reader, or steer a terminal, are escaped.
+/// Returns a string literal. Characters that could mislead a reader or control a terminal are escaped.
 pub(super) fn string(text: &str) -> String {
     let mut literal = String::with_capacity(text.len() + 2);
     literal.push('"');
@@ -24,7 +24,7 @@ pub(super) fn string(text: &str) -> String {
     literal
 }
 
-/// A byte string literal.
+/// Returns a byte string literal.
 pub(super) fn bytes(bytes: &[u8]) -> String {
     let mut literal = String::with_capacity(bytes.len() * 4 + 3);
     literal.push_str("b\"");
@@ -35,16 +35,16 @@ pub(super) fn bytes(bytes: &[u8]) -> String {
     literal
 }
 
-/// Signs of units, of arithmetic and of punctuation: without them a text says something else. None of them changes how
-/// others are shown.
+/// Characters of units, arithmetic and punctuation, which carry meaning. None of them changes how other characters are
+/// shown.
 const SIGNS: &str = "°µ±·€−×÷≤≥≠≈√∞Σ→←↑↓↔–—…‘’“”„‰•";
 
-/// Letters and digits of any script, and [`SIGNS`].
+/// Returns whether a character is a letter or digit of any script, printable ASCII, or one of [`SIGNS`].
 pub(super) fn is_harmless(letter: char) -> bool {
     letter.is_ascii_graphic() || letter == ' ' || letter.is_alphanumeric() || SIGNS.contains(letter)
 }
 
-/// A REAL32 or REAL64 literal; `None` for a number that the type doesn't have.
+/// Returns a REAL32 or REAL64 literal; `None` if the type cannot represent the number.
 pub(super) fn real(value: f64, bits: u32) -> Option<String> {
     if bits == 32 {
         let value = value as f32;
@@ -58,7 +58,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn nothing_breaks_out() {
+    fn text_cannot_end_a_literal() {
         assert_eq!(string("a\"\\\n\u{202e}\u{7f}ü"), r#""a\"\\\n\u{202e}\u{7f}ü""#);
         assert_eq!(bytes(b"\0\"\xff"), r#"b"\x00\x22\xff""#);
         assert_eq!(real(0.1, 32).as_deref(), Some("0.1"));

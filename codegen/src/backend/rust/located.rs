@@ -1,4 +1,4 @@
-//! The windows and registers of a device or a module that a client can reach.
+//! Windows and registers of a device or module that a client can access.
 
 use std::ops::Deref;
 
@@ -8,16 +8,16 @@ use super::scope::Scope;
 use super::window::{self, Window};
 use crate::ir::{Group, GroupKind, Item, ItemId};
 
-/// A device or a module, and where its items are found.
+/// A device or module, with the addresses of its items.
 pub(super) struct Located<'a> {
     scope: Scope<'a>,
-    /// The windows through which items are found.
+    /// Windows through which items are accessed.
     pub windows: Vec<Window>,
-    /// The items of chapters and images that a client can reach.
+    /// Items of chapters and images that a client can access.
     pub registers: Vec<Register<'a>>,
 }
 
-/// An item of a chapter or an image, with the title of that.
+/// An item of a chapter or image, and the title of the chapter.
 #[derive(Clone, Copy)]
 pub(super) struct Register<'a> {
     pub chapter: &'a str,
@@ -33,17 +33,13 @@ impl<'a> Located<'a> {
         located
     }
 
-    /// What the handles are of, and what one of them is of at the start of a sentence and within it.
-    pub fn handles(&self) -> [&'static str; 3] {
+    /// Returns the nouns for the items with handles: one to follow "every", and one with an article.
+    pub fn handles(&self) -> [&'static str; 2] {
         let has_objects = addressable(self).next().is_some();
         match (self.registers.is_empty(), has_objects) {
-            (true, _) => ["entry of the object dictionary", "An entry", "an entry"],
-            (false, true) => [
-                "register and every entry of the object dictionary",
-                "A register or an entry",
-                "a register or an entry",
-            ],
-            (false, false) => ["register", "A register", "a register"],
+            (true, _) => ["entry of the object dictionary", "an entry"],
+            (false, true) => ["register and every entry of the object dictionary", "a register or an entry"],
+            (false, false) => ["register", "a register"],
         }
     }
 }
@@ -56,10 +52,10 @@ impl<'a> Deref for Located<'a> {
     }
 }
 
-/// The items of chapters and images that a client can reach.
+/// Returns the items of chapters and images that a client can access.
 fn registers<'a>(located: &Located<'a>) -> Vec<Register<'a>> {
     let registers = |(position, group): (u32, &'a Group)| {
-        // An image is told with the place of its fields.
+        // For images, the addresses of the fields name the image.
         let chapter = if group.kind == GroupKind::Chapter { group.name.as_str() } else { "" };
         group.items_at(position).map(move |(id, item)| Register { chapter, id, item })
     };

@@ -1,4 +1,4 @@
-//! The locations of handles: their types, and the functions that make those which several items have.
+//! Locations of handles: their types, and the functions that create locations shared by several items.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -7,27 +7,27 @@ use super::context::Context;
 use super::item_addresses::{Buses, ItemAddresses};
 use super::reachable::addressable;
 
-/// Where the windows are, as seen from the handles.
+/// Path from the handles to the windows.
 const WINDOWS: &str = "super::windows::";
 
-/// The name of the function that makes a location.
+/// Returns the name of the function that creates a location.
 fn maker(at: usize) -> String {
-    format!("place_{}", at + 1)
+    format!("location_{}", at + 1)
 }
 
-/// The locations of a device's handles, or of a module's.
+/// The locations of the handles of a device or module.
 pub(super) struct Locations {
-    /// The usual one, whose handles need no type of it.
+    /// The default location type. Handles with this type do not name it.
     pub usual: Buses,
-    /// Whether not every item has that one.
+    /// Whether some items have another location.
     pub several: bool,
-    /// Those of each item, each once.
+    /// Location types of all items, each once.
     each: BTreeSet<Buses>,
-    /// What makes the locations that several items have.
+    /// Functions that create locations shared by several items.
     shared: Vec<Shared>,
 }
 
-/// What makes locations of several items.
+/// A function that creates locations of several items.
 struct Shared {
     body: Doc,
     parameters: Vec<String>,
@@ -45,33 +45,34 @@ impl Locations {
         }
         let usual = usual(&each);
         Locations {
-            several: each.keys().any(|own| *own != usual),
+            several: each.keys().any(|buses| *buses != usual),
             usual,
             each: each.into_keys().chain([usual]).collect(),
             shared: shared(context, &items_addresses),
         }
     }
 
-    /// The functions that make locations: name, parameters, type and body.
+    /// Returns the functions that create locations: name, parameters, return type and body.
     pub fn makers(&self) -> Vec<(String, Vec<String>, String, Doc)> {
-        let model = |(at, own): (usize, &Shared)| {
-            (maker(at), own.parameters.clone(), self.name(own.buses, ""), own.body.clone())
+        let model = |(at, function): (usize, &Shared)| {
+            (maker(at), function.parameters.clone(), self.name(function.buses, ""), function.body.clone())
         };
         self.shared.iter().enumerate().map(model).collect()
     }
 
-    /// The code of an item's location; `outer` leads from the handle's place to the device's.
+    /// Returns the code of an item's location. `outer` is the path from the handle to the device's module.
     pub fn code(&self, context: &Context<'_>, addresses: &ItemAddresses<'_>, outer: &str) -> Doc {
-        let found = addresses.maker(context, WINDOWS).and_then(|own| {
-            let is_own = |shared: &Shared| shared.body == own.body && shared.parameters == own.parameters;
-            let at = self.shared.iter().position(is_own)?;
-            Some(list(&format!("{}{}(", beside_handles(outer), maker(at)), own.arguments, ")"))
+        let found = addresses.maker(context, WINDOWS).and_then(|maker_call| {
+            let is_same =
+                |shared: &Shared| shared.body == maker_call.body && shared.parameters == maker_call.parameters;
+            let at = self.shared.iter().position(is_same)?;
+            Some(list(&format!("{}{}(", path_to_handles(outer), maker(at)), maker_call.arguments, ")"))
         });
-        let path = self.name(addresses.buses(), beside_handles(outer));
+        let path = self.name(addresses.buses(), path_to_handles(outer));
         found.unwrap_or_else(|| addresses.code(context, &path, &format!("{outer}windows::")))
     }
 
-    /// The name of a location's type; `outer` leads from where it stands to the device's place.
+    /// Returns the name of a location's type. `outer` is the path to the module of the handles.
     pub fn name(&self, buses: Buses, outer: &str) -> String {
         match buses.path() {
             Some(path) => path.to_owned(),
@@ -79,42 +80,43 @@ impl Locations {
         }
     }
 
-    /// The locations that the runtime has no name for: name, documentation and fields.
-    pub fn own(&self) -> Vec<(String, String, Vec<Doc>)> {
-        let unnamed = self.each.iter().filter(|own| own.path().is_none());
-        let docs = |own: &Buses| format!("The location of what is found on {}.", own.titles());
-        unnamed.map(|own| (own.word(), docs(own), own.fields())).collect()
+    /// Returns the location types that the runtime does not define: name, documentation and fields.
+    pub fn generated_types(&self) -> Vec<(String, String, Vec<Doc>)> {
+        let unnamed = self.each.iter().filter(|buses| buses.path().is_none());
+        let docs = |buses: &Buses| format!("Location of an item on {}.", buses.titles());
+        unnamed.map(|buses| (buses.word(), docs(buses), buses.fields())).collect()
     }
 
-    /// What follows the type of a value where handles of several locations exist.
+    /// Returns the type argument for the location, if it is not the default.
     pub fn argument(&self, buses: Buses, outer: &str) -> Option<String> {
         if buses == self.usual {
             return None;
         }
-        let outer = if outer.is_empty() { "objects::" } else { beside_handles(outer) };
+        let outer = if outer.is_empty() { "objects::" } else { path_to_handles(outer) };
         Some(self.name(buses, outer))
     }
 }
 
-/// The way to where the handles stand, and the locations beside them, of one that leads to the device's place.
-fn beside_handles(outer: &str) -> &str {
+/// Returns the path to the module of the handles. `outer` is the path to the device's module.
+fn path_to_handles(outer: &str) -> &str {
     outer.strip_prefix("super::").unwrap_or(outer)
 }
 
-/// What most items have, unless all are addresses, and some have all of them.
+/// Returns the default location. It is the union of all locations if all are direct and some item has it; otherwise it
+/// is the most frequent one.
 fn usual(each: &BTreeMap<Buses, usize>) -> Buses {
-    match each.keys().all(|own| own.is_direct()) {
-        true => each.keys().fold(Buses::default(), |all, own| all.union(*own)),
-        false => each.iter().max_by_key(|(_, count)| **count).map_or(Buses::default(), |(own, _)| *own),
+    match each.keys().all(|buses| buses.is_direct()) {
+        true => each.keys().fold(Buses::default(), |all, buses| all.union(*buses)),
+        false => each.iter().max_by_key(|(_, count)| **count).map_or(Buses::default(), |(buses, _)| *buses),
     }
 }
 
-/// What makes more than one of these places.
+/// Returns the functions that create the locations of more than one item.
 fn shared(context: &Context<'_>, items_addresses: &[ItemAddresses<'_>]) -> Vec<Shared> {
     let mut makers: BTreeMap<(Doc, Vec<String>), (usize, Buses)> = BTreeMap::new();
     for addresses in items_addresses {
-        if let Some(own) = addresses.maker(context, WINDOWS) {
-            makers.entry((own.body, own.parameters)).or_insert((0, addresses.buses())).0 += 1;
+        if let Some(maker) = addresses.maker(context, WINDOWS) {
+            makers.entry((maker.body, maker.parameters)).or_insert((0, addresses.buses())).0 += 1;
         }
     }
     let makers = makers.into_iter().filter(|(_, (count, _))| *count > 1);

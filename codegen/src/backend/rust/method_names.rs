@@ -1,7 +1,7 @@
-//! Names of methods and modules of objects: those that are taken, and those that `clippy` reads a meaning into.
+//! Reserved names of methods and modules of objects, and prefixes for which clippy expects certain signatures.
 
-/// Names that modules and methods of objects must not have: the device's own, those of methods that every type has by value, and those
-/// that would hide a primitive type or the runtime.
+/// Names that modules and methods of objects must not have: methods of the device, methods that every type has by
+/// value, and names that would hide a primitive type or the runtime.
 pub(super) const RESERVED: [&str; 31] = [
     "types",
     "new",
@@ -36,10 +36,10 @@ pub(super) const RESERVED: [&str; 31] = [
     "crate",
 ];
 
-/// Names that a device with messages uses itself, too.
-pub(super) const BESIDE_MESSAGES: [&str; 3] = ["messages", "on", "after_power_on"];
+/// Further names that the generated code of a device with messages uses.
+pub(super) const RESERVED_WITH_MESSAGES: [&str; 3] = ["messages", "on", "after_power_on"];
 
-/// The attribute that methods of these names need: clippy reads a meaning into some prefixes.
+/// Returns the attribute that methods with these names need. Clippy expects certain signatures for some prefixes.
 pub(super) fn method_allow<'n>(names: impl Iterator<Item = &'n str>) -> Option<String> {
     const PREFIXES: [&str; 5] = ["from_", "into_", "to_", "is_", "as_"];
     const TRAITS: [&str; 3] = ["next", "deref_mut", "borrow_mut"];
@@ -56,9 +56,9 @@ pub(super) fn method_allow<'n>(names: impl Iterator<Item = &'n str>) -> Option<S
     }
 }
 
-/// A name that isn't taken.
-pub(super) fn beside(is_taken: impl Fn(&String) -> bool, mut name: String) -> String {
-    while is_taken(&name) {
+/// Returns an unused name: `name` with as many underscores appended as necessary.
+pub(super) fn unused_name(is_used: impl Fn(&String) -> bool, mut name: String) -> String {
+    while is_used(&name) {
         name.push('_');
     }
     name

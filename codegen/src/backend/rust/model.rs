@@ -1,4 +1,4 @@
-//! A device or a module as the plain data that is written down.
+//! The model of a device or module: plain data, ready to be printed.
 
 use super::axes::{self, AxesModel};
 use super::bus_facts::{self, FactModel};
@@ -21,7 +21,7 @@ use super::locations::Locations;
 use super::messages::ProtocolModel;
 use super::method_names::method_allow;
 #[cfg(feature = "messages")]
-use super::method_names::{BESIDE_MESSAGES, RESERVED};
+use super::method_names::{RESERVED, RESERVED_WITH_MESSAGES};
 use super::named::Types;
 use super::naming::Names;
 use super::objects::{self, ObjectModel};
@@ -35,7 +35,7 @@ use super::table::{self, EntryModel};
 use super::window_model::{self, WindowModel};
 use crate::ir::{Device, FileInfo, Module};
 
-/// The stages before lowering: what is found where, its names, and links to it.
+/// Runs the stages before lowering: addresses, names and links.
 pub(super) fn context<'a>(scope: Scope<'a>, options: &RustOptions, device_name: &str) -> Context<'a> {
     let located = Located::of(scope);
     let names = Names::of(&located);
@@ -43,67 +43,67 @@ pub(super) fn context<'a>(scope: Scope<'a>, options: &RustOptions, device_name: 
     Context { located, names, links }
 }
 
-/// A device, ready to be written.
+/// A device or module, ready to be printed.
 #[derive(Default)]
 pub(super) struct Model {
     pub device_name: String,
     pub title: String,
-    /// Who made the device; a module of a modular device has none.
+    /// Identity of the device; `None` for a module of a modular device.
     pub identity: Option<IdentityModel>,
-    /// Whether there is a type of the device with accessor methods.
+    /// Whether the device has a type with accessor methods.
     pub has_accessors: bool,
-    /// The type of the handles' location; of several, the one with all buses.
+    /// Type of the handles' location. If there are several, the one that covers all buses.
     pub location: String,
-    /// Whether handles have several types of locations.
+    /// Whether the handles have several location types.
     pub has_locations: bool,
-    /// Locations that the runtime has no name for: name, documentation and fields.
+    /// Location types that the runtime does not define: name, documentation and fields.
     pub locations: Vec<(String, String, Vec<Doc>)>,
-    /// Functions that make locations which several items have: name, parameters, type and body.
+    /// Functions that create locations shared by several items: name, parameters, return type and body.
     pub makers: Vec<(String, Vec<String>, String, Doc)>,
-    /// The windows through which items are found.
+    /// Windows through which items are accessed.
     pub windows: Vec<WindowModel>,
-    /// What the handles are of, and what one of them is of at the start of a sentence and within it.
-    pub handles: [&'static str; 3],
+    /// Nouns for the items with handles: one to follow "every", and one with an article.
+    pub handles: [&'static str; 2],
     pub types: Types,
     pub code_tables: Vec<CodeTableModel>,
-    /// Procedures that are nothing but writes of objects.
+    /// Procedures that consist only of writes to objects.
     pub procedures: Vec<ProcedureModel>,
     pub axes: Option<AxesModel>,
-    /// What models of the device have of their own.
+    /// Constants and items that differ between the models of the device.
     pub models: Vec<DeviceModel>,
-    /// What only whoever builds the machine knows.
+    /// Properties of the machine that the device does not know.
     pub given: Option<GivenModel>,
-    /// Requests and replies.
+    /// Message protocol: requests and replies.
     #[cfg(feature = "messages")]
     pub protocol: Option<ProtocolModel>,
     pub node_id: Option<u8>,
-    /// What is known of Modbus and of numbers of nodes.
+    /// Constants for Modbus and for the node-ID range.
     pub bus_facts: Vec<FactModel>,
     pub accessor_derives: Vec<String>,
-    /// Lints that a name of the dictionary would trip over.
+    /// Attribute that suppresses lints for names of the dictionary.
     pub method_allow: Option<String>,
     pub objects: Vec<ObjectModel>,
     pub aliases: Vec<Alias>,
-    /// Private names of the types of handles: name, access and arguments.
+    /// Private aliases of handle types: name, access and arguments.
     pub handle_types: Vec<(String, &'static str, Vec<Doc>)>,
     pub pdos: Vec<PdoModel>,
-    /// PDOs that can be mapped anew.
+    /// PDOs with a mapping that can be changed.
     pub remappable: Vec<RemappableModel>,
-    /// Whether there are views of PDOs within a process image.
+    /// Whether PDOs have views within a process image.
     pub has_views: bool,
     pub ethercat: Option<EtherCatModel>,
-    /// `MODULE` of a module.
+    /// Value of the constant `MODULE`; `None` for a device.
     pub module: Option<Doc>,
     pub table: Option<Vec<EntryModel>>,
     pub table_feature: Option<String>,
-    /// Whether the file has further devices or modules, which may use its definitions.
+    /// Whether the file has further devices or modules, which may re-export definitions of this one.
     pub is_one_of_several: bool,
-    /// The definitions that earlier ones of these have.
+    /// Definitions that earlier devices or modules of the file contain.
     pub reexports: Vec<Reexport>,
 }
 
 impl Model {
-    /// A device, which finds the constants of modules by these paths.
+    /// Creates the model of a device. `modules` maps modules to the paths of their constants.
     pub(super) fn new(device: &Device, file: &FileInfo, options: &RustOptions, modules: &ModulePaths) -> Self {
         let device_name = device_names::device_name(device, file, options.device_name.as_deref());
         let context = context(Scope::of_device(device), options, &device_name);
@@ -124,11 +124,11 @@ impl Model {
         model.axes = axes::model(device);
         model.bus_facts = bus_facts::models(device);
         model.bus_facts.extend(composite::models(&context));
-        model.node_id = device.commissioning.as_ref().and_then(|own| own.node_id);
+        model.node_id = device.commissioning.as_ref().and_then(|commissioning| commissioning.node_id);
         model
     }
 
-    /// A module of a modular device.
+    /// Creates the model of a module of a modular device.
     pub(super) fn of_module(module: &Module, options: &RustOptions) -> Self {
         let context = context(Scope::of_module(module), options, "");
         let mut model = Model::of_context(&context, options);
@@ -137,7 +137,7 @@ impl Model {
         model
     }
 
-    /// What devices and modules have.
+    /// Creates the part of a model that devices and modules share.
     fn of_context(context: &Context<'_>, options: &RustOptions) -> Self {
         let locations = Locations::of(context);
         let mut objects = objects::models(context, &locations);
@@ -146,7 +146,7 @@ impl Model {
         Model {
             location: locations.name(locations.usual, ""),
             has_locations: locations.several,
-            locations: locations.own(),
+            locations: locations.generated_types(),
             makers: locations.makers(),
             windows: window_model::models(context),
             handles: context.handles(),
@@ -168,15 +168,15 @@ impl Model {
         }
     }
 
-    /// Requests and replies. Their methods stand beside those of the objects.
+    /// Creates the message protocol. Its methods are on the same type as the accessors of the objects.
     #[cfg(feature = "messages")]
     fn protocol_of(&self, context: &Context<'_>, options: &RustOptions) -> Option<ProtocolModel> {
         let objects = self.objects.iter().map(|object| object.name.trim_start_matches("r#"));
-        let taken: Vec<&str> = objects.chain(RESERVED).chain(BESIDE_MESSAGES).collect();
-        ProtocolModel::new(context, options, &self.types, &taken)
+        let reserved: Vec<&str> = objects.chain(RESERVED).chain(RESERVED_WITH_MESSAGES).collect();
+        ProtocolModel::new(context, options, &self.types, &reserved)
     }
 
-    /// Whether the type of the device knows which request was sent last.
+    /// Returns whether the type of the device tracks the last selecting request.
     pub(super) fn selects(&self) -> bool {
         #[cfg(feature = "messages")]
         return self.protocol.as_ref().is_some_and(ProtocolModel::selects);

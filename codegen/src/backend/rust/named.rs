@@ -1,4 +1,4 @@
-//! Enumerations, bit fields and state machines, ready to be written.
+//! Enumerations, bit fields and state machines, ready to be printed.
 
 use super::bit_field::{self, BitFieldModel};
 use super::context::Context;
@@ -7,28 +7,29 @@ use super::machine::{self, MachineModel};
 use super::naming::machines::NamedMachine;
 use super::options::RustOptions;
 
-/// The types of a device or module, ready to be written.
+/// The types of a device or module, ready to be printed.
 #[derive(Default)]
 pub(super) struct Types {
-    /// By the positions of their definitions.
+    /// Enumerations with the positions of their definitions.
     pub enumerations: Vec<(u32, EnumerationModel)>,
-    /// By the positions of their definitions.
+    /// Bit fields with the positions of their definitions.
     pub bit_fields: Vec<(u32, BitFieldModel)>,
     pub machines: Vec<MachineModel>,
-    /// Whether the device has bit fields, which an earlier device may have, too.
+    /// Whether the device has bit fields, including those that an earlier device defines.
     pub has_bit_fields: bool,
 }
 
 impl Types {
     pub(super) fn of<'a>(context: &'a Context<'_>, options: &RustOptions) -> Self {
         let names = &context.names.types;
-        let methods = |own: &'a NamedMachine<'_>| [&own.command_setter, &own.getter, &own.command_getter];
+        let methods =
+            |machine: &'a NamedMachine<'_>| [&machine.command_setter, &machine.getter, &machine.command_getter];
         let machine_methods: Vec<&str> = names.machines.iter().flat_map(methods).map(String::as_str).collect();
         let enumerations = names.enumerations.iter();
         let enumerations: Vec<_> =
-            enumerations.map(|(at, own)| (*at, enumeration::model(context, *at, own, options))).collect();
-        let bit_field = |(at, own, views): &(_, _, Vec<_>)| {
-            (*at, bit_field::model(context, *at, own, views, &machine_methods, options))
+            enumerations.map(|(at, named)| (*at, enumeration::model(context, *at, named, options))).collect();
+        let bit_field = |(at, named, views): &(_, _, Vec<_>)| {
+            (*at, bit_field::model(context, *at, named, views, &machine_methods, options))
         };
         let bit_fields: Vec<_> = names.bit_fields.iter().map(bit_field).collect();
         let machines = machine::models(context, &bit_fields, &enumerations, options);
@@ -39,7 +40,7 @@ impl Types {
         self.enumerations.is_empty() && self.bit_fields.is_empty() && self.machines.is_empty()
     }
 
-    /// Whether their code needs the runtime's name: states and commands by themselves don't.
+    /// Returns whether the code of the types names the runtime. States and commands alone do not.
     pub(super) fn names_runtime(&self) -> bool {
         let has_values = !self.enumerations.is_empty() || !self.bit_fields.is_empty();
         has_values || self.machines.iter().any(MachineModel::has_transitions)

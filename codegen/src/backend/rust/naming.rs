@@ -1,4 +1,4 @@
-//! The first stage: what elements of a description are called in Rust.
+//! The first stage: Rust names of the elements of a description.
 
 pub(super) mod composites;
 pub(super) mod handles;
@@ -16,12 +16,12 @@ use messages::NamedMessages;
 use pdos::NamedPdo;
 use types::TypeNames;
 
-/// The names of a device's or a module's elements.
+/// The names of the elements of a device or a module.
 pub(super) struct Names<'a> {
     pub handles: HandleNames<'a>,
     pub pdos: Vec<NamedPdo<'a>>,
     pub types: TypeNames<'a>,
-    /// Numbers that are split over several items.
+    /// Composite numbers, which are split over several items.
     pub composites: Vec<NamedComposite<'a>>,
     #[cfg(feature = "messages")]
     pub messages: NamedMessages<'a>,

@@ -1,42 +1,42 @@
-//! The objects and registers, ready to be written: a handle each, or a module of handles.
+//! Objects and registers, ready to be printed: a handle each, or a module of handles.
 
 use super::context::Context;
 use super::docs;
-use super::item::{self, ItemModel, Title};
-use super::links::Here;
+use super::item::{self, ItemModel, ItemModule, Title};
+use super::links::DocModule;
 use super::locations::Locations;
 use super::method_names::method_allow;
 use super::naming::handles::{self, HandleNames, NamedItem, NamedObject, NamedRegister};
 use crate::ir::ObjectCode;
 use crate::names;
 
-/// An object: one value, or a module of several.
+/// An object: one value, or a module of several values.
 pub(super) struct ObjectModel {
     pub name: String,
     pub docs: Vec<String>,
     pub heading: String,
-    /// Of an object of several values, where its constants stand.
+    /// Link to the module of its constants; empty for an object with one value.
     pub constants: String,
     pub items: Vec<ItemModel>,
     pub is_module: bool,
-    /// Whether an earlier device of the file has the definition.
+    /// Whether an earlier device of the file contains the definition.
     pub is_reexported: bool,
     pub method_allow: Option<String>,
 }
 
 impl ObjectModel {
-    /// Whether one of its items can be mapped into PDOs.
+    /// Returns whether one of the items can be mapped into PDOs.
     pub(super) fn has_mappable(&self) -> bool {
         self.items.iter().any(|item| item.mappable.is_some())
     }
 
-    /// Whether its items need the runtime's name.
+    /// Returns whether the items name the runtime.
     pub(super) fn names_runtime(&self) -> bool {
         self.items.iter().any(|item| item.names_runtime)
     }
 }
 
-/// The registers of the chapters, and then the objects.
+/// Returns the registers of the chapters, followed by the objects.
 pub(super) fn models(context: &Context<'_>, locations: &Locations) -> Vec<ObjectModel> {
     let HandleNames { registers, objects } = &context.names.handles;
     let registers = registers.iter().map(|named| register(context, locations, named));
@@ -45,7 +45,7 @@ pub(super) fn models(context: &Context<'_>, locations: &Locations) -> Vec<Object
 
 fn register(context: &Context<'_>, locations: &Locations, named: &NamedRegister<'_>) -> ObjectModel {
     let title = Title { original: &named.entry.item.name, chapter: Some(named.chapter) };
-    let model = item::model(context, locations, &named.entry, title, (None, "super::"));
+    let model = item::model(context, locations, &named.entry, title, ItemModule { name: None, outer: "super::" });
     ObjectModel {
         docs: Vec::new(),
         constants: String::new(),
@@ -62,18 +62,25 @@ fn object(context: &Context<'_>, locations: &Locations, named: &NamedObject<'_>)
     let NamedObject { group, name, is_module, entries, .. } = named;
     let address = format!("0x{:04X}", group.index().unwrap_or(0));
     let title = if group.name.trim().is_empty() { address.clone() } else { docs::escape(&group.name) };
-    let (module, outer) = if *is_module { (Some(name.as_str()), "super::super::") } else { (None, "super::") };
+    let (name_of_module, outer) = if *is_module { (Some(name.as_str()), "super::super::") } else { (None, "super::") };
     let model = |entry: &NamedItem<'_>| {
         let original = if *is_module { &entry.item.name } else { &group.name };
-        item::model(context, locations, entry, Title { original, chapter: None }, (module, outer))
+        item::model(
+            context,
+            locations,
+            entry,
+            Title { original, chapter: None },
+            ItemModule { name: name_of_module, outer },
+        )
     };
     let items: Vec<ItemModel> = entries.iter().map(model).collect();
     let code = group.object_code().map_or("", ObjectCode::name);
     ObjectModel {
         docs: vec![docs::sentence(&title), String::new(), format!("{code} {address}.")],
         heading: item::heading(&group.name, &address),
-        // A constant may be called the same.
-        constants: Here::TOP.whole(&format!("{}objects::{name}", if handles::is_cased(name) { "" } else { "mod@" })),
+        // A constant may have the same name.
+        constants: DocModule::TOP
+            .whole(&format!("{}objects::{name}", if handles::is_cased(name) { "" } else { "mod@" })),
         method_allow: method_allow(items.iter().map(|item| item.method.as_str())),
         name: names::escaped(name),
         items,
@@ -82,7 +89,7 @@ fn object(context: &Context<'_>, locations: &Locations, named: &NamedObject<'_>)
     }
 }
 
-/// How a program reaches each item: by the methods of the device's type, as in `identity().vendor_id()`.
+/// Returns the method calls by which a program accesses each item, such as `identity().vendor_id()`.
 pub(super) fn calls<'c, 'a>(context: &'c Context<'a>) -> impl Iterator<Item = (&'c NamedItem<'a>, String)> {
     let call = |name: &str| format!("{}()", names::escaped(name));
     let HandleNames { registers, objects } = &context.names.handles;

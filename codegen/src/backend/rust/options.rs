@@ -1,38 +1,38 @@
-//! What a user may choose about the generated Rust.
+//! Options of the generated Rust code.
 
-/// Whether something is part of the output.
+/// Whether a part of the output is generated.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub enum Presence {
-    /// It is.
+    /// The part is generated.
     Always,
-    /// It isn't.
+    /// The part is not generated.
     #[default]
     Never,
-    /// It is where the crate that compiles the output has this feature.
+    /// The part is compiled if the crate that contains the output has this feature.
     Feature(String),
 }
 
-/// What the generated Rust looks like.
+/// Options of the generated Rust code.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct RustOptions {
-    /// Name of the device's type; from the name of the product where it is `None`.
+    /// Name of the device's type; derived from the name of the product if it is `None`.
     pub device_name: Option<String>,
     /// Path of the runtime crate.
     pub runtime: String,
-    /// Whether there is a device type with an accessor method for every entry.
+    /// Whether to generate a device type with an accessor method for every entry.
     pub accessors: bool,
-    /// Whether there is a struct for every PDO.
+    /// Whether to generate a struct for every PDO.
     pub pdos: bool,
-    /// The static table of all entries, for tools.
+    /// Static table of all entries, for tools.
     pub table: Presence,
     /// `Debug` on generated types.
     pub debug: Presence,
     /// `PartialEq` on generated types.
     pub partial_eq: Presence,
-    /// `defmt::Format` on generated types; the compiling crate needs `defmt`, and `lexibus` its feature of that name.
+    /// `defmt::Format` on generated types. The compiling crate needs `defmt`, and the feature `defmt` of `lexibus`.
     pub defmt: Presence,
-    /// `serde::Serialize` and `Deserialize` on generated types; the compiling crate needs `serde`, and `lexibus` its
-    /// feature of that name.
+    /// `serde::Serialize` and `Deserialize` on generated types. The compiling crate needs `serde`, and the feature
+    /// `serde` of `lexibus`.
     pub serde: Presence,
 }
 
@@ -52,11 +52,11 @@ impl Default for RustOptions {
     }
 }
 
-/// Traits of `serde` end at arrays of this length.
+/// Maximum length of the arrays for which `serde` implements its traits.
 const SERDE_ARRAY: u32 = 32;
 
 impl RustOptions {
-    /// What tells `serde` how to handle a field of so many bytes, where its own traits don't.
+    /// Returns the attribute with which `serde` supports a field of this many bytes; `None` if the field needs none.
     pub(in crate::backend::rust) fn octets_attribute(&self, length: u32) -> Option<String> {
         if length <= SERDE_ARRAY {
             return None;
@@ -71,7 +71,7 @@ impl RustOptions {
         }
     }
 
-    /// The attribute lines in front of a generated type.
+    /// Returns the attribute lines of a generated type.
     pub(super) fn derives(&self, plain_data: bool) -> Vec<String> {
         let mut always = if plain_data { vec!["Clone", "Copy"] } else { Vec::new() };
         let mut gated = Vec::new();

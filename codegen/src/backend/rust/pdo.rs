@@ -1,4 +1,4 @@
-//! PDO structs: fields, packing by whole-word shifts, and the sequence that configures the device.
+//! PDO structs: their fields, packing and unpacking, and the writes that configure the PDO in the device.
 
 use std::collections::{HashMap, HashSet};
 
@@ -8,8 +8,8 @@ use super::doc_table;
 use super::docs;
 use super::docs::WORDS;
 use super::field_type::{field_type, FieldType};
-use super::links::Here;
-use super::method_names::{beside, method_allow};
+use super::links::DocModule;
+use super::method_names::{method_allow, unused_name};
 use super::naming;
 use super::naming::pdos::{is_field, is_generated, NamedField, NamedPdo};
 use super::options::RustOptions;
@@ -20,62 +20,65 @@ use crate::ir::{Group, ObjectBuses, Pdo, PdoCommunication, PdoEntry, PdoEntryKin
 use crate::names;
 use crate::source::Span;
 
-/// The longest name of a field that is packed where it stands: the line has to stay below the margin.
+/// Maximum length of a field's name in an expression that packs the field. The line must stay below the margin.
 const MAX_FIELD_NAME: usize = 30;
 
-/// Bits of a word.
+/// Number of bits in a word.
 const WORD: u32 = 64;
 
-/// A PDO, ready to be written.
+/// A PDO, ready to be printed.
 pub(super) struct PdoModel {
     pub name: String,
     pub docs: Vec<String>,
-    /// What is said of the view.
+    /// Documentation of the view.
     pub view_docs: Vec<String>,
     pub derives: Vec<String>,
     pub mapping_index: u16,
-    /// The line on which it is declared.
+    /// Line of the declaration.
     line: u32,
     declared: Span,
     pub bits: u32,
     pub length: usize,
-    /// Whether packing and unpacking are `const fn` in the oldest Rust that the runtime supports.
+    /// `const ` if packing and unpacking are `const fn` with the minimum supported Rust version of the runtime;
+    /// otherwise empty.
     pub constant: &'static str,
     pub fields: Vec<FieldModel>,
     pub mapping: Vec<Doc>,
     pub word: bool,
-    /// All bits that a field covers.
+    /// Mask of all bits that fields cover.
     pub covered: String,
     pub cob_id: Option<String>,
     pub configuration: Vec<String>,
-    /// Whether the default identifier is one.
+    /// Whether the default COB-ID contains an identifier.
     pub has_identifier: bool,
 }
 
-/// A field.
+/// A field of a PDO.
 pub(super) struct FieldModel {
     pub name: String,
-    /// Its object, as the table shows it.
+    /// Object of the field, as the table shows it.
     object: String,
-    /// Its type, as the table shows it.
+    /// Type of the field, as the table shows it.
     type_link: String,
-    /// The names of its methods in a view.
+    /// Name of the view's method that reads the field.
     pub getter: String,
+    /// Name of the view's method that writes the field.
     pub setter: String,
     pub docs: Vec<String>,
-    /// What derived traits need to know of it.
+    /// Attribute for derived traits.
     pub attribute: Option<String>,
     pub ty: String,
     kind: FieldType,
-    /// The bits that the field has of its Rust type, where these are fewer and its own conversions don't say so.
+    /// Mask of the field's bits, if its Rust type has more bits and its conversions don't remove them.
     cut: Option<String>,
     pub offset: u32,
     pub bits: u32,
-    /// A field of more than a word: copied as bytes, the unused bits of the last one 0.
+    /// Whether the field is longer than a word. Such a field is copied as bytes, and the unused bits of the last byte
+    /// are 0.
     pub long: bool,
 }
 
-/// Models of all PDOs that have something to carry.
+/// Returns the models of all PDOs with fields.
 pub(super) fn models(context: &Context<'_>, options: &RustOptions) -> Vec<PdoModel> {
     let generated = context.names.pdos.iter().filter(|named| is_generated(named.pdo));
     generated.map(|named| model(context, named, options)).collect()
@@ -107,18 +110,18 @@ fn model(context: &Context<'_>, named: &NamedPdo<'_>, options: &RustOptions) -> 
     }
 }
 
-/// The lines about a PDO.
+/// Returns the documentation of a PDO.
 fn documentation(context: &Context<'_>, pdo: &Pdo, fields: &[FieldModel]) -> Vec<String> {
     let mut lines = vec![title(context, pdo)];
     let mut facts = vec![format!("Mapping 0x{:04X}, {} bits", pdo.mapping_index, pdo.bits())];
-    if let Some(own) = &pdo.communication {
-        facts.extend(own.cob_id.as_ref().map(|value| format!("COB-ID {}", identifier(value))));
-        facts.extend(own.transmission_type.map(|ty| format!("transmission type {ty}")));
+    if let Some(communication) = &pdo.communication {
+        facts.extend(communication.cob_id.as_ref().map(|value| format!("COB-ID {}", identifier(value))));
+        facts.extend(communication.transmission_type.map(|ty| format!("transmission type {ty}")));
     }
     let mut sentences = vec![docs::sentence(&facts.join(", "))];
     docs::words(pdo.documentation.as_deref(), &mut sentences);
     sentences.extend(WORDS.place(&context.manual, "", pdo.documentation.as_deref(), &[]));
-    sentences.extend(pdo.doubts.iter().map(|own| WORDS.doubt(&context.manual, own)));
+    sentences.extend(pdo.doubts.iter().map(|doubt| WORDS.doubt(&context.manual, doubt)));
     for sentence in sentences {
         lines.extend([String::new(), sentence]);
     }
@@ -126,7 +129,7 @@ fn documentation(context: &Context<'_>, pdo: &Pdo, fields: &[FieldModel]) -> Vec
     lines
 }
 
-/// The identifier of a PDO as people write it.
+/// Returns the COB-ID of a PDO in its usual notation.
 fn identifier(value: &Value) -> String {
     match value {
         Value::Int(number @ 0..) => format!("0x{number:X}"),
@@ -135,21 +138,23 @@ fn identifier(value: &Value) -> String {
     }
 }
 
-/// The lines about the view of a PDO.
+/// Returns the documentation of the view of a PDO.
 fn view_docs(context: &Context<'_>, pdo: &Pdo, name: &str) -> Vec<String> {
-    vec![title(context, pdo), String::new(), format!("Its layout: [`pdo::{name}`](super::pdo::{name}).")]
+    vec![title(context, pdo), String::new(), format!("Layout: [`pdo::{name}`](super::pdo::{name}).")]
 }
 
-/// Methods of a struct that a field may be called as.
+/// Methods of a struct whose names a field may have.
 const METHODS: [&str; 4] = ["pack", "unpack", "configuration", "configuration_as"];
 
-/// The lines of the table of all entries.
+/// Returns the lines of the table of all entries.
 fn table(pdo: &Pdo, fields: &[FieldModel]) -> Vec<String> {
     let mut fields = fields.iter();
     let row = |entry: &PdoEntry| {
         let bytes = span(entry);
         match is_field(entry).then(|| fields.next()).flatten() {
-            Some(own) => [bytes, doc_table::field_link(&own.name, &METHODS), own.object.clone(), own.type_link.clone()],
+            Some(field) => {
+                [bytes, doc_table::field_link(&field.name, &METHODS), field.object.clone(), field.type_link.clone()]
+            }
             None => [bytes, "padding".to_owned(), String::new(), String::new()],
         }
     };
@@ -157,15 +162,15 @@ fn table(pdo: &Pdo, fields: &[FieldModel]) -> Vec<String> {
     doc_table::table(["Bytes", "Field", "Object", "Type"], &rows)
 }
 
-/// Where an entry stands: its bytes, with first and last bit where it doesn't fill them.
+/// Returns the bytes of an entry. First and last bit are included if the entry does not fill the bytes.
 fn span(entry: &PdoEntry) -> String {
     let last = entry.bit_offset.saturating_add(entry.bits) - 1;
-    let place = |bit: u32, whole: bool| match whole {
+    let position = |bit: u32, whole: bool| match whole {
         true => (bit / 8).to_string(),
         false => format!("{}.{}", bit / 8, bit % 8),
     };
     let whole = entry.bit_offset.is_multiple_of(8) && entry.bits.is_multiple_of(8);
-    let (first, last) = (place(entry.bit_offset, whole), place(last, whole));
+    let (first, last) = (position(entry.bit_offset, whole), position(last, whole));
     if first == last {
         first
     } else {
@@ -173,7 +178,7 @@ fn span(entry: &PdoEntry) -> String {
     }
 }
 
-/// What the PDO is called, as a sentence.
+/// Returns the title of the PDO, as a sentence.
 pub(super) fn title(context: &Context<'_>, pdo: &Pdo) -> String {
     let buses = match context.bus_of(pdo) {
         ObjectBus::CanOpen => ObjectBuses::CANOPEN,
@@ -184,7 +189,8 @@ pub(super) fn title(context: &Context<'_>, pdo: &Pdo) -> String {
     docs::sentence(&format!("{title}{name}"))
 }
 
-/// All bits that come back from unpacking and packing: a time has four reserved bits that don't.
+/// Returns the mask of all bits that unpacking and packing preserve. A time has four reserved bits, which are not
+/// preserved.
 fn covered(fields: &[FieldModel]) -> String {
     const TIME: u64 = 0xFFFF_0FFF_FFFF;
     let mut covered: u64 = 0;
@@ -198,11 +204,11 @@ fn covered(fields: &[FieldModel]) -> String {
     format!("{covered:#X}").replace("0X", "0x")
 }
 
-/// The constructor of an entry, the shortest that there is, and its arguments.
+/// Returns the shortest constructor of a mapped entry, and its arguments.
 pub(super) fn mapping_entry(entry: &PdoEntry) -> (&'static str, Vec<String>) {
     let mut arguments =
         vec![format!("0x{:04X}", entry.index), format!("0x{:02X}", entry.sub_index), entry.bits.to_string()];
-    // Padding is padding in every slot.
+    // Padding does not depend on the slot.
     let is_object = entry.index != 0;
     let path = match (entry.depends_on_slot && is_object, entry.depends_on_slot_group && is_object) {
         (false, false) => "rt::MappedEntry::new",
@@ -221,24 +227,24 @@ pub(super) fn mapping_line(entry: &PdoEntry) -> Doc {
 }
 
 fn fields(context: &Context<'_>, named: &[NamedField<'_>], options: &RustOptions) -> Vec<FieldModel> {
-    // Methods called `new` and `at` make the view, others are those of traits that every type may have, and a field may be called as the
-    // setter of another.
+    // `new` and `at` are constructors of the view. The other names are methods of traits that every type may implement.
+    // A field may also have the name of another field's setter.
     const RESERVED: [&str; 5] = ["new", "at", "clone", "into", "try_into"];
-    let names: HashSet<&String> = named.iter().map(|own| &own.name).collect();
+    let names: HashSet<&String> = named.iter().map(|field| &field.name).collect();
     let field = |NamedField { entry, name }: &NamedField<'_>| {
         let field = field(context, entry, names::escaped(name), options);
         let is_reserved = RESERVED.contains(&name.as_str());
         FieldModel {
             getter: if is_reserved { format!("{name}_") } else { field.name.clone() },
-            // A name that starts with a digit has a line in front of it already.
-            setter: beside(|name| names.contains(name), names::prefixed("set_", name)),
+            // A name that starts with a digit already has a leading underscore.
+            setter: unused_name(|name| names.contains(name), names::prefixed("set_", name)),
             ..field
         }
     };
     named.iter().map(field).collect()
 }
 
-/// The field of an entry, without its methods.
+/// Returns the field of an entry, without its methods.
 fn field(context: &Context<'_>, entry: &PdoEntry, name: String, options: &RustOptions) -> FieldModel {
     let kind = field_type(context, entry.ty, entry.bits);
     let ty = kind.path("super::");
@@ -246,13 +252,13 @@ fn field(context: &Context<'_>, entry: &PdoEntry, name: String, options: &RustOp
     let address = crate::facts::address::object(entry.index, entry.sub_index);
     let object = match (entry.kind, entry.item.and_then(|id| context.links.path(id.into()))) {
         (PdoEntryKind::Unnumbered, _) => String::new(),
-        (PdoEntryKind::Item, Some(path)) => Here::PDO.text(&address, path),
+        (PdoEntryKind::Item, Some(path)) => DocModule::PDO.text(&address, path),
         _ => address,
     };
-    let where_from = if object.is_empty() { "an object without a known index" } else { object.as_str() };
-    let facts = format!("{where_from}, {} bits from bit {}.", entry.bits, entry.bit_offset);
+    let location = if object.is_empty() { "an object with an unknown index" } else { object.as_str() };
+    let facts = format!("{location}, {} bits from bit {}.", entry.bits, entry.bit_offset);
     let type_link = match &kind {
-        FieldType::Named(name, _) => Here::PDO.code(&format!("types::{name}")),
+        FieldType::Named(name, _) => DocModule::PDO.code(&format!("types::{name}")),
         _ => format!("`{}`", ty.trim_start_matches("rt::")),
     };
     let title = docs::escape(&naming::pdos::title(context, entry));
@@ -280,27 +286,27 @@ fn field(context: &Context<'_>, entry: &PdoEntry, name: String, options: &RustOp
     }
 }
 
-/// What tells a PDO from all others: several may have one mapping object, of which only one is assigned.
+/// Key that identifies a PDO. Several PDOs may share a mapping object, and only one of them is assigned.
 type Declared = (u16, Span, u32);
 
-/// The models of the PDOs of a device or a module.
+/// The models of the PDOs of a device or module.
 pub(super) struct PdoModels<'a>(HashMap<Declared, &'a PdoModel>);
 
 impl<'a> PdoModels<'a> {
     pub(super) fn new(models: &'a [PdoModel]) -> Self {
-        // Of equal keys the last is kept: reversed, the first.
+        // The last of equal keys is kept. The order is reversed to keep the first one.
         let keyed = models.iter().rev().map(|model| ((model.mapping_index, model.declared, model.line), model));
         PdoModels(keyed.collect())
     }
 
-    /// The model of `pdo`, where it has one.
+    /// Returns the model of `pdo`; `None` if it has none.
     pub(super) fn of(&self, pdo: &Pdo) -> Option<&'a PdoModel> {
         self.0.get(&(pdo.mapping_index, pdo.origin.span, pdo.origin.line)).copied()
     }
 }
 
 impl PdoModel {
-    /// The enumerations that its fields are.
+    /// Returns the enumerations of the fields.
     pub(super) fn type_names(&self) -> impl Iterator<Item = &str> {
         self.fields.iter().filter_map(|field| match &field.kind {
             FieldType::Named(name, _) => Some(name.as_str()),
@@ -308,13 +314,13 @@ impl PdoModel {
         })
     }
 
-    /// The attribute that the names of a view's methods need.
+    /// Returns the attribute that suppresses lints for the view's methods.
     pub(super) fn view_allow(&self) -> Option<String> {
         method_allow(self.fields.iter().map(|field| field.getter.as_str()))
     }
 
-    /// The statements that pack more than a word. What takes whole bytes is stored byte by byte, which is what a processor
-    /// does best; where something doesn't, words are filled by shifts, and bytes are made of them once.
+    /// Returns the statements that pack more than a word. If all fields fill whole bytes, they are stored byte by byte,
+    /// which is fastest. Otherwise, words are filled by shifts, and converted to bytes once.
     pub(super) fn pack_long(&self) -> Vec<Doc> {
         let is_stored = |field: &&FieldModel| field.long || self.fields.iter().all(FieldModel::is_whole);
         let (stored, shifted): (Vec<_>, Vec<_>) = self.fields.iter().partition(is_stored);
@@ -337,7 +343,7 @@ impl PdoModel {
         lines
     }
 
-    /// The struct, from the frame's bytes.
+    /// Returns the struct literal that reads the fields from the bytes of the frame.
     pub(super) fn unpacked(&self) -> Doc {
         let value = |field: &FieldModel| if self.word { field.unpack_word() } else { field.unpack_data() };
         Data::fields("Self", self.fields.iter().map(|field| (field.name.as_str(), value(field))))
@@ -345,7 +351,7 @@ impl PdoModel {
 }
 
 impl FieldModel {
-    /// The statements that make `bits` of it, none of which is beyond its width.
+    /// Returns the statements that compute `bits` of the field. Bits beyond its width are 0.
     pub(super) fn packed(&self) -> Vec<String> {
         let field = format!("self.{}", self.name);
         let is_long = self.name.len() > MAX_FIELD_NAME;
@@ -355,7 +361,7 @@ impl FieldModel {
         value.into_iter().chain([format!("let bits = {bits}{cut};")]).collect()
     }
 
-    /// The statements that put `bits` into the words of a PDO of more than one.
+    /// Returns the statements that write `bits` to the words of a PDO of several words.
     fn pack_words(&self) -> Vec<String> {
         let (word, shift) = (self.offset / WORD, self.offset % WORD);
         let low = if shift == 0 { "bits".to_owned() } else { format!("bits << {shift}") };
@@ -366,12 +372,12 @@ impl FieldModel {
         lines
     }
 
-    /// Whether it takes whole bytes.
+    /// Returns whether the field fills whole bytes.
     fn is_whole(&self) -> bool {
         self.offset.is_multiple_of(8) && self.bits.is_multiple_of(8)
     }
 
-    /// The field from `word`, which has all bits of the PDO.
+    /// Returns the expression that reads the field from `word`, which contains all bits of the PDO.
     fn unpack_word(&self) -> Doc {
         let shifted = match (self.offset, &self.cut) {
             (0, None) => "word".to_owned(),
@@ -379,7 +385,7 @@ impl FieldModel {
             (offset, None) => format!("word >> {offset}"),
             (offset, Some(mask)) => format!("(word >> {offset}) & {mask}"),
         };
-        // Precedence of `&` and `==` is plain only with brackets.
+        // Parentheses make the precedence of `&` and `==` clear.
         let is_plain = match self.kind {
             FieldType::Bool => false,
             _ => shifted == "word" || !self.kind.is_cast(),
@@ -388,7 +394,7 @@ impl FieldModel {
         self.kind.decode(&self.ty, &bits)
     }
 
-    /// The field from `data`, for PDOs of more than a word.
+    /// Returns the expression that reads the field from `data`, for PDOs of several words.
     fn unpack_data(&self) -> Doc {
         if self.long {
             return self.get_bytes("data", &self.offset.to_string());
@@ -396,7 +402,7 @@ impl FieldModel {
         self.decode(&call!("rt::bits::get", "data", self.offset, self.bits))
     }
 
-    /// The decoding of bits, of which none is beyond the width of the field.
+    /// Returns the expression that decodes bits. Bits beyond the width of the field must be 0.
     fn decode(&self, bits: &Doc) -> Doc {
         match self.kind {
             FieldType::Bool => seq![bits, Break, " != 0"],
@@ -404,7 +410,7 @@ impl FieldModel {
         }
     }
 
-    /// The expression that copies the field from the bit `at` of `data`.
+    /// Returns the expression that copies the field from bit `at` of `data`.
     fn get_bytes(&self, data: &str, at: &str) -> Doc {
         match self.odd_bits() {
             Some(bits) => call!("rt::bits::get_bits", data, at, bits),
@@ -412,12 +418,12 @@ impl FieldModel {
         }
     }
 
-    /// The length of a field that doesn't end with a byte.
+    /// Returns the length of a field that does not end at a byte boundary; `None` for other fields.
     fn odd_bits(&self) -> Option<u32> {
         (!self.bits.is_multiple_of(8)).then_some(self.bits)
     }
 
-    /// The first bit within a process image.
+    /// Returns the expression of the first bit within a process image.
     fn bit(&self) -> String {
         if self.offset == 0 {
             "self.bit".to_owned()
@@ -426,7 +432,7 @@ impl FieldModel {
         }
     }
 
-    /// The expression that reads the field from a process image.
+    /// Returns the expression that reads the field from a process image.
     pub(super) fn get_in_image(&self) -> Doc {
         let at = self.bit();
         if self.long {
@@ -435,7 +441,7 @@ impl FieldModel {
         self.decode(&call!("rt::bits::get", "self.data.as_ref()", at, self.bits))
     }
 
-    /// The statement that writes `value` into a process image.
+    /// Returns the statement that writes `value` to a process image.
     pub(super) fn set_in_image(&self) -> Doc {
         let at = self.bit();
         let data = "self.data.as_mut()";
@@ -447,7 +453,7 @@ impl FieldModel {
         seq![set, ";"]
     }
 
-    /// The statements that put the field into `data`, for PDOs of more than a word.
+    /// Returns the statements that write the field to `data`, for PDOs of several words.
     fn pack_data(&self) -> Vec<Doc> {
         let (offset, bits, field) = (self.offset, self.bits, seq!["&self.", self.name]);
         let put = match self.odd_bits().filter(|_| self.long) {
@@ -470,8 +476,8 @@ pub(super) fn cob_id(pdo: &Pdo) -> Option<String> {
     }
 }
 
-/// The writes that set the PDO up as described: disable, clear, map, count, type, enable (CiA 301 7.5.2.36). What the
-/// device doesn't let anyone write is left out.
+/// Returns the writes that configure the PDO as described: disable, clear, map, count, type, enable (CiA 301 7.5.2.36).
+/// Read-only parameters are left out.
 fn configuration(context: &Context<'_>, pdo: &Pdo) -> Vec<String> {
     let Some(communication) = &pdo.communication else { return Vec::new() };
     let cob_id_writable = communication.writable.contains(&1);
@@ -485,7 +491,7 @@ fn configuration(context: &Context<'_>, pdo: &Pdo) -> Vec<String> {
     writes
 }
 
-/// The writes that set the timing up as it is by default.
+/// Returns the writes that set the default timing.
 pub(super) fn timing_writes(communication: &PdoCommunication) -> Vec<String> {
     let timing = [
         (2, "u8", communication.transmission_type.map(u16::from)),
@@ -497,7 +503,7 @@ pub(super) fn timing_writes(communication: &PdoCommunication) -> Vec<String> {
     writable.filter_map(|(sub, ty, value)| Some(write(ty, communication.index, sub, &value?.to_string()))).collect()
 }
 
-/// Whether the default names an identifier at all; a PDO that is switched off by default often doesn't.
+/// Returns whether the default COB-ID contains an identifier. A PDO that is disabled by default often has none.
 pub(super) fn has_identifier(pdo: &Pdo) -> bool {
     const IDENTIFIER: i128 = 0x1FFF_FFFF;
     let value = pdo.communication.as_ref().and_then(|communication| communication.cob_id.as_ref());
@@ -510,8 +516,8 @@ fn mapping_writes(context: &Context<'_>, pdo: &Pdo) -> Vec<String> {
         return Vec::new();
     };
     let count = pdo.entries.len();
-    let all = u8::try_from(count).is_ok_and(|count| (0..=count).all(|sub| writable(mapping, sub)));
-    if !all || !pdo.is_mapping_known() {
+    let is_writable = u8::try_from(count).is_ok_and(|count| (0..=count).all(|sub| writable(mapping, sub)));
+    if !is_writable || !pdo.is_mapping_known() {
         return Vec::new();
     }
     let mut writes = vec![write("u8", pdo.mapping_index, 0, "0")];

@@ -1,61 +1,63 @@
-//! Procedures that are nothing but writes of objects, such as a start-up list: constants that a program sends as they are.
+//! Procedures that consist only of writes to objects, such as a start-up list. A program can send them as constants.
 
 use super::context::Context;
 use super::doc_table;
 use super::docs;
 use super::docs::WORDS;
-use super::links::Here;
+use super::links::DocModule;
 use super::scope::ObjectBus;
 use crate::ir::{Binding, Device, Item, Procedure, Step, SubjectKind, Type, Value};
 use crate::names::{self, Case};
 
-/// A procedure, ready to be written.
+/// A procedure, ready to be printed.
 pub(super) struct ProcedureModel {
     pub name: String,
     pub docs: Vec<String>,
-    /// The calls that make the writes.
+    /// Calls that create the writes.
     pub writes: Vec<String>,
 }
 
 pub(super) fn models(context: &Context<'_>, device: &Device) -> Vec<ProcedureModel> {
-    let own = device.procedures.iter();
-    let own: Vec<(&Procedure, Vec<String>)> = own.filter_map(|own| Some((own, writes(context, own)?))).collect();
-    let wishes = names::numbered(own.iter().map(|(own, _)| own.name.as_str()), "procedure");
-    let names = names::unique(&wishes, &["rt"], Case::Snake);
-    own.into_iter()
+    let procedures = device.procedures.iter();
+    let procedures: Vec<(&Procedure, Vec<String>)> =
+        procedures.filter_map(|procedure| Some((procedure, writes(context, procedure)?))).collect();
+    let name_requests = names::numbered(procedures.iter().map(|(procedure, _)| procedure.name.as_str()), "procedure");
+    let names = names::unique(&name_requests, &["rt"], Case::Snake);
+    procedures
+        .into_iter()
         .zip(names)
-        .map(|((own, writes), name)| ProcedureModel {
+        .map(|((procedure, writes), name)| ProcedureModel {
             name: name.to_ascii_uppercase(),
-            docs: documentation(context, own),
+            docs: documentation(context, procedure),
             writes,
         })
         .collect()
 }
 
-fn documentation(context: &Context<'_>, own: &Procedure) -> Vec<String> {
+fn documentation(context: &Context<'_>, procedure: &Procedure) -> Vec<String> {
     let mut sentences = Vec::new();
-    docs::words(own.documentation.as_deref(), &mut sentences);
+    docs::words(procedure.documentation.as_deref(), &mut sentences);
     if sentences.is_empty() {
-        sentences.push(docs::sentence(&docs::escape(&own.name)));
+        sentences.push(docs::sentence(&docs::escape(&procedure.name)));
     }
-    sentences.extend(WORDS.place(&context.manual, "", own.documentation.as_deref(), &own.names));
+    sentences.extend(WORDS.place(&context.manual, "", procedure.documentation.as_deref(), &procedure.names));
     let mut lines: Vec<String> = sentences.into_iter().flat_map(|sentence| [String::new(), sentence]).collect();
-    docs::doubts_about(context, SubjectKind::Procedure, &own.name, &mut lines);
-    let rows: Vec<[String; 2]> = own.steps.iter().filter_map(|step| row(context, step)).collect();
+    docs::doubts_about(context, SubjectKind::Procedure, &procedure.name, &mut lines);
+    let rows: Vec<[String; 2]> = procedure.steps.iter().filter_map(|step| row(context, step)).collect();
     lines.into_iter().skip(1).chain(doc_table::table(["Item", "Value"], &rows)).collect()
 }
 
-/// The item and the value of a write.
+/// Returns the item and the value of a write.
 fn row(context: &Context<'_>, step: &Step) -> Option<[String; 2]> {
     let Step::Write(name, value) = step else { return None };
-    let item = context.link(name, Here::BESIDE).unwrap_or_else(|| docs::escape(name));
+    let item = context.link(name, DocModule::OTHER).unwrap_or_else(|| docs::escape(name));
     let ty = context.referred(name).map_or(Type::Opaque(None), |item| context.base(item.ty));
     Some([item, docs::typed(value, ty)])
 }
 
-/// The writes of a procedure; `None` where it has other steps, or values that only the device knows.
-fn writes(context: &Context<'_>, own: &Procedure) -> Option<Vec<String>> {
-    let writes: Option<Vec<String>> = own.steps.iter().map(|step| write(context, step)).collect();
+/// Returns the writes of a procedure; `None` if it has other steps, or values that only the device knows.
+fn writes(context: &Context<'_>, procedure: &Procedure) -> Option<Vec<String>> {
+    let writes: Option<Vec<String>> = procedure.steps.iter().map(|step| write(context, step)).collect();
     writes.filter(|writes| !writes.is_empty())
 }
 
@@ -68,7 +70,7 @@ fn write(context: &Context<'_>, step: &Step) -> Option<String> {
     };
     let mask = (1i128 << bits) - 1;
     let number = value & mask;
-    // A number that its item can't have has its finding; it isn't cut to another one.
+    // The compiler reports a number that does not fit in its item. The number is not cut to a different one.
     if *value != number && *value != number - mask - 1 {
         return None;
     }
@@ -80,7 +82,7 @@ fn write(context: &Context<'_>, step: &Step) -> Option<String> {
     Some(format!("rt::SdoWrite::new_u{bits}(0x{index:04X}, 0x{sub_index:02X}, {number})"))
 }
 
-/// Where an item is on the bus of the device.
+/// Returns the object of an item on the bus of the device.
 fn object(context: &Context<'_>, item: &Item) -> Option<(u16, u8)> {
     item.bindings.iter().find_map(|binding| match binding {
         Binding::Object { buses, index, sub_index } => {

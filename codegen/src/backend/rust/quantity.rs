@@ -1,4 +1,4 @@
-//! Units and scales: the types of numbers that stand for physical ones, and what documentation says of them.
+//! Units and scales: types of numbers that represent physical values.
 
 use super::code::{generic, list, Doc};
 use super::context::Context;
@@ -6,14 +6,14 @@ use crate::ir::{Item, Quantity, Scale};
 
 /// The type of a quantity.
 pub(super) struct QuantityType {
-    /// Its path, in terms of the runtime.
+    /// Path of the type in the runtime.
     pub path: Doc,
-    /// Its name as a part of another one.
+    /// Name of the type as a part of other names.
     pub word: String,
 }
 
-/// The type of an item's value, where it isn't just the number that it stands for; `None` as well where the scale is
-/// nothing that fractions of integers express.
+/// Returns the type of an item's value; `None` if the value is a plain number, or the scale cannot be expressed by
+/// fractions of integers.
 pub(super) fn of(context: &Context<'_>, item: &Item) -> Option<QuantityType> {
     let quantity = item.quantity.as_ref()?;
     if item.variants.iter().any(|variant| variant.scale.is_some()) {
@@ -25,7 +25,7 @@ pub(super) fn of(context: &Context<'_>, item: &Item) -> Option<QuantityType> {
     }
     let sentinels = if ty.is_real() { Vec::new() } else { sentinels(quantity) };
     let (base, word) = (ty.path(), ty.word());
-    let mut own = match &quantity.scale {
+    let mut quantity_type = match &quantity.scale {
         None if sentinels.is_empty() => return None,
         None => linear(base, &word, 1.0, 0.0)?,
         Some(Scale::Linear { factor, offset }) => linear(base, &word, *factor, *offset)?,
@@ -34,7 +34,7 @@ pub(super) fn of(context: &Context<'_>, item: &Item) -> Option<QuantityType> {
         Some(Scale::Fraction { bits, .. }) => {
             QuantityType { path: generic!("rt::Fraction", base, *bits), word: format!("Fraction{bits}Of{word}") }
         }
-        // What models differ in, and what no type of the runtime computes, is left to the caller.
+        // The factor of another item must be applied by the caller, because no type of the runtime computes it.
         Some(Scale::TimesItem { .. }) => return None,
         Some(Scale::Exponent { base: 10, fraction: 0, .. }) => {
             QuantityType { path: generic!("rt::Exponential", base), word: format!("Exponential{word}") }
@@ -45,19 +45,19 @@ pub(super) fn of(context: &Context<'_>, item: &Item) -> Option<QuantityType> {
         },
     };
     for (raw, _) in sentinels {
-        own = QuantityType {
-            path: generic!("rt::OrNone", own.path, raw),
-            word: format!("{}OrNone{}", own.word, spelled(raw)),
+        quantity_type = QuantityType {
+            path: generic!("rt::OrNone", quantity_type.path, raw),
+            word: format!("{}OrNone{}", quantity_type.word, spelled(raw)),
         };
     }
-    Some(own)
+    Some(quantity_type)
 }
 
-/// Raw numbers that mean something else, each once.
+/// Returns the raw values with a special meaning, each once.
 fn sentinels(quantity: &Quantity) -> Vec<(i128, &str)> {
     let mut list: Vec<(i128, &str)> = Vec::new();
     for (value, name) in &quantity.sentinels {
-        if let Some(raw) = value.as_int().filter(|raw| !list.iter().any(|(own, _)| own == raw)) {
+        if let Some(raw) = value.as_int().filter(|raw| !list.iter().any(|(known, _)| known == raw)) {
             list.push((raw, name));
         }
     }
@@ -87,7 +87,7 @@ fn by_fraction(name: &str, base: &str, word: &str, factor: f64) -> Option<Quanti
     })
 }
 
-/// The path of a type with these parameters.
+/// Returns the path of a type with these numbers as parameters.
 fn with_numbers(path: &str, base: &str, numbers: &[i64]) -> Doc {
     let parameters = std::iter::once(base.to_owned()).chain(numbers.iter().map(i64::to_string));
     list(&format!("{path}<"), parameters, ">")
@@ -101,7 +101,7 @@ fn spelled(number: i128) -> String {
     }
 }
 
-/// Numerator, denominator, and the numerator of the offset.
+/// Returns numerator, denominator, and the numerator of the offset.
 fn common(factor: f64, offset: f64) -> Option<(i64, i64, i64)> {
     let (num, den) = rational(factor)?;
     if offset == 0.0 {
@@ -121,8 +121,8 @@ fn gcd(a: i64, b: i64) -> i64 {
     }
 }
 
-/// The simplest fraction that is `real` to its last bit: 0.01 is 1/100. `None` for 0, for numbers that are none, and
-/// for those that take more than 64 bits.
+/// Returns the simplest fraction that equals `real` exactly: 0.01 is 1/100. Returns `None` for 0, for NaN, for
+/// infinity, and for numbers that need more than 64 bits.
 fn rational(real: f64) -> Option<(i64, i64)> {
     if !real.is_normal() {
         return None;
@@ -135,7 +135,7 @@ fn rational(real: f64) -> Option<(i64, i64)> {
         -126..=-1 => (mantissa, 1_i128 << -exponent),
         _ => return None,
     };
-    // Continued fractions: each step is the best one with so small a denominator.
+    // Continued fractions: each step is the best approximation with a denominator of its size.
     let ((mut num, mut den), mut last) = ((1_i128, 0_i128), (0_i128, 1_i128));
     loop {
         let whole = p / q;

@@ -1,9 +1,9 @@
-//! The objects that a client can reach.
+//! Objects that a client can access.
 
 use super::scope::Scope;
 use crate::ir::{Group, ObjectCode};
 
-/// Objects that have values to read or write, with their positions; the definitions of types have none.
+/// Returns the objects with values, with their positions. Type definitions have no values.
 pub(super) fn addressable<'a>(scope: &Scope<'a>) -> impl Iterator<Item = (u32, &'a Group)> + use<'a> {
     scope.positioned_groups().filter(|(_, group)| {
         let is_type =
@@ -12,7 +12,7 @@ pub(super) fn addressable<'a>(scope: &Scope<'a>) -> impl Iterator<Item = (u32, &
     })
 }
 
-/// Whether an object is a module of several values, and not one value.
+/// Returns whether an object is a module of several values.
 pub(super) fn is_module(group: &Group) -> bool {
     group.object_code().is_some_and(ObjectCode::has_subs) || group.items.len() != 1
 }

@@ -1,6 +1,6 @@
-//! Definitions that a device has from an earlier one of the same file.
+//! Definitions that a device re-exports from an earlier device of the same file.
 
-/// A module of a device that has definitions.
+/// A module of a device that contains definitions.
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub(super) enum Section {
     Types,
@@ -12,7 +12,7 @@ pub(super) enum Section {
 }
 
 impl Section {
-    /// The name of the module.
+    /// Returns the name of the module.
     pub const fn name(self) -> &'static str {
         match self {
             Section::Types => "types",
@@ -25,7 +25,7 @@ impl Section {
     }
 }
 
-/// Definitions of a section that an earlier device has.
+/// Definitions of a section that an earlier device contains.
 pub(super) struct Reexport {
     pub section: Section,
     /// The module of the earlier device.

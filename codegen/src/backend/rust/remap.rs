@@ -1,11 +1,11 @@
-//! What `lexibus::pdo!` needs: which PDOs can be mapped anew, within which limits, and what can be mapped into them.
+//! Input of `lexibus::pdo!`: PDOs with a changeable mapping, their limits, and the items that can be mapped.
 
 use std::collections::HashMap;
 
 use super::code::{seq, slice, Doc};
 use super::context::Context;
 use super::field_type;
-use super::links::Here;
+use super::links::DocModule;
 use super::naming::pdos::is_generated;
 use super::objects::ObjectModel;
 use super::pdo;
@@ -14,24 +14,25 @@ use super::scope::ObjectBus;
 use crate::facts::pdo::mapped_objects;
 use crate::ir::{Device, Direction, Item, Mappable, Pdo, Type, MAX_PDO_SUBS};
 
-/// The most bits that the length of an entry can say.
+/// Maximum length in bits that the mapping of an entry can state.
 const MAX_ENTRY: u32 = 0xFF;
 
-/// The most bytes that a sync manager takes: its length has 16 bits (ETG.1000.4 6.7.2).
+/// Maximum number of bytes of a sync manager, whose length has 16 bits (ETG.1000.4 6.7.2).
 const MAX_SYNC_MANAGER: u16 = u16::MAX;
 
-/// A PDO that can be mapped anew.
+/// A PDO with a mapping that can be changed.
 pub(super) struct RemappableModel {
     pub name: String,
     pub title: String,
     pub direction: &'static str,
-    /// What stands for its identifier.
+    /// Type of the COB-ID.
     pub cob_id: &'static str,
     /// Constants, each with its type and value.
     pub constants: Vec<Doc>,
 }
 
-/// The PDOs that can be mapped anew; where there are any, items get to know how they are mapped.
+/// Returns the PDOs with a mapping that can be changed. If there are any, the mapping of each item is added to
+/// `objects`.
 pub(super) fn models(context: &Context<'_>, objects: &mut [ObjectModel]) -> Vec<RemappableModel> {
     let Some(device) = context.device else { return Vec::new() };
     let models = context.names.pdos.iter().filter_map(|named| model(context, device, named.pdo, named.name.clone()));
@@ -43,8 +44,8 @@ pub(super) fn models(context: &Context<'_>, objects: &mut [ObjectModel]) -> Vec<
 }
 
 fn model(context: &Context<'_>, device: &Device, pdo: &Pdo, name: String) -> Option<RemappableModel> {
-    let is_module_s = pdo.depends_on_slot || pdo.depends_on_slot_group;
-    if pdo.fixed || pdo.is_virtual || is_module_s {
+    let depends_on_slot = pdo.depends_on_slot || pdo.depends_on_slot_group;
+    if pdo.fixed || pdo.is_virtual || depends_on_slot {
         return None;
     }
     let entries = writable_entries(context, pdo);
@@ -66,7 +67,11 @@ fn model(context: &Context<'_>, device: &Device, pdo: &Pdo, name: String) -> Opt
     }
     Some(RemappableModel {
         title: match is_generated(pdo) {
-            true => format!("{} By default: {}.", pdo::title(context, pdo), Here::BESIDE.code(&format!("pdo::{name}"))),
+            true => format!(
+                "{} Default mapping: {}.",
+                pdo::title(context, pdo),
+                DocModule::OTHER.code(&format!("pdo::{name}"))
+            ),
             false => pdo::title(context, pdo),
         },
         direction: match pdo.direction {
@@ -79,7 +84,7 @@ fn model(context: &Context<'_>, device: &Device, pdo: &Pdo, name: String) -> Opt
     })
 }
 
-/// How many entries of the mapping object can be written, where the number of them can, too.
+/// Returns the number of entries of the mapping object that can be written; `None` if their count is read-only.
 fn writable_entries(context: &Context<'_>, pdo: &Pdo) -> Option<usize> {
     let (_, mapping) = addressable(context).find(|(_, group)| group.index() == Some(pdo.mapping_index))?;
     let writable = |sub: &u8| mapping.sub(*sub).is_some_and(|item| item.access.writable());
@@ -87,12 +92,12 @@ fn writable_entries(context: &Context<'_>, pdo: &Pdo) -> Option<usize> {
     (writable(&0) && entries > 0).then_some(entries)
 }
 
-/// What CANopen adds, and what stands for the identifier; nothing where the mapping is fixed.
+/// Adds the constants for CANopen. Returns the type of the COB-ID; `None` if the mapping is fixed.
 fn on_canopen(device: &Device, pdo: &Pdo, constants: &mut Vec<Doc>) -> Option<&'static str> {
     let communication = pdo.communication.as_ref()?;
     let settings = device.canopen.as_deref();
     match settings.and_then(|settings| settings.granularity) {
-        // CiA 306: the mapping is fixed.
+        // CiA 306: granularity 0 means that the mapping is fixed.
         Some(0) => return None,
         Some(bits @ 2..) => constants.push(seq!["GRANULARITY: u32 = ", u32::from(bits)]),
         _ => {}
@@ -119,31 +124,31 @@ fn on_canopen(device: &Device, pdo: &Pdo, constants: &mut Vec<Doc>) -> Option<&'
     }
 }
 
-/// What EtherCAT adds, and what stands for the identifier.
+/// Adds the constants for EtherCAT. Returns the type that replaces the COB-ID.
 fn on_ethercat(context: &Context<'_>, device: &Device, pdo: &Pdo, constants: &mut Vec<Doc>) -> Option<&'static str> {
     if context.bus != ObjectBus::CoE || device.dictionary_only {
         return None;
     }
     let managers = &device.process_data.sync_managers;
-    let own = managers.iter().find(|manager| Some(manager.number) == pdo.sync_manager);
-    let bytes = own.and_then(|manager| manager.size_range.1).unwrap_or(MAX_SYNC_MANAGER);
-    let bytes = pdo.max_bytes.map_or(bytes, |own| own.min(bytes));
+    let sync_manager = managers.iter().find(|manager| Some(manager.number) == pdo.sync_manager);
+    let bytes = sync_manager.and_then(|manager| manager.size_range.1).unwrap_or(MAX_SYNC_MANAGER);
+    let bytes = pdo.max_bytes.map_or(bytes, |maximum| maximum.min(bytes));
     constants.push(seq!["MAX_BITS: u32 = ", u32::from(bytes) * 8]);
     Some("rt::pdo::OnEtherCat")
 }
 
-/// Whether the device says that its mappings may be written.
+/// Returns whether the description allows writing the mappings.
 fn configures(device: &Device) -> bool {
     let mailbox = device.ethercat.as_ref().and_then(|ethercat| ethercat.mailbox.as_ref());
     mailbox.and_then(|mailbox| mailbox.coe.as_ref()).is_some_and(|coe| coe.pdo_config)
 }
 
-/// An entry as the mapping object holds it.
+/// Returns the value of an entry of the mapping object.
 fn word(index: u16, sub_index: u8, bits: u32) -> String {
     format!("0x{index:04X}_{sub_index:02X}{:02X}", bits & MAX_ENTRY)
 }
 
-/// Tells every item that can be mapped how; whether there is one.
+/// Adds the mapping of each item that can be mapped. Returns whether there are any.
 fn set_mappable(context: &Context<'_>, objects: &mut [ObjectModel]) -> bool {
     let items = context.groups.iter().flat_map(|group| &group.items);
     let items: HashMap<(u16, u8), &Item> = items.filter_map(|item| Some((item.object()?, item))).collect();
@@ -152,29 +157,30 @@ fn set_mappable(context: &Context<'_>, objects: &mut [ObjectModel]) -> bool {
     for object in objects {
         let outer = if object.is_module { "super::super::" } else { "super::" };
         for model in &mut object.items {
-            let Some((place, item)) = model.object.and_then(|place| Some((place, items.get(&place)?))) else {
+            let Some((address, item)) = model.object.and_then(|address| Some((address, items.get(&address)?))) else {
                 continue;
             };
             let mut into = item.mappable;
-            if let Some(proven) = by_default.get(&place) {
+            if let Some(proven) = by_default.get(&address) {
                 into.rpdo |= proven.rpdo;
                 into.tpdo |= proven.tpdo;
             }
-            model.mappable = arguments(context, item, place, into, outer);
+            model.mappable = arguments(context, item, address, into, outer);
             any |= model.mappable.is_some();
         }
     }
     any
 }
 
-/// The arguments of `rt::Mappable`: the type of the field, the direction, the entry of the mapping.
+/// Returns the arguments of `rt::Mappable`: the type of the field, the direction, and the mapped entry.
 fn arguments(
     context: &Context<'_>,
     item: &Item,
-    (index, sub_index): (u16, u8),
+    address: (u16, u8),
     into: Mappable,
     outer: &str,
 ) -> Option<[String; 3]> {
+    let (index, sub_index) = address;
     let direction = match (into.rpdo, into.tpdo) {
         (true, true) => "rt::AnyPdo",
         (true, false) => "rt::Rpdo",
@@ -186,7 +192,7 @@ fn arguments(
     Some([field, direction.to_owned(), word(index, sub_index, bits)])
 }
 
-/// Length in bits, of texts as well where it is known.
+/// Returns the length in bits, also of texts with a known length.
 fn bits(ty: Type) -> Option<u32> {
     match ty {
         Type::VisibleString(Some(bytes)) | Type::OctetString(Some(bytes)) => bytes.checked_mul(8),

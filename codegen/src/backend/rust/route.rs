@@ -1,9 +1,10 @@
-//! The route to an item on each bus: its type, and the code that makes it.
+//! The route to an item on each bus: its type, and the code that creates it.
 
 use super::code::{call, generic, seq, slice, Doc};
 use crate::ir::{Bus, Limits, Value};
 
-/// A bus of a location, in the order of its fields, except the records of PROFINET, which tables have no items in.
+/// A bus of a location, in the order of the location's fields. PROFINET records are missing because register tables
+/// cannot describe them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum RouteBus {
     CanOpen,
@@ -18,7 +19,7 @@ impl RouteBus {
     pub const ALL: [RouteBus; 6] =
         [RouteBus::CanOpen, RouteBus::CoE, RouteBus::Modbus, RouteBus::Serial, RouteBus::Image, RouteBus::Esc];
 
-    /// The bus that facts of items are about.
+    /// Returns the bus to which facts of items refer.
     pub fn of_items(self) -> Bus {
         match self {
             RouteBus::CanOpen => Bus::CanOpen,
@@ -29,7 +30,7 @@ impl RouteBus {
         }
     }
 
-    /// Its name as a part of another one.
+    /// Returns the name of the bus as a part of other names.
     pub fn word(self) -> &'static str {
         match self {
             RouteBus::CanOpen => "CanOpen",
@@ -41,7 +42,7 @@ impl RouteBus {
         }
     }
 
-    /// The runtime's type of the bus.
+    /// Returns the bus type of the runtime.
     pub fn type_name(self) -> &'static str {
         match self {
             RouteBus::Image => "ProcessImage",
@@ -49,12 +50,12 @@ impl RouteBus {
         }
     }
 
-    /// The field of a location.
+    /// Returns the field of the bus in a location.
     pub fn field(self) -> String {
         self.word().to_lowercase()
     }
 
-    /// Its name in a sentence.
+    /// Returns the name of the bus in a sentence.
     pub fn title(self) -> &'static str {
         match self {
             RouteBus::CanOpen => "CANopen",
@@ -66,7 +67,7 @@ impl RouteBus {
         }
     }
 
-    /// The type of its addresses.
+    /// Returns the type of addresses on the bus.
     pub fn address_type(self) -> &'static str {
         match self {
             RouteBus::CanOpen | RouteBus::CoE => "rt::Object",
@@ -78,7 +79,7 @@ impl RouteBus {
     }
 }
 
-/// What is between an item and the address.
+/// The conversions between an item and its address.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum PathKind {
     Direct,
@@ -112,12 +113,12 @@ impl PathKind {
     }
 }
 
-/// The kind of a route.
+/// The kind of a route: its paths for reading and writing.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum RouteKind {
     #[default]
     Absent,
-    /// One for whatever the item's access allows.
+    /// One path for all access that the item allows.
     One(PathKind),
     Reads(PathKind),
     Writes(PathKind),
@@ -125,7 +126,7 @@ pub(super) enum RouteKind {
 }
 
 impl RouteKind {
-    /// Its type, if there is a route.
+    /// Returns the type of the route; `None` if there is no route.
     pub fn ty(self, bus: RouteBus) -> Option<Doc> {
         Some(match self {
             RouteKind::Absent => return None,
@@ -136,7 +137,7 @@ impl RouteKind {
         })
     }
 
-    /// Its name as a part of another one.
+    /// Returns the name of the route as a part of other names.
     pub fn word(self, bus: RouteBus) -> String {
         let bus = bus.word();
         match self {
@@ -150,16 +151,16 @@ impl RouteKind {
     }
 }
 
-/// How an item is read, or written, on one bus.
+/// The path by which an item is read, or written, on one bus.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct AccessPath<'i> {
-    /// The window, by its position; none where the item has an address of its own.
+    /// Position of the window and number behind it; `None` if the item has an address.
     pub window: Option<(usize, u32)>,
-    /// Bits of the number there, where they aren't those of the item.
+    /// Number of bits on the bus, if it differs from the item's.
     pub resized: Option<u8>,
-    /// The only values there, and whether the item's have a sign.
+    /// Values that are allowed on the bus, and whether the item's values are signed.
     pub limited: Option<(&'i Limits, bool)>,
-    /// Whether the narrower one of the item and the number there has a sign.
+    /// Whether the narrower of the item's and the bus's numbers is signed.
     pub is_signed: bool,
 }
 
@@ -174,43 +175,44 @@ impl AccessPath<'_> {
         }
     }
 
-    /// The code that makes it, of that of the address or, through a window, that of the window; `number` stands for the number.
+    /// Returns the code that creates the path. `at` is the code of the address or window, and `number` replaces the
+    /// number behind the window.
     pub fn code(&self, at: &str, number: Option<&str>) -> Doc {
         let sign = if self.is_signed { "signed" } else { "unsigned" };
-        if let Some((_, own)) = self.window {
-            let number = number.map_or_else(|| format!("0x{own:04X}"), ToOwned::to_owned);
+        if let Some((_, window_number)) = self.window {
+            let number = number.map_or_else(|| format!("0x{window_number:04X}"), ToOwned::to_owned);
             return call!(seq!["rt::Through::", sign], number, seq!["&", at]);
         }
-        let own = match self.resized {
+        let code = match self.resized {
             Some(bits) => call!(seq!["rt::Resized::", sign], at, bits),
             None => Doc::from(at),
         };
         match self.limited {
             Some((limits, is_signed)) => {
-                call!("rt::Limited::new", own, is_signed.to_string(), slice(runs(limits)))
+                call!("rt::Limited::new", code, is_signed.to_string(), slice(ranges(limits)))
             }
-            None => own,
+            None => code,
         }
     }
 }
 
-/// First and last value of each run.
-fn runs(limits: &Limits) -> Vec<String> {
+/// Returns the minimum and maximum of each allowed range.
+fn ranges(limits: &Limits) -> Vec<String> {
     let number = |value: &Value| value.as_int().and_then(|value| i64::try_from(value).ok());
     let end = |value: Option<&Value>, none: &str| value.and_then(number).map_or(none.to_owned(), |end| end.to_string());
     if limits.allowed.is_empty() {
         return vec![format!("({}, {})", end(limits.low.as_ref(), "i64::MIN"), end(limits.high.as_ref(), "i64::MAX"))];
     }
-    let runs = limits.allowed.iter().filter_map(|(first, last)| Some((number(first)?, number(last)?)));
-    runs.map(|(first, last)| format!("({first}, {last})")).collect()
+    let ranges = limits.allowed.iter().filter_map(|(first, last)| Some((number(first)?, number(last)?)));
+    ranges.map(|(first, last)| format!("({first}, {last})")).collect()
 }
 
-/// How an item is read and written on one bus.
+/// The paths by which an item is read and written on one bus.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Route<'i> {
     pub read: Option<AccessPath<'i>>,
     pub write: Option<AccessPath<'i>>,
-    /// Whether the item's access, whatever the bus, has a direction that this bus doesn't.
+    /// Whether the item can be read and written. This bus may allow only one of both.
     pub is_partial: bool,
 }
 
@@ -220,7 +222,7 @@ impl Route<'_> {
             (None, None) => RouteKind::Absent,
             (Some(read), Some(write)) if read == write => RouteKind::One(read.kind()),
             (Some(read), Some(write)) => RouteKind::Both(read.kind(), write.kind()),
-            // A window is one for reading or for writing by its type.
+            // The type of a window determines whether it reads or writes.
             (Some(access_path), None) if self.is_partial || access_path.window.is_some() => {
                 RouteKind::Reads(access_path.kind())
             }
@@ -231,13 +233,13 @@ impl Route<'_> {
         }
     }
 
-    /// The paths that exist.
+    /// Returns the paths that exist.
     pub fn access_paths(&self) -> impl Iterator<Item = &AccessPath<'_>> {
         self.read.iter().chain(&self.write)
     }
 
-    /// The code that makes it, if there is one; `address` is that of the address, `window` names a window, and `number` stands
-    /// for its number.
+    /// Returns the code that creates the route, if there is one. `address` is the code of the address, `window` returns
+    /// the name of a window, and `number` replaces the number behind it.
     pub fn code(&self, address: &str, window: impl Fn(usize) -> String, number: Option<&str>) -> Option<Doc> {
         let code_of = |access_path: &AccessPath<'_>| match access_path.window {
             Some((at, _)) => access_path.code(&window(at), number),

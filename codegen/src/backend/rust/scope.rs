@@ -1,4 +1,4 @@
-//! What has objects and PDOs of its own: a device, or a module of a modular one.
+//! Owners of objects and PDOs: devices, and modules of modular devices.
 
 use super::value_type::ValueType;
 use crate::facts::words;
@@ -13,29 +13,29 @@ pub(super) enum ObjectBus {
     CoE,
 }
 
-/// A device or a module, with the types that it defines.
+/// A device or module, with the types that it defines.
 pub(super) struct Scope<'a> {
     pub bus: ObjectBus,
     pub groups: &'a [Group],
-    /// The position of the first of them, as ids count them.
+    /// Position of the first group, as IDs count groups.
     first_group: u32,
     pub types: &'a [TypeDef],
     pub pdos: &'a [Pdo],
-    /// The device; a module has none.
+    /// The device; `None` for a module.
     pub device: Option<&'a Device>,
-    /// What is known of the manual that the description was taken from.
+    /// The manual that the description was transcribed from.
     pub manual: Manual,
 }
 
 impl<'a> Scope<'a> {
-    /// A device.
+    /// Creates the scope of a device.
     pub fn of_device(device: &'a Device) -> Self {
         let bus = if device.ethercat.is_some() || device.dictionary_only { ObjectBus::CoE } else { ObjectBus::CanOpen };
         let scope = Scope::new(bus, &device.groups, &device.types, &device.process_data.pdos);
         Scope { manual: words::manual(device), device: Some(device), ..scope }
     }
 
-    /// A module.
+    /// Creates the scope of a module.
     pub fn of_module(module: &'a Module) -> Self {
         let scope = Scope::new(ObjectBus::CoE, &module.groups, &module.types, &module.process_data.pdos);
         Scope { first_group: module.fixed_objects.len() as u32, ..scope }
@@ -45,13 +45,13 @@ impl<'a> Scope<'a> {
         Scope { bus, groups, first_group: 0, types, pdos, device: None, manual: Manual::default() }
     }
 
-    /// The object with this index.
+    /// Returns the object with this index.
     pub fn object(&self, index: u16) -> Option<&'a Group> {
         let position = self.groups.binary_search_by_key(&Some(index), Group::index).ok()?;
         self.groups.get(position)
     }
 
-    /// The bus of a PDO: that of the device, or the only one that the PDO is on.
+    /// Returns the bus of a PDO: the bus of the device, or the only bus of the PDO.
     pub fn bus_of(&self, pdo: &Pdo) -> ObjectBus {
         match pdo.buses {
             Some(ObjectBuses::COE) => ObjectBus::CoE,
@@ -60,14 +60,14 @@ impl<'a> Scope<'a> {
         }
     }
 
-    /// The fixed process image of this name.
+    /// Returns the fixed process image with this name.
     pub fn image(&self, name: &str) -> Option<&'a ProcessImage> {
         self.device?.process_data.images.iter().find(|image| image.name == name)
     }
 
-    /// What a type comes down to: a basic one, or one with a shape of its own.
+    /// Resolves aliases of a type. Returns the basic type and, for a type with a shape, its position and definition.
     pub fn resolve(&self, ty: Type) -> (Type, Option<(u32, &'a TypeDef)>) {
-        /// Longer chains of names are a circle.
+        /// Longer chains of aliases are treated as cycles.
         const DEPTH: usize = 16;
         let mut ty = ty;
         for _ in 0..DEPTH {
@@ -84,7 +84,7 @@ impl<'a> Scope<'a> {
         (Type::Opaque(None), None)
     }
 
-    /// The basic type behind a type.
+    /// Returns the basic type of a type.
     pub fn base(&self, ty: Type) -> Type {
         let (base, _) = self.resolve(ty);
         match base {
@@ -93,22 +93,22 @@ impl<'a> Scope<'a> {
         }
     }
 
-    /// How values of a type are written.
+    /// Returns the Rust type of values of a type.
     pub fn value_type(&self, ty: Type) -> ValueType {
         ValueType::of(self.base(ty))
     }
 
-    /// The groups with their positions, as ids count them.
+    /// Returns the groups with their positions, as IDs count them.
     pub fn positioned_groups(&self) -> impl Iterator<Item = (u32, &'a Group)> + use<'a> {
         (self.first_group..).zip(self.groups)
     }
 
-    /// The item with this id.
+    /// Returns the item with this ID.
     pub fn item(&self, id: ItemId) -> Option<&'a Item> {
         ItemId { group: id.group.checked_sub(self.first_group)?, ..id }.of(self.groups)
     }
 
-    /// The item that a reference leads to.
+    /// Returns the referenced item.
     pub fn referred(&self, reference: &ItemRef) -> Option<&'a Item> {
         self.item(reference.id?)
     }

@@ -1,9 +1,9 @@
-//! What the indices of a modular device grow with.
+//! Dependency of indices on the slot, for modular devices.
 
-/// What an index grows with that is the same in every slot.
+/// Dependency of an index that is the same in every slot.
 pub(super) const NOTHING: &str = "rt::ethercat::DependsOn::Nothing";
 
-/// What an index grows with.
+/// Returns the dependency of an index.
 pub(super) fn depends_on(slot: bool, group: bool) -> &'static str {
     match (slot, group) {
         (false, false) => NOTHING,

@@ -1,4 +1,4 @@
-//! The static table of all items that a client can reach.
+//! The static table of all items that a client can access.
 
 use super::code::{call, Doc};
 use super::constructor::flags;
@@ -13,7 +13,7 @@ use crate::ir::{Access, Bus, Item, Type, Value};
 /// A row of the table.
 pub(super) struct EntryModel {
     pub object: Option<ObjectAddress>,
-    /// The call that makes the register.
+    /// Call that creates the register.
     pub register: Option<String>,
     pub name: String,
     pub data_type: String,
@@ -25,7 +25,8 @@ pub(super) struct EntryModel {
     pub unit: String,
 }
 
-/// Registers that are no objects, in the order of their addresses, and then the objects, by index and sub-index.
+/// Returns the rows: registers that are not objects, sorted by address, followed by objects, sorted by index and
+/// sub-index.
 pub(super) fn models(context: &Context<'_>) -> Vec<EntryModel> {
     let mut rows = Vec::new();
     for (_, group) in addressable(context) {
@@ -41,38 +42,39 @@ pub(super) fn models(context: &Context<'_>) -> Vec<EntryModel> {
     rows.into_iter().map(|(_, row)| row).collect()
 }
 
-/// What rows are sorted by: as the runtime sorts objects and registers.
+/// Sort key of a row, which sorts objects and registers as the runtime does.
 type Key = (Option<ObjectAddress>, Option<(u8, u16, Option<u8>)>);
 
-/// The row of an item: two where its objects on CANopen and on EtherCAT differ, none of a parameter of a serial protocol.
+/// Adds the rows of an item. It has two rows if its objects on CANopen and EtherCAT differ, and none if it is only a
+/// parameter of a serial protocol.
 fn entries(context: &Context<'_>, item: &Item, name: &str, rows: &mut Vec<(Key, EntryModel)>) {
     let addresses = ItemAddresses::of(context, item);
     let [object, other] = addresses.objects();
     let (mut register, key) = (addresses.register_code(), addresses.register_key());
-    let at_object = Form::on(item, if addresses.is_on_canopen() { Bus::CanOpen } else { Bus::EtherCat });
-    let at_register = Form::on(item, Bus::Modbus);
-    // As a register, the item may have another width, or another access.
+    let at_object = BusForm::on(item, if addresses.is_on_canopen() { Bus::CanOpen } else { Bus::EtherCat });
+    let at_register = BusForm::on(item, Bus::Modbus);
+    // The register may have a different width or access.
     if object.is_some() && register.is_some() && at_object != at_register {
-        rows.push(((None, key), entry(context, item, name, (None, register.take()), at_register)));
-        rows.push(((object, None), entry(context, item, name, (object, None), at_object)));
+        rows.push(((None, key), entry(context, item, name, None, register.take(), at_register)));
+        rows.push(((object, None), entry(context, item, name, object, None, at_object)));
     } else if object.is_some() || register.is_some() {
         let form = if object.is_some() { at_object } else { at_register };
-        rows.push(((object, key), entry(context, item, name, (object, register), form)));
+        rows.push(((object, key), entry(context, item, name, object, register, form)));
     }
-    let form = Form::on(item, Bus::EtherCat);
-    rows.extend(other.map(|other| ((Some(other), None), entry(context, item, name, (Some(other), None), form))));
+    let form = BusForm::on(item, Bus::EtherCat);
+    rows.extend(other.map(|other| ((Some(other), None), entry(context, item, name, Some(other), None, form))));
 }
 
-/// What an item is on one bus.
+/// Type and access of an item on one bus.
 #[derive(Clone, Copy, PartialEq)]
-struct Form {
+struct BusForm {
     ty: Type,
     access: Access,
 }
 
-impl Form {
+impl BusForm {
     fn on(item: &Item, bus: Bus) -> Self {
-        Form { ty: item.type_on(bus), access: item.access_on(bus) }
+        BusForm { ty: item.type_on(bus), access: item.access_on(bus) }
     }
 }
 
@@ -80,8 +82,9 @@ fn entry(
     context: &Context<'_>,
     item: &Item,
     name: &str,
-    (object, register): (Option<ObjectAddress>, Option<String>),
-    form: Form,
+    object: Option<ObjectAddress>,
+    register: Option<String>,
+    form: BusForm,
 ) -> EntryModel {
     let (base, ty) = (context.base(form.ty), context.value_type(form.ty));
     let unit = item.quantity.as_ref().map_or("", |quantity| quantity.unit.as_str());
@@ -138,7 +141,7 @@ fn data_type(ty: Type) -> String {
     name.to_owned()
 }
 
-/// The default as the bytes that an SDO upload gives.
+/// Returns the default value as the bytes of an SDO upload.
 fn raw_initial(item: &Item, base: Type, ty: ValueType) -> Doc {
     let formula = item.default.as_ref().and_then(|value| ty.formula(value));
     if let Some(offset) = formula.and_then(|offset| u64::try_from(offset).ok()) {

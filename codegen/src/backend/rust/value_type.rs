@@ -1,21 +1,21 @@
-//! How the IR's types and values are written in Rust.
+//! Rust types and literals for the types and values of the IR.
 
 use super::code::{call, slice, Doc};
 use super::literal;
 use crate::ir::{Limits, Type, Value};
 
-/// The type of an item's value, in terms of the runtime.
+/// The type of an item's value, in the runtime.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum ValueType {
-    /// A type of Rust's own: `u16`, `i64`, `bool`, `f32`.
+    /// A primitive type: `u16`, `i64`, `bool`, `f32`.
     Native { name: &'static str, range: Option<(i128, i128)>, real: u32 },
     /// `Uint<N>` or `Int<N>`.
     Odd { name: &'static str, range: (i128, i128) },
-    /// Text in a literal.
+    /// Text, with a string literal.
     Text(&'static str),
-    /// Bytes in a literal.
+    /// Bytes, with a byte string literal.
     Bytes(&'static str),
-    /// A time.
+    /// A time type of the runtime.
     Time(&'static str),
 }
 
@@ -67,7 +67,7 @@ impl ValueType {
         }
     }
 
-    /// Its path.
+    /// Returns the path of the type.
     pub(super) fn path(self) -> &'static str {
         match self {
             ValueType::Native { name, .. } | ValueType::Odd { name, .. } => name,
@@ -75,7 +75,7 @@ impl ValueType {
         }
     }
 
-    /// For an integer, its path and the type of its numbers.
+    /// Returns the path of an integer type and the primitive integer of its values; `None` for other types.
     pub(super) fn number(self) -> Option<(&'static str, &'static str)> {
         let (low, high) = self.integers()?;
         let width = 128 - if low < 0 { high + 1 } else { high }.leading_zeros();
@@ -83,14 +83,14 @@ impl ValueType {
         Some((self.path(), native))
     }
 
-    /// Its name as a part of another one: `U16`, `Int24`, `VisibleString`.
+    /// Returns the name of the type as a part of other names: `U16`, `Int24`, `VisibleString`.
     pub(super) fn word(self) -> String {
         let mut letters = self.path().trim_start_matches("rt::").chars().filter(char::is_ascii_alphanumeric);
         let first = letters.next().map(|first| first.to_ascii_uppercase());
         first.into_iter().chain(letters).collect()
     }
 
-    /// Whether literals of the type may resemble a mathematical constant, which clippy would point out.
+    /// Returns whether literals of the type may resemble a mathematical constant, which clippy reports.
     pub(super) fn is_real(self) -> bool {
         matches!(self, ValueType::Native { real: 32 | 64, .. })
     }
@@ -103,7 +103,7 @@ impl ValueType {
         }
     }
 
-    /// A literal of the type; `None` for a value that the type doesn't have.
+    /// Returns a literal of the type; `None` if the type cannot represent the value.
     pub(super) fn literal(self, value: &Value) -> Option<String> {
         match (self, value) {
             (ValueType::Native { name: "bool", .. }, Value::Bool(value)) => Some(value.to_string()),
@@ -121,7 +121,8 @@ impl ValueType {
         }
     }
 
-    /// What a formula adds to the node-ID; `None` for another value, or a sum that the type doesn't have.
+    /// Returns the offset that a formula adds to the node-ID; `None` for other values, or if the offset does not fit in
+    /// the type.
     pub(super) fn formula(self, value: &Value) -> Option<i128> {
         let (low, high) = self.integers()?;
         match value {
@@ -130,10 +131,10 @@ impl ValueType {
         }
     }
 
-    /// An `Initial` of the type, whose values `wrap` makes of literals.
+    /// Returns an `Initial` of the type. `wrap` converts literals to values.
     pub(super) fn initial_as(self, value: Option<&Value>, wrap: &dyn Fn(String) -> Doc) -> Doc {
         if let Some(offset) = value.and_then(|value| self.formula(value)) {
-            // A negative number in hexadecimal would be its two's complement.
+            // A negative number in hexadecimal would be printed as its two's complement.
             let offset = if offset < 0 { offset.to_string() } else { format!("{offset:#x}") };
             return call!("rt::Initial::NodeId", wrap(offset));
         }
@@ -144,7 +145,7 @@ impl ValueType {
         }
     }
 
-    /// A `Range` of the type: limits beyond the type are clamped to it, impossible ones are not checked.
+    /// Returns a `Range` of the type. Limits beyond the type are clamped, and impossible limits are not checked.
     pub(super) fn range_as(self, limits: &Limits, wrap: &dyn Fn(String) -> Doc) -> Doc {
         const FULL: &str = "rt::Range::Full";
         if let Some(list) = self.only(limits, wrap) {
@@ -172,7 +173,7 @@ impl ValueType {
         }
     }
 
-    /// A `Range` of integers that are fewer than their type in Rust has: whatever the limits, no other is allowed.
+    /// Returns a `Range` for an integer with fewer bits than its Rust type. Values beyond its width are never allowed.
     #[cfg(feature = "messages")]
     pub(super) fn range_within(self, limits: &Limits) -> Option<Doc> {
         if let Some(list) = self.only(limits, &Doc::from) {
@@ -187,11 +188,13 @@ impl ValueType {
         })
     }
 
-    /// The only values, where the type has all of them.
+    /// Returns a `Range` of single values; `None` if the limits list no values or the type cannot represent one of
+    /// them.
     fn only(self, limits: &Limits, wrap: &dyn Fn(String) -> Doc) -> Option<Doc> {
         let (low, high) = self.integers().filter(|_| !limits.allowed.is_empty())?;
-        let one =
-            |value: &Value| value.as_int().filter(|number| (low..=high).contains(number)).map(|own| own.to_string());
+        let one = |value: &Value| {
+            value.as_int().filter(|number| (low..=high).contains(number)).map(|number| number.to_string())
+        };
         let range = |(first, last): &(Value, Value)| Some(call!("", wrap(one(first)?), wrap(one(last)?)));
         let list: Option<Vec<Doc>> = limits.allowed.iter().map(range).collect();
         Some(call!("rt::Range::OneOf", slice(list?)))
@@ -223,7 +226,7 @@ impl ValueType {
     }
 }
 
-/// The narrowest integer of Rust's own with so many bits.
+/// Returns the smallest primitive integer with at least this many bits.
 pub(super) fn native(signed: bool, bits: u32) -> &'static str {
     match (signed, bits) {
         (false, ..=8) => "u8",
@@ -237,7 +240,8 @@ pub(super) fn native(signed: bool, bits: u32) -> &'static str {
     }
 }
 
-/// A number as people write it: large unsigned ones are mostly bit patterns, addresses and signatures.
+/// Returns a number in its usual notation. Large unsigned numbers are hexadecimal, because most of them are bit
+/// patterns, addresses and signatures.
 pub(super) fn number(value: i128, unsigned: bool) -> String {
     if unsigned && value > 0xFFFF {
         format!("{value:#X}").replacen("0X", "0x", 1)

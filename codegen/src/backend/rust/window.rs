@@ -1,31 +1,31 @@
-//! Windows: what takes the number of an item, and what has its value then.
+//! Windows: pairs of an item that selects a value by its number and an item that holds the value.
 
 use super::item_addresses;
 use super::route::RouteBus;
 use super::scope::Scope;
 use crate::ir::{Binding, Device, IndirectBinding, Item, ItemId, ItemRef, Procedure, Step, WindowSide};
-use crate::names::{self, Case, Wish};
+use crate::names::{self, Case, NameRequest};
 
-/// How often a number is looked at that the device clears, where nothing says for how many milliseconds.
+/// Maximum number of polls of a number that the device clears, if no timeout in milliseconds is stated.
 const POLLS: u32 = 100;
 
-/// A window in one direction on one bus.
+/// A window for reading or writing on one bus.
 #[derive(Clone, Debug)]
 pub(super) struct Window {
     pub key: (String, u8, RouteBus, bool),
     pub side: WindowSide,
-    /// Bits of the number.
+    /// Number of bits of the item that selects the value.
     pub number_bits: u32,
-    /// Bits of the value, and whether it has a sign.
+    /// Number of bits of the value, and whether it is signed.
     pub value: (u32, bool),
-    /// What makes the addresses of both.
+    /// Code that creates the addresses of the number and of the value.
     pub addresses: [String; 2],
     pub number_first: bool,
     pub handshake: String,
     pub name: String,
 }
 
-/// All windows through which an item of the device is found, each once.
+/// Returns all windows through which items of the device are accessed, each once.
 pub(super) fn windows(scope: &Scope<'_>, device: &Device) -> Vec<Window> {
     let mut found: Vec<Window> = Vec::new();
     for item in scope.groups.iter().flat_map(|group| &group.items) {
@@ -34,7 +34,7 @@ pub(super) fn windows(scope: &Scope<'_>, device: &Device) -> Vec<Window> {
                 for (side, is_write) in [(&binding.read, false), (&binding.write, true)] {
                     let Some(side) = side else { continue };
                     let key = (binding.space.to_string(), binding.window, bus, is_write);
-                    if !is_on(binding, bus) || found.iter().any(|own| own.key == key && own.side == *side) {
+                    if !is_on(binding, bus) || found.iter().any(|window| window.key == key && window.side == *side) {
                         continue;
                     }
                     found.extend(window(scope, device, side, key));
@@ -43,12 +43,12 @@ pub(super) fn windows(scope: &Scope<'_>, device: &Device) -> Vec<Window> {
         }
     }
     let titles: Vec<String> = found.iter().map(title).collect();
-    let wishes: Vec<Wish<'_>> = found
+    let name_requests: Vec<NameRequest<'_>> = found
         .iter()
         .zip(&titles)
-        .map(|(own, name)| Wish { name, fallback: "window".into(), suffix: own.key.1.to_string() })
+        .map(|(window, name)| NameRequest { name, fallback: "window".into(), suffix: window.key.1.to_string() })
         .collect();
-    let names = names::unique(&wishes, &[], Case::Snake);
+    let names = names::unique(&name_requests, &[], Case::Snake);
     for (window, name) in found.iter_mut().zip(names) {
         window.name = name.to_ascii_uppercase();
     }
@@ -57,7 +57,7 @@ pub(super) fn windows(scope: &Scope<'_>, device: &Device) -> Vec<Window> {
 
 pub(super) fn indirect(binding: &Binding) -> Option<&IndirectBinding> {
     match binding {
-        Binding::Indirect(own) => Some(own),
+        Binding::Indirect(indirect) => Some(indirect),
         _ => None,
     }
 }
@@ -66,23 +66,26 @@ fn is_on(binding: &IndirectBinding, bus: RouteBus) -> bool {
     bus != RouteBus::Esc && binding.buses.contains(bus.of_items())
 }
 
-/// The position of the window of an item on a bus.
+/// Returns the position of the window that a binding uses on a bus.
 pub(super) fn position(windows: &[Window], binding: &IndirectBinding, bus: RouteBus, is_write: bool) -> Option<usize> {
     let side = if is_write { &binding.write } else { &binding.read }.as_ref()?;
     let number = u64::from(binding.number);
-    windows.iter().position(|own| {
-        let (space, window, of, writes) = &own.key;
-        let is_own = *space == binding.space && *window == binding.window && *of == bus && *writes == is_write;
-        is_own && own.side == *side && is_on(binding, bus) && (own.number_bits >= 64 || number >> own.number_bits == 0)
+    windows.iter().position(|candidate| {
+        let (space, window, of, writes) = &candidate.key;
+        let is_of_binding = *space == binding.space && *window == binding.window && *of == bus && *writes == is_write;
+        is_of_binding
+            && candidate.side == *side
+            && is_on(binding, bus)
+            && (candidate.number_bits >= 64 || number >> candidate.number_bits == 0)
     })
 }
 
-fn title(own: &Window) -> String {
-    let (space, _, bus, is_write) = &own.key;
+fn title(window: &Window) -> String {
+    let (space, _, bus, is_write) = &window.key;
     format!("{space} {} {}", if *is_write { "write" } else { "read" }, bus.word().to_lowercase())
 }
 
-/// The window, where the bus has all of it.
+/// Returns the window; `None` if the bus does not provide both items.
 fn window(scope: &Scope<'_>, device: &Device, side: &WindowSide, key: (String, u8, RouteBus, bool)) -> Option<Window> {
     let (_, _, bus, is_write) = key;
     let (number, value) = (scope.referred(&side.number)?, scope.referred(&side.value)?);
@@ -91,12 +94,12 @@ fn window(scope: &Scope<'_>, device: &Device, side: &WindowSide, key: (String, u
     let [number_type, value_type] = [number, value].map(|item| scope.base(item.type_on(bus.of_items())));
     let bits = |ty: crate::ir::Type| ty.bits().filter(|bits| (1..=64).contains(bits));
     let procedure = side.procedure.as_ref().and_then(|reference| device.procedure(reference));
-    let told = procedure.map(|own| Told::of(own, side)).unwrap_or_default();
-    let is_cleared = number.behaviour.as_ref().is_some_and(|own| own.self_clearing);
-    let clears = side.clears.unwrap_or(told.clears || is_cleared);
-    let milliseconds = |given: Option<u32>| given.map(|own| own.min(u16::MAX.into()));
-    let timeout = milliseconds(side.timeout.or(told.timeout)).unwrap_or(POLLS);
-    let handshake = match milliseconds(side.wait.or(told.wait)).filter(|own| *own > 0) {
+    let implied = procedure.map(|procedure| ImpliedHandshake::of(procedure, side)).unwrap_or_default();
+    let is_cleared = number.behaviour.as_ref().is_some_and(|behaviour| behaviour.self_clearing);
+    let clears = side.clears.unwrap_or(implied.clears || is_cleared);
+    let limited = |given: Option<u32>| given.map(|milliseconds| milliseconds.min(u16::MAX.into()));
+    let timeout = limited(side.timeout.or(implied.timeout)).unwrap_or(POLLS);
+    let handshake = match limited(side.wait.or(implied.wait)).filter(|wait| *wait > 0) {
         _ if clears => format!("rt::Handshake::cleared({timeout})"),
         Some(wait) => format!("rt::Handshake::after({wait})"),
         None => "rt::Handshake::NONE".to_owned(),
@@ -105,8 +108,8 @@ fn window(scope: &Scope<'_>, device: &Device, side: &WindowSide, key: (String, u
         number_bits: bits(number_type)?,
         value: (bits(value_type)?, value_type.is_signed()),
         addresses,
-        // What the device clears starts the transfer.
-        number_first: side.number_first.or(told.number_first).unwrap_or(!clears),
+        // The number that the device clears starts the transfer, so it is written last.
+        number_first: side.number_first.or(implied.number_first).unwrap_or(!clears),
         handshake,
         side: side.clone(),
         key,
@@ -114,18 +117,18 @@ fn window(scope: &Scope<'_>, device: &Device, side: &WindowSide, key: (String, u
     })
 }
 
-/// What the steps of a procedure tell of a handshake.
+/// Properties of a handshake that the steps of a procedure imply.
 #[derive(Default)]
-struct Told {
+struct ImpliedHandshake {
     clears: bool,
     timeout: Option<u32>,
     wait: Option<u32>,
     number_first: Option<bool>,
 }
 
-impl Told {
+impl ImpliedHandshake {
     fn of(procedure: &Procedure, side: &WindowSide) -> Self {
-        let mut told = Told::default();
+        let mut implied = ImpliedHandshake::default();
         let writes = |step: &Step, id: ItemId| match step {
             Step::Write(item, _) | Step::WriteBits(item, ..) | Step::WriteArgument(item, _) => item.id == Some(id),
             _ => false,
@@ -133,19 +136,19 @@ impl Told {
         for step in &procedure.steps {
             match step {
                 Step::WaitFor(item, _, value, timeout) if item.id == side.number.id && value.as_int() == Some(0) => {
-                    (told.clears, told.timeout) = (true, *timeout);
+                    (implied.clears, implied.timeout) = (true, *timeout);
                 }
-                Step::Delay(time) => told.wait = Some(told.wait.unwrap_or(0).saturating_add(*time)),
+                Step::Delay(time) => implied.wait = Some(implied.wait.unwrap_or(0).saturating_add(*time)),
                 _ => {}
             }
         }
-        let place = |item: &ItemRef| item.id.and_then(|id| procedure.steps.iter().position(|step| writes(step, id)));
-        told.number_first = place(&side.number).zip(place(&side.value)).map(|(number, value)| number < value);
-        told
+        let position = |item: &ItemRef| item.id.and_then(|id| procedure.steps.iter().position(|step| writes(step, id)));
+        implied.number_first = position(&side.number).zip(position(&side.value)).map(|(number, value)| number < value);
+        implied
     }
 }
 
-/// Whether values of an item can go through a window: integers, and numbers of the same width.
+/// Returns whether a window can transfer values of an item: integers, and real numbers of the same width.
 pub(super) fn carries(scope: &Scope<'_>, item: &Item, window: &Window) -> bool {
     use crate::ir::Type;
     match scope.base(item.ty) {

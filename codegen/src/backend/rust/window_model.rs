@@ -1,13 +1,13 @@
-//! Windows, ready to be written.
+//! Models of windows, ready to be printed.
 
 use super::code::{generic, Doc};
 use super::context::Context;
 use super::docs;
-use super::links::Here;
+use super::links::DocModule;
 use super::window::Window;
 use crate::ir::ItemRef;
 
-/// A window, ready to be written.
+/// A window, ready to be printed.
 pub(super) struct WindowModel {
     pub docs: Vec<String>,
     pub name: String,
@@ -16,32 +16,35 @@ pub(super) struct WindowModel {
     pub facts: Vec<String>,
 }
 
-/// The windows, ready to be written.
+/// Returns the models of the windows.
 pub(super) fn models(context: &Context<'_>) -> Vec<WindowModel> {
-    context.windows.iter().map(|own| model(context, own)).collect()
+    context.windows.iter().map(|window| model(context, window)).collect()
 }
 
-fn model(context: &Context<'_>, own: &Window) -> WindowModel {
-    let (_, _, bus, is_write) = own.key;
-    let [number, value] = &own.addresses;
+fn model(context: &Context<'_>, window: &Window) -> WindowModel {
+    let (_, _, bus, is_write) = window.key;
+    let [number, value] = &window.addresses;
     let mut facts = vec![
         format!("number: {number}"),
-        format!("number_bits: {}", own.number_bits),
+        format!("number_bits: {}", window.number_bits),
         format!("value: {value}"),
-        format!("value_bits: {}", own.value.0),
+        format!("value_bits: {}", window.value.0),
     ];
     if is_write {
-        facts.push(format!("is_number_first: {}", own.number_first));
+        facts.push(format!("is_number_first: {}", window.number_first));
     }
-    facts.push(format!("handshake: {}", own.handshake));
+    facts.push(format!("handshake: {}", window.handshake));
     let link =
-        |item: &ItemRef| context.link(item, Here::BESIDE).unwrap_or_else(|| format!("\"{}\"", docs::escape(item)));
-    let [number, value] = [&own.side.number, &own.side.value].map(link);
-    let verb = if is_write { "takes" } else { "gives" };
+        |item: &ItemRef| context.link(item, DocModule::OTHER).unwrap_or_else(|| format!("\"{}\"", docs::escape(item)));
+    let [number, value] = [&window.side.number, &window.side.value].map(link);
+    let verb = if is_write { "receives" } else { "returns" };
     let kind = if is_write { "rt::WriteWindow" } else { "rt::ReadWindow" };
     WindowModel {
-        docs: vec![format!("On {}: {number} takes a number, and {value} {verb} its value.", bus.title())],
-        name: own.name.clone(),
+        docs: vec![format!(
+            "On {}: {number} selects an item by its number, and {value} {verb} its value.",
+            bus.title()
+        )],
+        name: window.name.clone(),
         ty: generic!(kind, bus.address_type()),
         kind,
         facts,

@@ -1,44 +1,44 @@
-//! Documents: code of one construct, and where it may be broken.
+//! Documents: code of one construct, and the positions at which it may be broken.
 
 use compact_str::CompactString;
 
-/// Code of one construct: its text on one line, and the places at which it may be broken.
+/// Code of one construct: its text on one line, and the positions at which it may be broken.
 ///
-/// The members of a list are all on one line, or each has its own line. As in Oppen's algorithm, a list is on one line only if the
-/// text up to the next place for a break fits as well.
+/// The members of a list are all on one line, or each has a separate line. As in Oppen's algorithm, a list is on one
+/// line only if the text up to the next break position fits as well.
 #[derive(Clone, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Doc {
     text: String,
-    /// By their offsets in the text.
+    /// Marks with their offsets in the text.
     marks: Vec<(usize, Mark)>,
 }
 
-/// A place in a document.
+/// A position in a document.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub(super) enum Mark {
     /// Begins a list.
     Open,
-    /// Begins the fields of a struct's literal; `is_long` if they are never on one line.
+    /// Begins the fields of a struct literal. `is_long` means that they are never on one line.
     OpenStruct { is_long: bool },
-    /// Begins a list of numbers or names: a broken line has as many as fit.
+    /// Begins a list of numbers or names. When the list is broken, each line has as many of them as fit.
     OpenNumbers,
-    /// Is between members.
+    /// Separates members.
     Next,
     /// Ends a list, a struct or numbers.
     Close,
-    /// A place at which the line could be broken and never is. The look-ahead ends here.
+    /// A position at which the line could be broken but never is. The look-ahead ends here.
     Stop,
-    /// A place at which the line continues on the next one if the rest doesn't fit. It replaces a blank behind it.
+    /// A position at which the line is broken if the rest doesn't fit. A blank at this position is dropped.
     Soft,
 }
 
 /// A part of a line: text, or a document.
 pub trait Piece {
-    /// Appends it.
+    /// Appends the piece to a document.
     fn put(&self, to: &mut Doc);
 }
 
-/// A place at which the line could be broken and never is.
+/// A position at which the line could be broken but never is.
 #[derive(Clone, Copy)]
 pub struct Stop;
 
@@ -48,7 +48,7 @@ impl Piece for Stop {
     }
 }
 
-/// A place at which the line continues on the next one if the rest doesn't fit.
+/// A position at which the line is broken if the rest doesn't fit.
 #[derive(Clone, Copy)]
 pub struct Break;
 
@@ -86,7 +86,7 @@ impl Piece for Doc {
 
 impl Piece for std::fmt::Arguments<'_> {
     fn put(&self, to: &mut Doc) {
-        // Writing to a String can't fail.
+        // Writing to a `String` never fails.
         let _ = std::fmt::Write::write_fmt(&mut to.text, *self);
     }
 }
@@ -99,8 +99,8 @@ impl<P: Piece + ?Sized> Piece for &P {
 
 impl<P: Piece> Piece for Option<P> {
     fn put(&self, to: &mut Doc) {
-        if let Some(own) = self {
-            own.put(to);
+        if let Some(piece) = self {
+            piece.put(to);
         }
     }
 }
@@ -123,14 +123,14 @@ impl<T: Into<String>> From<T> for Doc {
 }
 
 impl Doc {
-    /// These pieces, one behind the other.
+    /// Creates a document from these pieces in order.
     pub fn of(pieces: &[&dyn Piece]) -> Self {
         let mut doc = Doc::default();
         pieces.iter().for_each(|piece| piece.put(&mut doc));
         doc
     }
 
-    /// Its text, on one line.
+    /// Returns the text, on one line.
     pub fn text(&self) -> &str {
         &self.text
     }
@@ -139,7 +139,7 @@ impl Doc {
         &self.marks
     }
 
-    /// Makes it empty.
+    /// Clears the document.
     pub(super) fn clear(&mut self) {
         self.text.clear();
         self.marks.clear();
@@ -149,7 +149,7 @@ impl Doc {
         self.marks.push((self.text.len(), mark));
     }
 
-    /// A list of these members between `start` and `end`.
+    /// Creates a list with these members between `start` and `end`.
     fn list(start: &dyn Piece, members: &mut dyn Iterator<Item = &dyn Piece>, end: &str) -> Self {
         let mut doc = Doc::default();
         start.put(&mut doc);
@@ -165,49 +165,49 @@ impl Doc {
         doc
     }
 
-    /// The same for members of different types.
+    /// Creates a list from members of different types.
     pub fn joined(start: &[&dyn Piece], members: &[&dyn Piece], end: &str) -> Self {
         Doc::list(&Doc::of(start), &mut members.iter().copied(), end)
     }
 
-    /// What separates two members.
+    /// Adds a separator between two members.
     fn next(&mut self) {
         self.mark(Mark::Next);
         self.text.push_str(", ");
     }
 
-    /// Whether a struct within it is never on one line.
+    /// Returns whether the document contains a struct that is never on one line.
     pub(super) fn has_long(&self) -> bool {
         self.marks.iter().any(|(_, mark)| matches!(mark, Mark::OpenStruct { is_long: true }))
     }
 }
 
-/// `start` and `end` with members between them, one a line where they don't fit.
+/// Creates a list between `start` and `end`. The members have one line each if they don't fit on one line.
 pub fn list<P: Piece>(start: &str, members: impl IntoIterator<Item = P>, end: &str) -> Doc {
     let members: Vec<P> = members.into_iter().collect();
-    Doc::list(&start, &mut members.iter().map(|own| own as &dyn Piece), end)
+    Doc::list(&start, &mut members.iter().map(|member| member as &dyn Piece), end)
 }
 
-/// `&[…]`.
+/// Creates `&[…]`.
 pub fn slice<P: Piece>(members: impl IntoIterator<Item = P>) -> Doc {
     list("&[", members, "]")
 }
 
-/// The pieces, one behind the other.
+/// Creates a document from the pieces in order.
 macro_rules! seq {
     ($($piece:expr),* $(,)?) => {
         $crate::backend::rust::code::Doc::of(&[$(&$piece),*])
     };
 }
 
-/// `path(…)`: a call, or the parameters of a function.
+/// Creates `path(…)`: a call, or the parameters of a function.
 macro_rules! call {
     ($path:expr $(, $argument:expr)* $(,)?) => {
         $crate::backend::rust::code::Doc::joined(&[&$path, &"("], &[$(&$argument),*], ")")
     };
 }
 
-/// `path<…>`.
+/// Creates `path<…>`.
 macro_rules! generic {
     ($path:expr $(, $argument:expr)* $(,)?) => {
         $crate::backend::rust::code::Doc::joined(&[&$path, &"<"], &[$(&$argument),*], ">")
@@ -216,11 +216,11 @@ macro_rules! generic {
 
 pub(in crate::backend::rust) use {call, generic, seq};
 
-/// Literals of nothing but numbers, paths, structs, lists and calls.
+/// Creates literals that consist of numbers, paths, structs, lists and calls.
 pub struct Data;
 
 impl Data {
-    /// `Some(value)` or `None`.
+    /// Creates `Some(value)` or `None`.
     pub fn option(value: Option<impl std::fmt::Display>) -> Doc {
         match value {
             Some(value) => Doc::from(format!("Some({value})")),
@@ -228,14 +228,14 @@ impl Data {
         }
     }
 
-    /// A number in hexadecimal with four digits.
+    /// Creates a hexadecimal number with four digits.
     pub fn index(value: u16) -> Doc {
         Doc::from(format!("0x{value:04X}"))
     }
 
-    /// `path { name: value, … }`, on one line only where it is short; `path` where there is no field.
+    /// Creates `path { name: value, … }`, which is on one line only if it is short. Without fields, it is `path`.
     pub fn fields<N: AsRef<str>>(path: &str, fields: impl IntoIterator<Item = (N, Doc)>) -> Doc {
-        /// A literal longer than this, up to the blank before its closing brace, has one line per field.
+        /// Maximum length of a literal on one line, up to the blank before its closing brace.
         const SHORT: usize = 34;
         let mut fields = fields.into_iter().peekable();
         let mut doc = Doc::from(path);
@@ -264,10 +264,11 @@ impl Data {
         doc
     }
 
-    /// `&[…]`, filled with as many members a line as fit where all are numbers.
+    /// Creates `&[…]`. If all members are numbers, each line has as many of them as fit.
     pub fn slice(members: impl IntoIterator<Item = Doc>) -> Doc {
         let members: Vec<Doc> = members.into_iter().collect();
-        let is_number = |own: &Doc| own.marks.is_empty() && own.text.starts_with(|first: char| first.is_ascii_digit());
+        let is_number =
+            |member: &Doc| member.marks.is_empty() && member.text.starts_with(|first: char| first.is_ascii_digit());
         let mut doc = slice(&members);
         if members.iter().all(is_number) {
             doc.marks[0].1 = Mark::OpenNumbers;
@@ -275,7 +276,7 @@ impl Data {
         doc
     }
 
-    /// The end of an import: the name, or `{…}` filled with as many names a line as fit.
+    /// Creates the end of an import: the name, or `{…}` with as many names on each line as fit.
     pub fn names(names: &[String]) -> Doc {
         if let [only] = names {
             return Doc::from(only.as_str());
@@ -285,7 +286,7 @@ impl Data {
         doc
     }
 
-    /// `path(…)`. A single struct stays on the line of its call.
+    /// Creates `path(…)`. A single struct starts on the line of the call.
     pub fn call(path: &str, arguments: impl IntoIterator<Item = Doc>) -> Doc {
         let arguments: Vec<Doc> = arguments.into_iter().collect();
         match arguments.as_slice() {

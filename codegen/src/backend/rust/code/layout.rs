@@ -1,14 +1,14 @@
-//! Breaks lines that are too long.
+//! Line breaking.
 
 use super::doc::{Doc, Mark};
 
 /// The maximum width of a line, in bytes as `prettyplease` counts.
 const MARGIN: usize = 89;
 
-/// The blanks of one level.
+/// Number of blanks per indentation level.
 pub(super) const STEP: usize = 4;
 
-/// Writes a document that starts a line which is indented so far; `out` ends where the line starts.
+/// Writes a document on a new line with this indentation. `out` must end with the end of the previous line.
 pub(super) fn write(doc: &Doc, indent: usize, out: &mut String) {
     newline(out, indent);
     let text = doc.text();
@@ -23,7 +23,7 @@ pub(super) fn write(doc: &Doc, indent: usize, out: &mut String) {
     printer.text_to(text.len());
 }
 
-/// Begins a line.
+/// Starts a new line.
 pub(super) fn newline(out: &mut String, indent: usize) {
     if !out.is_empty() {
         out.push('\n');
@@ -41,7 +41,7 @@ struct List {
 struct Printer<'d, 'o> {
     doc: &'d Doc,
     out: &'o mut String,
-    /// Offset of the text that isn't written yet.
+    /// Offset of the text that is not written yet.
     at: usize,
     column: usize,
     indent: usize,
@@ -84,7 +84,7 @@ impl Printer<'_, '_> {
         }
     }
 
-    /// Between two members: a comma, and a blank or a new line.
+    /// Writes the separator of two members: a comma, and a blank or a new line.
     fn next(&mut self, position: usize) {
         let Some(list) = self.open.last().copied().filter(|list| list.is_broken) else { return };
         self.text_to(self.at + 1);
@@ -95,10 +95,11 @@ impl Printer<'_, '_> {
         self.skip_blank();
     }
 
-    /// Width of the blank in front of the next number, of that number, and of the comma behind it where a further one follows.
+    /// Returns the width of the blank before the next number, of the number, and of the comma after it if another
+    /// number follows.
     fn width_of_next(&self, position: usize) -> usize {
-        let behind = self.doc.marks().get(position + 1);
-        behind.map_or(0, |(offset, mark)| offset - self.at + usize::from(*mark == Mark::Next))
+        let next_mark = self.doc.marks().get(position + 1);
+        next_mark.map_or(0, |(offset, mark)| offset - self.at + usize::from(*mark == Mark::Next))
     }
 
     fn text_to(&mut self, end: usize) {
@@ -108,7 +109,7 @@ impl Printer<'_, '_> {
         self.at = self.at.max(end);
     }
 
-    /// The blank at a place where the line is broken.
+    /// Skips the blank at a position where the line is broken.
     fn skip_blank(&mut self) {
         if self.doc.text()[self.at..].starts_with(' ') {
             self.at += 1;
@@ -120,10 +121,10 @@ impl Printer<'_, '_> {
         self.column = self.indent;
     }
 
-    /// Width on one line of what begins at a mark, and of what follows it up to the next place for a break that lies in no later
-    /// list; without an end where a struct within it takes several lines.
+    /// Returns the width on one line of the construct at a mark, and of the text that follows it up to the next break
+    /// position outside of later lists. Returns the maximum if a struct in the construct takes several lines.
     fn width(&self, position: usize) -> usize {
-        let (mut depth, mut is_own) = (0_usize, true);
+        let (mut depth, mut is_inside) = (0_usize, true);
         let marks = self.doc.marks().get(position..).unwrap_or_default();
         let start = marks.first().map_or(0, |(offset, _)| *offset);
         let begins = marks.first().is_some_and(|(_, mark)| *mark == Mark::Soft);
@@ -132,13 +133,13 @@ impl Printer<'_, '_> {
                 return usize::MAX;
             }
             match mark {
-                Mark::OpenStruct { is_long: true } if is_own => return usize::MAX,
+                Mark::OpenStruct { is_long: true } if is_inside => return usize::MAX,
                 Mark::Open | Mark::OpenNumbers | Mark::OpenStruct { .. } => depth += 1,
                 Mark::Next if depth == 0 => return offset - start + 1,
                 Mark::Close | Mark::Stop | Mark::Soft if depth == 0 => return offset - start,
                 Mark::Close => {
                     depth -= 1;
-                    is_own &= depth > 0;
+                    is_inside &= depth > 0;
                 }
                 Mark::Next | Mark::Stop | Mark::Soft => {}
             }
@@ -159,7 +160,7 @@ mod tests {
     }
 
     #[test]
-    fn short_lines_stay_as_they_are() {
+    fn short_lines_are_unchanged() {
         assert_eq!(written(0, &seq![call!("a", "b", "c"), ";"]), "a(b, c);\n");
         assert_eq!(written(4, &seq![Stop, "x", Break, " as u8"]), "    x as u8\n");
     }

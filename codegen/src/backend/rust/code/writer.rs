@@ -1,4 +1,4 @@
-//! The writer of a module: lines, blocks and doc comments.
+//! Writes a module: lines, blocks and doc comments.
 
 use super::doc::{Doc, Piece};
 use super::layout::{self, newline, STEP};
@@ -7,29 +7,29 @@ use super::layout::{self, newline, STEP};
 pub struct Code {
     out: String,
     indent: usize,
-    /// The line that is being put together.
+    /// Buffer for the line that is being assembled.
     line: Doc,
     runtime: String,
 }
 
 impl Code {
-    /// Code that names the runtime by this path; `start` is the text in front of it.
+    /// Creates empty code. `start` is the text before it, and `runtime` is the path of the runtime.
     pub fn new(start: String, runtime: &str) -> Self {
         Code { out: start, indent: 0, line: Doc::default(), runtime: runtime.to_owned() }
     }
 
-    /// The text, with the end of its last line.
+    /// Returns the text, with a line break at the end.
     pub fn finish(mut self) -> String {
         self.out.push('\n');
         self.out
     }
 
-    /// Reserves memory for this many further bytes.
+    /// Reserves memory for this many more bytes.
     pub fn reserve(&mut self, bytes: usize) {
         self.out.reserve(bytes);
     }
 
-    /// A line.
+    /// Writes a line.
     pub fn line(&mut self, pieces: &[&dyn Piece]) {
         let mut line = std::mem::take(&mut self.line);
         line.clear();
@@ -38,60 +38,60 @@ impl Code {
         self.line = line;
     }
 
-    /// A line that begins a block, with its brace.
+    /// Writes a line that opens a block. The line includes the brace.
     pub fn open(&mut self, pieces: &[&dyn Piece]) {
         self.line(pieces);
         self.indent += STEP;
     }
 
-    /// The line that ends a block.
+    /// Writes the line that closes a block.
     pub fn close(&mut self, end: &str) {
         self.indent -= STEP;
         self.line(&[&end]);
     }
 
-    /// The line that ends a block and begins the next.
+    /// Writes a line that closes a block and opens the next.
     #[cfg(feature = "messages")]
     pub fn reopen(&mut self, line: &str) {
         self.close(line);
         self.indent += STEP;
     }
 
-    /// Lines.
+    /// Writes lines.
     pub fn lines<P: Piece>(&mut self, lines: impl IntoIterator<Item = P>) {
         for line in lines {
             self.line(&[&line]);
         }
     }
 
-    /// A line of a doc comment.
+    /// Writes a line of a doc comment.
     pub fn doc(&mut self, text: &str) {
         newline(&mut self.out, self.indent);
         self.out.extend(["///", if text.is_empty() { "" } else { " " }, text]);
     }
 
-    /// A doc comment of so many lines.
+    /// Writes a doc comment of several lines.
     pub fn docs(&mut self, lines: &[String]) {
         for line in lines {
             self.doc(line);
         }
     }
 
-    /// The doc comment of a function that fails in one case.
+    /// Writes the doc comment of a function with one kind of error.
     pub fn docs_with_error(&mut self, text: &str, error: &str) {
         for line in [text, "", "# Errors", "", error] {
             self.doc(line);
         }
     }
 
-    /// A public field with its doc comment and its attribute.
+    /// Writes a public field with its doc comment and its attribute.
     pub fn field(&mut self, docs: &[String], attribute: Option<&String>, name: &str, ty: &str) {
         self.docs(docs);
         self.lines(attribute);
         self.line(&[&"pub ", &name, &": ", &ty, &","]);
     }
 
-    /// A public module.
+    /// Writes a public module.
     pub fn module(&mut self, heading: &str, name: &str, content: impl FnOnce(&mut Self)) {
         self.doc(heading);
         self.open(&[&"pub mod ", &name, &" {"]);
@@ -99,7 +99,7 @@ impl Code {
         self.close("}");
     }
 
-    /// What gives the runtime its short name.
+    /// Writes the import that names the runtime `rt`.
     pub fn use_runtime(&mut self) {
         let runtime = std::mem::take(&mut self.runtime);
         self.line(&[&"use ", &runtime, &" as rt;"]);
@@ -114,7 +114,7 @@ macro_rules! line {
     };
 }
 
-/// Writes the line that begins a block.
+/// Writes a line that opens a block.
 macro_rules! open {
     ($code:expr, $($piece:expr),* $(,)?) => {
         $code.open(&[$(&$piece),*])

@@ -1,4 +1,4 @@
-//! `DEVICE` and `MODULE`: the description of a slave as the runtime wants it.
+//! `DEVICE` and `MODULE`: the description of a slave, in the types of the runtime.
 
 use super::{Assigned, ModulePaths};
 use crate::backend::rust::code::{Data, Doc};
@@ -10,7 +10,7 @@ use crate::ir::{
     Pdo, Slot, SlotRules, SyncManager, SyncManagerPurpose,
 };
 
-/// Changes of state that the runtime knows.
+/// State transitions that the runtime supports.
 const TRANSITIONS: [&str; 6] = ["IP", "PS", "SO", "SP", "OP", "OS"];
 
 pub(super) fn device(
@@ -27,7 +27,7 @@ pub(super) fn device(
             ("identity", Doc::from("IDENTITY")),
             ("sync_managers", Data::slice(device.process_data.sync_managers.iter().map(sync_manager))),
             ("pdos", pdo_list(&device.process_data.pdos, pdos)),
-            ("default_pdos", Data::slice(assigned.iter().map(|own| Data::index(own.pdo.mapping_index)))),
+            ("default_pdos", Data::slice(assigned.iter().map(|assignment| Data::index(assignment.pdo.mapping_index)))),
             ("mailbox", mailbox(settings.mailbox.as_deref())),
             ("slots", slots.map_or_else(|| Doc::from("None"), |slots| Data::call("Some", vec![slots]))),
         ],
@@ -49,7 +49,7 @@ pub(super) fn module(module: &Module, pdos: &PdoModels<'_>) -> Doc {
     )
 }
 
-/// Objects in a row that depend on the same.
+/// Returns ranges of consecutive objects with the same slot dependency.
 fn slot_objects(groups: &[Group]) -> Vec<Doc> {
     let known = groups.iter().filter_map(|group| Some((group.index()?, group)));
     let known = known.map(|(index, group)| (index, depends_on(group.depends_on_slot, group.depends_on_slot_group)));
@@ -65,8 +65,8 @@ fn slot_objects(groups: &[Group]) -> Vec<Doc> {
     rows.into_iter().map(|row| Data::call("rt::ethercat::SlotObjects::new", data(row))).collect()
 }
 
-fn sync_manager(own: &SyncManager) -> Doc {
-    let purpose = match own.purpose {
+fn sync_manager(manager: &SyncManager) -> Doc {
+    let purpose = match manager.purpose {
         SyncManagerPurpose::MailboxOut => "MailboxOut",
         SyncManagerPurpose::MailboxIn => "MailboxIn",
         SyncManagerPurpose::Outputs => "Outputs",
@@ -75,24 +75,24 @@ fn sync_manager(own: &SyncManager) -> Doc {
     Data::fields(
         "rt::ethercat::SyncManager",
         vec![
-            ("number", Doc::from(own.number.to_string())),
+            ("number", Doc::from(manager.number.to_string())),
             ("purpose", Doc::from(format!("rt::ethercat::SyncManagerPurpose::{purpose}"))),
-            ("start_address", Data::index(own.start_address)),
-            ("default_size", Doc::from(own.default_size.unwrap_or(0).to_string())),
-            ("min_size", Data::option(own.size_range.0)),
-            ("max_size", Data::option(own.size_range.1)),
-            ("control", Doc::from(format!("0x{:02X}", own.control))),
-            ("enable", Doc::from((own.enable).to_string())),
-            ("op_only", Doc::from((own.op_only).to_string())),
+            ("start_address", Data::index(manager.start_address)),
+            ("default_size", Doc::from(manager.default_size.unwrap_or(0).to_string())),
+            ("min_size", Data::option(manager.size_range.0)),
+            ("max_size", Data::option(manager.size_range.1)),
+            ("control", Doc::from(format!("0x{:02X}", manager.control))),
+            ("enable", Doc::from((manager.enable).to_string())),
+            ("op_only", Doc::from((manager.op_only).to_string())),
         ],
     )
 }
 
-/// Outputs first, as the runtime has them.
+/// Returns the PDOs, outputs first, as the runtime expects.
 fn pdo_list(pdos: &[Pdo], models: &PdoModels<'_>) -> Doc {
-    // Those of CANopen may have the same indices.
-    let is_own = |pdo: &&Pdo| !pdo.is_virtual && pdo.buses.is_none_or(|buses| buses.coe);
-    let of = |direction| pdos.iter().filter(move |pdo| pdo.direction == direction).filter(is_own);
+    // PDOs of CANopen may have the same indices.
+    let is_on_ethercat = |pdo: &&Pdo| !pdo.is_virtual && pdo.buses.is_none_or(|buses| buses.coe);
+    let of = |direction| pdos.iter().filter(move |pdo| pdo.direction == direction).filter(is_on_ethercat);
     let all = of(Direction::Receive).chain(of(Direction::Transmit));
     Data::slice(all.map(|pdo| pdo_info(pdo, models)))
 }
@@ -121,7 +121,7 @@ fn pdo_info(pdo: &Pdo, models: &PdoModels<'_>) -> Doc {
     )
 }
 
-/// The mapping of a PDO that has a struct is said there.
+/// Returns the mapping of a PDO. A PDO with a struct refers to the mapping of the struct.
 fn mapping(pdo: &Pdo, models: &PdoModels<'_>) -> Doc {
     match models.of(pdo) {
         Some(model) => Doc::from(format!("<pdo::{} as rt::Pdo>::MAPPING", model.name)),
@@ -176,7 +176,7 @@ fn init_command(command: &InitCommand) -> Doc {
     )
 }
 
-/// Those of `names` that the runtime knows.
+/// Returns those of `names` that the runtime supports.
 fn known_transitions<'a>(names: impl Iterator<Item = &'a str>) -> Vec<&'static str> {
     let names: Vec<&str> = names.collect();
     TRANSITIONS.into_iter().filter(|known| names.contains(known)).collect()
@@ -187,7 +187,8 @@ fn transitions(names: Vec<&str>) -> Doc {
     Data::call("rt::ethercat::Transitions::of", vec![Data::slice(list)])
 }
 
-/// When the list of modules goes out: on PS where the description doesn't say anything that the runtime knows.
+/// Returns the transition at which the list of modules is downloaded: PS if the description names no supported
+/// transition.
 fn download(rules: &SlotRules) -> Doc {
     if !rules.download_idents {
         return Doc::from("rt::ethercat::Transitions::NONE");
@@ -198,7 +199,7 @@ fn download(rules: &SlotRules) -> Doc {
 }
 
 fn slots(device: &Device, rules: &SlotRules, modules: &ModulePaths) -> Doc {
-    let known = device.modules.iter().filter_map(|own| modules.get(&own.module));
+    let known = device.modules.iter().filter_map(|usage| modules.get(&usage.module));
     Data::fields(
         "rt::ethercat::Slots",
         vec![
@@ -241,8 +242,8 @@ fn increments(index: u16, pdo: u16) -> Doc {
 }
 
 fn slot_group(number: u16, slot: &Slot) -> Doc {
-    let own = increments(slot.group_index_increment, slot.group_pdo_increment);
-    let group = Data::call("rt::ethercat::SlotGroup::new", vec![Doc::from(number.to_string()), own]);
+    let group_increments = increments(slot.group_index_increment, slot.group_pdo_increment);
+    let group = Data::call("rt::ethercat::SlotGroup::new", vec![Doc::from(number.to_string()), group_increments]);
     Data::call("Some", vec![group])
 }
 

@@ -1,13 +1,13 @@
-//! The process image by default: for each sync manager, the PDOs that are assigned to it, one behind the other.
+//! The default process image: for each sync manager, the PDOs that are assigned to it, in order.
 
 use std::collections::HashSet;
 
 use super::Assigned;
 use crate::backend::rust::docs;
-use crate::backend::rust::method_names::{beside, method_allow};
+use crate::backend::rust::method_names::{method_allow, unused_name};
 use crate::backend::rust::pdo::{PdoModel, PdoModels};
 use crate::ir::Direction;
-use crate::names::{self, Case, Wish};
+use crate::names::{self, Case, NameRequest};
 
 /// The data of a sync manager.
 pub(in super::super) struct ImageModel {
@@ -23,9 +23,9 @@ pub(in super::super) struct ImageModel {
 /// A PDO of an image.
 pub(in super::super) struct ImageField {
     pub name: String,
-    /// The name of its mutable view.
+    /// Name of the method that returns the mutable view.
     pub name_mut: String,
-    /// The name of its struct.
+    /// Name of the PDO's struct.
     pub pdo: String,
     pub docs: String,
     pub bit: u32,
@@ -33,17 +33,17 @@ pub(in super::super) struct ImageField {
 }
 
 impl ImageModel {
-    /// The name of its view.
+    /// Returns the name of the view.
     pub(in super::super) fn view_name(&self) -> String {
         format!("{}View", self.name)
     }
 
-    /// The attribute that the names of the view's methods need.
+    /// Returns the attribute that suppresses lints for the view's methods.
     pub(in super::super) fn view_allow(&self) -> Option<String> {
         method_allow(self.fields.iter().map(|field| field.name.as_str()))
     }
 
-    /// The same for those that write.
+    /// Returns the attribute that suppresses lints for the view's mutable methods.
     pub(in super::super) fn view_mut_allow(&self) -> Option<String> {
         method_allow(self.fields.iter().map(|field| field.name_mut.as_str()))
     }
@@ -51,11 +51,12 @@ impl ImageModel {
 
 pub(super) fn models(pdos: &PdoModels<'_>, assigned: &[Assigned<'_>]) -> Vec<ImageModel> {
     let mut images = Vec::new();
-    let mut numbers: Vec<u8> = assigned.iter().map(|one| one.sync_manager).collect();
+    let mut numbers: Vec<u8> = assigned.iter().map(|assignment| assignment.sync_manager).collect();
     numbers.sort_unstable();
     numbers.dedup();
     for number in numbers {
-        let inside: Vec<&Assigned<'_>> = assigned.iter().filter(|one| one.sync_manager == number).collect();
+        let inside: Vec<&Assigned<'_>> =
+            assigned.iter().filter(|assignment| assignment.sync_manager == number).collect();
         let Some(first) = inside.first() else { continue };
         let kind = match first.pdo.direction {
             Direction::Receive => "Outputs",
@@ -78,14 +79,14 @@ pub(super) fn models(pdos: &PdoModels<'_>, assigned: &[Assigned<'_>]) -> Vec<Ima
 fn model(kind: &str, sync_manager: u8, inside: &[&Assigned<'_>], pdos: &PdoModels<'_>) -> Option<ImageModel> {
     let mut bit = 0u32;
     let mut placed = Vec::new();
-    for one in inside {
-        placed.extend(pdos.of(one.pdo).map(|model| (model, bit)));
-        bit = bit.checked_add(one.pdo.bits())?;
+    for assignment in inside {
+        placed.extend(pdos.of(assignment.pdo).map(|model| (model, bit)));
+        bit = bit.checked_add(assignment.pdo.bits())?;
     }
     let derives = placed.first()?.0.derives.clone();
     Some(ImageModel {
         name: kind.to_owned(),
-        title: format!("{kind}: the data of sync manager {sync_manager} by default."),
+        title: format!("{kind}: default data of sync manager {sync_manager}."),
         sync_manager,
         bits: bit,
         length: bit.div_ceil(8) as usize,
@@ -94,25 +95,26 @@ fn model(kind: &str, sync_manager: u8, inside: &[&Assigned<'_>], pdos: &PdoModel
     })
 }
 
-/// Methods of a view that aren't fields: its own, and those of traits that every type may have.
+/// Names that methods of a view for fields must not have: its other methods, and methods of traits that every type may
+/// implement.
 const RESERVED: [&str; 7] = ["new", "clone", "into", "try_into", "self", "super", "crate"];
 
-/// The longest name: the lines that unpack it have to stay below the margin.
+/// Maximum length of a name. The lines that unpack the field must stay below the margin.
 const MAX_NAME: usize = 30;
 
 fn fields(placed: &[(&PdoModel, u32)]) -> Vec<ImageField> {
-    let wishes: Vec<Wish<'_>> = placed
+    let name_requests: Vec<NameRequest<'_>> = placed
         .iter()
         .map(|(model, bit)| {
             let index = format!("{:04X}", model.mapping_index);
-            Wish { name: &model.name, fallback: format!("pdo {index}"), suffix: format!("{index}_{bit}") }
+            NameRequest { name: &model.name, fallback: format!("pdo {index}"), suffix: format!("{index}_{bit}") }
         })
         .collect();
-    let names = names::unique_up_to(&wishes, &RESERVED, Case::Snake, MAX_NAME);
-    let taken: HashSet<&String> = names.iter().collect();
+    let names = names::unique_up_to(&name_requests, &RESERVED, Case::Snake, MAX_NAME);
+    let used: HashSet<&String> = names.iter().collect();
     let field = |((model, bit), name): (&(&PdoModel, u32), &String)| ImageField {
         name: names::escaped(name),
-        name_mut: beside(|name| taken.contains(name), format!("{name}_mut")),
+        name_mut: unused_name(|name| used.contains(name), format!("{name}_mut")),
         pdo: model.name.clone(),
         docs: docs::sentence(model.docs.first().map_or("", String::as_str)),
         bit: *bit,

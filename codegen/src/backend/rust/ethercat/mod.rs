@@ -1,4 +1,4 @@
-//! EtherCAT: what a master has to know of a slave, and the process image by default.
+//! EtherCAT: the description of a slave for a master, and the default process image.
 
 mod descriptor;
 mod image;
@@ -11,25 +11,25 @@ use super::literal;
 use super::pdo::{PdoModel, PdoModels};
 use crate::ir::{ClockMode, ClockTime, Device, EtherCatSettings, Fmmu, Module, ModuleId, Pdo};
 
-pub(super) use image::ImageModel;
+pub(super) use image::{ImageField, ImageModel};
 
-/// What a device has beside objects and PDOs.
+/// The description of a device for an EtherCAT master, ready to be printed.
 pub(super) struct EtherCatModel {
-    /// `DEVICE`.
+    /// Value of `DEVICE`.
     pub device: Doc,
-    /// `FMMUS`.
+    /// Value of `FMMUS`.
     pub fmmus: Option<Doc>,
-    /// `CLOCK_MODES`.
+    /// Value of `CLOCK_MODES`.
     pub clock_modes: Option<Doc>,
-    /// `STARTUP`.
+    /// Value of `STARTUP`.
     pub startup: Option<Doc>,
-    /// Constants of bytes: name, what it is, value.
+    /// Constants of bytes: name, documentation and value.
     pub bytes: Vec<(&'static str, &'static str, String)>,
-    /// The images by default.
+    /// Default process images.
     pub images: Vec<ImageModel>,
 }
 
-/// Where the constants of modules are, by the position of the module in the catalogue.
+/// Paths of the constants of modules, by the modules' positions in the catalog.
 pub(super) type ModulePaths = HashMap<ModuleId, String>;
 
 impl EtherCatModel {
@@ -51,12 +51,12 @@ impl EtherCatModel {
     }
 }
 
-/// `MODULE` of a module.
+/// Returns the value of `MODULE`.
 pub(super) fn module(module: &Module, pdos: &[PdoModel]) -> Doc {
     descriptor::module(module, &PdoModels::new(pdos))
 }
 
-/// A PDO that is assigned by default, with its sync manager.
+/// A PDO that is assigned by default, and its sync manager.
 pub(super) struct Assigned<'a> {
     pub pdo: &'a Pdo,
     pub sync_manager: u8,
@@ -112,8 +112,8 @@ fn bytes(settings: &EtherCatSettings) -> Vec<(&'static str, &'static str, String
             "First words of the EEPROM: configuration of the slave controller.",
             &eeprom.config_data,
         ),
-        ("EEPROM_BOOT_STRAP", "Mailbox of the bootstrap state, as the EEPROM has it.", &eeprom.boot_strap),
+        ("EEPROM_BOOT_STRAP", "Mailbox configuration for the bootstrap state in the EEPROM.", &eeprom.boot_strap),
     ];
     let given = all.into_iter().filter(|(.., bytes)| !bytes.is_empty());
-    given.map(|(name, what, bytes)| (name, what, literal::bytes(bytes))).collect()
+    given.map(|(name, documentation, bytes)| (name, documentation, literal::bytes(bytes))).collect()
 }

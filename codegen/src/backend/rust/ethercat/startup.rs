@@ -1,4 +1,5 @@
-//! The writes that set up the assignment by default: what `rt::ethercat::Assignment::by_default` gives, as a constant.
+//! The writes that configure the default assignment, as a constant. `rt::ethercat::Assignment::by_default` returns the
+//! same writes.
 
 use super::Assigned;
 use crate::backend::rust::code::Doc;
@@ -9,21 +10,26 @@ const ASSIGN: u16 = 0x1C10;
 
 pub(super) fn commands(device: &Device, settings: &EtherCatSettings, assigned: &[Assigned<'_>]) -> Vec<Doc> {
     let Some(coe) = settings.mailbox.as_ref().and_then(|mailbox| mailbox.coe.as_ref()) else { return Vec::new() };
-    // What a plan of modules assigns can't be known here.
+    // The assignment of modular devices depends on the plan of modules.
     if assigned.is_empty() || settings.slots.is_some() {
         return Vec::new();
     }
-    let of =
-        |number: u8| assigned.iter().filter(move |own| own.sync_manager == number).map(|own| own.pdo.mapping_index);
-    // More than the object has room for can't be written at all.
-    if device.process_data.sync_managers.iter().any(|own| of(own.number).count() > MAX_PDO_SUBS) {
+    let of = |number: u8| {
+        assigned
+            .iter()
+            .filter(move |assignment| assignment.sync_manager == number)
+            .map(|assignment| assignment.pdo.mapping_index)
+    };
+    // An assignment with more PDOs than the object has sub-indices cannot be written.
+    if device.process_data.sync_managers.iter().any(|manager| of(manager.number).count() > MAX_PDO_SUBS) {
         return Vec::new();
     }
     let mut commands = Vec::new();
-    let carries = |own: &&SyncManager| matches!(own.purpose, SyncManagerPurpose::Outputs | SyncManagerPurpose::Inputs);
+    let carries =
+        |manager: &&SyncManager| matches!(manager.purpose, SyncManagerPurpose::Outputs | SyncManagerPurpose::Inputs);
     let managers: Vec<&SyncManager> =
         device.process_data.sync_managers.iter().filter(carries).filter(|_| coe.pdo_assign).collect();
-    commands.extend(managers.iter().map(|own| write("u8", ASSIGN + u16::from(own.number), 0, "0")));
+    commands.extend(managers.iter().map(|manager| write("u8", ASSIGN + u16::from(manager.number), 0, "0")));
     for Assigned { pdo, .. } in assigned.iter().filter(|_| coe.pdo_config) {
         let fits = pdo.entries.len() <= MAX_PDO_SUBS && pdo.entries.iter().all(|entry| entry.bits <= 255);
         if pdo.fixed || !fits || !pdo.is_mapping_known() {
@@ -36,9 +42,9 @@ pub(super) fn commands(device: &Device, settings: &EtherCatSettings, assigned: &
         }
         commands.push(write("u8", pdo.mapping_index, 0, &pdo.entries.len().to_string()));
     }
-    for own in managers {
-        let object = ASSIGN + u16::from(own.number);
-        let list: Vec<u16> = of(own.number).collect();
+    for manager in managers {
+        let object = ASSIGN + u16::from(manager.number);
+        let list: Vec<u16> = of(manager.number).collect();
         let entries = list.iter().zip(1..=u8::MAX);
         commands.extend(entries.map(|(index, sub)| write("u16", object, sub, &format!("0x{index:04X}"))));
         if !list.is_empty() {

@@ -1,9 +1,9 @@
-//! The buses of a location, which are its type.
+//! The buses of a location. They determine its type.
 
 use crate::backend::rust::code::{seq, Doc};
 use crate::backend::rust::route::{PathKind, Route, RouteBus, RouteKind};
 
-/// The buses of a location, and what the route is on each.
+/// The buses of a location, and the kind of route on each.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub(in crate::backend::rust) struct Buses([RouteKind; 6]);
 
@@ -12,22 +12,22 @@ impl Buses {
         Buses(std::array::from_fn(|at| routes[at].kind()))
     }
 
-    /// Whether there is none.
+    /// Returns whether the location has no bus.
     pub fn is_empty(self) -> bool {
         self == Buses::default()
     }
 
-    /// Whether every route is an address.
+    /// Returns whether every route leads directly to an address.
     pub fn is_direct(self) -> bool {
         self.0.iter().all(|kind| matches!(kind, RouteKind::Absent | RouteKind::One(PathKind::Direct)))
     }
 
-    /// The buses of both.
+    /// Returns the buses of both locations.
     pub fn union(self, other: Buses) -> Buses {
         Buses(std::array::from_fn(|at| self.0[at].max(other.0[at])))
     }
 
-    /// The runtime's name of the location, where it has one.
+    /// Returns the location type of the runtime, if there is one.
     pub fn path(self) -> Option<&'static str> {
         let [canopen, coe, modbus, serial, image, esc] = self.0.map(|kind| kind != RouteKind::Absent);
         if !self.is_direct() {
@@ -48,19 +48,19 @@ impl Buses {
         })
     }
 
-    /// The fields of the location: its buses, each with its route.
+    /// Returns the fields of the location type: its buses, each with its route type.
     pub fn fields(self) -> Vec<Doc> {
         let fields = RouteBus::ALL.iter().zip(self.0).filter_map(|(bus, kind)| Some((bus, kind.ty(*bus)?)));
         fields.map(|(bus, ty)| seq![bus.field(), ": rt::", bus.type_name(), " => ", ty]).collect()
     }
 
-    /// Its name as a part of another one.
+    /// Returns the name of the location type, also as a part of other names.
     pub fn word(self) -> String {
         let words: String = RouteBus::ALL.iter().zip(self.0).map(|(bus, kind)| kind.word(*bus)).collect();
         format!("On{}", if words.is_empty() { "NoBus" } else { words.as_str() })
     }
 
-    /// The buses, for a sentence.
+    /// Returns the buses as words, for a sentence.
     pub fn titles(self) -> String {
         let present = RouteBus::ALL.iter().zip(self.0).filter(|(_, kind)| *kind != RouteKind::Absent);
         let titles: Vec<&str> = present.map(|(bus, _)| bus.title()).collect();

@@ -1,4 +1,4 @@
-//! A field of a fixed process image.
+//! Fields of fixed process images.
 
 use crate::backend::rust::scope::Scope;
 use crate::ir::{Binding, Direction, ImageBinding, Type};
@@ -10,28 +10,28 @@ pub(super) struct Field<'i> {
     pub first: u32,
     pub bits: u32,
     pub ty: Option<Type>,
-    /// Whether the device gets it.
+    /// Whether the field is an output: the device receives it.
     pub is_output: bool,
     big_endian: bool,
 }
 
 impl<'i> Field<'i> {
-    /// The field of a value of type `base`, where the runtime reads such a one.
+    /// Creates the field of a value of type `base`; `None` if the runtime cannot read such a field.
     pub fn of(scope: &Scope<'_>, base: Type, binding: &'i Binding) -> Option<Self> {
         let Binding::Image(binding) = binding else { return None };
         let ImageBinding { image, bit_offset, bits, ty } = &**binding;
-        let own = scope.image(image).filter(|_| is_field(base, *bit_offset, *bits))?;
+        let process_image = scope.image(image).filter(|_| is_field(base, *bit_offset, *bits))?;
         Some(Field {
             image,
             first: *bit_offset,
             bits: *bits,
             ty: *ty,
-            is_output: own.direction == Direction::Receive,
-            big_endian: own.big_endian,
+            is_output: process_image.direction == Direction::Receive,
+            big_endian: process_image.big_endian,
         })
     }
 
-    /// The code that makes it.
+    /// Returns the code that creates the field.
     pub fn code(self, is_bytes: bool) -> String {
         let direction = if self.is_output { "output" } else { "input" };
         let code = format!("rt::ImageField::{direction}({}, {})", self.first, self.bits);
@@ -43,7 +43,7 @@ impl<'i> Field<'i> {
     }
 }
 
-/// Whether the runtime reads such a value from an image: a number within 8 bytes, or bytes that lie as they are.
+/// Returns whether the runtime can read such a value from an image: a number within 8 bytes, or whole bytes.
 fn is_field(ty: Type, first: u32, bits: u32) -> bool {
     match ty {
         Type::VisibleString(_) | Type::OctetString(_) | Type::Opaque(_) => {

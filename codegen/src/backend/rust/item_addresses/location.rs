@@ -1,11 +1,11 @@
-//! The code that makes the location of an item.
+//! The code that creates the location of an item.
 
 use super::ItemAddresses;
 use crate::backend::rust::code::{call, list, seq, Doc};
 use crate::backend::rust::located::Located;
 use crate::backend::rust::route::{Route, RouteBus};
 
-/// What makes a location.
+/// A function that creates locations, and its arguments for one item.
 pub(in crate::backend::rust) struct Maker {
     pub parameters: Vec<String>,
     pub arguments: Vec<String>,
@@ -13,7 +13,7 @@ pub(in crate::backend::rust) struct Maker {
 }
 
 impl ItemAddresses<'_> {
-    /// What the constructors of objects are called here, and the object, where the item is nothing else.
+    /// Returns the name of the object constructors, and the object, if the item has no other address.
     pub fn only_object(&self) -> Option<(&'static str, u16, u8)> {
         let routed = self.routed();
         if !routed.is_simple() {
@@ -27,8 +27,7 @@ impl ItemAddresses<'_> {
         }
     }
 
-    /// The arguments that the constructors of registers begin with, where the item is a register, and at most one object
-    /// beside.
+    /// Returns the first arguments of the register constructors, if the item is a register and at most one object.
     pub fn with_register(&self) -> Option<Vec<String>> {
         let routed = self.routed();
         let register = self.register(routed.modbus.filter(|_| routed.serial.is_none() && routed.is_simple())?);
@@ -42,7 +41,7 @@ impl ItemAddresses<'_> {
         }
     }
 
-    /// Nothing but the addresses that a route leads to: some buses let an item be neither read nor written.
+    /// Returns only the addresses that a route uses. Some buses allow neither reading nor writing.
     fn routed(&self) -> Self {
         let is_routed = |bus: RouteBus| self.routes[bus as usize].access_paths().next().is_some();
         ItemAddresses {
@@ -56,12 +55,12 @@ impl ItemAddresses<'_> {
         }
     }
 
-    /// Whether every route is an address, and none is in an image or in a slave controller.
+    /// Returns whether every route is direct, and no address is in an image or in a slave controller.
     fn is_simple(&self) -> bool {
         self.image.is_none() && self.esc.is_none() && self.buses().is_direct()
     }
 
-    /// The call that makes the location, of type `path`. `windows` leads to the windows of the device.
+    /// Returns the call that creates the location of type `path`. `windows` is the path to the windows of the device.
     pub fn code(&self, located: &Located<'_>, path: &str, windows: &str) -> Doc {
         if self.buses().path().is_none() {
             return self.new_location(located, path, windows);
@@ -88,7 +87,8 @@ impl ItemAddresses<'_> {
                 (None, Some((address, length))) => Doc::from(format!("{path}::memory(0x{address:04X}, {length})")),
                 (None, None) => self.new_location(located, path, windows),
             },
-            // Addresses that differ between the buses, and routes that are too rare for a name.
+            // Locations with different addresses on the buses, or with rare combinations of routes, have no short
+            // constructor.
             _ => self.new_location(located, path, windows),
         }
     }
@@ -97,7 +97,8 @@ impl ItemAddresses<'_> {
         self.location_of(located, path, windows, |bus| self.address(bus).unwrap_or_default(), None)
     }
 
-    /// The code of a location of type `path` whose addresses are `address`, and whose numbers behind windows `number`.
+    /// Returns the code of a location of type `path`. `address` returns the address on a bus, and `number` is the
+    /// number behind a window.
     fn location_of(
         &self,
         located: &Located<'_>,
@@ -106,13 +107,15 @@ impl ItemAddresses<'_> {
         address: impl Fn(RouteBus) -> String,
         number: Option<&str>,
     ) -> Doc {
-        let window = |at: usize| format!("{windows}{}", located.windows.get(at).map_or("", |own| own.name.as_str()));
+        let window =
+            |at: usize| format!("{windows}{}", located.windows.get(at).map_or("", |window| window.name.as_str()));
         let route = |bus: RouteBus| self.routes[bus as usize].code(&address(bus), window, number);
         list(&format!("{path}::new("), RouteBus::ALL.into_iter().filter_map(route), ")")
     }
 
-    /// The location as a function of what items differ in, for one that the runtime has no name for: `rustc` takes a third of
-    /// the time for a call of such a function. `windows` leads to the windows of the device.
+    /// Returns the function that creates the location from the values in which items differ; `None` if the runtime
+    /// defines the location type. `rustc` compiles a call of such a function in a third of the time. `windows` is the
+    /// path to the windows of the device.
     pub fn maker(&self, located: &Located<'_>, windows: &str) -> Option<Maker> {
         let buses = self.buses();
         if buses.is_empty() || buses.path().is_some() {
@@ -141,7 +144,7 @@ impl ItemAddresses<'_> {
         })
     }
 
-    /// The code that makes the item's address on a bus.
+    /// Returns the code that creates the item's address on a bus.
     pub(super) fn address(&self, bus: RouteBus) -> Option<String> {
         let object = |(index, sub): (u16, u8)| format!("rt::Object::new(0x{index:04X}, 0x{sub:02X})");
         match bus {

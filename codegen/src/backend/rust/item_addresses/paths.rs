@@ -1,4 +1,4 @@
-//! The paths to an item: to its own address on a bus, and through a window.
+//! Paths to an item: directly to its address on a bus, or through a window.
 
 use super::ItemAddresses;
 use crate::backend::rust::located::Located;
@@ -7,14 +7,14 @@ use crate::backend::rust::window;
 use crate::ir::{Binding, Item, Type};
 
 impl<'i> ItemAddresses<'i> {
-    /// The addresses of an item, and the routes to it.
+    /// Returns the addresses of an item, and the routes to it.
     pub fn of(located: &Located<'_>, item: &'i Item) -> Self {
         let mut addresses = ItemAddresses::without_routes(located, item);
         addresses.routes = addresses.routes(located, item);
         addresses
     }
 
-    /// The routes to an item on all buses.
+    /// Returns the routes to an item on all buses.
     pub(super) fn routes(&self, located: &Located<'_>, item: &'i Item) -> [Route<'i>; 6] {
         if !is_plain(item) {
             return RouteBus::ALL.map(|bus| self.route(located, item, bus));
@@ -22,7 +22,7 @@ impl<'i> ItemAddresses<'i> {
         RouteBus::ALL.map(|bus| if self.has(bus) { plain(item) } else { Route::default() })
     }
 
-    /// Whether a bus lets the item be read, or written, at its address.
+    /// Returns whether a bus allows reading, or writing, the item at its address.
     pub(super) fn is_possible(&self, item: &Item, bus: RouteBus, writes: bool) -> bool {
         let access = if bus == RouteBus::Esc { item.access } else { item.access_on(bus.of_items()) };
         let allows = if writes { access.writable() } else { access.readable() };
@@ -44,26 +44,26 @@ impl<'i> ItemAddresses<'i> {
         Route { read, write, is_partial }
     }
 
-    /// The path to the item's own address; none where its type can't have the width that it has there.
+    /// Returns the path to the item's address; `None` if the type on the bus cannot be converted to the item's type.
     fn direct_path(&self, located: &Located<'_>, item: &'i Item, bus: RouteBus) -> Option<AccessPath<'i>> {
-        let (ty, type_there) = (located.base(item.ty), located.base(item.type_on(bus.of_items())));
-        let type_there = match (bus, self.image, self.esc) {
+        let (ty, bus_type) = (located.base(item.ty), located.base(item.type_on(bus.of_items())));
+        let bus_type = match (bus, self.image, self.esc) {
             (RouteBus::Image, Some(field), _) => field.ty.map_or(ty, |field_type| located.base(field_type)),
             (RouteBus::Esc, _, Some((_, length))) => in_memory(ty, length),
-            _ => type_there,
+            _ => bus_type,
         };
         let limited = item.limits_on(bus.of_items()).filter(|_| is_integer(ty)).map(|limits| (limits, ty.is_signed()));
-        let resized = ty.bits() != type_there.bits() && ty.bits().is_some();
-        let is_signed = if resized { narrower(ty, type_there).is_signed() } else { ty.is_signed() };
-        let bits = type_there.bits().filter(|bits| (1..=64).contains(bits)).and_then(|bits| u8::try_from(bits).ok());
-        if resized && !(is_integer(ty) && is_integer(type_there)) {
+        let resized = ty.bits() != bus_type.bits() && ty.bits().is_some();
+        let is_signed = if resized { narrower(ty, bus_type).is_signed() } else { ty.is_signed() };
+        let bits = bus_type.bits().filter(|bits| (1..=64).contains(bits)).and_then(|bits| u8::try_from(bits).ok());
+        if resized && !(is_integer(ty) && is_integer(bus_type)) {
             return None;
         }
         Some(AccessPath { window: None, resized: bits.filter(|_| resized), limited, is_signed })
     }
 }
 
-/// The route to an item that is the same everywhere.
+/// Returns the route to an item that is the same on all buses.
 fn plain<'i>(item: &Item) -> Route<'i> {
     let access_path = Some(AccessPath { window: None, resized: None, limited: None, is_signed: false });
     let (read, write) =
@@ -71,26 +71,26 @@ fn plain<'i>(item: &Item) -> Route<'i> {
     Route { read, write, is_partial: false }
 }
 
-/// The path through a window of the item's space on a bus.
+/// Returns the path through a window of the item's parameter space on a bus.
 fn through<'i>(located: &Located<'_>, item: &Item, bus: RouteBus, writes: bool) -> Option<AccessPath<'i>> {
     item.bindings.iter().filter_map(window::indirect).find_map(|binding| {
         let at = window::position(&located.windows, binding, bus, writes)?;
-        let own = located.windows.get(at).filter(|own| window::carries(located, item, own))?;
-        let (bits, is_signed) = own.value;
+        let window = located.windows.get(at).filter(|window| window::carries(located, item, window))?;
+        let (bits, is_signed) = window.value;
         let base = located.base(item.ty);
         let is_signed = if base.bits().unwrap_or(0) <= bits { base.is_signed() } else { is_signed };
         Some(AccessPath { window: Some((at, binding.number)), resized: None, limited: None, is_signed })
     })
 }
 
-/// Whether an item is the same on every bus on which it has an address, and nowhere else.
+/// Returns whether an item has only plain addresses and does not differ between buses.
 fn is_plain(item: &Item) -> bool {
     let is_address =
         |binding: &Binding| !matches!(binding, Binding::Indirect(_) | Binding::Image(_) | Binding::EscMemory { .. });
     item.variants.is_empty() && item.bindings.iter().all(is_address)
 }
 
-/// A number in so many bytes of a slave controller.
+/// Returns the type of a value with this number of bytes in a slave controller.
 fn in_memory(ty: Type, length: u16) -> Type {
     match (ty.bits(), u8::try_from(length)) {
         (Some(bits), Ok(length @ 1..=8)) if bits.div_ceil(8) != u32::from(length) => Type::Unsigned(8 * length),

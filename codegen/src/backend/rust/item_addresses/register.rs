@@ -1,15 +1,15 @@
-//! The code that makes a register, and the order in which registers are sorted.
+//! The code that creates a register, and the sort order of registers.
 
 use super::ItemAddresses;
 use crate::ir::{RegisterBinding, RegisterSpace};
 
 impl ItemAddresses<'_> {
-    /// The call that makes the register.
+    /// Returns the call that creates the register.
     pub fn register_code(&self) -> Option<String> {
         self.modbus.map(|register| self.register(register))
     }
 
-    /// What registers are sorted by: table, address and first bit.
+    /// Returns the sort key of a register: table, address and first bit.
     pub fn register_key(&self) -> Option<(u8, u16, Option<u8>)> {
         self.modbus.map(|register| {
             let table = match register.space {

@@ -1,4 +1,4 @@
-//! What documentation calls the places of an item.
+//! Addresses of an item as documentation shows them.
 
 use super::{Field, ItemAddresses};
 use crate::backend::rust::route::{Route, RouteBus};
@@ -8,7 +8,7 @@ use crate::facts::{address, register};
 use crate::ir::{Item, RegisterSpace};
 
 impl ItemAddresses<'_> {
-    /// What the documentation calls the places of an item.
+    /// Returns all addresses of an item, as words.
     pub fn facts(&self, scope: &Scope<'_>, item: &Item) -> String {
         let object = |(index, sub)| address::object(index, sub);
         let mut facts = Vec::new();
@@ -20,19 +20,22 @@ impl ItemAddresses<'_> {
             (canopen, coe) => facts.extend(canopen.or(coe).map(object)),
         }
         let tables = scope.device.map_or(&[][..], |device| &device.modbus);
-        facts.extend(self.modbus.map(|own| format!("Modbus {}", escape(&register::text(own, item, tables)))));
+        facts.extend(
+            self.modbus
+                .map(|register_binding| format!("Modbus {}", escape(&register::text(register_binding, item, tables)))),
+        );
         facts.extend(self.serial.map(|code| format!("parameter 0x{code:04X}")));
         facts.extend(self.image.map(|field| field.facts()));
-        facts.extend(self.numbers());
+        facts.extend(self.number_in_words());
         facts.join(", ")
     }
 
-    /// The place in a few words.
+    /// Returns the main addresses in a few words.
     pub fn heading(&self) -> String {
         let object = self.canopen.or(self.coe).map(|(index, sub)| address::object(index, sub));
-        let register = self.modbus.map(|own| match own.bit_offset {
-            Some(bit) => format!("register {} from bit {bit}", escape(&register::printed(own))),
-            None => format!("register {}", escape(&register::printed(own))),
+        let register = self.modbus.map(|register_binding| match register_binding.bit_offset {
+            Some(bit) => format!("register {} from bit {bit}", escape(&register::printed(register_binding))),
+            None => format!("register {}", escape(&register::printed(register_binding))),
         });
         let serial = self.serial.map(|code| format!("parameter 0x{code:04X}"));
         let found: Vec<String> = object.into_iter().chain(register).chain(serial).collect();
@@ -40,19 +43,19 @@ impl ItemAddresses<'_> {
             return found.join(", ");
         }
         let memory = self.esc.map(|(address, _)| format!("memory 0x{address:04X}"));
-        self.image.map(|field| field.facts()).or(memory).or(self.numbers()).unwrap_or_default()
+        self.image.map(|field| field.facts()).or(memory).or(self.number_in_words()).unwrap_or_default()
     }
 
-    /// The buses on which the item is behind a window, and its number there.
-    fn numbers(&self) -> Option<String> {
+    /// Returns the number of the item behind a window, and the buses that use the window.
+    fn number_in_words(&self) -> Option<String> {
         let number = self.number()?;
         let window = |route: &Route<'_>| route.access_paths().find_map(|access_path| access_path.window);
-        let on = RouteBus::ALL.iter().zip(&self.routes).filter(|(_, route)| window(route).is_some());
-        let on: Vec<&str> = on.map(|(bus, _)| bus.title()).collect();
-        Some(format!("number 0x{number:04X} behind a window on {}", on.join(", ")))
+        let windowed = RouteBus::ALL.iter().zip(&self.routes).filter(|(_, route)| window(route).is_some());
+        let windowed: Vec<&str> = windowed.map(|(bus, _)| bus.title()).collect();
+        Some(format!("number 0x{number:04X} through a window on {}", windowed.join(", ")))
     }
 
-    /// Its number behind a window.
+    /// Returns the number of the item behind a window.
     fn number(&self) -> Option<u32> {
         self.routes
             .iter()
@@ -61,11 +64,11 @@ impl ItemAddresses<'_> {
             .map(|(_, number)| number)
     }
 
-    /// What tells the item from others of its name.
+    /// Returns the suffix that distinguishes the item from others with the same name.
     pub fn suffix(&self) -> String {
         match (self.modbus, self.canopen.or(self.coe), self.serial) {
             (Some(register), _, _) => {
-                // Two tables of Modbus have the same numbers.
+                // Tables of Modbus use the same numbers.
                 let table = match register.space {
                     RegisterSpace::Holding => "",
                     RegisterSpace::Input => "input_",
@@ -92,12 +95,12 @@ impl Field<'_> {
     fn facts(self) -> String {
         let (byte, bit) = (self.first / 8, self.first % 8);
         let last = (self.first + self.bits.max(1) - 1) / 8;
-        let place = match (bit, self.bits % 8) {
+        let bits = match (bit, self.bits % 8) {
             (0, 0) if byte == last => format!("byte {byte}"),
             (0, 0) => format!("bytes {byte} to {last}"),
             _ if self.bits == 1 => format!("bit {bit} of byte {byte}"),
-            _ => format!("{} bits from bit {bit} of byte {byte} on", self.bits),
+            _ => format!("{} bits from bit {bit} of byte {byte}", self.bits),
         };
-        format!("{place} of the image {}", escape(self.image))
+        format!("{bits} of the image {}", escape(self.image))
     }
 }

@@ -1,36 +1,37 @@
-//! When an order is carried out, and what tells it.
+//! Completion of commands: when a command is completed, and which field indicates it.
 
 use std::collections::HashMap;
 
 use super::field::{self, Field};
 use crate::backend::rust::context::Context;
 use crate::backend::rust::docs;
-use crate::backend::rust::links::Here;
+use crate::backend::rust::links::DocModule;
 use crate::ir::{Completion, Device, Message, MessageValue, Shape, Type, Value};
 use crate::resolve::messages::Step;
 
-/// What documentation says of it.
-pub(super) fn sentence(context: &Context<'_>, message: &Message, here: Here<'_>) -> Option<String> {
+/// Returns the sentence about the completion of a message.
+pub(super) fn sentence(context: &Context<'_>, message: &Message, doc_module: DocModule<'_>) -> Option<String> {
     let late = message.reply_time.map(|time| format!(", after about {time} ms")).unwrap_or_default();
     Some(match &message.completion {
         Completion::Immediate => return None,
-        Completion::Reply => format!("The reply comes when the order is carried out{late}."),
-        Completion::Delayed(milliseconds) => format!("The order is carried out after {milliseconds} ms."),
+        Completion::Reply => format!("The device replies when the command is completed{late}."),
+        Completion::Delayed(milliseconds) => format!("The command is completed after {milliseconds} ms."),
         Completion::Polled { item, in_reply, .. } => {
-            let when = if *in_reply { "The reply tells it already" } else { "Poll it with a further message" };
-            let item = context.link(item, here).unwrap_or_else(|| docs::escape(item));
-            format!("The order is carried out when {item} says so. {when}.")
+            let when = if *in_reply { "The reply contains it" } else { "Poll it with another message" };
+            let item = context.link(item, doc_module).unwrap_or_else(|| docs::escape(item));
+            format!("{item} indicates when the command is completed. {when}.")
         }
     })
 }
 
-/// The expression of a reply's `is_complete`: of the conditions by which orders are polled, the first that its fields can tell.
-/// `None` where what the reply has may still be about the order before.
+/// Returns the expression of a reply's `is_complete`: the first polling condition that the fields of the reply can
+/// evaluate. Returns `None` if the fields may still refer to the previous command.
 pub(super) fn expression(
     context: &Context<'_>,
     conditions: &Conditions<'_>,
     message: &Message,
-    (steps, fields): (&[Step<'_>], &[Field]),
+    steps: &[Step<'_>],
+    fields: &[Field],
 ) -> Option<String> {
     if matches!(message.completion, Completion::Polled { in_reply: false, .. }) {
         return None;
@@ -43,10 +44,10 @@ pub(super) fn expression(
     })
 }
 
-/// The bit of a field that is polled, the mask, and the value.
+/// A polling condition: the polled bit of a field, the mask and the expected value.
 type Polled<'c> = (Option<&'c str>, Option<u64>, Option<&'c Value>);
 
-/// By what orders are polled: for each field the first condition.
+/// The first polling condition of each field.
 pub(super) type Conditions<'c> = HashMap<&'c str, Polled<'c>>;
 
 pub(super) fn conditions(device: &Device) -> Conditions<'_> {
@@ -76,26 +77,26 @@ fn compare(
     };
     let base = context.base(value.item.ty);
     let is_named = context.enumeration(value.item.ty).is_some();
-    let own = if is_named { format!("self.{field}.raw()") } else { format!("self.{field}") };
+    let operand = if is_named { format!("self.{field}.raw()") } else { format!("self.{field}") };
     if base == Type::Boolean && !is_named {
         let is_set = expected.is_none_or(|expected| expected != 0);
-        return Some(if is_set { own } else { format!("!{own}") });
+        return Some(if is_set { operand } else { format!("!{operand}") });
     }
-    // The greatest number that can be written beside it.
-    let (_, greatest) = base.integer_range()?;
-    let number = |number: u64| (i128::from(number) <= greatest).then(|| format!("{number:#X}").replace("0X", "0x"));
+    // Maximum number that can be compared with the operand.
+    let (_, maximum) = base.integer_range()?;
+    let number = |number: u64| (i128::from(number) <= maximum).then(|| format!("{number:#X}").replace("0X", "0x"));
     let (offset, mask) = match bit {
         Some(bit) => bits(context, value.item.ty, bit)?,
         None => (0, mask.unwrap_or(u64::MAX)),
     };
-    // Bits that no number has, or that aren't looked at, never tell it.
+    // Bits that no number has, or that the mask excludes, never indicate completion.
     if mask == 0 || expected.is_some_and(|expected| expected & !mask != 0) {
         return None;
     }
-    let is_whole = matches!(base, Type::Unsigned(8 | 16 | 32 | 64)) && i128::from(mask) == greatest;
+    let is_whole = matches!(base, Type::Unsigned(8 | 16 | 32 | 64)) && i128::from(mask) == maximum;
     let masked = match mask {
-        _ if mask == u64::MAX || is_whole => own,
-        mask => format!("{own} & {}", number(mask.checked_shl(offset)?)?),
+        _ if mask == u64::MAX || is_whole => operand,
+        mask => format!("{operand} & {}", number(mask.checked_shl(offset)?)?),
     };
     Some(match expected {
         Some(expected) => format!("{masked} == {}", number(expected.checked_shl(offset)?)?),
@@ -103,7 +104,7 @@ fn compare(
     })
 }
 
-/// Offset and mask of the bits with this name.
+/// Returns the offset and mask of the bits with this name.
 fn bits(context: &Context<'_>, ty: Type, name: &str) -> Option<(u32, u64)> {
     let Shape::BitField { fields, .. } = &context.resolve(ty).1?.1.shape else { return None };
     let field = fields.iter().find(|field| field.name == name)?;

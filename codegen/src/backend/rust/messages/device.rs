@@ -1,20 +1,20 @@
-//! The methods of a device that send messages.
+//! Methods of a device that send messages.
 
 use super::field::Field;
 use super::rules::Rules;
 use super::{DataModel, MessageModel};
 use crate::backend::rust::code::{Data, Doc};
-use crate::backend::rust::links::Here;
+use crate::backend::rust::links::DocModule;
 use crate::backend::rust::literal;
-use crate::backend::rust::method_names::beside;
+use crate::backend::rust::method_names::unused_name;
 use crate::ir::Message;
 use crate::names::{self, Case};
 use crate::resolve::messages::Shaped;
 
-/// More arguments than clippy likes.
+/// Maximum number of arguments. Clippy warns about more.
 const MAX_ARGUMENTS: usize = 6;
 
-/// A method, ready to be written.
+/// A method that sends a message, ready to be printed.
 pub(in crate::backend::rust) struct CallModel {
     pub method: String,
     pub docs: Vec<String>,
@@ -23,30 +23,36 @@ pub(in crate::backend::rust) struct CallModel {
     pub arguments: Vec<String>,
     /// The expression of the message.
     pub build: Doc,
-    /// The lifetime that the arguments have.
+    /// Whether the arguments have a lifetime.
     pub borrows: bool,
     pub deprecated: Option<String>,
     pub is_selector: bool,
-    /// The type of the message after which the method is there.
+    /// Type of the message that must precede this one.
     pub after: Option<String>,
 }
 
-/// The device as it is after power-on.
+/// The driver in its state after power-on.
 pub(in crate::backend::rust) struct DefaultModel {
-    /// The type of the message that would select the same.
+    /// Type of the message that would select this state.
     pub selector: String,
 }
 
-/// The methods for all requests.
-pub(super) fn calls(shaped: &[Shaped<'_>], messages: &[MessageModel], rules: &Rules, taken: &[&str]) -> Vec<CallModel> {
-    let with = || shaped.iter().zip(messages).filter_map(|(own, model)| Some((own, model, model.request.as_ref()?)));
-    let mut wishes = names::numbered(with().map(|(own, ..)| own.message.name.as_str()), "message");
-    for wish in &mut wishes {
-        wish.suffix.insert_str(0, "message_");
+/// Returns the methods of all requests.
+pub(super) fn calls(
+    shaped: &[Shaped<'_>],
+    messages: &[MessageModel],
+    rules: &Rules,
+    reserved: &[&str],
+) -> Vec<CallModel> {
+    let with =
+        || shaped.iter().zip(messages).filter_map(|(shape, model)| Some((shape, model, model.request.as_ref()?)));
+    let mut name_requests = names::numbered(with().map(|(shape, ..)| shape.message.name.as_str()), "message");
+    for name_request in &mut name_requests {
+        name_request.suffix.insert_str(0, "message_");
     }
-    let names = names::unique(&wishes, taken, Case::Snake);
+    let names = names::unique(&name_requests, reserved, Case::Snake);
     let mut calls = Vec::new();
-    for ((own, model, request), name) in with().zip(names) {
+    for ((shape, model, request), name) in with().zip(names) {
         let names = arguments(&request.fields);
         let fields = request.fields.iter().zip(&names).map(|(field, name)| field.argument(name, rules));
         let (arguments, built): (Vec<String>, Vec<(String, Doc)>) = fields.unzip();
@@ -57,8 +63,8 @@ pub(super) fn calls(shaped: &[Shaped<'_>], messages: &[MessageModel], rules: &Ru
             1..=MAX_ARGUMENTS => (arguments, Data::fields(&ty, built)),
             _ => (vec![format!("message: {ty}{lifetime}")], Doc::from("message")),
         };
-        let after = own.message.after.as_ref();
-        let selector = selector(shaped, messages, after.map(|own| own.as_str()));
+        let after = shape.message.after.as_ref();
+        let selector = selector(shaped, messages, after.map(|previous| previous.as_str()));
         calls.push(CallModel {
             method: names::escaped(&name),
             docs: docs(model, request),
@@ -66,7 +72,7 @@ pub(super) fn calls(shaped: &[Shaped<'_>], messages: &[MessageModel], rules: &Ru
             arguments,
             build,
             borrows: request.borrows,
-            deprecated: replacement(own.message, shaped).map(|note| literal::string(&note)),
+            deprecated: replacement(shape.message, shaped).map(|note| literal::string(&note)),
             is_selector: model.is_selector,
             after: selector,
         });
@@ -74,47 +80,50 @@ pub(super) fn calls(shaped: &[Shaped<'_>], messages: &[MessageModel], rules: &Ru
     calls
 }
 
-/// What a method calls its arguments: as the fields, but for a number alone, which clippy takes for no name.
+/// Returns the names of a method's arguments: the names of the fields. A name of digits only is replaced because clippy
+/// rejects it.
 fn arguments(fields: &[Field]) -> Vec<String> {
     let mut names: Vec<String> = fields.iter().map(|field| field.name.clone()).collect();
     for at in 0..names.len() {
         if names[at].chars().all(|letter| letter == '_' || letter.is_ascii_digit()) {
-            names[at] = beside(|name| names.contains(name), format!("value{}", names[at]));
+            names[at] = unused_name(|name| names.contains(name), format!("value{}", names[at]));
         }
     }
     names
 }
 
-/// The lines about a method: those about the message, and what it sends.
+/// Returns the documentation of a method: the lines about the message, and the type that the method sends.
 fn docs(model: &MessageModel, request: &DataModel) -> Vec<String> {
-    let sends = format!("Sends {}.", Here::TOP.whole(&format!("messages::{}", request.name)));
+    let sends = format!("Sends {}.", DocModule::TOP.whole(&format!("messages::{}", request.name)));
     model.call_docs.iter().cloned().chain([String::new(), sends]).collect()
 }
 
-/// What is answered after power-on; `None` where nothing is said of it, or the selector isn't known.
+/// Returns the state after power-on; `None` if the description does not state it or the selector is unknown.
 pub(super) fn by_default(
     shaped: &[Shaped<'_>],
     messages: &[MessageModel],
     calls: &[CallModel],
 ) -> Option<DefaultModel> {
-    let own = shaped.iter().find(|own| own.message.by_default)?;
-    let selector = selector(shaped, messages, own.message.after.as_ref().map(|own| own.as_str()))?;
+    let shape = shaped.iter().find(|shape| shape.message.by_default)?;
+    let selector = selector(shaped, messages, shape.message.after.as_ref().map(|previous| previous.as_str()))?;
     calls.iter().any(|call| call.after.as_ref() == Some(&selector)).then_some(DefaultModel { selector })
 }
 
-/// What to use instead of a message, and the only models that have it.
+/// Returns a note about the message that replaces another one, and the models that have the replacement.
 fn replacement(message: &Message, all: &[Shaped<'_>]) -> Option<String> {
     let name = message.availability.as_ref()?.replaced_by.as_ref()?;
-    let other = all.iter().find(|own| own.message.name == *name);
-    let models = other.and_then(|own| own.message.availability.as_ref()).map_or(&[][..], |own| &own.models);
+    let other = all.iter().find(|shape| shape.message.name == *name);
+    let models = other
+        .and_then(|shape| shape.message.availability.as_ref())
+        .map_or(&[][..], |availability| &availability.models);
     Some(match models {
         [] => format!("replaced by {name}"),
         models => format!("replaced by {name} on {}", models.join(", ")),
     })
 }
 
-/// The type of the message called so.
+/// Returns the type of the message with this name.
 fn selector(shaped: &[Shaped<'_>], messages: &[MessageModel], name: Option<&str>) -> Option<String> {
-    let at = shaped.iter().position(|own| Some(own.message.name.as_str()) == name)?;
+    let at = shaped.iter().position(|shape| Some(shape.message.name.as_str()) == name)?;
     messages.get(at)?.request.as_ref().map(|request| request.name.clone())
 }

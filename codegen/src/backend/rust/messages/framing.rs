@@ -1,4 +1,4 @@
-//! The constants of a protocol: how frames are delimited, how long they are, which field numbers the device.
+//! Constants of a protocol: frame delimiters, maximum length, and whether requests carry a station number.
 
 use crate::backend::rust::code::{Data, Doc};
 use crate::backend::rust::context::Context;
@@ -6,18 +6,19 @@ use crate::backend::rust::docs;
 use crate::ir::{Device, Framing};
 use crate::resolve::messages::{Shaped, Step};
 
-/// Room for data whose length the description doesn't bound.
-const ROOM: u32 = 256;
+/// Buffer size for data of unbounded length.
+const UNBOUNDED_LENGTH: u32 = 256;
 
-/// The expression of the framing; `None` where frames have no last byte, or their check is one that the runtime hasn't.
+/// Returns the expression of the framing; `None` if frames have no end byte, or the runtime does not support their
+/// check.
 pub(super) fn constant(framing: &Framing, shaped: &[Shaped<'_>]) -> Option<Doc> {
     let byte = |byte: u8| Doc::from(format!("0x{byte:02X}"));
     let max = framing.max_data.map_or_else(|| "usize::MAX".to_owned(), |max| max.to_string());
-    let from = framing.check_from.as_deref().and_then(|field| place(field, shaped)).unwrap_or(0);
+    let from = framing.check_from.as_deref().and_then(|field| check_start(field, shaped)).unwrap_or(0);
     let escape = |escape: u8| {
         let escaped = framing.escaped.iter().copied().map(byte);
-        let own = vec![("byte", byte(escape)), ("xor", byte(framing.escape_xor)), ("escaped", Data::slice(escaped))];
-        Data::call("Some", vec![Data::fields("rt::framing::Escape", own)])
+        let fields = vec![("byte", byte(escape)), ("xor", byte(framing.escape_xor)), ("escaped", Data::slice(escaped))];
+        Data::call("Some", vec![Data::fields("rt::framing::Escape", fields)])
     };
     let fields = vec![
         ("start", Data::option(framing.start.map(|start| format!("0x{start:02X}")))),
@@ -31,9 +32,9 @@ pub(super) fn constant(framing: &Framing, shaped: &[Shaped<'_>]) -> Option<Doc> 
     Some(Data::fields("rt::framing::Delimited", fields))
 }
 
-/// What documentation says of it.
+/// Returns the documentation of the framing.
 pub(super) fn documentation(framing: &Framing, context: &Context<'_>) -> Vec<String> {
-    let mut lines = vec!["How frames are delimited and checked.".to_owned()];
+    let mut lines = vec!["Framing of messages: delimiters, escaping and check.".to_owned()];
     docs::described(framing.documentation.as_deref(), &context.manual, &mut lines);
     lines
 }
@@ -50,19 +51,19 @@ fn check(framing: &Framing) -> Option<String> {
     })
 }
 
-/// The byte of the requests at which a field begins.
-fn place(field: &str, shaped: &[Shaped<'_>]) -> Option<u32> {
-    shaped.iter().find_map(|own| own.request.place(field))
+/// Returns the byte of the requests at which a field begins.
+fn check_start(field: &str, shaped: &[Shaped<'_>]) -> Option<u32> {
+    shaped.iter().find_map(|shape| shape.request.place(field))
 }
 
-/// The greatest length of the data of a message.
+/// Returns the maximum length of the data of a message.
 pub(super) fn max_data(device: &Device, shaped: &[Shaped<'_>]) -> u32 {
     if let Some(max) = device.framing.as_ref().and_then(|framing| framing.max_data) {
         return max.into();
     }
-    let sides = shaped.iter().flat_map(|own| [&own.request, &own.reply]);
+    let sides = shaped.iter().flat_map(|shape| [&shape.request, &shape.reply]);
     let longest = |steps: &[Step<'_>]| steps.iter().map(longest).fold(0, u32::saturating_add);
-    sides.map(|side| longest(&side.steps)).max().unwrap_or(ROOM)
+    sides.map(|side| longest(&side.steps)).max().unwrap_or(UNBOUNDED_LENGTH)
 }
 
 fn longest(step: &Step<'_>) -> u32 {
@@ -71,12 +72,12 @@ fn longest(step: &Step<'_>) -> u32 {
         (None, Step::List { length, max: Some(max), .. }) => length.saturating_mul((*max).into()),
         (None, Step::Setting { .. } | Step::Blank { .. }) => 12,
         (None, Step::Settings { max: Some(max), .. }) => 12 * u32::from(*max),
-        (None, _) => ROOM,
+        (None, _) => UNBOUNDED_LENGTH,
     }
 }
 
-/// Whether requests have the number of the device.
+/// Returns whether requests contain a station number.
 pub(super) fn has_station(shaped: &[Shaped<'_>]) -> bool {
-    let mut steps = shaped.iter().flat_map(|own| &own.request.steps);
+    let mut steps = shaped.iter().flat_map(|shape| &shape.request.steps);
     steps.any(|step| matches!(step, Step::Station { .. }))
 }

@@ -1,4 +1,4 @@
-//! Command protocols: a type for every request and reply, how parameters travel in them, and how frames are delimited.
+//! Message protocols: a type for each request and reply, the encoding of parameters, and the framing.
 
 mod completion;
 mod device;
@@ -14,7 +14,7 @@ use std::collections::{HashMap, HashSet};
 use super::code::{call, seq, Doc};
 use super::context::Context;
 use super::docs::{self, WORDS};
-use super::links::{self, Here};
+use super::links::{self, DocModule};
 use super::named::Types;
 use super::naming::messages::{MessageNames as Names, NamedMessages};
 use super::options::RustOptions;
@@ -27,41 +27,41 @@ pub(super) use parameters::{Arm, ParametersModel};
 use rules::{RuleModel, Rules};
 pub(super) use steps::Statements;
 
-/// A protocol, ready to be written.
+/// A protocol, ready to be printed.
 pub(super) struct ProtocolModel {
-    /// The expression of the constant.
+    /// Expression of the framing constant.
     pub framing: Option<Doc>,
     pub framing_docs: Vec<String>,
     pub max_data: u32,
     pub derives: Vec<String>,
-    /// Whether requests have the number of the device.
+    /// Whether requests contain a station number.
     pub has_station: bool,
     pub rules: Vec<RuleModel>,
     pub messages: Vec<MessageModel>,
     pub parameters: Option<ParametersModel>,
-    /// The requests that a simulated device tells apart, and whether they borrow from the data.
+    /// Requests that a simulated device distinguishes, and whether they borrow from the data.
     pub requests: Vec<(String, bool)>,
     pub request_derives: Vec<String>,
     pub calls: Vec<CallModel>,
-    /// What a device answers after power-on.
+    /// State of the driver after power-on.
     pub by_default: Option<DefaultModel>,
 }
 
 /// A request and its reply.
 pub(super) struct MessageModel {
     pub title: String,
-    /// What is said of the method that sends it.
+    /// Documentation of the method that sends the request.
     pub call_docs: Vec<String>,
-    /// None where only the device sends.
+    /// The request; `None` if only the device sends the message.
     pub request: Option<DataModel>,
-    /// None where the reply isn't described.
+    /// The reply; `None` if it is not described.
     pub reply: Option<DataModel>,
-    /// The type of what comes where the device refuses.
+    /// Type of the reply with which the device refuses the request.
     pub refusal: String,
     pub completion: Doc,
-    /// Whether the requests of others mean what this one has selected.
+    /// Whether this request decides the meaning of other requests.
     pub is_selector: bool,
-    /// What it does in each state.
+    /// Effect of the command in each state.
     pub outcomes: Vec<OutcomesModel>,
 }
 
@@ -73,13 +73,13 @@ pub(super) struct DataModel {
     pub borrows: bool,
     pub fields: Vec<Field>,
     pub code: Statements,
-    /// What is repeated.
+    /// Type of list entries.
     pub entry: Option<EntryModel>,
-    /// The expression that tells whether an order is carried out.
+    /// Expression that determines whether the command is completed.
     pub is_complete: Option<String>,
 }
 
-/// Fields that are repeated.
+/// The fields of a list entry.
 pub(super) struct EntryModel {
     pub name: String,
     pub title: String,
@@ -90,22 +90,23 @@ pub(super) struct EntryModel {
 }
 
 impl ProtocolModel {
-    /// The protocol of a device; `None` where it has none. Its methods must not be called as `taken`.
-    pub(super) fn new(context: &Context<'_>, options: &RustOptions, types: &Types, taken: &[&str]) -> Option<Self> {
+    /// Creates the protocol of a device; `None` if it has no messages. `reserved` are names that its methods must not
+    /// have.
+    pub(super) fn new(context: &Context<'_>, options: &RustOptions, types: &Types, reserved: &[&str]) -> Option<Self> {
         let device = context.device?;
         let NamedMessages { shapes, names } = &context.names.messages;
         if shapes.is_empty() {
             return None;
         }
-        let own_types: Vec<&str> = names.iter().flatten().map(String::as_str).collect();
-        let steps = shapes.iter().flat_map(|own| own.request.steps.iter().chain(&own.reply.steps));
-        let rules = Rules::new(context, device, steps, &own_types);
+        let type_names: Vec<&str> = names.iter().flatten().map(String::as_str).collect();
+        let steps = shapes.iter().flat_map(|shape| shape.request.steps.iter().chain(&shape.reply.steps));
+        let rules = Rules::new(context, device, steps, &type_names);
         let states = outcomes::links(context, device, types);
         let make = Maker {
             context,
             options,
             polled: completion::conditions(device),
-            selectors: shapes.iter().filter_map(|own| Some(own.message.after.as_ref()?.as_str())).collect(),
+            selectors: shapes.iter().filter_map(|shape| Some(shape.message.after.as_ref()?.as_str())).collect(),
             rules: &rules,
             shapes,
             names,
@@ -113,14 +114,18 @@ impl ProtocolModel {
         };
         let mut outcomes = outcomes::models(context, device, types);
         let mut messages: Vec<MessageModel> =
-            shapes.iter().zip(names).map(|(own, names)| make.message(own, names)).collect();
-        for (own, model) in shapes.iter().zip(&mut messages) {
-            model.outcomes = outcomes.remove(own.message.name.as_str()).unwrap_or_default();
+            shapes.iter().zip(names).map(|(shape, names)| make.message(shape, names)).collect();
+        for (shape, model) in shapes.iter().zip(&mut messages) {
+            model.outcomes = outcomes.remove(shape.message.name.as_str()).unwrap_or_default();
         }
-        let calls = if options.accessors { device::calls(shapes, &messages, &rules, taken) } else { Vec::new() };
+        let calls = if options.accessors { device::calls(shapes, &messages, &rules, reserved) } else { Vec::new() };
         Some(ProtocolModel {
-            framing: device.framing.as_deref().and_then(|own| framing::constant(own, shapes)),
-            framing_docs: device.framing.as_deref().map(|own| framing::documentation(own, context)).unwrap_or_default(),
+            framing: device.framing.as_deref().and_then(|framing| framing::constant(framing, shapes)),
+            framing_docs: device
+                .framing
+                .as_deref()
+                .map(|framing| framing::documentation(framing, context))
+                .unwrap_or_default(),
             max_data: framing::max_data(device, shapes),
             derives: options.derives(true),
             has_station: framing::has_station(shapes),
@@ -134,55 +139,56 @@ impl ProtocolModel {
         })
     }
 
-    /// Whether limits are real numbers.
+    /// Returns whether limits are real numbers.
     pub(super) fn has_real_limits(&self) -> bool {
-        let sides = self.messages.iter().flat_map(|own| own.request.iter().chain(&own.reply));
-        let mut fields = sides.flat_map(|side| side.fields.iter().chain(side.entry.iter().flat_map(|own| &own.fields)));
+        let sides = self.messages.iter().flat_map(|message| message.request.iter().chain(&message.reply));
+        let mut fields =
+            sides.flat_map(|side| side.fields.iter().chain(side.entry.iter().flat_map(|entry| &entry.fields)));
         fields.any(Field::has_real_limits)
     }
 
-    /// Whether requests decide what others mean.
+    /// Returns whether some requests decide the meaning of others.
     pub(super) fn selects(&self) -> bool {
-        self.messages.iter().any(|own| own.is_selector)
+        self.messages.iter().any(|message| message.is_selector)
     }
 
-    /// Whether there are methods that are there in any state.
+    /// Returns whether some methods are available in every state.
     pub(super) fn has_free(&self) -> bool {
-        self.calls.iter().any(|own| own.after.is_none() && !own.is_selector)
+        self.calls.iter().any(|call| call.after.is_none() && !call.is_selector)
     }
 
-    /// Whether the requests that are told apart borrow from the data.
+    /// Returns whether the requests that are distinguished borrow from the data.
     pub(super) fn requests_borrow(&self) -> bool {
         self.requests.iter().any(|(_, borrows)| *borrows)
     }
 }
 
-/// What is needed to make models of messages.
+/// Creates models of messages.
 struct Maker<'m, 'a> {
     context: &'m Context<'a>,
     options: &'m RustOptions,
-    /// By what orders are polled.
+    /// Polling conditions of completion.
     polled: completion::Conditions<'m>,
-    /// The names of the messages after which others can be sent.
+    /// Names of the messages that decide the meaning of others.
     selectors: HashSet<&'m str>,
     rules: &'m Rules,
     shapes: &'m [Shaped<'a>],
     names: &'m [Names],
-    /// The paths of states, by their names.
+    /// Paths of states, by their names in the description.
     states: &'m HashMap<String, String>,
 }
 
 impl Maker<'_, '_> {
-    fn message(&self, own: &Shaped<'_>, names: &Names) -> MessageModel {
-        let message = own.message;
+    fn message(&self, shape: &Shaped<'_>, names: &Names) -> MessageModel {
+        let message = shape.message;
         let refusal = messages::refusal(self.shapes, message).and_then(|at| self.names.get(at));
         let [request_name, reply_name, entry, reply_entry] = names;
         let has_request = !message.request.is_empty();
         let request = has_request.then(|| {
-            let data = self.data(&own.request.steps, request_name, entry);
-            let mut docs = self.documentation(message, Here::MESSAGES);
-            let reply = (!message.reply.is_empty()).then(|| format!("Answered by {}.", links::beside(reply_name)));
-            let refused = refusal.map(|names| format!("Refused with {}.", links::beside(&names[1])));
+            let data = self.data(&shape.request.steps, request_name, entry);
+            let mut docs = self.documentation(message, DocModule::MESSAGES);
+            let reply = (!message.reply.is_empty()).then(|| format!("Reply: {}.", links::sibling(reply_name)));
+            let refused = refusal.map(|names| format!("Refusal: {}.", links::sibling(&names[1])));
             let answers: Vec<String> = reply.into_iter().chain(refused).collect();
             if !answers.is_empty() {
                 docs.extend([String::new(), answers.join(" ")]);
@@ -190,19 +196,19 @@ impl Maker<'_, '_> {
             DataModel { docs, ..data }
         });
         let reply = (!message.reply.is_empty()).then(|| {
-            let data = self.data(&own.reply.steps, reply_name, reply_entry);
+            let data = self.data(&shape.reply.steps, reply_name, reply_entry);
             let docs = match has_request {
-                true => vec![format!("What is answered to {}.", links::beside(request_name))],
-                false => self.documentation(message, Here::MESSAGES),
+                true => vec![format!("Reply to {}.", links::sibling(request_name))],
+                false => self.documentation(message, DocModule::MESSAGES),
             };
             let polled =
-                || completion::expression(self.context, &self.polled, message, (&own.reply.steps, &data.fields));
+                || completion::expression(self.context, &self.polled, message, &shape.reply.steps, &data.fields);
             let is_complete = has_request.then(polled).flatten();
             DataModel { docs, is_complete, ..data }
         });
         MessageModel {
             title: super::literal::string(&message.name),
-            call_docs: self.documentation(message, Here::TOP),
+            call_docs: self.documentation(message, DocModule::TOP),
             request,
             reply,
             refusal: refusal.map_or_else(|| "core::convert::Infallible".to_owned(), |names| names[1].clone()),
@@ -234,11 +240,11 @@ impl Maker<'_, '_> {
     fn entry(&self, steps: &[Step<'_>], length: u32, owner: &str, name: &str) -> EntryModel {
         let (fields, borrows) = self.fields(steps, "");
         let mut code = steps::statements(steps, &fields, self.rules);
-        // What follows is another one.
+        // Another entry may follow, so the check for the end of the data is removed.
         code.read.pop();
         EntryModel {
             name: name.to_owned(),
-            title: format!("What is repeated in {}.", links::beside(owner)),
+            title: format!("Entry of the list in {}.", links::sibling(owner)),
             derives: self.derives(borrows),
             length,
             fields,
@@ -246,18 +252,18 @@ impl Maker<'_, '_> {
         }
     }
 
-    /// The fields of a struct, and whether one borrows from the data.
+    /// Returns the fields of a struct, and whether one borrows from the data.
     fn fields(&self, steps: &[Step<'_>], entry: &str) -> (Vec<Field>, bool) {
         let mut fields = field::fields(self.context, steps, entry);
         let borrows = fields.iter().any(Field::borrows);
-        // A struct that borrows is nothing for `serde`, and then nobody reads the attribute.
+        // `serde` is not derived for structs that borrow, so their fields need no attribute.
         for field in fields.iter_mut().filter(|_| !borrows) {
             field.attribute = field.text_length().and_then(|length| self.options.octets_attribute(length));
         }
         (fields, borrows)
     }
 
-    /// What borrows from the data, such as a list, has neither a form for `serde` nor for `defmt`.
+    /// Returns the derives of a struct. Data that borrows, such as a list, supports neither `serde` nor `defmt`.
     fn derives(&self, borrows: bool) -> Vec<String> {
         if !borrows {
             return self.options.derives(true);
@@ -267,36 +273,37 @@ impl Maker<'_, '_> {
         plain.derives(true)
     }
 
-    /// The lines about a message, for a place.
-    fn documentation(&self, message: &Message, here: Here<'_>) -> Vec<String> {
+    /// Returns the documentation of a message. Its links start at `doc_module`.
+    fn documentation(&self, message: &Message, doc_module: DocModule<'_>) -> Vec<String> {
         let mut lines = vec![docs::sentence(&docs::escape(&message.name))];
         let mut sentences = Vec::new();
         docs::words(message.documentation.as_deref(), &mut sentences);
-        sentences.extend(completion::sentence(self.context, message, here));
+        sentences.extend(completion::sentence(self.context, message, doc_module));
         if !message.accepted_in.is_empty() {
-            // The method leads to the message, which leads to the states.
-            let state = |name: &str| match self.states.get(name).filter(|_| !here.is_top()) {
-                Some(path) => here.code(path),
+            // The documentation of the method links to the message, which links to the states.
+            let state = |name: &str| match self.states.get(name).filter(|_| !doc_module.is_top()) {
+                Some(path) => doc_module.code(path),
                 None => docs::escape(name),
             };
             let states: Vec<String> = message.accepted_in.iter().map(|name| state(name)).collect();
             sentences.push(format!("Accepted in the states: {}.", states.join(", ")));
         }
         for condition in &message.accepted_when {
-            sentences.push(format!("Accepted only while {}.", docs::holds(condition, self.context, here)));
+            sentences.push(format!("Accepted only while {}.", docs::holds(condition, self.context, doc_module)));
         }
         sentences.extend(message.side_effects.iter().map(|effect| docs::sentence(&docs::escape(effect))));
         sentences.extend(message.after.iter().map(|other| {
-            let other = self.context.link(other, here).unwrap_or_else(|| docs::escape(other));
-            format!("Means this after {other}.")
+            let other = self.context.link(other, doc_module).unwrap_or_else(|| docs::escape(other));
+            format!("Has this meaning after {other}.")
         }));
         if message.by_default {
-            sentences.push("So it is after power-on, too.".to_owned());
+            sentences.push("This meaning also applies after power-on.".to_owned());
         }
-        let link = |id, name: &str| self.context.link_to(id, name, here);
-        sentences.extend(message.availability.as_ref().map(|own| docs::linked(&link).availability(own)));
+        let link = |id, name: &str| self.context.link_to(id, name, doc_module);
+        sentences
+            .extend(message.availability.as_ref().map(|availability| docs::linked(&link).availability(availability)));
         sentences.extend(WORDS.place(&self.context.manual, "", message.documentation.as_deref(), &message.names));
-        sentences.extend(message.doubts.iter().map(|own| WORDS.doubt(&self.context.manual, own)));
+        sentences.extend(message.doubts.iter().map(|doubt| WORDS.doubt(&self.context.manual, doubt)));
         for sentence in sentences.into_iter().filter(|sentence| !sentence.is_empty()) {
             lines.extend([String::new(), sentence]);
         }
@@ -314,7 +321,7 @@ fn completion(completion: &Completion) -> Doc {
     seq!["rt::message::Completion::", name]
 }
 
-/// The requests that can be told apart: of those that are alike, the first.
+/// Returns the requests that can be distinguished. If several have the same form, only the first is returned.
 fn requests(messages: &[MessageModel]) -> Vec<(String, bool)> {
     let mut seen = HashSet::new();
     let requests = messages.iter().filter_map(|message| message.request.as_ref());

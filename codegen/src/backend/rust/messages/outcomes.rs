@@ -1,4 +1,4 @@
-//! What messages do in each state of a device: the rows of its table of commands and states.
+//! Effects of messages in each state of a device: the rows of its table of commands and states.
 
 use std::collections::HashMap;
 
@@ -6,13 +6,13 @@ use crate::backend::rust::code::{Data, Doc};
 use crate::backend::rust::context::Context;
 use crate::backend::rust::doc_table;
 use crate::backend::rust::docs;
-use crate::backend::rust::links::Here;
+use crate::backend::rust::links::DocModule;
 use crate::backend::rust::machine::{self, Variants};
 use crate::backend::rust::named::Types;
 use crate::ir::{CommandOutcomes, Device, Outcome, StateMachine, StateOutcome};
-use crate::names::{self, Case, Wish};
+use crate::names::{self, Case, NameRequest};
 
-/// A row, ready to be written.
+/// A row, ready to be printed.
 pub(in crate::backend::rust) struct OutcomesModel {
     /// The name of the constant.
     pub name: String,
@@ -22,15 +22,15 @@ pub(in crate::backend::rust) struct OutcomesModel {
     pub value: Doc,
 }
 
-/// The rows of each message, by its name.
+/// Returns the rows of each message, by its name.
 pub(super) fn models(context: &Context<'_>, device: &Device, types: &Types) -> HashMap<String, Vec<OutcomesModel>> {
-    let machines: Vec<&StateMachine> = device.machines.iter().filter(|own| !own.outcomes.is_empty()).collect();
+    let machines: Vec<&StateMachine> = device.machines.iter().filter(|machine| !machine.outcomes.is_empty()).collect();
     let mut all: HashMap<String, Vec<OutcomesModel>> = HashMap::new();
     for machine in &machines {
         let Some((ty, variants)) = states(context, device, machine, types) else { continue };
         let states = format!("super::types::{ty}");
         let link = |name: &str| match variants.get(name) {
-            Some(variant) => Here::MESSAGES.code(&format!("types::{ty}::{variant}")),
+            Some(variant) => DocModule::MESSAGES.code(&format!("types::{ty}::{variant}")),
             None => docs::escape(name),
         };
         let name = match machines.len() {
@@ -49,21 +49,21 @@ pub(super) fn models(context: &Context<'_>, device: &Device, types: &Types) -> H
     all
 }
 
-/// The name of the constant where several machines have such tables.
+/// Returns the name of the constant of a machine if several machines have such tables.
 fn constant(machine: &str) -> String {
     let name = format!("outcomes {machine}");
-    let wish = Wish { name: &name, fallback: String::new(), suffix: "machine".to_owned() };
-    names::unique(&[wish], &[], Case::Snake).remove(0).to_ascii_uppercase()
+    let name_request = NameRequest { name: &name, fallback: String::new(), suffix: "machine".to_owned() };
+    names::unique(&[name_request], &[], Case::Snake).remove(0).to_ascii_uppercase()
 }
 
-/// The type of a machine's states, and its variants by the names of the states.
+/// Returns the type of a machine's states, and its variants by the names of the states.
 fn states(context: &Context<'_>, device: &Device, machine: &StateMachine, types: &Types) -> Option<Variants> {
-    let at = device.machines.iter().position(|own| own.name == machine.name);
-    let own = at.and_then(|at| types.machines.get(at)).and_then(|own| own.states.as_ref());
-    machine::states_of(context, machine, own, &types.enumerations)
+    let at = device.machines.iter().position(|other| other.name == machine.name);
+    let model = at.and_then(|at| types.machines.get(at)).and_then(|model| model.states.as_ref());
+    machine::states_of(context, machine, model, &types.enumerations)
 }
 
-/// Links to the states of all machines from the messages, by the names of the states.
+/// Returns links from the messages to the states of all machines, by the names of the states.
 pub(super) fn links(context: &Context<'_>, device: &Device, types: &Types) -> HashMap<String, String> {
     let mut links = HashMap::new();
     for (ty, variants) in device.machines.iter().filter_map(|machine| states(context, device, machine, types)) {
@@ -76,7 +76,7 @@ pub(super) fn links(context: &Context<'_>, device: &Device, types: &Types) -> Ha
 
 fn row_data(row: &CommandOutcomes, states: &str, variants: &HashMap<String, String>) -> Doc {
     let state = |name: &str| Some(Doc::from(format!("{states}::{}", variants.get(name)?)));
-    let outcome = |own: &Outcome| match own {
+    let outcome = |outcome: &Outcome| match outcome {
         Outcome::Unchanged => Doc::from("rt::message::Outcome::Unchanged"),
         Outcome::Refused => Doc::from("rt::message::Outcome::Refused"),
         Outcome::States(to) => {
@@ -97,10 +97,10 @@ fn documentation(
     row: &CommandOutcomes,
     link: &dyn Fn(&str) -> String,
 ) -> Vec<String> {
-    let mut lines = vec![format!("What it does in each state of {}.", docs::escape(&machine.name))];
+    let mut lines = vec![format!("Effect of the command in each state of {}.", docs::escape(&machine.name))];
     docs::described(row.documentation.as_deref(), &context.manual, &mut lines);
-    let one = |own: &Outcome| match own {
-        Outcome::Unchanged => "nothing".to_owned(),
+    let one = |outcome: &Outcome| match outcome {
+        Outcome::Unchanged => "unchanged".to_owned(),
         Outcome::Refused => "refused".to_owned(),
         Outcome::States(to) => to.iter().map(|name| link(name)).collect::<Vec<_>>().join(", "),
     };
@@ -109,16 +109,16 @@ fn documentation(
         docs::words(cell.documentation.as_deref(), &mut words);
         [cell.outcomes.iter().map(one).collect::<Vec<_>>().join(" or "), words.join(" ")]
     };
-    // States in which the same happens share a row.
+    // States with the same effect share a row.
     let mut rows: Vec<[String; 3]> = Vec::new();
-    for own in &row.cells {
-        let [outcome, note] = cell(own);
+    for state_outcome in &row.cells {
+        let [outcome, note] = cell(state_outcome);
         match rows.iter_mut().find(|[_, other, words]| *other == outcome && *words == note) {
-            Some([states, ..]) => states.extend([", ", &link(&own.state)]),
-            None => rows.push([link(&own.state), outcome, note]),
+            Some([states, ..]) => states.extend([", ", &link(&state_outcome.state)]),
+            None => rows.push([link(&state_outcome.state), outcome, note]),
         }
     }
     rows.retain(|[_, outcome, note]| !outcome.is_empty() || !note.is_empty());
-    lines.extend(doc_table::whole(["In", "Leads to", "Note"], &rows));
+    lines.extend(doc_table::whole(["State", "Result", "Note"], &rows));
     lines
 }

@@ -1,4 +1,4 @@
-//! The messages that read and write numbered parameters one by one.
+//! Messages that read and write numbered parameters one by one.
 
 use super::rules::Rules;
 use super::MessageModel;
@@ -6,26 +6,26 @@ use crate::backend::rust::code::{call, Doc};
 use crate::ir::Device;
 use crate::resolve::messages::{carriers, Shaped, Step};
 
-/// The implementation of `ParameterMessages`, ready to be written.
+/// The implementation of `ParameterMessages`, ready to be printed.
 #[derive(Default)]
 pub(in crate::backend::rust) struct ParametersModel {
     pub read: Vec<Arm>,
     pub write: Vec<Arm>,
 }
 
-/// The parameters of a space, and their message.
+/// The parameters of a space, and the message that carries them.
 pub(in crate::backend::rust) struct Arm {
-    /// The constant that knows them.
+    /// Constant with the parameter numbers and lengths of the space.
     pub rule: String,
     /// The type of the message.
     pub message: String,
-    /// How it is made.
+    /// Names and values of the fields of the message.
     pub build: Vec<(String, Doc)>,
-    /// The value in the reply.
+    /// Expression of the value in the reply.
     pub value: String,
 }
 
-/// `None` where no parameter is read or written by messages.
+/// Returns the implementation; `None` if messages neither read nor write parameters.
 pub(super) fn model(
     device: &Device,
     shapes: &[Shaped<'_>],
@@ -33,16 +33,18 @@ pub(super) fn model(
     rules: &Rules,
 ) -> Option<ParametersModel> {
     let mut model = ParametersModel::default();
-    let at = |at: usize| Some((shapes.get(at)?, messages.get(at)?));
-    for own in carriers(device, shapes) {
-        let rule = rules.name(own.space, None);
-        model.read.extend(own.read.and_then(at).and_then(|own| reading(own, rule, rules)));
-        model.write.extend(own.write.and_then(at).and_then(|own| writing(own, rule, rules)));
+    let find = |position: usize| Some((shapes.get(position)?, messages.get(position)?));
+    for carrier in carriers(device, shapes) {
+        let rule = rules.name(carrier.space, None);
+        let reads = carrier.read.and_then(find).and_then(|(shape, model)| reading(shape, model, rule, rules));
+        let writes = carrier.write.and_then(find).and_then(|(shape, model)| writing(shape, model, rule, rules));
+        model.read.extend(reads);
+        model.write.extend(writes);
     }
     (!model.read.is_empty() || !model.write.is_empty()).then_some(model)
 }
 
-fn reading((shape, model): (&Shaped<'_>, &MessageModel), rule: &str, rules: &Rules) -> Option<Arm> {
+fn reading(shape: &Shaped<'_>, model: &MessageModel, rule: &str, rules: &Rules) -> Option<Arm> {
     let (request, reply) = (model.request.as_ref()?, model.reply.as_ref()?);
     let field = request.fields.first()?;
     let build = (field.name.clone(), Doc::from("parameter"));
@@ -61,7 +63,7 @@ fn reading((shape, model): (&Shaped<'_>, &MessageModel), rule: &str, rules: &Rul
     Some(Arm { rule: rule.to_owned(), message: request.name.clone(), build: vec![build], value })
 }
 
-fn writing((shape, model): (&Shaped<'_>, &MessageModel), rule: &str, rules: &Rules) -> Option<Arm> {
+fn writing(shape: &Shaped<'_>, model: &MessageModel, rule: &str, rules: &Rules) -> Option<Arm> {
     let request = model.request.as_ref()?;
     let name = &request.fields.first()?.name;
     let build = shape.request.steps.iter().find_map(|step| match step {

@@ -1,37 +1,37 @@
-//! The names of handles: those of objects, of their entries, and of registers.
+//! Names of the handles of objects, of their entries and of registers.
 
 use std::borrow::Cow;
 
 use crate::backend::rust::item_addresses::ItemAddresses;
 use crate::backend::rust::located::{Located, Register};
-use crate::backend::rust::method_names::{BESIDE_MESSAGES, RESERVED};
+use crate::backend::rust::method_names::{RESERVED, RESERVED_WITH_MESSAGES};
 use crate::backend::rust::reachable::{addressable, is_module};
 use crate::ir::{Group, Item, ItemId, ObjectCode};
-use crate::names::{self, Case, Wish};
+use crate::names::{self, Case, NameRequest};
 
-/// Constants of an object have nothing to clash with; its methods would be taken for a constructor, or couldn't be called because
-/// every type has one of that name.
+/// Reserved names within the module of an object. The methods `new`, `into` and `try_into` would look like constructors
+/// or be hidden by methods that every type has. Constants cannot conflict.
 const RESERVED_IN_OBJECT: [&str; 7] = ["self", "super", "crate", "rt", "new", "into", "try_into"];
 
-/// An item and the name of its handle, as yet without an escape.
+/// An item and the name of its handle before escaping.
 pub(in crate::backend::rust) struct NamedItem<'a> {
     pub id: ItemId,
     pub item: &'a Item,
     pub name: String,
 }
 
-/// An item of a chapter or an image, with the title of that.
+/// An item of a chapter or image, and the title of the chapter.
 pub(in crate::backend::rust) struct NamedRegister<'a> {
     pub chapter: &'a str,
     pub entry: NamedItem<'a>,
 }
 
-/// An object that has values, and its name.
+/// An object with values, and its name.
 pub(in crate::backend::rust) struct NamedObject<'a> {
     pub group: &'a Group,
     position: u32,
     pub name: String,
-    /// Whether it is a module of several values; else its only value has its name.
+    /// Whether the object is a module of several values. Otherwise its only value has the object's name.
     pub is_module: bool,
     pub entries: Vec<NamedItem<'a>>,
 }
@@ -39,14 +39,14 @@ pub(in crate::backend::rust) struct NamedObject<'a> {
 /// The names of handles in Rust.
 #[derive(Default)]
 pub(in crate::backend::rust) struct HandleNames<'a> {
-    /// By their ids, in ascending order.
+    /// Registers, sorted by ID.
     pub registers: Vec<NamedRegister<'a>>,
-    /// By the positions of their groups, in ascending order.
+    /// Objects, sorted by the position of their group.
     pub objects: Vec<NamedObject<'a>>,
 }
 
 impl<'a> HandleNames<'a> {
-    /// The names of the registers and of the objects.
+    /// Returns the names of the registers and of the objects.
     pub(super) fn of(located: &Located<'a>) -> Self {
         let mut names = unique(located).into_iter();
         let registers = located.registers.iter().zip(names.by_ref());
@@ -64,20 +64,22 @@ impl<'a> HandleNames<'a> {
         HandleNames { registers, objects: objects.collect() }
     }
 
-    /// Whether there is no handle.
+    /// Returns whether there are no handles.
     pub(in crate::backend::rust) fn is_empty(&self) -> bool {
         self.registers.is_empty() && self.objects.is_empty()
     }
 
-    /// The name of an item's handle if it tells what the value is; `None` for elements of arrays and entries without a name.
+    /// Returns the name of an item's handle if the name describes the value. Returns `None` for elements of arrays and
+    /// for entries without a name.
     pub(super) fn of_entry(&self, id: ItemId) -> Option<&str> {
         let (object, entry) = self.find(id)?;
         let is_array = |object: &NamedObject<'_>| object.group.object_code() == Some(ObjectCode::Array);
-        let tells = object.is_none_or(|object| !is_array(object) && !entry.item.name.trim().is_empty());
-        tells.then_some(entry.name.as_str())
+        let is_descriptive = object.is_none_or(|object| !is_array(object) && !entry.item.name.trim().is_empty());
+        is_descriptive.then_some(entry.name.as_str())
     }
 
-    /// The name of an item in any context: that of its handle, behind that of an object of several values unless it repeats this one.
+    /// Returns the full name of an item: the name of its handle, preceded by the name of its object if that has several
+    /// values. The prefix is omitted if the item's name starts with it.
     pub(super) fn whole(&self, id: ItemId) -> Option<Cow<'_, str>> {
         let (object, entry) = self.find(id)?;
         let (title, name) = (object.map_or("", |object| object.group.name.trim()), entry.item.name.trim());
@@ -89,7 +91,7 @@ impl<'a> HandleNames<'a> {
         })
     }
 
-    /// An item, and its object if that has several values.
+    /// Returns an item, and its object if the object has several values.
     fn find(&self, id: ItemId) -> Option<(Option<&NamedObject<'a>>, &NamedItem<'a>)> {
         if let Ok(at) = self.registers.binary_search_by_key(&id, |register| register.entry.id) {
             return Some((None, &self.registers[at].entry));
@@ -100,28 +102,31 @@ impl<'a> HandleNames<'a> {
     }
 }
 
-/// The names of the registers, and then those of the objects.
+/// Returns the names of the registers, followed by the names of the objects.
 fn unique(located: &Located<'_>) -> Vec<String> {
     let suffixes: Vec<String> =
         located.registers.iter().map(|register| ItemAddresses::of(located, register.item).suffix()).collect();
     let registers = located.registers.iter().zip(suffixes);
-    let registers = registers.map(|(register, suffix)| Wish::new(&register.item.name, "register", suffix));
+    let registers = registers.map(|(register, suffix)| NameRequest::new(&register.item.name, "register", suffix));
     let objects = addressable(located)
-        .map(|(_, group)| Wish::new(&group.name, "object", format!("{:04X}", group.index().unwrap_or(0))));
-    let wishes: Vec<Wish<'_>> = registers.chain(objects).collect();
+        .map(|(_, group)| NameRequest::new(&group.name, "object", format!("{:04X}", group.index().unwrap_or(0))));
+    let name_requests: Vec<NameRequest<'_>> = registers.chain(objects).collect();
     let has_messages = located.device.is_some_and(|device| !device.messages.is_empty());
-    let of_messages = BESIDE_MESSAGES.into_iter().filter(|_| has_messages);
-    let reserved: Vec<&str> = RESERVED.into_iter().chain(of_messages).collect();
-    names::unique(&wishes, &reserved, Case::Snake)
+    let with_messages = RESERVED_WITH_MESSAGES.into_iter().filter(|_| has_messages);
+    let reserved: Vec<&str> = RESERVED.into_iter().chain(with_messages).collect();
+    names::unique(&name_requests, &reserved, Case::Snake)
 }
 
-/// Whether a constant is called otherwise than a module or a method.
+/// Returns whether the name of a constant differs from the name of a module or method.
 pub(in crate::backend::rust) fn is_cased(name: &str) -> bool {
     name.to_ascii_uppercase() != name
 }
 
 fn entry_names(group: &Group) -> Vec<String> {
-    let wishes: Vec<Wish<'_>> =
-        group.items.iter().map(|item| Wish::new(&item.name, "sub", item.object().map_or(0, |(_, sub)| sub))).collect();
-    names::unique(&wishes, &RESERVED_IN_OBJECT, Case::Snake)
+    let name_requests: Vec<NameRequest<'_>> = group
+        .items
+        .iter()
+        .map(|item| NameRequest::new(&item.name, "sub", item.object().map_or(0, |(_, sub)| sub)))
+        .collect();
+    names::unique(&name_requests, &RESERVED_IN_OBJECT, Case::Snake)
 }

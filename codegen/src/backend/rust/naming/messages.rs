@@ -1,44 +1,46 @@
-//! The names of the types of messages.
+//! Names of the types of messages.
 
 use crate::ir::{Device, Message, MessageId};
-use crate::names::{self, Case, Wish};
+use crate::names::{self, Case, NameRequest};
 use crate::resolve::messages::{self, Shaped};
 
-/// Names that the code of messages uses itself.
+/// Names that the generated code of messages uses.
 const RESERVED: [&str; 10] = ["Self", "Option", "Result", "Some", "None", "Ok", "Err", "Protocol", "Request", "E"];
 
-/// The names of the types of each message: request, reply, and what is repeated in each.
+/// Names of the types of a message: request, reply, entry of the request's list, entry of the reply's list.
 pub(in crate::backend::rust) type MessageNames = [String; 4];
 
 fn names(shapes: &[Shaped<'_>]) -> Vec<MessageNames> {
-    let wished = shapes.iter().enumerate().flat_map(|(at, own)| wished(own.message).map(|name| (name, at)));
-    let wished: Vec<(String, usize)> = wished.collect();
-    let wishes: Vec<Wish<'_>> = wished.iter().map(|(name, at)| Wish::new(name, "message", at)).collect();
-    let mut names = names::unique(&wishes, &RESERVED, Case::Pascal).into_iter();
+    let base_names = shapes.iter().enumerate().flat_map(|(at, shape)| base_names(shape.message).map(|name| (name, at)));
+    let base_names: Vec<(String, usize)> = base_names.collect();
+    let name_requests: Vec<NameRequest<'_>> =
+        base_names.iter().map(|(name, at)| NameRequest::new(name, "message", at)).collect();
+    let mut names = names::unique(&name_requests, &RESERVED, Case::Pascal).into_iter();
     shapes.iter().map(|_| std::array::from_fn(|_| names.next().unwrap_or_default())).collect()
 }
 
-/// Names of request, reply, and of what is repeated in them. What only a device sends is no reply.
-fn wished(message: &Message) -> MessageNames {
+/// Returns the names to request for the types of a message. A message that only the device sends keeps its name for the
+/// reply.
+fn base_names(message: &Message) -> MessageNames {
     let name = &message.name;
     let reply = if message.request.is_empty() { name.to_string() } else { format!("{name} reply") };
     let request = if message.request.is_empty() { format!("{name} request") } else { name.to_string() };
     [request, reply, format!("{name} entry"), format!("{name} reply entry")]
 }
 
-/// The path of a message, from the device's place.
+/// The path of a message, relative to the device's module.
 pub(in crate::backend::rust) struct MessagePath {
     pub id: MessageId,
-    /// Whether it is a request; else only the device sends it.
+    /// Whether the message is a request. Otherwise only the device sends it.
     pub is_request: bool,
     pub path: String,
 }
 
-/// The messages of a device that have a shape, and their names.
+/// The messages of a device that have a shape, with their names.
 #[derive(Default)]
 pub(in crate::backend::rust) struct NamedMessages<'a> {
     pub shapes: Vec<Shaped<'a>>,
-    /// By the positions of the shapes.
+    /// Names, by the positions of the shapes.
     pub names: Vec<MessageNames>,
 }
 
@@ -48,14 +50,14 @@ impl<'a> NamedMessages<'a> {
         NamedMessages { names: names(&shapes), shapes }
     }
 
-    /// The paths of all messages.
+    /// Returns the paths of all messages.
     pub fn paths(&self) -> impl Iterator<Item = MessagePath> + use<'_> {
-        let path = |(own, [request, reply, ..]): (&Shaped<'_>, &MessageNames)| {
-            let is_request = !own.message.request.is_empty();
+        let path = |(shape, [request, reply, ..]): (&Shaped<'_>, &MessageNames)| {
+            let is_request = !shape.message.request.is_empty();
             let path = format!("messages::{}", if is_request { request } else { reply });
-            MessagePath { id: own.id, is_request, path }
+            MessagePath { id: shape.id, is_request, path }
         };
         let named = self.shapes.iter().zip(&self.names);
-        named.filter(|(own, _)| !own.message.request.is_empty() || !own.message.reply.is_empty()).map(path)
+        named.filter(|(shape, _)| !shape.message.request.is_empty() || !shape.message.reply.is_empty()).map(path)
     }
 }

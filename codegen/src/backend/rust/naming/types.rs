@@ -1,4 +1,4 @@
-//! The types that a description defines and that Rust code has under their names: enumerations, bit fields and their views, states and
+//! Types that a description defines and that generated code names: enumerations, bit fields and their views, states and
 //! commands.
 
 use std::collections::{HashMap, HashSet};
@@ -8,60 +8,60 @@ use super::machines::{self, NamedMachine};
 use crate::backend::rust::scope::Scope;
 use crate::backend::rust::value_type::ValueType;
 use crate::ir::{BitFieldEntry, BitMeaning, Condition, Message, Shape, StateMachine, Type, TypeDef, Value};
-use crate::names::{self, Case, Wish};
+use crate::names::{self, Case, NameRequest};
 
-/// An enumeration or a bit field.
+/// A named type: an enumeration or a bit field.
 #[derive(Clone, Debug)]
 pub(in crate::backend::rust) struct NamedType {
     pub name: String,
-    /// The type of the value below, in terms of the runtime: `u8`, `rt::Uint<3>`.
+    /// Path of the base type in the runtime: `u8`, `rt::Uint<3>`.
     pub base: &'static str,
-    /// The type of its numbers: `u8`.
+    /// Primitive integer that holds the raw value: `u8`.
     pub native: &'static str,
-    /// The integer below.
+    /// Integer type of the raw value.
     pub ty: Type,
     /// Length in bits.
     pub bits: u32,
 }
 
 impl NamedType {
-    /// The type over this integer, as yet without a name; `None` where Rust has no such integer.
-    fn over(ty: Type) -> Option<Self> {
+    /// Creates an unnamed type with this base; `None` if Rust has no such integer.
+    fn with_base(ty: Type) -> Option<Self> {
         let (base, native) = ValueType::of(ty).number()?;
         Some(NamedType { name: String::new(), base, native, ty, bits: ty.bits()? })
     }
 
-    /// Whether its numbers have a sign.
+    /// Returns whether the raw value is signed.
     pub fn is_signed(&self) -> bool {
         self.native.starts_with('i')
     }
 }
 
-/// The bits of a bit field that have their meaning under one condition.
+/// The bits of a bit field that apply under one condition.
 pub(in crate::backend::rust) struct View {
     pub name: String,
     pub condition: Condition,
-    /// `in profile position`.
+    /// Condition as words for the name: `in profile position`.
     pub words: String,
 }
 
 /// The names of all types.
 #[derive(Default)]
 pub(in crate::backend::rust) struct TypeNames<'a> {
-    /// By the positions of their definitions, in ascending order.
+    /// Enumerations, sorted by the positions of their definitions.
     pub enumerations: Vec<(u32, NamedType)>,
-    /// The same, with the views of each.
+    /// Bit fields with their views, sorted by the positions of their definitions.
     pub bit_fields: Vec<(u32, NamedType, Vec<View>)>,
-    /// The enumerations that fields of bit fields have.
+    /// Enumerations that fields of bit fields use.
     pub in_fields: HashSet<u32>,
     pub machines: Vec<NamedMachine<'a>>,
 }
 
-/// Names of the prelude that the same module uses, and those of which clippy would take a method for a constructor.
+/// Names of the prelude that the module uses, and names that would make clippy mistake a method for a constructor.
 const RESERVED: [&str; 9] = ["Self", "Option", "Result", "Unknown", "Some", "None", "Default", "New", "FromRaw"];
 
 impl<'a> TypeNames<'a> {
-    /// The types that items and PDO entries have, and those of the fields of bit fields.
+    /// Returns the types of items and PDO entries, and the types of fields of bit fields.
     pub(super) fn of(scope: &Scope<'a>, handles: &HandleNames<'_>) -> Self {
         let mut types = used(scope, handles);
         let machines = scope.device.map_or(&[][..], |device| &device.machines);
@@ -77,34 +77,36 @@ impl<'a> TypeNames<'a> {
         types
     }
 
-    /// The enumeration or the bit field at this position.
+    /// Returns the enumeration or bit field at this position.
     pub fn get(&self, position: u32) -> Option<&NamedType> {
         let bit_field = || {
-            let at = self.bit_fields.binary_search_by_key(&position, |(own, ..)| *own).ok()?;
-            self.bit_fields.get(at).map(|(_, own, _)| own)
+            let at = self.bit_fields.binary_search_by_key(&position, |(other, ..)| *other).ok()?;
+            self.bit_fields.get(at).map(|(_, named, _)| named)
         };
         self.enumeration(position).or_else(bit_field)
     }
 
-    /// The enumeration at this position.
+    /// Returns the enumeration at this position.
     pub fn enumeration(&self, position: u32) -> Option<&NamedType> {
-        let at = self.enumerations.binary_search_by_key(&position, |(own, _)| *own).ok()?;
-        self.enumerations.get(at).map(|(_, own)| own)
+        let at = self.enumerations.binary_search_by_key(&position, |(other, _)| *other).ok()?;
+        self.enumerations.get(at).map(|(_, named)| named)
     }
 
-    /// The names of enumerations, of bit fields, of views, and of states and commands.
+    /// Returns the names of enumerations, bit fields, views, states and commands.
     fn unique(&self, scope: &Scope<'_>, machines: &[StateMachine]) -> Vec<String> {
         let definition = |at: u32| &scope.types[at as usize];
         let enumerations = || self.enumerations.iter().map(|(at, _)| *at);
         let bit_fields = || self.bit_fields.iter().map(|(at, ..)| *at);
-        let alike = Alike::new(scope, enumerations().chain(bit_fields()).map(definition));
-        let wish = |at: u32, kind: &str| {
-            let own = definition(at);
-            let is_only = alike.by_name[own.name.as_str()] == 1;
-            let own = Wish { name: &own.name, fallback: format!("{kind} {at}"), suffix: alike.suffix(scope, own, at) };
-            match is_only && RESERVED.contains(&pascal(&own).as_str()) {
-                true => Wish { suffix: "Type".to_owned(), ..own },
-                false => own,
+        let name_counts = NameCounts::new(scope, enumerations().chain(bit_fields()).map(definition));
+        let name_request = |at: u32, kind: &str| {
+            let definition = definition(at);
+            let is_only = name_counts.by_name[definition.name.as_str()] == 1;
+            let fallback = format!("{kind} {at}");
+            let suffix = name_counts.suffix(scope, definition, at);
+            let request = NameRequest { name: &definition.name, fallback, suffix };
+            match is_only && RESERVED.contains(&pascal(&request).as_str()) {
+                true => NameRequest { suffix: "Type".to_owned(), ..request },
+                false => request,
             }
         };
         let of_views = |(at, _, views): &(u32, NamedType, Vec<View>)| -> Vec<(u32, usize, String)> {
@@ -113,48 +115,49 @@ impl<'a> TypeNames<'a> {
             views.iter().enumerate().map(name).collect()
         };
         let views: Vec<(u32, usize, String)> = self.bit_fields.iter().flat_map(of_views).collect();
-        let mut wishes: Vec<Wish<'_>> = enumerations().map(|at| wish(at, "enumeration")).collect();
-        wishes.extend(bit_fields().map(|at| wish(at, "bits")));
-        wishes.extend(views.iter().map(|(at, number, name)| Wish {
+        let mut name_requests: Vec<NameRequest<'_>> =
+            enumerations().map(|at| name_request(at, "enumeration")).collect();
+        name_requests.extend(bit_fields().map(|at| name_request(at, "bits")));
+        name_requests.extend(views.iter().map(|(at, number, name)| NameRequest {
             name,
             fallback: format!("view {at}"),
             suffix: format!("{at}_{number}"),
         }));
-        let others = names::unique(&wishes, &RESERVED, Case::Pascal);
-        let plain: HashSet<String> = wishes.iter().map(pascal).collect();
+        let others = names::unique(&name_requests, &RESERVED, Case::Pascal);
+        let plain: HashSet<String> = name_requests.iter().map(pascal).collect();
         let is_used = |name: &str| plain.contains(name) || others.iter().any(|other| other == name);
-        let machine_names = machines::wished(machines, &is_used);
-        let of_machine = |name| Wish { name, fallback: "machine".to_owned(), suffix: "Machine".to_owned() };
-        wishes.extend(machine_names.iter().flatten().map(|name| of_machine(name)));
-        names::unique(&wishes, &RESERVED, Case::Pascal)
+        let machine_names = machines::type_names(machines, &is_used);
+        let of_machine = |name| NameRequest { name, fallback: "machine".to_owned(), suffix: "Machine".to_owned() };
+        name_requests.extend(machine_names.iter().flatten().map(|name| of_machine(name)));
+        names::unique(&name_requests, &RESERVED, Case::Pascal)
     }
 }
 
-/// The name that a type would have if there were no others.
-fn pascal(wish: &Wish<'_>) -> String {
-    names::identifier(wish, Case::Pascal)
+/// Returns the name that a type would have if it were the only one.
+fn pascal(name_request: &NameRequest<'_>) -> String {
+    names::identifier(name_request, Case::Pascal)
 }
 
-/// How many types have a name, and a name and an integer below.
-struct Alike<'a> {
+/// Numbers of types that share a name, or a name and a base type.
+struct NameCounts<'a> {
     by_name: HashMap<&'a str, usize>,
     by_base: HashMap<(&'a str, Type), usize>,
 }
 
-impl<'a> Alike<'a> {
+impl<'a> NameCounts<'a> {
     fn new(scope: &Scope<'_>, types: impl Iterator<Item = &'a TypeDef>) -> Self {
-        let mut alike = Alike { by_name: HashMap::new(), by_base: HashMap::new() };
-        for own in types {
-            *alike.by_name.entry(&own.name).or_default() += 1;
-            *alike.by_base.entry((&own.name, below(scope, own))).or_default() += 1;
+        let mut counts = NameCounts { by_name: HashMap::new(), by_base: HashMap::new() };
+        for definition in types {
+            *counts.by_name.entry(&definition.name).or_default() += 1;
+            *counts.by_base.entry((&definition.name, base_type(scope, definition))).or_default() += 1;
         }
-        alike
+        counts
     }
 
-    /// How types with the same name differ: by their integer, or by their position if the integers are equal.
-    fn suffix(&self, scope: &Scope<'_>, own: &TypeDef, position: u32) -> String {
-        let base = below(scope, own);
-        let name = own.name.as_str();
+    /// Returns the suffix of a type with an ambiguous name: its base type if that is unique, otherwise its position.
+    fn suffix(&self, scope: &Scope<'_>, definition: &TypeDef, position: u32) -> String {
+        let base = base_type(scope, definition);
+        let name = definition.name.as_str();
         match self.by_name[name] > 1 && self.by_base[&(name, base)] == 1 {
             true => ValueType::of(base).word(),
             false => position.to_string(),
@@ -162,15 +165,15 @@ impl<'a> Alike<'a> {
     }
 }
 
-/// The integer below a type.
-fn below(scope: &Scope<'_>, own: &TypeDef) -> Type {
-    match &own.shape {
+/// Returns the base type of an enumeration or bit field.
+fn base_type(scope: &Scope<'_>, definition: &TypeDef) -> Type {
+    match &definition.shape {
         Shape::Enumeration { base, .. } | Shape::BitField { base, .. } => scope.base(*base),
         _ => Type::Opaque(None),
     }
 }
 
-/// The types that are used, as yet without names.
+/// Returns the types that are used, without names.
 fn used<'a>(scope: &Scope<'_>, handles: &HandleNames<'_>) -> TypeNames<'a> {
     let items = scope.groups.iter().flat_map(|group| &group.items).map(|item| item.ty);
     let entries = scope.pdos.iter().flat_map(|pdo| &pdo.entries).map(|entry| entry.ty);
@@ -203,7 +206,7 @@ fn used<'a>(scope: &Scope<'_>, handles: &HandleNames<'_>) -> TypeNames<'a> {
     TypeNames { enumerations, bit_fields, in_fields, machines: Vec::new() }
 }
 
-/// Whether any bit has a name. A fallback such as "Bit 3" is none.
+/// Returns whether any bit has a name. Fallback names such as "Bit 3" do not count.
 fn is_named(fields: &[BitFieldEntry]) -> bool {
     fields.iter().any(|field| match field.meaning {
         BitMeaning::Reserved { .. } => false,
@@ -212,26 +215,26 @@ fn is_named(fields: &[BitFieldEntry]) -> bool {
     })
 }
 
-/// The enumeration at this position; `None` where it has no value that its integer has.
+/// Returns the enumeration at this position; `None` if its integer type holds none of its values.
 fn enumeration(scope: &Scope<'_>, position: u32) -> Option<NamedType> {
     let Shape::Enumeration { base, values, .. } = &scope.types.get(position as usize)?.shape else { return None };
-    // A truth value with names for its values is a number of one bit.
+    // A Boolean with named values is a one-bit integer.
     let base = match scope.base(*base) {
         Type::Boolean => Type::Unsigned(1),
         other => other,
     };
     let (low, high) = base.integer_range()?;
     let has_value = values.iter().any(|value| value.last.is_none() && (low..=high).contains(&value.value));
-    NamedType::over(base).filter(|_| has_value)
+    NamedType::with_base(base).filter(|_| has_value)
 }
 
-/// The bit field at this position. Bits have no sign.
+/// Returns the bit field at this position. Bit fields are unsigned.
 fn bit_field(scope: &Scope<'_>, position: u32) -> Option<NamedType> {
     let Shape::BitField { base, .. } = &scope.types.get(position as usize)?.shape else { return None };
-    NamedType::over(Type::Unsigned(u8::try_from(scope.base(*base).bits()?).ok()?))
+    NamedType::with_base(Type::Unsigned(u8::try_from(scope.base(*base).bits()?).ok()?))
 }
 
-/// The conditions under which bits of the type at this position have a meaning.
+/// Returns the conditions under which bits of the type at this position apply.
 fn views(scope: &Scope<'_>, handles: &HandleNames<'_>, position: u32) -> Vec<View> {
     let Shape::BitField { fields, .. } = &scope.types[position as usize].shape else { return Vec::new() };
     let mut views: Vec<View> = Vec::new();
@@ -245,24 +248,24 @@ fn views(scope: &Scope<'_>, handles: &HandleNames<'_>, position: u32) -> Vec<Vie
     views
 }
 
-/// The names of the values of a condition; `None` where one has no name, or only some bits count.
+/// Returns the names of the values of a condition; `None` if a value has no name or the condition has a mask.
 pub(in crate::backend::rust) fn value_names(scope: &Scope<'_>, condition: &Condition) -> Option<Vec<String>> {
     let item = scope.referred(&condition.item);
     let definition = item.and_then(|item| scope.resolve(item.ty).1).map(|(_, definition)| definition);
     let named = |value: &Value| {
         let Shape::Enumeration { values, .. } = &definition?.shape else { return None };
         let number = value.as_int()?;
-        values.iter().find(|own| own.value == number && own.last.is_none()).map(|own| own.name.to_string())
+        values.iter().find(|entry| entry.value == number && entry.last.is_none()).map(|entry| entry.name.to_string())
     };
-    let of_condition = || {
+    let stated_names = || {
         let names: Vec<String> = condition.names.iter().map(ToString::to_string).collect();
         (!names.is_empty()).then_some(names)
     };
-    let of_item = condition.values.iter().map(named).collect::<Option<_>>();
-    of_item.or_else(of_condition).filter(|_| condition.mask.is_none())
+    let type_names = condition.values.iter().map(named).collect::<Option<_>>();
+    type_names.or_else(stated_names).filter(|_| condition.mask.is_none())
 }
 
-/// The words of a condition for a name.
+/// Returns the words of a condition, for a name.
 fn words(scope: &Scope<'_>, handles: &HandleNames<'_>, condition: &Condition) -> String {
     let item = condition.item.id.and_then(|id| handles.whole(id));
     let item = item.unwrap_or_else(|| condition.item.as_str().into());

@@ -1,4 +1,4 @@
-//! The type of a device: a method for each value, and for each request.
+//! The type of a device: one method for each value and each request.
 
 use super::objects::access;
 use crate::backend::rust::code::{call, generic, line, open, seq, Code};
@@ -17,7 +17,7 @@ pub(super) fn write(code: &mut Code, model: &Model) {
     methods(code, model);
 }
 
-/// What the type of a device is followed by where it knows which request was sent last.
+/// Returns the type parameter that follows the client if the type of the device tracks the last selecting request.
 pub(super) fn selected(model: &Model) -> &'static str {
     if model.selects() {
         ", S"
@@ -39,7 +39,7 @@ fn structure(code: &mut Code, model: &Model) {
     line!(code, "state: core::marker::PhantomData<S>,");
     code.close("}");
     open!(code, "impl<C> ", name, "<C> {");
-    code.doc("The device that `client` talks to.");
+    code.doc("Creates a driver that talks to the device through `client`.");
     open!(code, "pub const fn new(client: C) -> Self {");
     open!(code, "Self {");
     line!(code, "client,");
@@ -54,22 +54,22 @@ fn methods(code: &mut Code, model: &Model) {
     code.lines(&model.method_allow);
     open!(code, "impl<C", state, "> ", name, "<C", state, "> {");
     if !model.selects() {
-        code.doc("The device that `client` talks to.");
+        code.doc("Creates a driver that talks to the device through `client`.");
         open!(code, "pub const fn new(client: C) -> Self {");
         line!(code, "Self { client }");
         code.close("}");
     }
-    code.doc("The client.");
+    code.doc("Returns the client.");
     open!(code, "pub fn client(&mut self) -> &mut C {");
     line!(code, "&mut self.client");
     code.close("}");
-    code.doc("Gives the client back.");
+    code.doc("Consumes the driver and returns the client.");
     open!(code, "pub fn into_client(self) -> C {");
     line!(code, "self.client");
     code.close("}");
     if let Some(axes) = &model.axes {
         code.doc(&format!(
-            "Axis `number`{}, from 1. What the axes share is the same through each of them.",
+            "Returns the driver of axis `number`{}. The first axis is 1. Shared objects are the same on every axis.",
             axes.models
         ));
         let axis = generic!("rt::Axis", "&mut C");

@@ -25,23 +25,23 @@ fn methods(code: &mut Code, bits: &BitFieldModel) {
     code.lines(&bits.allow);
     open!(code, "impl ", bits.name, " {");
     code.doc(match bits.initial.as_str() {
-        "0" => "No bit set.",
-        _ => "No bit but reserved ones that have to be set.",
+        "0" => "Creates a value with all bits 0.",
+        _ => "Creates a value in which only reserved bits that must be 1 are set.",
     });
     open!(code, "pub const fn new() -> Self {");
     line!(code, "Self(", bits.initial, ")");
     code.close("}");
-    code.doc("All bits as a device sends them.");
+    code.doc("Creates the value from its raw bits.");
     open!(code, "pub const fn from_raw(raw: ", bits.native, ") -> Self {");
     line!(code, "Self(", bits.cut, ")");
     code.close("}");
-    code.doc("All bits as they are.");
+    code.doc("Returns the raw bits.");
     open!(code, "pub const fn raw(self) -> ", bits.native, " {");
     line!(code, "self.0");
     code.close("}");
     bits.fields.iter().for_each(|field| self::field(code, field));
     for view in &bits.views {
-        code.doc(&format!("The bits that have their meaning {}.", view.title));
+        code.doc(&format!("Returns the bits that apply {}.", view.title));
         open!(code, call!(seq!["pub const fn ", view.method], "self"), " -> ", view.name, " {");
         line!(code, view.name, "(self.0)");
         code.close("}");
@@ -54,7 +54,7 @@ fn field(code: &mut Code, field: &FieldModel) {
     open!(code, call!(seq!["pub const fn ", field.getter], "self"), " -> ", field.ty, " {");
     line!(code, field.get);
     code.close("}");
-    code.doc(&format!("The same with another {}.", field.title));
+    code.doc(&format!("Returns a copy with another {}.", field.title));
     line!(code, "#[must_use]");
     open!(code, call!(seq!["pub const fn ", field.setter], "self", seq!["value: ", field.ty]), " -> Self {");
     line!(code, field.set);
@@ -89,12 +89,12 @@ fn debug(code: &mut Code, name: &str, debug: &DebugModel) {
 }
 
 fn view(code: &mut Code, bits: &BitFieldModel, view: &ViewModel) {
-    code.doc(&format!("{} {}.", links::beside(&bits.name), view.title));
+    code.doc(&format!("View of {} with the bits that apply {}.", links::sibling(&bits.name), view.title));
     line!(code, "#[derive(Clone, Copy)]");
     line!(code, "pub struct ", view.name, "(", bits.native, ");");
     code.lines(&view.allow);
     open!(code, "impl ", view.name, " {");
-    code.doc("All bits.");
+    code.doc("Returns all bits.");
     open!(code, call!(seq!["pub const fn ", view.back], "self"), " -> ", bits.name, " {");
     line!(code, bits.name, "(self.0)");
     code.close("}");

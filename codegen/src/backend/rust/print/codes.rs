@@ -1,4 +1,4 @@
-//! Tables of codes.
+//! Code tables.
 
 use super::section;
 use crate::backend::rust::code::{line, open, Code};
@@ -9,7 +9,7 @@ use crate::backend::rust::reexport::Section;
 
 pub(super) fn write(code: &mut Code, model: &Model) {
     let tables = &model.code_tables;
-    let heading = "Tables of codes. `rt::codes::find` looks a code up.";
+    let heading = "Code tables. `rt::codes::find` looks up a code.";
     section::write(code, model, Section::Codes, heading, (!tables.is_empty()).then_some(true), |code| {
         tables.iter().for_each(|table| self::table(code, table));
     });
@@ -42,7 +42,7 @@ fn ty(code: &mut Code, table: &CodeTableModel, ty: &CodeTypeModel) {
             None => line!(code, variant.name, "(", ty.native, "),"),
         }
     }
-    code.doc("Any other number.");
+    code.doc("Any other code.");
     line!(code, "Unknown(", ty.native, "),");
     code.close("}");
     conversions(code, table, ty);

@@ -1,4 +1,4 @@
-//! The start of a device's module: who made the device, and what a master has to know of it.
+//! The start of a device's module: its identity, and what an EtherCAT master needs.
 
 use crate::backend::rust::code::{line, open, Code};
 use crate::backend::rust::ethercat::EtherCatModel;
@@ -10,10 +10,10 @@ pub(super) fn write(code: &mut Code, model: &Model) {
     code.use_runtime();
     line!(code, "const _: () = rt::interface::assert_version(", INTERFACE_VERSION, ");");
     if let Some(identity) = &model.identity {
-        self::identity(code, identity, &format!("Who made {}, and which device it is.", model.title));
+        self::identity(code, identity, &format!("Identity of {}: vendor, product and revision.", model.title));
     }
     if let Some(node_id) = model.node_id {
-        code.doc("The node-ID that the configuration file gives this device.");
+        code.doc("Node-ID of this device in the configuration file.");
         line!(code, "pub const NODE_ID: Option<rt::NodeId> = rt::NodeId::new(", node_id, ");");
     }
     for fact in &model.bus_facts {
@@ -21,21 +21,21 @@ pub(super) fn write(code: &mut Code, model: &Model) {
         line!(code, fact.code);
     }
     if let Some(module) = &model.module {
-        code.doc(&format!("What a master has to know of {}.", model.title));
+        code.doc(&format!("EtherCAT description of {}, for a master.", model.title));
         line!(code, "pub static MODULE: rt::ethercat::Module = ", module, ";");
     }
     if let Some(ethercat) = &model.ethercat {
         self::ethercat(code, ethercat, &model.title);
     }
     if let Some(axes) = &model.axes {
-        code.doc(&format!("The axes{}, and where their objects are.", axes.models));
+        code.doc(&format!("Axes{}, and the addresses of their objects.", axes.models));
         line!(code, "pub static AXES: rt::Axes = ", axes.constant, ";");
     }
 }
 
-/// `IDENTITY`, with its doc comment.
-pub(super) fn identity(code: &mut Code, identity: &IdentityModel, about: &str) {
-    code.doc(about);
+/// Writes the constant `IDENTITY` with its doc comment.
+pub(super) fn identity(code: &mut Code, identity: &IdentityModel, documentation: &str) {
+    code.doc(documentation);
     open!(code, "pub const IDENTITY: rt::Identity = rt::Identity {");
     line!(code, "vendor_id: ", identity.vendor_id, ",");
     line!(code, "product_code: ", identity.product_code, ",");
@@ -47,18 +47,18 @@ pub(super) fn identity(code: &mut Code, identity: &IdentityModel, about: &str) {
 }
 
 fn ethercat(code: &mut Code, ethercat: &EtherCatModel, title: &str) {
-    code.doc(&format!("What a master has to know of {title}."));
+    code.doc(&format!("EtherCAT description of {title}, for a master."));
     line!(code, "pub static DEVICE: rt::ethercat::Device = ", ethercat.device, ";");
     if let Some(fmmus) = &ethercat.fmmus {
-        code.doc("The FMMUs, in the order of the slave controller.");
+        code.doc("FMMUs, in the order of the slave controller.");
         line!(code, "pub const FMMUS: &[rt::ethercat::Fmmu] = ", fmmus, ";");
     }
     if let Some(modes) = &ethercat.clock_modes {
-        code.doc("The modes of the distributed clocks, the default one first.");
+        code.doc("Modes of the distributed clocks. The first one is the default.");
         line!(code, "pub const CLOCK_MODES: &[rt::ethercat::ClockMode] = ", modes, ";");
     }
     if let Some(startup) = &ethercat.startup {
-        code.doc("The writes that set up the PDOs by default, in Pre-Operational.");
+        code.doc("Writes that set up the default PDOs, for the state Pre-Operational.");
         line!(code, "pub const STARTUP: &[rt::SdoWrite] = ", startup, ";");
     }
     for (name, title, bytes) in &ethercat.bytes {

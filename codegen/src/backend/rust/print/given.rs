@@ -1,4 +1,4 @@
-//! What models of a device have of their own, and numbers that only whoever builds the machine knows.
+//! Properties of the machine that the device does not know, and differences between the models of a device.
 
 use crate::backend::rust::code::{call, line, open, seq, Code, Stop};
 use crate::backend::rust::device_models::DeviceModel;
@@ -8,7 +8,7 @@ pub(super) fn models(code: &mut Code, models: &[DeviceModel]) {
     if models.is_empty() {
         return;
     }
-    code.doc("What the models of the device have of their own: numbers, and items with their range and initial value.");
+    code.doc("Constants of the device's models, and items whose range or initial value differs between them.");
     open!(code, "pub mod models {");
     for model in models {
         code.docs(&model.docs);
@@ -27,26 +27,26 @@ pub(super) fn models(code: &mut Code, models: &[DeviceModel]) {
 }
 
 fn items(code: &mut Code, model: &DeviceModel) {
-    code.doc("Handles of items in whose values models differ.");
+    code.doc("Handles of items whose range or initial value differs between models.");
     open!(code, "pub mod objects {");
     code.use_runtime();
     line!(code, "use super::super::super::objects;");
     if model.names_types() {
         line!(code, "use super::super::super::types;");
     }
-    for own in &model.items {
-        code.doc(&own.docs);
-        let value = call!("rt::Item::of_model", seq!["objects::", own.name], own.range, own.initial);
-        line!(code, "pub const ", own.name, ": ", own.ty, " = ", Stop, value, ";");
+    for item in &model.items {
+        code.doc(&item.docs);
+        let value = call!("rt::Item::of_model", seq!["objects::", item.name], item.range, item.initial);
+        line!(code, "pub const ", item.name, ": ", item.ty, " = ", Stop, value, ";");
     }
     code.close("}");
 }
 
 pub(super) fn machine(code: &mut Code, given: Option<&GivenModel>) {
     let Some(given) = given else { return };
-    code.doc("What only whoever builds the machine knows, and units that depend on it.");
+    code.doc("Properties of the machine, and unit conversions that depend on them.");
     open!(code, "pub mod machine {");
-    code.doc("The numbers of a machine.");
+    code.doc("Properties of a machine that the device does not know.");
     code.lines(&given.derives);
     open!(code, "pub struct Machine {");
     for number in &given.numbers {
@@ -56,17 +56,19 @@ pub(super) fn machine(code: &mut Code, given: Option<&GivenModel>) {
     code.close("}");
     if !given.units.is_empty() {
         open!(code, "impl Machine {");
-        for UnitModel { to, back, symbols: [from, own] } in &given.units {
-            conversion(code, to, [own, from]);
-            conversion(code, back, [from, own]);
+        for UnitModel { to, back, symbols: [from, machine] } in &given.units {
+            conversion(code, to, [from, machine]);
+            conversion(code, back, [machine, from]);
         }
         code.close("}");
     }
     code.close("}");
 }
 
-fn conversion(code: &mut Code, [name, expression]: &[String; 2], [to, from]: [&str; 2]) {
-    code.doc(&format!("A value in {to}, from one in {from}."));
+/// Writes the function that converts a value between two units.
+fn conversion(code: &mut Code, function: &[String; 2], units: [&str; 2]) {
+    let ([name, expression], [from, to]) = (function, units);
+    code.doc(&format!("Converts a value from {from} to {to}."));
     open!(code, call!(seq!["pub fn ", name], "&self", "value: f64"), " -> f64 {");
     line!(code, expression);
     code.close("}");

@@ -1,16 +1,16 @@
-//! The process image by default.
+//! The default process image.
 
 use super::section;
 use crate::backend::rust::code::{call, generic, line, open, seq, Code, Doc, Stop};
-use crate::backend::rust::ethercat::ImageModel;
+use crate::backend::rust::ethercat::{ImageField, ImageModel};
 use crate::backend::rust::model::Model;
 use crate::backend::rust::reexport::Section;
 
-const ERROR: &str = "When `data` has fewer bytes than the image.";
+const ERROR: &str = "Fails if `data` has fewer bytes than the image.";
 
 pub(super) fn write(code: &mut Code, model: &Model) {
     let images = model.ethercat.as_ref().map_or(&[][..], |ethercat| &ethercat.images);
-    let heading = "The process image by default, sync manager by sync manager.";
+    let heading = "Default process image: one struct for each sync manager.";
     section::write(code, model, Section::Image, heading, (!images.is_empty()).then_some(true), |code| {
         images.iter().for_each(|image| self::image(code, image));
     });
@@ -35,7 +35,7 @@ fn structure(code: &mut Code, image: &ImageModel) {
     line!(code, "pub const SYNC_MANAGER: u8 = ", image.sync_manager, ";");
     code.doc("Length in bytes.");
     line!(code, "pub const LEN: usize = ", image.length, ";");
-    code.doc("The bytes of the image; padding is zero.");
+    code.doc("Returns the bytes of the image. Padding is 0.");
     line!(code, "#[inline]");
     open!(code, "pub fn pack(&self) -> [u8; ", image.length, "] {");
     line!(code, "let mut data = [0; ", image.length, "];");
@@ -50,7 +50,7 @@ fn structure(code: &mut Code, image: &ImageModel) {
 }
 
 fn unpack(code: &mut Code, image: &ImageModel) {
-    code.docs_with_error("The PDOs of an image. Bytes behind it are not looked at.", ERROR);
+    code.docs_with_error("Reads the PDOs of an image. Bytes after it are ignored.", ERROR);
     line!(code, "#[inline]");
     open!(code, "pub fn unpack(data: &[u8]) -> Result<Self, rt::LengthError> {");
     line!(code, "rt::bits::check_length(data, ", image.bits, ")?;");
@@ -58,7 +58,7 @@ fn unpack(code: &mut Code, image: &ImageModel) {
     for (left, field) in (0..image.fields.len()).rev().zip(&image.fields) {
         let bytes = call!(seq!["&rt::bits::get_bytes::<", field.length, ">"], "data", field.bit);
         let value = call!(seq!["super::pdo::", field.pdo, "::unpack"], bytes);
-        // The last comma may stand beyond the margin.
+        // The last comma may be beyond the margin.
         let end = (left == 0).then_some(Stop);
         line!(code, field.name, ": ", value, "?", end, ",");
     }
@@ -68,13 +68,13 @@ fn unpack(code: &mut Code, image: &ImageModel) {
 }
 
 fn view(code: &mut Code, image: &ImageModel) {
-    code.doc(&format!("{} Read and written where it stands.", image.title));
+    code.doc(&format!("{} Reads and writes the bytes in place.", image.title));
     open!(code, "pub struct ", image.view_name(), "<B> {");
     line!(code, "data: B,");
     code.close("}");
     code.lines(image.view_allow());
     open!(code, "impl<B: AsRef<[u8]>> ", image.view_name(), "<B> {");
-    code.docs_with_error("The image in `data`.", ERROR);
+    code.docs_with_error("Creates a view of the image in `data`.", ERROR);
     line!(code, "#[inline]");
     open!(code, "pub fn new(data: B) -> Result<Self, rt::LengthError> {");
     line!(code, "rt::bits::check_length(data.as_ref(), ", image.bits, ")?;");
@@ -82,26 +82,26 @@ fn view(code: &mut Code, image: &ImageModel) {
     code.close("}");
     for field in &image.fields {
         let method = call!(seq!["pub fn ", field.name], "&self");
-        pdo(code, [&field.docs, &field.pdo], (method, "&[u8]", "as_ref"), field.bit);
+        pdo(code, field, method, "&[u8]", "as_ref");
     }
     code.close("}");
     code.lines(image.view_mut_allow());
     open!(code, "impl<B: AsMut<[u8]>> ", image.view_name(), "<B> {");
     for field in &image.fields {
         let method = call!(seq!["pub fn ", field.name_mut], "&mut self");
-        pdo(code, [&field.docs, &field.pdo], (method, "&mut [u8]", "as_mut"), field.bit);
+        pdo(code, field, method, "&mut [u8]", "as_mut");
     }
     code.close("}");
 }
 
-/// The method that gives the view of a PDO: its signature, the bytes and how it gets at them.
-fn pdo(code: &mut Code, [docs, pdo]: [&str; 2], (method, bytes, borrow): (Doc, &str, &str), bit: u32) {
-    code.doc(docs);
+/// Writes the method that returns the view of a PDO. `bytes` is the type of the bytes, and `borrow` the method that borrows them.
+fn pdo(code: &mut Code, field: &ImageField, method: Doc, bytes: &str, borrow: &str) {
+    code.doc(&field.docs);
     line!(code, "#[inline]");
-    open!(code, method, " -> ", generic!(seq!["super::view::", pdo], bytes), " {");
-    open!(code, "super::view::", pdo, " {");
+    open!(code, method, " -> ", generic!(seq!["super::view::", field.pdo], bytes), " {");
+    open!(code, "super::view::", field.pdo, " {");
     line!(code, "data: self.data.", borrow, "(),");
-    line!(code, "bit: ", bit, ",");
+    line!(code, "bit: ", field.bit, ",");
     code.close("}");
     code.close("}");
 }

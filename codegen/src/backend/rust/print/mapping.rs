@@ -1,4 +1,4 @@
-//! What `lexibus::pdo!` looks up: PDOs that can be mapped anew, and what can be mapped into them.
+//! The modules that `lexibus::pdo!` looks up: PDOs with a changeable mapping, and items that can be mapped.
 
 use crate::backend::rust::code::{line, list, open, Code, Stop};
 use crate::backend::rust::model::Model;
@@ -8,7 +8,7 @@ pub(super) fn write(code: &mut Code, model: &Model) {
     if model.remappable.is_empty() {
         return;
     }
-    code.doc("PDOs whose mapping can be changed: `lexibus::pdo!` looks them up here.");
+    code.doc("PDOs with a mapping that can be changed. `lexibus::pdo!` looks them up here.");
     open!(code, "pub mod remappable {");
     code.use_runtime();
     model.remappable.iter().for_each(|remappable| self::remappable(code, remappable));
@@ -29,7 +29,9 @@ fn remappable(code: &mut Code, remappable: &RemappableModel) {
 }
 
 fn mappable(code: &mut Code, model: &Model) {
-    code.doc("What can be mapped into PDOs, by the names of the accessors: `lexibus::pdo!` looks it up here.");
+    code.doc(
+        "Items that can be mapped into PDOs, by the names of their accessors. `lexibus::pdo!` looks them up here.",
+    );
     line!(code, "#[allow(missing_docs, non_camel_case_types)]");
     open!(code, "pub mod mappable {");
     code.use_runtime();

@@ -29,11 +29,11 @@ pub(super) fn write(code: &mut Code, model: &Model) {
         code.close("};");
     }
     for message in &protocol.messages {
-        if let Some(own) = &message.request {
-            request(code, model, message, own);
+        if let Some(data) = &message.request {
+            request(code, model, message, data);
         }
-        if let Some(own) = &message.reply {
-            reply(code, own);
+        if let Some(data) = &message.reply {
+            reply(code, data);
         }
     }
     if !protocol.requests.is_empty() {
@@ -47,16 +47,16 @@ fn constants(code: &mut Code, protocol: &ProtocolModel) {
         code.docs(&protocol.framing_docs);
         line!(code, "pub const FRAMING: rt::framing::Delimited = ", framing, ";");
     }
-    code.doc("The greatest length of the data of a message, in bytes.");
+    code.doc("Maximum length of the data of a message in bytes.");
     line!(code, "pub const MAX_DATA: usize = ", protocol.max_data, ";");
     code.doc(match protocol.has_station {
-        true => "The messages that carry parameters, and the number of the device.",
-        false => "The messages that carry parameters.",
+        true => "Messages that read and write parameters, and the station number of the device.",
+        false => "Messages that read and write parameters.",
     });
     code.lines(&protocol.derives);
     if protocol.has_station {
         open!(code, "pub struct Protocol {");
-        code.doc("The number of the device.");
+        code.doc("Station number of the device.");
         line!(code, "pub station: u32,");
         code.close("}");
     } else {
@@ -69,7 +69,7 @@ fn constants(code: &mut Code, protocol: &ProtocolModel) {
     code.close("}");
 }
 
-/// A function whose parameters have a line each.
+/// Writes the start of a function that has one line for each parameter.
 fn function(code: &mut Code, start: &str, parameters: &[&str], result: &str) {
     open!(code, start, "(");
     for parameter in parameters {
@@ -80,19 +80,19 @@ fn function(code: &mut Code, start: &str, parameters: &[&str], result: &str) {
 
 const WRITTEN: &str = "Result<usize, rt::message::WriteError>";
 
-fn parameters(code: &mut Code, own: &ParametersModel, has_station: bool) {
+fn parameters(code: &mut Code, model: &ParametersModel, has_station: bool) {
     open!(code, "impl rt::ParameterMessages for Protocol {");
     let given = ["&self", "parameter: rt::Parameter", "_: usize", "request: &mut [u8]"];
     function(code, "fn read_request", &given, WRITTEN);
     line!(code, "let mut to = rt::message::Writer::new(request);");
-    sent(code, &own.read, has_station, "parameter", |arm| format!("{}.length(parameter).is_some()", arm.rule));
+    sent(code, &model.read, has_station, "parameter", |arm| format!("{}.length(parameter).is_some()", arm.rule));
 
     let given = ["&self", "parameter: rt::Parameter", "request: &[u8]", "reply: &[u8]", "value: &mut [u8]"];
     function(code, "fn read_reply<E>", &given, "Result<usize, rt::Error<E>>");
-    if own.read.is_empty() {
+    if model.read.is_empty() {
         line!(code, "let _ = (parameter, request, reply, value);");
     }
-    for arm in &own.read {
+    for arm in &model.read {
         open!(code, "if ", arm.rule, ".length(parameter).is_some() {");
         line!(code, "let reply = ", received(arm), "?;");
         line!(code, "return ", arm.value, ";");
@@ -106,14 +106,14 @@ fn parameters(code: &mut Code, own: &ParametersModel, has_station: bool) {
     line!(code, "let setting = ", call!("rt::message::Setting::of", "parameter", "value"), ";");
     line!(code, "let settings = [setting.ok_or(rt::message::WriteError::NoMessage)?];");
     line!(code, "let mut to = rt::message::Writer::new(request);");
-    sent(code, &own.write, has_station, "settings", |arm| format!("{}.takes(&settings[0])?", arm.rule));
+    sent(code, &model.write, has_station, "settings", |arm| format!("{}.takes(&settings[0])?", arm.rule));
 
     let given = ["&self", "parameter: rt::Parameter", "request: &[u8]", "reply: &[u8]"];
     function(code, "fn write_reply<E>", &given, "Result<(), rt::Error<E>>");
-    if own.write.is_empty() {
+    if model.write.is_empty() {
         line!(code, "let _ = (parameter, request, reply);");
     }
-    for arm in &own.write {
+    for arm in &model.write {
         open!(code, "if ", arm.rule, ".length(parameter).is_some() {");
         line!(code, "let _ = ", received(arm), "?;");
         line!(code, "return Ok(());");
@@ -124,7 +124,7 @@ fn parameters(code: &mut Code, own: &ParametersModel, has_station: bool) {
     code.close("}");
 }
 
-/// What writes the first message whose condition holds, and the end of the function.
+/// Writes the code that sends the first message whose condition holds, and the end of the function.
 fn sent(code: &mut Code, arms: &[Arm], has_station: bool, unused: &str, condition: impl Fn(&Arm) -> String) {
     if arms.is_empty() {
         line!(code, "let _ = (", unused, ", &mut to);");
@@ -145,18 +145,18 @@ fn received(arm: &Arm) -> Doc {
     call!(generic!("rt::message::read::", arm.message, "E"), "request", "reply")
 }
 
-/// The lifetime behind the name of what borrows from the data.
-fn lifetime(own: &DataModel) -> &'static str {
-    if own.borrows {
+/// Returns the lifetime argument of a type that borrows from the data.
+fn lifetime(data: &DataModel) -> &'static str {
+    if data.borrows {
         "<'a>"
     } else {
         ""
     }
 }
 
-fn request(code: &mut Code, model: &Model, message: &MessageModel, own: &DataModel) {
-    data(code, own);
-    let (name, lifetime) = (&own.name, lifetime(own));
+fn request(code: &mut Code, model: &Model, message: &MessageModel, data: &DataModel) {
+    self::data(code, data);
+    let (name, lifetime) = (&data.name, lifetime(data));
     open!(code, "impl", lifetime, " rt::message::Message for ", name, lifetime, " {");
     match &message.reply {
         Some(reply) => {
@@ -168,24 +168,33 @@ fn request(code: &mut Code, model: &Model, message: &MessageModel, own: &DataMod
     line!(code, "type Refusal = ", message.refusal, ";");
     line!(code, "const NAME: &'static str = ", message.title, ";");
     line!(code, "const COMPLETION: rt::message::Completion = ", message.completion, ";");
-    let station = if own.code.uses_station { "station" } else { "_" };
-    writes(code, &format!("{station}: u32"), &own.code);
+    let station = if data.code.uses_station { "station" } else { "_" };
+    writes(code, &format!("{station}: u32"), &data.code);
     code.close("}");
     open!(code, "impl<'a> rt::message::Request<'a> for ", name, lifetime, " {");
     open!(code, "fn parse(from: &mut rt::message::Reader<'a>) -> Option<(u32, Self)> {");
-    reads(code, &own.code);
-    line!(code, "Some((", if own.code.uses_station { "station" } else { "0" }, ", own))");
+    reads(code, &data.code);
+    line!(code, "Some((", if data.code.uses_station { "station" } else { "0" }, ", parsed))");
     code.close("}");
     code.close("}");
     if !message.outcomes.is_empty() {
         open!(code, "impl", lifetime, " ", name, lifetime, " {");
-        for own in &message.outcomes {
-            code.docs(&own.docs);
-            line!(code, "pub const ", own.name, ": rt::message::Outcomes<", own.states, "> = ", own.value, ";");
+        for outcomes in &message.outcomes {
+            code.docs(&outcomes.docs);
+            line!(
+                code,
+                "pub const ",
+                outcomes.name,
+                ": rt::message::Outcomes<",
+                outcomes.states,
+                "> = ",
+                outcomes.value,
+                ";"
+            );
         }
         code.close("}");
     }
-    if message.is_selector && model.protocol.as_ref().is_some_and(|own| !own.calls.is_empty()) {
+    if message.is_selector && model.protocol.as_ref().is_some_and(|protocol| !protocol.calls.is_empty()) {
         selector(code, name, &model.device_name);
     }
 }
@@ -202,12 +211,12 @@ fn selector(code: &mut Code, name: &str, device: &str) {
     code.close("}");
 }
 
-fn reply(code: &mut Code, own: &DataModel) {
-    data(code, own);
-    let (name, lifetime) = (&own.name, lifetime(own));
-    if let Some(is_complete) = &own.is_complete {
+fn reply(code: &mut Code, data: &DataModel) {
+    self::data(code, data);
+    let (name, lifetime) = (&data.name, lifetime(data));
+    if let Some(is_complete) = &data.is_complete {
         open!(code, "impl", lifetime, " ", name, lifetime, " {");
-        code.doc("Whether the order is carried out.");
+        code.doc("Returns whether the command is completed.");
         open!(code, "pub const fn is_complete(&self) -> bool {");
         line!(code, is_complete);
         code.close("}");
@@ -216,49 +225,51 @@ fn reply(code: &mut Code, own: &DataModel) {
     open!(code, "impl<'a> rt::message::Reply<'a> for ", name, lifetime, " {");
     let request = |is_used: bool| format!("{}: &[u8]", if is_used { "request" } else { "_" });
     let from = "from: &mut rt::message::Reader<'a>";
-    open!(code, call!("fn read", request(own.code.reads_request), from), " -> Option<Self> {");
-    reads(code, &own.code);
-    line!(code, "Some(own)");
+    open!(code, call!("fn read", request(data.code.reads_request), from), " -> Option<Self> {");
+    reads(code, &data.code);
+    line!(code, "Some(parsed)");
     code.close("}");
-    writes(code, &request(own.code.writes_request), &own.code);
+    writes(code, &request(data.code.writes_request), &data.code);
     code.close("}");
 }
 
-/// The function that writes the data; `given` is the parameter beside `self` and the writer.
-fn writes(code: &mut Code, given: &str, own: &Statements) {
-    let to = if own.write.is_empty() { "_" } else { "to" };
+/// Writes the function that writes the data. `given` is the parameter in addition to `self` and the writer.
+fn writes(code: &mut Code, given: &str, statements: &Statements) {
+    let to = if statements.write.is_empty() { "_" } else { "to" };
     let to = format!("{to}: &mut rt::message::Writer<'_>");
     function(code, "fn write", &["&self", given, &to], "Result<(), rt::message::WriteError>");
-    code.lines(&own.write);
+    code.lines(&statements.write);
     line!(code, "Ok(())");
     code.close("}");
 }
 
-/// The statements that read the data, and the struct that is made of it.
-fn reads(code: &mut Code, own: &Statements) {
-    code.lines(&own.read);
-    line!(code, "let own = ", Data::fields("Self", own.build.clone()), ";");
+/// Writes the statements that read the data and build the struct.
+fn reads(code: &mut Code, statements: &Statements) {
+    code.lines(&statements.read);
+    line!(code, "let parsed = ", Data::fields("Self", statements.build.clone()), ";");
 }
 
 fn requests(code: &mut Code, protocol: &ProtocolModel) {
     let (lifetime, borrow) = if protocol.requests_borrow() { ("<'a>", "'a ") } else { ("", "") };
-    code.doc("A request, as a simulated device gets it.");
+    code.doc("A request that a simulated device receives.");
     code.lines(&protocol.request_derives);
     open!(code, "pub enum Request", lifetime, " {");
     for (name, borrows) in &protocol.requests {
-        code.doc(&format!("{}.", links::beside(name)));
+        code.doc(&format!("{}.", links::sibling(name)));
         line!(code, name, "(", name, if *borrows { "<'a>" } else { "" }, "),");
     }
     code.close("}");
     open!(code, "impl", lifetime, " Request", lifetime, " {");
-    code.doc("The number of the device that is meant, and the request; `None` where the data are none. Of requests that are alike, the");
-    code.doc("first is told.");
+    code.doc(
+        "Parses the data of a request. Returns the station number of the addressed device and the request, or `None`",
+    );
+    code.doc("if the data is not a request. If several requests have this form, the first one is returned.");
     open!(code, "pub fn parse(data: &", borrow, "[u8]) -> Option<(u32, Self)> {");
     line!(code, "let from = rt::message::Reader::new(data);");
     for (name, _) in &protocol.requests {
-        line!(code, "let own = rt::message::Request::parse(&mut from.clone());");
-        open!(code, "if let Some((station, own)) = own {");
-        line!(code, "return Some((station, Self::", name, "(own)));");
+        line!(code, "let parsed = rt::message::Request::parse(&mut from.clone());");
+        open!(code, "if let Some((station, request)) = parsed {");
+        line!(code, "return Some((station, Self::", name, "(request)));");
         code.close("}");
     }
     line!(code, "None");
@@ -266,20 +277,20 @@ fn requests(code: &mut Code, protocol: &ProtocolModel) {
     code.close("}");
 }
 
-fn data(code: &mut Code, own: &DataModel) {
-    if let Some(entry) = &own.entry {
+fn data(code: &mut Code, data: &DataModel) {
+    if let Some(entry) = &data.entry {
         self::entry(code, entry);
     }
-    code.docs(&own.docs);
-    code.lines(&own.derives);
-    if own.fields.is_empty() {
-        line!(code, "pub struct ", own.name, ";");
+    code.docs(&data.docs);
+    code.lines(&data.derives);
+    if data.fields.is_empty() {
+        line!(code, "pub struct ", data.name, ";");
     } else {
-        open!(code, "pub struct ", own.name, lifetime(own), " {");
-        fields(code, &own.fields);
+        open!(code, "pub struct ", data.name, lifetime(data), " {");
+        fields(code, &data.fields);
         code.close("}");
     }
-    scales(code, &own.name, if own.borrows { "<'_>" } else { "" }, &own.fields);
+    scales(code, &data.name, if data.borrows { "<'_>" } else { "" }, &data.fields);
 }
 
 fn fields(code: &mut Code, fields: &[Field]) {
@@ -288,84 +299,88 @@ fn fields(code: &mut Code, fields: &[Field]) {
     }
 }
 
-fn entry(code: &mut Code, own: &EntryModel) {
-    code.doc(&own.title);
-    code.lines(&own.derives);
-    open!(code, "pub struct ", own.name, " {");
-    fields(code, &own.fields);
+fn entry(code: &mut Code, entry: &EntryModel) {
+    code.doc(&entry.title);
+    code.lines(&entry.derives);
+    open!(code, "pub struct ", entry.name, " {");
+    fields(code, &entry.fields);
     code.close("}");
-    open!(code, "impl rt::message::Group for ", own.name, " {");
-    line!(code, "const LENGTH: usize = ", own.length, ";");
+    open!(code, "impl rt::message::Group for ", entry.name, " {");
+    line!(code, "const LENGTH: usize = ", entry.length, ";");
     let to = "to: &mut rt::message::Writer<'_>";
     open!(code, call!("fn write", "&self", to), " -> Result<(), rt::message::WriteError> {");
-    code.lines(&own.code.write);
+    code.lines(&entry.code.write);
     line!(code, "Ok(())");
     code.close("}");
     open!(code, "fn read(from: &mut rt::message::Reader<'_>) -> Option<Self> {");
-    reads(code, &own.code);
-    line!(code, "Some(own)");
+    reads(code, &entry.code);
+    line!(code, "Some(parsed)");
     code.close("}");
     code.close("}");
-    scales(code, &own.name, "", &own.fields);
+    scales(code, &entry.name, "", &entry.fields);
 }
 
 fn scales(code: &mut Code, name: &str, lifetime: &str, fields: &[Field]) {
-    let mut scales = fields.iter().filter_map(|own| Some((own, own.scale.as_ref()?))).peekable();
+    let mut scales = fields.iter().filter_map(|field| Some((field, field.scale.as_ref()?))).peekable();
     if scales.peek().is_none() {
         return;
     }
     open!(code, "impl ", name, lifetime, " {");
     for (field, (constant, ty)) in scales {
-        code.doc(&format!("The scale of `{}`.", field.name));
+        code.doc(&format!("Scale of `{}`.", field.name));
         let ty = generic!("rt::message::Scale", ty);
         line!(code, "pub const ", constant, ": ", ty, " = ", Stop, "rt::message::Scale::new();");
     }
     code.close("}");
 }
 
-/// The methods that send requests.
+/// Writes the methods that send requests.
 pub(super) fn methods(code: &mut Code, model: &Model) {
     let Some(protocol) = model.protocol.as_ref().filter(|protocol| !protocol.calls.is_empty()) else { return };
     let (name, state) = (&model.device_name, selected(model));
     open!(code, "impl<X> ", name, "<rt::Parameters<X, messages::Protocol, { messages::MAX_DATA }>> {");
-    let (about, parameters, own) = match protocol.has_station {
-        true => ("The device with this number, over", "exchange: X, station: u32", "messages::Protocol { station }"),
-        false => ("The device, over", "exchange: X", "messages::Protocol"),
+    let (about, parameters, protocol_value) = match protocol.has_station {
+        true => (
+            "Creates a driver for the device with this station number.",
+            "exchange: X, station: u32",
+            "messages::Protocol { station }",
+        ),
+        false => ("Creates a driver for the device.", "exchange: X", "messages::Protocol"),
     };
-    code.doc(&format!("{about} what exchanges the data of messages."));
+    code.doc(&format!("{about} `exchange` transfers the data of messages."));
     open!(code, "pub const fn on(", parameters, ") -> Self {");
-    line!(code, "Self::new(", call!("rt::Parameters::new", "exchange", own), ")");
+    line!(code, "Self::new(", call!("rt::Parameters::new", "exchange", protocol_value), ")");
     code.close("}");
     code.close("}");
-    let calls = |is_own: &dyn Fn(&&CallModel) -> bool, code: &mut Code| {
-        protocol.calls.iter().filter(is_own).for_each(|own| method(code, own));
+    let calls = |is_included: &dyn Fn(&&CallModel) -> bool, code: &mut Code| {
+        protocol.calls.iter().filter(is_included).for_each(|call| method(code, call));
     };
     if protocol.has_free() {
         open!(code, "impl<C", state, "> ", name, "<C", state, "> {");
-        calls(&|own| own.after.is_none() && !own.is_selector, code);
+        calls(&|call| call.after.is_none() && !call.is_selector, code);
         code.close("}");
     }
     if model.selects() {
-        code.doc("What decides the meaning of later requests. `select` sends it, and gives the device that has these.");
+        code.doc("Requests that decide the meaning of later ones. `select` sends the request and returns the driver with those.");
         open!(code, "impl<C> ", name, "<C> {");
-        calls(&|own| own.is_selector && own.after.is_none(), code);
+        calls(&|call| call.is_selector && call.after.is_none(), code);
         if let Some(default) = &protocol.by_default {
             after_power_on(code, name, &default.selector);
         }
         code.close("}");
     }
-    for own in &protocol.calls {
-        if let Some(after) = &own.after {
+    for call in &protocol.calls {
+        if let Some(after) = &call.after {
             open!(code, "impl<C> ", name, "<C, messages::", after, "> {");
-            method(code, own);
+            method(code, call);
             code.close("}");
         }
     }
 }
 
 fn after_power_on(code: &mut Code, name: &str, selector: &str) {
-    code.doc("The device as it is after power-on. As long as that is in use, no request can be sent that decides what others mean; that");
-    code.doc("none was sent before, only the program knows.");
+    code.doc("Returns the driver in its state after power-on. Use it only if no request that decides the meaning of others was");
+    code.doc("sent since power-on. No such request can be sent while the returned driver is in use.");
     let result = generic!(name, "&mut C", seq!["messages::", selector]);
     open!(code, call!("pub fn after_power_on", "&mut self"), " -> ", result, " {");
     open!(code, name, " {");
@@ -375,21 +390,21 @@ fn after_power_on(code: &mut Code, name: &str, selector: &str) {
     code.close("}");
 }
 
-fn method(code: &mut Code, own: &CallModel) {
-    code.docs(&own.docs);
-    if let Some(note) = &own.deprecated {
+fn method(code: &mut Code, call: &CallModel) {
+    code.docs(&call.docs);
+    if let Some(note) = &call.deprecated {
         line!(code, "#[deprecated(note = ", note, ")]");
     }
     let (generics, receiver, lifetime) =
-        if own.borrows { ("<'a>", "&'a mut self", "'a") } else { ("", "&mut self", "'_") };
-    let parameters = std::iter::once(Doc::from(receiver)).chain(own.arguments.iter().map(|argument| seq![argument]));
-    let function = list(&format!("pub fn {}{generics}(", own.method), parameters, ")");
-    open!(code, function, " -> ", generic!("rt::message::Call", lifetime, "C", own.ty), " {");
-    if own.arguments.is_empty() {
-        line!(code, call!("rt::message::Call::new", "&mut self.client", own.build));
+        if call.borrows { ("<'a>", "&'a mut self", "'a") } else { ("", "&mut self", "'_") };
+    let parameters = std::iter::once(Doc::from(receiver)).chain(call.arguments.iter().map(|argument| seq![argument]));
+    let function = list(&format!("pub fn {}{generics}(", call.method), parameters, ")");
+    open!(code, function, " -> ", generic!("rt::message::Call", lifetime, "C", call.ty), " {");
+    if call.arguments.is_empty() {
+        line!(code, call!("rt::message::Call::new", "&mut self.client", call.build));
     } else {
-        if own.build.text() != "message" {
-            line!(code, "let message = ", own.build, ";");
+        if call.build.text() != "message" {
+            line!(code, "let message = ", call.build, ";");
         }
         line!(code, call!("rt::message::Call::new", "&mut self.client", "message"));
     }

@@ -1,4 +1,4 @@
-//! The handles of objects and registers, and the windows through which some are found.
+//! Handles of objects and registers, and the windows through which some items are accessed.
 
 use super::section;
 use crate::backend::rust::code::{call, generic, line, list, open, seq, Code, Doc, Stop};
@@ -29,7 +29,7 @@ fn windows(code: &mut Code, windows: &[WindowModel]) {
     if windows.is_empty() {
         return;
     }
-    code.doc("Windows: what takes the number of a value, and what has the value then.");
+    code.doc("Windows: pairs of an item that selects a value by its number and an item that holds the value.");
     open!(code, "pub mod windows {");
     code.use_runtime();
     for window in windows {
@@ -43,7 +43,7 @@ fn windows(code: &mut Code, windows: &[WindowModel]) {
     code.close("}");
 }
 
-/// The types of locations that the runtime has no name for, and the functions that make those which several items have.
+/// Writes the location types that the runtime does not define, and the functions that create shared locations.
 fn locations(code: &mut Code, model: &Model) {
     for (name, docs, fields) in &model.locations {
         open!(code, "rt::location! {");
@@ -63,11 +63,11 @@ fn locations(code: &mut Code, model: &Model) {
 }
 
 fn handle_types(code: &mut Code, model: &Model) {
-    let [_, start, within] = model.handles;
+    let [_, noun] = model.handles;
     let parameter = seq!["L = ", model.location];
     let stop = Stop;
     for alias in &model.aliases {
-        code.doc(&format!("{start} {}.", alias.text));
+        code.doc(&format!("Handle of {noun} that is {}.", alias.text));
         let (parameters, location) = match model.has_locations {
             true => (generic!(alias.name, "V", parameter), "L"),
             false => (generic!(alias.name, "V"), model.location.as_str()),
@@ -78,7 +78,7 @@ fn handle_types(code: &mut Code, model: &Model) {
         line!(code, "type ", name, " = ", list(&format!("{access}<"), value, ">"), ";");
     }
     for alias in model.aliases.iter().filter(|_| model.has_accessors) {
-        code.doc(&format!("Access to {within} {}.", alias.text));
+        code.doc(&format!("Access to {noun} that is {}.", alias.text));
         let name = seq![alias.name, "Access"];
         let (parameters, location) = match model.has_locations {
             true => (generic!(name, "'c", "C", "V", parameter), "L"),
@@ -89,7 +89,7 @@ fn handle_types(code: &mut Code, model: &Model) {
     }
 }
 
-/// An object: the module of its values, or its only one.
+/// Writes an object: the module of its values, or its only value.
 pub(in crate::backend::rust) fn object(code: &mut Code, model: &Model, object: &ObjectModel) {
     if !object.is_module {
         return object.items.iter().for_each(|item| handle(code, item, ""));
@@ -103,7 +103,7 @@ pub(in crate::backend::rust) fn object(code: &mut Code, model: &Model, object: &
     if model.has_accessors {
         code.doc(&format!("Access to the entries of {}", object.heading));
         open!(code, "pub struct Accessors<'c, C> {");
-        // Methods of the device make it, those of other devices too if there are several.
+        // The constructor is in the methods of the device, or of any device of the file if there are several.
         let users = if model.is_one_of_several { "super::super::super" } else { "super::super" };
         line!(code, "pub(in ", users, ") client: &'c mut C,");
         code.close("}");
@@ -121,13 +121,13 @@ pub(in crate::backend::rust) fn object(code: &mut Code, model: &Model, object: &
     code.close("}");
 }
 
-/// The type of access to an item.
+/// Returns the type of access to an item.
 pub(super) fn access(outer: &str, access: &str, arguments: &[Doc]) -> Doc {
     let client = ["'_", "C"].map(Doc::from);
     list(&format!("{outer}{access}Access<"), client.iter().chain(arguments), ">")
 }
 
-/// The handle of an item; `outer` leads to where the types of handles stand.
+/// Writes the handle of an item. `outer` is the path to the module of the handle types.
 fn handle(code: &mut Code, item: &ItemModel, outer: &str) {
     code.docs(&item.docs);
     if item.real {

@@ -7,7 +7,7 @@ use crate::backend::rust::pdo::PdoModel;
 use crate::backend::rust::reexport::Section;
 
 pub(super) fn write(code: &mut Code, model: &Model) {
-    let heading = "Process data objects as they are mapped by default.";
+    let heading = "PDOs with their default mapping.";
     section::write(code, model, Section::Pdo, heading, (!model.pdos.is_empty()).then_some(true), |code| {
         model.pdos.iter().for_each(|pdo| self::pdo(code, pdo));
     });
@@ -27,7 +27,7 @@ pub(in crate::backend::rust) fn pdo(code: &mut Code, pdo: &PdoModel) {
     code.doc("Length in bytes.");
     line!(code, "pub const LEN: usize = ", pdo.length, ";");
     if let Some(cob_id) = &pdo.cob_id {
-        code.doc("The identifier by default (CiA 301 7.5.2.35).");
+        code.doc("Default COB-ID (CiA 301 7.5.2.35).");
         line!(code, "pub const COB_ID: rt::CobId = ", cob_id, ";");
     }
     pack(code, pdo);
@@ -51,7 +51,7 @@ pub(in crate::backend::rust) fn pdo(code: &mut Code, pdo: &PdoModel) {
 }
 
 fn pack(code: &mut Code, pdo: &PdoModel) {
-    code.doc("The bytes of a frame; padding is zero.");
+    code.doc("Returns the bytes of a frame. Padding is 0.");
     line!(code, "#[inline]");
     open!(code, "pub ", pdo.constant, "fn pack(&self) -> [u8; ", pdo.length, "] {");
     if pdo.word {
@@ -71,8 +71,8 @@ fn pack(code: &mut Code, pdo: &PdoModel) {
 }
 
 fn unpack(code: &mut Code, pdo: &PdoModel) {
-    let about = "The fields of a frame. Bytes behind the mapped ones are not looked at.";
-    code.docs_with_error(about, "When `data` has fewer bytes than the PDO.");
+    let about = "Reads the fields of a frame. Bytes after the mapped ones are ignored.";
+    code.docs_with_error(about, "Fails if `data` has fewer bytes than the PDO.");
     line!(code, "#[inline]");
     open!(code, "pub ", pdo.constant, "fn unpack(data: &[u8]) -> Result<Self, rt::LengthError> {");
     open!(code, "let Some(data) = data.first_chunk::<", pdo.length, ">() else {");
@@ -89,15 +89,13 @@ fn unpack(code: &mut Code, pdo: &PdoModel) {
 fn configuration(code: &mut Code, pdo: &PdoModel) {
     let count = pdo.configuration.len();
     if pdo.has_identifier {
-        code.doc("The writes that set the PDO up in the device with its default identifier, and switch it on.");
+        code.doc("Returns the writes that configure the PDO with its default COB-ID and enable it.");
         open!(code, "pub const fn configuration(node_id: rt::NodeId) -> [rt::SdoWrite; ", count, "] {");
         line!(code, "Self::configuration_as(Self::COB_ID.resolve(node_id))");
         code.close("}");
     }
-    code.doc(
-        "The writes that set the PDO up with the identifier `cob_id`: disable, clear, map, count, timing, enable. What",
-    );
-    code.doc("the device lets nobody write is left out.");
+    code.doc("Returns the writes that configure the PDO with `cob_id`: disable, clear, map, count, timing, enable.");
+    code.doc("Read-only communication parameters are left out.");
     open!(code, "pub const fn configuration_as(cob_id: u32) -> [rt::SdoWrite; ", count, "] {");
     open!(code, "[");
     for write in &pdo.configuration {
@@ -107,7 +105,7 @@ fn configuration(code: &mut Code, pdo: &PdoModel) {
     code.close("}");
 }
 
-/// The constant that proves that unpacking and packing give the same bits.
+/// Writes the constant that proves that unpacking and packing return the same bits.
 fn proof(code: &mut Code, pdo: &PdoModel) {
     open!(code, "const _: () = {");
     line!(code, "let word = ", pdo.covered, ";");

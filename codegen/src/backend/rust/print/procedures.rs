@@ -1,4 +1,4 @@
-//! Procedures that are nothing but writes.
+//! Procedures that consist only of writes.
 
 use crate::backend::rust::code::{line, list, open, Code};
 use crate::backend::rust::procedure::ProcedureModel;
@@ -7,13 +7,13 @@ pub(super) fn write(code: &mut Code, procedures: &[ProcedureModel]) {
     if procedures.is_empty() {
         return;
     }
-    code.doc("Sequences of writes, in their order. Each is sent with `SdoWrite::send`.");
+    code.doc("Sequences of writes. Send them in this order with `SdoWrite::send`.");
     open!(code, "pub mod procedures {");
     code.use_runtime();
-    for own in procedures {
-        code.docs(&own.docs);
-        let writes = list("[", &own.writes, "]");
-        line!(code, "pub const ", own.name, ": [rt::SdoWrite; ", own.writes.len(), "] = ", writes, ";");
+    for procedure in procedures {
+        code.docs(&procedure.docs);
+        let writes = list("[", &procedure.writes, "]");
+        line!(code, "pub const ", procedure.name, ": [rt::SdoWrite; ", procedure.writes.len(), "] = ", writes, ";");
     }
     code.close("}");
 }

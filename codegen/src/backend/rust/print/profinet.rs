@@ -9,7 +9,7 @@ use super::device::identity;
 use crate::backend::rust::code::{line, list, open, Code, Data, Doc};
 use crate::backend::rust::profinet::{DapModel, FieldModel, FileModel, ModuleModel, SubmoduleModel};
 
-/// All device access points of a file, and what can be plugged into them.
+/// Writes all device access points of a file, and the modules and submodules that can be plugged into them.
 pub(in crate::backend::rust) fn write(code: &mut Code, file: &FileModel<'_>) {
     for point in &file.access_points {
         if file.is_single {
@@ -27,7 +27,7 @@ pub(in crate::backend::rust) fn write(code: &mut Code, file: &FileModel<'_>) {
         });
     }
     if !file.submodules.is_empty() {
-        code.module("Submodules: their data and parameter records.", "submodules", |code| {
+        code.module("Submodules with their cyclic data and parameter records.", "submodules", |code| {
             file.submodules.iter().for_each(|submodule| self::submodule(code, submodule));
         });
     }
@@ -37,7 +37,7 @@ pub(in crate::backend::rust) fn write(code: &mut Code, file: &FileModel<'_>) {
         });
     }
     if !file.errors.is_empty() || !file.units.is_empty() {
-        code.module("Diagnosis: what error types and user structures mean.", "diagnosis", |code| {
+        code.module("Diagnosis: channel errors and user structures.", "diagnosis", |code| {
             diagnosis::write(code, file);
         });
     }
@@ -69,16 +69,15 @@ fn access_point(code: &mut Code, access_point: &DapModel<'_>) {
     code.close("},");
     line!(code, "max_record_size: ", access_point.max_record_size, ",");
     code.close("};");
-    let about =
-        "Who made the device, and which one it is: the product code is the number that PROFINET calls DeviceID.";
-    identity(code, &access_point.identity, about);
+    let documentation = "Identity of the device. The product code is the DeviceID of PROFINET.";
+    identity(code, &access_point.identity, documentation);
 }
 
 fn pluggable(code: &mut Code, module: &ModuleModel<'_>) {
     code.docs(&module.docs);
     open!(code, "pub mod ", module.name, " {");
     code.use_runtime();
-    code.doc("The module, as a plan names it.");
+    code.doc("Description of the module, for plans of slots.");
     open!(code, "pub static MODULE: rt::profinet::Module = rt::profinet::Module {");
     line!(code, "ident: ", hexadecimal(module.ident, 8), ",");
     line!(code, "name: ", module.title, ",");
@@ -95,7 +94,7 @@ fn submodule(code: &mut Code, submodule: &SubmoduleModel<'_>) {
     if submodule.uses_values {
         line!(code, "use super::super::values;");
     }
-    code.doc("The submodule, as modules and plans name it.");
+    code.doc("Description of the submodule, for modules and plans of slots.");
     open!(code, "pub static SUBMODULE: rt::profinet::Submodule = rt::profinet::Submodule {");
     line!(code, "ident: ", hexadecimal(submodule.ident, 8), ",");
     line!(code, "api: ", hexadecimal(submodule.api, 4), ",");
@@ -114,14 +113,14 @@ fn submodule(code: &mut Code, submodule: &SubmoduleModel<'_>) {
     code.close("}");
 }
 
-/// The fields of a struct.
+/// Writes the fields of a struct.
 fn fields(code: &mut Code, fields: &[FieldModel]) {
     for field in fields {
         code.field(&field.docs, field.attribute.as_ref(), &field.name, &field.ty);
     }
 }
 
-/// The literal of a struct with these fields.
+/// Returns the literal of a struct with these fields.
 fn literal(fields: Vec<(&str, Doc)>) -> Doc {
     if fields.is_empty() {
         return Doc::from("Self {}");

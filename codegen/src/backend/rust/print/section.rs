@@ -4,9 +4,11 @@ use crate::backend::rust::code::{line, Code, Data};
 use crate::backend::rust::model::Model;
 use crate::backend::rust::reexport::{Reexport, Section};
 
-/// A section of a device: the definitions of earlier devices, and those of its own. Nothing if there are none.
+/// Writes a section of a device: re-exports of earlier devices' definitions, and new definitions. Writes nothing if
+/// there are none.
 ///
-/// `names_runtime` is `None` if the device has none of its own, and tells whether their code names the runtime if it has some.
+/// `names_runtime` is `None` if the section has no new definitions. Otherwise it states whether their code names the
+/// runtime.
 pub(super) fn write(
     code: &mut Code,
     model: &Model,

@@ -6,7 +6,7 @@ use crate::backend::rust::table::EntryModel;
 
 pub(super) fn write(code: &mut Code, model: &Model) {
     let Some(table) = &model.table else { return };
-    code.doc("All items, by index and sub-index; registers that are no objects come first, by their addresses.");
+    code.doc("All items. Registers that are not objects come first, sorted by address. Objects follow, sorted by index and sub-index.");
     if let Some(feature) = &model.table_feature {
         line!(code, "#[cfg(feature = ", feature, ")]");
     }

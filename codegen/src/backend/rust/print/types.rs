@@ -10,8 +10,8 @@ use crate::backend::rust::reexport::Section;
 pub(super) fn write(code: &mut Code, model: &Model) {
     let types = &model.types;
     let heading = match types.has_bit_fields {
-        false => "Values that have names.",
-        true => "Values and bits that have names.",
+        false => "Named values.",
+        true => "Named values and bits.",
     };
     let names_runtime = (!types.is_empty()).then(|| types.names_runtime());
     section::write(code, model, Section::Types, heading, names_runtime, |code| {
@@ -37,7 +37,7 @@ pub(in crate::backend::rust) fn enumeration(code: &mut Code, enumeration: &Enume
     code.close("}");
     open!(code, "impl ", name, " {");
     from_raw(code, enumeration);
-    code.doc("The number of a value.");
+    code.doc("Returns the number of the value.");
     open!(code, "pub const fn raw(self) -> ", native, " {");
     open!(code, "match self {");
     for variant in &enumeration.variants {
@@ -62,8 +62,8 @@ pub(in crate::backend::rust) fn enumeration(code: &mut Code, enumeration: &Enume
 
 fn from_raw(code: &mut Code, enumeration: &EnumerationModel) {
     code.doc(match enumeration.complete {
-        Some(_) => "The value of a number; higher bits are ignored.",
-        None => "The value of a number.",
+        Some(_) => "Returns the value with this number. Higher bits are ignored.",
+        None => "Returns the value with this number.",
     });
     open!(code, "pub const fn from_raw(raw: ", enumeration.native, ") -> Self {");
     match &enumeration.complete {
@@ -92,7 +92,7 @@ pub(in crate::backend::rust) fn machine(code: &mut Code, machine: &MachineModel)
         let (states, commands) = (&states.name, &commands.name);
         open!(code, "impl ", states, " {");
         line!(code, "const TRANSITIONS: &'static [rt::Transition<", commands, ">] = ", transitions, ";");
-        code.doc("What takes the device one step from this state towards `target`.");
+        code.doc("Returns the next step from this state towards `target`.");
         let result = generic!("rt::Step", commands);
         open!(code, call!("pub fn toward", "self", "target: Self"), " -> ", result, " {");
         line!(code, call!("rt::Step::toward", "Self::TRANSITIONS", "self as u8", "target as u8"));
@@ -118,7 +118,7 @@ fn patterns(code: &mut Code, patterns: &PatternsModel) {
 fn states(code: &mut Code, patterns: &PatternsModel) {
     self::patterns(code, patterns);
     open!(code, "impl ", patterns.name, " {");
-    code.doc("The state that these bits tell; `None` where they tell none.");
+    code.doc("Returns the state with these bits; `None` if no state matches.");
     open!(code, "pub const fn from_raw(raw: ", patterns.native, ") -> Option<Self> {");
     for pattern in &patterns.patterns {
         let masked = if pattern.is_whole { seq![] } else { seq![" & ", pattern.mask] };
@@ -131,7 +131,7 @@ fn states(code: &mut Code, patterns: &PatternsModel) {
     code.close("}");
     if let Some((bits, method)) = &patterns.bits {
         open!(code, "impl ", bits, " {");
-        code.doc("The state; `None` where the bits tell none.");
+        code.doc("Returns the state; `None` if the bits match no state.");
         open!(code, call!(seq!["pub const fn ", method], "self"), " -> Option<", patterns.name, "> {");
         line!(code, patterns.name, "::from_raw(self.0)");
         code.close("}");
@@ -151,14 +151,14 @@ fn commands(code: &mut Code, patterns: &PatternsModel) {
         code.close("}");
     };
     open!(code, "impl ", patterns.name, " {");
-    code.doc("The bits that the command is made of.");
+    code.doc("Returns the mask of the bits that the command sets or clears.");
     arms(code, "mask", &|at| patterns.patterns[at].mask.clone());
-    code.doc("Those of them that are 1.");
+    code.doc("Returns the bits that the command sets.");
     arms(code, "value", &|at| patterns.patterns[at].value.clone());
     code.close("}");
     if let Some((bits, method)) = &patterns.bits {
         open!(code, "impl ", bits, " {");
-        code.doc("The same with the bits of a command.");
+        code.doc("Returns a copy with the bits of `command`.");
         line!(code, "#[must_use]");
         let command = seq!["command: ", patterns.name];
         open!(code, call!(seq!["pub const fn ", method], "self", command), " -> Self {");

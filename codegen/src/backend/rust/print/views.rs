@@ -6,19 +6,19 @@ use crate::backend::rust::model::Model;
 use crate::backend::rust::pdo::PdoModel;
 use crate::backend::rust::reexport::Section;
 
-const ERROR: &str = "When `data` ends before the PDO does.";
+const ERROR: &str = "Fails if `data` ends before the PDO.";
 
 pub(super) fn write(code: &mut Code, model: &Model) {
     if !model.has_views {
         return;
     }
-    let heading = "PDOs within a process image, read and written where they stand.";
+    let heading = "Views that read and write PDOs of a process image in place.";
     section::write(code, model, Section::View, heading, (!model.pdos.is_empty()).then_some(true), |code| {
         model.pdos.iter().for_each(|pdo| view(code, pdo, model.is_one_of_several));
     });
 }
 
-/// The view of a PDO. Images make views, those of other devices too if there are several.
+/// Writes the view of a PDO. Images of this device construct views, as do images of other devices in the file.
 pub(in crate::backend::rust) fn view(code: &mut Code, pdo: &PdoModel, is_one_of_several: bool) {
     let visibility = if is_one_of_several { "pub(in super::super)" } else { "pub(super)" };
     code.docs(&pdo.view_docs);
@@ -49,12 +49,12 @@ pub(in crate::backend::rust) fn view(code: &mut Code, pdo: &PdoModel, is_one_of_
 }
 
 fn constructors(code: &mut Code, pdo: &PdoModel) {
-    code.docs_with_error("The PDO at the start of `data`.", ERROR);
+    code.docs_with_error("Creates a view of the PDO at the start of `data`.", ERROR);
     line!(code, "#[inline]");
     open!(code, "pub fn new(data: B) -> Result<Self, rt::LengthError> {");
     line!(code, "Self::at(data, 0)");
     code.close("}");
-    code.docs_with_error("The PDO that starts at this bit of `data`.", ERROR);
+    code.docs_with_error("Creates a view of the PDO that starts at this bit of `data`.", ERROR);
     line!(code, "#[inline]");
     open!(code, "pub fn at(data: B, bit: usize) -> Result<Self, rt::LengthError> {");
     line!(code, "rt::bits::check_length(data.as_ref(), bit.saturating_add(", pdo.bits, "))?;");

@@ -1,4 +1,4 @@
-//! Modules, submodules and device access points as constant data.
+//! Modules, submodules and device access points as constants.
 
 use super::docs;
 use super::f_record::{self, FRecordModel};
@@ -11,7 +11,7 @@ use crate::backend::rust::doc_table;
 use crate::backend::rust::identity::IdentityModel;
 use crate::ir::{Direction, IoData, Module, ModuleUse, Numbers, Places, Submodule, SubmoduleUse};
 
-/// A submodule, ready to be written.
+/// A submodule, ready to be printed.
 pub(in crate::backend::rust) struct SubmoduleModel<'a> {
     pub name: &'a str,
     pub docs: Vec<String>,
@@ -25,7 +25,7 @@ pub(in crate::backend::rust) struct SubmoduleModel<'a> {
     pub images: Vec<ImageModel>,
     pub records: Vec<RecordModel>,
     pub f_record: Option<FRecordModel>,
-    /// Elements of the list of records, in the order of transfer.
+    /// Elements of the list of records, sorted by transfer sequence.
     pub record_list: Vec<Doc>,
     /// Whether a field is an enumeration.
     pub uses_values: bool,
@@ -75,7 +75,7 @@ fn submodule_docs(
     });
     let too_long = too_long.count();
     if too_long > 0 {
-        let text = format!("{too_long} records without bytes, or of more than 65,535, are left out.");
+        let text = format!("{too_long} records with no bytes, or more than 65,535, are left out.");
         lines.extend([String::new(), text]);
     }
     let images = images.iter().map(|image| (image.name, image.length));
@@ -90,32 +90,32 @@ fn submodule_docs(
     lines
 }
 
-/// Length of the data, an F message trailer included.
+/// Returns the length of the data, including an F message trailer.
 fn length(data: Option<&IoData>) -> String {
     let Some(data) = data else { return "None".to_owned() };
     let length = u64::from(data.image.length) + u64::from(data.image.overhead);
     format!("Some({})", length.min(u64::from(u16::MAX)))
 }
 
-/// By their transfer sequence; 0 leaves the order open, and comes last.
+/// Returns the records, sorted by transfer sequence. Records with sequence 0 have no fixed order and come last.
 fn record_list(records: &[RecordModel], f_record: Option<&FRecordModel>) -> Vec<Doc> {
     let element = |index: u16, sequence: u16, title: &str, data: &str| {
         let index = format!("0x{index:04X}");
         let call = call!("rt::profinet::Record::new", index, sequence, title, seq!["&", data]);
         (if sequence == 0 { u16::MAX } else { sequence }, call)
     };
-    let own = records.iter().map(|record| {
+    let parameters = records.iter().map(|record| {
         let data = format!("{}::DEFAULT_BYTES", record.name);
         element(record.index, record.transfer_sequence, &record.title, &data)
     });
     let safe = f_record
         .map(|record| element(record.index, record.transfer_sequence, "\"F-parameters\"", "F_PARAMETERS_DEFAULT"));
-    let mut list: Vec<(u16, Doc)> = safe.into_iter().chain(own).collect();
+    let mut list: Vec<(u16, Doc)> = safe.into_iter().chain(parameters).collect();
     list.sort_by_key(|(sequence, _)| *sequence);
     list.into_iter().map(|(_, call)| call).collect()
 }
 
-/// A module, ready to be written.
+/// A module, ready to be printed.
 pub(in crate::backend::rust) struct ModuleModel<'a> {
     pub name: &'a str,
     pub docs: Vec<String>,
@@ -139,11 +139,11 @@ pub(super) fn module<'s>(scope: &'s Scope<'_>, module: &'s Module, name: &'s str
     }
 }
 
-/// A device access point, ready to be written.
+/// A device access point, ready to be printed.
 pub(in crate::backend::rust) struct DapModel<'a> {
     pub name: &'a str,
     pub docs: Vec<String>,
-    /// What the comments call it.
+    /// Heading of the device access point in comments.
     pub heading: String,
     pub vendor_id: u16,
     pub device_id: u16,
@@ -211,9 +211,9 @@ fn list_submodules(scope: &Scope<'_>, uses: &[SubmoduleUse], docs: &mut Vec<Stri
 fn submodule_uses(scope: &Scope<'_>, uses: &[SubmoduleUse], outer: &str) -> Vec<Doc> {
     let element = |usage: &SubmoduleUse| {
         let (_, name) = scope.submodules.get(&usage.submodule.0)?;
-        let place = places(&usage.places);
+        let subslots = places(&usage.places);
         let path = format!("&{outer}submodules::{name}::SUBMODULE");
-        Some(call!("rt::profinet::SubmoduleUse::new", path, place))
+        Some(call!("rt::profinet::SubmoduleUse::new", path, subslots))
     };
     uses.iter().filter_map(element).collect()
 }
@@ -221,9 +221,9 @@ fn submodule_uses(scope: &Scope<'_>, uses: &[SubmoduleUse], outer: &str) -> Vec<
 fn module_uses(scope: &Scope<'_>, uses: &[ModuleUse], outer: &str) -> Vec<Doc> {
     let element = |usage: &ModuleUse| {
         let (_, name) = scope.modules.get(&usage.module.0)?;
-        let place = places(&usage.places);
+        let slots = places(&usage.places);
         let path = format!("&{outer}modules::{name}::MODULE");
-        Some(call!("rt::profinet::ModuleUse::new", path, place))
+        Some(call!("rt::profinet::ModuleUse::new", path, slots))
     };
     uses.iter().filter_map(element).collect()
 }
@@ -234,14 +234,14 @@ fn places(places: &Places) -> Doc {
         (true, false, true) => call!("rt::profinet::Places::fixed", slice(numbers(fixed))),
         (false, true, true) => call!("rt::profinet::Places::allowed", slice(numbers(allowed))),
         _ => {
-            let [allowed, fixed, used] = [allowed, fixed, used].map(|own| slice(numbers(own)));
+            let [allowed, fixed, used] = [allowed, fixed, used].map(|list| slice(numbers(list)));
             call!("rt::profinet::Places::new", allowed, fixed, used)
         }
     }
 }
 
 fn numbers(numbers: &Numbers) -> Vec<String> {
-    // Subslots of interfaces and ports are known by their hexadecimal numbers.
+    // Subslots of interfaces and ports are written in hexadecimal by convention.
     let number = |number: u16| if number < 0x8000 { number.to_string() } else { format!("0x{number:04X}") };
     let range = |&(first, last): &(u16, u16)| format!("({}, {})", number(first), number(last));
     numbers.0.iter().map(range).collect()

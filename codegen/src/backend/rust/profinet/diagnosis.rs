@@ -10,18 +10,18 @@ use super::values::Values;
 use super::RustOptions;
 use crate::backend::rust::code::{call, slice, Doc};
 use crate::ir::{Catalog, CodeRow, Type, UnitDiagnosis, UnitDiagnosisField};
-use crate::names::{self, Case, Wish};
+use crate::names::{self, Case, NameRequest};
 
-/// The table of errors in the IR.
+/// Name of the table of channel errors in the IR.
 const ERRORS: &str = "channel_diagnosis";
 
-/// The table of extended errors; their first cell is the error type that they belong to.
+/// Name of the table of extended channel errors. Their first cell is the error type that they extend.
 const EXTENDED: &str = "extended_channel_diagnosis";
 
-/// What an error is known by: the application process whose profile defines it, and its type.
+/// Key of an error: the application process (API) whose profile defines it, and the error type.
 type Key = (u32, u16);
 
-/// The errors of channels that the source names, as elements of a table: each once.
+/// Returns the channel errors that the description names, as elements of a table. Each error is listed once.
 pub(super) fn channel_errors(catalog: &Catalog) -> Vec<Doc> {
     let rows = |name: &'static str| {
         catalog.code_tables.iter().filter(move |table| table.name == name).flat_map(|table| &table.rows)
@@ -38,7 +38,7 @@ pub(super) fn channel_errors(catalog: &Catalog) -> Vec<Doc> {
             errors.entry((api, parent)).or_default().1.entry(code).or_insert(row);
         }
     }
-    // A profile may say more of an error that all know by the same name.
+    // The extended errors of a profile may belong to an error that only the standard API names.
     let of_all = |code: u16| errors.get(&(0, code)).and_then(|(row, _)| *row);
     errors.iter().map(|(key, (row, extended))| error(*key, row.or(of_all(key.1)), extended)).collect()
 }
@@ -47,7 +47,8 @@ fn number(row: &CodeRow, cell: usize) -> Option<u32> {
     u32::try_from(row.cells.get(cell)?.as_int()?).ok()
 }
 
-fn error((api, code): Key, row: Option<&CodeRow>, extended: &BTreeMap<u16, &CodeRow>) -> Doc {
+fn error(key: Key, row: Option<&CodeRow>, extended: &BTreeMap<u16, &CodeRow>) -> Doc {
+    let (api, code) = key;
     let (name, help) = row.map_or(("\"\"".to_owned(), "\"\"".to_owned()), texts);
     let extended = slice(extended.iter().map(|(code, row)| {
         let (name, help) = texts(row);
@@ -68,7 +69,7 @@ fn texts(row: &CodeRow) -> (String, String) {
     (literal::string(&row.name), literal::string(help))
 }
 
-/// A user structure, ready to be written.
+/// A user structure, ready to be printed.
 pub(in crate::backend::rust) struct UnitModel {
     pub name: String,
     pub docs: Vec<String>,
@@ -79,17 +80,19 @@ pub(in crate::backend::rust) struct UnitModel {
     pub fields: Vec<FieldModel>,
 }
 
-/// User structures that have fields.
+/// Returns the user structures that have fields.
 pub(super) fn units(catalog: &Catalog, values: &Values<'_>, options: &RustOptions) -> Vec<UnitModel> {
     let units: Vec<&UnitDiagnosis> = catalog.unit_diagnoses.iter().filter(|unit| length(unit).is_some()).collect();
-    let wishes: Vec<Wish<'_>> =
-        units.iter().map(|unit| Wish::new(&unit.name, "structure", format!("{:04X}", unit.identifier))).collect();
-    let names = names::unique_up_to(&wishes, &[], Case::Pascal, 40);
+    let name_requests: Vec<NameRequest<'_>> = units
+        .iter()
+        .map(|unit| NameRequest::new(&unit.name, "structure", format!("{:04X}", unit.identifier)))
+        .collect();
+    let names = names::unique_up_to(&name_requests, &[], Case::Pascal, 40);
     let models = units.iter().zip(names).map(|(unit, name)| unit_model(unit, name, values, options));
     models.filter(|model| !model.fields.is_empty()).collect()
 }
 
-/// The bytes up to the end of the last field.
+/// Returns the number of bytes up to the end of the last field.
 fn length(unit: &UnitDiagnosis) -> Option<u32> {
     let ends = unit.fields.iter().map(|field| u64::from(field.bit_offset) + u64::from(field.bits));
     let length = u32::try_from(ends.max()?.div_ceil(8)).ok()?;
@@ -106,8 +109,9 @@ fn unit_model(unit: &UnitDiagnosis, name: String, values: &Values<'_>, options: 
             Some((field, Field::new(values, ty, (field.bit_offset, field.bits), length, Use::Record)?))
         })
         .collect();
-    let wishes: Vec<Wish<'_>> = found.iter().map(|(entry, field)| image::wish(&entry.name, field)).collect();
-    let names = names::unique_up_to(&wishes, &["self", "super", "crate"], Case::Snake, 30);
+    let name_requests: Vec<NameRequest<'_>> =
+        found.iter().map(|(entry, field)| image::name_request(&entry.name, field)).collect();
+    let names = names::unique_up_to(&name_requests, &["self", "super", "crate"], Case::Snake, 30);
     let field = |((entry, field), name): (&(&_, Field<'_>), String)| {
         let entry: &UnitDiagnosisField = entry;
         let facts = field.facts(values.types, entry.ty);

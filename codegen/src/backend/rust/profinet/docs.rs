@@ -1,16 +1,16 @@
-//! Doc comments of PROFINET bindings.
+//! Documentation of PROFINET bindings.
 
 pub(super) use super::super::docs::sentence;
 
 use super::super::docs;
 use crate::ir::{Documentation, Value};
 
-/// Text as one line of Markdown without any markup; empty where nothing of it can be shown.
+/// Returns text as one line of Markdown without markup; empty if no character can be shown.
 pub(super) fn escape(text: &str) -> String {
     docs::escape(text).trim().to_owned()
 }
 
-/// What the source says of `name` in words, a paragraph a line. Many sources only repeat the name.
+/// Adds the documentation of `name` to `lines`, one paragraph per line. A text that only repeats the name is omitted.
 pub(super) fn paragraphs(name: &str, documentation: Option<&Documentation>, lines: &mut Vec<String>) {
     let Some(documentation) = documentation.filter(|documentation| documentation.text.trim() != name.trim()) else {
         return;
@@ -21,7 +21,7 @@ pub(super) fn paragraphs(name: &str, documentation: Option<&Documentation>, line
     }
 }
 
-/// `title` with `facts` behind it, as one sentence.
+/// Returns `title` followed by `facts`, as one sentence.
 pub(super) fn titled(title: &str, facts: &str) -> String {
     let title = escape(title);
     match title.trim_end_matches(['.', ':']) {
@@ -30,12 +30,12 @@ pub(super) fn titled(title: &str, facts: &str) -> String {
     }
 }
 
-/// `1 byte`, `2 bytes`.
+/// Returns a number of bytes in words: `1 byte`, `2 bytes`.
 pub(super) fn bytes(count: u32) -> String {
     format!("{count} byte{}", if count == 1 { "" } else { "s" })
 }
 
-/// A value as text.
+/// Returns a value as text.
 pub(super) fn value(value: &Value) -> String {
     const SHOWN: usize = 60;
     let text = value.to_string();

@@ -3,18 +3,18 @@
 use crate::backend::rust::code::{call, seq, slice, Doc};
 use crate::ir::{FParameter, FParameters};
 
-/// The record, ready to be written.
+/// The record, ready to be printed.
 pub(in crate::backend::rust) struct FRecordModel {
     pub index: u16,
     pub transfer_sequence: u16,
     pub length: u32,
     pub docs: Vec<String>,
-    /// Each parameter of the runtime's type with its default.
+    /// Fields of the runtime's type, each with its default.
     pub defaults: Vec<(&'static str, String)>,
     pub limits: Vec<Doc>,
 }
 
-/// A parameter: its name in GSDML, the field of the runtime's struct, and the variant of its `FField`.
+/// Parameters: the name in GSDML, the field of the runtime's struct, and the variant of its `FField`.
 const PARAMETERS: [(&str, &str, &str); 12] = [
     ("F_Check_iPar", "check_i_par", "CheckIPar"),
     ("F_SIL", "sil", "Sil"),
@@ -30,8 +30,8 @@ const PARAMETERS: [(&str, &str, &str); 12] = [
     ("F_iPar_CRC", "i_par_crc", "IParCrc"),
 ];
 
-/// Labels by their number in the record. The only seed that GSDML knows stands for a clear bit: the checksums that
-/// vendors give for their defaults say so.
+/// Labels of values in GSDML, with their numbers in the record. The only label for the seed means a cleared bit. The
+/// checksums that vendors calculate for their defaults confirm this.
 const LABELS: [(&str, u32); 12] = [
     ("NoCheck", 0),
     ("Check", 1),
@@ -71,7 +71,7 @@ fn label(text: &str) -> Option<u32> {
     LABELS.iter().find(|(label, _)| *label == text).map(|(_, number)| *number)
 }
 
-/// The default as it stands in the record.
+/// Returns the default value as it is encoded in the record.
 fn number(parameter: &FParameter) -> u32 {
     label(&parameter.label).unwrap_or_else(|| u32::try_from(parameter.default).unwrap_or(0))
 }
@@ -94,7 +94,7 @@ fn literal(field: &str, value: u32) -> String {
     }
 }
 
-/// What a parameter may be; `None` where that is anything.
+/// Returns the allowed values of a parameter; `None` if every value is allowed.
 fn limit(parameter: &FParameter, variant: &str) -> Option<Doc> {
     let default = number(parameter);
     let mut list: Vec<(u32, u32)> = parameter

@@ -1,4 +1,4 @@
-//! A field of a byte string: its Rust type, and the code that reads and writes it.
+//! A field of a byte string: its Rust type, and the code that reads and writes the field.
 
 use super::types::type_name;
 use super::values::{Enumeration, Values};
@@ -6,32 +6,33 @@ use crate::backend::rust::code::{call, seq, Doc};
 use crate::backend::rust::value_type::native;
 use crate::ir::{TimeFormat, Type, TypeDef};
 
-/// Bits of a word, the longest field that is no byte string.
+/// Bits of a word. Only byte strings may be longer.
 const WORD: u32 = 64;
 
-/// Where bits stand. A field that spans bytes without filling them is a part of the big-endian number in these bytes.
+/// Position of the bits of a field. A field that spans bytes without filling them is a part of the big-endian number in
+/// these bytes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct FieldPosition {
     pub byte: u32,
-    /// Bits below it in the byte, or in the number.
+    /// Number of less significant bits in the byte or number.
     pub bit: u32,
     pub bits: u32,
 }
 
 impl FieldPosition {
-    /// `bits` bits from `offset` on, where they lie within `length` bytes.
+    /// Returns the position of `bits` bits at bit offset `offset`; `None` if they are not within `length` bytes.
     pub(super) fn within(length: u32, offset: u32, bits: u32) -> Option<Self> {
-        let place = FieldPosition { byte: offset / 8, bit: offset % 8, bits };
-        let last_bit = (place.bit + 8).checked_add(bits)?;
-        let end = place.byte.checked_add(last_bit.div_ceil(8))? - 1;
-        (bits > 0 && end <= length).then_some(place)
+        let position = FieldPosition { byte: offset / 8, bit: offset % 8, bits };
+        let last_bit = (position.bit + 8).checked_add(bits)?;
+        let end = position.byte.checked_add(last_bit.div_ceil(8))? - 1;
+        (bits > 0 && end <= length).then_some(position)
     }
 
     fn is_bytes(self) -> bool {
         self.bit == 0 && self.bits.is_multiple_of(8)
     }
 
-    /// The place in words: `bytes 2 and 3`.
+    /// Returns the position in words: `bytes 2 and 3`.
     pub(super) fn words(self) -> String {
         let last_bit = self.bit + self.bits - 1;
         let bytes = match (last_bit / 8, self.byte) {
@@ -48,14 +49,14 @@ impl FieldPosition {
     }
 }
 
-/// How the bits of a field are to be read.
+/// Interpretation of the bits of a field.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum FieldKind {
     /// One bit.
     Bit,
-    /// A byte that is zero or not.
+    /// A byte that is zero or nonzero.
     Flag,
-    /// An integer of one of Rust's widths, in bytes of its own.
+    /// An integer of a primitive type that fills whole bytes.
     Native {
         signed: bool,
     },
@@ -64,58 +65,52 @@ enum FieldKind {
         signed: bool,
     },
     Real,
-    /// A runtime type of six bytes, by the name of the functions that convert it.
+    /// A runtime type of six bytes. The value is the name of its conversion functions.
     Time(&'static str),
     Bytes,
 }
 
-/// Where a field's struct is used, which decides how odd widths are written.
+/// Use of a field's struct. It decides which Rust types represent odd widths.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Use {
-    /// In an image, which is written without a check: types that hold no other values.
+    /// In an image, which is written without a check. The types can hold no other values.
     Image,
-    /// In a record, whose fields are checked: integers of Rust's own.
+    /// In a record, whose fields are checked. The types are primitive integers.
     Record,
 }
 
-/// A field, ready to be written as code.
+/// A field, ready to be printed.
 #[derive(Clone, Copy)]
 pub(super) struct Field<'v> {
     kind: FieldKind,
-    pub place: FieldPosition,
+    pub position: FieldPosition,
     pub enumeration: Option<&'v Enumeration>,
     usage: Use,
 }
 
 impl<'v> Field<'v> {
-    /// The field of type `ty`, of so many bits from `offset` on; `None` where it doesn't lie within `length` bytes or
-    /// has no form in Rust.
-    pub(super) fn new(
-        values: &'v Values<'_>,
-        ty: Type,
-        (offset, bits): (u32, u32),
-        length: u32,
-        usage: Use,
-    ) -> Option<Self> {
-        let place = FieldPosition::within(length, offset, bits)?;
+    /// Creates a field of type `ty`. `bits` are its bit offset and its number of bits. Returns `None` if it is not
+    /// within `length` bytes or has no Rust type.
+    pub(super) fn new(values: &'v Values<'_>, ty: Type, bits: (u32, u32), length: u32, usage: Use) -> Option<Self> {
+        let position = FieldPosition::within(length, bits.0, bits.1)?;
         let (base, enumeration) = values.resolve(ty);
-        let kind = kind(base, place)?;
+        let kind = kind(base, position)?;
         let enumeration = enumeration.filter(|_| matches!(kind, FieldKind::Native { .. } | FieldKind::Number { .. }));
-        Some(Field { kind, place, enumeration, usage })
+        Some(Field { kind, position, enumeration, usage })
     }
 
-    /// Its type in the source and its place, in words.
+    /// Returns its type in the description and its position, in words.
     pub(super) fn facts(&self, types: &[TypeDef], ty: Type) -> String {
-        let place = self.place.words();
+        let position = self.position.words();
         match self.kind {
-            // Single bits and bit areas have no other type than their bits.
-            FieldKind::Bit => place,
-            FieldKind::Number { .. } if !self.place.is_bytes() => place,
-            _ => format!("{}, {place}", type_name(types, ty)),
+            // Single bits and bit areas have no type in the description.
+            FieldKind::Bit => position,
+            FieldKind::Number { .. } if !self.position.is_bytes() => position,
+            _ => format!("{}, {position}", type_name(types, ty)),
         }
     }
 
-    /// Its type, as a table shows it.
+    /// Returns its Rust type as a table shows it.
     pub(super) fn type_link(&self) -> String {
         match self.enumeration {
             Some(enumeration) => format!("[`{}`]({})", enumeration.name, enumeration.path),
@@ -123,7 +118,7 @@ impl<'v> Field<'v> {
         }
     }
 
-    /// Its type.
+    /// Returns its Rust type.
     pub(super) fn rust_type(&self) -> String {
         if let Some(enumeration) = self.enumeration {
             return enumeration.path.clone();
@@ -131,21 +126,21 @@ impl<'v> Field<'v> {
         match self.kind {
             FieldKind::Bit | FieldKind::Flag => "bool".to_owned(),
             FieldKind::Number { signed } if self.usage == Use::Image => {
-                format!("rt::{}<{}>", if signed { "Int" } else { "Uint" }, self.place.bits)
+                format!("rt::{}<{}>", if signed { "Int" } else { "Uint" }, self.position.bits)
             }
             FieldKind::Native { .. } | FieldKind::Number { .. } => self.native().to_owned(),
-            FieldKind::Real => format!("f{}", self.place.bits),
+            FieldKind::Real => format!("f{}", self.position.bits),
             FieldKind::Time("time_of_day") => "rt::TimeOfDay".to_owned(),
             FieldKind::Time(_) => "rt::TimeDifference".to_owned(),
-            FieldKind::Bytes => format!("[u8; {}]", self.place.bits / 8),
+            FieldKind::Bytes => format!("[u8; {}]", self.position.bits / 8),
         }
     }
 
-    /// The integer of Rust's own that holds it; of an enumeration, the one below.
+    /// Returns the primitive integer that holds the value. For an enumeration, it is the integer of the raw value.
     pub(super) fn native(&self) -> &'static str {
         match self.enumeration {
             Some(enumeration) => enumeration.native,
-            None => native(self.is_signed(), self.place.bits),
+            None => native(self.is_signed(), self.position.bits),
         }
     }
 
@@ -153,24 +148,24 @@ impl<'v> Field<'v> {
         matches!(self.kind, FieldKind::Native { signed: true } | FieldKind::Number { signed: true })
     }
 
-    /// Whether it is a real number.
+    /// Returns whether the field is a real number.
     pub(super) fn is_real(&self) -> bool {
         self.kind == FieldKind::Real
     }
 
-    /// Whether it is a truth value.
+    /// Returns whether the field is a Boolean.
     pub(super) fn is_bool(&self) -> bool {
         matches!(self.kind, FieldKind::Bit | FieldKind::Flag)
     }
 
-    /// Length of a byte string.
+    /// Returns the length of a byte string; `None` for other fields.
     pub(super) fn byte_string(&self) -> Option<u32> {
-        (self.kind == FieldKind::Bytes).then_some(self.place.bits / 8)
+        (self.kind == FieldKind::Bytes).then_some(self.position.bits / 8)
     }
 
-    /// Least and greatest value of an integer.
+    /// Returns the minimum and maximum of an integer; `None` for other fields.
     pub(super) fn range(&self) -> Option<(i128, i128)> {
-        let bits = u8::try_from(self.place.bits).ok()?;
+        let bits = u8::try_from(self.position.bits).ok()?;
         match self.kind {
             FieldKind::Native { signed: true } | FieldKind::Number { signed: true } => {
                 Type::Integer(bits).integer_range()
@@ -180,21 +175,21 @@ impl<'v> Field<'v> {
         }
     }
 
-    /// Whether the type has values that the field has no bits for.
+    /// Returns whether the Rust type has values that do not fit in the field.
     pub(super) fn is_narrow(&self) -> bool {
         self.usage == Use::Record
             && matches!(self.kind, FieldKind::Number { .. })
-            && !matches!(self.place.bits, 8 | 16 | 32 | 64)
+            && !matches!(self.position.bits, 8 | 16 | 32 | 64)
     }
 
-    /// Whether the field can be read in a constant by the oldest Rust that the runtime supports.
+    /// Returns whether the field can be read in a `const fn` with the minimum supported Rust version of the runtime.
     pub(super) fn is_const(&self) -> bool {
         self.kind != FieldKind::Real
     }
 
-    /// The field's value, from the reference `data` to an array of bytes.
+    /// Returns the expression that reads the field. `data` is a reference to an array of bytes.
     pub(super) fn read(&self, data: &str) -> Doc {
-        let FieldPosition { byte, bit, bits } = self.place;
+        let FieldPosition { byte, bit, bits } = self.position;
         let bytes = || call!("rt::profinet::be::bytes", data, byte);
         let from_bytes = |ty: &str| call!(seq![ty, "::from_be_bytes"], bytes());
         let at = || seq![data, "[", byte, "]"];
@@ -222,10 +217,10 @@ impl<'v> Field<'v> {
         }
     }
 
-    /// The statement that puts `value` into an array of bytes: `data` names the array, `reference` is a mutable
-    /// reference to it.
+    /// Returns the statement that writes `value` to an array of bytes. `data` names the array, and `reference` is a
+    /// mutable reference to it.
     pub(super) fn write(&self, data: &str, reference: &str, value: &str) -> Doc {
-        let FieldPosition { byte, bit, bits } = self.place;
+        let FieldPosition { byte, bit, bits } = self.position;
         let raw = if self.enumeration.is_some() { format!("{value}.raw()") } else { value.to_owned() };
         let at = || seq![data, "[", byte, "] = "];
         let put = |bytes: Doc| seq![call!("rt::profinet::be::put", reference, byte, bytes), ";"];
@@ -249,10 +244,10 @@ impl<'v> Field<'v> {
     }
 }
 
-/// The kind of a field of a basic type.
-fn kind(base: Type, place: FieldPosition) -> Option<FieldKind> {
-    let FieldPosition { bit, bits, .. } = place;
-    let is_bytes = place.is_bytes();
+/// Returns the kind of a field with a basic type.
+fn kind(base: Type, position: FieldPosition) -> Option<FieldKind> {
+    let FieldPosition { bit, bits, .. } = position;
+    let is_bytes = position.is_bytes();
     let fits = is_bytes && base.bits() == Some(bits);
     let signed = matches!(base, Type::Integer(_));
     let integer = match bits {
@@ -277,18 +272,18 @@ fn kind(base: Type, place: FieldPosition) -> Option<FieldKind> {
 mod tests {
     use super::*;
 
-    fn place(offset: u32, bits: u32) -> FieldPosition {
+    fn position(offset: u32, bits: u32) -> FieldPosition {
         FieldPosition::within(100, offset, bits).unwrap()
     }
 
     #[test]
-    fn places_in_words() {
-        assert_eq!(place(16, 8).words(), "byte 2");
-        assert_eq!(place(16, 16).words(), "bytes 2 and 3");
-        assert_eq!(place(16, 32).words(), "bytes 2 to 5");
-        assert_eq!(place(19, 1).words(), "bit 3 of byte 2");
-        assert_eq!(place(19, 3).words(), "bits 3 to 5 of byte 2");
-        assert_eq!(place(14, 4).words(), "bits 6 to 9 of the big-endian number in bytes 1 and 2");
+    fn positions_in_words() {
+        assert_eq!(position(16, 8).words(), "byte 2");
+        assert_eq!(position(16, 16).words(), "bytes 2 and 3");
+        assert_eq!(position(16, 32).words(), "bytes 2 to 5");
+        assert_eq!(position(19, 1).words(), "bit 3 of byte 2");
+        assert_eq!(position(19, 3).words(), "bits 3 to 5 of byte 2");
+        assert_eq!(position(14, 4).words(), "bits 6 to 9 of the big-endian number in bytes 1 and 2");
     }
 
     #[test]
@@ -303,13 +298,13 @@ mod tests {
 
     #[test]
     fn kinds() {
-        assert_eq!(kind(Type::Unsigned(16), place(8, 16)), Some(FieldKind::Native { signed: false }));
-        assert_eq!(kind(Type::Integer(24), place(8, 24)), Some(FieldKind::Number { signed: true }));
-        assert_eq!(kind(Type::Unsigned(16), place(9, 16)), Some(FieldKind::Number { signed: false }));
-        assert_eq!(kind(Type::Unsigned(64), place(9, 64)), None, "more than a word");
-        assert_eq!(kind(Type::Boolean, place(8, 8)), Some(FieldKind::Flag));
-        assert_eq!(kind(Type::Opaque(None), place(8, 80)), Some(FieldKind::Bytes));
-        assert_eq!(kind(Type::Opaque(None), place(9, 3)), Some(FieldKind::Number { signed: false }));
-        assert_eq!(kind(Type::Real32, place(0, 16)), Some(FieldKind::Bytes), "a number of the wrong length");
+        assert_eq!(kind(Type::Unsigned(16), position(8, 16)), Some(FieldKind::Native { signed: false }));
+        assert_eq!(kind(Type::Integer(24), position(8, 24)), Some(FieldKind::Number { signed: true }));
+        assert_eq!(kind(Type::Unsigned(16), position(9, 16)), Some(FieldKind::Number { signed: false }));
+        assert_eq!(kind(Type::Unsigned(64), position(9, 64)), None, "more than a word");
+        assert_eq!(kind(Type::Boolean, position(8, 8)), Some(FieldKind::Flag));
+        assert_eq!(kind(Type::Opaque(None), position(8, 80)), Some(FieldKind::Bytes));
+        assert_eq!(kind(Type::Opaque(None), position(9, 3)), Some(FieldKind::Number { signed: false }));
+        assert_eq!(kind(Type::Real32, position(0, 16)), Some(FieldKind::Bytes), "a number of the wrong length");
     }
 }

@@ -1,4 +1,4 @@
-//! Structs and views of a submodule's cyclic data.
+//! Structs and views of the cyclic data of submodules.
 
 use super::docs;
 use super::field::{Field, Use};
@@ -7,15 +7,15 @@ use super::RustOptions;
 use crate::backend::rust::code::Doc;
 use crate::backend::rust::doc_table;
 use crate::ir::{Direction, IoData, PdoEntry, PdoEntryKind, Submodule};
-use crate::names::{self, Case, Wish};
+use crate::names::{self, Case, NameRequest};
 
-/// The longest name of a field: the lines that read and write it have to stay below the margin.
+/// Maximum length of a field's name. The lines that read and write the field must stay below the margin.
 const MAX_FIELD_NAME: usize = 30;
 
-/// Names that no field may have.
+/// Names that fields must not have.
 const RESERVED: [&str; 8] = ["self", "super", "crate", "new", "view", "clone", "into", "try_into"];
 
-/// The data of one direction, ready to be written.
+/// The data of one direction, ready to be printed.
 pub(in crate::backend::rust) struct ImageModel {
     /// `Inputs` or `Outputs`.
     pub name: &'static str,
@@ -25,7 +25,7 @@ pub(in crate::backend::rust) struct ImageModel {
     pub length: u32,
     pub trailer: u32,
     pub status: u8,
-    /// Lints that a name would trip over.
+    /// Attribute that suppresses lints for names of fields.
     pub allow: Option<&'static str>,
     pub fields: Vec<FieldModel>,
 }
@@ -35,26 +35,26 @@ pub(in crate::backend::rust) struct FieldModel {
     pub name: String,
     pub docs: Vec<String>,
     pub heading: String,
-    /// Its place and its type, as a table shows them.
+    /// Position and type of the field, as a table shows them.
     cells: [String; 2],
     pub ty: String,
-    /// Whether that is an enumeration.
+    /// Whether the type is an enumeration.
     pub is_enumeration: bool,
-    /// The attribute in front of it.
+    /// Attribute of the field.
     pub attribute: Option<String>,
-    /// Its value from a view.
+    /// Expression that reads the field from a view.
     pub get: Doc,
-    /// Its value from the array `data`.
+    /// Expression that reads the field from the array `data`.
     pub read: Doc,
-    /// The statement that puts `self`'s field into the array `data`.
+    /// Statement that writes the field of `self` to the array `data`.
     pub pack: Doc,
-    /// The statement that puts `value` into a view.
+    /// Statement that writes `value` to a view.
     pub set: Doc,
-    /// `const ` where it can be read in a constant.
+    /// `const ` if the field can be read in a `const fn`; otherwise empty.
     pub constant: &'static str,
 }
 
-/// The inputs or outputs of `submodule`, where it has some with fields.
+/// Returns the inputs or outputs of `submodule`; `None` if they have no fields.
 pub(super) fn model(
     submodule: &Submodule,
     direction: Direction,
@@ -67,8 +67,8 @@ pub(super) fn model(
     };
     let fields = fields(data, values, options);
     let (name, title) = match direction {
-        Direction::Transmit => ("Inputs", "what the device sends to the controller"),
-        Direction::Receive => ("Outputs", "what the controller sends to the device"),
+        Direction::Transmit => ("Inputs", "data from the device to the controller"),
+        Direction::Receive => ("Outputs", "data from the controller to the device"),
     };
     let image = &data.image;
     let mut docs = vec![format!("{name}: {title}."), String::new()];
@@ -89,24 +89,25 @@ pub(super) fn model(
     })
 }
 
-/// The lines of the table of all fields of a struct with these methods. `default` is the value of a field by default.
+/// Returns the lines of the table of all fields of a struct with these methods. `default` returns the default value of
+/// a field.
 pub(super) fn table<'f>(
     fields: impl IntoIterator<Item = &'f FieldModel>,
     methods: &[&str],
     mut default: impl FnMut(usize) -> String,
 ) -> Vec<String> {
     let row = |(at, field): (usize, &FieldModel)| {
-        let [place, ty] = field.cells.clone();
-        [place, doc_table::field_link(&field.name, methods), ty, default(at)]
+        let [position, ty] = field.cells.clone();
+        [position, doc_table::field_link(&field.name, methods), ty, default(at)]
     };
     let rows: Vec<[String; 4]> = fields.into_iter().enumerate().map(row).collect();
-    doc_table::table(["Place", "Field", "Type", "Default"], &rows)
+    doc_table::table(["Position", "Field", "Type", "Default"], &rows)
 }
 
 fn trailer(bytes: u32) -> String {
     match bytes {
         0 => String::new(),
-        length => format!("; behind them an F message trailer of {}", docs::bytes(length)),
+        length => format!(", followed by an F message trailer of {}", docs::bytes(length)),
     }
 }
 
@@ -122,8 +123,8 @@ fn fields(data: &IoData, values: &Values<'_>, options: &RustOptions) -> Vec<Fiel
             Some((entry, Field::new(values, entry.ty, bits, data.image.length, Use::Image)?))
         })
         .collect();
-    let wishes = found.iter().map(|(entry, field)| wish(&entry.name, field)).collect::<Vec<_>>();
-    let names = names::unique_up_to(&wishes, &RESERVED, Case::Snake, MAX_FIELD_NAME);
+    let name_requests = found.iter().map(|(entry, field)| name_request(&entry.name, field)).collect::<Vec<_>>();
+    let names = names::unique_up_to(&name_requests, &RESERVED, Case::Snake, MAX_FIELD_NAME);
     let all = found.iter().zip(names);
     all.map(|((entry, field), name)| {
         let facts = field.facts(values.types, entry.ty);
@@ -132,22 +133,22 @@ fn fields(data: &IoData, values: &Values<'_>, options: &RustOptions) -> Vec<Fiel
     .collect()
 }
 
-/// A field's name: of several with one name, each is told by its place.
-pub(super) fn wish<'n>(name: &'n str, field: &Field<'_>) -> Wish<'n> {
-    let place = field.place;
-    let is_whole = place.bit == 0 && place.bits.is_multiple_of(8);
-    let suffix = if is_whole { place.byte.to_string() } else { format!("{}_{}", place.byte, place.bit) };
-    Wish { name, fallback: format!("field {}", suffix.replace('_', " ")), suffix }
+/// Returns the name request of a field. The position of the field is the suffix of ambiguous names.
+pub(super) fn name_request<'n>(name: &'n str, field: &Field<'_>) -> NameRequest<'n> {
+    let position = field.position;
+    let is_whole = position.bit == 0 && position.bits.is_multiple_of(8);
+    let suffix = if is_whole { position.byte.to_string() } else { format!("{}_{}", position.byte, position.bit) };
+    NameRequest { name, fallback: format!("field {}", suffix.replace('_', " ")), suffix }
 }
 
 impl FieldModel {
-    /// `name` as it was made; it is escaped here.
+    /// Creates the model of a field. `name` is not escaped yet.
     pub(super) fn new(field: &Field<'_>, name: &str, docs: Vec<String>, options: &RustOptions) -> Self {
         let name = names::escaped(name);
         FieldModel {
             heading: docs.first().cloned().unwrap_or_default(),
             docs,
-            cells: [field.place.words(), field.type_link()],
+            cells: [field.position.words(), field.type_link()],
             ty: field.rust_type(),
             is_enumeration: field.enumeration.is_some(),
             attribute: field.byte_string().and_then(|length| options.octets_attribute(length)),
@@ -160,15 +161,15 @@ impl FieldModel {
         }
     }
 
-    /// The name of its setter.
+    /// Returns the name of the setter.
     pub(in crate::backend::rust) fn setter(&self) -> String {
         names::prefixed("set_", &self.name)
     }
 }
 
-/// The attribute that getters of these names need: clippy reads a meaning into some prefixes.
+/// Returns the attribute that getters with these names need. Clippy expects certain signatures for some prefixes.
 fn allow<'n>(mut names: impl Iterator<Item = &'n str>) -> Option<&'static str> {
-    let misread =
+    let has_prefix =
         names.any(|name| ["from_", "into_", "to_", "is_", "as_"].iter().any(|prefix| name.starts_with(prefix)));
-    misread.then_some("#[allow(clippy::wrong_self_convention)]")
+    has_prefix.then_some("#[allow(clippy::wrong_self_convention)]")
 }

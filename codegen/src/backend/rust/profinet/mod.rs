@@ -1,6 +1,7 @@
-//! PROFINET devices: submodules, parameter records, diagnosis, and the descriptions that a plan of slots is made of.
+//! PROFINET devices: submodules, parameter records, diagnosis, and the constants from which a program plans slots.
 //!
-//! Modules and submodules are shared by the device access points of a file; what none of these can have isn't emitted.
+//! The device access points of a file share modules and submodules. Modules and submodules that none of them can
+//! contain are not generated.
 
 mod descriptor;
 mod diagnosis;
@@ -25,21 +26,21 @@ pub(super) use record::RecordModel;
 use scope::Scope;
 pub(super) use values::Enumeration;
 
-/// All device access points of a file, ready to be written.
+/// All device access points of a file, ready to be printed.
 pub(super) struct FileModel<'a> {
     pub access_points: Vec<DapModel<'a>>,
-    /// Whether the content of the only device access point stands at the top.
+    /// Whether the file has one device access point, whose content is at the top of the output.
     pub is_single: bool,
     pub modules: Vec<ModuleModel<'a>>,
     pub submodules: Vec<SubmoduleModel<'a>>,
     pub values: Vec<&'a Enumeration>,
-    /// The errors of channels.
+    /// Channel errors.
     pub errors: Vec<Doc>,
     /// User structures of diagnosis.
     pub units: Vec<UnitModel>,
 }
 
-/// The Rust module for all device access points of `catalog`; `None` where there is none.
+/// Returns the Rust module for all device access points of `catalog`; `None` if it has none.
 pub(super) fn emit(catalog: &Catalog, file: &FileInfo, options: &RustOptions) -> Option<String> {
     let scope = Scope::new(catalog, options);
     if scope.access_points.is_empty() {
@@ -57,10 +58,10 @@ impl<'a> FileModel<'a> {
         let modules = scope.modules.values();
         let submodules = scope.submodules.values();
         FileModel {
-            access_points: scope.access_points.iter().map(|own| descriptor::access_point(scope, own)).collect(),
+            access_points: scope.access_points.iter().map(|point| descriptor::access_point(scope, point)).collect(),
             is_single: scope.is_single(),
-            modules: modules.map(|(own, name)| descriptor::module(scope, own, name)).collect(),
-            submodules: submodules.map(|(own, name)| descriptor::submodule(scope, own, name)).collect(),
+            modules: modules.map(|(module, name)| descriptor::module(scope, module, name)).collect(),
+            submodules: submodules.map(|(submodule, name)| descriptor::submodule(scope, submodule, name)).collect(),
             values: scope.values.iter().collect(),
             errors: diagnosis::channel_errors(scope.catalog),
             units: diagnosis::units(scope.catalog, &scope.values, scope.options),

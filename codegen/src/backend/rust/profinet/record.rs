@@ -12,24 +12,24 @@ use super::RustOptions;
 use crate::backend::rust::code::Doc;
 use crate::ir::{Access, Binding, Group, GroupKind, Item, Record, Value};
 use crate::limits::MAX_RECORD_BYTES;
-use crate::names::{self, Case, Wish};
+use crate::names::{self, Case, NameRequest};
 use bytes::{default_bytes, value_of};
 use check::{check, ranges};
 
-/// The longest name of a record: the lines that name its type have to stay below the margin.
+/// Maximum length of a record's name. The lines that name its type must stay below the margin.
 const MAX_NAME: usize = 32;
 
-/// The longest name of a field.
+/// Maximum length of a field's name.
 const MAX_FIELD_NAME: usize = 30;
 
-/// Constants that every record has.
+/// Names of the constants that every record has.
 const RESERVED_CONSTANTS: [&str; 8] =
     ["self", "super", "crate", "index", "len", "transfer_sequence", "default", "default_bytes"];
 
-/// A record, ready to be written.
+/// A record, ready to be printed.
 pub(in crate::backend::rust) struct RecordModel {
     pub name: String,
-    /// Its name in the source, as a literal.
+    /// Name of the record in the description, as a literal.
     pub title: String,
     pub docs: Vec<String>,
     pub derives: Vec<String>,
@@ -39,13 +39,13 @@ pub(in crate::backend::rust) struct RecordModel {
     pub default_bytes: String,
     /// Fields that can be changed.
     pub fields: Vec<FieldModel>,
-    /// Their defaults.
+    /// Default values of the fields.
     pub defaults: Vec<Doc>,
     /// Fields that can't be changed.
     pub constants: Vec<ConstantModel>,
     /// Statements that check the fields.
     pub checks: Vec<Doc>,
-    /// Whether a literal may resemble a mathematical constant.
+    /// Whether a literal may resemble a mathematical constant, which clippy reports.
     pub has_real: bool,
 }
 
@@ -54,29 +54,29 @@ pub(in crate::backend::rust) struct ConstantModel {
     pub name: String,
     pub docs: Vec<String>,
     pub ty: String,
-    /// Whether that is an enumeration.
+    /// Whether the type is an enumeration.
     pub is_enumeration: bool,
     pub value: Doc,
 }
 
-/// An item with its field.
+/// An item and its field.
 struct Parameter<'i> {
     item: &'i Item,
     field: Field<'i>,
 }
 
-/// Records of a submodule, in their order.
+/// Returns the records of a submodule, in the order of the description.
 pub(super) fn models<'a>(groups: &'a [Group], values: &'a Values<'a>, options: &RustOptions) -> Vec<RecordModel> {
     let records = groups.iter().filter_map(|group| match &group.kind {
         GroupKind::Record(record) if (1..=MAX_RECORD_BYTES).contains(&record.length) => Some((group, &**record)),
         _ => None,
     });
     let records: Vec<(&Group, &Record)> = records.collect();
-    let wishes: Vec<Wish<'_>> = records
+    let name_requests: Vec<NameRequest<'_>> = records
         .iter()
-        .map(|(group, record)| Wish::new(&group.name, "parameter", format!("{:04X}", record.index)))
+        .map(|(group, record)| NameRequest::new(&group.name, "parameter", format!("{:04X}", record.index)))
         .collect();
-    let names = names::unique_up_to(&wishes, &[], Case::Pascal, MAX_NAME);
+    let names = names::unique_up_to(&name_requests, &[], Case::Pascal, MAX_NAME);
     let all = records.into_iter().zip(names);
     all.map(|((group, record), name)| model(group, record, name, values, options)).collect()
 }
@@ -89,7 +89,7 @@ fn model<'a>(
     options: &RustOptions,
 ) -> RecordModel {
     let found = |item: &'a Item| {
-        let (_, offset, bits) = place(item)?;
+        let (_, offset, bits) = record_address(item)?;
         let field = Field::new(values, item.ty, (offset, bits), record.length, Use::Record)?;
         Some(Parameter { item, field })
     };
@@ -106,8 +106,8 @@ fn model<'a>(
     };
     let models: Vec<FieldModel> = fields.iter().map(model).collect();
     let default = |at: usize| {
-        let own = fields.get(at).and_then(|(parameter, _)| parameter.item.default.as_ref());
-        own.map(docs::value).unwrap_or_default()
+        let value = fields.get(at).and_then(|(parameter, _)| parameter.item.default.as_ref());
+        value.map(docs::value).unwrap_or_default()
     };
     let mut docs = record_docs(group, record, left_out);
     docs.extend(image::table(&models, &["check", "encode", "decode"], default));
@@ -128,8 +128,8 @@ fn model<'a>(
     }
 }
 
-/// Record index, first bit and number of bits of an item.
-fn place(item: &Item) -> Option<(u16, u32, u32)> {
+/// Returns record index, bit offset and number of bits of an item.
+fn record_address(item: &Item) -> Option<(u16, u32, u32)> {
     item.bindings.iter().find_map(|binding| match binding {
         Binding::Record { index, bit_offset, bits } => Some((*index, *bit_offset, *bits)),
         _ => None,
@@ -137,9 +137,9 @@ fn place(item: &Item) -> Option<(u16, u32, u32)> {
 }
 
 fn named<'p, 'i>(parameters: &'p [Parameter<'i>], reserved: &[&str]) -> Vec<(&'p Parameter<'i>, String)> {
-    let wishes: Vec<Wish<'_>> =
-        parameters.iter().map(|parameter| image::wish(&parameter.item.name, &parameter.field)).collect();
-    let names = names::unique_up_to(&wishes, reserved, Case::Snake, MAX_FIELD_NAME);
+    let name_requests: Vec<NameRequest<'_>> =
+        parameters.iter().map(|parameter| image::name_request(&parameter.item.name, &parameter.field)).collect();
+    let names = names::unique_up_to(&name_requests, reserved, Case::Snake, MAX_FIELD_NAME);
     parameters.iter().zip(names).collect()
 }
 
@@ -147,7 +147,7 @@ fn constants(fixed: &[Parameter<'_>], bytes: &[u8], values: &Values<'_>) -> Vec<
     let named = named(fixed, &RESERVED_CONSTANTS);
     let constant = |(parameter, name): (&Parameter<'_>, String)| {
         let mut docs = facts(parameter, values);
-        docs.extend([String::new(), "It can't be changed.".to_owned()]);
+        docs.extend([String::new(), "The value cannot be changed.".to_owned()]);
         ConstantModel {
             name: name.to_ascii_uppercase(),
             docs,
@@ -164,11 +164,11 @@ fn record_docs(group: &Group, record: &Record, left_out: usize) -> Vec<String> {
     let mut lines = vec![docs::titled(&group.name, &facts)];
     docs::paragraphs(&group.name, group.documentation.as_deref(), &mut lines);
     if let Some(bump) = record.changeable_with_bump {
-        let not = if bump { "may disturb" } else { "doesn't disturb" };
-        lines.extend([String::new(), format!("Writing it {not} the running device.")]);
+        let not = if bump { "may disturb" } else { "does not disturb" };
+        lines.extend([String::new(), format!("Writing the record {not} the running device.")]);
     }
     if left_out > 0 {
-        let text = format!("{left_out} parameters that don't lie within its bytes are left out.");
+        let text = format!("{left_out} parameters are left out because they are not within the bytes of the record.");
         lines.extend([String::new(), text]);
     }
     lines
@@ -188,7 +188,7 @@ fn facts(parameter: &Parameter<'_>, values: &Values<'_>) -> Vec<String> {
         })
         .collect();
     if !ranges.is_empty() {
-        /// The greatest number of ranges that a comment lists.
+        /// Maximum number of ranges that a comment lists.
         const SHOWN: usize = 16;
         let more = if ranges.len() > SHOWN { ", …" } else { "" };
         facts += &format!(", allowed {}{more}", ranges[..ranges.len().min(SHOWN)].join(", "));

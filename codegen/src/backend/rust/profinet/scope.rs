@@ -1,37 +1,38 @@
-//! What is emitted, and under which names: the device access points, and what can be plugged into them.
+//! Generated elements and their names: device access points, and the modules and submodules that can be plugged into
+//! them.
 
 use std::collections::BTreeMap;
 
 use super::values::Values;
 use super::RustOptions;
 use crate::ir::{Catalog, Device, GroupKind, Module, ProfinetSettings, Submodule, SubmoduleId, SubmoduleUse, Type};
-use crate::names::{self, Case, Wish};
+use crate::names::{self, Case, NameRequest};
 
 /// Names at the top of the output.
 const RESERVED: [&str; 10] =
     ["self", "super", "crate", "rt", "modules", "submodules", "values", "diagnosis", "core", "std"];
 
-/// A device access point with its name.
+/// A device access point and its name.
 pub(super) struct AccessPoint<'a> {
     pub device: &'a Device,
     pub settings: &'a ProfinetSettings,
     pub name: String,
 }
 
-/// Everything that is emitted.
+/// All generated elements of a file.
 pub(super) struct Scope<'a> {
     pub catalog: &'a Catalog,
     pub options: &'a RustOptions,
     pub access_points: Vec<AccessPoint<'a>>,
-    /// Modules by their position in the catalogue, with their names.
+    /// Modules with their names, by their position in the catalog.
     pub modules: BTreeMap<u32, (&'a Module, String)>,
-    /// Submodules by their position in the catalogue, with their names.
+    /// Submodules with their names, by their position in the catalog.
     pub submodules: BTreeMap<u32, (&'a Submodule, String)>,
     pub values: Values<'a>,
 }
 
 impl<'a> Scope<'a> {
-    /// The device access points of `catalog` with all that can be plugged into them.
+    /// Collects the device access points of `catalog`, and everything that can be plugged into them.
     pub(super) fn new(catalog: &'a Catalog, options: &'a RustOptions) -> Self {
         let access_points = access_points(catalog);
         let modules = modules(catalog, &access_points);
@@ -41,7 +42,7 @@ impl<'a> Scope<'a> {
         Scope { catalog, options, access_points, modules, submodules, values }
     }
 
-    /// Whether the content of the only device access point stands at the top.
+    /// Returns whether the file has one device access point, whose content is at the top of the output.
     pub(super) fn is_single(&self) -> bool {
         self.access_points.len() == 1
     }
@@ -50,16 +51,16 @@ impl<'a> Scope<'a> {
 fn access_points(catalog: &Catalog) -> Vec<AccessPoint<'_>> {
     let found: Vec<_> =
         catalog.devices.iter().filter_map(|device| Some((device, device.profinet.as_deref()?))).collect();
-    let wishes: Vec<Wish<'_>> = found
+    let name_requests: Vec<NameRequest<'_>> = found
         .iter()
         .enumerate()
-        .map(|(at, (device, settings))| Wish {
+        .map(|(at, (device, settings))| NameRequest {
             name: &device.name,
             fallback: format!("dap {:08x}", settings.ident),
             suffix: identifier(&device.id, settings.ident, at),
         })
         .collect();
-    let names = names::unique(&wishes, &RESERVED, Case::Snake);
+    let names = names::unique(&name_requests, &RESERVED, Case::Snake);
     let all = found.into_iter().zip(names);
     all.map(|((device, settings), name)| AccessPoint { device, settings, name: names::escaped(&name) }).collect()
 }
@@ -71,15 +72,15 @@ fn modules<'a>(catalog: &'a Catalog, access_points: &[AccessPoint<'a>]) -> BTree
     positions.dedup();
     let found: Vec<(u32, &Module)> =
         positions.into_iter().filter_map(|at| Some((at, catalog.modules.get(at as usize)?))).collect();
-    let wishes: Vec<Wish<'_>> = found
+    let name_requests: Vec<NameRequest<'_>> = found
         .iter()
-        .map(|(at, module)| Wish {
+        .map(|(at, module)| NameRequest {
             name: &module.name,
             fallback: format!("module {:08x}", module.number),
             suffix: identifier(&module.id, module.number, *at as usize),
         })
         .collect();
-    let names = names::unique(&wishes, &["self", "super", "crate"], Case::Snake);
+    let names = names::unique(&name_requests, &["self", "super", "crate"], Case::Snake);
     found.into_iter().zip(names).map(|((at, module), name)| (at, (module, names::escaped(&name)))).collect()
 }
 
@@ -88,26 +89,27 @@ fn submodules<'a>(
     access_points: &[AccessPoint<'a>],
     modules: &BTreeMap<u32, (&'a Module, String)>,
 ) -> BTreeMap<u32, (&'a Submodule, String)> {
-    let own = access_points.iter().flat_map(|point| &point.device.submodules);
-    let uses = own.chain(modules.values().flat_map(|(module, _)| &module.submodules));
+    let built_in = access_points.iter().flat_map(|point| &point.device.submodules);
+    let uses = built_in.chain(modules.values().flat_map(|(module, _)| &module.submodules));
     let mut positions: Vec<u32> = uses.map(|SubmoduleUse { submodule: SubmoduleId(at), .. }| *at).collect();
     positions.sort_unstable();
     positions.dedup();
     let found: Vec<(u32, &Submodule)> =
         positions.into_iter().filter_map(|at| Some((at, catalog.submodules.get(at as usize)?))).collect();
-    let wishes: Vec<Wish<'_>> = found
+    let name_requests: Vec<NameRequest<'_>> = found
         .iter()
-        .map(|(at, submodule)| Wish {
+        .map(|(at, submodule)| NameRequest {
             name: &submodule.name,
             fallback: format!("submodule {:08x}", submodule.ident),
             suffix: identifier(&submodule.id, submodule.ident, *at as usize),
         })
         .collect();
-    let names = names::unique(&wishes, &["self", "super", "crate"], Case::Snake);
+    let names = names::unique(&name_requests, &["self", "super", "crate"], Case::Snake);
     found.into_iter().zip(names).map(|((at, submodule), name)| (at, (submodule, names::escaped(&name)))).collect()
 }
 
-/// What tells elements of one name apart: the source's identifier in letters and digits, else the ident number.
+/// Returns the suffix that distinguishes elements with equal names: letters and digits of the description's ID,
+/// otherwise the ident number.
 fn identifier(id: &str, ident: u32, position: usize) -> String {
     let words = id.split(|letter: char| !letter.is_ascii_alphanumeric()).filter(|word| !word.is_empty());
     let words: Vec<&str> = words.collect();
@@ -118,7 +120,7 @@ fn identifier(id: &str, ident: u32, position: usize) -> String {
     }
 }
 
-/// The types of all fields.
+/// Returns the types of all fields.
 fn types(catalog: &Catalog, submodules: &BTreeMap<u32, (&Submodule, String)>) -> Vec<Type> {
     let mut types = Vec::new();
     for (submodule, _) in submodules.values() {

@@ -1,12 +1,12 @@
-//! Types by name: what is below them, and what GSDML calls them.
+//! Named types: their basic types, and their names in GSDML.
 
 use super::docs;
 use crate::ir::{Scale, Shape, TimeFormat, Type, TypeDef};
 
-/// Longer chains of type names are a circle.
+/// Longer chains of type names are treated as cycles.
 const DEPTH: usize = 16;
 
-/// The basic type below `ty`, and the position of the enumeration that it is.
+/// Returns the basic type of `ty`, and the position of the enumeration if `ty` is one.
 pub(super) fn resolve(types: &[TypeDef], ty: Type) -> (Type, Option<u32>) {
     let (mut ty, mut enumeration) = (ty, None);
     for _ in 0..DEPTH {
@@ -25,7 +25,7 @@ pub(super) fn resolve(types: &[TypeDef], ty: Type) -> (Type, Option<u32>) {
     (Type::Opaque(None), None)
 }
 
-/// The name of a type as GSDML spells it, with the factor of a scaled one; empty where the type is the field's bits.
+/// Returns the name of a type in GSDML, with the scale factor of a scaled type.
 pub(super) fn type_name(types: &[TypeDef], ty: Type) -> String {
     match ty {
         Type::Boolean => "Boolean".to_owned(),
@@ -51,7 +51,7 @@ pub(super) fn type_name(types: &[TypeDef], ty: Type) -> String {
 fn named(types: &[TypeDef], definition: &TypeDef) -> String {
     let name = docs::escape(&definition.name);
     match &definition.shape {
-        Shape::Scaled { scale: Scale::Linear { factor, .. }, .. } => format!("{name}, counts of {factor}"),
+        Shape::Scaled { scale: Scale::Linear { factor, .. }, .. } => format!("{name}, 1 LSB = {factor}"),
         Shape::Enumeration { base, .. } => match base {
             Type::Named(_) => name,
             base => type_name(types, *base),

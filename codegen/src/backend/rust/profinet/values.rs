@@ -9,33 +9,34 @@ use super::RustOptions;
 use crate::backend::rust::doc_table;
 use crate::backend::rust::value_type::native;
 use crate::ir::{EnumValue, Shape, Type, TypeDef};
-use crate::names::{self, Case, Wish};
+use crate::names::{self, Case, NameRequest};
 
-/// What a variant must not be called: the type itself, and the variant for values that the description doesn't list.
+/// Names that variants must not have: `Self`, and the variant for values that the description does not list.
 const RESERVED_VARIANTS: [&str; 2] = ["Self", "Unknown"];
 
-/// What an enumeration must not be called: generated code names these of the prelude, and the last would have a constructor of its name.
+/// Names that enumerations must not have: names of the prelude that generated code uses, and a name that would match a
+/// constructor.
 const RESERVED_TYPES: [&str; 8] = ["Self", "Option", "Result", "Some", "None", "Ok", "Err", "FromRaw"];
 
-/// The enumerations of a catalogue that something refers to.
+/// The enumerations of a catalog that generated code uses.
 pub(super) struct Values<'a> {
     pub types: &'a [TypeDef],
     enumerations: BTreeMap<u32, Enumeration>,
 }
 
-/// An enumeration, ready to be written.
+/// An enumeration, ready to be printed.
 pub(in crate::backend::rust) struct Enumeration {
     pub name: String,
-    /// Its path from the module of a submodule.
+    /// Path from the module of a submodule.
     pub path: String,
-    /// The integer of Rust's own that holds its numbers.
+    /// Primitive integer that holds the numbers of the values.
     pub native: &'static str,
     pub docs: Vec<String>,
     pub derives: Vec<String>,
     pub variants: Vec<Variant>,
 }
 
-/// One value.
+/// A value of an enumeration.
 pub(in crate::backend::rust) struct Variant {
     pub name: String,
     pub docs: String,
@@ -43,7 +44,7 @@ pub(in crate::backend::rust) struct Variant {
 }
 
 impl<'a> Values<'a> {
-    /// The enumerations among the types `used`.
+    /// Creates the enumerations among the types `used`.
     pub(super) fn new(types: &'a [TypeDef], used: impl Iterator<Item = Type>, options: &RustOptions) -> Self {
         let mut positions: Vec<u32> = used.filter_map(|ty| resolve(types, ty).1).collect();
         positions.sort_unstable();
@@ -56,36 +57,36 @@ impl<'a> Values<'a> {
                 Some((at, definition, base, values))
             })
             .collect();
-        // One list of values over several types is as many enumerations.
-        let wishes: Vec<Wish<'_>> = found
+        // One list of values is a separate enumeration for each base type.
+        let name_requests: Vec<NameRequest<'_>> = found
             .iter()
-            .map(|(at, definition, base, _)| Wish {
+            .map(|(at, definition, base, _)| NameRequest {
                 name: &definition.name,
                 fallback: format!("values {at}"),
                 suffix: format!("{}{}", if base.is_signed() { "I" } else { "U" }, base.bits().unwrap_or(0)),
             })
             .collect();
-        let names = names::unique(&wishes, &RESERVED_TYPES, Case::Pascal);
+        let names = names::unique(&name_requests, &RESERVED_TYPES, Case::Pascal);
         let all = found.iter().zip(names);
         let enumerations =
             all.map(|((at, definition, base, values), name)| (*at, model(definition, *base, values, name, options)));
         Values { types, enumerations: enumerations.collect() }
     }
 
-    /// Each of them.
+    /// Returns the enumerations.
     pub(super) fn iter(&self) -> impl Iterator<Item = &Enumeration> {
         self.enumerations.values()
     }
 
-    /// The basic type below `ty`, and its enumeration.
+    /// Returns the basic type of `ty`, and its enumeration.
     pub(super) fn resolve(&self, ty: Type) -> (Type, Option<&Enumeration>) {
         let (base, position) = resolve(self.types, ty);
         (base, position.and_then(|position| self.enumerations.get(&position)))
     }
 }
 
-/// The type below an enumeration, and those of its values that it can have, each once. A range of values has no name
-/// for each of them: they stay numbers.
+/// Returns the base type of an enumeration, and its values that fit in the base type, each once. Ranges of values
+/// become no variants.
 fn listed<'a>(types: &[TypeDef], definition: &'a TypeDef) -> Option<(Type, Vec<&'a EnumValue>)> {
     let Shape::Enumeration { base, values, .. } = &definition.shape else { return None };
     let base = match resolve(types, *base).0 {
@@ -102,16 +103,16 @@ fn listed<'a>(types: &[TypeDef], definition: &'a TypeDef) -> Option<(Type, Vec<&
 
 fn model(definition: &TypeDef, base: Type, values: &[&EnumValue], name: String, options: &RustOptions) -> Enumeration {
     let native = native(base.is_signed(), base.bits().unwrap_or(64));
-    // With a name for every number there would be no other one.
+    // At most 255 values become variants. If every number of 8 bits had a name, `Unknown` would be unreachable.
     let values = &values[..values.len().min(usize::from(u8::MAX))];
-    let wishes: Vec<Wish<'_>> = values
+    let name_requests: Vec<NameRequest<'_>> = values
         .iter()
         .map(|value| {
             let number = value.value.to_string().replace('-', "minus ");
-            Wish { name: &value.name, suffix: number.replace(' ', ""), fallback: format!("value {number}") }
+            NameRequest { name: &value.name, suffix: number.replace(' ', ""), fallback: format!("value {number}") }
         })
         .collect();
-    let names = names::unique(&wishes, &RESERVED_VARIANTS, Case::Pascal);
+    let names = names::unique(&name_requests, &RESERVED_VARIANTS, Case::Pascal);
     let variant = |(value, name): (&&EnumValue, String)| {
         let title = docs::escape(&value.name);
         let separator = if title.is_empty() { "" } else { ": " };

@@ -1,4 +1,4 @@
-//! Errors of channels, and user structures.
+//! Channel errors and user structures.
 
 use super::{fields, hexadecimal, literal};
 use crate::backend::rust::code::{call, line, list, open, Code};
@@ -11,11 +11,13 @@ pub(super) fn write(code: &mut Code, file: &FileModel<'_>) {
         line!(code, "use super::values;");
     }
     if !file.errors.is_empty() {
-        code.doc("The errors of channels that the description names, by application process (API) and error type.");
+        code.doc("Channel errors that the description names, by application process (API) and error type.");
         let (count, errors) = (file.errors.len(), list("[", &file.errors, "]"));
         line!(code, "pub static CHANNEL_ERRORS: [rt::profinet::ChannelError; ", count, "] = ", errors, ";");
-        code.doc("What the description says about an error type in a submodule of this application process (API); `None` for");
-        code.doc("those of the standard, which need no description.");
+        code.doc(
+            "Returns the description of an error type in a submodule with this application process (API); `None` for",
+        );
+        code.doc("error types that the description does not name, such as those of the standard.");
         let function = call!("pub fn channel_error", "api: u32", "error_type: u16");
         open!(code, function, " -> Option<&'static rt::profinet::ChannelError> {");
         line!(code, "rt::profinet::ChannelError::find(&CHANNEL_ERRORS, api, error_type)");
@@ -31,14 +33,14 @@ fn unit(code: &mut Code, unit: &UnitModel) {
     fields(code, &unit.fields);
     code.close("}");
     open!(code, "impl ", unit.name, " {");
-    code.doc("The application process (API) that it belongs to.");
+    code.doc("Application process (API) of the structure.");
     line!(code, "pub const API: u32 = ", hexadecimal(unit.api, 4), ";");
-    code.doc("The identifier that stands before it (UserStructureIdentifier).");
+    code.doc("Identifier that precedes the structure (UserStructureIdentifier).");
     line!(code, "pub const IDENTIFIER: u16 = ", hexadecimal(unit.identifier, 4), ";");
-    code.doc("Length in bytes up to the end of its last field.");
+    code.doc("Length in bytes up to the end of the last field.");
     line!(code, "pub const LEN: usize = ", unit.length, ";");
-    let first = "The fields of a structure. Bytes behind these are not looked at.";
-    code.docs_with_error(first, "When `data` has fewer bytes than the structure.");
+    let first = "Reads the fields of a structure. Bytes after them are ignored.";
+    code.docs_with_error(first, "Fails if `data` has fewer bytes than the structure.");
     open!(code, "pub fn decode(data: &[u8]) -> Result<Self, rt::LengthError> {");
     line!(code, "let data = rt::profinet::be::chunk::<", unit.length, ">(data)?;");
     let values = unit.fields.iter().map(|field| (field.name.as_str(), field.read.clone()));

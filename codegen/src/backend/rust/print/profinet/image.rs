@@ -1,10 +1,10 @@
-//! Cyclic data: structs, and views of the bytes.
+//! Structs of cyclic data, and views of the bytes.
 
 use super::{fields, literal};
 use crate::backend::rust::code::{call, line, open, seq, Break, Code, Doc};
 use crate::backend::rust::profinet::ImageModel;
 
-const ERROR: &str = "When `data` has fewer bytes than the user data.";
+const ERROR: &str = "Fails if `data` has fewer bytes than the user data.";
 
 pub(super) fn write(code: &mut Code, image: &ImageModel) {
     let name = image.name;
@@ -17,7 +17,7 @@ pub(super) fn write(code: &mut Code, image: &ImageModel) {
     code.doc("Length of the user data in bytes.");
     line!(code, "pub const LEN: usize = ", image.length, ";");
     pack(code, image);
-    code.docs_with_error("The fields of the user data. Bytes behind these are not looked at.", ERROR);
+    code.docs_with_error("Reads the fields of the user data. Bytes after them are ignored.", ERROR);
     line!(code, "#[inline]");
     open!(code, "pub fn unpack(data: &[u8]) -> Result<Self, rt::LengthError> {");
     line!(code, "let view = ", name, "View::new(data)?;");
@@ -33,7 +33,7 @@ pub(super) fn write(code: &mut Code, image: &ImageModel) {
 }
 
 fn pack(code: &mut Code, image: &ImageModel) {
-    code.doc("The user data; what no field covers is 0.");
+    code.doc("Returns the user data. Bits that no field covers are 0.");
     line!(code, "#[inline]");
     open!(code, "pub fn pack(&self) -> [u8; ", image.length, "] {");
     line!(code, "let mut data = [0; ", image.length, "];");
@@ -66,12 +66,12 @@ fn io_data(code: &mut Code, image: &ImageModel) {
 
 fn view(code: &mut Code, image: &ImageModel) {
     let name = image.name;
-    code.doc(&format!("{name} in place: fields are read from the bytes without a copy of these."));
+    code.doc(&format!("View of {name} that reads fields without copying the bytes."));
     line!(code, "#[derive(Clone, Copy)]");
     line!(code, "pub struct ", name, "View<'a>(&'a [u8; ", image.length, "]);");
     code.lines(image.allow);
     open!(code, "impl<'a> ", name, "View<'a> {");
-    code.docs_with_error("The user data at the start of `data`.", ERROR);
+    code.docs_with_error("Creates a view of the user data at the start of `data`.", ERROR);
     line!(code, "#[inline]");
     open!(code, "pub const fn new(data: &'a [u8]) -> Result<Self, rt::LengthError> {");
     open!(code, "match rt::profinet::be::chunk(data) {");
@@ -88,16 +88,16 @@ fn view(code: &mut Code, image: &ImageModel) {
 
 fn view_mut(code: &mut Code, image: &ImageModel) {
     let name = image.name;
-    code.doc(&format!("{name} in place: fields are written to the bytes without a copy of these."));
+    code.doc(&format!("View of {name} that writes fields without copying the bytes."));
     line!(code, "pub struct ", name, "Mut<'a>(&'a mut [u8; ", image.length, "]);");
     open!(code, "impl<'a> ", name, "Mut<'a> {");
-    code.docs_with_error("The user data at the start of `data`.", ERROR);
+    code.docs_with_error("Creates a view of the user data at the start of `data`.", ERROR);
     line!(code, "#[inline]");
     open!(code, "pub fn new(data: &'a mut [u8]) -> Result<Self, rt::LengthError> {");
     line!(code, "Ok(Self(rt::profinet::be::chunk_mut(data)?))");
     code.close("}");
     let function = seq!["pub fn view(&self) -> ", name, "View<'_>"];
-    method(code, "The same, to be read.", function, &seq![name, "View(self.0)"]);
+    method(code, "Returns a view that reads the fields.", function, &seq![name, "View(self.0)"]);
     for field in &image.fields {
         let function = call!(seq!["pub fn ", field.setter()], "&mut self", seq!["value: ", field.ty]);
         method(code, &field.heading, function, &field.set);
@@ -105,7 +105,7 @@ fn view_mut(code: &mut Code, image: &ImageModel) {
     code.close("}");
 }
 
-/// A method of one line.
+/// Writes a method with a body of one line.
 fn method(code: &mut Code, docs: &str, function: Doc, body: &Doc) {
     code.doc(docs);
     line!(code, "#[inline]");

@@ -29,7 +29,7 @@ pub(super) fn write(code: &mut Code, record: &RecordModel) {
     record_data(code, name);
 }
 
-/// What a function or a constant has in front of it whose numbers may resemble a mathematical constant.
+/// Writes the attribute of a function or constant whose numbers may resemble a mathematical constant.
 fn allow_real(code: &mut Code, record: &RecordModel) {
     if record.has_real {
         line!(code, "#[allow(clippy::approx_constant)]");
@@ -37,15 +37,15 @@ fn allow_real(code: &mut Code, record: &RecordModel) {
 }
 
 fn constants(code: &mut Code, record: &RecordModel) {
-    code.doc("The record's index.");
+    code.doc("Index of the record.");
     line!(code, "pub const INDEX: u16 = ", hexadecimal(record.index, 4), ";");
-    code.doc("Its length in bytes.");
+    code.doc("Length in bytes.");
     line!(code, "pub const LEN: usize = ", record.length, ";");
-    code.doc("Its place among the records of the submodule at start-up; 0 = any.");
+    code.doc("Position in the transfer sequence of the submodule's records at start-up; 0 = any.");
     line!(code, "pub const TRANSFER_SEQUENCE: u16 = ", record.transfer_sequence, ";");
-    code.doc("Its bytes by default.");
+    code.doc("Default bytes.");
     line!(code, "pub const DEFAULT_BYTES: [u8; ", record.length, "] = *", record.default_bytes, ";");
-    code.doc("Its fields by default.");
+    code.doc("Default values of the fields.");
     allow_real(code, record);
     let values = record.fields.iter().zip(&record.defaults).map(|(field, value)| (field.name.as_str(), value.clone()));
     line!(code, "pub const DEFAULT: Self = ", literal(values.collect()), ";");
@@ -58,7 +58,7 @@ fn constants(code: &mut Code, record: &RecordModel) {
 
 fn check(code: &mut Code, record: &RecordModel) {
     let first = "Checks the fields against the values that the device allows.";
-    code.docs_with_error(first, "When a field has another value.");
+    code.docs_with_error(first, "Fails if a field has another value.");
     allow_real(code, record);
     open!(code, "pub fn check(&self) -> Result<(), rt::profinet::NotAllowed> {");
     code.lines(&record.checks);
@@ -67,8 +67,8 @@ fn check(code: &mut Code, record: &RecordModel) {
 }
 
 fn encode(code: &mut Code, record: &RecordModel) {
-    let first = "The record's bytes: its constants and fields; what neither covers is 0.";
-    code.docs_with_error(first, "When a field has a value that the device doesn't allow.");
+    let first = "Returns the bytes of the record: constants and fields. Bits that neither covers are 0.";
+    code.docs_with_error(first, "Fails if a field has a value that the device does not allow.");
     let function = call!("pub fn encode", "&self");
     open!(code, function, " -> Result<[u8; ", record.length, "], rt::profinet::NotAllowed> {");
     line!(code, "self.check()?;");
@@ -83,8 +83,8 @@ fn encode(code: &mut Code, record: &RecordModel) {
 }
 
 fn decode(code: &mut Code, record: &RecordModel) {
-    let first = "The fields of a record that was read from the device. Bytes behind it are not looked at.";
-    code.docs_with_error(first, "When `data` has fewer bytes than the record.");
+    let first = "Reads the fields of a record from bytes of the device. Bytes after the record are ignored.";
+    code.docs_with_error(first, "Fails if `data` has fewer bytes than the record.");
     open!(code, "pub fn decode(data: &[u8]) -> Result<Self, rt::LengthError> {");
     let data = if record.fields.is_empty() { "" } else { "let data = " };
     line!(code, data, "rt::profinet::be::chunk::<", record.length, ">(data)?;");
@@ -111,7 +111,7 @@ fn record_data(code: &mut Code, name: &str) {
     code.close("}");
 }
 
-/// The F-parameters of PROFIsafe.
+/// Writes the F-parameters of PROFIsafe.
 pub(super) fn f_parameters(code: &mut Code, record: &FRecordModel) {
     code.docs(&record.docs);
     let length = record.length;

@@ -1,4 +1,4 @@
-//! The bytes of a record by default, and what its fields are then.
+//! Default bytes of a record, and the values of its fields in these bytes.
 
 use super::Parameter;
 use crate::backend::rust::code::{call, seq, Doc};
@@ -7,7 +7,7 @@ use crate::backend::rust::profinet::field::Field;
 use crate::backend::rust::profinet::values::Enumeration;
 use crate::ir::{Record, Value};
 
-/// The record's bytes by default: its constants, and over them the defaults of its parameters.
+/// Returns the default bytes of the record: its constants, overwritten by the defaults of its parameters.
 pub(super) fn default_bytes(record: &Record, parameters: &[Parameter<'_>]) -> Vec<u8> {
     let mut bytes = vec![0; record.length as usize];
     for (offset, constant) in &record.constants {
@@ -21,7 +21,7 @@ pub(super) fn default_bytes(record: &Record, parameters: &[Parameter<'_>]) -> Ve
     bytes
 }
 
-/// As many of `data` as fit.
+/// Copies `data` to `bytes`, as far as it fits.
 fn put(bytes: &mut [u8], offset: u32, data: &[u8]) {
     for (to, from) in bytes.iter_mut().skip(offset as usize).zip(data) {
         *to = *from;
@@ -29,61 +29,62 @@ fn put(bytes: &mut [u8], offset: u32, data: &[u8]) {
 }
 
 fn put_default(bytes: &mut [u8], field: &Field<'_>, default: &Value) {
-    let place = field.place;
+    let position = field.position;
     if let Some(length) = field.byte_string() {
-        let own = match default {
-            // One byte a character, as ISO 8859-1 has it.
+        let octets = match default {
+            // A character is one byte in ISO 8859-1.
             Value::Text(text) => text.chars().map(|letter| u8::try_from(letter).unwrap_or(b'?')).collect(),
-            Value::Bytes(octets) => octets.clone(),
+            Value::Bytes(data) => data.clone(),
             _ => return,
         };
-        return put(bytes, place.byte, &own[..own.len().min(length as usize)]);
+        return put(bytes, position.byte, &octets[..octets.len().min(length as usize)]);
     }
     let bits = match (field.is_real(), default.as_real(), default.as_int()) {
-        (true, Some(value), _) if place.bits == 32 => u64::from((value as f32).to_bits()),
+        (true, Some(value), _) if position.bits == 32 => u64::from((value as f32).to_bits()),
         (true, Some(value), _) => value.to_bits(),
         (false, _, Some(value)) => value as u64,
         (false, Some(value), None) => value as i64 as u64,
         _ => return,
     };
-    for bit in 0..place.bits {
-        let at = place.bit + bit;
-        let (byte, mask) = bit_of(place.byte, place.bit + place.bits, at);
+    for bit in 0..position.bits {
+        let at = position.bit + bit;
+        let (byte, mask) = bit_of(position.byte, position.bit + position.bits, at);
         if let Some(byte) = bytes.get_mut(byte) {
             *byte = if bits >> bit & 1 == 1 { *byte | mask } else { *byte & !mask };
         }
     }
 }
 
-/// Byte and mask of bit `at` of the big-endian number in the bytes from `first` on that `end` bits touch.
+/// Returns byte and mask of bit `at` of the big-endian number in the bytes starting at `first`. `end` is the number of
+/// bits in these bytes.
 fn bit_of(first: u32, end: u32, at: u32) -> (usize, u8) {
     let last = first + (end - 1) / 8;
     ((last - at / 8) as usize, 1 << (at % 8))
 }
 
 fn number_of(field: &Field<'_>, bytes: &[u8]) -> u64 {
-    let place = field.place;
-    (0..place.bits).fold(0, |number, bit| {
-        let (byte, mask) = bit_of(place.byte, place.bit + place.bits, place.bit + bit);
+    let position = field.position;
+    (0..position.bits).fold(0, |number, bit| {
+        let (byte, mask) = bit_of(position.byte, position.bit + position.bits, position.bit + bit);
         let is_set = bytes.get(byte).is_some_and(|byte| byte & mask != 0);
         number | u64::from(is_set) << bit
     })
 }
 
-/// The field's value in these bytes, as a literal.
+/// Returns the value of the field in these bytes, as a literal.
 pub(super) fn value_of(field: &Field<'_>, bytes: &[u8]) -> Doc {
-    let place = field.place;
+    let position = field.position;
     if let Some(length) = field.byte_string() {
-        let own = bytes.get(place.byte as usize..).and_then(|rest| rest.get(..length as usize)).unwrap_or(&[]);
-        let is_zero = own.iter().all(|byte| *byte == 0);
-        return if is_zero { seq!["[0; ", length, "]"] } else { seq!["*", literal::bytes(own)] };
+        let octets = bytes.get(position.byte as usize..).and_then(|rest| rest.get(..length as usize)).unwrap_or(&[]);
+        let is_zero = octets.iter().all(|byte| *byte == 0);
+        return if is_zero { seq!["[0; ", length, "]"] } else { seq!["*", literal::bytes(octets)] };
     }
     let bits = number_of(field, bytes);
     if field.is_bool() {
         return Doc::from((bits != 0).to_string());
     }
     if field.is_real() {
-        return Doc::from(match place.bits {
+        return Doc::from(match position.bits {
             32 => real32(f32::from_bits(bits as u32)),
             _ => real64(f64::from_bits(bits)),
         });

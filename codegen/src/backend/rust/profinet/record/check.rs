@@ -1,4 +1,4 @@
-//! The checks of a record's fields against the allowed values.
+//! Checks of a record's fields against the allowed values.
 
 use super::Parameter;
 use crate::backend::rust::code::{call, seq, slice, Doc};
@@ -6,7 +6,7 @@ use crate::backend::rust::literal;
 use crate::backend::rust::profinet::field::Field;
 use crate::ir::{Limits, Type, Value};
 
-/// First and last of each allowed range.
+/// Returns the minimum and maximum of each allowed range.
 pub(super) fn ranges(limits: &Limits) -> Vec<(Option<Value>, Option<Value>)> {
     if !limits.allowed.is_empty() {
         return limits.allowed.iter().map(|(first, last)| (Some(first.clone()), Some(last.clone()))).collect();
@@ -17,14 +17,14 @@ pub(super) fn ranges(limits: &Limits) -> Vec<(Option<Value>, Option<Value>)> {
     }
 }
 
-/// The statement that checks a field; `None` where all values of its type are allowed, or none of them is.
+/// Returns the statement that checks a field; `None` if all values of its type are allowed, or no value of its type is.
 pub(super) fn check(parameter: &Parameter<'_>, name: &str) -> Option<Doc> {
     let Parameter { item, field } = parameter;
     let allowed = ranges(&item.limits);
     let list = if field.is_bool() {
         bools(&allowed)
     } else if field.is_real() {
-        reals(&allowed, field.place.bits)
+        reals(&allowed, field.position.bits)
     } else {
         integers(&allowed, field)
     }?;
@@ -62,9 +62,9 @@ fn reals(allowed: &[(Option<Value>, Option<Value>)], bits: u32) -> Option<Vec<St
 
 fn integers(allowed: &[(Option<Value>, Option<Value>)], field: &Field<'_>) -> Option<Vec<String>> {
     let (low, high) = field.range()?;
-    // An enumeration may be one of fewer bits than the field has.
-    let (low, high) = match field.enumeration.and_then(|own| native_range(own.native)) {
-        Some((least, most)) => (low.max(least), high.min(most)),
+    // The type of an enumeration may have fewer bits than the field.
+    let (low, high) = match field.enumeration.and_then(|enumeration| native_range(enumeration.native)) {
+        Some((low_native, high_native)) => (low.max(low_native), high.min(high_native)),
         None => (low, high),
     };
     let bound = |value: &Option<Value>| match value {
@@ -86,7 +86,7 @@ fn integers(allowed: &[(Option<Value>, Option<Value>)], field: &Field<'_>) -> Op
     Some(list.iter().map(|(first, last)| format!("({first}, {last})")).collect())
 }
 
-/// Least and greatest number of an integer of Rust's own.
+/// Returns the minimum and maximum of a primitive integer.
 fn native_range(name: &str) -> Option<(i128, i128)> {
     let bits = name.get(1..)?.parse().ok()?;
     let ty = if name.starts_with('i') { Type::Integer(bits) } else { Type::Unsigned(bits) };
